@@ -15,19 +15,19 @@ import assoc_hull.study  # else its first import would bind this name again
 import assoc_hull.surface  # likewise
 
 if TYPE_CHECKING:
-    from assoc_hull.analysis.derivatives.derivatives import hydrostatic_derivatives
-    from assoc_hull.analysis.fairness.fairness import fairness
-    from assoc_hull.analysis.form.curve_transforms import curve_transform
+    from assoc_hull.analysis.derivatives.hydrostatic_derivatives import hydrostatic_derivatives
+    from assoc_hull.analysis.fairness.line_fairness import fairness
+    from assoc_hull.analysis.form.curve_transform import curve_transform
+    from assoc_hull.analysis.form.floating_shape import Screw
     from assoc_hull.analysis.form.form_parameters import form_parameters
-    from assoc_hull.analysis.form.screw import Screw
-    from assoc_hull.analysis.hydrostatics.appendage import Appendage
-    from assoc_hull.analysis.hydrostatics.equilibrium import immersion
-    from assoc_hull.analysis.hydrostatics.hydrostatics import hydrostatic_table, hydrostatics
-    from assoc_hull.analysis.panels.build import panels
+    from assoc_hull.analysis.hydrostatics.floating_body import Appendage
+    from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatic_table, hydrostatics
+    from assoc_hull.analysis.hydrostatics.immersion import immersion
+    from assoc_hull.analysis.panels.hull_panels import panels
     from assoc_hull.analysis.stability.cross_curves import cross_curves
     from assoc_hull.analysis.stability.equilibrium import equilibrium
     from assoc_hull.analysis.stability.flooding import FloodingPoint
-    from assoc_hull.analysis.stability.stability import stability
+    from assoc_hull.analysis.stability.stability_report import stability
     from assoc_hull.creation.design import Design
     from assoc_hull.creation.form_curve import FormCurve
     from assoc_hull.creation.form_definitions import course, design_waterline, sectional_area
@@ -50,13 +50,11 @@ if TYPE_CHECKING:
     from assoc_hull.geometry.patches.spline_surface import SplineSurface
     from assoc_hull.geometry.plane import Plane
     from assoc_hull.hull import Hull
-    from assoc_hull.model.curve import Curve
-    from assoc_hull.model.definition_part import FormDefinition
+    from assoc_hull.model.form_definition import FormDefinition
     from assoc_hull.model.kinds import BoundaryKind
-    from assoc_hull.model.line import Group, Line
     from assoc_hull.model.line_source import LineSource
-    from assoc_hull.model.point import Crossing, Point
-    from assoc_hull.model.state import Association, Ends, Particulars
+    from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
+    from assoc_hull.model.tables import Association, Ends, Particulars
     from assoc_hull.plating import plates, read_surfaces
     from assoc_hull.production import production_arcs
     from assoc_hull.shell import HullSurface, surface
@@ -64,12 +62,12 @@ if TYPE_CHECKING:
     from assoc_hull.sources import create, examples, open, read, read_classical
     from assoc_hull.studies import Study, study
     from assoc_hull.study.sampling import sample
-    from assoc_hull.surface.cells.hull_mesh import closed_mesh
+    from assoc_hull.surface.cells.closed_mesh import closed_mesh
     from assoc_hull.surface.plates.hull_seams import HullSeams
     from assoc_hull.surface.regions.curvature_regions import curvature_regions
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
-    from assoc_hull.variation.comparing.compare import compare
+    from assoc_hull.variation.comparing.comparison import compare
     from assoc_hull.variation.parameters.parameter_measures import measure
     from assoc_hull.variation.sensitivities import sensitivities
 
@@ -151,22 +149,22 @@ __all__ = [
 __version__ = "0.1.0"
 
 _HOMES = {
-    "analysis.derivatives.derivatives": ("hydrostatic_derivatives",),
-    "analysis.fairness.fairness": ("fairness",),
-    "analysis.form.curve_transforms": ("curve_transform",),
+    "analysis.derivatives.hydrostatic_derivatives": ("hydrostatic_derivatives",),
+    "analysis.fairness.line_fairness": ("fairness",),
+    "analysis.form.curve_transform": ("curve_transform",),
+    "analysis.form.floating_shape": ("Screw",),
     "analysis.form.form_parameters": ("form_parameters",),
-    "analysis.form.screw": ("Screw",),
-    "analysis.hydrostatics.appendage": ("Appendage",),
-    "analysis.hydrostatics.equilibrium": ("immersion",),
-    "analysis.hydrostatics.hydrostatics": (
+    "analysis.hydrostatics.floating_body": ("Appendage",),
+    "analysis.hydrostatics.hull_hydrostatics": (
         "hydrostatic_table",
         "hydrostatics",
     ),
-    "analysis.panels.build": ("panels",),
+    "analysis.hydrostatics.immersion": ("immersion",),
+    "analysis.panels.hull_panels": ("panels",),
     "analysis.stability.cross_curves": ("cross_curves",),
     "analysis.stability.equilibrium": ("equilibrium",),
     "analysis.stability.flooding": ("FloodingPoint",),
-    "analysis.stability.stability": ("stability",),
+    "analysis.stability.stability_report": ("stability",),
     "creation.design": ("Design",),
     "creation.form_curve": ("FormCurve",),
     "creation.form_definitions": (
@@ -193,19 +191,17 @@ _HOMES = {
     "geometry.patches.spline_surface": ("SplineSurface",),
     "geometry.plane": ("Plane",),
     "hull": ("Hull",),
-    "model.curve": ("Curve",),
-    "model.definition_part": ("FormDefinition",),
+    "model.form_definition": ("FormDefinition",),
     "model.kinds": ("BoundaryKind",),
-    "model.line": (
+    "model.line_source": ("LineSource",),
+    "model.objects": (
+        "Crossing",
+        "Curve",
         "Group",
         "Line",
-    ),
-    "model.line_source": ("LineSource",),
-    "model.point": (
-        "Crossing",
         "Point",
     ),
-    "model.state": (
+    "model.tables": (
         "Association",
         "Ends",
         "Particulars",
@@ -235,7 +231,7 @@ _HOMES = {
         "study",
     ),
     "study.sampling": ("sample",),
-    "surface.cells.hull_mesh": ("closed_mesh",),
+    "surface.cells.closed_mesh": ("closed_mesh",),
     "surface.plates.hull_seams": ("HullSeams",),
     "surface.regions.curvature_regions": ("curvature_regions",),
     "tolerance": ("Tolerances",),
@@ -243,7 +239,7 @@ _HOMES = {
         "vary",
         "vary_by",
     ),
-    "variation.comparing.compare": ("compare",),
+    "variation.comparing.comparison": ("compare",),
     "variation.parameters.parameter_measures": ("measure",),
     "variation.sensitivities": ("sensitivities",),
 }

@@ -23,35 +23,30 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
 from assoc_hull.edit.session import Edit
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.curve import Curve
-from assoc_hull.model.handles import handle
 from assoc_hull.model.kinds import FAMILIES
-from assoc_hull.model.line import Group, Line
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.named_mapping import Named
-from assoc_hull.model.point import Crossing, Point
-from assoc_hull.model.points import Points
-from assoc_hull.model.state import Association, HullState, Particulars
+from assoc_hull.model.named_mapping import NamedMapping
+from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, Points, handle
+from assoc_hull.model.tables import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 if TYPE_CHECKING:
     import networkx
 
     from assoc_hull.creation.creation_report import CreationReport
-    from assoc_hull.edit.adoption.report import AdoptionReport
+    from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
     from assoc_hull.edit.checks.finding import Finding
-    from assoc_hull.edit.explain.cause import Why
-    from assoc_hull.edit.explain.compare import Comparison
-    from assoc_hull.edit.explain.explain import Thing
+    from assoc_hull.edit.explain.causes import Thing, Why
+    from assoc_hull.edit.explain.compare_states import Comparison
     from assoc_hull.edit.explain.hull_graph import OnlyName
     from assoc_hull.edit.explain.preview import Preview
-    from assoc_hull.edit.replay import Replayed
+    from assoc_hull.edit.script import Replayed
     from assoc_hull.edit.step_storage import Label
-    from assoc_hull.io.export_book import ExportReport
     from assoc_hull.io.hull_file.saving import Saved
+    from assoc_hull.io.reports import ExportReport
     from assoc_hull.model.definition.verify import Difference
-    from assoc_hull.model.definition_part import FormDefinition
-    from assoc_hull.model.feature_handle import FeatureHandle
+    from assoc_hull.model.form_definition import FormDefinition
+    from assoc_hull.model.objects import FeatureHandle
 
 __all__ = ["Hull", "to_change"]
 
@@ -75,8 +70,8 @@ class Hull:
         associations: Sequence[Association],
         tolerances: Tolerances | None = None,
     ) -> Self:
-        """Make a net of given lines; see `assoc_hull.edit.adoption.adopt.adopt`."""
-        from assoc_hull.edit.adoption.adopt import adopt
+        """Make a net of given lines; see `assoc_hull.edit.adoption.adopt_lines.adopt`."""
+        from assoc_hull.edit.adoption.adopt_lines import adopt
 
         state, report = adopt(lines, particulars, associations, tolerances)
         hull = cls(state)
@@ -102,13 +97,13 @@ class Hull:
         """The groups of lines by name, in the order of the ranks."""
         found = [Group.of(self.state, i) for i in self.state.live("groups").tolist()]
         found.sort(key=lambda each: (FAMILIES[each.family].rank, each.name))
-        return Named("group", {each.name: each for each in found})
+        return NamedMapping("group", {each.name: each for each in found})
 
     @property
     def lines(self) -> Mapping[str, Line]:
         """All lines by name; by group and name where two groups have one of the same name."""
         book, live = AddressBook(self.state), self.state.live("lines").tolist()
-        return Named("line", {book.line_name(i): Line.of(self.state, i) for i in live})
+        return NamedMapping("line", {book.line_name(i): Line.of(self.state, i) for i in live})
 
     @property
     def points(self) -> Points:
@@ -120,19 +115,19 @@ class Hull:
         """All crossings by address."""
         book, table = AddressBook(self.state), self.state.rows
         live = [row for row in self.state.live("rows").tolist() if table.curve.data[row, 1] >= 0]
-        return Named("crossing", {book.address(i): Crossing.of(self.state, i) for i in live})
+        return NamedMapping("crossing", {book.address(i): Crossing.of(self.state, i) for i in live})
 
     @property
     def features(self) -> Mapping[str, FeatureHandle]:
         """Circles, arcs, flats, straight runs, knuckle lines and joins by name."""
-        from assoc_hull.model.feature_handle import features_by_name
+        from assoc_hull.model.objects import features_by_name
 
         return features_by_name(self.state)
 
     @property
     def definitions(self) -> Mapping[str, FormDefinition]:
         """Definitions by form parameters by name; `values` of each holds its numbers."""
-        return Named("definition", {each.name: each for each in self.state.definitions})
+        return NamedMapping("definition", {each.name: each for each in self.state.definitions})
 
     @property
     def creation(self) -> CreationReport:
@@ -163,7 +158,7 @@ class Hull:
     @property
     def labels(self) -> Mapping[str, Label]:
         """Checkpoints, and branches that undone edits were left on, by name."""
-        return Named("checkpoint or branch", dict(self.document.labels))
+        return NamedMapping("checkpoint or branch", dict(self.document.labels))
 
     def edit(
         self, name: str, policy: PolicyName = "all_or_nothing", gaps: GapsName = "refuse"
@@ -254,13 +249,13 @@ class Hull:
 
     def diff(self, before: str, after: str | None = None) -> Comparison:
         """Compare two checkpoints or branches, or one with the present state."""
-        from assoc_hull.edit.explain.states import diff
+        from assoc_hull.edit.explain.compare_states import compare_labelled
 
-        return diff(self.document, before, after)
+        return compare_labelled(self.document, before, after)
 
     def replay(self, other: Hull, *, skip: bool = False) -> tuple[Replayed, ...]:
-        """Make the edits of another hull again on this one; see `assoc_hull.edit.replay`."""
-        from assoc_hull.edit.replay import replay
+        """Make the edits of another hull again on this one; see `assoc_hull.edit.script`."""
+        from assoc_hull.edit.script import replay
 
         steps = instance(other, Hull, "other", "in replay").document.history
         return replay(self.document, steps, skip=flag(skip, "skip", "in replay"))
@@ -277,28 +272,28 @@ class Hull:
         UnknownNameError, ForeignPointError, BadInputError
             Nothing that this hull has, or a group.
         """
-        from assoc_hull.edit.explain.explain import node_of, why
+        from assoc_hull.edit.explain.causes import node_of, why
 
         return why(self.document, node_of(self.state, thing))
 
     def check(self, notes: bool = False) -> tuple[Finding, ...]:
         """Give what is wrong with the hull; empty if nothing is."""
-        from assoc_hull.edit.checks.hull import check
+        from assoc_hull.edit.checks.hull_findings import check
 
         return check(self.document, flag(notes, "notes", "in check"))
 
     def verify(self, relative: float = 0.0) -> tuple[Difference, ...]:
         """Rebuild the hull beside the published one, look through its file: all that differs."""
-        from assoc_hull.io.hull_file.saving import damages
+        from assoc_hull.io.hull_file.saving import file_damages
         from assoc_hull.model.definition.verify import verify
 
         found = verify(self.state, not_negative(relative, "relative", "in verify"))
-        return (*found, *damages(self.document))
+        return (*found, *file_damages(self.document))
 
     @property
     def fingerprint(self) -> str:
         """SHA-256 of definition and published values; undo gives the old one back."""
-        from assoc_hull.model.definition.definition import fingerprint
+        from assoc_hull.model.definition.fingerprint import fingerprint
 
         return fingerprint(self.state)
 
@@ -318,8 +313,8 @@ class Hull:
         return graph_of(self.document, around, hops, only, edit)
 
     def dependencies(self, points: bool = False) -> networkx.DiGraph[str]:
-        """Give who drives whom now; see `assoc_hull.model.view.dependencies`."""
-        from assoc_hull.model.view import dependencies
+        """Give who drives whom now; see `assoc_hull.model.object_graph.dependencies`."""
+        from assoc_hull.model.object_graph import dependencies
 
         return dependencies(self.state, flag(points, "points", "in dependencies"))
 
@@ -354,36 +349,36 @@ class Hull:
         BadInputError, HullFileError
             There is such a file; it cannot be written; no name for a hull in memory.
         """
-        from assoc_hull.io.hull_file.saving import save
+        from assoc_hull.io.hull_file.saving import save_hull
 
-        return save(self.document, path, replace=flag(replace, "replace", "in save"))
+        return save_hull(self.document, path, replace=flag(replace, "replace", "in save"))
 
     def export(
         self, path: str | os.PathLike[str], form: str | None = None, unit: str | None = None
     ) -> ExportReport:
-        """Write offsets or lines for other programs; see `assoc_hull.io.export.write.export`."""
-        from assoc_hull.io.export.write import export
+        """Write offsets or lines for other programs."""
+        from assoc_hull.io.export.write import export_hull
 
         self.document.require_ended("export")
-        return export(self.state, path, form, unit)
+        return export_hull(self.state, path, form, unit)
 
     def refresh(self) -> None:
         """Take over what another process has committed to the hull file since."""
-        from assoc_hull.io.hull_file.saving import refresh
+        from assoc_hull.io.hull_file.saving import refresh_hull
 
-        refresh(self.document)
+        refresh_hull(self.document)
 
     def detach(self) -> None:
         """Edit in memory from now on; the hull file stays as it is until the hull is saved."""
-        from assoc_hull.io.hull_file.saving import detach
+        from assoc_hull.io.hull_file.saving import detach_hull
 
-        detach(self.document)
+        detach_hull(self.document)
 
     def close(self) -> None:
         """Let go of the hull file; the hull can be read on, and not be edited, nor its history."""
-        from assoc_hull.io.hull_file.saving import close
+        from assoc_hull.io.hull_file.saving import close_hull_file
 
-        close(self.document)
+        close_hull_file(self.document)
 
 
 def to_change(hull: Hull, act: str, *, in_place: object) -> Hull:
@@ -396,9 +391,8 @@ def to_change(hull: Hull, act: str, *, in_place: object) -> Hull:
     BadInputError
         An edit of the hull is open.
     """
-    from assoc_hull.analysis.hydrostatics.measured_hull import state_of
-    from assoc_hull.model.copy import copy_of
+    from assoc_hull.model.tables import copy_state, state_of
 
     state = state_of(hull, f"in {act}")
     hull.document.require_ended(act)
-    return hull if flag(in_place, "in_place", f"in {act}") else Hull(copy_of(state))
+    return hull if flag(in_place, "in_place", f"in {act}") else Hull(copy_state(state))

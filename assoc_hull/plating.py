@@ -23,29 +23,29 @@ from typing import Any, overload
 
 import attrs
 
-from assoc_hull.analysis.hydrostatics.measured_hull import HasState, state_of
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.surfaces.surface_file import read_surface_file
-from assoc_hull.io.tables.hull_plates_file import write_hull_plates
-from assoc_hull.io.tables.plates_file import write_plates
+from assoc_hull.io.tables.hull_plates import write_hull_plates
+from assoc_hull.io.tables.plates import write_plates
+from assoc_hull.model.tables import HasState, state_of
+from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import fit_options, length_of
-from assoc_hull.surface.blocks.fitting import surface_of_net
 from assoc_hull.surface.blocks.net_surface import NetSurface
-from assoc_hull.surface.plates.hull_plate_table import HullPlates as FoundHullPlates
+from assoc_hull.surface.plates.hull_plates import HullPlateTable as FoundHullPlates
 from assoc_hull.surface.plates.hull_plates import hull_plates
 from assoc_hull.surface.plates.hull_seams import HullSeams
-from assoc_hull.surface.plates.other_fits import other_fits
-from assoc_hull.surface.plates.plate_table import Plates as FoundPlates
-from assoc_hull.surface.plates.plates import plates as find_plates
-from assoc_hull.surface.plates.seams import Seams
+from assoc_hull.surface.plates.rival_fits import other_fits
+from assoc_hull.surface.plates.surface_plates import PlateTable as FoundPlates
+from assoc_hull.surface.plates.surface_plates import Seams
+from assoc_hull.surface.plates.surface_plates import plates as find_plates
 
 __all__ = ["HullPlates", "Plates", "plates", "plates_of_hull", "read_surfaces"]
 
 
 @attrs.frozen(eq=False)
 class Plates(FoundPlates):
-    """Plates that can be written; see `assoc_hull.surface.plates.plate_table.Plates`."""
+    """Plates that can be written; see `assoc_hull.surface.plates.surface_plates.PlateTable`."""
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the plates, as a table (``.csv``) or as a document (``.json``).
@@ -69,7 +69,7 @@ class Plates(FoundPlates):
 class HullPlates(FoundHullPlates):
     """Plates of a hull that can be written.
 
-    What they hold says `assoc_hull.surface.plates.hull_plate_table.HullPlates`.
+    What they hold says `assoc_hull.surface.plates.hull_plates.HullPlateTable`.
     """
 
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -15,15 +15,13 @@ from collections.abc import Sequence
 
 import attrs
 
-from assoc_hull.analysis.arc_lines import ArcLines
-from assoc_hull.analysis.hydrostatics.measured_hull import state_of
-from assoc_hull.analysis.production_arcs import arc_lines
+from assoc_hull.analysis.production_arcs import ArcLines, arc_lines
 from assoc_hull.arguments import not_negative, positive
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
-from assoc_hull.io.export.arc_file import write_arcs
-from assoc_hull.model.curve import Curve
-from assoc_hull.model.line import Group, Line
+from assoc_hull.io.export.arcs import write_arcs
+from assoc_hull.model.objects import Curve, Group, Line
+from assoc_hull.model.tables import state_of
 
 __all__ = ["ProductionArcs", "production_arcs"]
 
@@ -33,7 +31,7 @@ _FINEST, _COARSEST = 1e-6, 1.0
 
 @attrs.frozen(eq=False)
 class ProductionArcs(ArcLines):
-    """Lines of a hull as arcs; see `assoc_hull.analysis.arc_lines.ArcLines` for what it holds."""
+    """Lines of a hull as arcs and straight pieces, which can be written."""
 
     def save(self, path: str | os.PathLike[str], entities: str = "polylines") -> None:
         """Write the arcs, as a drawing (``.dxf``) or as a table (``.csv``).

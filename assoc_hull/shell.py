@@ -16,18 +16,17 @@ from typing import TYPE_CHECKING, Any
 
 import attrs
 
-from assoc_hull.analysis.hydrostatics.measured_hull import HasState, state_of
 from assoc_hull.arguments import all_of, instance, number
-from assoc_hull.geometry.patches.volume_below import Below, below
+from assoc_hull.geometry.patches.volume_below import VolumeBelow, integrate_below
+from assoc_hull.model.tables import HasState, state_of
+from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options, length_of
-from assoc_hull.surface.blocks.fitting import surface_of_net
-from assoc_hull.surface.blocks.net_report import ResidualTable, document_of, text_of
-from assoc_hull.surface.blocks.net_surface import NetSurface
+from assoc_hull.surface.blocks.net_surface import NetSurface, ResidualTable, document_of, text_of
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
 
 if TYPE_CHECKING:
     from assoc_hull.io.cad.write import CadReport
-    from assoc_hull.io.mesh.closed_mesh_file import MeshFile
+    from assoc_hull.io.mesh.closed_mesh import MeshFile
 
 __all__ = ["HullSurface", "surface"]
 
@@ -43,7 +42,7 @@ class HullSurface(NetSurface):
         """How far the lines lie from the surface, block by block."""
         return ResidualTable(self.blocks, self.whole)
 
-    def below(self, draught: float | None = None) -> Below:
+    def below(self, draught: float | None = None) -> VolumeBelow:
         """Give volume, moments and area of the half below a waterplane, from the surface alone.
 
         Parameters
@@ -52,7 +51,7 @@ class HullSurface(NetSurface):
             Of the waterplane, at even keel; the design draught if None.
         """
         level = self.particulars.draught if draught is None else number(draught, "draught", _WHERE)
-        return below(self.patches, level)
+        return integrate_below(self.patches, level)
 
     def mesh(self, *, half: bool = False, points: int = 4) -> ClosedMesh:
         """Give the closed mesh on the lines that the surface was fitted to.
@@ -104,7 +103,7 @@ class HullSurface(NetSurface):
         BadInputError, MissingExtraError, OpenNetError, OpenMeshError
             See there.
         """
-        from assoc_hull.io.surfaces.hull_surface_file import write_surface
+        from assoc_hull.io.surfaces.hull_surface import write_surface
 
         return write_surface(self, path, form, unit=unit, half=half)
 

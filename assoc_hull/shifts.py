@@ -18,10 +18,10 @@ import attrs
 from numpy.typing import ArrayLike
 
 from assoc_hull.hull import Hull, to_change
-from assoc_hull.variation.ask import TOLERANCE
-from assoc_hull.variation.fields.space_map import VMap
-from assoc_hull.variation.shifts.hull import ShiftReport, shift_document
-from assoc_hull.variation.shifts.shift_request import ShiftAsk
+from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.request import TOLERANCE
+from assoc_hull.variation.shifts.shift_hull import ShiftReport, shift_document
+from assoc_hull.variation.shifts.shift_request import ShiftRequest
 from assoc_hull.variation.shifts.shift_terms import Fade, ShiftShape, Terminals
 from assoc_hull.variation.shifts.swing_hull import swing_document
 
@@ -44,7 +44,7 @@ class Shifted:
 
     hull: Hull
     report: ShiftReport
-    map: VMap
+    map: VariationMap
 
     def __str__(self) -> str:
         return str(self.report)
@@ -84,8 +84,8 @@ def shift_sections(
     shape : str
         Of the movement between parallel body and end: ``"c2"`` leaves with slope and curvature
         nil at both; ``"c1"``, ``"end"``, ``"half"``, ``"lackenby"`` are those of
-        `assoc_hull.variation.fields.bump.SHAPES`; ``"1-cp"`` is a straight line, which lengthens
-        the parallel body.
+        `assoc_hull.variation.fields.shift_shapes.BUMP_SHAPES`; ``"1-cp"`` is a straight line,
+        which lengthens the parallel body.
     terminals : (4,), m from AP, or Terminals
         After terminal, start and end of the parallel body, fore terminal. Nothing moves abaft the
         first and forward of the last. By default where the profile begins to rise, and the measured
@@ -121,7 +121,7 @@ def shift_sections(
     >>> [f"{target.reached:.6f}" for target in found.report.targets]
     ['0.450000', '0.500000']
     """
-    ask = ShiftAsk.of(
+    ask = ShiftRequest.of(
         to, by, shape=shape, terminals=terminals, fade=fade, tolerance=tolerance, name=name
     )
     varied = to_change(hull, "shift_sections", in_place=in_place)

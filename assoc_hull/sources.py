@@ -54,8 +54,8 @@ class Examples:
         return hull
 
     def bulk_carrier_207k(self) -> Hull:
-        """Make a 207,000 TDW bulk carrier; see `assoc_hull.shipped.bulk_carrier`."""
-        from assoc_hull.shipped.bulk_carrier import bulk_carrier_207k_net
+        """Make a 207,000 TDW bulk carrier; see `assoc_hull.shipped.bulk_carrier_207k`."""
+        from assoc_hull.shipped.bulk_carrier_207k import bulk_carrier_207k_net
 
         state, report = bulk_carrier_207k_net()
         hull = Hull(state)
@@ -143,7 +143,7 @@ def create(design: Design | ClassicalDefinition) -> Hull:
     """
     from assoc_hull.creation.classical.classical_net import classical_net
     from assoc_hull.creation.design import Design
-    from assoc_hull.creation.net import build_net
+    from assoc_hull.creation.design_net import build_net
     from assoc_hull.io.classical.read import is_definition
 
     if is_definition(design):
@@ -219,7 +219,7 @@ def read(
     """
     from assoc_hull.io.classical.read import holds_definition
     from assoc_hull.io.hull_file.saving import holds_hull
-    from assoc_hull.io.offsets.completion import net_from_table
+    from assoc_hull.io.offsets.complete_table import net_from_table
     from assoc_hull.io.offsets.read import read_offsets
     from assoc_hull.io.slicing.read import holds_lines, read_slices
 

@@ -21,17 +21,15 @@ from typing import Any
 import attrs
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.hydrostatics.measured_hull import state_of
 from assoc_hull.arguments import file_path, integer, shown
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.hull import Hull
 from assoc_hull.io.tables.study import study_csv, study_json
 from assoc_hull.io.write_file import write_whole
-from assoc_hull.model.copy import copy_of
-from assoc_hull.study.design import OUTPUTS, Design
-from assoc_hull.study.run import Row, Run, run_study
-from assoc_hull.study.table import columns_of
-from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.model.tables import copy_state, state_of
+from assoc_hull.study.design import OUTPUTS, StudyDesign
+from assoc_hull.study.run import StudyRow, StudyRun, run_study, study_columns
+from assoc_hull.variation.parameters.field_layout import Layout
 
 __all__ = ["Study", "study"]
 
@@ -53,12 +51,12 @@ class Study:
         Whether it was interrupted.
     """
 
-    run: Run = attrs.field(repr=False)
-    rows: tuple[Row, ...]
+    run: StudyRun = attrs.field(repr=False)
+    rows: tuple[StudyRow, ...]
     interrupted: bool
 
     @property
-    def design(self) -> Design:
+    def design(self) -> StudyDesign:
         """What was asked for."""
         return self.run.design
 
@@ -66,7 +64,7 @@ class Study:
         return len(self.rows)
 
     @property
-    def failed(self) -> tuple[Row, ...]:
+    def failed(self) -> tuple[StudyRow, ...]:
         """Rows of variants of which there is no hull, each with its reason."""
         return tuple(row for row in self.rows if row.failure)
 
@@ -80,7 +78,7 @@ class Study:
             target; the outputs by name; ``margin``, ``shift`` (m), ``residual``, ``trials``;
             ``failure`` and ``reason``. Numbers that a variant does not have are nan.
         """
-        return columns_of(self.design, self.rows)
+        return study_columns(self.design, self.rows)
 
     def hull(self, number: int) -> Hull:
         """Give a variant as a hull: the parent, and one step that can be undone.
@@ -205,10 +203,10 @@ def study(
     count = integer(workers, "workers", _WHERE, least=1, most=_WORKERS)
     if progress is not None and (isinstance(progress, type) or not callable(progress)):
         raise WrongTypeError(f"progress is {shown(progress)}", _WHERE, "give a function")
-    design = Design.of(
+    design = StudyDesign.of(
         set=set, reach=reach, free=free, bounds=bounds, layers=layers, outputs=outputs,
         layout=layout,
     )  # fmt: skip
-    run = Run.of(copy_of(hull.state), design)
+    run = StudyRun.of(copy_state(hull.state), design)
     rows, interrupted = run_study(run, range(design.count), workers=count, tell=progress)
     return Study(run, rows, interrupted)

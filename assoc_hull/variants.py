@@ -18,11 +18,17 @@ from typing import Any
 import attrs
 
 from assoc_hull.hull import Hull, to_change
-from assoc_hull.model.line import Group, Line
-from assoc_hull.variation.ask import TOLERANCE, Ask, Planes, Stations, ask_from
-from assoc_hull.variation.fields.space_map import VMap
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.script import read_script
+from assoc_hull.model.objects import Group, Line
+from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.request import (
+    TOLERANCE,
+    Planes,
+    Stations,
+    VariationRequest,
+    read_script,
+    request_from_data,
+)
 from assoc_hull.variation.vary import VariationReport, vary_document
 
 __all__ = ["Variation", "vary", "vary_by"]
@@ -44,7 +50,7 @@ class Variation:
 
     hull: Hull
     report: VariationReport
-    map: VMap
+    map: VariationMap
 
     def __str__(self) -> str:
         return str(self.report)
@@ -102,7 +108,7 @@ def vary(
         `CornerLayer` or `DeadriseLayer`, or a list of fields as data (see
         `assoc_hull.variation.fields.field_data`).
     layout : mapping or Layout
-        How far the fields reach; see `assoc_hull.variation.parameters.layout.Layout`.
+        How far the fields reach; see `assoc_hull.variation.parameters.field_layout.Layout`.
     drivers : sequence of Group, Line or str
         Lines whose images are taken exactly; boundary curves always are. By default all lines
         whose planes the map keeps.
@@ -156,7 +162,7 @@ def vary(
     >>> round(ah.hydrostatics(variant.hull).volume, 7), round(variant.hull.particulars.breadth, 4)
     (2800.0, 10.0812)
     """
-    ask = Ask.of(
+    ask = VariationRequest.of(
         set, reach=reach, free=free, bounds=bounds, exact=exact, layers=layers, layout=layout,
         drivers=drivers, stations=stations, planes=planes, tolerance=tolerance, name=name,
     )  # fmt: skip
@@ -175,7 +181,7 @@ def vary_by(
     hull : Hull
         The parent.
     script : mapping or path
-        See `assoc_hull.variation.ask`. `VariationReport.script` is such a one.
+        See `assoc_hull.variation.request`. `VariationReport.script` is such a one.
     in_place : bool
         As in `vary`.
 
@@ -192,10 +198,10 @@ def vary_by(
     'breadth 10 -> 11 m'
     """
     data = script if isinstance(script, Mapping) else read_script(script)
-    ask = ask_from(data)
+    ask = request_from_data(data)
     return _carry_out(to_change(hull, "vary", in_place=in_place), ask)
 
 
-def _carry_out(hull: Hull, ask: Ask) -> Variation:
+def _carry_out(hull: Hull, ask: VariationRequest) -> Variation:
     vmap, report = vary_document(hull.document, ask)
     return Variation(hull, report, vmap)

@@ -19,9 +19,9 @@ from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.variants import Variation
-from assoc_hull.variation.parameters.compose_map import compose
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.parameters.read_parent import parent_of
+from assoc_hull.variation.parameters.compose_map import compose_map
+from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.parameters.parent import parent_of
 from benchmarks.affine_image import affine_image
 from benchmarks.ships import duisburg_test_case
 
@@ -125,7 +125,7 @@ def map_row(hull: ah.Hull, name: str) -> float:
         asked[key] / now[key] if key in asked else 1.0 for key in ("length", "breadth", "draught")
     ]
     goal = xyz * scale
-    found = compose(parent, asked, Layout())(xyz)
+    found = compose_map(parent, asked, Layout())(xyz)
     return float((np.abs(found - goal) / np.spacing(np.abs(goal))).max())
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.definition.definition import definition, published
+from assoc_hull.model.definition.records import definition, published
 from assoc_hull.model.definition.restore import from_definition
 
 __all__ = ["affine_image"]

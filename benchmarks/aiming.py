@@ -18,11 +18,11 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.errors import UnreachableError
-from assoc_hull.variation.aiming.reach import problem_of
-from assoc_hull.variation.aiming.report import Aimed
-from assoc_hull.variation.aiming.stopping_rule import Rule
-from assoc_hull.variation.aiming.target_solver import solve
-from assoc_hull.variation.ask import Ask
+from assoc_hull.variation.aiming.reach_targets import problem_of
+from assoc_hull.variation.aiming.report import AimReport
+from assoc_hull.variation.aiming.stopping_rule import StoppingRule
+from assoc_hull.variation.aiming.target_solver import solve_targets
+from assoc_hull.variation.request import VariationRequest
 from benchmarks.ships import duisburg_test_case
 
 __all__ = ["free_of", "targets_of"]
@@ -69,14 +69,18 @@ def _broader(
     return {"name": name, "fields": [{"stack": stack}]}
 
 
-def aim(hull: ah.Hull, names: Sequence[str], count: int, rule: Rule) -> tuple[Aimed, float]:
+def aim(
+    hull: ah.Hull, names: Sequence[str], count: int, rule: StoppingRule
+) -> tuple[AimReport, float]:
     """Aim from a hull; give what was found, and the seconds of the processor that it took."""
     targets = targets_of(hull)
-    ask = Ask.of(reach={name: targets[name] for name in names}, free=free_of(hull, count))
+    ask = VariationRequest.of(
+        reach={name: targets[name] for name in names}, free=free_of(hull, count)
+    )
     start = time.process_time()
     problem = problem_of(hull.state, ask)
     before = problem.at(np.zeros(count)).values
-    found = solve(
+    found = solve_targets(
         problem, [targets[name] for name in names], start=np.zeros(count),
         scales_free=[each.usual for each in problem.maps.free], scales_out=np.abs(before),
         rule=rule,
@@ -84,7 +88,7 @@ def aim(hull: ah.Hull, names: Sequence[str], count: int, rule: Rule) -> tuple[Ai
     return found, time.process_time() - start
 
 
-def ratio(found: Aimed) -> float:
+def ratio(found: AimReport) -> float:
     """Give the largest residual over the square of the last one, below 1e-2 and above rounding."""
     pairs = pairwise(each.residual for each in found.steps)
     return max(
@@ -99,7 +103,7 @@ def table(hull: ah.Hull) -> None:
     print("| --- | --- | --- | --- | --- | --- | --- |")
     cases = (THREE, 3, True), (FIVE, 5, True), (FIVE, 7, True), (FIVE, 7, False)
     for names, count, least in cases:
-        found, seconds = aim(hull, names, count, Rule(least=least))
+        found, seconds = aim(hull, names, count, StoppingRule(least=least))
         residuals = ", ".join(f"{each.residual:.1e}" for each in found.steps)
         what = f"{len(names)}, {count}" + ("" if least else ", shortest steps")
         square = count == len(names)

@@ -12,7 +12,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.plane_intersections import Meetings, meet_planes
+from assoc_hull.geometry.splines.plane_intersections import PlaneIntersections, intersect_planes
 from benchmarks.shape import BUTTOCKS, SECTIONS, WATERLINES, Shape, batch_of
 
 __all__ = ["Bare"]
@@ -42,7 +42,9 @@ class Bare:
         self.watched: tuple[IntArray, IntArray] | None = None
         self.watched = self._pairs(*self._meet(loft(self.lines)))
 
-    def edit(self, points: FloatArray) -> tuple[SplineBatch, tuple[Meetings, ...], FloatArray]:
+    def edit(
+        self, points: FloatArray
+    ) -> tuple[SplineBatch, tuple[PlaneIntersections, ...], FloatArray]:
         """Put the section's points where they are asked, and bring all up to date.
 
         Parameters
@@ -56,24 +58,26 @@ class Bare:
             The 70 lines, their meetings with all planes, and the watched gaps.
         """
         section = loft(_moved(self.section, points))
-        up, out = meet_planes(section, Z, WATERLINES), meet_planes(section, Y, BUTTOCKS)
+        up, out = intersect_planes(section, Z, WATERLINES), intersect_planes(section, Y, BUTTOCKS)
         places = self.places.copy()
         places[self.knots[: up.count]], places[self.knots[up.count :]] = up.xyz, out.xyz
         batch = loft(_moved(self.lines, places))
         found = self._meet(batch)
         return batch, (up, out, *found), self._gaps(batch, found[1], found[3])
 
-    def _meet(self, batch: SplineBatch) -> tuple[Meetings, Meetings, Meetings, Meetings]:
+    def _meet(
+        self, batch: SplineBatch
+    ) -> tuple[PlaneIntersections, PlaneIntersections, PlaneIntersections, PlaneIntersections]:
         """Meet waterlines with sections and buttocks, buttocks with sections and waterlines."""
         level, upright = batch.part(0, self.waterlines), batch.part(self.waterlines, batch.count)
         return (
-            meet_planes(level, X, SECTIONS),
-            meet_planes(level, Y, BUTTOCKS),
-            meet_planes(upright, X, SECTIONS),
-            meet_planes(upright, Z, WATERLINES),
+            intersect_planes(level, X, SECTIONS),
+            intersect_planes(level, Y, BUTTOCKS),
+            intersect_planes(upright, X, SECTIONS),
+            intersect_planes(upright, Z, WATERLINES),
         )
 
-    def _pairs(self, *found: Meetings) -> tuple[IntArray, IntArray]:
+    def _pairs(self, *found: PlaneIntersections) -> tuple[IntArray, IntArray]:
         """Match the meetings of waterlines and buttocks, once, by line, line and sense."""
         one, other = found[1], found[3]
         # A buttock falls through a waterline where, from aft, it enters it.
@@ -83,7 +87,9 @@ class Bare:
         first, second = np.array(pairs).T.copy()
         return first, second
 
-    def _gaps(self, batch: SplineBatch, one: Meetings, other: Meetings) -> FloatArray:
+    def _gaps(
+        self, batch: SplineBatch, one: PlaneIntersections, other: PlaneIntersections
+    ) -> FloatArray:
         """Give the gaps along the normal, from the tangents of both curves."""
         assert self.watched is not None
         first, second = self.watched

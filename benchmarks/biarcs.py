@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from assoc_hull.geometry.classical.biarc_c import one_bend_radii
 from assoc_hull.geometry.classical.biarc_chain import biarc_chain
+from assoc_hull.geometry.classical.biarc_family import one_bend_radii
 from assoc_hull.geometry.classical.biarcs import biarcs
 from assoc_hull.geometry.curves import FloatArray
 from benchmarks.clock import Figure, side_by_side

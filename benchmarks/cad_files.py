@@ -7,12 +7,11 @@ from functools import partial
 import numpy as np
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.cad.faces import sewn
-from assoc_hull.io.cad.found import find_in
-from assoc_hull.io.cad.kernel import quiet
-from assoc_hull.io.cad.step_write import step_bytes
-from assoc_hull.io.cad.write import cad_bytes
-from assoc_hull.io.iges.read import surfaces_of_iges
+from assoc_hull.io.cad.check_file import measure_file
+from assoc_hull.io.cad.faces import sew_surfaces
+from assoc_hull.io.cad.kernel import quiet_kernel
+from assoc_hull.io.cad.write import cad_bytes, step_bytes
+from assoc_hull.io.iges.surfaces import surfaces_of_iges
 from assoc_hull.io.iges.write import iges_text
 from benchmarks.clock import Figure, side_by_side
 
@@ -45,20 +44,20 @@ def figures(quick: bool = False) -> list[Figure]:
     small, large = blocks(20), blocks(80)
     names = [each.name for each in large]
     points, fewer = (sum(each.net[..., 0].size for each in some) for some in (large, small))
-    with quiet():
-        joined = sewn(large)
+    with quiet_kernel():
+        joined = sew_surfaces(large)
     step = step_bytes(joined, names, "mm", "hull")
     iges, bare = cad_bytes(large, "iges", half=True)[0], iges_text(large, "mm")
     times = side_by_side(
         {
-            "sew": partial(sewn, large),
+            "sew": partial(sew_surfaces, large),
             "write": partial(step_bytes, joined, names, "mm", "hull"),
-            "back": partial(find_in, step, "step"),
+            "back": partial(measure_file, step, "step"),
             "all": partial(cad_bytes, large, "step", half=True),
             "fewer": partial(cad_bytes, small, "step", half=True),
             "own": partial(iges_text, large, "mm"),
             "own back": partial(surfaces_of_iges, bare, "bare.igs"),
-            "iges back": partial(find_in, iges, "iges"),
+            "iges back": partial(measure_file, iges, "iges"),
         },
         3 if quick else 9,
     )

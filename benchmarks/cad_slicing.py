@@ -12,11 +12,11 @@ from functools import partial
 import numpy as np
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.cad.faces import sewn
-from assoc_hull.io.cad.hull_faces import Faces
-from assoc_hull.io.cad.kernel import MILLIMETRES, quiet
-from assoc_hull.io.lines.slices import Slices
-from assoc_hull.io.slicing.surface_slices import slice_surfaces
+from assoc_hull.io.cad.faces import sew_surfaces
+from assoc_hull.io.cad.hull_faces import HullFaces
+from assoc_hull.io.cad.kernel import MILLIMETRES, quiet_kernel
+from assoc_hull.io.lines.slices import HullSlices
+from assoc_hull.io.slicing.surface_lines import slice_surfaces
 from benchmarks.cad_files import LENGTH, blocks
 from benchmarks.clock import Figure, side_by_side
 
@@ -30,10 +30,10 @@ def stations(count: int) -> list[float]:
     return [round(each, 3) for each in np.linspace(0.05 * LENGTH, 0.95 * LENGTH, count).tolist()]
 
 
-def ours(surfaces: Sequence[SplineSurface], places: list[float]) -> Slices:
+def ours(surfaces: Sequence[SplineSurface], places: list[float]) -> HullSlices:
     """Cut the surfaces as `ah.read` does."""
     return slice_surfaces(
-        Faces.of(surfaces, "m"), stations=places, waterlines=0, buttocks=0, axes="+x+y+z"
+        HullFaces.of(surfaces, "m"), stations=places, waterlines=0, buttocks=0, axes="+x+y+z"
     )
 
 
@@ -45,7 +45,7 @@ def by_sections(shell: object, places: list[float]) -> int:
     from OCP.TopExp import TopExp_Explorer
 
     count = 0
-    with quiet():
+    with quiet_kernel():
         for place in places:
             plane = gp_Pln(gp_Pnt(place * MILLIMETRES, 0.0, 0.0), gp_Dir(1.0, 0.0, 0.0))
             section = BRepAlgoAPI_Section(shell, plane)
@@ -59,8 +59,8 @@ def by_sections(shell: object, places: list[float]) -> int:
 def figures(quick: bool = False) -> list[Figure]:
     """Measure."""
     surfaces = blocks(40)
-    with quiet():
-        shell = sewn(surfaces).shell
+    with quiet_kernel():
+        shell = sew_surfaces(surfaces).shell
     few, many = stations(FEW), stations(MANY)
     times = side_by_side(
         {

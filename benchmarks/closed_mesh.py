@@ -13,11 +13,10 @@ import numpy as np
 import trimesh
 
 import assoc_hull as ah
-from assoc_hull.analysis.net.gather import gather
+from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.analysis.panels.mesh_quality import panel_report
 from assoc_hull.hull import Hull
-from assoc_hull.surface.cells.closed_mesh import mesh_of_net
-from assoc_hull.surface.cells.mesh_report import examined
+from assoc_hull.surface.cells.closed_mesh import examine_mesh, mesh_of_net
 from benchmarks.clock import Figure, side_by_side
 from benchmarks.ships import duisburg_test_case
 
@@ -45,7 +44,7 @@ def figures(quick: bool = False) -> list[Figure]:
     jobs: dict[str, Callable[[], object]] = {
         name: partial(ah.closed_mesh, hull, points=POINTS) for name, hull in every.items()
     }
-    grids = [gather(ah.examples.wigley(stations=n, waterlines=m).state) for n, m in _GRIDS]
+    grids = [gather_net(ah.examples.wigley(stations=n, waterlines=m).state) for n, m in _GRIDS]
     for i, net in enumerate(grids):
         jobs[f"grid {i}"] = partial(mesh_of_net, net, points=POINTS)
     carrier = every["bulk carrier 207,000 TDW"]
@@ -53,7 +52,7 @@ def figures(quick: bool = False) -> list[Figure]:
     plain = ah.closed_mesh(carrier, points=2)
     jobs["plain"] = partial(ah.closed_mesh, carrier, points=2)
     jobs["panels"] = partial(ah.panels, carrier, draught=18.0, count=len(plain.triangle) // 2)
-    jobs["examined"] = partial(examined, mesh.xyz, mesh.triangle)
+    jobs["examined"] = partial(examine_mesh, mesh.xyz, mesh.triangle)
     jobs["trimesh"] = partial(_by_trimesh, mesh.xyz, mesh.triangle)
     found = side_by_side(jobs, rounds)
     result = [

@@ -11,7 +11,7 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ArrayColumn
 from assoc_hull.model.index import build_index
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.state import Association, HullState, Meets, curve_node, row_node
+from assoc_hull.model.tables import Association, CurveIntersections, HullState, curve_node, row_node
 
 __all__ = ["copies_of"]
 
@@ -80,9 +80,9 @@ def _list_copy(
     target.data[number * size : (number + 1) * size] = [turn(each) for each in source.data]
 
 
-def _meets(meets: Meets, lines: int, rows: int) -> Meets:
+def _meets(meets: CurveIntersections, lines: int, rows: int) -> CurveIntersections:
     row = np.where(meets.row >= 0, meets.row + rows, -1)
-    return Meets(meets.line + lines, meets.sign, row, meets.parameter, meets.xyz)
+    return CurveIntersections(meets.line + lines, meets.sign, row, meets.parameter, meets.xyz)
 
 
 def _named(name: str, number: int) -> str:

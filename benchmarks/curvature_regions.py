@@ -16,10 +16,10 @@ from scipy.interpolate import NdBSpline, bisplev
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.arcs import arcs_of
 from assoc_hull.geometry.patches.area_elements import bernstein_values
-from assoc_hull.geometry.patches.areas import Areas, areas
+from assoc_hull.geometry.patches.areas_by_sign import SignAreas, sign_areas
+from assoc_hull.geometry.patches.bezier_patches import Patches
+from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches
 from assoc_hull.geometry.patches.curvature_functions import gauss_function
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.solve import solve
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.regions.curvature_regions import curvature_regions
 from benchmarks.clock import Figure, side_by_side
@@ -41,11 +41,11 @@ def batch(nets: FloatArray) -> Patches:
     return Patches(nets, box.copy(), np.arange(len(nets)))
 
 
-def regions(nets: FloatArray, tol: float = TOL, level: float = 0.0) -> Areas:
+def regions(nets: FloatArray, tol: float = TOL, level: float = 0.0) -> SignAreas:
     """Give the areas of regions: polynomials, cells, arcs, areas."""
     patches = batch(nets)
-    cells = solve(gauss_function(patches, level))
-    return areas(patches, cells, arcs_of(cells), tol)
+    cells = subdivide_patches(gauss_function(patches, level))
+    return sign_areas(patches, cells, arcs_of(cells), tol)
 
 
 def cut_plates(count: int, seed: int = 1) -> FloatArray:

@@ -8,7 +8,7 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from benchmarks.net import section_rows
 
 __all__ = ["MOVED", "Dragging", "places"]

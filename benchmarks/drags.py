@@ -19,7 +19,7 @@ from time import perf_counter, thread_time
 import attrs
 import numpy as np
 
-from assoc_hull.edit.garbage_collection import settle
+from assoc_hull.edit.garbage_collection import freeze_loaded_objects
 from benchmarks.clock import Figure
 from benchmarks.drag import Dragging
 from benchmarks.net import make_net
@@ -50,7 +50,7 @@ def figures(quick: bool = False) -> list[Figure]:
         drag()
     kept = _bytes_per_step(drag, 50)
     drag.forget()
-    settle()
+    freeze_loaded_objects()
     watch = Collections()
     gc.callbacks.append(watch)
     try:

@@ -14,7 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.variation.fields.field import Region
+from assoc_hull.variation.fields.field import FieldRegion
 
 __all__ = ["DEGREE", "Lattice", "LatticeLayer", "LatticePlan"]
 
@@ -72,10 +72,10 @@ class LatticeLayer:
         """For reports."""
         return "lattice"
 
-    def regions(self) -> tuple[Region, ...]:
+    def regions(self) -> tuple[FieldRegion, ...]:
         """Give the box of the profile plane outside which nothing moves."""
         (x0, _, z0), (x1, _, z1) = self.lattice.box.tolist()
-        return (Region(self.name, (x0, x1), (z0, z1)),)
+        return (FieldRegion(self.name, (x0, x1), (z0, z1)),)
 
     def displacement(self, xyz: FloatArray) -> FloatArray:
         """Give by how much places (n, 3) move, m."""

@@ -19,10 +19,9 @@ import numpy as np
 
 from assoc_hull.errors import FoldError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.certificate.certify import MARGIN, certify
-from assoc_hull.variation.certificate.record import Certificate
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.certificate.fold_check import MARGIN, Certificate, certify
+from assoc_hull.variation.fields.layers import Layer
+from assoc_hull.variation.fields.space_map import VariationMap
 from benchmarks.fold_fields import draw_box, draw_layer, scaled
 from benchmarks.fold_polish import Least, minors_at, polished
 from benchmarks.fold_samples import Samples, sample
@@ -63,7 +62,7 @@ class Case:
         Least minor of each layer.
     """
 
-    vmap: VMap
+    vmap: VariationMap
     boxes: tuple[FloatArray, ...]
     samples: tuple[Samples, ...]
     strengths: tuple[float, ...]
@@ -107,7 +106,7 @@ def draw(seed: int, number: int, count: int = PLACES) -> Case:
         every.append(samples)
         strengths.append(strength)
         least.append(polished(layers[-1], samples, strength))
-    vmap = VMap(tuple(layers))
+    vmap = VariationMap(tuple(layers))
     return Case(vmap, tuple(boxes), tuple(every), tuple(strengths), tuple(least))
 
 

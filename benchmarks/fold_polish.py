@@ -6,7 +6,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.layers import Layer
 from benchmarks.fold_samples import Samples
 
 __all__ = ["Least", "minors_at", "polished"]

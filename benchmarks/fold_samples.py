@@ -14,13 +14,17 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.fields.additive import AdditiveLayer, Factors
-from assoc_hull.variation.fields.corner import CornerLayer
-from assoc_hull.variation.fields.field import Field
-from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.piecewise_linear import Course
-from assoc_hull.variation.fields.shear import DeadriseLayer
+from assoc_hull.variation.fields.bounded_functions import BoundedFunction
+from assoc_hull.variation.fields.field import StackedField
+from assoc_hull.variation.fields.layers import (
+    AdditiveLayer,
+    CornerLayer,
+    DeadriseLayer,
+    Factors,
+    FieldLayer,
+    Layer,
+    Rake,
+)
 
 __all__ = ["Samples", "sample"]
 
@@ -128,7 +132,7 @@ def _extremes(places: FloatArray, values: Sequence[FloatArray], even: int = _EVE
 def _of_fields(layer: FieldLayer, box: FloatArray, count: int) -> Samples:
     x, z = _line(box, 0, count), _line(box, 2, count)
     out = _line(box, 1, count)
-    tubes = [each.tube for each in layer.fields if isinstance(each, Field) and each.tube]
+    tubes = [each.tube for each in layer.fields if isinstance(each, StackedField) and each.tube]
     y = _extremes(out, [tube.slope(out) for tube in tubes]) if tubes else out[:1]
     entries = _Entries()
     for field in layer.fields:
@@ -142,14 +146,14 @@ def _of_fields(layer: FieldLayer, box: FloatArray, count: int) -> Samples:
     return Samples((x, y, z), entries, "xz")
 
 
-def _level(course: Course, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _level(course: BoundedFunction, x: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Give values and slopes, once if they are the same everywhere."""
     if len(course.nodes) == 1:
         x = x[:1]
     return course.at(x), course.slope(x)
 
 
-def _of_field(field: Field, x: FloatArray, y: FloatArray, z: FloatArray) -> _Entries:
+def _of_field(field: StackedField, x: FloatArray, y: FloatArray, z: FloatArray) -> _Entries:
     """Sum the derivatives of a field over its strips."""
     c = x if field.axis == "x" else z
     heights = [_level(each.height, x) for each in field.boundaries]

@@ -17,7 +17,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.backend import Backend, backend, set_backend
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from benchmarks.clock import Figure, side_by_side
 from benchmarks.loops import Job, opencascade, scipy_loop
 from benchmarks.shape import FAMILIES, Shape, batch_of, shape
@@ -46,7 +46,7 @@ def kernel(lines: Shape) -> Callable[[], int]:
         batch, count = loft(data), 0
         for place, partners in enumerate(CUTS):
             part = batch.part(bounds[place], bounds[place + 1])
-            count += sum(meet_planes(part, *planes[other]).count for other in partners)
+            count += sum(intersect_planes(part, *planes[other]).count for other in partners)
         return count
 
     return job

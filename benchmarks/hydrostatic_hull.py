@@ -10,7 +10,7 @@ import numpy as np
 
 from assoc_hull.analysis.hydrostatics.mesh_flotation import mesh_flotation
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 from assoc_hull.geometry.surfaces.triangles import Triangles
 
 __all__ = ["EVEN", "INCLINED", "Measured", "Position", "exact", "measured", "panels", "triangles"]
@@ -27,10 +27,10 @@ class Position:
     tan_trim: float
     tan_heel: float
 
-    def planes(self, heights: FloatArray | None = None) -> Planes:
+    def planes(self, heights: FloatArray | None = None) -> FloatingPlanes:
         """Give the plane, or those through other heights, as our integrals take it."""
         height = np.array([self.height]) if heights is None else heights
-        return Planes(
+        return FloatingPlanes(
             height, np.full(len(height), self.tan_trim), np.full(len(height), self.tan_heel)
         )
 
@@ -66,7 +66,7 @@ class Measured:
         return rows | {"centre": float(np.abs(self.centre - true.centre).max()) / L}
 
 
-def measured(found: Immersed, position: Position) -> Measured:
+def measured(found: ImmersedIntegrals, position: Position) -> Measured:
     """Turn our integrals into the values asked for."""
     volume, area = float(found.volume[0]), float(found.area[0])
     sums = (found.moment_x, found.moment_y, found.moment_z)

@@ -6,14 +6,17 @@ from functools import cache
 
 import attrs
 
-from assoc_hull.analysis.net.cells import lay_out
-from assoc_hull.analysis.net.gather import gather
+from assoc_hull.analysis.net.curve_net import gather_net
+from assoc_hull.analysis.net.surface_layout import lay_out_surface
 from assoc_hull.geometry.curves import CurveData
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
-from assoc_hull.geometry.floating.immersion import immersed
-from assoc_hull.geometry.floating.prepared_strips import Prepared, prepare
+from assoc_hull.geometry.floating.immersion import (
+    FloatingPlanes,
+    ImmersedIntegrals,
+    integrate_immersed,
+)
+from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.surfaces.coons import Cells, CoonsStrips
+from assoc_hull.geometry.surfaces.coons import CoonsCells, CoonsStrips
 from assoc_hull.model.lofting import curve_data
 from tests.nets import wigley_net
 
@@ -28,21 +31,21 @@ class NetToMeasure:
     """The points of a net, and how its surface is put together."""
 
     points: CurveData
-    cells: Cells
+    cells: CoonsCells
 
-    def fitted(self) -> Prepared:
+    def fitted(self) -> PreparedStrips:
         """Loft the lines, lay the surface through them, integrate its tiles."""
-        return prepare(CoonsStrips.on(self.cells, loft(self.points)))
+        return prepare_strips(CoonsStrips.on(self.cells, loft(self.points)))
 
-    def measure(self, planes: Planes) -> Immersed:
+    def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Do all that an edit of the hull makes necessary."""
-        return immersed(self.fitted(), planes)
+        return integrate_immersed(self.fitted(), planes)
 
 
 @cache
 def net(stations: int = STATIONS, waterlines: int = WATERLINES) -> NetToMeasure:
     """Give a net; lines have the directions of the formula at their ends."""
     state = wigley_net(stations, waterlines)
-    lines = gather(state)
-    layout = lay_out(lines, state.particulars.length, closed=False)
+    lines = gather_net(state)
+    layout = lay_out_surface(lines, state.particulars.length, closed=False)
     return NetToMeasure(curve_data(state, lines.curve), layout.cells)

@@ -16,7 +16,7 @@ import numpy as np
 
 from assoc_hull.analysis.hydrostatics.mesh_flotation import mesh_flotation
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.floating.immersion import immersed
+from assoc_hull.geometry.floating.immersion import integrate_immersed
 from assoc_hull.geometry.splines.backend import backend, set_backend
 from benchmarks.clock import Figure
 from benchmarks.hydrostatic_hull import (
@@ -60,7 +60,7 @@ def ours(position: Position) -> Job:
 def ours_at_heights(position: Position) -> Callable[[FloatArray], Any]:
     """Give our side for many heights of the plane in one call, and so for one."""
     body = net(*TABLE_NET).fitted()
-    return lambda heights: immersed(body, position.planes(heights))
+    return lambda heights: integrate_immersed(body, position.planes(heights))
 
 
 def mesh_route(n: int, position: Position) -> Job:

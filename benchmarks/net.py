@@ -10,14 +10,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.adoption.adopt import adopt
+from assoc_hull.edit.adoption.adopt_lines import adopt
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.loft_hull import loft_all, set_limits
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.state import Association, HullState, Particulars
+from assoc_hull.model.tables import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 from benchmarks.shape import FAMILIES, SECTIONS, Shape, shape
 

@@ -16,9 +16,9 @@ import numpy as np
 from assoc_hull.geometry.classical.arc_fit import fit_arcs
 from assoc_hull.geometry.curves import CurveData, FloatArray
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.segments import power
+from assoc_hull.geometry.splines.segments import power_coefficients
 from assoc_hull.hull import Hull
-from assoc_hull.model.line import Line
+from assoc_hull.model.objects import Line
 from assoc_hull.production import production_arcs
 from assoc_hull.sources import examples
 from benchmarks.clock import Figure, side_by_side
@@ -40,7 +40,7 @@ def ship() -> tuple[Hull, tuple[str, ...]]:
 
 def cubics(line: Line) -> FloatArray:
     """Give the cubics of a waterline in its plane."""
-    return np.ascontiguousarray(power(line.curves[0].spline)[:, :, :2])
+    return np.ascontiguousarray(power_coefficients(line.curves[0].spline)[:, :, :2])
 
 
 def naive(curve: PlaneCurve) -> int:
@@ -58,7 +58,9 @@ def naive(curve: PlaneCurve) -> int:
 def wave(count: int) -> FloatArray:
     """Give the cubics of a curve of so many waves, eight points each."""
     x = np.linspace(0.0, 6.0 * count, 8 * count + 1)
-    return power(loft(CurveData.single(np.stack([x, 0.3 * np.sin(x), 0.0 * x], axis=1))))[:, :, :2]
+    return power_coefficients(
+        loft(CurveData.single(np.stack([x, 0.3 * np.sin(x), 0.0 * x], axis=1)))
+    )[:, :, :2]
 
 
 def counts(hull: Hull, names: tuple[str, ...]) -> list[Figure]:

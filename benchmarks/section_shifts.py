@@ -18,14 +18,14 @@ from time import perf_counter
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, OutOfRangeError
 from assoc_hull.variation.comparing.line_fairness import (
-    FairnessTable,
+    FairnessComparison,
     LineFairness,
     compare_fairness,
     measure_fairness,
 )
-from assoc_hull.variation.shifts.shift_request import ShiftAsk
+from assoc_hull.variation.shifts.shift_hull import ShiftWork
+from assoc_hull.variation.shifts.shift_request import ShiftRequest
 from assoc_hull.variation.shifts.shift_terms import SHIFT_SHAPES, ShiftShape
-from assoc_hull.variation.shifts.trials import ShiftWork
 from benchmarks.ships import duisburg_test_case
 
 __all__ = ["main"]
@@ -56,7 +56,7 @@ def _row(hull: ah.Hull, shape: ShiftShape, asked: dict[str, float]) -> str:
         return f"| {shape} | refused: {error} |"
     seconds = perf_counter() - begin
     report = found.report
-    table: FairnessTable = compare_fairness(_waterlines(hull), _waterlines(found.hull))
+    table: FairnessComparison = compare_fairness(_waterlines(hull), _waterlines(found.hull))
     residuals = ", ".join(f"{step.residual:.1e}" for step in report.steps)
     return (
         f"| {shape} | {residuals} | {report.fore:+.4f} | {report.aft:+.4f} "
@@ -73,7 +73,7 @@ def _rows(name: str) -> Iterator[str]:
         return
     asked = _ASKED[name]
     words = " and ".join(f"{key} {value:+g}" for key, value in asked.items())
-    at = ShiftWork.of(hull.state, ShiftAsk.of(by=asked)).terms.terminals
+    at = ShiftWork.of(hull.state, ShiftRequest.of(by=asked)).terms.terminals
     yield f"{hull.state.particulars.name}: {words}; terminals {at.places.round(3).tolist()} m"
     yield (
         "| shape | residuals | c_f, m | c_a, m | largest, m | least 1+delta' | waterlines "

@@ -15,16 +15,19 @@ import attrs
 import numpy as np
 
 import assoc_hull as ah
-from assoc_hull.analysis.derivatives.curve_tangents import moving
+from assoc_hull.analysis.derivatives.curve_tangents import curve_tangents
 from assoc_hull.analysis.derivatives.given_motion import Moves
-from assoc_hull.analysis.derivatives.reused_layout import flotation_like, moved
+from assoc_hull.analysis.derivatives.reused_layout import (
+    flotation_at_points,
+    flotation_with_layout_of,
+)
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.model.copy import copy_of
+from assoc_hull.model.tables import copy_state
 from assoc_hull.variation.aiming.outputs import Outputs
-from assoc_hull.variation.hull_moves import HullMoves
-from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.sensitivities import HullMoves
 from benchmarks.ships import duisburg_test_case
 
 __all__ = ["Agreement", "agreements"]
@@ -69,12 +72,12 @@ def agreements(hull: Hull) -> Iterator[Agreement]:
 def _differences(outputs: Outputs, body: Flotation, way: Moves) -> FloatArray:
     """Give central differences, extrapolated, for each step: (s, m)."""
     ship = body.state.particulars
-    gone, _ = moving(body, [way])
+    gone, _ = curve_tangents(body, [way])
 
     def at(amount: float) -> FloatArray:
         rates = attrs.asdict(way.rates)
         sizes = {name: getattr(ship, name) + amount * rate for name, rate in rates.items()}
-        hull = moved(body, *gone.stepped(0, amount))
+        hull = flotation_at_points(body, *gone.stepped(0, amount))
         return outputs.values_of(hull, attrs.evolve(ship, **sizes))
 
     found = []
@@ -93,7 +96,7 @@ def _seconds(work: Callable[[], object]) -> float:
 
 def _nudged(hull: Hull, amount: float) -> Hull:
     """Give a copy one point of which has moved."""
-    found = Hull(copy_of(hull.state))
+    found = Hull(copy_state(hull.state))
     address = next(
         name for name, each in hull.points.items() if each.free == ("y",) and each.driver is None
     )
@@ -112,7 +115,7 @@ def _costs(hull: Hull) -> Iterator[tuple[str, float]]:
     state = next(trials)
     yield "surface laid out", _seconds(lambda: flotation(state))
     state = next(trials)
-    yield "surface by the old layout", _seconds(lambda: flotation_like(hull.state, state))
+    yield "surface by the old layout", _seconds(lambda: flotation_with_layout_of(hull.state, state))
     yield "values by the old layout", _seconds(lambda: outputs.values(state, like=hull.state))
     for count in (1, 5, 7):
         some = wrt[-count:]

@@ -15,7 +15,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 
 __all__ = ["BUTTOCKS", "FAMILIES", "SECTIONS", "WATERLINES", "Shape", "shape"]
 
@@ -109,7 +109,7 @@ def batch_of(lines: tuple[FloatArray, ...]) -> CurveData:
 
 def _through(sections: SplineBatch, axis: int, offsets: FloatArray) -> list[FloatArray]:
     """Give the places where the sections meet each plane, from aft forward."""
-    met = meet_planes(sections, np.eye(3)[axis], offsets)
+    met = intersect_planes(sections, np.eye(3)[axis], offsets)
     return [met.xyz[met.plane == plane] for plane in range(len(offsets))]
 
 

@@ -17,14 +17,12 @@ from scipy.sparse.linalg import splu
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.fitting.basis import clamped
-from assoc_hull.geometry.fitting.breaks import even
-from assoc_hull.geometry.fitting.fit import fit_surface
-from assoc_hull.geometry.fitting.samples import Samples
-from assoc_hull.geometry.fitting.solving import controls
-from assoc_hull.geometry.fitting.stencils import gram
+from assoc_hull.geometry.fitting.basis import clamped_knots
+from assoc_hull.geometry.fitting.fit_input import Samples
+from assoc_hull.geometry.fitting.fit_surface import even_breaks, fit_surface
+from assoc_hull.geometry.fitting.least_squares import gram, solve_controls
 from assoc_hull.hull import Hull
-from assoc_hull.surface.blocks.previous import share_kept
+from assoc_hull.surface.blocks.fit_net import share_kept
 from benchmarks.clock import Figure, side_by_side
 
 __all__ = ["figures"]
@@ -47,7 +45,7 @@ def body(points: int) -> Samples:
 
 def breaks_of(spans: tuple[int, int]) -> tuple[FloatArray, FloatArray]:
     """Give even spans."""
-    return even(0.0, LENGTH, spans[0]), even(0.0, GIRTH, spans[1])
+    return even_breaks(0.0, LENGTH, spans[0]), even_breaks(0.0, GIRTH, spans[1])
 
 
 def ours(samples: Samples, spans: tuple[int, int]) -> object:
@@ -57,13 +55,13 @@ def ours(samples: Samples, spans: tuple[int, int]) -> object:
 
 def once(samples: Samples, spans: tuple[int, int]) -> FloatArray:
     """Solve once, by our banded equations."""
-    u, v = (clamped(each) for each in breaks_of(spans))
-    return controls(samples, u, v, SMOOTHING)
+    u, v = (clamped_knots(each) for each in breaks_of(spans))
+    return solve_controls(samples, u, v, SMOOTHING)
 
 
 def by_sparse(samples: Samples, spans: tuple[int, int]) -> FloatArray:
     """Solve the same equations with sparse matrices and a sparse LU."""
-    knots = [clamped(each) for each in breaks_of(spans)]
+    knots = [clamped_knots(each) for each in breaks_of(spans)]
     rows = [BSpline.design_matrix(samples.uv[:, i], knots[i], 3).tocsr() for i in (0, 1)]
     k, width = len(samples), rows[1].shape[1]
     values = (rows[0].data.reshape(k, 4, 1) * rows[1].data.reshape(k, 1, 4)).ravel()

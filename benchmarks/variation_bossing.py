@@ -6,11 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from assoc_hull.model.state import HullState
-from assoc_hull.variation.fields.blend import Blend
-from assoc_hull.variation.fields.field import Field, Piece, Tube, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.fields.bounded_functions import Blend, BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, Tube, level_boundaries
+from assoc_hull.variation.fields.layers import FieldLayer
 from benchmarks.variation_methods import cloud, fared
 from benchmarks.variation_tasks import METHODS, Task
 
@@ -26,14 +25,18 @@ GROWTH = 1.0 / 0.725
 def bossing(task: Task, growth: float, blend: Blend, *, tube: bool) -> FieldLayer:
     """Lay out a larger bossing about the place of a task, with or without its tube."""
     h, r = task.z, task.radius
-    fade = Chain.through([task.x, task.x + 20.0 * r], [growth - 1.0, 0.0], blend)
-    walls = stack(["-4r", "-r", "+r", "+5r"], [h - 4.0 * r, h - r, h + r, h + 5.0 * r])
-    still = Chain.constant(0.0)
-    none, out, up = Piece(still, 0.0, still), Piece(fade, 0.0, still), Piece(fade, h, still)
+    fade = BlendChain.through([task.x, task.x + 20.0 * r], [growth - 1.0, 0.0], blend)
+    walls = level_boundaries(["-4r", "-r", "+r", "+5r"], [h - 4.0 * r, h - r, h + r, h + 5.0 * r])
+    still = BlendChain.constant(0.0)
+    none, out, up = (
+        AffinePiece(still, 0.0, still),
+        AffinePiece(fade, 0.0, still),
+        AffinePiece(fade, h, still),
+    )
     around = Tube(r, 6.0, blend) if tube else None
     return FieldLayer("bossing", (
-        Field("radius", "y", walls, (none, out, out, none), blend, around),
-        Field("radius", "z", walls, (none, up, up, none), blend),
+        StackedField("radius", "y", walls, (none, out, out, none), blend, around),
+        StackedField("radius", "z", walls, (none, up, up, none), blend),
     ))  # fmt: skip
 
 

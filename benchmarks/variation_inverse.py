@@ -8,12 +8,11 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.state import HullState
-from assoc_hull.variation.fields.blend import Blend
-from assoc_hull.variation.fields.field import Field, Piece, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.inverse import solve
-from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.fields.bounded_functions import Blend, BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
+from assoc_hull.variation.fields.layers import FieldLayer
+from assoc_hull.variation.fields.space_map import solve_coordinates
 from benchmarks.variation_bossing import HATS, bossing
 from benchmarks.variation_methods import cloud
 from benchmarks.variation_tasks import METHODS, Task
@@ -52,9 +51,9 @@ def inverted(layer: FieldLayer, xyz: FloatArray) -> tuple[int, float]:
     counting = _Counting(layer, [0])
     image = xyz + layer.displacement(xyz)
     found = image.copy()
-    solve(counting, image, found, (0, 2))  # type: ignore[arg-type]
+    solve_coordinates(counting, image, found, (0, 2))  # type: ignore[arg-type]
     steps = counting.calls[0]
-    solve(layer, image, found, (1,))
+    solve_coordinates(layer, image, found, (1,))
     return steps, float(np.sqrt(((found - xyz) ** 2).sum(axis=1)).max())
 
 
@@ -75,9 +74,9 @@ def inverses(state: HullState, task: Task) -> Iterator[str]:
             yield f"{name}: {len(points)} places {kind}, {steps} steps, missed by {miss:.1e} m"
 
 
-def _longer(task: Task, blend: Blend) -> Field:
+def _longer(task: Task, blend: Blend) -> StackedField:
     """Move the ends of the region by 0.4 m below a sloping boundary."""
-    fade, still = Chain.through(task.nodes, task.ends, blend), Chain.constant(0.0)
-    walls = stack(["z", "high"], [task.z, task.high])
-    pieces = (Piece(still, 0.0, fade.scaled(0.4)), Piece(still, 0.0, still))
-    return Field("longer", "x", walls, pieces, blend)
+    fade, still = BlendChain.through(task.nodes, task.ends, blend), BlendChain.constant(0.0)
+    walls = level_boundaries(["z", "high"], [task.z, task.high])
+    pieces = (AffinePiece(still, 0.0, fade.scaled(0.4)), AffinePiece(still, 0.0, still))
+    return StackedField("longer", "x", walls, pieces, blend)

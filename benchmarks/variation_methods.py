@@ -18,20 +18,16 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray, PointKind
-from assoc_hull.geometry.fairness.comb_integrals import (
-    DEAD_BAND,
-    comb_integrals,
-    curvature_sign_changes,
-)
+from assoc_hull.geometry.fairness.combs import DEAD_BAND, comb_integrals, curvature_sign_changes
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.lofting import curve_data
-from assoc_hull.model.state import HullState
-from assoc_hull.variation.carrying.apply import apply
-from assoc_hull.variation.certificate.certify import certify
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.carrying.carry_hull import apply_map
+from assoc_hull.variation.certificate.fold_check import certify
 from assoc_hull.variation.fields.batch_displacements import FieldPlan
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.fields.layers import Layer
+from assoc_hull.variation.fields.space_map import VariationMap
 from benchmarks.clock import Figure
 from benchmarks.ffd import SIDE, LatticePlan
 from benchmarks.ships import duisburg_test_case
@@ -94,7 +90,7 @@ def sections(state: HullState) -> IntArray:
     )
 
 
-def mapped(data: CurveData, vmap: VMap) -> CurveData:
+def mapped(data: CurveData, vmap: VariationMap) -> CurveData:
     """Give curves through the images of points; given directions go along."""
     turn = vmap.jacobian(data.xyz)
     tangent = (data.kind == PointKind.TANGENT)[:, None]
@@ -109,7 +105,7 @@ def mapped(data: CurveData, vmap: VMap) -> CurveData:
 def fared(state: HullState, task: Task, layer: Layer) -> Fared:
     """Measure what a method did."""
     curves = sections(state)
-    data, vmap = curve_data(state, curves), VMap((layer,))
+    data, vmap = curve_data(state, curves), VariationMap((layer,))
     image = mapped(data, vmap)
     old, new = loft(data), loft(image)
     touched = np.logical_or.reduceat((image.xyz != data.xyz).any(axis=1), data.start[:-1])
@@ -278,12 +274,15 @@ def _apart(hull: ah.Hull, task: Task, places: FloatArray, rounds: int) -> list[F
     jobs: dict[str, Callable[[], object]] = {
         "weights": lambda: FieldPlan.of([layers["field"]], places),
         "lattice": lambda: LatticePlan.of(frame, places, 2),
-        "map": lambda: VMap((layers["field"],))(places),
-        "FFD map": lambda: VMap((layers["FFD"],))(places),
+        "map": lambda: VariationMap((layers["field"],))(places),
+        "FFD map": lambda: VariationMap((layers["FFD"],))(places),
         "fold": lambda: certify(layers["field"], box),
         "fold, additive": lambda: certify(layers["additive"], box),
     }
-    jobs |= {f"loft, {key}": partial(_reloft, hull, VMap((each,))) for key, each in layers.items()}
+    jobs |= {
+        f"loft, {key}": partial(_reloft, hull, VariationMap((each,)))
+        for key, each in layers.items()
+    }
     times = _fastest(jobs, rounds)
     return [
         Figure("weights of the places: field", 1e3 * times["weights"], "ms"),
@@ -298,10 +297,10 @@ def _apart(hull: ah.Hull, task: Task, places: FloatArray, rounds: int) -> list[F
     ]
 
 
-def _reloft(hull: ah.Hull, vmap: VMap) -> None:
+def _reloft(hull: ah.Hull, vmap: VariationMap) -> None:
     """Carry the net by a map, and take it back."""
     with Transaction(hull.document, "varied", look=lambda _: None) as edit:
-        apply(edit, vmap)
+        apply_map(edit, vmap)
 
 
 if __name__ == "__main__":

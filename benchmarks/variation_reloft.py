@@ -11,15 +11,15 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.recut.driver_image import Image, misfit
+from assoc_hull.edit.recut.driver_image import CurveImages, image_misfit
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.lofting import curve_data
-from assoc_hull.model.state import HullState
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.fields.layers import Layer
+from assoc_hull.variation.fields.space_map import VariationMap
 from benchmarks.variation_methods import mapped, sections
 
 __all__ = ["SPACING", "TOLERANCES", "Relofted", "evenly", "relofted"]
@@ -58,10 +58,10 @@ class Relofted:
 
 def relofted(state: HullState, layer: Layer, tolerances: Sequence[float] = TOLERANCES) -> Relofted:
     """Measure what lofting again does to sections of a hull."""
-    vmap = VMap((layer,))
+    vmap = VariationMap((layer,))
     space = SpaceMap(vmap, vmap.jacobian)
     data = _touched(evenly(state, sections(state)), vmap)
-    image = Image.of(space, loft(data), tuple(range(len(data.start) - 1)))
+    image = CurveImages.of(space, loft(data), tuple(range(len(data.start) - 1)))
     knots = image.batch.knot
     error = float(_off(image, data, knots, vmap)[0].max())
     found = [_held(image, data, vmap, tolerance) for tolerance in tolerances]
@@ -101,7 +101,7 @@ def _spaced(
     return rows, t
 
 
-def _touched(data: CurveData, vmap: VMap) -> CurveData:
+def _touched(data: CurveData, vmap: VariationMap) -> CurveData:
     """Leave out curves of which no point moves."""
     moves = (vmap(data.xyz) != data.xyz).any(axis=1)
     some = np.flatnonzero(np.logical_or.reduceat(moves, data.start[:-1]))
@@ -114,16 +114,16 @@ def _touched(data: CurveData, vmap: VMap) -> CurveData:
 
 
 def _off(
-    image: Image, data: CurveData, knots: FloatArray, vmap: VMap
+    image: CurveImages, data: CurveData, knots: FloatArray, vmap: VariationMap
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Give per segment how far it is off, where its middle was, and how long it is, m."""
     batch = loft(mapped(data, vmap))
-    away, middle = misfit(image, np.arange(batch.count), batch, knots)
+    away, middle = image_misfit(image, np.arange(batch.count), batch, knots)
     long = np.delete(np.diff(batch.knot), batch.start[1:-1] - 1)
     return away, middle, long
 
 
-def _held(image: Image, data: CurveData, vmap: VMap, tolerance: float) -> int:
+def _held(image: CurveImages, data: CurveData, vmap: VariationMap, tolerance: float) -> int:
     """Count the points that hold curves to their images."""
     knots = image.batch.knot
     for _ in range(_ROUNDS):

@@ -12,7 +12,7 @@ import argparse
 from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from benchmarks.variation_bossing import GROWTH, HATS, tubes
 from benchmarks.variation_inverse import inverses
 from benchmarks.variation_methods import lines, ships, title

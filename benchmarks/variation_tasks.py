@@ -12,15 +12,12 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.state import HullState
-from assoc_hull.variation.fields.additive import AdditiveLayer
-from assoc_hull.variation.fields.blend import CUBIC, QUINTIC, Blend
-from assoc_hull.variation.fields.field import Field, Piece, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.hat import hat
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.parameters.read_parent import parent_of
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.fields.anchor_fields import hat_field
+from assoc_hull.variation.fields.bounded_functions import CUBIC, QUINTIC, Blend, BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
+from assoc_hull.variation.fields.layers import AdditiveLayer, FieldLayer, Layer
+from assoc_hull.variation.parameters.parent import parent_of
 from benchmarks.ffd import SIDE, Lattice, LatticeLayer
 
 __all__ = ["METHODS", "Task", "active_points", "lattice", "tasks"]
@@ -61,9 +58,9 @@ class Task:
     ends: tuple[float, float]
     reach: tuple[float, float]
 
-    def course(self, blend: Blend) -> Chain:
+    def course(self, blend: Blend) -> BlendChain:
         """Give how it fades along the ship."""
-        return Chain.through(self.nodes, self.ends, blend)
+        return BlendChain.through(self.nodes, self.ends, blend)
 
 
 def tasks(state: HullState) -> list[Task]:
@@ -100,23 +97,25 @@ def _ratio(task: Task, blend: Blend) -> Layer:
     heights = [task.low, z - r, z, z + r, task.high]
     course = task.course(blend)
     ratios = [0.0, *(d / height for height in heights[1:-1]), 0.0]
-    pieces = tuple(Piece.along(course, ratio, 0.0) for ratio in ratios)
+    pieces = tuple(AffinePiece.along(course, ratio, 0.0) for ratio in ratios)
     names = ["low", "h-r", "h", "h+r", "high"]
-    return FieldLayer("ratio", (Field("ratio", "z", stack(names, heights), pieces, blend),))
+    return FieldLayer(
+        "ratio", (StackedField("ratio", "z", level_boundaries(names, heights), pieces, blend),)
+    )
 
 
 def _steps(task: Task, blend: Blend) -> Layer:
     """Lay out a plateau from h - r to h + r with a step on either side."""
     z, r, course = task.z, task.radius, task.course(blend)
-    walls = stack(["low", "h-r", "h+r", "high"], [task.low, z - r, z + r, task.high])
-    pieces = tuple(Piece.along(course, 0.0, d) for d in (0.0, task.lift, task.lift, 0.0))
-    return FieldLayer("steps", (Field("steps", "z", walls, pieces, blend),))
+    walls = level_boundaries(["low", "h-r", "h+r", "high"], [task.low, z - r, z + r, task.high])
+    pieces = tuple(AffinePiece.along(course, 0.0, d) for d in (0.0, task.lift, task.lift, 0.0))
+    return FieldLayer("steps", (StackedField("steps", "z", walls, pieces, blend),))
 
 
 def _hat(task: Task, blend: Blend) -> Layer:
     """Lay out the rounded hat."""
     anchors = [("low", task.low, 0.0), ("h", task.z, task.lift), ("high", task.high, 0.0)]
-    return FieldLayer("hat", (hat("hat", anchors, task.course(blend), blend=blend),))
+    return FieldLayer("hat", (hat_field("hat", anchors, task.course(blend), blend=blend),))
 
 
 def _rigid(task: Task, blend: Blend) -> Layer:
@@ -127,14 +126,14 @@ def _rigid(task: Task, blend: Blend) -> Layer:
         ("h+r", task.z + task.radius, task.lift),
         ("high", task.high, 0.0),
     ]
-    field = hat("hat", anchors, task.course(blend), blend=blend, outward=("h-r", "h+r"))
+    field = hat_field("hat", anchors, task.course(blend), blend=blend, outward=("h-r", "h+r"))
     return FieldLayer("rigid", (field,))
 
 
 def _additive(task: Task, blend: Blend) -> Layer:
     """Lay out additive functions: a peak over z, the same course along x, nothing of y."""
-    peak = Chain.through([task.low, task.z, task.high], [0.0, task.lift, 0.0], blend)
-    return AdditiveLayer("additive", z=(task.course(blend), Chain.constant(1.0), peak))
+    peak = BlendChain.through([task.low, task.z, task.high], [0.0, task.lift, 0.0], blend)
+    return AdditiveLayer("additive", z=(task.course(blend), BlendChain.constant(1.0), peak))
 
 
 def lattice(task: Task) -> Lattice:

@@ -9,15 +9,14 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
-from assoc_hull.model.state import HullState
-from assoc_hull.variation.certificate.certify import certify
-from assoc_hull.variation.fields.field import Field, Piece, stack
-from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.certificate.fold_check import certify
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
-from assoc_hull.variation.parameters.compose_map import compose, solve
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.parameters.read_parent import parent_of
-from assoc_hull.variation.parameters.share import Share
+from assoc_hull.variation.parameters.compose_map import compose_map, solve_field_sizes
+from assoc_hull.variation.parameters.field_layout import Layout, Share
+from assoc_hull.variation.parameters.parent import parent_of
 from benchmarks.variation_methods import cloud
 from benchmarks.variation_tasks import Task
 
@@ -39,17 +38,19 @@ def overlapping(task: Task) -> Iterator[str]:
         ("counter", 0.1, z + 1.5 * r, z + 3.0 * r, 0.4),
     ):
         near = (task.x + x * reach, task.nodes[1] + x * reach)
-        walls = stack(["low", "h-r", "top", "high"], [0.0, z - r, top, task.high + x])
-        fade, still = Chain.through(near, [1.0, 0.0]), Chain.constant(0.0)
-        pieces = tuple(Piece(still, 0.0, fade.scaled(d * change)) for d in (0.0, 1.0, 1.0, 0.0))
+        walls = level_boundaries(["low", "h-r", "top", "high"], [0.0, z - r, top, task.high + x])
+        fade, still = BlendChain.through(near, [1.0, 0.0]), BlendChain.constant(0.0)
+        pieces = tuple(
+            AffinePiece(still, 0.0, fade.scaled(d * change)) for d in (0.0, 1.0, 1.0, 0.0)
+        )
         place = np.array([near[0], 0.0, height])
-        shares.append(Share.at(name, "z", change, place, Field(name, "z", walls, pieces)))
+        shares.append(Share.at(name, "z", change, place, StackedField(name, "z", walls, pieces)))
     effect = np.array([[each.effect(anchor) / each.change for each in shares] for anchor in shares])
     size = np.linalg.solve(effect, [share.change for share in shares])
     yield f"W = {effect.round(6).tolist()}, condition {np.linalg.cond(effect):.0f}"
     yield f"sizes that would be needed for 1.0 and 0.4 m: {size.round(1).tolist()}"
     try:
-        solve(shares)
+        solve_field_sizes(shares)
     except AssocHullError as error:
         yield f"refused: {error}"
 
@@ -62,7 +63,7 @@ def together(state: HullState) -> Iterator[str]:
         if name in now
     }  # fmt: skip
     layout = Layout()
-    vmap = compose(parent, asked, layout)
+    vmap = compose_map(parent, asked, layout)
     worst = 0.0
     for name in asked:
         share = CATALOGUE[name].lays(parent, asked[name], layout)  # type: ignore[misc]

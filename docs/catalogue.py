@@ -7,9 +7,8 @@ hand. `tests/unit/test_docs.py` compares.
 from collections.abc import Iterator
 from pathlib import Path
 
-from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.parameter import SHAPE, Parameter
-from assoc_hull.analysis.form.tables import GIVEN, TITLES, by_table
+from assoc_hull.analysis.form.catalogue import CATALOGUE, GIVEN, TITLES, by_table
+from assoc_hull.analysis.form.parameter import SHAPE, FormParameter
 
 PAGE = Path(__file__).resolve().parent / "parameters.md"
 MARK = "<!-- Made by `python docs/catalogue.py`; what stands below is not edited by hand. -->\n"
@@ -27,7 +26,7 @@ def tables() -> str:
     return "\n".join([*lines, "", *cited(sources)]) + "\n"
 
 
-def row(entry: Parameter, sources: list[str]) -> str:
+def row(entry: FormParameter, sources: list[str]) -> str:
     """Give the line of an entry."""
     datum = "" if entry.datum == "-" else f"; {entry.datum}"
     measured = "given" if entry.table == GIVEN else "the hull"

@@ -46,19 +46,19 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
 
-from assoc_hull.analysis.form.curve_transforms import curve_transform
-from assoc_hull.analysis.form.report import form_report
-from assoc_hull.analysis.form.screw import Screw
-from assoc_hull.analysis.hydrostatics.hydrostatics import hydrostatic_table
-from assoc_hull.analysis.panels.build import panels
+from assoc_hull.analysis.form.curve_transform import curve_transform
+from assoc_hull.analysis.form.floating_shape import Screw
+from assoc_hull.analysis.form.form_parameters import form_report
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatic_table
+from assoc_hull.analysis.panels.hull_panels import panels
 from assoc_hull.analysis.stability.flooding import FloodingPoint
-from assoc_hull.analysis.stability.stability import stability
+from assoc_hull.analysis.stability.stability_report import stability
 from assoc_hull.creation.form_curve import FormCurve
 from assoc_hull.plot import definition_curves, lines_plan, neighbourhood
 from assoc_hull.plot.diagrams.curve_series import curve_series
 from assoc_hull.plot.diagrams.form_curve import form_curve_picture
-from assoc_hull.plot.diagrams.form_sheet import form_sheets
-from assoc_hull.plot.diagrams.hydrostatic_curves import hydrostatic_curves
+from assoc_hull.plot.diagrams.form_report import form_sheets
+from assoc_hull.plot.diagrams.hydrostatics import hydrostatic_curves
 from assoc_hull.plot.diagrams.stability import lever_picture
 from assoc_hull.plot.plates.panel_plan import panel_plan
 from assoc_hull.sources import examples

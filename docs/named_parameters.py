@@ -15,15 +15,13 @@ from typing import Any
 import attrs
 
 import assoc_hull as ah
-from assoc_hull.variation.carrying.listing import Listed, listing
-from assoc_hull.variation.fields.field import Region
+from assoc_hull.variation.carrying.admissible_values import ListedParameter, list_parameters
+from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.parameters.main_layer import main_layer
+from assoc_hull.variation.parameters.field_layout import Layout, Share
+from assoc_hull.variation.parameters.parameter_fields import main_layer
 from assoc_hull.variation.parameters.parameter_measures import measure_all
-from assoc_hull.variation.parameters.parent_places import Parent
-from assoc_hull.variation.parameters.read_parent import parent_of
-from assoc_hull.variation.parameters.share import Share
+from assoc_hull.variation.parameters.parent import Parent, parent_of
 
 PAGE = Path(__file__).resolve().parent / "variation.md"
 MARK = "<!-- Made by `python docs/named_parameters.py`; edit nothing from here ... -->\n"
@@ -35,7 +33,7 @@ def tables() -> str:
     """Give what the parameters are, and what moves, as Markdown."""
     hull = ah.examples.bulk_carrier_207k()
     found = measure_all(hull.state)
-    parent, listed = parent_of(hull.state, found), listing(hull.state)
+    parent, listed = parent_of(hull.state, found), list_parameters(hull.state)
     lines = ["", "| parameter | in formulas | unit | what it is | how it is measured | not with |"]
     lines += ["|---|---|---|---|---|---|"]
     lines += [_what(each, found.anchors[each.name].how) for each in listed]
@@ -45,13 +43,13 @@ def tables() -> str:
     return "\n".join(lines) + "\n\n"
 
 
-def _what(each: Listed, how: str) -> str:
+def _what(each: ListedParameter, how: str) -> str:
     entry = CATALOGUE[each.name]
     apart = ", ".join(f"`{other}`" for other in each.conflicts)
     return _row(f"`{each.name}`", entry.short, entry.unit, entry.meaning, how, apart)
 
 
-def _moves(each: Listed, parent: Parent) -> str:
+def _moves(each: ListedParameter, parent: Parent) -> str:
     layout = _Told()
     regions = _regions(each, parent, layout)
     reaches = ", ".join(
@@ -65,7 +63,7 @@ def _moves(each: Listed, parent: Parent) -> str:
     )
 
 
-def _regions(each: Listed, parent: Parent, layout: Layout) -> tuple[Region, ...]:
+def _regions(each: ListedParameter, parent: Parent, layout: Layout) -> tuple[FieldRegion, ...]:
     """Give the boxes of what moves where a parameter is a little more than it is."""
     value, lays = each.value, CATALOGUE[each.name].lays
     assert value is not None
@@ -96,7 +94,7 @@ class _Told(Layout):
         return object.__getattribute__(self, name)
 
 
-def _where(region: Region) -> str:
+def _where(region: FieldRegion) -> str:
     """Give a region in words; a coordinate that does not bound it is not told."""
     parts = [
         words for axis, ends in (("x", region.x), ("z", region.z)) if (words := _span(axis, ends))

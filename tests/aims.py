@@ -6,8 +6,8 @@ from typing import Any
 
 import assoc_hull as ah
 from assoc_hull.variation.aiming.hull_problem import HullProblem
-from assoc_hull.variation.aiming.reach import problem_of
-from assoc_hull.variation.ask import Ask
+from assoc_hull.variation.aiming.reach_targets import problem_of
+from assoc_hull.variation.request import VariationRequest
 
 FULLER = {
     "name": "fuller",
@@ -43,5 +43,7 @@ def small() -> ah.Hull:
 
 def problem(hull: ah.Hull, reach: list[str], free: list[Any], **more: Any) -> HullProblem:
     """Give the problem of outputs by what is free."""
-    ask = Ask.of(more.pop("set", None), reach=dict.fromkeys(reach, 1.0), free=free, **more)
+    ask = VariationRequest.of(
+        more.pop("set", None), reach=dict.fromkeys(reach, 1.0), free=free, **more
+    )
     return problem_of(hull.state, ask)

@@ -15,8 +15,8 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.classical.arcs import Arcs
-from assoc_hull.geometry.classical.biarc_family import BiarcChords, shared
+from assoc_hull.geometry.classical.biarc_family import BiarcChords, biarcs_of_shares
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
 __all__ = ["PlaneCurve", "fewest_exact", "fewest_tilted", "fits_one"]
@@ -84,7 +84,7 @@ def _biarcs_fit(
         curve.breaks[own], curve.angle[own],
     )  # fmt: skip
     share = (shares * shape).ravel()
-    arcs, _ = shared(chords, share, 1.0 - share)
+    arcs, _ = biarcs_of_shares(chords, share, 1.0 - share)
     part = np.linspace(0.0, 1.0, samples + 2)[1:-1]
     number = np.round((i + (ends - i)[:, None] * part) * curve.between).astype(int)
     places = np.repeat(curve.places[number], k, axis=0).reshape(-1, 2)
@@ -99,7 +99,7 @@ def _course(curve: PlaneCurve, i: int, j: int) -> float:
     return float(np.arctan2(step[1], step[0]))
 
 
-def _off(arcs: Arcs, per: int, places: FloatArray) -> FloatArray:
+def _off(arcs: PlaneArcs, per: int, places: FloatArray) -> FloatArray:
     """The largest distance of places from each of several chains of `per` arcs."""
     chains = len(arcs) // per
     number = np.arange(len(arcs)).reshape(chains, per)
@@ -149,7 +149,7 @@ def _lands(curve: PlaneCurve, i: int, tilt: float, within: float) -> bool:
         curve.breaks[i] * ones[:, None], (curve.angle[i] + tilt) * ones,
         curve.breaks[j] * ones[:, None], curve.angle[j] * ones,
     )  # fmt: skip
-    arcs, _ = shared(chords, SHARES, 1.0 - SHARES)
+    arcs, _ = biarcs_of_shares(chords, SHARES, 1.0 - SHARES)
     return bool(_off(arcs, 2, curve.inner(i, j)).min() <= within)
 
 

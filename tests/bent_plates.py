@@ -6,7 +6,7 @@ import numpy as np
 from scipy.integrate import quad
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.numeric.tensor_bernstein import basis
+from assoc_hull.geometry.numeric.tensor_bernstein import bernstein_basis
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
 Shape = Callable[[FloatArray, FloatArray], tuple[FloatArray, ...]]
@@ -17,7 +17,7 @@ def interpolated(shape: Shape, m: int = 7, n: int = 7, name: str = "") -> Spline
     at = [np.cos(np.pi * np.arange(degree, -1, -1) / degree) for degree in (m, n)]
     u, v = np.meshgrid(*at, indexing="ij")
     place = np.stack(np.broadcast_arrays(*shape(u, v)), axis=-1)
-    rows, columns = (basis(d, 0.5 + 0.5 * t) for d, t in zip((m, n), at, strict=True))
+    rows, columns = (bernstein_basis(d, 0.5 + 0.5 * t) for d, t in zip((m, n), at, strict=True))
     net = np.linalg.solve(rows, place.reshape(m + 1, -1)).reshape(place.shape)
     net = np.linalg.solve(columns, np.swapaxes(net, 0, 1).reshape(n + 1, -1))
     return SplineSurface.bezier(np.swapaxes(net.reshape(n + 1, m + 1, 3), 0, 1), name)

@@ -28,7 +28,7 @@ class HalfSection:
 
     def at(self, z: float) -> float:
         """Half-breadth; m."""
-        return float(form.half_breadth(self.x, z))
+        return float(form.carrier_half_breadth(self.x, z))
 
     @property
     def area(self) -> float:
@@ -41,7 +41,7 @@ class HalfSection:
         The keel is on the base line here, and the flat of bottom narrow or none.
         """
         z, dz = carrier_truth.between(np.linspace(low, DRAUGHT, 60).tolist())
-        return float((form.half_breadth(self.x, z) - self.at(DRAUGHT) * z / DRAUGHT) @ dz)
+        return float((form.carrier_half_breadth(self.x, z) - self.at(DRAUGHT) * z / DRAUGHT) @ dz)
 
     def radius(self) -> float:
         """Of the circle through the places at a quarter, a half and three quarters of T."""
@@ -89,8 +89,8 @@ def bulb_area() -> float:
 def transom_below(draught: float) -> tuple[float, float]:
     """Area of the transom below a waterline, and its breadth there; m2, m."""
     z, dz = carrier_truth.between([form.TRANSOM_LOW, draught])
-    y = form.half_breadth(np.full_like(z, form.TRANSOM), z)
-    return 2.0 * float(y @ dz), 2.0 * float(form.half_breadth(form.TRANSOM, draught))
+    y = form.carrier_half_breadth(np.full_like(z, form.TRANSOM), z)
+    return 2.0 * float(y @ dz), 2.0 * float(form.carrier_half_breadth(form.TRANSOM, draught))
 
 
 def overhang(x: float) -> float:
@@ -109,7 +109,7 @@ def _bow() -> tuple[FloatArray, FloatArray]:
     """Many places of the design waterline forward of its shoulder, dense at the stem; m."""
     shoulder, end = float(form.fore_shoulder(DRAUGHT)), float(form.fore_end(DRAUGHT))
     x = end - (end - shoulder) * np.linspace(1.0, 0.0, 200001) ** 4
-    return x, form.half_breadth(x, np.full_like(x, DRAUGHT))
+    return x, form.carrier_half_breadth(x, np.full_like(x, DRAUGHT))
 
 
 def bluntness() -> float:
@@ -122,4 +122,6 @@ def bluntness() -> float:
 def run_angle(fore: float) -> float:
     """Of the chord of the waterline at T/2 from its after end to a place; degrees."""
     x, y = form.aft_end(0.5 * DRAUGHT)
-    return math.degrees(math.atan2(float(form.half_breadth(fore, 0.5 * DRAUGHT)) - y, fore - x))
+    return math.degrees(
+        math.atan2(float(form.carrier_half_breadth(fore, 0.5 * DRAUGHT)) - y, fore - x)
+    )

@@ -54,7 +54,7 @@ def waterline(z: float, aft: float = -np.inf, fore: float = np.inf) -> Waterline
     places = {*PLACES, float(form.aft_shoulder(z)), float(form.fore_shoulder(z))}
     inner = sorted(each for each in places if low < each < high)
     x, dx = between([low, *inner, high] if low < high else [low, low])
-    return Waterline(x, form.half_breadth(x, np.full_like(x, z)), dx)
+    return Waterline(x, form.carrier_half_breadth(x, np.full_like(x, z)), dx)
 
 
 @attrs.frozen
@@ -94,10 +94,12 @@ def volumes(aft: float = -np.inf, fore: float = np.inf) -> Sums:
 def area_of(x: float) -> float:
     """The section at a place below the design waterline; m2."""
     total = 0.0
-    for low, high in form.pieces(x):
+    for low, high in form.height_ranges(x):
         top = min(high, DRAUGHT)
         side = form.side_height(x)
         levels = {*LEVELS, 0.0 if side is None else side}
         z, dz = between([low, *sorted(each for each in levels if low < each < top), top])
-        total += 2.0 * float(form.half_breadth(np.full_like(z, x), z) @ dz) if top > low else 0.0
+        total += (
+            2.0 * float(form.carrier_half_breadth(np.full_like(z, x), z) @ dz) if top > low else 0.0
+        )
     return total

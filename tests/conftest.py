@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from assoc_hull.hull import Hull
-from assoc_hull.io.slicing.report import SliceReport
+from assoc_hull.io.slicing.net import SliceReport
 from assoc_hull.shell import HullSurface, surface
 from assoc_hull.sources import Examples, examples
 from tests.cases.dtc import read_dtc_with_report

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from assoc_hull.geometry.form_curves.basis import area_table, moment_table
+from assoc_hull.geometry.form_curves.integrals import area_table, moment_table
 
 _BITS = 160
 _AREA, _MOMENT = 720, 181440

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from assoc_hull.analysis.form.parameter import Parameter, parameter
-from assoc_hull.analysis.form.value import Absent, Found, Warned
+from assoc_hull.analysis.form.parameter import (
+    Absent,
+    FormParameter,
+    MeasuredValue,
+    Warned,
+    parameter,
+)
 
 __all__ = ["bare", "doubted", "many", "passed_on"]
 
@@ -12,7 +17,7 @@ __all__ = ["bare", "doubted", "many", "passed_on"]
     "bare", name="what no hull has", unit="m", table="hull form", definition="none", source="-",
     needs=("Lpp",),
 )  # fmt: skip
-def bare(length: float) -> Found:
+def bare(length: float) -> MeasuredValue:
     """Give none."""
     return Absent("no such thing")
 
@@ -21,7 +26,7 @@ def bare(length: float) -> Found:
     "passed on", name="half of what no hull has", unit="m", table="hull form",
     definition="bare / 2", source="-", needs=("bare",),
 )  # fmt: skip
-def passed_on(half: float) -> Found:
+def passed_on(half: float) -> MeasuredValue:
     """Give what comes of another."""
     return 0.5 * half
 
@@ -31,16 +36,16 @@ def passed_on(half: float) -> Found:
     unit="m2", table="bulb and resistance", definition="=Lpp / 40", source="-", needs=("Lpp",),
     digits=2,
 )  # fmt: skip
-def doubted(length: float) -> Found:
+def doubted(length: float) -> MeasuredValue:
     """Give a number to be read with care."""
     return Warned(length / 40.0, "to be read with care")
 
 
-def many(count: int) -> list[Parameter]:
+def many(count: int) -> list[FormParameter]:
     """Give so many entries, every fifth without a value for a reason of its own."""
 
-    def entry(k: int) -> Parameter:
-        def compute(length: float) -> Found:
+    def entry(k: int) -> FormParameter:
+        def compute(length: float) -> MeasuredValue:
             return Absent(f"reason {k}, which is told at some length") if k % 5 == 0 else k * length
 
         made = parameter(f"E{k}", name=f"entry {k}", unit="m", table="hull form",

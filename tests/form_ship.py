@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from assoc_hull.model.definition_part import FormDefinition
-from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.state import Particulars
+from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.forms.form_values import Forms
+from assoc_hull.model.tables import Particulars
 
 PARTICULARS = Particulars("plain ship", 180.0, 28.0, 15.6, 10.5)
 

@@ -188,7 +188,7 @@ def _waterplanes() -> dict[str, float]:
         "Aw": plane.amount, "LCF": plane.x, "I_T": across, "I_L": along,
         "Aw_a": aft.amount, "Aw_f": fore.amount, "LCFa": aft.x, "LCFf": fore.x,
         "Aw_st5": carrier_truth.flotation_of(fore=75.0).amount,
-        "b_st5": float(form.half_breadth(75.0, 18.0)), "LWL": 300.0 - form.aft_end(18.0)[0],
+        "b_st5": float(form.carrier_half_breadth(75.0, 18.0)), "LWL": 300.0 - form.aft_end(18.0)[0],
         "Bluntness": carrier_ends.bluntness(),
     }  # fmt: skip
 
@@ -217,7 +217,7 @@ def _ends() -> dict[str, float]:
     area, lateral = carrier_truth.area_of(300.0), carrier_ends.bulb_area()
     z = np.linspace(0.0, 18.0, 180001)
     breadth = 2.0 * float(
-        np.where(form.fore_end(z) > 300.0, form.half_breadth(300.0, z), 0.0).max()
+        np.where(form.fore_end(z) > 300.0, form.carrier_half_breadth(300.0, z), 0.0).max()
     )
     return {
         "BL": 6.4, "BLR": 6.4 / 300.0, "BH": 7.0, "BW": breadth, "Abulb": area, "LBA": lateral,

@@ -3,19 +3,19 @@
 import attrs
 import numpy as np
 
-from assoc_hull.edit.adoption.adopt import adopt
+from assoc_hull.edit.adoption.adopt_lines import adopt
 from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.definition.definition import definition
+from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import from_definition
-from assoc_hull.model.definition_part import FormDefinition, GeneratedCurve
-from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.generate import generated_points, marks_for
-from assoc_hull.model.forms.layout import layout_at
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.forms.form_values import Forms
+from assoc_hull.model.forms.generate_points import generated_points, marks_for
+from assoc_hull.model.forms.line_layout import layout_at
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.state import Association, Ends, HullState, Particulars
+from assoc_hull.model.tables import Association, Ends, HullState, Particulars
 
 __all__ = ["SHIP", "STATIONS", "formed", "formed_definitions"]
 

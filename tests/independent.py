@@ -15,7 +15,7 @@ from scipy.interpolate import PPoly
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = [
     "Root",

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from assoc_hull.hull import Hull
-from assoc_hull.model.definition.definition import definition, published
+from assoc_hull.model.definition.records import definition, published
 from assoc_hull.model.definition.restore import from_definition
 
 __all__ = ["scaled", "turned"]

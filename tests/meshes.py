@@ -7,7 +7,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles, merge_vertices
-from assoc_hull.shipped.wigley import half_breadth
+from assoc_hull.shipped.wigley import wigley_half_breadth
 
 L, B, T = 100.0, 10.0, 6.25
 """Main dimensions of the Wigley hull here, m."""
@@ -15,7 +15,7 @@ L, B, T = 100.0, 10.0, 6.25
 
 def wigley_y(x: FloatArray, z: FloatArray) -> FloatArray:
     """Half-breadth of the Wigley hull, m."""
-    return half_breadth(x, z, L, B, T)
+    return wigley_half_breadth(x, z, L, B, T)
 
 
 def wigley_half(nx: int = 81, nz: int = 31) -> Triangles:

@@ -23,11 +23,9 @@ from assoc_hull.edit.session import Edit
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
-from assoc_hull.model.curve import Curve
 from assoc_hull.model.kinds import BoundaryKind
-from assoc_hull.model.line import Line
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.point import Point
+from assoc_hull.model.objects import Curve, Line, Point
 from tests.strategies import Form, Net, net_of, wigley_sources
 
 __all__ = [

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from assoc_hull.edit.adoption.adopt import adopt
+from assoc_hull.edit.adoption.adopt_lines import adopt
 from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import Association, Ends, HullState, Particulars
-from assoc_hull.shipped.wigley import half_breadth
+from assoc_hull.model.tables import Association, Ends, HullState, Particulars
+from assoc_hull.shipped.wigley import wigley_half_breadth
 
 __all__ = ["ellipsoid_net", "wigley_net"]
 
@@ -92,12 +92,16 @@ def wigley_net(stations: int, waterlines: int) -> HullState:
     ]  # fmt: skip
     for height in [*z[1:].tolist(), deck]:
         level = np.full(len(x), height)
-        sheer = float(half_breadth(np.array(0.5 * length), np.array(height), *hull)) * 4.0 / length
+        sheer = (
+            float(wigley_half_breadth(np.array(0.5 * length), np.array(height), *hull))
+            * 4.0
+            / length
+        )
         sources.append(
             LineSource.make(
                 "boundary" if height == deck else "waterlines",
                 "deck edge" if height == deck else f"WL {height:g}",
-                np.column_stack([x, half_breadth(x, level, *hull), level]),
+                np.column_stack([x, wigley_half_breadth(x, level, *hull), level]),
                 plane=((0, 0, 1), height) if height == deck else None,
                 boundary=BoundaryKind.END if height == deck else None,
                 ends=Ends((1, 1), ((1.0, sheer, 0.0), (1.0, -sheer, 0.0))),
@@ -116,9 +120,9 @@ def _frame(name: str, x: float, z: FloatArray, hull: tuple[float, float, float])
     level = np.full(len(z), x)
     kind = np.zeros(len(z), int)
     kind[-2] = PointKind.TANGENT
-    flare = float(half_breadth(np.array(x), np.array(hull[2]), *hull)) * 2.0 / hull[2]
+    flare = float(wigley_half_breadth(np.array(x), np.array(hull[2]), *hull)) * 2.0 / hull[2]
     return LineSource.make(
-        "sections", name, np.column_stack([level, half_breadth(level, z, *hull), z]),
+        "sections", name, np.column_stack([level, wigley_half_breadth(level, z, *hull), z]),
         kind=kind.tolist(),
         direction=np.where((kind > 0)[:, None], [0.0, 0.0, 1.0], 0.0),
         ends=Ends((1, 1), ((0.0, flare, 1.0), (0.0, 0.0, 1.0))),

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.algebra import binomials
+from assoc_hull.geometry.patches.bernstein_polynomials import binomials, power_table
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction
-from assoc_hull.geometry.patches.roots import powers
 
 _EPS = 2.0**-53
 
@@ -54,5 +53,5 @@ def _bernstein(degree: int, t: FloatArray, rest: FloatArray) -> FloatArray:
     """Give the Bernstein polynomials (q, degree + 1) at places t, of which 1 - t is given too."""
     if degree == 0:
         return np.ones((len(t), 1))
-    table = powers(t, degree + 1) * powers(rest, degree + 1)[::-1]
+    table = power_table(t, degree + 1) * power_table(rest, degree + 1)[::-1]
     return np.asarray(table.T * binomials(degree))

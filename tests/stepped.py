@@ -7,17 +7,16 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.derivatives.parameters import Parameter, Position, Shape
-from assoc_hull.analysis.derivatives.tangent_flotation import Varied
-from assoc_hull.analysis.hydrostatics.compute import values_at
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition, planes_of
-from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
-from assoc_hull.analysis.hydrostatics.hydrostatic_header import HydrostaticHeader
-from assoc_hull.analysis.hydrostatics.measured_hull import HasState, header_of
-from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.analysis.derivatives.parameters import Parameter, Position, ShapeParameter
+from assoc_hull.analysis.derivatives.tangent_flotation import TangentFlotation
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, planes_of
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation, header_of
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import values_at
+from assoc_hull.analysis.hydrostatics.record import FIELDS, HydrostaticHeader
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.tables import HasState
 from tests.complex_loft import as_batch
 
 __all__ = ["Floats"]
@@ -58,7 +57,7 @@ class Floats:
                 number + 1j * STEP * rate
                 for number, rate in zip(attrs.astuple(plane), rates, strict=True)
             ]
-            values = values_at(self.body, Planes(*numbers), self.header)
+            values = values_at(self.body, FloatingPlanes(*numbers), self.header)
         else:
             values = values_at(self._varied(parameter, 1j * STEP), plane, self.header)
         return {name: float(np.imag(values[name][0])) / STEP for name in FIELDS}
@@ -91,13 +90,13 @@ class Floats:
             values = values_at(self._varied(parameter, amount), plane, self.header)
         return {name: float(value[0]) for name, value in values.items()}
 
-    def _varied(self, parameter: Parameter, amount: complex) -> Varied:
+    def _varied(self, parameter: Parameter, amount: complex) -> TangentFlotation:
         """The hull whose points have moved by a plain or complex amount."""
-        assert isinstance(parameter, Shape)
+        assert isinstance(parameter, ShapeParameter)
         curve, state = self.body.net.curve, self.body.state
         row = np.concatenate([state.curves.rows.data[each] for each in curve.tolist()])
         data = curve_data(state, curve)
         points: Any = amount * parameter.moves(state)[0] + state.rows.xyz.data[: state.rows.count]
         plain = np.isrealobj(points)
         batch = loft(attrs.evolve(data, xyz=points[row])) if plain else as_batch(data, points[row])
-        return Varied(self.body, batch, points)
+        return TangentFlotation(self.body, batch, points)

@@ -11,7 +11,7 @@ import numpy as np
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
-from assoc_hull.edit.adoption.adopt import adopt
+from assoc_hull.edit.adoption.adopt_lines import adopt
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.transaction import Transaction
@@ -19,7 +19,7 @@ from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import Association, HullState, Particulars
+from assoc_hull.model.tables import Association, HullState, Particulars
 
 __all__ = [
     "Form",

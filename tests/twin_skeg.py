@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 import assoc_hull as ah
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.shipped import bulk_carrier_207k_form as form
-from assoc_hull.shipped.carrier_lines import station
+from assoc_hull.shipped.bulk_carrier_207k import station
 
 __all__ = [
     "AFT", "BILGE", "DRAUGHT", "EDGE", "FORE", "LEAN", "LENGTH", "RISE", "RUN", "SCREW", "TRANSOM",
@@ -145,7 +145,7 @@ def _deck_edge() -> LineSource:
     fore, end = float(form.fore_shoulder(DEPTH)), float(form.fore_end(DEPTH))
     ahead = fore + (end - fore) * np.sin(np.linspace(0.0, np.pi / 2.0, 50))[1:]
     x = np.concatenate([run, [fore], ahead])
-    y = np.concatenate([breadth(run), [HALF], form.half_breadth(ahead, DEPTH)])
+    y = np.concatenate([breadth(run), [HALF], form.carrier_half_breadth(ahead, DEPTH)])
     y[-1] = 0.0
     kind = [_SMOOTH] * len(x)
     direction = np.zeros((len(x), 3))

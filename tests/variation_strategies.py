@@ -10,16 +10,19 @@ from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.fields.blend import CUBIC, QUINTIC, Blend
-from assoc_hull.variation.fields.bump import Bump, Shape
-from assoc_hull.variation.fields.corner import CornerLayer
-from assoc_hull.variation.fields.field import Axis, Boundary, Field, Piece, Tube
-from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
-from assoc_hull.variation.fields.hat import hat
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.piecewise_linear import Chain, Contour, Course
-from assoc_hull.variation.fields.shear import DeadriseLayer
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.fields.anchor_fields import hat_field
+from assoc_hull.variation.fields.bounded_functions import (
+    CUBIC,
+    QUINTIC,
+    Blend,
+    BlendChain,
+    BoundedFunction,
+    Contour,
+)
+from assoc_hull.variation.fields.field import AffinePiece, Axis, Boundary, StackedField, Tube
+from assoc_hull.variation.fields.layers import CornerLayer, DeadriseLayer, FieldLayer, Layer, Rake
+from assoc_hull.variation.fields.shift_shapes import Bump, BumpShape
+from assoc_hull.variation.fields.space_map import VariationMap
 
 __all__ = [
     "BEAM",
@@ -43,7 +46,7 @@ __all__ = [
 
 LENGTH, BEAM, DEPTH = 240.0, 40.0, 20.0
 
-_SHAPES: tuple[Shape, ...] = ("c1", "c2", "end", "half", "lackenby")
+_SHAPES: tuple[BumpShape, ...] = ("c1", "c2", "end", "half", "lackenby")
 
 blends: SearchStrategy[Blend] = st.sampled_from([CUBIC, QUINTIC])
 
@@ -56,14 +59,14 @@ def _nodes(draw: DrawFn, most: int) -> FloatArray:
 
 
 @st.composite
-def chains(draw: DrawFn, low: float = 0.0, high: float = 1.0, most: int = 4) -> Chain:
+def chains(draw: DrawFn, low: float = 0.0, high: float = 1.0, most: int = 4) -> BlendChain:
     """Chains of values between two numbers; some of one node, many that fade to `low`."""
     if draw(st.integers(0, 5)) == 0:
-        return Chain.constant(draw(st.floats(low, high)))
+        return BlendChain.constant(draw(st.floats(low, high)))
     nodes = _nodes(draw, most)
     value = st.one_of(st.just(low), st.floats(low, high))
     values = draw(st.lists(value, min_size=len(nodes), max_size=len(nodes)))
-    return Chain.through(nodes, values, draw(blends))
+    return BlendChain.through(nodes, values, draw(blends))
 
 
 @st.composite
@@ -83,7 +86,7 @@ def bumps(draw: DrawFn, size: float = 1.0) -> Bump:
     return Bump(begin, end, draw(st.floats(-size, size)), draw(st.sampled_from(_SHAPES)))
 
 
-def courses() -> SearchStrategy[Course]:
+def courses() -> SearchStrategy[BoundedFunction]:
     """Functions along the ship of every kind."""
     return st.one_of(chains(-1.0, 1.0), contours(-1.0, 1.0), bumps())
 
@@ -99,13 +102,13 @@ def _stacks(draw: DrawFn) -> tuple[tuple[Boundary, ...], float]:
     for k, height in enumerate(heights.tolist()):
         tilt = draw(slope)
         x = sorted(draw(st.tuples(st.floats(0.0, 100.0), st.floats(130.0, 240.0))))
-        course = Chain.through(x, [height, height + tilt], draw(blends))
-        curves.append(Boundary(f"h{k}", course if tilt else Chain.constant(height)))
+        course = BlendChain.through(x, [height, height + tilt], draw(blends))
+        curves.append(Boundary(f"h{k}", course if tilt else BlendChain.constant(height)))
     return tuple(curves), 0.7 * gap
 
 
 @st.composite
-def fields(draw: DrawFn, axis: Axis | None = None, strength: float = 1.0) -> Field:
+def fields(draw: DrawFn, axis: Axis | None = None, strength: float = 1.0) -> StackedField:
     """Fields with one to four boundaries; about as strong as certified ones are."""
     moved: Axis = draw(st.sampled_from(["x", "y", "z"])) if axis is None else axis
     boundaries, gap = draw(_stacks())
@@ -118,16 +121,18 @@ def fields(draw: DrawFn, axis: Axis | None = None, strength: float = 1.0) -> Fie
             "y": 0.0,
             "z": float(each.height.at(np.zeros(1))[0]),
         }
-        pieces.append(Piece(draw(chains(-ratio, ratio)), pivot[moved], draw(chains(-shift, shift))))
+        pieces.append(
+            AffinePiece(draw(chains(-ratio, ratio)), pivot[moved], draw(chains(-shift, shift)))
+        )
     if draw(st.booleans()):
-        pieces[0] = Piece(Chain.constant(0.0), 0.0, Chain.constant(0.0))
+        pieces[0] = AffinePiece(BlendChain.constant(0.0), 0.0, BlendChain.constant(0.0))
     tube = Tube(draw(st.floats(0.5, 3.0)), 6.0, draw(blends)) if moved == "y" else None
     tube = draw(st.sampled_from([None, tube]))
-    return Field("drawn", moved, boundaries, tuple(pieces), draw(blends), tube)
+    return StackedField("drawn", moved, boundaries, tuple(pieces), draw(blends), tube)
 
 
 @st.composite
-def hats(draw: DrawFn, strength: float = 1.0) -> Field:
+def hats(draw: DrawFn, strength: float = 1.0) -> StackedField:
     """Rounded hats of z over three to five anchors."""
     gaps = draw(st.lists(st.floats(3.0, 8.0), min_size=2, max_size=4))
     z = draw(st.floats(-1.0, 3.0)) + np.concatenate([[0.0], np.cumsum(gaps)])
@@ -136,7 +141,7 @@ def hats(draw: DrawFn, strength: float = 1.0) -> Field:
     anchors = [
         (f"a{k}", *pair) for k, pair in enumerate(zip(z.tolist(), [0.0, *inner, 0.0], strict=True))
     ]
-    return hat("hat", anchors, draw(chains()), blend=draw(blends))
+    return hat_field("hat", anchors, draw(chains()), blend=draw(blends))
 
 
 @st.composite
@@ -160,7 +165,7 @@ def field_layers(draw: DrawFn, strength: float = 1.0) -> FieldLayer:
 def corner_layers(draw: DrawFn, strength: float = 1.0) -> CornerLayer:
     """Bilges that become larger or smaller, with and without rise of floor."""
     radius = draw(st.floats(1.0, 3.0))
-    fade = Chain.through([radius, 5.0 * radius], [1.0, 0.0], draw(blends))
+    fade = BlendChain.through([radius, 5.0 * radius], [1.0, 0.0], draw(blends))
     ratio = st.floats(1.0 - 0.2 * strength, 1.0 + 0.2 * strength)
     rise = draw(st.sampled_from([0.0, 0.03]))
     return CornerLayer("corner", draw(chains()), 0.5 * BEAM, draw(st.floats(0.0, 1.0)), rise,
@@ -171,7 +176,7 @@ def corner_layers(draw: DrawFn, strength: float = 1.0) -> CornerLayer:
 def deadrise_layers(draw: DrawFn, strength: float = 1.0) -> DeadriseLayer:
     """Bottoms that rise outward from the keel, ramped or not."""
     q = draw(st.floats(-0.03, 0.03)) * strength
-    fade = Chain.through([4.0, 14.0], [1.0, 0.0], draw(blends))
+    fade = BlendChain.through([4.0, 14.0], [1.0, 0.0], draw(blends))
     width = draw(st.sampled_from([0.0, 2.0]))
     return DeadriseLayer("deadrise", draw(chains()), q, draw(st.floats(0.0, 2.0)), width, fade,
                          draw(blends))  # fmt: skip
@@ -183,9 +188,9 @@ def layers(strength: float = 1.0) -> SearchStrategy[Layer]:
 
 
 @st.composite
-def maps(draw: DrawFn, strength: float = 1.0, most: int = 3) -> VMap:
+def maps(draw: DrawFn, strength: float = 1.0, most: int = 3) -> VariationMap:
     """Up to `most` layers, one after the other."""
-    return VMap(tuple(draw(st.lists(layers(strength), min_size=1, max_size=most))))
+    return VariationMap(tuple(draw(st.lists(layers(strength), min_size=1, max_size=most))))
 
 
 @st.composite

@@ -1,26 +1,188 @@
-"""Lines of a net laid into their planes and fitted by arcs, all in one batch."""
+"""Lines of a net as chains of arcs for production, each in its plane.
+
+Lines are laid into their planes and fitted in one batch; what no arcs within the limits can follow
+is refused by name, with the place. `ArcLines` holds the result and what is said of it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
-from assoc_hull.analysis.arc_lines import ArcLine, ArcLines
 from assoc_hull.errors import BadInputError, GeometryError, WrongTypeError
 from assoc_hull.geometry.classical.arc_fit import ArcFit, fit_arcs
-from assoc_hull.geometry.classical.checks import figure
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.classical.checked_input import digits
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
+from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.plane import unit_normal
 from assoc_hull.geometry.polylines.flats import fit_plane
-from assoc_hull.geometry.splines.segments import power
-from assoc_hull.model.curve import Curve
-from assoc_hull.model.handles import handle
-from assoc_hull.model.line import Group, Line
-from assoc_hull.model.state import HullState
+from assoc_hull.geometry.splines.segments import power_coefficients
+from assoc_hull.model.objects import Curve, Group, Line, handle
+from assoc_hull.model.tables import HullState
 
-__all__ = ["arc_lines", "curves_of", "drawing_axes"]
+__all__ = [
+    "ArcLine",
+    "ArcLines",
+    "arc_lines",
+    "curves_of",
+    "drawing_axes",
+]
+
+# --------------------------------------------------------------------------------------
+# Lines of a hull as chains of arcs, each in its plane, and what is said of them.
+
+
+@attrs.frozen(eq=False)
+class ArcLine:
+    """One curve of a line as arcs.
+
+    Attributes
+    ----------
+    name : str
+        Address of the curve: the line, with a number if it is one of several; of a space curve
+        with the view: "deck edge (plan)".
+    group : str
+        Group of its line.
+    axes : (3, 3)
+        Unit vectors of the drawing plane, to the right and up, and its normal, which points to
+        whoever looks at it: (y, z) for sections, (x, y) for waterlines, (x, z) for buttocks.
+    height : float, m
+        Of the plane along the normal.
+    arcs : Arcs
+        In the plane, in order.
+    smooth : (n,) bool
+        Whether an arc begins in the direction in which the one before it ends; false for the
+        first, and at knuckles.
+    deviation : (2,), m
+        Largest distance of the curve from the arcs, and of the arcs from the curve.
+    place : (3,), m
+        Where the curve is farthest from its arcs.
+    points : int
+        Points of the net on the curve.
+    """
+
+    name: str
+    group: str
+    axes: FloatArray
+    height: float
+    arcs: PlaneArcs
+    smooth: NDArray[np.bool_]
+    deviation: FloatArray
+    place: FloatArray
+    points: int
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.axes, self.smooth, self.deviation, self.place)
+
+    @property
+    def least_radius(self) -> float:
+        """Of its arcs, m; infinite if all are straight."""
+        sharpest = float(np.abs(self.arcs.curvature).max())
+        return 1.0 / sharpest if sharpest > 0.0 else float("inf")
+
+    def in_space(self, places: FloatArray) -> FloatArray:
+        """Give places of the plane, (n, 2), m, in the axes of the hull, (n, 3), m."""
+        found: FloatArray = places @ self.axes[:2] + self.height * self.axes[2]
+        return found
+
+    def starts(self) -> FloatArray:
+        """Give where the arcs begin, (n, 3), m."""
+        return self.in_space(self.arcs.start)
+
+    def directions(self) -> FloatArray:
+        """Give unit vectors along the arcs where they begin, (n, 3)."""
+        angle = self.arcs.angle
+        found: FloatArray = np.stack([np.cos(angle), np.sin(angle)], axis=1) @ self.axes[:2]
+        return found
+
+    def centres(self) -> FloatArray:
+        """Give the centres, (n, 3), m; not a number for straight lines."""
+        found = self.arcs.centres()
+        return self.in_space(np.where(np.isfinite(found), found, np.nan))
+
+    def facts(self) -> dict[str, Any]:
+        """Give what is reported of it."""
+        return {
+            "line": self.name, "group": self.group, "arcs": len(self.arcs),
+            "straight": int((self.arcs.curvature == 0.0).sum()),
+            "deviation": float(self.deviation.max()),
+            "deviation_of_curve": float(self.deviation[0]),
+            "deviation_of_arcs": float(self.deviation[1]),
+            "place": self.place.tolist(), "least_radius": self.least_radius,
+            "net_points": self.points,
+        }  # fmt: skip
+
+
+@attrs.frozen(eq=False)
+class ArcLines:
+    """Lines of a hull as arcs.
+
+    Attributes
+    ----------
+    ship : str
+        Name of the hull.
+    within : float, m
+        Tolerance that was asked for.
+    allowed_radius : float, m
+        Least radius that was asked for; 0 if none was.
+    lines : tuple of ArcLine
+        In the order of the hull.
+    left_out : tuple of str
+        What is not among them, and why; a sentence each.
+    notes : tuple of str
+        What stands for a line that lies in no plane; a sentence each.
+    """
+
+    ship: str
+    within: float
+    allowed_radius: float
+    lines: tuple[ArcLine, ...]
+    left_out: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def count(self) -> int:
+        """Number of arcs."""
+        return sum(len(line.arcs) for line in self.lines)
+
+    @property
+    def deviation(self) -> float:
+        """Largest distance of a line and its arcs, both ways, m."""
+        return max((float(line.deviation.max()) for line in self.lines), default=0.0)
+
+    @property
+    def least_radius(self) -> float:
+        """Of all arcs, m; infinite if all are straight."""
+        return min((line.least_radius for line in self.lines), default=float("inf"))
+
+    @property
+    def one_per_interval(self) -> int:
+        """Arcs that one biarc between neighbouring points of the net would take."""
+        return sum(2 * max(line.points - 1, 1) for line in self.lines)
+
+    def facts(self) -> dict[str, Any]:
+        """Give the report as data."""
+        return {
+            "ship": self.ship, "within": self.within, "least_radius_asked": self.allowed_radius,
+            "arcs": self.count, "deviation": self.deviation, "least_radius": self.least_radius,
+            "one_biarc_per_interval": self.one_per_interval,
+            "lines": [line.facts() for line in self.lines], "left_out": list(self.left_out),
+            "notes": list(self.notes),
+        }  # fmt: skip
+
+    def __str__(self) -> str:
+        return (
+            f"{len(self.lines)} curves, {self.count} arcs, at most {1e3 * self.deviation:.3f} mm "
+            f"off, least radius {self.least_radius:.3f} m"
+        )
+
+
+# --------------------------------------------------------------------------------------
+# Lines of a net laid into their planes and fitted by arcs, all in one batch.
 
 _OFF_PLANE = 0.1
 """A curve that leaves its plane by more than this part of the tolerance is a space curve."""
@@ -132,7 +294,7 @@ def drawing_axes(normal: FloatArray) -> FloatArray:
 
 def _laid(curve: Curve, within: float) -> _Laid:
     """Lay a curve into its plane: that of its line, else the one that fits best."""
-    cubic = power(curve.spline)
+    cubic = power_coefficients(curve.spline)
     control = _control(cubic)
     plane = curve.line.plane
     normals = [] if plane is None else [plane.normal]
@@ -180,7 +342,7 @@ def _refused(error: GeometryError, lines: object) -> str:
 
 def _views(curve: Curve) -> list[_Laid]:
     """Give the two views of a space curve that show its length, in planes of the axes."""
-    cubic = power(curve.spline)
+    cubic = power_coefficients(curve.spline)
     control = _control(cubic)
     longest = int(np.argmax(control.max(axis=0) - control.min(axis=0)))
     found = []
@@ -206,10 +368,10 @@ def _lost(one: _Laid, sharpest: FloatArray, within: float, least_radius: float) 
     place = np.round(sharpest[:2] @ one.axes[:2] + one.height * one.axes[2], 3) + 0.0
     told = ", ".join(f"{value:g}" for value in place.tolist())
     radius = float(sharpest[2])
-    arcs = f"arcs of {figure(least_radius)} m and more" if least_radius > 0.0 else "arcs"
+    arcs = f"arcs of {digits(least_radius)} m and more" if least_radius > 0.0 else "arcs"
     return GeometryError(
         f"arcs: {one.name} has a radius of {radius:.4g} m at ({told}), "
-        f"{arcs} cannot follow it within {figure(1e3 * within)} mm",
+        f"{arcs} cannot follow it within {digits(1e3 * within)} mm",
         "allow a smaller radius or a wider tolerance, or make the place a knuckle",
         {"line": one.name, "place": tuple(place.tolist()), "radius": radius, "least": least_radius},
     )  # fmt: skip

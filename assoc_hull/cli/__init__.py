@@ -13,7 +13,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 
-from assoc_hull.cli.parser import make_parser
+from assoc_hull.cli.commands import make_parser
 from assoc_hull.cli.problems import explain
 
 __all__ = ["main"]

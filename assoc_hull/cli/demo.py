@@ -1,4 +1,8 @@
-"""The main job on a shipped hull: adopt, fair, see what followed and why, check, undo, draw."""
+"""The main job on a shipped hull: adopt, fair, see what followed and why, check, undo, draw.
+
+First the edits a designer would ask for, with what to look at afterwards; then the command that
+carries them out one by one and writes hull, pictures and words to a folder.
+"""
 
 from __future__ import annotations
 
@@ -10,26 +14,201 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import attrs
+import numpy as np
+
 from assoc_hull.cli.arguments import Commands, add_command, add_json
-from assoc_hull.cli.demo_edits import EDITS, Outcome, carry_out
+from assoc_hull.cli.hull_words import adoption_words, edit_words, hull_words, largest_gap
 from assoc_hull.cli.output import emit, progress
-from assoc_hull.cli.words import adoption_words, edit_words, hull_words, largest_gap
-from assoc_hull.edit.explain.cause import Why
+from assoc_hull.edit.explain.causes import Why
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, MissingExtraError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.sources import examples
-from assoc_hull.sources import open as open_hull
+from assoc_hull.model.objects import Curve, Point
+from assoc_hull.sources import examples, open
 
 if TYPE_CHECKING:
     from assoc_hull.plot.lines_plan.drawing import Drawing
 
-__all__ = ["Demo", "add"]
+__all__ = [
+    "EDITS",
+    "Demo",
+    "DemoEdit",
+    "DemoOutcome",
+    "add_demo",
+    "carry_out",
+]
+
+# --------------------------------------------------------------------------------------
+# The edits of the demo: what a designer would ask, and what to look at afterwards.
+
+
+@attrs.frozen
+class DemoOutcome:
+    """What came of one edit.
+
+    Attributes
+    ----------
+    name : str
+        Name of the edit.
+    asked, reached : float, m
+        How far a point was asked to go, and how far it went: along its freedom in a drag,
+        along the hull's normal in a pull, the largest change of the line in a re-shape.
+    report : EditReport
+        The report of the edit.
+    """
+
+    name: str
+    asked: float
+    reached: float
+    report: EditReport
+
+
+@attrs.frozen
+class DemoEdit:
+    """One edit of the demo.
+
+    Attributes
+    ----------
+    name : str
+        Name of the edit.
+    asked : float, m
+        See `Outcome`.
+    change : callable
+        Makes the modifications.
+    place : callable
+        Gives the places (k, 3), m, by which the result is measured.
+    along : callable
+        Gives the unit directions (k, 3) in which it is measured, before the edit.
+    """
+
+    name: str
+    asked: float
+    change: Callable[[Hull, Edit], object]
+    place: Callable[[Hull], FloatArray]
+    along: Callable[[Hull], FloatArray]
+
+
+def carry_out(hull: Hull, wish: DemoEdit) -> DemoOutcome:
+    """Carry out one edit, and measure how far it came."""
+    before, along = wish.place(hull), wish.along(hull)
+    with hull.edit(wish.name) as edit:
+        wish.change(hull, edit)
+    assert edit.report is not None, "an edit without an error has a report"
+    gone = ((wish.place(hull) - before) * along).sum(axis=1)
+    reached = float(gone[int(np.argmax(np.abs(gone)))])
+    return DemoOutcome(wish.name, wish.asked, reached, edit.report)
+
+
+def _drag(address: str, distance: float) -> DemoEdit:
+    """Drag a shared crossing along its one freedom: the two lines take it with them."""
+
+    def change(hull: Hull, edit: Edit) -> None:
+        point = hull.points[address]
+        (axis,) = point.free
+        edit.move(point, **{axis: getattr(point, axis) + distance})
+
+    def along(hull: Hull) -> FloatArray:
+        return np.eye(3)[["xyz".index(axis) for axis in hull.points[address].free]]
+
+    name = f"drag {address} by {1e3 * distance:g} mm"
+    return DemoEdit(name, distance, change, _place_of(address), along)
+
+
+def _pull(address: str, distance: float, radius: tuple[float, float]) -> DemoEdit:
+    """Pull the hull at a point, fading along the length and along the girth."""
+
+    def change(hull: Hull, edit: Edit) -> None:
+        edit.pull(hull.points[address], d=distance, radius=radius)
+
+    name = (
+        f"pull at {address} by {1e3 * distance:g} mm, fading over {radius[0]:g} x {radius[1]:g} m"
+    )
+    return DemoEdit(
+        name, distance, change, _place_of(address), lambda hull: _normal(hull.points[address])[None]
+    )
+
+
+def _reshape(
+    line: str, span: tuple[float, float], largest: float, fade: tuple[float, float]
+) -> DemoEdit:
+    """Give a stretch of a waterline a new shape: its points at the sections, moved by a bell."""
+
+    def change(hull: Hull, edit: Edit) -> None:
+        edit.reshape(_curve(hull, line), _bulged(hull, line, span, largest), span=span, fade=fade)
+
+    def along(hull: Hull) -> FloatArray:
+        return np.array([[0.0, 1.0, 0.0]])
+
+    name = f"re-shape {line} from x {span[0]:g} to {span[1]:g} m by up to {1e3 * largest:g} mm"
+    return DemoEdit(name, largest, change, lambda hull: _stretch(hull, line, span), along)
+
+
+def _place_of(address: str) -> Callable[[Hull], FloatArray]:
+    return lambda hull: hull.points[address].position[None]
+
+
+def _curve(hull: Hull, line: str) -> Curve:
+    return hull.lines[line].curves[0]
+
+
+def _stretch(hull: Hull, line: str, span: tuple[float, float]) -> FloatArray:
+    """Give the points of a line at the sections that define it within a span, (k, 3), m."""
+    found = [
+        point.position
+        for point in _curve(hull, line).defining
+        if span[0] < point.x < span[1] and _generator(point) == "sections"
+    ]
+    return np.array(found)
+
+
+def _generator(point: Point) -> str | None:
+    parent = point.parent_curve
+    return None if parent is None else parent.line.group.family
+
+
+def _bulged(hull: Hull, line: str, span: tuple[float, float], largest: float) -> FloatArray:
+    points = _stretch(hull, line, span)
+    part = (points[:, 0] - span[0]) / (span[1] - span[0])
+    bell = 1.0 - np.cos(2.0 * np.pi * part)
+    points[:, 1] += largest * bell / bell.max()
+    return points
+
+
+def _normal(point: Point) -> FloatArray:
+    """Give the outward unit normal of the hull at a crossing, (3,)."""
+    friend = point.friend_point
+    if friend is None:
+        raise BadInputError(f"{point.name} is no crossing", "in a pull", "name a crossing")
+    tangent = [
+        each.container_curve.tangent(each.container_curve.closest(each.position)[0])
+        for each in (point, friend)
+    ]
+    normal = np.cross(tangent[0], tangent[1])
+    normal = normal / np.linalg.norm(normal)
+    return np.asarray(normal if normal[1] > 0.0 else -normal)
+
+
+EDITS = (
+    _drag("WL 0.5 x ST 16", 0.005),
+    _pull("WL 0.5 x ST 17", 0.020, (20.0, 8.0)),
+    _drag("BTK 0.68 x ST 4", 0.010),
+    _reshape("WL 0.75", (12.0, 36.0), 0.025, (20.0, 8.0)),
+)
+"""A waterline in the entrance, by hand and softly; a buttock in the run, the other direction;
+a stretch of a waterline in the run."""
+
+
+# --------------------------------------------------------------------------------------
+# The main job on a shipped hull: adopt, fair, see what followed and why, check, undo, draw.
 
 _CB = 0.70
 _BUTTOCK, _FOLLOWER = 2, "WL 0.42"
 
 
-def add(commands: Commands) -> None:
+def add_demo(commands: Commands) -> None:
     """Add ``demo``."""
     parser = add_command(
         commands, "demo", "do the main job on a shipped hull, with pictures", _demo,
@@ -106,8 +285,7 @@ class Demo:
         self.facts["seconds"][name] = time.perf_counter() - start
 
     def _adopt(self) -> Hull:
-        from assoc_hull.shipped.series60 import series60_adopted
-        from assoc_hull.shipped.series60_table import todd_table
+        from assoc_hull.shipped.series60 import series60_adopted, todd_table
 
         with progress("adopting the offsets, cutting further lines"):
             hull = examples.series60(_CB)
@@ -121,7 +299,7 @@ class Demo:
         return hull
 
     def _edit(self, hull: Hull) -> None:
-        outcomes: list[Outcome] = []
+        outcomes: list[DemoOutcome] = []
         for number, wish in enumerate(EDITS):
             outcome = carry_out(hull, wish)
             outcomes.append(outcome)
@@ -156,7 +334,7 @@ class Demo:
         if not self.pictures:
             return None
         from assoc_hull.plot import lines_plan, snapshot
-        from assoc_hull.plot.sheet.sheet import save
+        from assoc_hull.plot.sheet.sheet_figure import save
 
         lines = snapshot(hull)
         with progress(f"drawing the lines {name}"):
@@ -178,7 +356,7 @@ class Demo:
         last = hull.fingerprint
         hull.save(self._file("after.hull.json"))
         hull.close()
-        hull = open_hull(ship)
+        hull = open(ship)
         names = [report.name for report in hull.history]
         self.say(f"\n7. {ship.name}, closed and opened again")
         self.say(f"  every edit   {len(names)} steps, each on the disk before it counted as made")

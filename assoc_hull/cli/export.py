@@ -1,20 +1,257 @@
-"""The command that writes a hull in the form of another program."""
+"""The command that writes a hull in the form of another program: lines, arcs, surfaces, meshes.
+
+The ending of the name tells the form. Options that do not go together are refused before
+anything is computed. Each kind says in words what was written and how near it is.
+"""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from assoc_hull.cli.arguments import Commands, add_command, add_hull, add_json
-from assoc_hull.cli.export_check import check_arcs, check_form
-from assoc_hull.cli.lengths import length
+from assoc_hull.analysis.production_arcs import ArcLines
+from assoc_hull.cli.arguments import Commands, add_command, add_hull, add_json, parse_length
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target
-from assoc_hull.io.export_book import ExportReport
+from assoc_hull.errors import BadInputError
+from assoc_hull.io.reports import ExportReport
 from assoc_hull.io.write_file import form_by_ending
-from assoc_hull.sources import open as open_hull
+from assoc_hull.sources import open
 
-__all__ = ["add", "export_words"]
+if TYPE_CHECKING:
+    from assoc_hull.hull import Hull
+    from assoc_hull.io.cad.write import CadReport
+    from assoc_hull.io.mesh.closed_mesh import MeshFile
+
+__all__ = [
+    "add_export",
+    "arc_words",
+    "cad_words",
+    "check_arcs",
+    "check_form",
+    "export_arcs",
+    "export_surface",
+    "export_words",
+    "file_words",
+    "mesh_words",
+]
+
+# --------------------------------------------------------------------------------------
+# Options of `export` that do not go together, refused before anything is computed.
+
+_MESHES = ("stl", "stl-text", "obj", "ply", "glb")
+
+
+def check_arcs(arguments: argparse.Namespace) -> None:
+    """Refuse what means nothing without, or beside, a tolerance for arcs.
+
+    Raises
+    ------
+    BadInputError
+        A radius or lines without the tolerance; another form or its options with it.
+    """
+    name = str(arguments.out)
+    if arguments.biarcs is None:
+        told = {
+            "--least-radius is one of arcs": arguments.least_radius is not None,
+            "--lines chooses lines for arcs": arguments.lines is not None,
+            "--entities is for a drawing of arcs": arguments.entities is not None,
+        }
+        remedy = "add --biarcs 0.5mm"
+    else:
+        told = {
+            "--format is none of arcs": arguments.format is not None,
+            "--views is none of arcs, which lie in their places": arguments.views is not None,
+            "--scale is none of arcs": arguments.scale is not None,
+            "--unit is none of arcs, which are in m": arguments.unit is not None,
+            "--half is none of arcs, which are those of one half": arguments.half,
+            "--points is none of arcs": arguments.points is not None,
+        }
+        remedy = "leave it out, and end the file in .dxf or .csv"
+    _refuse(told, name, remedy)
+
+
+def check_form(arguments: argparse.Namespace, form: str, *, mesh_or_surface: bool) -> str:
+    """Refuse options that a form does not take; give the form, as the views choose it.
+
+    Parameters
+    ----------
+    arguments : Namespace
+        As they were typed.
+    form : str
+        By the format, or the ending.
+    mesh_or_surface : bool
+        Whether it holds these, and not lines.
+
+    Raises
+    ------
+    BadInputError
+        An option of another form.
+    """
+    drawn = form.startswith("dxf")
+    told = {
+        "--views chooses the views of a drawing": arguments.views is not None and form != "dxf",
+        "--half is for surfaces and meshes": arguments.half and not mesh_or_surface,
+        "--points is for meshes": arguments.points is not None and form not in _MESHES,
+        "--unit is for drawings, surfaces and meshes": arguments.unit is not None
+        and not (drawn or mesh_or_surface or form == "iges-lines"),
+    }  # fmt: skip
+    _refuse(told, str(arguments.out), "leave it out")
+    chosen = "dxf-plan" if arguments.views == "2d" else form
+    if arguments.scale is not None and chosen != "dxf-plan":
+        _refuse({"--scale is for a lines plan": True}, str(arguments.out), "add --views 2d")
+    return chosen
+
+
+def _refuse(told: dict[str, bool], name: str, remedy: str) -> None:
+    for what, given in told.items():
+        if given:
+            raise BadInputError(what, f"at {name}", remedy)
+
+
+# --------------------------------------------------------------------------------------
+# What `export --biarcs` does and says: lines as arcs.
+
+
+def export_arcs(arguments: argparse.Namespace) -> int:
+    """Write the lines that are asked for as arcs, and report them."""
+    from assoc_hull.io.export.arcs import arc_form
+    from assoc_hull.production import production_arcs
+
+    form = arc_form(arguments.out)
+    check_other_target(arguments.out, arguments.hull)
+    hull = open(arguments.hull)
+    with progress(f"fitting arcs for {arguments.out}"):
+        arcs = production_arcs(
+            hull, arguments.lines, arguments.biarcs, arguments.least_radius or 0.0
+        )
+        arcs.save(arguments.out, arguments.entities or "polylines")
+    report = {"path": str(arguments.out), "form": form, **arcs.facts()}
+    emit(arguments, {"arcs": report}, f"{arc_words(arcs)}\nwritten: {arguments.out} ({form})")
+    return 0
+
+
+def arc_words(arcs: ArcLines) -> str:
+    """Give a row per curve, and the sum of all.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.production_arcs import arc_lines
+    >>> from assoc_hull.cli.export import arc_words
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> print(arc_words(arc_lines(wigley(), "WL 5", 0.0005, 0.0)))
+    line  arcs  straight  net points  off by (mm)  least radius (m)
+    WL 5    10         0          21        0.440           244.449
+    1 curves, 10 arcs (40 with a biarc between neighbouring net points), at most 0.440 mm off
+    """
+    head = ("line", "arcs", "straight", "net points", "off by (mm)", "least radius (m)")
+    rows = [
+        (
+            line.name, str(len(line.arcs)), str(int((line.arcs.curvature == 0.0).sum())),
+            str(line.points), f"{1e3 * float(line.deviation.max()):.3f}",
+            f"{line.least_radius:.3f}",
+        )
+        for line in arcs.lines
+    ]  # fmt: skip
+    wide = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head))]
+    text = [
+        "  ".join(
+            cell.rjust(size) if i else cell.ljust(size)
+            for i, (cell, size) in enumerate(zip(row, wide, strict=True))
+        ).rstrip()
+        for row in (head, *rows)
+    ]
+    text.append(
+        f"{len(arcs.lines)} curves, {arcs.count} arcs ({arcs.one_per_interval} with a biarc "
+        f"between neighbouring net points), at most {1e3 * arcs.deviation:.3f} mm off"
+    )
+    for title, told in (("left out", arcs.left_out), ("views", arcs.notes)):
+        if told:
+            text += [f"{title} ({len(told)})", *(f"  {each}" for each in told)]
+    return "\n".join(text)
+
+
+# --------------------------------------------------------------------------------------
+# What `export` does and says of surfaces and meshes.
+
+
+def export_surface(arguments: argparse.Namespace, form: str) -> int:
+    """Write patches for CAD programs, or the closed mesh, and say what was written."""
+    from assoc_hull.io.mesh.closed_mesh import MESH_FORMS
+
+    hull = open(arguments.hull)
+    write = _mesh if form in MESH_FORMS else _patches
+    report = write(arguments, hull, form)
+    emit(arguments, {"export": report}, file_words(report))
+    return 0
+
+
+def _mesh(arguments: argparse.Namespace, hull: Hull, form: str) -> MeshFile:
+    """Write the mesh: it needs no surface, which takes longer."""
+    from assoc_hull.io.mesh.closed_mesh import write_mesh
+    from assoc_hull.surface.cells.closed_mesh import closed_mesh
+
+    with progress(f"writing {arguments.out}"):
+        points = 4 if arguments.points is None else arguments.points
+        mesh = closed_mesh(hull, half=arguments.half, points=points)
+        name = hull.particulars.name or "hull"
+        return write_mesh(mesh, arguments.out, form, unit=arguments.unit, name=name)
+
+
+def _patches(arguments: argparse.Namespace, hull: Hull, form: str) -> CadReport | MeshFile:
+    from assoc_hull.shell import surface
+
+    with progress("fitting the surface"):
+        found = surface(hull)
+    with progress(f"writing {arguments.out}"):
+        return found.write(arguments.out, form, unit=arguments.unit, half=arguments.half)
+
+
+def file_words(report: CadReport | MeshFile) -> str:
+    """Say what was written of a surface."""
+    from assoc_hull.io.mesh.closed_mesh import MeshFile
+
+    return mesh_words(report) if isinstance(report, MeshFile) else cad_words(report)
+
+
+def mesh_words(report: MeshFile) -> str:
+    """Say what was written of a mesh.
+
+    Examples
+    --------
+    >>> from assoc_hull.cli.export import mesh_words
+    >>> from assoc_hull.io.mesh.closed_mesh import MeshFile
+    >>> groups = ("shell", "deck")
+    >>> print(mesh_words(MeshFile("a.stl", "stl", "m", False, 9, 14, 0, groups, 8.0, 784)))
+    9 vertices, 14 triangles: shell, deck
+    closed, 8.000 m3
+    written: a.stl (stl, m)
+    """
+    rows = [
+        f"{report.vertices} vertices, {report.triangles} triangles: {', '.join(report.groups)}",
+        "the port half, open in the centre plane"
+        if report.volume is None
+        else f"closed, {report.volume:.3f} m3",
+    ]
+    if report.left_out:
+        rows.append(f"{report.left_out} triangles have no area in the numbers of the file")
+    return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
+
+
+def cad_words(report: CadReport) -> str:
+    """Say what was written for CAD programs."""
+    side = "the port half" if report.half else "both sides"
+    rows = [f"{report.faces} faces, {side}, {report.area:.3f} m2"]
+    if report.shells:
+        shells = "1 shell" if report.shells == 1 else f"{report.shells} shells"
+        rows.append(f"{shells}, {report.joined_edges} joined edges, {report.free_edges} free")
+    rows.append(f"read back: control points within {1e3 * report.control_point_error:.1e} mm")
+    return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
+
+
+# --------------------------------------------------------------------------------------
+# The command that writes a hull in the form of another program.
 
 _LINES = {
     "hull": ".hull.json", "csv": ".csv", "xlsx": ".xlsx", "britfair": ".bri", "delftship": ".txt",
@@ -35,7 +272,7 @@ _ENDINGS = {
 }
 
 
-def add(commands: Commands) -> None:
+def add_export(commands: Commands) -> None:
     """Add ``export``."""
     parser = add_command(
         commands, "export", "write lines, surfaces or meshes for other programs", _export,
@@ -91,12 +328,15 @@ def _add_drawing(parser: argparse.ArgumentParser) -> None:
 def _add_arcs(parser: argparse.ArgumentParser) -> None:
     arcs = parser.add_argument_group("arcs for production")
     arcs.add_argument(
-        "--biarcs", type=length, metavar="TOL",
+        "--biarcs", type=parse_length, metavar="TOL",
         help="write lines as circular arcs and straight lines that leave them by no more than "
         "TOL, such as 0.5mm; m without a unit; to a .dxf or .csv file",
     )  # fmt: skip
     arcs.add_argument(
-        "--least-radius", type=length, metavar="R", help="radius of the sharpest arc, such as 50mm"
+        "--least-radius",
+        type=parse_length,
+        metavar="R",
+        help="radius of the sharpest arc, such as 50mm",
     )
     arcs.add_argument(
         "--entities", choices=("polylines", "arcs"),
@@ -108,21 +348,17 @@ def _add_arcs(parser: argparse.ArgumentParser) -> None:
 def _export(arguments: argparse.Namespace) -> int:
     check_arcs(arguments)
     if arguments.biarcs is not None:
-        from assoc_hull.cli.export_arcs import export_arcs
-
         return export_arcs(arguments)
     form = form_by_ending(arguments.out, arguments.format, _FORMS, _ENDINGS, "in export")
     form = check_form(arguments, form, mesh_or_surface=form in _SURFACES)
     check_other_target(arguments.out, arguments.hull)
     if form in _SURFACES:
-        from assoc_hull.cli.export_surface import export_surface
-
         return export_surface(arguments, form)
-    from assoc_hull.io.export.write import export
+    from assoc_hull.io.export.write import export_hull
 
-    hull = open_hull(arguments.hull)
+    hull = open(arguments.hull)
     with progress(f"writing {arguments.out}"):
-        report = export(hull.state, arguments.out, form, arguments.unit, scale=arguments.scale)
+        report = export_hull(hull.state, arguments.out, form, arguments.unit, scale=arguments.scale)
     emit(arguments, {"export": report}, export_words(report))
     return 0
 

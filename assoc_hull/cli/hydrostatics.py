@@ -1,33 +1,177 @@
-"""The command that tells how a hull floats."""
+"""The command that tells how a hull floats: one position, a table of many, or pictures.
+
+Words come first: one position with errors and meanings, or a table as wide as a terminal. The
+command takes draughts, trim, heel, water and appendages, and writes tables and pictures.
+"""
 
 from __future__ import annotations
 
 import argparse
 import datetime
 import math
-from collections.abc import Sequence
+import textwrap
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
-from assoc_hull.cli.floating_terms import add_draughts, add_water, appendages_of, density_of, levels
+from assoc_hull.analysis.hydrostatics.record import FIELDS, HydrostaticTable, RecordField
+from assoc_hull.cli.arguments import (
+    PICTURE_ENDINGS,
+    Commands,
+    add_command,
+    add_draughts,
+    add_hull,
+    add_json,
+    add_water,
+    appendages_of,
+    density_of,
+    number_range,
+)
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.hull import Hull
-from assoc_hull.sources import open as open_hull
+from assoc_hull.sources import open
 
 if TYPE_CHECKING:
-    from assoc_hull.analysis.hydrostatics.appendage import Appendage
-    from assoc_hull.analysis.hydrostatics.hydrostatic_table import HydrostaticTable
+    from assoc_hull.analysis.hydrostatics.floating_body import Appendage
 
-__all__ = ["add"]
+__all__ = [
+    "add_hydrostatics",
+    "hydrostatic_document",
+    "table_words",
+]
+
+# --------------------------------------------------------------------------------------
+# Hydrostatics in words: one position with errors and meanings, or a table of many.
+
+_WIDTH = 160
+_ACROSS = 8
+"""Positions side by side."""
+
+
+def hydrostatic_document(table: HydrostaticTable, angle: float | None) -> dict[str, Any]:
+    """Give a table as it stands in a JSON document; `angle` is that of the deck edge, degrees."""
+    return {
+        "header": table.header,
+        "shape": table.shape,
+        "positions": table.positions,
+        "rows": table.rows,
+        "freeboards": table.freeboards,
+        "deck_edge_angle": angle,
+        "shares": table.shares,
+        "notes": table.notes,
+    }
+
+
+def table_words(table: HydrostaticTable, angle: float | None) -> str:
+    """Say what a table holds.
+
+    Parameters
+    ----------
+    table : HydrostaticTable
+        Of one position or many.
+    angle : float or None, degrees
+        Heel at which the deck edge goes under, of one position.
+    """
+    single = len(table) == 1
+    body = [_one(table)] if single else list(_many(table))
+    lines = [*_head(table), "", *body, *_deck(table, angle), *_shares(table)]
+    return "\n".join([*lines, *(f"note: {note}" for note in table.notes)])
+
+
+def _head(table: HydrostaticTable) -> Iterator[str]:
+    for title, words in table.header.lines():
+        yield textwrap.fill(f"{title:14} {words}", 100, subsequent_indent=" " * 15)
+
+
+def _one(table: HydrostaticTable) -> str:
+    """Lay out one position: a row per value, with its error and what it is."""
+    columns: list[tuple[str, Any]] = [
+        ("", "left"), ("", "right"), ("", "left"), ("may be off by", "right"), ("", "left")
+    ]  # fmt: skip
+    rows = [
+        [name, f"{float(values[0]):.4f}", "deg" if name == "heel_deg" else "m", "", ""]
+        for name, values in table.draughts.items()
+    ]
+    for name, field in FIELDS.items():
+        error = float(table.errors[name][0]) if name in table.errors else math.nan
+        rows.append([name, _number(float(table.columns[name][0]), field), field.unit,
+                     "" if math.isnan(error) else f"{error:.1e}", field.title])  # fmt: skip
+    return _laid_out(columns, rows)
+
+
+def _many(table: HydrostaticTable) -> Iterator[str]:
+    """Lay out many positions side by side, some at a time: a column each."""
+    for first in range(0, len(table), _ACROSS):
+        part = range(first, min(first + _ACROSS, len(table)))
+        columns: list[tuple[str, Any]] = [("", "left"), ("", "left"), *[("", "right")] * len(part)]
+        rows = [
+            [name, "deg" if name == "heel_deg" else "m", *(f"{values[i]:.4f}" for i in part)]
+            for name, values in table.draughts.items()
+        ]
+        rows += [
+            [name, field.unit, *(_number(float(table.columns[name][i]), field) for i in part)]
+            for name, field in FIELDS.items()
+        ]
+        free = [f"{table.freeboards[i].least:.4f}" for i in part]
+        yield _laid_out(columns, [*rows, ["freeboard", "m", *free]])
+        yield ""
+
+
+def _number(value: float, field: RecordField) -> str:
+    return "-" if math.isnan(value) else f"{round(value, field.digits) + 0.0:.{field.digits}f}"
+
+
+def _laid_out(columns: list[tuple[str, Any]], rows: list[list[str]]) -> str:
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    shown = any(title for title, _ in columns)
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, show_header=shown)
+    for k, (title, justify) in enumerate(columns):
+        grid.add_column(title, justify=justify, no_wrap=k < len(columns) - 1)
+    for row in rows:
+        grid.add_row(*row)
+    console = Console(width=_WIDTH, color_system=None, force_terminal=False, legacy_windows=False)
+    with console.capture() as text:
+        console.print(grid)
+    return "\n".join(row.rstrip() for row in text.get().splitlines())
+
+
+def _deck(table: HydrostaticTable, angle: float | None) -> Iterator[str]:
+    """Tell freeboard and deck edge of one position."""
+    if len(table) != 1:
+        return
+    least, (x, y, z) = table.freeboards[0].least, table.freeboards[0].place
+    yield ""
+    yield f"freeboard {least:.4f} m, least at ({x:.3f}, {y:.3f}, {z:.3f}) m"
+    if angle is None:
+        yield "the deck edge stays dry to 89 degrees of heel"
+    elif math.isnan(angle):
+        yield "at these draughts the ship does not float upright: no angle of the deck edge"
+    else:
+        yield f"the deck edge goes under at {angle:.2f} degrees of heel, at this displacement"
+
+
+def _shares(table: HydrostaticTable) -> Iterator[str]:
+    """Tell what each appendage adds, at the deepest position."""
+    where = " (at the last position)" if len(table) > 1 else ""
+    for share in table.shares:
+        volume, area, part = share.volume[-1], share.area[-1], share.percent[-1]
+        words = f"adds {volume:g} m3, {part:.4g} % of the volume, and {area:g} m2 of surface"
+        yield f"{share.appendage.name}: {words}{where}"
+
+
+# --------------------------------------------------------------------------------------
+# The command that tells how a hull floats.
 
 _TABLES = (".csv", ".xlsx")
 _PICTURES = ("curves", "areas", "bonjean")
 
 
-def add(commands: Commands) -> None:
+def add_hydrostatics(commands: Commands) -> None:
     """Add ``hydrostatics``."""
     parser = add_command(
         commands, "hydrostatics", "tell how a hull floats: volume, centres, stability at rest",
@@ -91,22 +235,21 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 
 def _hydrostatics(arguments: argparse.Namespace) -> int:
-    from assoc_hull.cli.hydrostatic_words import document, table_words
 
     _check_targets(arguments)
-    hull = open_hull(arguments.hull)
+    hull = open(arguments.hull)
     with progress("integrating"):
         table = _table(hull, arguments)
         angle = _deck_edge(hull, table)
     saved = _saved(hull, table, arguments)
     words = "\n".join([table_words(table, angle), *(f"written: {each}" for each in saved)])
-    emit(arguments, document(table, angle) | {"saved": saved}, words)
+    emit(arguments, hydrostatic_document(table, angle) | {"saved": saved}, words)
     return 0
 
 
 def _deck_edge(hull: Hull, table: HydrostaticTable) -> float | None:
     """Give the heel at which the deck edge goes under; nan where she does not float upright."""
-    from assoc_hull.analysis.hydrostatics.equilibrium import deck_edge_angle
+    from assoc_hull.analysis.hydrostatics.immersion import deck_edge_angle
 
     if len(table) != 1:
         return None
@@ -133,7 +276,7 @@ def _check_targets(arguments: argparse.Namespace) -> None:
 
 def _table(hull: Hull, arguments: argparse.Namespace) -> HydrostaticTable:
     """Compute what was asked."""
-    from assoc_hull.analysis.hydrostatics.hydrostatics import hydrostatic_table
+    from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatic_table
 
     rho, appendages = density_of(arguments), appendages_of(arguments)
     draughts, trims, moulded = _draughts(hull, arguments, rho, appendages)
@@ -152,9 +295,9 @@ def _draughts(
 ) -> tuple[list[float], Sequence[float], bool]:
     """Give mean draughts and trims, and whether they are moulded whatever was asked."""
     if arguments.table is not None:
-        return levels(arguments.table, "--table"), arguments.trims or (0.0,), False
+        return number_range(arguments.table, "--table"), arguments.trims or (0.0,), False
     if arguments.weight is not None:
-        from assoc_hull.analysis.hydrostatics.equilibrium import immersion
+        from assoc_hull.analysis.hydrostatics.immersion import immersion
 
         found = immersion(
             hull, arguments.weight, lcg=arguments.lcg, kg=arguments.kg, heel_deg=arguments.heel,

@@ -15,8 +15,8 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.edit.explain.cause import Why
-from assoc_hull.io.progress import Tell, silent
+from assoc_hull.edit.explain.causes import Why
+from assoc_hull.io.reports import Tell, no_progress
 
 __all__ = ["can_print", "emit", "plain", "progress", "progress_bar", "say", "why_document"]
 
@@ -129,7 +129,7 @@ def progress_bar(what: str, *, hidden: bool) -> Iterator[Tell]:
         What work is to tell: the step, parts done, and of how many.
     """
     if hidden or sys.stderr is None or not sys.stderr.isatty():
-        yield silent
+        yield no_progress
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn

@@ -6,8 +6,14 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
-from assoc_hull.cli.floating_terms import add_draughts
+from assoc_hull.cli.arguments import (
+    PICTURE_ENDINGS,
+    Commands,
+    add_command,
+    add_draughts,
+    add_hull,
+    add_json,
+)
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.hull import Hull
@@ -16,12 +22,12 @@ from assoc_hull.sources import open as open_hull
 if TYPE_CHECKING:
     from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
 
-__all__ = ["add"]
+__all__ = ["add_panels"]
 
 _FORMS = ("nemoh", "wamit", "hams", "stl", "stl-text")
 
 
-def add(commands: Commands) -> None:
+def add_panels(commands: Commands) -> None:
     """Add ``panels``."""
     parser = add_command(
         commands, "panels", "divide the immersed hull into panels for seakeeping codes", _panels,
@@ -107,7 +113,7 @@ def _check_targets(arguments: argparse.Namespace) -> None:
 
 
 def _mesh(hull: Hull, arguments: argparse.Namespace) -> PanelMesh:
-    from assoc_hull.analysis.panels.build import panels
+    from assoc_hull.analysis.panels.hull_panels import panels
 
     side: Any = "half" if arguments.half else "full" if arguments.full else None
     return panels(

@@ -8,10 +8,12 @@ import traceback
 from collections.abc import Collection
 from pathlib import Path
 
-from assoc_hull.cli.arguments import FILE_ENDING, HULL_ENDINGS
 from assoc_hull.errors import AssocHullError, BadInputError
 
 __all__ = [
+    "FILE_ENDING",
+    "HULL_ENDINGS",
+    "TEXT_ENDING",
     "InFileError",
     "UsageError",
     "check_hull_target",
@@ -20,6 +22,10 @@ __all__ = [
     "explain",
     "is_apart",
 ]
+
+FILE_ENDING, TEXT_ENDING = ".hull", ".hull.json"
+HULL_ENDINGS = (FILE_ENDING, TEXT_ENDING)
+
 
 _DEBUG = "ASSOC_HULL_DEBUG"
 

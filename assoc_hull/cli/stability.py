@@ -7,8 +7,18 @@ import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
-from assoc_hull.cli.floating_terms import add_draughts, add_water, appendages_of, density_of, levels
+from assoc_hull.cli.arguments import (
+    PICTURE_ENDINGS,
+    Commands,
+    add_command,
+    add_draughts,
+    add_hull,
+    add_json,
+    add_water,
+    appendages_of,
+    density_of,
+    number_range,
+)
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.errors import BadInputError
@@ -18,15 +28,15 @@ from assoc_hull.sources import open as open_hull
 if TYPE_CHECKING:
     from assoc_hull.analysis.stability.cross_curves import CrossCurves
     from assoc_hull.analysis.stability.flooding import FloodingPoint
-    from assoc_hull.analysis.stability.result import Stability
+    from assoc_hull.analysis.stability.stability_report import Stability
 
-__all__ = ["add"]
+__all__ = ["add_stability"]
 
 _FILES = (".txt", ".csv", ".xlsx", ".json")
 _CALL = "in the call"
 
 
-def add(commands: Commands) -> None:
+def add_stability(commands: Commands) -> None:
     """Add ``stability``."""
     parser = add_command(
         commands, "stability", "tell righting levers, and whether they meet the IMO criteria",
@@ -83,8 +93,7 @@ def _stability(arguments: argparse.Namespace) -> int:
     _check(arguments)
     if arguments.rest:
         return _rest(arguments)
-    from assoc_hull.io.tables.stability_json import stability_document
-    from assoc_hull.io.tables.stability_table import stability_text
+    from assoc_hull.io.tables.stability import stability_document, stability_text
 
     hull = open_hull(arguments.hull)
     with progress("heeling"):
@@ -135,12 +144,12 @@ def _table(arguments: argparse.Namespace) -> dict[str, Any]:
     found = _terms(arguments) | {"trim": arguments.trim or "fixed", "kg": arguments.kg}
     found["date"] = datetime.date.today().isoformat()
     if arguments.heels is not None:
-        found["heels"] = levels(arguments.heels, "--heels", "heels")
+        found["heels"] = number_range(arguments.heels, "--heels", "heels")
     return found
 
 
 def _condition(hull: Hull, arguments: argparse.Namespace) -> Stability:
-    from assoc_hull.analysis.stability.stability import stability
+    from assoc_hull.analysis.stability.stability_report import stability
 
     return stability(
         hull, weight=arguments.weight, draught=arguments.draught,
@@ -153,13 +162,15 @@ def _condition(hull: Hull, arguments: argparse.Namespace) -> Stability:
 def _cross(hull: Hull, arguments: argparse.Namespace) -> CrossCurves:
     from assoc_hull.analysis.stability.cross_curves import cross_curves
 
-    return cross_curves(hull, draughts=levels(arguments.cross, "--cross"), **_table(arguments))
+    return cross_curves(
+        hull, draughts=number_range(arguments.cross, "--cross"), **_table(arguments)
+    )
 
 
 def _rest(arguments: argparse.Namespace) -> int:
     """Tell where she comes to rest."""
     from assoc_hull.analysis.stability.equilibrium import equilibrium
-    from assoc_hull.io.tables.stability_json import equilibrium_document
+    from assoc_hull.io.tables.stability import equilibrium_document
 
     hull = open_hull(arguments.hull)
     with progress("heeling"):
@@ -197,7 +208,7 @@ def _saved(found: Stability | CrossCurves, arguments: argparse.Namespace) -> lis
     """Write table and picture, where they were asked; name the files."""
     saved: list[Path] = []
     if arguments.out is not None:
-        from assoc_hull.io.tables.stability_table import write_stability
+        from assoc_hull.io.tables.stability import write_stability
 
         write_stability(found, arguments.out)
         saved.append(arguments.out)

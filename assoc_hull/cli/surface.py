@@ -15,13 +15,13 @@ from assoc_hull.sources import open as open_hull
 if TYPE_CHECKING:
     from assoc_hull.hull import Hull
 
-__all__ = ["add", "every_fourth"]
+__all__ = ["add_surface", "every_fourth"]
 
 _FOURTH = "every-fourth"
 _FAMILIES = ("sections", "waterlines")
 
 
-def add(commands: Commands) -> None:
+def add_surface(commands: Commands) -> None:
     """Add ``surface``."""
     parser = add_command(
         commands, "surface", "fit a surface to the lines, and tell how well it fits", _surface,
@@ -59,7 +59,7 @@ def _surface(arguments: argparse.Namespace) -> int:
     words, saved = [str(found)], []
     document = found.document()
     if arguments.out is not None:
-        from assoc_hull.cli.export_surface import file_words
+        from assoc_hull.cli.export import file_words
 
         with progress(f"writing {arguments.out}"):
             report = found.write(arguments.out, unit=arguments.unit, half=arguments.half)
@@ -89,12 +89,12 @@ def _check_targets(arguments: argparse.Namespace) -> None:
             if given:
                 raise BadInputError(f"{what} is for a file", "in surface", "give it with -o FILE")
     else:
-        from assoc_hull.io.surfaces.hull_surface_file import surface_form_of
+        from assoc_hull.io.surfaces.hull_surface import surface_form_of
 
         surface_form_of(arguments.out)
         check_other_target(arguments.out, arguments.hull)
     if arguments.picture is not None:
-        from assoc_hull.plot.sheet.sheet import require_matplotlib
+        from assoc_hull.plot.sheet.sheet_figure import require_matplotlib
 
         check_target(arguments.picture, PICTURE_ENDINGS)
         check_other_target(arguments.picture, arguments.hull)

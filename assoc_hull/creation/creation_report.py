@@ -14,15 +14,15 @@ import numpy as np
 
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.analysis.hydrostatics.section_areas import between_stations
-from assoc_hull.analysis.net.slabs import planes as stands
+from assoc_hull.analysis.net.curve_net import station_planes as stands
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.fairness.inflections import inflections
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
-from assoc_hull.model.definition_part import FormDefinition, GeneratedCurve
+from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.closure import Coefficients, coefficients
-from assoc_hull.model.forms.halves import half_number
-from assoc_hull.model.regenerate import forms_of
-from assoc_hull.model.state import HullState
+from assoc_hull.model.forms.two_halves import half_number
+from assoc_hull.model.generated_curves import forms_of
+from assoc_hull.model.tables import HullState
 
 __all__ = ["CreationReport", "FormFigure", "SectionFigures", "creation_report"]
 
@@ -166,7 +166,7 @@ def creation_report(state: HullState) -> CreationReport:
         )
     body = flotation(state)
     draught = state.particulars.draught
-    plane = Planes(np.array([draught]), np.zeros(1), np.zeros(1))
+    plane = FloatingPlanes(np.array([draught]), np.zeros(1), np.zeros(1))
     known = {each.use: each for each in state.definitions}
     figures = []
     if "sectional_area" in known:
@@ -177,7 +177,7 @@ def creation_report(state: HullState) -> CreationReport:
 
 
 def _of_areas(
-    state: HullState, body: Flotation, plane: Planes, areas: FormDefinition
+    state: HullState, body: Flotation, plane: FloatingPlanes, areas: FormDefinition
 ) -> list[FormFigure]:
     ship = state.particulars
     closed = coefficients(areas, ship)
@@ -195,7 +195,7 @@ def _of_areas(
 
 
 def _of_waterline(
-    state: HullState, body: Flotation, plane: Planes, line: FormDefinition
+    state: HullState, body: Flotation, plane: FloatingPlanes, line: FormDefinition
 ) -> list[FormFigure]:
     ship = state.particulars
     closed: Coefficients = coefficients(line, ship)
@@ -209,7 +209,9 @@ def _of_waterline(
     ]
 
 
-def _between(body: Flotation, plane: Planes, definition: FormDefinition, length: float) -> Immersed:
+def _between(
+    body: Flotation, plane: FloatingPlanes, definition: FormDefinition, length: float
+) -> ImmersedIntegrals:
     """Measure what lies between the ends of a curve of two halves.
 
     An end at which no station stands is that of the hull.
@@ -225,7 +227,7 @@ def _between(body: Flotation, plane: Planes, definition: FormDefinition, length:
     return between_stations(body, ends[0], ends[1], plane)
 
 
-def _sections(state: HullState, body: Flotation, plane: Planes) -> list[SectionFigures]:
+def _sections(state: HullState, body: Flotation, plane: FloatingPlanes) -> list[SectionFigures]:
     made: dict[int, list[GeneratedCurve]] = {}
     for each in state.generated:
         if each.what == "section" and state.curves.alive.data[each.curve]:

@@ -1,31 +1,14 @@
 """A form-parameter curve: made from its parameters, changed by its vertices, read back.
 
-A curve has seven vertices and, just as many numbers, fourteen parameters: at both ends a point,
-an angle, a curvature, a tangent length and a stretch; then area and centroid. Vertices follow from
-parameters and parameters from vertices, so whoever drags one reads the other.
-
-Kim & Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2), 1992.
-
-Examples
---------
->>> import assoc_hull as ah
->>> run = ah.FormCurve.of(
-...     (-1.0, 0.0), (-0.3, 1.0), start_angle_deg=60.0, start_curvature=-2.0,
-...     finish_angle_deg=0.0, area=0.55, centroid=-0.59,
-... )
->>> run.vertices[3].round(9).tolist()
-[-0.92217359, 0.787861836]
->>> fuller = run.drag(3, (-0.92, 0.85))
->>> [name for name, value in fuller.parameters.items() if abs(value - run.parameters[name]) > 1e-9]
-['area', 'centroid']
->>> [message.code for message in run.messages]
-['inflections', 'C6']
+A curve has seven vertices and, just as many numbers, fourteen parameters: at both ends a point, an
+angle, a curvature, a tangent length and a stretch; then area and centroid. First what is handed in
+is checked and made into vertices, then comes `FormCurve`, then its numbers and messages in words.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, Literal, Self
@@ -34,40 +17,242 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import choice, integer, numbers, positive
-from assoc_hull.creation.form_curve_input import (
-    Tangents,
-    angles_of,
-    kept_of,
-    made,
-    notes_of,
-    parameters_of,
-    plane_place,
-    vertices_of,
-)
-from assoc_hull.creation.form_curve_report import (
-    CurveValues,
-    curve_document,
-    curve_table,
-    curve_values,
-    remarks,
-)
-from assoc_hull.errors import BadInputError
+from assoc_hull.arguments import all_of, choice, integer, number, numbers, positive, shown
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.form_curves.chain import FormChain
-from assoc_hull.geometry.form_curves.checks import FormMessage
+from assoc_hull.geometry.form_curves.checks import FormMessage, check_parameters, check_shape
+from assoc_hull.geometry.form_curves.curve import (
+    NAMES,
+    FormEnd,
+    FormParameters,
+    end_vertices,
+    form_values,
+)
 from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.form_curves.middle import middle_vertex, slide_vertex
-from assoc_hull.geometry.form_curves.shape import ENERGIES, energy, form_length, inflections
-from assoc_hull.geometry.form_curves.solve import required_middle
+from assoc_hull.geometry.form_curves.middle_vertex import (
+    fair_vertex,
+    middle_vertex,
+    required_middle,
+    slide_vertex,
+    with_middle,
+)
+from assoc_hull.geometry.form_curves.shape import (
+    ENERGIES,
+    form_energy,
+    form_inflections,
+    form_length,
+)
+from assoc_hull.geometry.form_curves.tangents import (
+    FASTEST,
+    SLOWEST,
+    chord_lengths,
+    fairest_tangents,
+    usual_tangents,
+)
 
-__all__ = ["FormCurve"]
+__all__ = [
+    "PARAMETER_NAMES",
+    "CurveValues",
+    "FormCurve",
+    "Tangents",
+    "check_angles",
+    "check_kept",
+    "check_named_parameters",
+    "check_plane_point",
+    "check_vertices",
+    "curve_document",
+    "curve_messages",
+    "curve_table",
+    "curve_values",
+    "make_vertices",
+]
+
+# --------------------------------------------------------------------------------------
+# What is handed in for a form-parameter curve: checked, and made into vertices.
+
+Tangents = Literal["default", "auto"] | tuple[float, float] | None
+"""How tangent lengths are told."""
+
+_WHERE = "in a form-parameter curve"
+_LARGEST, _FARTHEST = 1e12, 1e6
+"""Of areas and the like; of coordinates."""
+
+PARAMETER_NAMES = tuple(f"{n}_deg" if n.endswith("_angle") else n for n in NAMES)
+"""As they are typed: angles in degrees."""
+
+
+def check_vertices(given: object) -> FloatArray:
+    """Take seven vertices, (7, 2)."""
+    try:
+        found = np.array(given, np.float64)
+    except (TypeError, ValueError, OverflowError):
+        found = np.empty(0)
+    if found.shape != (7, 2) or not (np.abs(found) <= _FARTHEST).all() or _as_bool(given):
+        what = f"the vertices are {shown(given)}"
+        raise BadInputError(what, _WHERE, "give seven finite places (x, y)")
+    return found + 0.0
+
+
+def _as_bool(given: object) -> bool:
+    return np.asarray(given).dtype == bool
+
+
+def check_messages(given: Iterable[FormMessage]) -> tuple[FormMessage, ...]:
+    """Take remarks about a curve."""
+    return tuple(all_of(given, FormMessage, "notes", _WHERE))
+
+
+def check_angles(given: tuple[float, float] | None) -> tuple[float, float] | None:
+    """Take the angles of both ends, rad."""
+    return None if given is None else check_plane_point(given, "angles")
+
+
+def check_plane_point(given: object, name: str, where: str = _WHERE) -> tuple[float, float]:
+    """Take a place (x, y)."""
+    found = numbers(given, name, where)
+    if found.shape != (2,):
+        raise BadInputError(f"{name} is {shown(given)}", where, "give (x, y)")
+    x, y = found.tolist()
+    return x, y
+
+
+def check_kept(given: object, vertex: int) -> set[str]:
+    """Take what is to be kept while a vertex is dragged."""
+    where = "in drag"
+    if not isinstance(given, Collection) or isinstance(given, str | bytes):
+        raise WrongTypeError(f"keep is {shown(given)}", where, 'give ("area", "centroid") or ()')
+    kept = {choice(each, "an item of keep", ("area", "centroid"), where) for each in given}
+    if kept == {"centroid"}:
+        raise BadInputError("keep is the centroid alone", where, 'give ("area", "centroid")')
+    if vertex == 3 and len(kept) == 2:
+        what = "area and centroid are kept, and the middle vertex is where they put it"
+        raise BadInputError(what, where, 'drag another vertex, or keep ("area",) or ()')
+    return kept
+
+
+def check_named_parameters(given: object) -> tuple[dict[str, Any], Tangents]:
+    """Take parameters by name; tangents go apart."""
+    if not isinstance(given, Mapping):
+        raise WrongTypeError(f"the parameters are {shown(given)}", _WHERE, "give them by name")
+    for name in given:
+        if name not in PARAMETER_NAMES:
+            raise UnknownNameError("parameter of a curve", str(name), PARAMETER_NAMES)
+    values = dict(given)
+    pair = [values.pop(f"{end}_tangent", None) for end in ("start", "finish")]
+    if (pair[0] is None) != (pair[1] is None):
+        raise BadInputError("one tangent is given, and the other is not", _WHERE, "give both")
+    for name in PARAMETER_NAMES:
+        if name not in values and ("curvature" in name or "stretch" in name):
+            values[name] = 0.0
+        values.setdefault(name, None)
+    return values, None if pair[0] is None else (pair[0], pair[1])
+
+
+def make_vertices(
+    values: Mapping[str, Any], tangents: Tangents, energy: str
+) -> tuple[FloatArray, tuple[FormMessage, ...], tuple[float, float]]:
+    """Make the vertices, (7, 2), what is to be said of them, and the angles at both ends."""
+    known = _checked(values)
+    area, centroid = known.integrals()
+    start, finish = known.ends()
+    choice(energy, "energy", ENERGIES, _WHERE)
+    pace, notes = _tangents(tangents, start, finish, (area, centroid), energy)
+    start, finish = (
+        FormEnd(e.x, e.y, e.angle, e.curvature, pace[:, k], e.stretch)
+        for k, e in enumerate((start, finish))
+    )
+    ends = np.concatenate([end_vertices(start), end_vertices(finish)], axis=1)
+    if np.isnan(area[0]):
+        middle = fair_vertex(ends)
+    else:
+        middle = required_middle(ends, area, None if np.isnan(centroid[0]) else centroid)
+    found = with_middle(ends, middle[:, 0], middle[:, 1])[0]
+    if not (np.abs(found) <= _FARTHEST).all():
+        what = f"these parameters put a vertex {np.abs(found).max():.3g} away"
+        raise BadInputError(what, _WHERE, "give smaller curvatures, stretches or tangents")
+    return found, notes, (known.start_angle, known.finish_angle)
+
+
+def _checked(values: Mapping[str, Any]) -> FormParameters:
+    """Check the numbers; tangents are none of them."""
+    found = dict[str, float]()
+    for name in PARAMETER_NAMES:
+        if name.endswith("_tangent"):
+            found[name] = 1.0
+        elif name in ("area", "centroid") and values[name] is None:
+            found[name] = math.nan
+        elif name.endswith("_angle_deg"):
+            found[name.removesuffix("_deg")] = math.radians(number(values[name], name, _WHERE))
+        else:
+            found[name] = _large(values[name], name)
+    if math.isnan(found["area"]) and not math.isnan(found["centroid"]):
+        raise BadInputError("a centroid is given without an area", _WHERE, "give the area as well")
+    if found["area"] == 0.0 and not math.isnan(found["centroid"]):
+        raise BadInputError("an area of 0 has no centroid", _WHERE, "leave the centroid out")
+    return FormParameters(**found)
+
+
+def _large(value: object, name: str) -> float:
+    """Take a number: areas are squares of lengths, curvatures inverses of small ones."""
+    if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= _LARGEST:
+        return float(value)
+    return number(value, name, _WHERE)
+
+
+def _tangents(
+    given: Tangents,
+    start: FormEnd,
+    finish: FormEnd,
+    integrals: tuple[FloatArray, FloatArray],
+    energy: str,
+) -> tuple[FloatArray, tuple[FormMessage, ...]]:
+    """Give the tangent lengths, (1, 2), and what is to be said of them."""
+    if (given is None or isinstance(given, str)) and not chord_lengths(start, finish)[0] > 0.0:
+        remedy = "give ends that differ, or tangents"
+        raise BadInputError("start and finish are one place", _WHERE, remedy)
+    if given is None or (isinstance(given, str) and given == "default"):
+        return usual_tangents(start, finish), ()
+    if isinstance(given, str):
+        choice(given, "tangents", ("default", "auto"), _WHERE)
+        found = fairest_tangents(start, finish, *integrals, energy)
+        if not np.isfinite(found.tangents).all():
+            # No curve at any pace: that of the usual tangents has a reason to tell.
+            return usual_tangents(start, finish), ()
+        return found.tangents, tuple(_bounds(found.at_bound[0].tolist(), start, finish))
+    pair = [positive(each, "a tangent", _WHERE) for each in check_plane_point(given, "tangents")]
+    return np.array([pair]), ()
+
+
+def _bounds(active: list[bool], start: FormEnd, finish: FormEnd) -> list[FormMessage]:
+    """Say which tangent is held by a bound."""
+    even = float(chord_lengths(start, finish)[0]) / 4.0
+    return [
+        FormMessage(
+            "bound",
+            "info",
+            f"the tangent at the {end} is at a bound: from {SLOWEST * even:.6g} to "
+            f"{FASTEST * even:.6g}; the fairest curve would have it beyond",
+        )
+        for end, held in zip(("start", "finish"), active, strict=True)
+        if held
+    ]
+
+
+# --------------------------------------------------------------------------------------
+# A form-parameter curve: made from its parameters, changed by its vertices, read back.
+#
+# A curve has seven vertices and, just as many numbers, fourteen parameters: at both ends a point,
+# an angle, a curvature, a tangent length and a stretch; then area and centroid. Vertices follow
+# from parameters and parameters from vertices, so whoever drags one reads the other.
+#
+# Kim & Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2), 1992.
 
 _ENDS = [0, 1, 2, 4, 5, 6]
 
 
 def _frozen(given: object) -> FloatArray:
-    found = vertices_of(given)
+    found = check_vertices(given)
     freeze(found)
     return found
 
@@ -93,8 +278,8 @@ class FormCurve:
     """
 
     vertices: FloatArray = attrs.field(converter=_frozen)
-    notes: tuple[FormMessage, ...] = attrs.field(default=(), converter=notes_of)
-    angles: tuple[float, float] | None = attrs.field(default=None, converter=angles_of)
+    notes: tuple[FormMessage, ...] = attrs.field(default=(), converter=check_messages)
+    angles: tuple[float, float] | None = attrs.field(default=None, converter=check_angles)
 
     @classmethod
     def of(
@@ -156,7 +341,7 @@ class FormCurve:
         >>> round(section.centroid_height, 10), section.inflections
         (3.3237365694, ())
         """
-        (x0, y0), (x1, y1) = plane_place(start, "start"), plane_place(finish, "finish")
+        (x0, y0), (x1, y1) = check_plane_point(start, "start"), check_plane_point(finish, "finish")
         values = {
             "start_x": x0, "start_y": y0, "start_angle_deg": start_angle_deg,
             "start_curvature": start_curvature, "start_stretch": start_stretch,
@@ -164,7 +349,7 @@ class FormCurve:
             "finish_curvature": finish_curvature, "finish_stretch": finish_stretch,
             "area": area, "centroid": centroid,
         }  # fmt: skip
-        return cls(*made(values, tangents, energy))
+        return cls(*make_vertices(values, tangents, energy))
 
     @classmethod
     def from_parameters(
@@ -193,10 +378,10 @@ class FormCurve:
         BadInputError, NoMiddleVertexError, DegenerateEndsError
             As `of`.
         """
-        values, given = parameters_of(parameters)
+        values, given = check_named_parameters(parameters)
         if tangents is not None:
             choice(tangents, "tangents", ("default", "auto"), "in a form-parameter curve")
-        return cls(*made(values, given if tangents is None else tangents, energy))
+        return cls(*make_vertices(values, given if tangents is None else tangents, energy))
 
     @cached_property
     def _values(self) -> CurveValues:
@@ -214,7 +399,7 @@ class FormCurve:
     @cached_property
     def messages(self) -> tuple[FormMessage, ...]:
         """What is wrong with the curve, or worth knowing: how it was made, then errors first."""
-        return (*self.notes, *remarks(self.vertices, self._values))
+        return (*self.notes, *curve_messages(self.vertices, self._values))
 
     def at(self, t: ArrayLike) -> FloatArray:
         """Give points: (2,) at one parameter in [0, 4], (k, 2) at k."""
@@ -255,7 +440,7 @@ class FormCurve:
     @property
     def inflections(self) -> tuple[float, ...]:
         """Where the curvature changes its sign: parameters t."""
-        return inflections(self.vertices)
+        return form_inflections(self.vertices)
 
     @property
     def other_middle(self) -> tuple[float, float] | None:
@@ -276,7 +461,9 @@ class FormCurve:
         BadInputError
             Another kind.
         """
-        return float(energy(self.vertices[None], choice(kind, "kind", ENERGIES, "in energy"))[0])
+        return float(
+            form_energy(self.vertices[None], choice(kind, "kind", ENERGIES, "in energy"))[0]
+        )
 
     def drag(self, vertex: int, to: ArrayLike, keep: Collection[str] = ()) -> FormCurve:
         """Give the curve with one vertex moved.
@@ -311,9 +498,9 @@ class FormCurve:
         3.5
         """
         number_ = integer(vertex, "vertex", "in drag", least=0, most=6)
-        kept = kept_of(keep, number_)
+        kept = check_kept(keep, number_)
         moved = self.vertices.copy()
-        moved[number_] = plane_place(to, "to", "in drag")
+        moved[number_] = check_plane_point(to, "to", "in drag")
         ends, area = moved[None, _ENDS], np.array([self.area])
         if kept == {"area", "centroid"}:
             moved[3] = required_middle(ends, area, np.array([self.centroid]))[0]
@@ -347,3 +534,111 @@ class FormCurve:
     def document(self) -> dict[str, Any]:
         """Give the same for JSON; numbers are not rounded."""
         return curve_document(self)
+
+
+# --------------------------------------------------------------------------------------
+# A form-parameter curve in numbers and words: its parameters by name, and what is to be said.
+
+_NIL = 1e-14
+"""Of the size of a curve: a smaller number is written as 0."""
+
+_RANK = {"error": 0, "warning": 1, "info": 2}
+
+
+@attrs.frozen
+class CurveValues:
+    """The parameters of a curve as they are shown, all of them numbers.
+
+    Attributes
+    ----------
+    known : FormParameters
+        Where a tangent is nil: with the angle it had last, and no curvature. Where the area is
+        nil the centroid is nan.
+    moment : float
+        int x y dx.
+    still : tuple of str
+        Ends whose tangent is nil.
+    """
+
+    known: FormParameters
+    moment: float
+    still: tuple[str, ...]
+
+    @property
+    def named(self) -> dict[str, float]:
+        """The 14 parameters, angles in degrees; the moment if there is no centroid."""
+        found = dict[str, float]()
+        for name, value in attrs.asdict(self.known).items():
+            if name.endswith("_angle"):
+                found[f"{name}_deg"] = math.degrees(value) + 0.0
+            elif math.isnan(value):
+                found["moment"] = self.moment
+            else:
+                found[name] = value + 0.0
+        return found
+
+
+def curve_values(vertices: FloatArray, angles: tuple[float, float] | None) -> CurveValues:
+    """Read the parameters of a curve, (7, 2); angles (rad) are for ends whose tangent is nil."""
+    if angles is None:
+        # An end that never had an angle is taken to look along the chord.
+        x, y = (vertices[4:] - vertices[:3]).T @ np.array([1.0, 4.0, 1.0])
+        angles = (math.atan2(y, x),) * 2
+    found = form_values(vertices[None], (np.array(angles[:1]), np.array(angles[1:])))
+    known = FormParameters.of(found)
+    still = tuple(e for e in ("start", "finish") if math.isnan(getattr(known, f"{e}_curvature")))
+    known = attrs.evolve(known, **{f"{end}_curvature": 0.0 for end in still})
+    return CurveValues(known, float(found.moment[0]), still)
+
+
+def curve_messages(vertices: FloatArray, values: CurveValues) -> tuple[FormMessage, ...]:
+    """Look at a curve and its parameters; errors come first."""
+    found = [*_singular(values), *check_parameters(values.known), *check_shape(vertices)]
+    return tuple(sorted(found, key=lambda each: _RANK[each.severity]))
+
+
+def _singular(values: CurveValues) -> Iterator[FormMessage]:
+    """Say where parameters have no meaning."""
+    for end in values.still:
+        text = (
+            f"the tangent at the {end} is nil: its angle is kept at "
+            f"{values.named[f'{end}_angle_deg']:.6g} deg, its curvature has no meaning, and these "
+            "parameters do not give the curve again"
+        )
+        yield FormMessage("tangent", "warning", text)
+    if math.isnan(values.known.centroid):
+        text = "the area is nil and has no centroid: the moment is given instead"
+        yield FormMessage("area", "warning", text)
+
+
+def _further_numbers(curve: FormCurve) -> Mapping[str, float]:
+    found = {"centroid_height": curve.centroid_height, "length": curve.length}
+    return found | {kind: curve.energy(kind) for kind in ENERGIES}
+
+
+def curve_table(curve: FormCurve) -> str:
+    """Give vertices, parameters and messages in words."""
+    lines = ["vertices"]
+    lines += [f"  P{k} {x:18.12f} {y:18.12f}" for k, (x, y) in enumerate(curve.vertices + 0.0)]
+    lines.append("parameters")
+    size = max(1.0, float(np.abs(curve.vertices).max()))
+    lines += [
+        f"  {name:20} {value if abs(value) > _NIL * size else 0.0:18.12g}"
+        for name, value in curve.parameters.items()
+    ]
+    lines.append("besides")
+    lines += [f"  {name:20} {value:18.12g}" for name, value in _further_numbers(curve).items()]
+    lines.append("messages")
+    lines += [f"  {message}" for message in curve.messages] or ["  none"]
+    return "\n".join(lines)
+
+
+def curve_document(curve: FormCurve) -> dict[str, Any]:
+    """Give the same for JSON; numbers are not rounded."""
+    return {
+        "vertices": curve.vertices.tolist(),
+        "parameters": dict(curve.parameters),
+        **_further_numbers(curve),
+        "inflections": list(curve.inflections),
+        "messages": [attrs.asdict(each) for each in curve.messages],
+    }

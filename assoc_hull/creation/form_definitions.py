@@ -3,7 +3,7 @@
 Examples
 --------
 >>> from assoc_hull.creation.form_definitions import course, design_waterline, sectional_area
->>> from assoc_hull.model.state import Particulars
+>>> from assoc_hull.model.tables import Particulars
 >>> ship = Particulars("ship", 180.0, 28.0, 15.8, 10.5)
 >>> areas = sectional_area(
 ...     ship, cm=0.995, cb=0.75, lcb=2.9, run_end=-0.208, entrance_start=0.34, run_area=0.511,
@@ -27,10 +27,9 @@ from collections.abc import Mapping, Sequence
 
 from assoc_hull.arguments import instance, numbers, positive, text
 from assoc_hull.errors import BadInputError, UnknownNameError
-from assoc_hull.model.definition_part import NODE_FIELDS, FormDefinition
+from assoc_hull.model.form_definition import NODE_FIELDS, USES, FormDefinition
 from assoc_hull.model.forms.closure import close_halves
-from assoc_hull.model.state import Particulars
-from assoc_hull.model.uses import USES
+from assoc_hull.model.tables import Particulars
 
 __all__ = ["course", "design_waterline", "sectional_area"]
 
@@ -66,7 +65,7 @@ def sectional_area(
     name : str
         What the definition is called.
     **values : float or None
-        As `assoc_hull.model.definition_part.HALVES` names them, in the frame of the ship: from
+        As `assoc_hull.model.form_definition.HALVES` names them, in the frame of the ship: from
         -1 at AP to 1 at FP. The run starts at AP, the entrance ends at FP and the parallel part
         has the ordinate 1 unless they say else.
 
@@ -138,11 +137,11 @@ def course(
     Parameters
     ----------
     use : str
-        What is taken from it, one of `assoc_hull.model.uses.USES`.
+        What is taken from it, one of `assoc_hull.model.form_definition.USES`.
     nodes : mapping of str to (float, float), (float, float, float) or mapping
         By label: x (m from AP) and ordinate (m, degrees, m2 or 1/m, whichever it is a curve
         of), and the angle (degrees) if it is given; or any of
-        `assoc_hull.model.definition_part.NODE_FIELDS` by name.
+        `assoc_hull.model.form_definition.NODE_FIELDS` by name.
     rule : {"form", "monotone", "straight"}
         How the pieces run where nothing is given.
     name : str or None

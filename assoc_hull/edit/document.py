@@ -19,9 +19,8 @@ from assoc_hull.arguments import shown, shown_name, text
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.step_storage import Keeper, Label
 from assoc_hull.errors import BadInputError, NameTakenError, UnknownNameError
-from assoc_hull.model.copy import copy_of, put_back
 from assoc_hull.model.index import Index, build_index
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState, copy_into, copy_state
 
 __all__ = ["Document"]
 
@@ -259,13 +258,13 @@ class Document:
     @contextlib.contextmanager
     def unharmed(self) -> Iterator[None]:
         """Bring tables and history back to what they were, if what is done meanwhile fails."""
-        was = None if self.keeper is None else copy_of(self.state)  # in memory nothing fails
+        was = None if self.keeper is None else copy_state(self.state)  # in memory nothing fails
         before = list(self.history), list(self.undone)
         try:
             yield
         except BaseException:
             if was is not None:
-                put_back(self.state, was)
+                copy_into(self.state, was)
                 self.refresh()
             self.history[:], self.undone[:] = before
             raise

@@ -10,10 +10,10 @@ import numpy as np
 
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.run_update import Pass
+from assoc_hull.graph.run_update import UpdatePass
 from assoc_hull.model.kinds import State
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.state import curve_node
+from assoc_hull.model.tables import curve_node
 
 __all__ = ["blocked_nodes", "note_states"]
 
@@ -28,7 +28,7 @@ def blocked_nodes(network: HullNetwork, failed: tuple[int, ...]) -> IntArray:
     return found
 
 
-def note_states(network: HullNetwork, result: Pass, journal: Journal) -> None:
+def note_states(network: HullNetwork, result: UpdatePass, journal: Journal) -> None:
     """Write which curves have failed, which are well again, and what is blocked now."""
     state = network.state
     broken = {node >> 1 for node in result.failed if node & 1}

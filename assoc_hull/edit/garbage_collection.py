@@ -7,8 +7,8 @@ references, so nothing is lost by waiting until it is over.
 Examples
 --------
 >>> import gc
->>> from assoc_hull.edit.garbage_collection import Quiet
->>> with Quiet():
+>>> from assoc_hull.edit.garbage_collection import PausedCollector
+>>> with PausedCollector():
 ...     gc.isenabled()
 False
 >>> gc.isenabled()
@@ -19,10 +19,10 @@ from __future__ import annotations
 
 import gc
 
-__all__ = ["Quiet", "settle"]
+__all__ = ["PausedCollector", "freeze_loaded_objects"]
 
 
-class Quiet:
+class PausedCollector:
     """Holds the collector off; may be entered again inside, and leaves it as it was."""
 
     def __init__(self) -> None:
@@ -37,7 +37,7 @@ class Quiet:
             gc.enable()
 
 
-def settle() -> None:
+def freeze_loaded_objects() -> None:
     """Take all that has been loaded out of the collector's sight; to be called after a load.
 
     What is there now stays, as a hull does; later collections then look at new objects only.

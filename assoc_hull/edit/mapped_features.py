@@ -23,10 +23,10 @@ import numpy as np
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.numeric.vectors import dot
-from assoc_hull.geometry.polylines.fitted_circle import circle_of
+from assoc_hull.geometry.polylines.fitted_circle import fit_circle_in_plane
 from assoc_hull.model.feature_geometry import ROUNDING, places_off
 from assoc_hull.model.features import Feature
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["CarriedFeatures", "carry_features"]
 
@@ -120,7 +120,7 @@ def _circle(
     feature: Feature, xyz: FloatArray, centre: FloatArray, normal: FloatArray
 ) -> tuple[FloatArray, float]:
     """Give centre and radius of the circle on which the images of points lie, or nearly do."""
-    found = circle_of(xyz, normal, closed=feature.kind == "circle")
+    found = fit_circle_in_plane(xyz, normal, closed=feature.kind == "circle")
     if found.off <= ROUNDING + feature.gap * found.radius / (feature.radius or found.radius):
         return found.centre, found.radius
     away = xyz - centre

@@ -17,19 +17,19 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.kinds import BoundaryKind
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = [
-    "PLANE",
-    "Planes",
+    "IN_PLANE",
+    "TransformedPlanes",
     "carry_planes",
     "flat_borders",
-    "heights",
-    "into_planes",
-    "most_in_one",
+    "mostly_in_one_plane",
+    "plane_heights",
+    "snap_into_planes",
 ]
 
-PLANE = 1e-9
+IN_PLANE = 1e-9
 """A place as near to a plane as this (m) lies in it."""
 
 _APART = 1e-6
@@ -39,7 +39,7 @@ BoolArray = np.typing.NDArray[np.bool_]
 
 
 @attrs.frozen(eq=False)
-class Planes:
+class TransformedPlanes:
     """The planes of all lines after a transformation.
 
     Attributes
@@ -60,7 +60,7 @@ class Planes:
     bent: dict[int, float]
 
 
-def heights(xyz: FloatArray, normal: FloatArray) -> FloatArray:
+def plane_heights(xyz: FloatArray, normal: FloatArray) -> FloatArray:
     """Give ``normal . P`` of places (n, 3), by one normal or one each, (n,), m."""
     found: FloatArray = xyz[:, 0] * normal[..., 0] + xyz[:, 1] * normal[..., 1]
     return found + xyz[:, 2] * normal[..., 2]
@@ -73,7 +73,7 @@ def carry_planes(
     *,
     follow: bool,
     levels: Mapping[int, float] | None = None,
-) -> Planes:
+) -> TransformedPlanes:
     """Find where the planes of all lines come to.
 
     Parameters
@@ -103,9 +103,9 @@ def carry_planes(
     offset[apart] = [asked[line] for line in apart]
     going = [line for line in flat if (follow or line in drive) and line not in apart]
     for line, before, after in _samples(state, space, going):
-        level = np.sort(heights(after, normal[line]))
+        level = np.sort(plane_heights(after, normal[line]))
         spread = float(level[-1] - level[0])
-        if spread <= PLANE:
+        if spread <= IN_PLANE:
             offset[line] = _centre_kept(state, line, float(level[len(level) // 2]))
         elif line in drive:
             found = _oblique(state, space, line, before, after)
@@ -115,16 +115,16 @@ def carry_planes(
                 normal[line], offset[line] = 0.0, np.nan
             else:
                 normal[line], offset[line] = found
-        elif most_in_one(level):
+        elif mostly_in_one_plane(level):
             offset[line] = _centre_kept(state, line, float(level[len(level) // 2]))
-    planes = Planes(normal, offset, planar, bent)
+    planes = TransformedPlanes(normal, offset, planar, bent)
     _check_order(state, planes)
     return planes
 
 
-def most_in_one(level: FloatArray) -> bool:
+def mostly_in_one_plane(level: FloatArray) -> bool:
     """Tell whether at least half of sorted heights (m) are one height."""
-    return bool((np.abs(level - level[len(level) // 2]) <= PLANE).mean() >= 0.5)
+    return bool((np.abs(level - level[len(level) // 2]) <= IN_PLANE).mean() >= 0.5)
 
 
 def _samples(
@@ -156,7 +156,7 @@ def _centre_kept(state: HullState, line: int, level: float) -> float:
 
 
 def _refuse_centre(state: HullState, line: int, away: float) -> None:
-    if _is_centre(state, line) and away > PLANE:
+    if _is_centre(state, line) and away > IN_PLANE:
         raise BadInputError(
             f"the mapping moves {state.lines.name.data[line]} {away:.3g} m out of the centre plane",
             "in transform", "keep y = 0 where y = 0: only one side of a hull is stored",
@@ -179,13 +179,13 @@ def _oblique(
                          np.cross(slope[0], slope[1])])  # fmt: skip
     new = (cofactor * old).sum(axis=1)
     new = new / np.sqrt((new * new).sum())
-    level = np.sort(heights(after, new))
-    if float(level[-1] - level[0]) > PLANE:
+    level = np.sort(plane_heights(after, new))
+    if float(level[-1] - level[0]) > IN_PLANE:
         return None
     return new, float(level[len(level) // 2])
 
 
-def _check_order(state: HullState, planes: Planes) -> None:
+def _check_order(state: HullState, planes: TransformedPlanes) -> None:
     """See that parallel lines of a group stay apart and in order."""
     live = state.live("lines")
     groups = state.lines.group.data
@@ -207,7 +207,9 @@ def _check_order(state: HullState, planes: Planes) -> None:
                 )  # fmt: skip
 
 
-def into_planes(state: HullState, planes: Planes, rows: IntArray, xyz: FloatArray) -> FloatArray:
+def snap_into_planes(
+    state: HullState, planes: TransformedPlanes, rows: IntArray, xyz: FloatArray
+) -> FloatArray:
     """Put points that lie in the planes of their lines up to rounding exactly into them.
 
     Parameters
@@ -229,7 +231,7 @@ def into_planes(state: HullState, planes: Planes, rows: IntArray, xyz: FloatArra
     for side in (0, 1):
         tilted = np.flatnonzero(held[:, side] & ~along[:, side])
         normal = planes.normal[line[tilted, side]]
-        off = heights(out[tilted], normal) - planes.offset[line[tilted, side]]
+        off = plane_heights(out[tilted], normal) - planes.offset[line[tilted, side]]
         out[tilted] -= normal * off[:, None]
     for side in (0, 1):
         for axis in range(3):
@@ -238,7 +240,7 @@ def into_planes(state: HullState, planes: Planes, rows: IntArray, xyz: FloatArra
     return out
 
 
-def flat_borders(state: HullState, planes: Planes) -> IntArray:
+def flat_borders(state: HullState, planes: TransformedPlanes) -> IntArray:
     """Give the lines that border a flat and still lie in its plane."""
     found: IntArray = np.flatnonzero(
         state.lines.alive.data & (state.lines.boundary.data == BoundaryKind.FLAT) & planes.planar

@@ -8,12 +8,12 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.network import bits_differ
-from assoc_hull.model.state import HullState, curve_node, row_node
+from assoc_hull.model.tables import HullState, curve_node, row_node
 
-__all__ = ["net_change"]
+__all__ = ["net_difference"]
 
 
-def net_change(
+def net_difference(
     state: HullState,
     journal: Journal,
     before: dict[int, SplineBatch],

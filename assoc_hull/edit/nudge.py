@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
-from assoc_hull.edit.mapped_planes import Planes, into_planes
+from assoc_hull.edit.mapped_planes import TransformedPlanes, snap_into_planes
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, freeze
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.features import Feature
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.state import Ends, HullState, Particulars
+from assoc_hull.model.tables import Ends, HullState, Particulars
 
 if TYPE_CHECKING:
     from assoc_hull.edit.transaction import Transaction
@@ -119,7 +119,7 @@ def write_nudge(
     rows = rows[by.move[rows].any(axis=1)]
     lines = np.flatnonzero(by.level != 0.0)
     journal.put(state.lines.offset, lines, planes.offset[lines])
-    places = into_planes(state, planes, rows, state.rows.xyz.data[rows] + by.move[rows])
+    places = snap_into_planes(state, planes, rows, state.rows.xyz.data[rows] + by.move[rows])
     journal.put(state.rows.xyz, rows, places)
     _turn_points(state, journal, by.turn)
     _turn_ends(state, journal, by.turn)
@@ -135,9 +135,9 @@ def nudged(state: HullState) -> IntArray:
     return np.flatnonzero(table.alive.data & (table.driver.data < 0) & ~watched)
 
 
-def _planes(state: HullState, level: FloatArray) -> Planes:
+def _planes(state: HullState, level: FloatArray) -> TransformedPlanes:
     lines = state.lines
-    return Planes(lines.normal.data, lines.offset.data + level, lines.planar.data, {})
+    return TransformedPlanes(lines.normal.data, lines.offset.data + level, lines.planar.data, {})
 
 
 def _turn_points(state: HullState, journal: Journal, turn: FloatArray) -> None:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.checks.after_update import plane_normals
+from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.followup.take_up_definitions import form_changes
-from assoc_hull.edit.net_difference import net_change
+from assoc_hull.edit.net_difference import net_difference
 from assoc_hull.edit.report import EditReport, Fairness, Movement
 from assoc_hull.edit.step import Step, StepBody
 from assoc_hull.edit.update_passes import Work
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.graph.node import Readers
-from assoc_hull.model.state import HullState, curve_node, row_node
+from assoc_hull.graph.network import Readers
+from assoc_hull.model.tables import HullState, curve_node, row_node
 
 __all__ = ["step_of"]
 
@@ -29,7 +29,9 @@ def step_of(work: Work, rows: IntArray, away: FloatArray) -> Step:
     if len(parts) > 1 or work.pending.structural:
         every = np.concatenate([nodes, *(part.changed for part in parts)])
         known = np.concatenate([distance, *(part.moved for part in parts)])
-        nodes, distance = net_change(work.state, work.journal, work.network.before, every, known)
+        nodes, distance = net_difference(
+            work.state, work.journal, work.network.before, every, known
+        )
     nodes = np.concatenate([nodes, work.forms])
     distance = np.concatenate([distance, np.full(len(work.forms), np.nan)])
     cause = Readers(

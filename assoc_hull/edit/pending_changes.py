@@ -6,12 +6,12 @@ from collections.abc import Callable
 
 import attrs
 
-from assoc_hull.edit.field import Field
+from assoc_hull.edit.displacement_field import NormalField
 from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.nudge import Nudge
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.graph.run_update import Policy
-from assoc_hull.model.definition_part import FormDefinition
+from assoc_hull.graph.run_update import FailurePolicy
+from assoc_hull.model.form_definition import FormDefinition
 
 __all__ = ["Pending", "Settings"]
 
@@ -29,7 +29,7 @@ class Settings:
         as a defect that a check names.
     """
 
-    policy: Policy = Policy.ALL_OR_NOTHING
+    policy: FailurePolicy = FailurePolicy.ALL_OR_NOTHING
     refuse_gaps: bool = True
 
 
@@ -87,7 +87,7 @@ class Pending:
     held: set[int] = attrs.field(factory=set)
     structural: bool = False
     moved_curves: set[int] = attrs.field(factory=set)
-    fields: list[Field] = attrs.field(factory=list)
+    fields: list[NormalField] = attrs.field(factory=list)
     born: list[str] = attrs.field(factory=list)
     gone: list[str] = attrs.field(factory=list)
     fresh: list[int] = attrs.field(factory=list)

@@ -6,7 +6,7 @@ Examples
 --------
 >>> from assoc_hull.edit.recording import said
 >>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.model.handles import handle
+>>> from assoc_hull.model.objects import handle
 >>> said(handle(wigley(), "ST 7 x WL 2.5"))
 'ST 7 x WL 2.5'
 """
@@ -24,12 +24,10 @@ import numpy as np
 
 from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.errors import AssocHullError
-from assoc_hull.graph.run_update import Policy
+from assoc_hull.graph.run_update import FailurePolicy
 from assoc_hull.model.address import AddressBook, address
-from assoc_hull.model.curve import Curve
-from assoc_hull.model.definition_part import FormDefinition
-from assoc_hull.model.line import Group, Line
-from assoc_hull.model.point import Crossing, Point
+from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 
 __all__ = ["ANY_FUNCTION", "Recording", "Script", "recorded", "said"]
 
@@ -56,7 +54,7 @@ class Script:
     """
 
     edits: tuple[dict[str, Any], ...] = ()
-    policy: str = Policy.ALL_OR_NOTHING.value
+    policy: str = FailurePolicy.ALL_OR_NOTHING.value
     gaps: str = "refuse"
 
     @classmethod

@@ -7,7 +7,7 @@ import attrs
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 
-__all__ = ["EditReport", "Fairness", "FormChange", "Movement", "told_change"]
+__all__ = ["EditReport", "Fairness", "FormChange", "Movement", "change_text"]
 
 Inflections = tuple[tuple[str, int], ...]
 
@@ -51,13 +51,13 @@ class Fairness:
         )
 
 
-def told_change(change: FormChange) -> str:
+def change_text(change: FormChange) -> str:
     """Say how a value of a definition was changed.
 
     Examples
     --------
-    >>> from assoc_hull.edit.report import told_change
-    >>> told_change(("areas", "run_area", 0.51, None))
+    >>> from assoc_hull.edit.report import change_text
+    >>> change_text(("areas", "run_area", 0.51, None))
     'run_area 0.51 -> free'
     """
     _, name, old, new = change
@@ -163,7 +163,7 @@ class EditReport:
         if not self.changed:
             return f"{self.name}: nothing changed, no step was added"
         parts = [f"{self.name}: {len(self.relofted)} curves re-lofted"]
-        parts += [f"{each[0]}: {told_change(each)}" for each in self.definitions]
+        parts += [f"{each[0]}: {change_text(each)}" for each in self.definitions]
         if self.largest is not None:
             x, y, z = self.largest.place
             parts.append(

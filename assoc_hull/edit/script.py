@@ -1,4 +1,9 @@
-"""Edits given as data or as a function, and how they are to be carried out."""
+"""Edits given as data or as a function, and edits of one hull made again on another.
+
+A script is a list of modifications, each a method of `Edit` and its arguments by name; every
+committed step carries the script that it was asked for by. `replay` finds the objects by their
+addresses, so it works on any hull that has them, and says of each step why it could not be made.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +11,29 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
-from assoc_hull.arguments import choice, shown, shown_name
-from assoc_hull.edit.pending_changes import Settings
-from assoc_hull.edit.session import Edit
-from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
-from assoc_hull.graph.run_update import Policy
+import attrs
 
-__all__ = ["Changes", "GapsName", "PolicyName", "carry_out", "settings_of"]
+from assoc_hull.arguments import choice, shown, shown_name
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.pending_changes import Settings
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.session import Edit
+from assoc_hull.edit.step import Step
+from assoc_hull.errors import AssocHullError, BadInputError, UnknownNameError, WrongTypeError
+from assoc_hull.graph.run_update import FailurePolicy
+
+__all__ = [
+    "Changes",
+    "GapsName",
+    "PolicyName",
+    "Replayed",
+    "carry_out",
+    "replay",
+    "settings_of",
+]
+
+# --------------------------------------------------------------------------------------
+# Edits given as data or as a function, and how they are to be carried out.
 
 Changes = Callable[[Edit], object] | Sequence[Mapping[str, Any]]
 PolicyName = Literal["all_or_nothing", "keep_going"]
@@ -34,11 +55,11 @@ def settings_of(policy: str, gaps: str) -> Settings:
     False
     """
     for what, given, known in (
-        ("policy", policy, [each.value for each in Policy]),
+        ("policy", policy, [each.value for each in FailurePolicy]),
         ("gaps", gaps, ["refuse", "report"]),
     ):
         choice(given, what, known, "in an edit")
-    return Settings(Policy(policy), gaps == "refuse")
+    return Settings(FailurePolicy(policy), gaps == "refuse")
 
 
 def carry_out(edit: Edit, changes: Changes | None) -> None:
@@ -97,3 +118,70 @@ def _operations(edit: Edit) -> tuple[str, ...]:
         for name in sorted(vars(type(edit)))
         if not name.startswith("_") and callable(getattr(type(edit), name))
     )
+
+
+# --------------------------------------------------------------------------------------
+# The edits of one hull made again on another.
+
+_UNKNOWN = "it was given a function, or was not made through the public methods: nothing tells it"
+
+
+@attrs.frozen
+class Replayed:
+    """What became of one edit.
+
+    Attributes
+    ----------
+    name : str
+        Name of the edit.
+    report : EditReport or None
+        Its report on this hull; None if it was not made.
+    why : str
+        Why it was not made.
+    """
+
+    name: str
+    report: EditReport | None
+    why: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.name}: {'made again' if self.report else self.why}"
+
+
+def replay(
+    document: Document, steps: Sequence[Step], *, skip: bool = False
+) -> tuple[Replayed, ...]:
+    """Make edits again, each as one step, in their order.
+
+    Parameters
+    ----------
+    document : Document
+        The hull.
+    steps : sequence of Step
+        The edits, of this or another hull; objects are found by their addresses.
+    skip : bool
+        Go on behind an edit that cannot be made; else stop there.
+
+    Returns
+    -------
+    tuple of Replayed
+        One for each edit that was tried.
+    """
+    found: list[Replayed] = []
+    for step in tuple(steps):  # on the same hull, the history grows meanwhile
+        found.append(_again(document, step))
+        if found[-1].report is None and not skip:
+            break
+    return tuple(found)
+
+
+def _again(document: Document, step: Step) -> Replayed:
+    script = step.script
+    if not script.repeatable:
+        return Replayed(step.name, None, _UNKNOWN)
+    try:
+        with Edit(document, step.name, settings_of(script.policy, script.gaps)) as edit:
+            carry_out(edit, script.edits)
+    except AssocHullError as error:
+        return Replayed(step.name, None, str(error))
+    return Replayed(step.name, edit.report)

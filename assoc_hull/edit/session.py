@@ -13,18 +13,18 @@ from typing import Any, Literal, Self
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import choice, flag, number, positive, shown
+from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.given import Given
 from assoc_hull.edit.modifications import associations as _associate
 from assoc_hull.edit.modifications import curve_ends as _ends
+from assoc_hull.edit.modifications import definitions as _reattach
+from assoc_hull.edit.modifications import definitions as _set_form
 from assoc_hull.edit.modifications import names as _rename
 from assoc_hull.edit.modifications import points as _points
 from assoc_hull.edit.modifications import pull as _pull
-from assoc_hull.edit.modifications import reattach as _reattach
-from assoc_hull.edit.modifications import renew_roles as _renew
 from assoc_hull.edit.modifications import reshape as _reshape
-from assoc_hull.edit.modifications import set_form as _set_form
-from assoc_hull.edit.modifications import set_role as _set_role
+from assoc_hull.edit.modifications import roles as _renew
+from assoc_hull.edit.modifications import roles as _set_role
 from assoc_hull.edit.newline import add_line as _cut
 from assoc_hull.edit.newline import remove_line as _lines
 from assoc_hull.edit.newline import shift_line as _shift
@@ -32,15 +32,13 @@ from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.recording import recorded
 from assoc_hull.edit.recut import transform as _transform
 from assoc_hull.edit.report import EditReport
-from assoc_hull.edit.space_map import Jacobian, Mapping, space_map
+from assoc_hull.edit.space_map import Jacobian, PointMapping, space_map
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, WrongTypeError
-from assoc_hull.model.curve import Curve
-from assoc_hull.model.definition_part import FormDefinition
-from assoc_hull.model.line import Group, Line
-from assoc_hull.model.point import Crossing, Point
-from assoc_hull.model.state import HullState
+from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
+from assoc_hull.model.tables import HullState
 
 __all__ = ["Edit"]
 
@@ -116,8 +114,8 @@ class Edit:
         return self._held.state
 
     @property
-    def _given(self) -> Given:
-        return Given(self._held.state)
+    def _given(self) -> GivenObjects:
+        return GivenObjects(self._held.state)
 
     @recorded
     def move(
@@ -337,7 +335,7 @@ class Edit:
     @recorded
     def transform(
         self,
-        mapping: Mapping | None = None,
+        mapping: PointMapping | None = None,
         drivers: Sequence[Group | Line | str] = (),
         *,
         scale: ArrayLike | None = None,

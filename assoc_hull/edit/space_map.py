@@ -16,9 +16,9 @@ from assoc_hull.arguments import places, shown
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["Affine", "Jacobian", "Mapping", "SpaceMap", "affine", "space_map"]
+__all__ = ["Affine", "Jacobian", "PointMapping", "SpaceMap", "affine", "space_map"]
 
-Mapping = Callable[[FloatArray], ArrayLike]
+PointMapping = Callable[[FloatArray], ArrayLike]
 """Takes places (n, 3), m, and gives where they come to, (n, 3), m."""
 
 Jacobian = Callable[[FloatArray], ArrayLike]
@@ -92,7 +92,7 @@ class SpaceMap:
         Its Jacobian; central differences over +- 1 mm if None.
     """
 
-    call: Mapping
+    call: PointMapping
     slope: Jacobian | None = None
 
     def places(self, xyz: FloatArray) -> FloatArray:
@@ -149,7 +149,7 @@ class SpaceMap:
 
 
 def space_map(
-    mapping: Mapping | None,
+    mapping: PointMapping | None,
     jacobian: Jacobian | None,
     scale: ArrayLike | None,
     shift: ArrayLike | None,
@@ -173,7 +173,7 @@ def space_map(
 
 
 def _checked(
-    call: Mapping | Jacobian, xyz: FloatArray, shape: tuple[int, ...], what: str
+    call: PointMapping | Jacobian, xyz: FloatArray, shape: tuple[int, ...], what: str
 ) -> FloatArray:
     """Call a designer's function with a copy, and see to the shape of what it gives."""
     try:

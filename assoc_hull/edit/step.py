@@ -11,9 +11,9 @@ from assoc_hull.edit.recording import Script
 from assoc_hull.edit.report import EditReport
 from assoc_hull.errors import DamagedFileError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.graph.node import Readers, distinct
-from assoc_hull.model.change import Change, run_change
-from assoc_hull.model.state import HullState, form_of
+from assoc_hull.graph.network import Readers, distinct
+from assoc_hull.model.change import TableChange, apply_change
+from assoc_hull.model.tables import HullState, form_of
 
 __all__ = ["Rerun", "Step", "StepBody", "Writes"]
 
@@ -33,7 +33,7 @@ class Rerun:
     """A change together with the tables that it runs over."""
 
     state: HullState
-    change: Change
+    change: TableChange
 
     def back(self) -> None:
         """Take it back."""
@@ -45,7 +45,7 @@ class Rerun:
 
     def _run(self, *, forward: bool) -> None:
         try:
-            run_change(self.state, self.change, forward=forward)
+            apply_change(self.state, self.change, forward=forward)
         except (ValueError, TypeError, LookupError, ArithmeticError, AttributeError) as error:
             what = f"the change of a step does not fit the hull ({type(error).__name__}: {error})"
             remedy = "take the hull from a copy; it is as it was"

@@ -14,7 +14,7 @@ from typing import Any, Self
 import numpy as np
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.garbage_collection import Quiet
+from assoc_hull.edit.garbage_collection import PausedCollector
 from assoc_hull.edit.pending_changes import Pending, Settings
 from assoc_hull.edit.recording import Script
 from assoc_hull.edit.report import EditReport
@@ -24,7 +24,7 @@ from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["Transaction"]
 
@@ -65,7 +65,7 @@ class Transaction:
         self._step: Step | None = None
         self._depth, self._thread = 0, 0
         self._broken = False
-        self._quiet = Quiet()
+        self._quiet = PausedCollector()
         self._over = False
 
     @property

@@ -11,20 +11,36 @@ import time
 import attrs
 import numpy as np
 
-from assoc_hull.edit.checks.after_update import (
+from assoc_hull.edit.checks.shape_findings import find_turned
+from assoc_hull.edit.checks.update_findings import (
+    ends_at_risk,
     find_beyond,
+    find_endless,
     find_folds,
     find_unbounded,
     find_unmet,
     measure_gaps,
+    note_new_ends,
     splines_of,
 )
-from assoc_hull.edit.checks.line_ends import ends_at_risk, find_endless, note_new_ends
-from assoc_hull.edit.checks.sense import find_turned
+from assoc_hull.edit.displacement_field import (
+    add_displacements,
+    field_context,
+    land_points,
+    sub_step_count,
+    unreached,
+)
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.field import add_shifts, context, land, sub_steps
-from assoc_hull.edit.followup.adopted_points import rebase, ride_links
-from assoc_hull.edit.followup.births_and_deaths import latent_meetings, settle
+from assoc_hull.edit.followup.adopted_points import (
+    link_adopted_points,
+    mend_gaps,
+    rebase_adopted_points,
+)
+from assoc_hull.edit.followup.crossings import (
+    latent_intersections,
+    rejoin_crossings,
+    settle_crossings,
+)
 from assoc_hull.edit.followup.detach_curves import (
     detach,
     detach_rows,
@@ -32,8 +48,6 @@ from assoc_hull.edit.followup.detach_curves import (
     off_definitions,
     tidy,
 )
-from assoc_hull.edit.followup.mend_gaps import mend
-from assoc_hull.edit.followup.realign import rejoin
 from assoc_hull.edit.followup.refine_curves import refine_forms
 from assoc_hull.edit.followup.reorder_crossings import limit_watched, renew_followers, widen_limits
 from assoc_hull.edit.followup.settle_features import settle_features
@@ -42,18 +56,17 @@ from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.nudge import Nudge, write_nudge
 from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.pending_changes import Pending, Settings
-from assoc_hull.edit.pull_field import unreached
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.update_passes import Work
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
-from assoc_hull.model.generated import attached
+from assoc_hull.model.generated_curves import attached_curves
 from assoc_hull.model.kinds import Sort, State
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.network import HullNetwork, bits_differ
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["update"]
 
@@ -138,7 +151,7 @@ def _set_values(
 def _link_riders(state: HullState, journal: Journal, pending: Pending) -> None:
     """Link adopted points to their neighbours, which may be others than before."""
     curves = np.array(sorted(pending.curves | set(pending.fresh)), np.int64)
-    ride_links(state, curves[state.curves.alive.data[curves]], journal)
+    link_adopted_points(state, curves[state.curves.alive.data[curves]], journal)
 
 
 def _run_fields(work: Work, rows: IntArray, origin: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -149,9 +162,9 @@ def _run_fields(work: Work, rows: IntArray, origin: FloatArray) -> tuple[IntArra
     state, fields = work.state, work.pending.fields
     across = any(field.across_flats for field in fields)
     pinned = set(work.pending.values)
-    ground = context(state, across_flats=across)
-    shift = add_shifts([field.shift(ground, 1.0) for field in fields], pinned)
-    steps = sub_steps(state, shift)
+    ground = field_context(state, across_flats=across)
+    shift = add_displacements([field.shift(ground, 1.0) for field in fields], pinned)
+    steps = sub_step_count(state, shift)
     curves = np.array(sorted(work.pending.curves), np.int64)
     touched: set[int] = set(rows.tolist())
     for step in range(steps + _MORE):
@@ -159,14 +172,14 @@ def _run_fields(work: Work, rows: IntArray, origin: FloatArray) -> tuple[IntArra
         if part == 0.0:
             break
         if step:
-            ground = context(state, across_flats=across)
-        shift = add_shifts([field.shift(ground, part) for field in fields], pinned)
+            ground = field_context(state, across_flats=across)
+        shift = add_displacements([field.shift(ground, part) for field in fields], pinned)
         before = state.rows.xyz.data.copy()
         if detach_rows(Maker(state, work.journal), work.pending, shift.rows):
             work.renew()
         work.journal.put(state.rows.xyz, shift.rows, state.rows.xyz.data[shift.rows] + shift.delta)
         if step == steps - 1:
-            land(state, work.journal, fields)
+            land_points(state, work.journal, fields)
         shifted = np.flatnonzero(bits_differ(before, state.rows.xyz.data))
         adopted = state.rows.sort.data[shifted] == Sort.ADOPTED
         work.pending.held |= set(shifted[adopted].tolist())
@@ -178,7 +191,7 @@ def _run_fields(work: Work, rows: IntArray, origin: FloatArray) -> tuple[IntArra
         f"{address(state, row)}: left alone, it is free almost along the hull only"
         for row in shift.left.tolist()
     ]
-    rebase(state, np.array(sorted(work.pending.held), np.int64), work.journal)
+    rebase_adopted_points(state, np.array(sorted(work.pending.held), np.int64), work.journal)
     work.pending.held.clear()
     every = np.array(sorted(touched), np.int64)
     every = every[every < len(origin)]
@@ -204,18 +217,18 @@ def _settle(work: Work) -> None:
     for _ in range(_ROUNDS):
         alignments, work.network.realigned = work.network.realigned, []
         maker = Maker(work.state, work.journal)
-        rejoin(maker, alignments)
-        latent = latent_meetings(work.state, work.touched())
+        rejoin_crossings(maker, alignments)
+        latent = latent_intersections(work.state, work.touched())
         if not alignments and not latent:
             return
         work.ends += ends_at_risk(work.state, alignments)
-        change = settle(maker, alignments, latent, work.pending.moved_curves)
+        change = settle_crossings(maker, alignments, latent, work.pending.moved_curves)
         work.pending.notes += note_new_ends(work.state, alignments)
         work.born += change.born
         work.gone += change.gone
         curves = np.array(change.curves, np.int64)
         if change.born or change.gone:
-            ride_links(work.state, curves, work.journal)
+            link_adopted_points(work.state, curves, work.journal)
             work.renew()
         if not len(curves):
             return
@@ -226,7 +239,7 @@ def _relink(work: Work) -> None:
     """Let adopted points that were carried ride from where they and their neighbours are now."""
     held, curves = work.pending.held, np.array(sorted(work.pending.relink), np.int64)
     curves = curves[work.state.curves.alive.data[curves]]
-    ride_links(work.state, curves, work.journal)
+    link_adopted_points(work.state, curves, work.journal)
     if len(curves):
         work.renew()
     held.clear()
@@ -249,7 +262,7 @@ def _follow_up(work: Work) -> None:
 
 def _refine(work: Work) -> None:
     """Give generated curves the points that they have come to need, and let others follow."""
-    if not attached(work.state) or work.pending.alone:
+    if not attached_curves(work.state) or work.pending.alone:
         return
     curves = refine_forms(work, work.touched())
     if curves:
@@ -274,7 +287,7 @@ def _confirm(work: Work) -> None:
     """Detach what this update has bent off its definitions, and tell what has been detached."""
     pending, state = work.pending, work.state
     maker = Maker(state, work.journal)
-    if attached(state) and (pending.structural or pending.fields):
+    if attached_curves(state) and (pending.structural or pending.fields):
         off = off_definitions(state, work.touched().tolist())
         detach(maker, pending, off)
         if off:
@@ -306,7 +319,7 @@ def _check(work: Work) -> tuple[str, ...]:
     curves = work.touched()
     wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     if len(wide.rows) and not any(field.strict for field in work.pending.fields):
-        touched, moved = mend(Maker(work.state, work.journal), wide.mend)
+        touched, moved = mend_gaps(Maker(work.state, work.journal), wide.mend)
         if len(touched):
             work.mended += [work.state.curves.key.data[curve] for curve in touched.tolist()]
             work.renew()

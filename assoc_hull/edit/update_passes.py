@@ -5,16 +5,16 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.edit.checks.after_update import Wide
+from assoc_hull.edit.checks.update_findings import WideGaps
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.failed_curves import blocked_nodes, note_states
 from assoc_hull.edit.pending_changes import Pending, Settings
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.run_update import Pass, run
+from assoc_hull.graph.run_update import UpdatePass, run_update
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.state import HullState, curve_node, row_node
+from assoc_hull.model.tables import HullState, curve_node, row_node
 
 __all__ = ["Work"]
 
@@ -57,14 +57,14 @@ class Work:
     pending: Pending
     settings: Settings
     network: HullNetwork
-    passes: list[Pass] = attrs.field(factory=list)
+    passes: list[UpdatePass] = attrs.field(factory=list)
     born: list[str] = attrs.field(factory=list)
     gone: list[str] = attrs.field(factory=list)
     mended: list[str] = attrs.field(factory=list)
     ends: list[tuple[int, int]] = attrs.field(factory=list)
     seconds: dict[str, float] = attrs.field(factory=dict)
     failed: dict[int, str] = attrs.field(factory=dict)
-    wide: Wide | None = None
+    wide: WideGaps | None = None
     planned: int = 0
     watched: list[int] = attrs.field(factory=list)
     forms: IntArray = attrs.field(factory=lambda: _NONE)
@@ -98,7 +98,7 @@ class Work:
             self.planned = self.network.reached(np.concatenate([seeds, curve_node(curves)]))
         held = row_node(np.array(sorted(self.pending.held), np.int64))
         blocked = blocked_nodes(self.network, self.state.failed)
-        result = run(
+        result = run_update(
             self.network, seeds, self.journal, self.settings.policy,
             also=self._also(curves), held=np.concatenate([held, blocked]),
         )  # fmt: skip
@@ -111,10 +111,12 @@ class Work:
             freed = np.setdiff1d(blocked, blocked_nodes(self.network, self.state.failed))
         if len(freed):
             self.passes.append(
-                run(self.network, _NONE, self.journal, self.settings.policy, also=freed, held=held)
+                run_update(
+                    self.network, _NONE, self.journal, self.settings.policy, also=freed, held=held
+                )
             )
 
-    def _refuse_unmade(self, result: Pass) -> None:
+    def _refuse_unmade(self, result: UpdatePass) -> None:
         """Points that no definition can give refuse the edit: they have no last good place.
 
         What the tables held would be neither what the definitions say nor what was drawn.

@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
     Any_Graph = networkx.DiGraph[str]
 
-__all__ = ["around", "near", "only"]
+__all__ = ["neighbourhood_graph", "nodes_within", "subgraph"]
 
 G = TypeVar("G", bound="Any_Graph")
 
 
-def around(graph: G, node: str, up: int = 1, down: int = 1) -> G:
+def neighbourhood_graph(graph: G, node: str, up: int = 1, down: int = 1) -> G:
     """Keep what lies within some hops of a node.
 
     Parameters
@@ -47,14 +47,20 @@ def around(graph: G, node: str, up: int = 1, down: int = 1) -> G:
     Examples
     --------
     >>> import networkx
-    >>> from assoc_hull.graph.graph_filter import around
-    >>> sorted(around(networkx.DiGraph([("a", "b"), ("b", "c"), ("c", "d")]), "b", up=1, down=1))
+    >>> from assoc_hull.graph.graph_filter import neighbourhood_graph
+    >>> sorted(
+    ...     neighbourhood_graph(
+    ...         networkx.DiGraph([("a", "b"), ("b", "c"), ("c", "d")]), "b", up=1, down=1
+    ...     )
+    ... )
     ['a', 'b', 'c']
     """
-    return only(graph, near(graph, [node], up, down))
+    return subgraph(graph, nodes_within(graph, [node], up, down))
 
 
-def near(graph: Any_Graph, nodes: Iterable[str], up: int = 1, down: int = 1) -> frozenset[str]:
+def nodes_within(
+    graph: Any_Graph, nodes: Iterable[str], up: int = 1, down: int = 1
+) -> frozenset[str]:
     """Name the nodes within some hops of any of some nodes, these among them.
 
     Parameters
@@ -86,7 +92,7 @@ def near(graph: Any_Graph, nodes: Iterable[str], up: int = 1, down: int = 1) -> 
     return frozenset(kept)
 
 
-def only(
+def subgraph(
     graph: G,
     nodes: Collection[str],
     edge: Callable[[Mapping[str, Any]], bool] | None = None,
@@ -105,8 +111,8 @@ def only(
     Examples
     --------
     >>> import networkx
-    >>> from assoc_hull.graph.graph_filter import only
-    >>> list(only(networkx.DiGraph([("a", "b"), ("b", "c")]), {"c", "b"}))
+    >>> from assoc_hull.graph.graph_filter import subgraph
+    >>> list(subgraph(networkx.DiGraph([("a", "b"), ("b", "c")]), {"c", "b"}))
     ['b', 'c']
     """
     found = graph.__class__()

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     Any_Graph = networkx.DiGraph[str]
 
-__all__ = ["FORMATS", "export"]
+__all__ = ["FORMATS", "graph_text"]
 
 FORMATS = ("graphml", "dot", "mermaid", "json")
 
@@ -33,7 +33,7 @@ _SHAPES = {
 }  # fmt: skip
 
 
-def export(graph: Any_Graph, form: str) -> str:
+def graph_text(graph: Any_Graph, form: str) -> str:
     """Write a graph as text.
 
     Parameters
@@ -56,10 +56,10 @@ def export(graph: Any_Graph, form: str) -> str:
     Examples
     --------
     >>> import networkx
-    >>> from assoc_hull.graph.graph_text import export
+    >>> from assoc_hull.graph.graph_text import graph_text
     >>> graph = networkx.DiGraph()
     >>> graph.add_edge("ST 7", "WL 1", kind="touch")
-    >>> print(export(graph, "mermaid"), end="")
+    >>> print(graph_text(graph, "mermaid"), end="")
     flowchart LR
       n0["ST 7"]
       n1["WL 1"]

@@ -29,11 +29,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.graph.table import ArrayColumn, ListColumn, Table
 
-__all__ = ["Journal", "Net", "Picked", "same_value"]
+__all__ = ["ColumnChange", "Journal", "PickedRows", "same_value"]
 
 
 @attrs.frozen(eq=False)
-class Net:
+class ColumnChange:
     """What a journal did to one column, all its writes taken together.
 
     Attributes
@@ -78,7 +78,7 @@ class _ArrayEntry:
 
 
 @attrs.define(eq=False)
-class Picked:
+class PickedRows:
     """Some rows of a frozen array that others hold as well; of all rows if `pick` is None.
 
     What was picked is at hand as long as it is `taken`, and is picked again when it is not.
@@ -109,8 +109,8 @@ class _PartEntry:
 
     column: ArrayColumn
     part: NDArray[np.int64]
-    old: Picked
-    new: Picked
+    old: PickedRows
+    new: PickedRows
 
     def undo(self) -> None:
         _scatter(self.column.parts(), self.part, self.old.values())
@@ -180,7 +180,7 @@ def _same_bits(one: NDArray[Any], other: NDArray[Any]) -> bool:
     return one.shape == other.shape and bool((one.view(np.int64) == other.view(np.int64)).all())
 
 
-def _net_array(column: ArrayColumn, entries: Sequence[_ArrayEntry | _PartEntry]) -> Net:
+def _net_array(column: ArrayColumn, entries: Sequence[_ArrayEntry | _PartEntry]) -> ColumnChange:
     """Run the writes to an array backward over a copy of what they touched."""
     width = int(np.prod(column.store.shape[1:2])) if column.store.ndim > 1 else 1
     parts = [e.index if isinstance(e, _ArrayEntry) else e.part // width for e in entries]
@@ -194,16 +194,16 @@ def _net_array(column: ArrayColumn, entries: Sequence[_ArrayEntry | _PartEntry])
         else:
             place = np.searchsorted(rows, entry.part // width) * width + entry.part % width
             flat[place] = entry.old.values()
-    return Net(rows, old, new)
+    return ColumnChange(rows, old, new)
 
 
-def _net_list(column: ListColumn, entries: Sequence[_ListEntry]) -> Net:
+def _net_list(column: ListColumn, entries: Sequence[_ListEntry]) -> ColumnChange:
     old: dict[int, object] = {}
     for entry in reversed(entries):
         old.update(zip(entry.index, entry.old, strict=True))
     rows = np.array(sorted(old), np.int64)
     numbers = rows.tolist()
-    return Net(rows, [old[row] for row in numbers], [column.data[row] for row in numbers])
+    return ColumnChange(rows, [old[row] for row in numbers], [column.data[row] for row in numbers])
 
 
 @attrs.define(eq=False)
@@ -225,7 +225,11 @@ class Journal:
         column.writes += 1
 
     def put_parts(
-        self, column: ArrayColumn, part: NDArray[np.int64], new: Picked, before: Picked | None
+        self,
+        column: ArrayColumn,
+        part: NDArray[np.int64],
+        new: PickedRows,
+        before: PickedRows | None,
     ) -> None:
         """Write to parts of rows, as `ArrayColumn.parts` numbers them, each named once.
 
@@ -237,7 +241,7 @@ class Journal:
         parts = column.parts()
         there = parts.take(part, axis=0)
         if before is None or not _same_bits(before.values(), there):
-            before = Picked(there)
+            before = PickedRows(there)
         self.entries.append(_PartEntry(column, part, before, new))
         _scatter(parts, part, new.values())
         column.writes += 1
@@ -270,7 +274,7 @@ class Journal:
         rows, first = np.unique(index, return_index=True)
         return rows, old[first]
 
-    def net(self, column: ArrayColumn | ListColumn) -> Net:
+    def net(self, column: ArrayColumn | ListColumn) -> ColumnChange:
         """Give what all writes to a column did together; true until the next write to it.
 
         Examples

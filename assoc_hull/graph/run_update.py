@@ -20,14 +20,14 @@ import numpy as np
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.node import Evaluation, Network, Readers, distinct
+from assoc_hull.graph.network import Evaluation, Network, Readers, distinct
 
-__all__ = ["Pass", "Policy", "run"]
+__all__ = ["FailurePolicy", "UpdatePass", "run_update"]
 
 _NONE: IntArray = np.zeros(0, np.int64)
 
 
-class Policy(Enum):
+class FailurePolicy(Enum):
     """What becomes of the update when a node cannot be evaluated."""
 
     ALL_OR_NOTHING = "all_or_nothing"
@@ -35,7 +35,7 @@ class Policy(Enum):
 
 
 @attrs.frozen(eq=False)
-class Pass:
+class UpdatePass:
     """What one pass of the engine did.
 
     Attributes
@@ -97,15 +97,15 @@ class _Agenda:
         return parts[0] if len(parts) == 1 else distinct(np.concatenate(parts))
 
 
-def run(
+def run_update(
     network: Network,
     seeds: IntArray,
     journal: Journal,
-    policy: Policy = Policy.ALL_OR_NOTHING,
+    policy: FailurePolicy = FailurePolicy.ALL_OR_NOTHING,
     *,
     also: IntArray = _NONE,
     held: IntArray = _NONE,
-) -> Pass:
+) -> UpdatePass:
     """Bring everything made from the seeds up to date.
 
     Parameters
@@ -163,10 +163,10 @@ def _without(nodes: IntArray, held: IntArray, blocked: set[int]) -> IntArray:
 
 
 def _evaluate(
-    network: Network, nodes: IntArray, journal: Journal, policy: Policy
+    network: Network, nodes: IntArray, journal: Journal, policy: FailurePolicy
 ) -> tuple[Evaluation, dict[int, str]]:
     """Evaluate a batch; when going on, find the nodes that fail by taking them singly."""
-    if policy is Policy.ALL_OR_NOTHING:
+    if policy is FailurePolicy.ALL_OR_NOTHING:
         return network.evaluate(nodes, journal), {}
     mark = len(journal.entries)
     try:
@@ -204,7 +204,7 @@ def _collect(
     pushes: list[Readers],
     failed: dict[int, str],
     blocked: set[int],
-) -> Pass:
+) -> UpdatePass:
     evaluated = np.concatenate([*done, _NONE])
     changed = np.concatenate([*(part.changed for part in results), _NONE])
     moved = np.concatenate([*(part.moved for part in results), np.zeros(0)])
@@ -216,7 +216,7 @@ def _collect(
     if failed or len(changed) < len(evaluated):
         loud = np.concatenate([changed, np.array(sorted(failed), np.int64)])
         quiet = np.setdiff1d(evaluated, loud)
-    return Pass(
+    return UpdatePass(
         evaluated,
         np.concatenate([seeds, changed]),
         np.concatenate([np.full(len(seeds), np.nan), moved]),

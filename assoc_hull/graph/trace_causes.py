@@ -8,13 +8,13 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.graph.node import Readers
+from assoc_hull.graph.network import Readers
 
-__all__ = ["Trace", "Tracer", "chain"]
+__all__ = ["CauseTracer", "CauseTree", "cause_chain"]
 
 
 @attrs.frozen
-class Trace:
+class CauseTree:
     """One node of the tree of causes.
 
     Attributes
@@ -33,10 +33,10 @@ class Trace:
     node: int
     moved: float
     seed: bool
-    causes: tuple[Trace, ...]
+    causes: tuple[CauseTree, ...]
 
 
-class Tracer:
+class CauseTracer:
     """Answers questions about one update.
 
     Parameters
@@ -53,12 +53,12 @@ class Tracer:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.graph.trace_causes import chain, Tracer
-    >>> from assoc_hull.graph.node import Readers
+    >>> from assoc_hull.graph.trace_causes import cause_chain, CauseTracer
+    >>> from assoc_hull.graph.network import Readers
     >>> pushes = Readers(np.array([3, 5, 7]), np.array([2, 3, 5]))
     >>> moved = np.array([np.nan, 0.2, 0.1])
-    >>> tracer = Tracer(pushes, np.array([2, 3, 5]), moved, np.array([2]))
-    >>> chain(tracer.trace(5)), tracer.cut_off(5)
+    >>> tracer = CauseTracer(pushes, np.array([2, 3, 5]), moved, np.array([2]))
+    >>> cause_chain(tracer.trace(5)), tracer.cut_off(5)
     ([5, 3, 2], (7,))
     """
 
@@ -70,13 +70,13 @@ class Tracer:
         self.moved: dict[int, float] = {}
         for node, amount in zip(changed.tolist(), moved.tolist(), strict=True):
             self.moved[node] = _more(amount, self.moved.get(node, 0.0))
-        self._done: dict[int, Trace] = {}
+        self._done: dict[int, CauseTree] = {}
 
     def knows(self, node: int) -> bool:
         """Tell whether the update changed or evaluated a node."""
         return node in self.moved or bool((self.cause.reader == node).any())
 
-    def trace(self, node: int) -> Trace:
+    def trace(self, node: int) -> CauseTree:
         """Give the tree of causes of a node; equal parts of it are one object."""
         return self._trace(node, ())
 
@@ -85,14 +85,14 @@ class Tracer:
         readers = np.unique(self.cause.reader[self.cause.source == node])
         return tuple(reader for reader in readers.tolist() if reader not in self.moved)
 
-    def _trace(self, node: int, path: tuple[int, ...]) -> Trace:
+    def _trace(self, node: int, path: tuple[int, ...]) -> CauseTree:
         if node in self._done:
             return self._done[node]
         here = (*path, node)
         seed = node in self.seeds
         sources = [] if seed else [each for each in self._sources(node) if each not in here]
         causes = tuple(self._trace(each, here) for each in sources)
-        found = Trace(node, self.moved.get(node, 0.0), seed, causes)
+        found = CauseTree(node, self.moved.get(node, 0.0), seed, causes)
         self._done[node] = found
         return found
 
@@ -112,12 +112,12 @@ def _size(amount: float) -> float:
     return float("inf") if np.isnan(amount) else amount
 
 
-def chain(trace: Trace) -> list[int]:
+def cause_chain(trace: CauseTree) -> list[int]:
     """Give the nodes from one back to what set it off, always by the cause that moved most."""
     return [each.node for each in _links(trace)]
 
 
-def _links(trace: Trace) -> Iterator[Trace]:
+def _links(trace: CauseTree) -> Iterator[CauseTree]:
     yield trace
     while trace.causes:
         trace = trace.causes[0]

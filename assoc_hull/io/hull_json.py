@@ -1,26 +1,8 @@
-"""The canonical text of a hull, `.hull.json`: the same hull gives the same bytes.
+"""The canonical text of a hull, `.hull.json`, and its JSON Schema.
 
-One JSON document, UTF-8. Every group, line, curve and point stands on a line of its own,
-sorted by key, so that the difference of two texts shows what an edit changed and no more.
-Floats are written as the shortest decimal that reads back to the same bits.
-
-Top level, in this order::
-
-    format       "assoc-hull"
-    schema       version of this form, a whole number; this module reads and writes 1
-    fingerprint  SHA-256 of definition and published values
-    definition   see `assoc_hull.model.definition.definition.definition`
-    published    see `assoc_hull.model.definition.definition.published`
-
-Opening puts the stored values back and compares the fingerprint; nothing is recomputed.
-
-Examples
---------
->>> from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
->>> from assoc_hull.model.state import HullState, Particulars
->>> text = dumps_hull_json(HullState(Particulars("S", 9.0, 2.0, 1.0, 1.0)))
->>> dumps_hull_json(read_hull_json(text)) == text
-True
+The same hull gives the same bytes, so that texts can be compared line by line. Reading puts the
+stored values back and compares the fingerprint; nothing is recomputed. The schema is made of the
+tables by which the reader checks a hull, and ships as ``hull_json.schema.json``.
 """
 
 from __future__ import annotations
@@ -33,19 +15,41 @@ from typing import Any, NoReturn
 
 from assoc_hull.arguments import once, shown
 from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.io.tables.json_schema import DIALECT, FINGERPRINT, dumps_schema
 from assoc_hull.io.write_file import write_whole
-from assoc_hull.model.definition.definition import definition, fingerprint, published
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.records import definition, published
 from assoc_hull.model.definition.restore import from_definition
-from assoc_hull.model.state import HullState
+from assoc_hull.model.definition.schema import DEFINITION, PUBLISHED
+from assoc_hull.model.tables import HullState
 
 __all__ = [
     "FORMAT",
     "SCHEMA",
     "dumps_hull_json",
+    "dumps_hull_schema",
+    "hull_json_schema",
     "read_hull_json",
     "readable_text",
     "write_hull_json",
 ]
+
+# --------------------------------------------------------------------------------------
+# The canonical text of a hull, `.hull.json`: the same hull gives the same bytes.
+#
+# One JSON document, UTF-8. Every group, line, curve and point stands on a line of its own,
+# sorted by key, so that the difference of two texts shows what an edit changed and no more.
+# Floats are written as the shortest decimal that reads back to the same bits.
+#
+# Top level, in this order::
+#
+#     format       "assoc-hull"
+#     schema       version of this form, a whole number; this module reads and writes 1
+#     fingerprint  SHA-256 of definition and published values
+#     definition   see `assoc_hull.model.definition.records.definition`
+#     published    see `assoc_hull.model.definition.records.published`
+#
+# Opening puts the stored values back and compares the fingerprint; nothing is recomputed.
 
 SCHEMA = 1
 """Version of the form that is written and read."""
@@ -246,3 +250,46 @@ def _check_head(document: dict[str, Any], name: str) -> None:
     for key in ("definition", "published"):
         if not isinstance(document[key], dict):
             raise BadInputError(f"{key!r} is no JSON object", f"in {name}", _AGAIN)
+
+
+# --------------------------------------------------------------------------------------
+# The JSON Schema of `.hull.json`, made of the tables by which the reader checks a hull.
+#
+# It says all that can be said of the form. What it cannot say, the reader still checks: that the
+# fingerprint agrees, that keys refer to something and come once, that lists of one curve are of
+# one length, and that 1.0 is no whole number.
+#
+# The same text ships beside this module as ``hull_json.schema.json``, for programs that take a
+# file; ``assoc-hull schema`` prints it.
+
+
+def hull_json_schema() -> dict[str, Any]:
+    """Give the JSON Schema (draft 2020-12) of the canonical text of a hull.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.hull_json import hull_json_schema
+    >>> hull_json_schema()["required"]
+    ['format', 'schema', 'fingerprint', 'definition', 'published']
+    """
+    parts = {
+        "format": {"const": FORMAT},
+        "schema": {"const": SCHEMA, "description": "version of this form"},
+        "fingerprint": FINGERPRINT,
+        "definition": {"description": "what the designer decided", **DEFINITION.schema},
+        "published": {"description": "what was made of it, by key", **PUBLISHED.schema},
+    }
+    return {
+        "$schema": DIALECT,
+        "title": "assoc-hull hull",
+        "description": "The canonical text of a ship hull, .hull.json",
+        "type": "object",
+        "properties": parts,
+        "required": list(parts),
+        "additionalProperties": False,
+    }
+
+
+def dumps_hull_schema() -> str:
+    """Give the JSON Schema of a hull as text; it ends with a newline."""
+    return dumps_schema(hull_json_schema())

@@ -1,9 +1,8 @@
-"""Which file it is that is open: told from others of its name, and known to this process.
+"""Which hull files are open in this process, and whether a file is a hull file at all.
 
-A process that closes any handle on a file gives up all its locks on that file, those of the
-database too; a second process then takes itself for the only one, and removes the log that the
-first one is writing to. So a file that is open here is never looked into beside the database,
-and nothing is written to a log that is no longer there.
+A process that closes any handle on a file gives up all its locks on that file, those of SQLite
+too. So whoever writes or looks at files asks here first, before opening one. The database itself
+is in `io.hull_file.database`.
 
 Examples
 --------
@@ -15,6 +14,7 @@ False
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sqlite3
 import weakref
@@ -22,12 +22,31 @@ from pathlib import Path
 
 from assoc_hull.errors import HullFileError
 
-__all__ = ["Connection", "Place", "is_open_here", "log_of"]
+__all__ = [
+    "MAGIC",
+    "FileIdentity",
+    "HullFileConnection",
+    "is_hull_file",
+    "is_open_here",
+    "log_file",
+]
 
-_OPEN: weakref.WeakSet[Connection] = weakref.WeakSet()
+MAGIC = b"SQLite format 3\x00"
 
 
-class Connection(sqlite3.Connection):
+def is_hull_file(path: Path) -> bool:
+    """Tell whether a file begins as a database does."""
+    if is_open_here(path):
+        return True
+    with contextlib.suppress(OSError), path.open("rb") as file:
+        return file.read(len(MAGIC)) == MAGIC
+    return False
+
+
+_OPEN: weakref.WeakSet[HullFileConnection] = weakref.WeakSet()
+
+
+class HullFileConnection(sqlite3.Connection):
     """An open database that its process knows of."""
 
     identity: tuple[int, int] = (0, 0)
@@ -49,7 +68,7 @@ def is_open_here(path: Path) -> bool:
     return found != (0, 0) and any(each.identity == found for each in list(_OPEN))
 
 
-def log_of(path: Path) -> Path:
+def log_file(path: Path) -> Path:
     """Give the file beside a hull file that its last commits are in."""
     return path.with_name(f"{path.name}-wal")
 
@@ -63,7 +82,7 @@ def _identity(path: Path) -> tuple[int, int]:
     return found.st_dev, found.st_ino
 
 
-class Place:
+class FileIdentity:
     """A hull file and its log, as they were when the database in them was opened.
 
     Parameters
@@ -74,7 +93,7 @@ class Place:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._file, self._log = _identity(path), _identity(log_of(path))
+        self._file, self._log = _identity(path), _identity(log_file(path))
         self._process = os.getpid()
 
     def require_file(self) -> None:
@@ -100,7 +119,7 @@ class Place:
         HullFileError
             The log was removed or replaced.
         """
-        if _identity(log_of(self.path)) != self._log:
-            what = f"its log {log_of(self.path).name} was removed while it was open"
+        if _identity(log_file(self.path)) != self._log:
+            what = f"its log {log_file(self.path).name} was removed while it was open"
             remedy = "open it again, and make the last edit anew; those before it are in the file"
             raise HullFileError(str(self.path), what, remedy)

@@ -12,9 +12,27 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from assoc_hull.arguments import choice
+from assoc_hull.arguments import choice, positive
 
-__all__ = ["METRES", "checked_unit", "unit_note"]
+__all__ = [
+    "METRES",
+    "check_particular",
+    "checked_unit",
+    "unit_note",
+]
+
+
+def check_particular(name: str, value: float | None) -> None:
+    """Refuse a particular that is not a positive number.
+
+    Raises
+    ------
+    BadInputError
+        The value is nil, negative, NaN or infinite.
+    """
+    if value is not None:
+        positive(value, name, "as an argument")
+
 
 METRES: Mapping[str, float] = MappingProxyType(
     {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}

@@ -22,7 +22,7 @@ from pathlib import Path
 
 from assoc_hull.arguments import choice, file_path
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.hull_file.connect import is_hull_file
+from assoc_hull.io.open_databases import is_hull_file
 
 __all__ = ["form_by_ending", "mode_for", "require_no_hull_file", "take_place", "write_whole"]
 

@@ -28,9 +28,9 @@ import numpy as np
 from assoc_hull.arguments import shown_name, word
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.model.kinds import Sort
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["AddressBook", "Place", "address", "resolve"]
+__all__ = ["AddressBook", "ResolvedAddress", "address", "resolve_address"]
 
 _OWN = re.compile(r"(.+) @ (placed|adopted) (\d{1,9})")
 _BIRTH = re.compile(r"(.+?) #(\d{1,9})")
@@ -38,7 +38,7 @@ _PIECE = re.compile(r"(.+) \[(\d{1,9})\]")
 
 
 @attrs.frozen
-class Place:
+class ResolvedAddress:
     """What an address leads to; -1 where it does not go so deep.
 
     Attributes
@@ -89,11 +89,12 @@ class AddressBook:
         return dict(zip(table.birth.data[rows].tolist(), rows.tolist(), strict=True))
 
     @cached_property
-    def keys(self) -> dict[str, Place]:
+    def keys(self) -> dict[str, ResolvedAddress]:
         """Everything alive by its key or label."""
         state = self.state
         found = {
-            state.groups.name.data[group]: Place(group) for group in state.live("groups").tolist()
+            state.groups.name.data[group]: ResolvedAddress(group)
+            for group in state.live("groups").tolist()
         }
         found |= {
             state.lines.key.data[line]: self._line_place(line)
@@ -135,14 +136,14 @@ class AddressBook:
             return str(self.state.rows.key.data[row])
         return short
 
-    def resolve(self, text: str) -> Place:
+    def resolve(self, text: str) -> ResolvedAddress:
         """Find what an address leads to; see the function `resolve`."""
         found = self._lookup(word(text, "the address", "in a look-up").strip())
         if found is None:
             raise UnknownNameError("object", shown_name(text), tuple(self._known(text)))
         return found
 
-    def _lookup(self, text: str) -> Place | None:
+    def _lookup(self, text: str) -> ResolvedAddress | None:
         return (
             self._line(text)
             or self._piece(text)
@@ -151,7 +152,7 @@ class AddressBook:
             or self.keys.get(text)
         )
 
-    def _line(self, text: str) -> Place | None:
+    def _line(self, text: str) -> ResolvedAddress | None:
         lines = self.lines.get(text, [])
         if len(lines) > 1:
             names = " or ".join(self.line_name(line) for line in lines)
@@ -160,7 +161,7 @@ class AddressBook:
             )
         return self._line_place(lines[0]) if lines else None
 
-    def _piece(self, text: str) -> Place | None:
+    def _piece(self, text: str) -> ResolvedAddress | None:
         match = _PIECE.fullmatch(text)
         line = self._line(match[1]) if match else None
         if match is None or line is None:
@@ -169,7 +170,7 @@ class AddressBook:
         number = int(match[2])
         return self._curve_place(pieces[number - 1]) if 1 <= number <= len(pieces) else None
 
-    def _own(self, text: str) -> Place | None:
+    def _own(self, text: str) -> ResolvedAddress | None:
         match = _OWN.fullmatch(text)
         line = self._line(match[1]) if match else None
         if match is None or line is None:
@@ -178,7 +179,7 @@ class AddressBook:
         number = int(match[3])
         return self._row_place(rows[number - 1], 0) if 1 <= number <= len(rows) else None
 
-    def _crossing(self, text: str) -> Place | None:
+    def _crossing(self, text: str) -> ResolvedAddress | None:
         """Try every place at which the text may fall into two names."""
         parts = text.split(" x ")
         for i in range(1, len(parts)):
@@ -191,7 +192,7 @@ class AddressBook:
                 return found
         return None
 
-    def _meeting(self, first: str, second: str, birth: int | None) -> Place | None:
+    def _meeting(self, first: str, second: str, birth: int | None) -> ResolvedAddress | None:
         one, other = self._line(first), self._line(second)
         if one is None or other is None:
             return None
@@ -272,14 +273,14 @@ class AddressBook:
         """Give the side from which a point is named: the line of higher rank first."""
         return int(self.state.rows.curve.data[row, 1] >= 0)
 
-    def _line_place(self, line: int) -> Place:
-        return Place(int(self.state.lines.group.data[line]), line)
+    def _line_place(self, line: int) -> ResolvedAddress:
+        return ResolvedAddress(int(self.state.lines.group.data[line]), line)
 
-    def _curve_place(self, curve: int) -> Place:
+    def _curve_place(self, curve: int) -> ResolvedAddress:
         line = self.state.line_of(curve)
         return attrs.evolve(self._line_place(line), curve=curve)
 
-    def _row_place(self, row: int, side: int) -> Place:
+    def _row_place(self, row: int, side: int) -> ResolvedAddress:
         curve = int(self.state.rows.curve.data[row, side])
         return attrs.evolve(self._curve_place(curve), row=row, side=side)
 
@@ -304,15 +305,15 @@ def address(state: HullState, row: int, side: int | None = None) -> str:
     Examples
     --------
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.model.address import address, resolve
+    >>> from assoc_hull.model.address import address, resolve_address
     >>> state = wigley()
-    >>> address(state, resolve(state, "ST 7 x WL 2.5").row)
+    >>> address(state, resolve_address(state, "ST 7 x WL 2.5").row)
     'WL 2.5 x ST 7'
     """
     return AddressBook(state).address(row, side)
 
 
-def resolve(state: HullState, text: str) -> Place:
+def resolve_address(state: HullState, text: str) -> ResolvedAddress:
     """Find what an address leads to.
 
     Parameters
@@ -336,8 +337,8 @@ def resolve(state: HullState, text: str) -> Place:
     Examples
     --------
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.model.address import resolve
-    >>> resolve(wigley(), "waterlines/WL 2.5 x ST 7").side
+    >>> from assoc_hull.model.address import resolve_address
+    >>> resolve_address(wigley(), "waterlines/WL 2.5 x ST 7").side
     1
     """
     return AddressBook(state).resolve(text)

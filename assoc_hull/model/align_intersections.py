@@ -11,9 +11,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.model.state import Meets
+from assoc_hull.model.tables import CurveIntersections
 
-__all__ = ["Alignment", "align_curve", "align_roots"]
+__all__ = ["Alignment", "align_curve", "align_plane_roots"]
 
 
 @attrs.frozen(eq=False)
@@ -38,14 +38,16 @@ class Alignment:
     come: IntArray
 
 
-def align_curve(curve: int, old: Meets, new: Meets) -> Alignment:
+def align_curve(curve: int, old: CurveIntersections, new: CurveIntersections) -> Alignment:
     """Align all meetings of a curve, plane by plane."""
     row = np.full(len(new.line), -1)
     known = np.zeros(len(new.line), bool)
     gone: list[int] = []
     for line in np.union1d(old.line, new.line).tolist():
         before, after = np.flatnonzero(old.line == line), np.flatnonzero(new.line == line)
-        match = align_roots(old.sign[before], old.xyz[before], new.sign[after], new.xyz[after])
+        match = align_plane_roots(
+            old.sign[before], old.xyz[before], new.sign[after], new.xyz[after]
+        )
         for first, second in match:
             row[after[second]] = old.row[before[first]]
             known[after[second]] = True
@@ -54,7 +56,7 @@ def align_curve(curve: int, old: Meets, new: Meets) -> Alignment:
     return Alignment(curve, row, np.array(sorted(gone), np.int64), np.flatnonzero(~known))
 
 
-def align_roots(
+def align_plane_roots(
     old_sign: np.typing.NDArray[np.int8],
     old_xyz: FloatArray,
     new_sign: np.typing.NDArray[np.int8],
@@ -78,9 +80,9 @@ def align_roots(
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.model.align_intersections import align_roots
+    >>> from assoc_hull.model.align_intersections import align_plane_roots
     >>> at = np.array([[0.0, 0, 0], [1, 0, 0], [5, 0, 0]])
-    >>> align_roots(np.array([1]), at[2:], np.array([1, -1, 1]), at)
+    >>> align_plane_roots(np.array([1]), at[2:], np.array([1, -1, 1]), at)
     [(0, 2)]
     """
     if np.array_equal(old_sign, new_sign):

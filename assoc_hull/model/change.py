@@ -3,23 +3,23 @@
 A journal holds every write in turn, and with them the splines of all curves that followed: a
 good thing to go back by at once, and too much to keep. A change holds the net effect. Numbers
 are kept as the exclusive or of the bits before and after, which run both ways; what is no
-number is kept as it was and as it became. Splines are not kept: they are lofted from their
-points again, which gives the same bits, since a spline is a pure function of them. Crossings
-are kept, and never computed again.
+number is kept as it was and as it became. Splines are not kept: lofted from their points again
+they have the same bits. Places of crossings along curves are kept, many curves in one batch,
+and never computed again.
 
 Examples
 --------
 >>> from assoc_hull.edit.document import Document
 >>> from assoc_hull.edit.transaction import Transaction
 >>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.model.change import change_of, run_change
->>> from assoc_hull.model.definition.definition import fingerprint
+>>> from assoc_hull.model.change import apply_change, change_of
+>>> from assoc_hull.model.definition.fingerprint import fingerprint
 >>> document = Document(wigley())
 >>> before, table = fingerprint(document.state), document.state.rows
 >>> with Transaction(document, "move") as edit:
 ...     edit.write(np.array([9]), table.xyz.data[[9]] * [1.0, 1.01, 1.0], "the move")
 >>> change = change_of(document.state, document.history[-1].journal)
->>> run_change(document.state, change, forward=False)
+>>> apply_change(document.state, change, forward=False)
 >>> fingerprint(document.state) == before
 True
 """
@@ -28,23 +28,204 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Self
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import IntArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal, same_value
 from assoc_hull.graph.table import ArrayColumn
 from assoc_hull.model.kinds import State
 from assoc_hull.model.lofting import loft_curves
-from assoc_hull.model.places_on_curves import PlacesOn, Then, places_of, put_places_of
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import TABLES, CurveIntersections, HullState
 
-__all__ = ["TABLES", "Change", "change_of", "run_change", "shape_curves"]
+__all__ = [
+    "CrossingPositions",
+    "EarlierPositions",
+    "TableChange",
+    "apply_change",
+    "change_of",
+    "crossing_positions",
+    "put_crossing_positions",
+    "shape_curves",
+]
 
-TABLES = ("groups", "lines", "curves", "rows", "featured", "formed", "produced", "settings")
+# --------------------------------------------------------------------------------------
+# Where crossings lie on curves, many curves in one batch: taken out, and put back.
+#
+# A crossing lies on each of its curves where the curve meets the other line's plane. A few lie on
+# a curve without such a meeting, as the end of a line on a boundary does: these are *stray*. Both
+# together are all that the tables hold of places on curves; nothing of it is ever computed again.
+
+_STRAY = -1
+
+
+@attrs.frozen(eq=False)
+class CrossingPositions:
+    """Places of crossings on curves, curve by curve: meetings first, in their order, then strays.
+
+    Attributes
+    ----------
+    curve, count : (m,) int
+        The curves, and how many places each has.
+    line, sign, row : (n,) int
+        Of each place: the line whose plane is met (-1 for a stray one), the sense, and the
+        crossing (-1 where the other line does not come).
+    at : (n, 4), m
+        Parameter along the curve, and x, y, z.
+    """
+
+    curve: IntArray
+    count: IntArray
+    line: IntArray
+    sign: IntArray
+    row: IntArray
+    at: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.curve, self.count, self.line, self.sign, self.row, self.at)
+
+    @property
+    def owner(self) -> IntArray:
+        """Index in `curve` of each place."""
+        found: IntArray = np.repeat(np.arange(len(self.curve)), self.count)
+        return found
+
+    def take(self, chosen: NDArray[np.bool_]) -> Self:
+        """Give some of the curves, by mask."""
+        mine = chosen[self.owner]
+        return attrs.evolve(
+            self, curve=self.curve[chosen], count=self.count[chosen], line=self.line[mine],
+            sign=self.sign[mine], row=self.row[mine], at=self.at[mine],
+        )  # fmt: skip
+
+    def alike(self, other: CrossingPositions) -> NDArray[np.bool_]:
+        """Tell for each curve whether lines, senses and crossings agree in two batches."""
+        found: NDArray[np.bool_] = self.count == other.count
+        mine, theirs = self.take(found), other.take(found)
+        odd = (mine.line != theirs.line) | (mine.sign != theirs.sign) | (mine.row != theirs.row)
+        found[np.flatnonzero(found)[np.unique(mine.owner[odd])]] = False
+        return found
+
+    def still(self, other: CrossingPositions) -> NDArray[np.bool_]:
+        """Tell for each curve whether two batches that are alike agree in every bit."""
+        odd = (self.at.view(np.int64) != other.at.view(np.int64)).any(axis=1)
+        found = np.ones(len(self.curve), np.bool_)
+        found[np.unique(self.owner[odd])] = False
+        return found
+
+    def same_bits(self, other: CrossingPositions) -> bool:
+        """Tell whether two batches of the same curves agree in all."""
+        return bool(self.alike(other).all() and self.still(other).all())
+
+
+@attrs.frozen(eq=False)
+class EarlierPositions:
+    """The columns that places are taken from, as they were at another time; None: as now."""
+
+    meets: dict[int, CurveIntersections]
+    curve: IntArray
+    spot: FloatArray
+    parameter: FloatArray
+
+
+def crossing_positions(
+    state: HullState, curves: IntArray, then: EarlierPositions | None = None
+) -> CrossingPositions:
+    """Take out the places on curves.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    curves : (m,) int
+        Numbers of the curves, each once.
+    then : Then or None
+        What the columns held at the time that is meant.
+    """
+    table = state.rows
+    now = EarlierPositions({}, table.curve.data, table.spot.data, table.parameter.data)
+    when = then or now
+    meets = [when.meets.get(curve, state.curves.meets.data[curve]) for curve in curves.tolist()]
+    met = _join(meets)
+    stray_owner, row, side = _strays(when, curves, met[0], met[3])
+    owner = np.concatenate([met[0], stray_owner])
+    order = np.argsort(owner, kind="stable")
+    nothing = np.full(len(row), _STRAY)
+    places = np.concatenate(
+        [met[4], np.column_stack([when.parameter[row, side], when.spot[row, side]])]
+    )
+    return CrossingPositions(
+        curves.copy(),
+        np.bincount(owner, minlength=len(curves)).astype(np.int64),
+        np.concatenate([met[1], nothing])[order],
+        np.concatenate([met[2], np.zeros_like(nothing)])[order],
+        np.concatenate([met[3], row])[order],
+        np.ascontiguousarray(places[order]),
+    )
+
+
+def _join(meets: list[CurveIntersections]) -> tuple[Any, ...]:
+    """Put meetings one behind the other: owner, line, sign, row, place."""
+    whole = np.zeros(0, np.int64)
+    owner = np.repeat(np.arange(len(meets)), [len(each.line) for each in meets])
+    line = np.concatenate([whole, *(each.line for each in meets)])
+    sign = np.concatenate([whole, *(each.sign for each in meets)])
+    row = np.concatenate([whole, *(each.row for each in meets)])
+    at = np.concatenate([np.zeros(0), *(each.parameter for each in meets)])
+    xyz = np.concatenate([np.zeros((0, 3)), *(each.xyz for each in meets)])
+    return owner, line, sign, row, np.column_stack([at, xyz])
+
+
+def _strays(
+    when: EarlierPositions, curves: IntArray, owner: IntArray, met: IntArray
+) -> tuple[IntArray, IntArray, IntArray]:
+    """Find crossings that lie on curves without a meeting: index of the curve, row, side."""
+    place = np.full(max(int(when.curve.max(initial=-1)), int(curves.max(initial=-1))) + 2, -1)
+    place[curves] = np.arange(len(curves))
+    on = place[when.curve]
+    actual = met >= 0
+    side = (when.curve[met[actual], 0] != curves[owner[actual]]).astype(np.int64)
+    on[met[actual], side] = -1
+    known = ~(np.isnan(when.spot).all(axis=2) & np.isnan(when.parameter))
+    row, side = np.nonzero((on >= 0) & known)
+    return on[row, side], row, side
+
+
+def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
+    """Put places on curves back; the crossings must know their curves already."""
+    starts = np.cumsum(places.count) - places.count
+    for curve, start, count in zip(
+        places.curve.tolist(), starts.tolist(), places.count.tolist(), strict=True
+    ):
+        span = slice(start, start + count)
+        met = int((places.line[span] >= 0).sum())
+        span = slice(start, start + met)
+        state.curves.meets.data[curve] = CurveIntersections(
+            places.line[span].copy(), places.sign[span].astype(np.int8), places.row[span].copy(),
+            places.at[span, 0].copy(), places.at[span, 1:].copy(),
+        )  # fmt: skip
+    actual = places.row >= 0
+    row, table = places.row[actual], state.rows
+    side = (table.curve.data[row, 0] != places.curve[places.owner[actual]]).astype(np.int64)
+    part = 2 * row + side
+    table.parameter.parts()[part] = places.at[actual, 0]
+    table.spot.parts()[part] = places.at[actual, 1:]
+    table.parameter.writes += 1
+    table.spot.writes += 1
+
+
+# --------------------------------------------------------------------------------------
+# What an edit changed, and no more: enough to take it back and to make it again.
+#
+# A journal holds every write in turn, and with them the splines of all curves that followed: a
+# good thing to go back by at once, and too much to keep. A change holds the net effect. Numbers
+# are kept as the exclusive or of the bits before and after, which run both ways; what is no
+# number is kept as it was and as it became. Splines are not kept: they are lofted from their
+# points again, which gives the same bits, since a spline is a pure function of them. Crossings
+# are kept, and never computed again.
 
 _PLACES = ("curves.meets", "rows.spot", "rows.parameter")
 _OWN_WAY = (*_PLACES, "curves.spline", "settings.births")
@@ -54,7 +235,7 @@ Births = dict[tuple[str, str], tuple[int, int]]
 
 
 @attrs.frozen(eq=False)
-class Change:
+class TableChange:
     """The net effect of one edit on the tables.
 
     Attributes
@@ -85,8 +266,8 @@ class Change:
     objects: dict[str, tuple[IntArray, list[Any], list[Any]]]
     births: Births
     moved: tuple[IntArray, NDArray[np.uint8]]
-    before: PlacesOn
-    after: PlacesOn
+    before: CrossingPositions
+    after: CrossingPositions
     lofted: IntArray
     kept: tuple[dict[int, SplineBatch], dict[int, SplineBatch]]
 
@@ -115,7 +296,7 @@ def _columns(state: HullState) -> Iterator[tuple[str, Any]]:
             yield f"{table}.{name}", column
 
 
-def change_of(state: HullState, journal: Journal) -> Change:
+def change_of(state: HullState, journal: Journal) -> TableChange:
     """Take together what a journal did to the tables, right after it has run forward.
 
     Parameters
@@ -155,7 +336,7 @@ def change_of(state: HullState, journal: Journal) -> Change:
                 )  # fmt: skip
     moved, before, after = _places(state, journal, columns)
     lofted, kept = _shapes(state, journal, columns)
-    return Change(
+    return TableChange(
         {name: size for name, size in sizes.items() if size[0] != size[1]}, bits, objects,
         _births(journal, columns), moved, before, after, lofted, kept,
     )  # fmt: skip
@@ -184,10 +365,10 @@ def _births(journal: Journal, columns: dict[str, Any]) -> Births:
 
 def _places(
     state: HullState, journal: Journal, columns: dict[str, Any]
-) -> tuple[tuple[IntArray, NDArray[np.uint8]], PlacesOn, PlacesOn]:
+) -> tuple[tuple[IntArray, NDArray[np.uint8]], CrossingPositions, CrossingPositions]:
     """Compare the places on all curves that may have others than before."""
     then, curves = _then(state, journal, columns)
-    old, new = places_of(state, curves, then), places_of(state, curves)
+    old, new = crossing_positions(state, curves, then), crossing_positions(state, curves)
     alike = old.alike(new)
     one, two = old.take(alike), new.take(alike)
     still = one.still(two)
@@ -196,7 +377,9 @@ def _places(
     return (two.curve, apart), old.take(~alike), new.take(~alike)
 
 
-def _then(state: HullState, journal: Journal, columns: dict[str, Any]) -> tuple[Then, IntArray]:
+def _then(
+    state: HullState, journal: Journal, columns: dict[str, Any]
+) -> tuple[EarlierPositions, IntArray]:
     """Give what places were taken from before, and the curves that may have others now."""
     table, touched = state.rows, [np.zeros(0, np.int64)]
     was = {name: getattr(table, name).data for name in ("curve", "spot", "parameter")}
@@ -214,7 +397,7 @@ def _then(state: HullState, journal: Journal, columns: dict[str, Any]) -> tuple[
         meets = dict(zip(net.rows.tolist(), net.old, strict=True))
         touched.append(net.rows)
     curves = np.unique(np.concatenate(touched))
-    then = Then(meets, was["curve"], was["spot"], was["parameter"])
+    then = EarlierPositions(meets, was["curve"], was["spot"], was["parameter"])
     return then, curves[curves >= 0]
 
 
@@ -240,7 +423,7 @@ def _shapes(
     return net.rows, (kept[0], kept[1])
 
 
-def run_change(state: HullState, change: Change, *, forward: bool) -> None:
+def apply_change(state: HullState, change: TableChange, *, forward: bool) -> None:
     """Run a change forward or backward over the tables that it was taken from.
 
     Parameters
@@ -269,7 +452,7 @@ def run_change(state: HullState, change: Change, *, forward: bool) -> None:
     if change.births:
         state.settings.births.data[0] = _counted(state, change.births, forward)
     _move(state, change.moved)
-    put_places_of(state, change.after if forward else change.before)
+    put_crossing_positions(state, change.after if forward else change.before)
     revived = np.flatnonzero(state.curves.alive.data & ~alive)
     if not forward:
         _resize(state, change, 0)
@@ -281,7 +464,7 @@ def run_change(state: HullState, change: Change, *, forward: bool) -> None:
             raise ValueError(f"the curve {state.curves.key.data[curve]!r} would have no shape")
 
 
-def _resize(state: HullState, change: Change, which: int) -> None:
+def _resize(state: HullState, change: TableChange, which: int) -> None:
     for name, sizes in change.sizes.items():
         getattr(state, name).resize(sizes[which])
 
@@ -301,9 +484,9 @@ def _counted(state: HullState, births: Births, forward: bool) -> dict[tuple[str,
 def _move(state: HullState, moved: tuple[IntArray, NDArray[np.uint8]]) -> None:
     curves, bits = moved
     if len(curves):
-        now = places_of(state, curves)
+        now = crossing_positions(state, curves)
         at = (_bytes(now.at) ^ bits).view(np.float64)
-        put_places_of(state, attrs.evolve(now, at=at))
+        put_crossing_positions(state, attrs.evolve(now, at=at))
 
 
 def shape_curves(state: HullState, curves: IntArray, kept: dict[int, SplineBatch]) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.model.features import Feature
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["ROUNDING", "host_curve", "line_numbers", "places_off"]
 

@@ -12,7 +12,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["crossing_normals", "gap_at", "tangents", "watched_on"]
 

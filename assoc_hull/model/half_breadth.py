@@ -8,9 +8,9 @@ import numpy as np
 from assoc_hull.errors import NoMeetingError
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.kinds import BoundaryKind
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["half_breadth"]
 
@@ -83,7 +83,7 @@ def _meet(
     if not len(curves):
         return np.zeros(0, np.int64), np.zeros((0, 3))
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
-    met = meet_planes(batch, normal, np.array([float(position)]))
+    met = intersect_planes(batch, normal, np.array([float(position)]))
     return curves[met.curve], met.xyz
 
 
@@ -95,7 +95,7 @@ def _cut(state: HullState, x: float, z: float) -> float:
     if not low <= x <= high or _between_pieces(marks, x):
         away = max(low - x, x - high, 0.0)
         raise NoMeetingError(f"the hull at x = {x:g}, z = {z:g} m", float(away), _ASK)
-    met = meet_planes(loft(_data(marks)), _X, np.array([x])).xyz
+    met = intersect_planes(loft(_data(marks)), _X, np.array([x])).xyz
     ends = marks.xyz[np.abs(marks.xyz[:, 0] - x) == 0.0]
     return float(np.concatenate([met, ends])[:, 1].max())
 

@@ -15,10 +15,10 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.levels import levels
-from assoc_hull.model.forms.generate import reads
-from assoc_hull.model.generated import attached
+from assoc_hull.model.forms.generate_points import definitions_read
+from assoc_hull.model.generated_curves import attached_curves
 from assoc_hull.model.lofting import same_objects
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["Index", "Objects", "PlaneSet", "build_index", "driven_levels"]
 
@@ -174,8 +174,8 @@ def _generating(state: HullState) -> tuple[dict[int, IntArray], dict[int, IntArr
     """Give the generated points by the ends, and by the definitions, that they are made of."""
     ends, forms = defaultdict[int, list[int]](list), defaultdict[int, list[int]](list)
     number = {state.formed.definition.data[i].use: i for i in state.live("formed").tolist()}
-    for curve, made in attached(state).items():
-        for use in reads(made):
+    for curve, made in attached_curves(state).items():
+        for use in definitions_read(made):
             if use in number:
                 forms[number[use]] += made.rows
         if made.reads_ends:

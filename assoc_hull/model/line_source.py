@@ -14,9 +14,9 @@ from assoc_hull.errors import BadInputError, TooFewPointsError
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, freeze
 from assoc_hull.geometry.plane import as_plane
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind
-from assoc_hull.model.state import Ends
+from assoc_hull.model.tables import Ends
 
-__all__ = ["LineSource", "curve_data"]
+__all__ = ["LineSource", "line_curve_data"]
 
 
 @attrs.frozen(eq=False)
@@ -121,15 +121,15 @@ class LineSource:
         )  # fmt: skip
 
 
-def curve_data(sources: Sequence[LineSource]) -> CurveData:
+def line_curve_data(sources: Sequence[LineSource]) -> CurveData:
     """Give what a loft of lines through all their own points needs.
 
     Examples
     --------
     >>> from assoc_hull.geometry.splines.loft import loft
-    >>> from assoc_hull.model.line_source import curve_data, LineSource
+    >>> from assoc_hull.model.line_source import line_curve_data, LineSource
     >>> line = LineSource.make("waterlines", "WL 1", [[0, 0, 1], [5, 2, 1], [9, 0, 1]])
-    >>> loft(curve_data([line])).count
+    >>> loft(line_curve_data([line])).count
     1
     """
     start = np.zeros(len(sources) + 1, np.int64)

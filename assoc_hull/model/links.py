@@ -7,26 +7,39 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.plane import AXES
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = [
-    "OnCurve",
+    "PointsOnCurve",
     "defines",
     "free_axes",
+    "generates",
     "generates_on",
     "latent_curves",
-    "places",
+    "point_positions",
     "points_on",
 ]
+
+
+def generates(state: HullState, line_a: int, line_b: int) -> tuple[bool, bool]:
+    """Tell whether line a generates points on line b, and b on a."""
+    names = [state.groups.name.data[int(state.lines.group.data[line])] for line in (line_a, line_b)]
+    for link in state.associations:
+        if [link.a, link.b] == names:
+            return True, link.two_way
+        if [link.b, link.a] == names:
+            return link.two_way, True
+    return False, False
+
 
 _PARALLEL = 1e-9
 """Two planes whose normals have a shorter cross product are parallel."""
 
 
 @attrs.frozen(eq=False)
-class OnCurve:
+class PointsOnCurve:
     """The points of one curve, in order along it.
 
     Attributes
@@ -51,7 +64,7 @@ def defines(state: HullState, row: int, side: int) -> bool:
     return curve >= 0 and bool((state.rows.reader.data[row] == curve).any())
 
 
-def places(state: HullState, row: IntArray, side: IntArray) -> FloatArray:
+def point_positions(state: HullState, row: IntArray, side: IntArray) -> FloatArray:
     """Give the places of points on curves, (k, 3), m.
 
     A crossing is one value for both of its curves; a watched one has none, it lies on each
@@ -65,7 +78,7 @@ def places(state: HullState, row: IntArray, side: IntArray) -> FloatArray:
     return found
 
 
-def points_on(state: HullState, curve: int) -> OnCurve:
+def points_on(state: HullState, curve: int) -> PointsOnCurve:
     """Give all points of a curve in order along it, ties by the key.
 
     Parameters
@@ -87,10 +100,12 @@ def points_on(state: HullState, curve: int) -> OnCurve:
     _put_knots(state, curve, row, at)
     lost = np.flatnonzero(~np.isfinite(at))
     if len(lost) and state.curves.spline.data[curve] is not None:
-        at[lost] = closest(state.spline(curve), 0, places(state, row[lost], side[lost]))[0]
+        at[lost] = closest_points(
+            state.spline(curve), 0, point_positions(state, row[lost], side[lost])
+        )[0]
     keys = [table.key.data[each] for each in row.tolist()]
     order = np.array(sorted(range(len(row)), key=lambda i: (at[i], keys[i])), np.int64)
-    return OnCurve(row[order], side[order], at[order], defining[order])
+    return PointsOnCurve(row[order], side[order], at[order], defining[order])
 
 
 def _put_knots(state: HullState, curve: int, row: IntArray, at: FloatArray) -> None:
@@ -124,10 +139,10 @@ def free_axes(state: HullState, row: int) -> tuple[str, ...]:
     Examples
     --------
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.model.address import resolve
+    >>> from assoc_hull.model.address import resolve_address
     >>> from assoc_hull.model.links import free_axes
     >>> state = wigley()
-    >>> free_axes(state, resolve(state, "WL 2.5 x ST 7").row)
+    >>> free_axes(state, resolve_address(state, "WL 2.5 x ST 7").row)
     ('y',)
     """
     curves = [curve for curve in state.rows.curve.data[row].tolist() if curve >= 0]

@@ -17,7 +17,7 @@ from assoc_hull.model.gaps import gap_at, watched_on
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.state import HullState, Meets, curve_node, row_node
+from assoc_hull.model.tables import CurveIntersections, HullState, curve_node, row_node
 
 __all__ = ["attach_curves", "loft_all", "set_limits"]
 
@@ -75,7 +75,7 @@ def attach_curves(
     expected = _expected(state, curves, line)
     missing: list[int] = []
     for curve in curves.tolist():
-        meets: Meets = state.curves.meets.data[curve]
+        meets: CurveIntersections = state.curves.meets.data[curve]
         mine = np.full(len(meets.line), True) if line is None else meets.line == line
         row = np.where(mine, -1, meets.row)
         for other, rows in sorted(expected[curve].items()):
@@ -106,7 +106,12 @@ def _expected(
 
 
 def _match(
-    state: HullState, curve: int, meets: Meets, line: int, rows: list[int], out: IntArray
+    state: HullState,
+    curve: int,
+    meets: CurveIntersections,
+    line: int,
+    rows: list[int],
+    out: IntArray,
 ) -> list[int]:
     """Give the meetings with one plane to the crossings, nearest first."""
     spots = np.flatnonzero(meets.line == line)
@@ -129,7 +134,9 @@ def _defines(state: HullState, row: int, curve: int) -> bool:
     return bool((state.rows.reader.data[row] == curve).any())
 
 
-def _write(state: HullState, curve: int, meets: Meets, actual: IntArray, journal: Journal) -> None:
+def _write(
+    state: HullState, curve: int, meets: CurveIntersections, actual: IntArray, journal: Journal
+) -> None:
     """Note on the crossings at some meetings where they lie on the curve."""
     rows = meets.row[actual]
     if not len(rows):

@@ -18,7 +18,7 @@ from assoc_hull.geometry.curves import (
     freeze,
 )
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.model.state import Ends, HullState
+from assoc_hull.model.tables import Ends, HullState
 
 __all__ = ["curve_data", "loft_curves", "remember", "same_objects"]
 

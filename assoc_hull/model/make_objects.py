@@ -18,10 +18,10 @@ from assoc_hull.errors import NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, freeze
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ListColumn, Table
-from assoc_hull.model.definition_part import FormDefinition, GeneratedCurve
 from assoc_hull.model.features import Feature
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.state import Association, Ends, HullState
+from assoc_hull.model.tables import Association, Ends, HullState
 
 __all__ = ["CrossingSpec", "Maker", "PointSpec"]
 

@@ -8,12 +8,12 @@ from typing import TypeVar
 from assoc_hull.arguments import shown_name
 from assoc_hull.errors import UnknownNameError
 
-__all__ = ["Named"]
+__all__ = ["NamedMapping"]
 
 Item = TypeVar("Item", covariant=True)
 
 
-class Named(Mapping[str, Item]):
+class NamedMapping(Mapping[str, Item]):
     """A read-only mapping by name.
 
     Parameters
@@ -25,8 +25,8 @@ class Named(Mapping[str, Item]):
 
     Examples
     --------
-    >>> from assoc_hull.model.named_mapping import Named
-    >>> Named("line", {"WL 1": 1, "WL 2": 2})["WL 2"]
+    >>> from assoc_hull.model.named_mapping import NamedMapping
+    >>> NamedMapping("line", {"WL 1": 1, "WL 2": 2})["WL 2"]
     2
     """
 

@@ -17,16 +17,14 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.journal import Journal, Picked
-from assoc_hull.graph.node import Evaluation, Readers
-from assoc_hull.graph.plan import closure
+from assoc_hull.graph.journal import Journal, PickedRows
+from assoc_hull.graph.network import Evaluation, Readers, closure
 from assoc_hull.model.align_intersections import Alignment, align_curve
-from assoc_hull.model.generated import attached, unmade_rows
+from assoc_hull.model.generated_curves import attached_curves, points_given, unmade_rows
 from assoc_hull.model.index import Index
 from assoc_hull.model.lofting import loft_curves, remember
-from assoc_hull.model.plane_intersections import Found, Recall, cut_curves
-from assoc_hull.model.regenerate import points_given
-from assoc_hull.model.state import HullState, Meets, curve_node, form_of, row_node
+from assoc_hull.model.plane_intersections import LastIntersections, PartnerIntersections, cut_curves
+from assoc_hull.model.tables import CurveIntersections, HullState, curve_node, form_of, row_node
 
 __all__ = ["HullNetwork", "bits_differ"]
 
@@ -45,7 +43,7 @@ def bits_differ(first: FloatArray, second: FloatArray) -> np.typing.NDArray[np.b
 
 @attrs.define(eq=False)
 class HullNetwork:
-    """Implements `assoc_hull.graph.node.Network` on the tables of a hull.
+    """Implements `assoc_hull.graph.network.Network` on the tables of a hull.
 
     Attributes
     ----------
@@ -168,7 +166,8 @@ class HullNetwork:
         """Points of generated curves, as the definitions have them; one batch of curves."""
         owners = set(self.state.rows.curve.data[rows, 0].tolist())
         every, value = points_given(
-            self.state, [made for curve, made in attached(self.state).items() if curve in owners]
+            self.state,
+            [made for curve, made in attached_curves(self.state).items() if curve in owners],
         )
         chosen = np.isin(every, rows)
         return self._publish(every[chosen], value[chosen], journal)
@@ -189,7 +188,7 @@ class HullNetwork:
         key = curves.tobytes()
         old = [table.spline.data[curve] for curve in numbers]
         met = [table.meets.data[curve] for curve in numbers]
-        last: Recall | None = recall.get(key)
+        last: LastIntersections | None = recall.get(key)
         known = last if last is not None and last.holds(old, met) else None
         batch = loft_curves(self.state, curves, recall)
         splines = batch.single()
@@ -212,12 +211,12 @@ class HullNetwork:
     def _attach(
         self,
         numbers: list[int],
-        old: list[Meets],
+        old: list[CurveIntersections],
         splines: list[SplineBatch],
         batch: SplineBatch,
-        found: Found,
-        known: Recall | None,
-    ) -> Recall:
+        found: PartnerIntersections,
+        known: LastIntersections | None,
+    ) -> LastIntersections:
         """Give each meeting the crossing it is: at once where lines and signs are as before."""
         at, xyz, spans = found.parameter, found.xyz, list(pairwise(found.bounds))
         if known is not None and found.line is known.found.line:
@@ -229,17 +228,19 @@ class HullNetwork:
             row = self._identify(numbers, old, found)
             freeze(row)
             meets = [
-                Meets(found.line[a:b], found.sign[a:b], row[a:b], at[a:b], xyz[a:b])
+                CurveIntersections(found.line[a:b], found.sign[a:b], row[a:b], at[a:b], xyz[a:b])
                 for a, b in spans
             ]
             actual = np.flatnonzero(row >= 0)
             owner = np.array(numbers, np.int64)[found.curve[actual]]
             part = 2 * row[actual] + (self.state.rows.curve.data[row[actual], 0] != owner)
             actual = None if len(actual) == len(row) else actual
-        spot, place = Picked(found.xyz, actual), Picked(found.parameter, actual)
-        return Recall(splines, meets, batch, found, row, actual, part, spot, place)
+        spot, place = PickedRows(found.xyz, actual), PickedRows(found.parameter, actual)
+        return LastIntersections(splines, meets, batch, found, row, actual, part, spot, place)
 
-    def _write_spots(self, now: Recall, known: Recall | None, journal: Journal) -> None:
+    def _write_spots(
+        self, now: LastIntersections, known: LastIntersections | None, journal: Journal
+    ) -> None:
         """Write where crossings lie on curves; a batch may hold both curves of a crossing."""
         table, guess = self.state.rows, self.index.guess.reshape(-1)
         before = known if known is not None and known.part is now.part else None
@@ -253,7 +254,9 @@ class HullNetwork:
             segment = now.found.segment
             guess[now.part] = segment if now.actual is None else segment.take(now.actual)
 
-    def _identify(self, numbers: list[int], old: list[Meets], found: Found) -> IntArray:
+    def _identify(
+        self, numbers: list[int], old: list[CurveIntersections], found: PartnerIntersections
+    ) -> IntArray:
         """Say which crossing each meeting is, curve by curve where lines or signs changed."""
         line = np.concatenate([meets.line for meets in old])
         sign = np.concatenate([meets.sign for meets in old])
@@ -265,7 +268,7 @@ class HullNetwork:
         parts: list[IntArray] = []
         for i, curve in enumerate(numbers):
             span = slice(bounds[i], bounds[i + 1])
-            new = Meets(
+            new = CurveIntersections(
                 found.line[span].copy(),
                 found.sign[span].copy(),
                 np.full(span.stop - span.start, -1),
@@ -280,13 +283,15 @@ class HullNetwork:
 
 
 _set_line, _set_sign, _set_row, _set_parameter, _set_xyz = (
-    getattr(Meets, field.name).__set__ for field in attrs.fields(Meets)
+    getattr(CurveIntersections, field.name).__set__ for field in attrs.fields(CurveIntersections)
 )
 
 
-def _placed(meets: Meets, parameter: FloatArray, xyz: FloatArray) -> Meets:
+def _placed(
+    meets: CurveIntersections, parameter: FloatArray, xyz: FloatArray
+) -> CurveIntersections:
     """Give the same meetings at other places; the arrays are frozen already."""
-    found = object.__new__(Meets)
+    found = object.__new__(CurveIntersections)
     _set_line(found, meets.line)
     _set_sign(found, meets.sign)
     _set_row(found, meets.row)

@@ -14,13 +14,13 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.splines.plane_intersections import Meetings, meet_planes
-from assoc_hull.graph.journal import Picked
+from assoc_hull.geometry.splines.plane_intersections import PlaneIntersections, intersect_planes
+from assoc_hull.graph.journal import PickedRows
 from assoc_hull.model.index import Index, PlaneSet
 from assoc_hull.model.lofting import same_objects
-from assoc_hull.model.state import HullState, Meets
+from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["Found", "Recall", "cut_curves"]
+__all__ = ["LastIntersections", "PartnerIntersections", "cut_curves"]
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -29,7 +29,7 @@ Scalar = TypeVar("Scalar", bound=np.generic)
 class _Piece:
     """The meetings of the curves of one group with one set of planes."""
 
-    met: Meetings
+    met: PlaneIntersections
     local: IntArray
     segment: IntArray
     planes: PlaneSet
@@ -46,7 +46,7 @@ class _Piece:
 
 
 @attrs.frozen(eq=False)
-class Found:
+class PartnerIntersections:
     """Meetings of a batch of curves, sorted by curve, then as in `Meets`.
 
     Attributes
@@ -77,7 +77,7 @@ class Found:
 
 
 @attrs.frozen(eq=False)
-class Recall:
+class LastIntersections:
     """What the last evaluation of a batch of curves left in the tables.
 
     Attributes
@@ -99,14 +99,14 @@ class Recall:
     """
 
     splines: list[SplineBatch]
-    meets: list[Meets]
+    meets: list[CurveIntersections]
     batch: SplineBatch
-    found: Found
+    found: PartnerIntersections
     row: IntArray
     actual: IntArray | None
     part: IntArray
-    spot: Picked
-    at: Picked
+    spot: PickedRows
+    at: PickedRows
 
     def holds(self, splines: Sequence[object], meets: Sequence[object]) -> bool:
         """Tell whether the tables still hold what was written then."""
@@ -118,8 +118,8 @@ def cut_curves(
     index: Index,
     curves: IntArray,
     splines: Sequence[SplineBatch],
-    known: Found | None,
-) -> Found:
+    known: PartnerIntersections | None,
+) -> PartnerIntersections:
     """Meet the planes of the partners of each curve.
 
     Parameters
@@ -154,23 +154,26 @@ def cut_curves(
 
 def _cut(mine: IntArray, batch: SplineBatch, planes: PlaneSet) -> _Piece:
     """Meet one set of planes."""
-    met = meet_planes(batch, planes.normal, planes.offsets)
+    met = intersect_planes(batch, planes.normal, planes.offsets)
     segment = met.segment - batch.start.take(met.curve)
     return _Piece(met, mine.take(met.curve), segment, planes)
 
 
 def _merge(
-    state: HullState, lines: IntArray, pieces: tuple[_Piece, ...], known: Found | None
-) -> Found:
+    state: HullState,
+    lines: IntArray,
+    pieces: tuple[_Piece, ...],
+    known: PartnerIntersections | None,
+) -> PartnerIntersections:
     """Sort the meetings of all pieces by curve; along a curve the order of the pieces stays.
 
     The places are put exactly into the plane of their own curve too.
     """
     count = len(lines)
     if not pieces:
-        none = Meets.none()
+        none = CurveIntersections.none()
         whole, bounds = none.line.copy(), [0] * (count + 1)
-        return Found(
+        return PartnerIntersections(
             whole,
             none.line,
             none.sign,
@@ -200,7 +203,9 @@ def _merge(
     xyz = xyz if order is None else xyz.take(order, axis=0)
     xyz.reshape(-1)[own[0]] = state.lines.offset.data[lines].take(own[1])
     freeze(line, sign, parameter, xyz)
-    return Found(curve, line, sign, segment, parameter, xyz, bounds, pieces, order, own)
+    return PartnerIntersections(
+        curve, line, sign, segment, parameter, xyz, bounds, pieces, order, own
+    )
 
 
 def _all(

@@ -5,13 +5,13 @@ made side by side, a document that a program validates is one that the reader ta
 
 Examples
 --------
->>> from assoc_hull.model.value_schema import listed, REAL
->>> listed(REAL, 1).schema["minItems"]
+>>> from assoc_hull.model.value_schema import list_of, REAL
+>>> list_of(REAL, 1).schema["minItems"]
 1
->>> listed(REAL, 1).check([])
+>>> list_of(REAL, 1).check([])
 Traceback (most recent call last):
 ...
-assoc_hull.model.value_schema.WrongError: the list holds 0 items, not 1 or more
+assoc_hull.model.value_schema.WrongValueError: the list holds 0 items, not 1 or more
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ __all__ = [
     "REAL",
     "TEXT",
     "TRUTH",
-    "Form",
-    "WrongError",
-    "listed",
-    "mapped",
+    "ValueSchema",
+    "WrongValueError",
+    "described",
+    "list_of",
+    "mapping_of",
     "one_of",
     "or_none",
     "record",
-    "told",
     "tuple_of",
 ]
 
@@ -52,7 +52,7 @@ _LARGEST_SIZE = 1e6
 """No dimension or tolerance of a hull is larger, m."""
 
 
-class WrongError(Exception):
+class WrongValueError(Exception):
     """What is wrong, and the way to it, innermost step last."""
 
     def __init__(self, what: str) -> None:
@@ -62,7 +62,7 @@ class WrongError(Exception):
 
 
 @attrs.frozen(eq=False)
-class Form:
+class ValueSchema:
     """What a value may be.
 
     Attributes
@@ -79,87 +79,91 @@ class Form:
 
 def _text(value: object) -> None:
     if not isinstance(value, str):
-        raise WrongError(f"{shown(value)} is no text")
+        raise WrongValueError(f"{shown(value)} is no text")
 
 
 def _name(value: object) -> None:
     _text(value)
     if not value:
-        raise WrongError("the text is empty")
+        raise WrongValueError("the text is empty")
 
 
 def _truth(value: object) -> None:
     if not isinstance(value, bool):
-        raise WrongError(f"{shown(value)} is neither true nor false")
+        raise WrongValueError(f"{shown(value)} is neither true nor false")
 
 
 def _real(value: object) -> None:
     if type(value) is float and -_LARGEST <= value <= _LARGEST:
         return  # at once: a hull has many thousands of these
     if type(value) is not float and type(value) is not int:
-        raise WrongError(f"{shown(value)} is no number")
+        raise WrongValueError(f"{shown(value)} is no number")
     try:
         finite = math.isfinite(value)
     except OverflowError:
         finite = False
     if not finite:
-        raise WrongError(f"{shown(value)} is not a finite number")
+        raise WrongValueError(f"{shown(value)} is not a finite number")
     if abs(value) > _LARGEST:
-        raise WrongError(f"{shown(value)} is larger than any number of a hull")
+        raise WrongValueError(f"{shown(value)} is larger than any number of a hull")
 
 
 def _not_negative(value: object) -> None:
     _real(value)
     if not 0.0 <= cast(float, value) <= _LARGEST_SIZE:
-        raise WrongError(f"{shown(value)} is not from 0 to {_LARGEST_SIZE:g}")
+        raise WrongValueError(f"{shown(value)} is not from 0 to {_LARGEST_SIZE:g}")
 
 
 def _positive(value: object) -> None:
     _not_negative(value)
     if not cast(float, value) > 0.0:
-        raise WrongError(f"{shown(value)} is not above 0")
+        raise WrongValueError(f"{shown(value)} is not above 0")
 
 
 def _count(value: object) -> None:
     if type(value) is not int or not 1 <= value <= _LARGEST_COUNT:
-        raise WrongError(f"{shown(value)} is no whole number from 1 up")
+        raise WrongValueError(f"{shown(value)} is no whole number from 1 up")
 
 
-TEXT = Form(_text, {"type": "string"})
-NAME = Form(_name, {"type": "string", "minLength": 1})
-TRUTH = Form(_truth, {"type": "boolean"})
-REAL = Form(_real, {"type": "number", "minimum": -_LARGEST, "maximum": _LARGEST})
-NOT_NEGATIVE = Form(_not_negative, {"type": "number", "minimum": 0, "maximum": _LARGEST_SIZE})
-POSITIVE = Form(_positive, {"type": "number", "exclusiveMinimum": 0, "maximum": _LARGEST_SIZE})
-COUNT = Form(_count, {"type": "integer", "minimum": 1, "maximum": _LARGEST_COUNT})
+TEXT = ValueSchema(_text, {"type": "string"})
+NAME = ValueSchema(_name, {"type": "string", "minLength": 1})
+TRUTH = ValueSchema(_truth, {"type": "boolean"})
+REAL = ValueSchema(_real, {"type": "number", "minimum": -_LARGEST, "maximum": _LARGEST})
+NOT_NEGATIVE = ValueSchema(
+    _not_negative, {"type": "number", "minimum": 0, "maximum": _LARGEST_SIZE}
+)
+POSITIVE = ValueSchema(
+    _positive, {"type": "number", "exclusiveMinimum": 0, "maximum": _LARGEST_SIZE}
+)
+COUNT = ValueSchema(_count, {"type": "integer", "minimum": 1, "maximum": _LARGEST_COUNT})
 
 
-def told(form: Form, description: str) -> Form:
+def described(form: ValueSchema, description: str) -> ValueSchema:
     """Give a form with a description in its schema."""
     return attrs.evolve(form, schema={"description": description, **form.schema})
 
 
-def one_of(values: Collection[object]) -> Form:
+def one_of(values: Collection[object]) -> ValueSchema:
     """Give the form of a value that is one of some words or numbers."""
 
     def check(value: object) -> None:
         if isinstance(value, (list, dict)) or value not in values or isinstance(value, bool):
-            raise WrongError(f"{shown(value)} is none of {', '.join(map(str, values))}")
+            raise WrongValueError(f"{shown(value)} is none of {', '.join(map(str, values))}")
 
-    return Form(check, {"enum": list(values)})
+    return ValueSchema(check, {"enum": list(values)})
 
 
-def or_none(inner: Form) -> Form:
+def or_none(inner: ValueSchema) -> ValueSchema:
     """Give the form of a value that may be missing."""
 
     def check(value: object) -> None:
         if value is not None:
             inner.check(value)
 
-    return Form(check, {"anyOf": [{"type": "null"}, inner.schema]})
+    return ValueSchema(check, {"anyOf": [{"type": "null"}, inner.schema]})
 
 
-def listed(inner: Form, least: int = 0, most: int | None = None) -> Form:
+def list_of(inner: ValueSchema, least: int = 0, most: int | None = None) -> ValueSchema:
     """Give the form of a list of so many items."""
     each = inner.check
 
@@ -169,7 +173,7 @@ def listed(inner: Form, least: int = 0, most: int | None = None) -> Form:
         try:
             for index, item in enumerate(cast("list[object]", value)):  # noqa: B007
                 each(item)
-        except WrongError as wrong:
+        except WrongValueError as wrong:
             wrong.path.append(f"[{index}]")
             raise
 
@@ -178,20 +182,20 @@ def listed(inner: Form, least: int = 0, most: int | None = None) -> Form:
         schema["minItems"] = least
     if most is not None:
         schema["maxItems"] = most
-    return Form(check, schema)
+    return ValueSchema(check, schema)
 
 
 def _long(value: object, least: int, most: int | None) -> None:
     """Check that a value is a list of so many items."""
     if not isinstance(value, list):
-        raise WrongError(f"{shown(value)} is no list")
+        raise WrongValueError(f"{shown(value)} is no list")
     if len(value) < least or (most is not None and len(value) > most):
         wanted = f"{least} or more" if most is None else f"{least} to {most}"
         wanted = f"{least}" if least == most else wanted
-        raise WrongError(f"the list holds {len(value)} items, not {wanted}")
+        raise WrongValueError(f"the list holds {len(value)} items, not {wanted}")
 
 
-def tuple_of(*inner: Form) -> Form:
+def tuple_of(*inner: ValueSchema) -> ValueSchema:
     """Give the form of a list with a form for each of its items."""
     checks = [each.check for each in inner]
 
@@ -201,51 +205,53 @@ def tuple_of(*inner: Form) -> Form:
         try:
             for index, item in enumerate(cast("list[object]", value)):
                 checks[index](item)
-        except WrongError as wrong:
+        except WrongValueError as wrong:
             wrong.path.append(f"[{index}]")
             raise
 
     parts = [each.schema for each in inner]
     size = {"minItems": len(inner), "maxItems": len(inner)}
-    return Form(check, {"type": "array", "prefixItems": parts, **size})
+    return ValueSchema(check, {"type": "array", "prefixItems": parts, **size})
 
 
-def mapped(inner: Form) -> Form:
+def mapping_of(inner: ValueSchema) -> ValueSchema:
     """Give the form of a mapping from any text."""
 
     def check(value: object) -> None:
         if not isinstance(value, dict):
-            raise WrongError(f"{shown(value)} is no mapping")
+            raise WrongValueError(f"{shown(value)} is no mapping")
         for key, item in value.items():
             _text(key)
             try:
                 inner.check(item)
-            except WrongError as wrong:
+            except WrongValueError as wrong:
                 wrong.path.append(f"[{shown(key)}]")
                 raise
 
-    return Form(check, {"type": "object", "additionalProperties": inner.schema})
+    return ValueSchema(check, {"type": "object", "additionalProperties": inner.schema})
 
 
-def record(required: Mapping[str, Form], optional: Mapping[str, Form] | None = None) -> Form:
+def record(
+    required: Mapping[str, ValueSchema], optional: Mapping[str, ValueSchema] | None = None
+) -> ValueSchema:
     """Give the form of a mapping with given keys."""
     known = {**required, **(optional or {})}
     checks = {key: each.check for key, each in known.items()}
 
     def check(value: object) -> None:
         if not isinstance(value, dict):
-            raise WrongError(f"{shown(value)} is no mapping")
+            raise WrongValueError(f"{shown(value)} is no mapping")
         for key in value:
             if key not in known:
-                raise WrongError(f"the key {shown(key)} is unknown")
+                raise WrongValueError(f"the key {shown(key)} is unknown")
         for key in required:
             if key not in value:
-                raise WrongError(f"the key {key!r} is missing")
+                raise WrongValueError(f"the key {key!r} is missing")
         key = ""
         try:
             for key, item in value.items():
                 checks[key](item)
-        except WrongError as wrong:
+        except WrongValueError as wrong:
             wrong.path.append(f".{key}")
             raise
 
@@ -255,4 +261,4 @@ def record(required: Mapping[str, Form], optional: Mapping[str, Form] | None = N
         "required": list(required),
         "additionalProperties": False,
     }
-    return Form(check, schema)
+    return ValueSchema(check, schema)

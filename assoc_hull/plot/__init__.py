@@ -1,16 +1,17 @@
 """Pictures of hulls and of reports; they need the extra `plot`."""
 
+from assoc_hull.plot.diagrams.driver_graph import neighbourhood
 from assoc_hull.plot.diagrams.form_curve import form_curve_picture
 from assoc_hull.plot.diagrams.form_definitions import definition_curves
-from assoc_hull.plot.diagrams.hydrostatic_curves import hydrostatic_curves
-from assoc_hull.plot.diagrams.neighbourhood import neighbourhood
-from assoc_hull.plot.diagrams.section_areas import bonjean_curves, sectional_area_curve
+from assoc_hull.plot.diagrams.hydrostatics import (
+    bonjean_curves,
+    hydrostatic_curves,
+    sectional_area_curve,
+)
 from assoc_hull.plot.lines_plan.adoption_deviations import adoption_deviations
-from assoc_hull.plot.lines_plan.comb_plan import combs_plan
-from assoc_hull.plot.lines_plan.combs import curvature_combs
-from assoc_hull.plot.lines_plan.compare import before_after, snapshot
-from assoc_hull.plot.lines_plan.comparison_plan import comparison_plan
-from assoc_hull.plot.lines_plan.comparison_sheet import comparison_pdf
+from assoc_hull.plot.lines_plan.before_after import before_after, snapshot
+from assoc_hull.plot.lines_plan.comparison import comparison_pdf, comparison_plan
+from assoc_hull.plot.lines_plan.curvature_combs import combs_plan, curvature_combs
 from assoc_hull.plot.lines_plan.plan import lines_plan
 from assoc_hull.plot.plates.curvature_map import curvature_figure
 from assoc_hull.plot.plates.development import development_figure

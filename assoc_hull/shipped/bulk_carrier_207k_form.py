@@ -22,8 +22,17 @@ from scipy.optimize import brentq
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = [
-    "aft_end", "aft_shoulder", "contour_over_bossing", "contour_under_bossing", "fore_end",
-    "fore_shoulder", "half_breadth", "midship", "pieces", "reaches", "side_height",
+    "aft_end",
+    "aft_shoulder",
+    "carrier_half_breadth",
+    "contour_over_bossing",
+    "contour_under_bossing",
+    "fore_end",
+    "fore_shoulder",
+    "height_ranges",
+    "midship",
+    "reaches",
+    "side_height",
     "transom_height",
 ]  # fmt: skip
 
@@ -238,13 +247,13 @@ def _fore(x: FloatArray, z: FloatArray) -> FloatArray:
 # The whole.
 
 
-def half_breadth(x: ArrayLike, z: ArrayLike) -> FloatArray:
+def carrier_half_breadth(x: ArrayLike, z: ArrayLike) -> FloatArray:
     """Give the half-breadth (m) at x and z (m), inside the contour.
 
     Examples
     --------
-    >>> from assoc_hull.shipped.bulk_carrier_207k_form import half_breadth
-    >>> half_breadth([7.0, 150.0, 150.0], [5.0, 0.0, 18.0]).tolist()
+    >>> from assoc_hull.shipped.bulk_carrier_207k_form import carrier_half_breadth
+    >>> carrier_half_breadth([7.0, 150.0, 150.0], [5.0, 0.0, 18.0]).tolist()
     [0.725, 22.6, 25.0]
     """
     x, z = np.broadcast_arrays(np.asarray(x, np.float64), np.asarray(z, np.float64))
@@ -268,7 +277,7 @@ def aft_end(z: float) -> tuple[float, float]:
         return BOSS_AFT, float(np.sqrt(BOSS * BOSS - (z - SHAFT) ** 2))
     if z < TRANSOM_LOW:
         return float(contour_over_bossing(z)), 0.0
-    return TRANSOM, float(half_breadth(TRANSOM, z))
+    return TRANSOM, float(carrier_half_breadth(TRANSOM, z))
 
 
 def transom_height(y: float) -> float:
@@ -280,7 +289,7 @@ def transom_height(y: float) -> float:
     >>> 18.4 < transom_height(0.5) < transom_height(1.0) < 27.0
     True
     """
-    return _invert(lambda z: half_breadth(TRANSOM, z), TRANSOM_LOW, DEPTH, y)
+    return _invert(lambda z: carrier_half_breadth(TRANSOM, z), TRANSOM_LOW, DEPTH, y)
 
 
 def reaches(y: float, z: float, *, aft: bool) -> float:
@@ -294,16 +303,16 @@ def reaches(y: float, z: float, *, aft: bool) -> float:
     """
     end = aft_end(z)[0] if aft else float(fore_end(z))
     within = LENGTH / 2.0 - 1.0 if aft else LENGTH / 2.0
-    return _invert(lambda x: half_breadth(x, z), end, within, y)
+    return _invert(lambda x: carrier_half_breadth(x, z), end, within, y)
 
 
-def pieces(x: float) -> list[tuple[float, float]]:
+def height_ranges(x: float) -> list[tuple[float, float]]:
     """Give the heights (m) between which the hull reaches at x (m), a pair for each piece.
 
     Examples
     --------
-    >>> from assoc_hull.shipped.bulk_carrier_207k_form import pieces
-    >>> pieces(7.5)[0], pieces(150.0)
+    >>> from assoc_hull.shipped.bulk_carrier_207k_form import height_ranges
+    >>> height_ranges(7.5)[0], height_ranges(150.0)
     ((4.275, 5.725), [(0.0, 27.0)])
     """
     if x < _CORNER_X:

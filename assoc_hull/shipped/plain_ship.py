@@ -16,8 +16,8 @@ import math
 
 from assoc_hull.creation.design import Design
 from assoc_hull.creation.form_definitions import course, design_waterline, sectional_area
-from assoc_hull.model.definition_part import FormDefinition
-from assoc_hull.model.state import Particulars
+from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.tables import Particulars
 
 __all__ = ["plain_ship_design"]
 

@@ -1,21 +1,90 @@
-"""Series 60 parents CB 0.60 and 0.70 as nets, from Todd's table of offsets.
+"""Series 60 parents CB 0.60 and 0.70: Todd's table of offsets, and the nets adopted from it.
 
-F.H. Todd, "Series 60: Methodical Experiments with Models of Single-Screw Merchant Ships",
-DTMB Report 1712, 1963.
+`todd_table` gives the offsets as their author published them, scaled to a length of ship;
+`series60_net` adopts them, with profile, ends and flats by rule, and adds waterlines, stations
+and buttocks. Source: F.H. Todd, "Series 60: Methodical Experiments with Models of Single-Screw
+Merchant Ships", DTMB Report 1712, 1963.
 """
 
 from __future__ import annotations
 
-from assoc_hull.edit.adoption.report import AdoptionReport
+from importlib.resources import files
+
+from assoc_hull.arguments import number
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.newline.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.io.offsets.completion import net_from_table
-from assoc_hull.model.state import HullState
-from assoc_hull.shipped.series60_table import todd_table
+from assoc_hull.errors import BadInputError
+from assoc_hull.io.offsets.complete_table import net_from_table
+from assoc_hull.io.offsets.read import read_offsets
+from assoc_hull.io.offsets.table import OffsetTable
+from assoc_hull.io.reports import OffsetReport
+from assoc_hull.model.tables import HullState
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["series60", "series60_adopted", "series60_net"]
+__all__ = [
+    "LENGTH",
+    "series60",
+    "series60_adopted",
+    "series60_net",
+    "todd_table",
+]
+
+# --------------------------------------------------------------------------------------
+# The offsets of two Series 60 parents, as their author published them.
+#
+# F.H. Todd, "Series 60: Methodical Experiments with Models of Single-Screw Merchant Ships",
+# DTMB Report 1712, 1963. Length between perpendiculars 400 ft = 121.92 m, B/T = 2.5, L/B = 7.5
+# and 7.0 for the block coefficients 0.60 and 0.70.
+
+LENGTH = 121.92
+"""Length between perpendiculars of the published hulls: 400 ft in m."""
+
+_FILES = {0.60: "series60_060.csv", 0.70: "series60_070.csv"}
+
+
+def todd_table(cb: float) -> tuple[OffsetTable, OffsetReport]:
+    """Give the published offsets of a Series 60 parent.
+
+    Parameters
+    ----------
+    cb : float
+        Block coefficient, 0.60 or 0.70.
+
+    Returns
+    -------
+    OffsetTable, OffsetReport
+        25 stations by 8 waterlines (0, .075, .25, .5, .75, 1, 1.25 and 1.5 T) in ship axes.
+
+    Raises
+    ------
+    BadInputError
+        There is no table for this block coefficient.
+
+    Examples
+    --------
+    >>> from assoc_hull.shipped.series60 import todd_table
+    >>> round(float(todd_table(0.60)[0].half_breadth.max()), 3)
+    8.128
+    """
+    name = _FILES.get(number(cb, "cb", "in series60"))
+    if name is None:
+        known = " and ".join(f"{value:.2f}" for value in _FILES)
+        raise BadInputError(
+            f"there is no Series 60 table of block coefficient {cb!r}",
+            "argument cb",
+            f"give one of {known}",
+        )
+    text = (files("assoc_hull.shipped") / "data" / name).read_text("utf-8")
+    return read_offsets(text, length=LENGTH, name=f"Series 60 CB {cb:.2f}")
+
+
+# --------------------------------------------------------------------------------------
+# Series 60 parents CB 0.60 and 0.70 as nets, from Todd's table of offsets.
+#
+# F.H. Todd, "Series 60: Methodical Experiments with Models of Single-Screw Merchant Ships",
+# DTMB Report 1712, 1963.
 
 _WATERLINES = (
     0.15, 0.20, 0.30, 0.35, 0.42, 0.58, 0.625, 0.66, 0.84, 0.92, 1.08, 1.16, 1.33, 1.41,

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.arguments import integer, positive
-from assoc_hull.edit.adoption.adopt import adopt
+from assoc_hull.edit.adoption.adopt_lines import adopt
 from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import Association, HullState, Particulars
+from assoc_hull.model.tables import Association, HullState, Particulars
 
-__all__ = ["half_breadth", "wigley"]
+__all__ = ["wigley", "wigley_half_breadth"]
 
 _MOST = 1000
 """More stations or waterlines than this are a mistake."""
@@ -20,7 +20,7 @@ _FREEBOARD = 0.5
 """Height of the wall-sided part above the design waterline, as a part of the draught."""
 
 
-def half_breadth(
+def wigley_half_breadth(
     x: FloatArray, z: FloatArray, length: float, breadth: float, draught: float
 ) -> FloatArray:
     """Give y = B/2 (1 - xi^2)(1 - zeta^2), m.
@@ -35,8 +35,8 @@ def half_breadth(
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.shipped.wigley import half_breadth
-    >>> half_breadth(np.array([50.0, 25.0]), np.array([6.25, 9.0]), 100, 10, 6.25)
+    >>> from assoc_hull.shipped.wigley import wigley_half_breadth
+    >>> wigley_half_breadth(np.array([50.0, 25.0]), np.array([6.25, 9.0]), 100, 10, 6.25)
     array([5.  , 3.75])
     """
     along = 2.0 * np.asarray(x) / length - 1.0
@@ -98,7 +98,9 @@ def wigley(
 
 
 def _level(x: FloatArray, z: float, hull: tuple[float, float, float]) -> FloatArray:
-    return np.column_stack([x, half_breadth(x, np.full(len(x), z), *hull), np.full(len(x), z)])
+    return np.column_stack(
+        [x, wigley_half_breadth(x, np.full(len(x), z), *hull), np.full(len(x), z)]
+    )
 
 
 def _boundaries(x: FloatArray, hull: tuple[float, float, float]) -> list[LineSource]:
@@ -121,7 +123,7 @@ def _boundaries(x: FloatArray, hull: tuple[float, float, float]) -> list[LineSou
 def _section(name: str, x: float, z: FloatArray, hull: tuple[float, float, float]) -> LineSource:
     """From the keel up; a tangent point where the wall side begins."""
     height = np.append(z, (1.0 + _FREEBOARD) * hull[2])
-    y = half_breadth(np.full(len(height), x), height, *hull)
+    y = wigley_half_breadth(np.full(len(height), x), height, *hull)
     kind = np.zeros(len(height), int)
     kind[-2] = PointKind.TANGENT
     upward = np.where((kind == PointKind.TANGENT)[:, None], [0.0, 0.0, 1.0], 0.0)

@@ -12,13 +12,12 @@ import numpy as np
 from assoc_hull.arguments import numbers, shown, shown_name, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.variation.ask import Ask
-from assoc_hull.variation.ask_reach import AskReach
-from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.layers import Layer
 from assoc_hull.variation.parameters.catalogue import NAMES
-from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.request import TargetRequest, VariationRequest
 
-__all__ = ["OUTPUTS", "Design"]
+__all__ = ["OUTPUTS", "StudyDesign"]
 
 OUTPUTS = (
     "volume", "displacement", "lcb", "kb", "kmt", "kml", "waterplane_area", "lcf",
@@ -32,7 +31,7 @@ _MOST = 1_000_000
 
 
 @attrs.frozen(eq=False)
-class Design:
+class StudyDesign:
     """What a study is asked for.
 
     Attributes
@@ -91,7 +90,7 @@ class Design:
         layers: Sequence[object] = (),
         outputs: Sequence[str] = OUTPUTS,
         layout: Mapping[str, Any] | Layout | None = None,
-    ) -> Design:
+    ) -> StudyDesign:
         """Take what a designer gives; see `assoc_hull.studies.study`.
 
         Raises
@@ -119,29 +118,29 @@ class Design:
         )  # fmt: skip
 
 
-_NOTHING = AskReach({}, (), {})
+_NOTHING = TargetRequest({}, (), {})
 """Nothing is free."""
 
 
 def _sought(
     free: object, bounds: object, aims: tuple[str, ...], raw: Mapping[str, Layer]
-) -> AskReach:
+) -> TargetRequest:
     """Take what is free, and between which values, as `vary` does; layers also by their names."""
     if bounds is not None and not isinstance(bounds, Mapping):
         raise WrongTypeError(f"bounds is {shown(bounds)}", _WHERE, "give (low, high) by name")
     if isinstance(free, Sequence) and not isinstance(free, str):
         free = [raw.get(each, each) if isinstance(each, str) else each for each in free]
-    return AskReach.of(dict.fromkeys(aims, 0.0), free, bounds, True) or _NOTHING
+    return TargetRequest.of(dict.fromkeys(aims, 0.0), free, bounds, True) or _NOTHING
 
 
-def _ask(layers: Sequence[object], layout: Mapping[str, Any] | Layout | None) -> Ask:
+def _ask(layers: Sequence[object], layout: Mapping[str, Any] | Layout | None) -> VariationRequest:
     """Take layers and layout as `vary` does."""
     if isinstance(layers, str) or not isinstance(layers, Sequence):
         raise WrongTypeError(f"layers is {shown(layers)}", _WHERE, "give a list of layers")
     if not layers:
         whole = attrs.asdict(layout) if isinstance(layout, Layout) else layout
-        return Ask({}, layout=Layout.of(whole))
-    ask = Ask.of(layers=layers, layout=layout)
+        return VariationRequest({}, layout=Layout.of(whole))
+    ask = VariationRequest.of(layers=layers, layout=layout)
     names = [each.name for each in ask.layers]
     for name in names:
         if names.count(name) > 1 or name in NAMES:

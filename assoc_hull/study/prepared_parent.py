@@ -16,21 +16,19 @@ from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.model.copy import copy_of
-from assoc_hull.model.state import HullState
-from assoc_hull.study.design import Design
+from assoc_hull.model.tables import HullState, copy_state
+from assoc_hull.study.design import StudyDesign
 from assoc_hull.variation.aiming.outputs import Outputs
-from assoc_hull.variation.ask import TOLERANCE, Ask
+from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.carrying.hull_maps import HullMaps
-from assoc_hull.variation.carrying.room import Room
-from assoc_hull.variation.certificate.certify import certify
-from assoc_hull.variation.certificate.record import Certificate
-from assoc_hull.variation.parameters.freedom import Freedom
-from assoc_hull.variation.parameters.limits import hull_box, present
+from assoc_hull.variation.certificate.fold_check import Certificate, certify
+from assoc_hull.variation.parameters.catalogue import Freedom
 from assoc_hull.variation.parameters.parameter_measures import measure_all
-from assoc_hull.variation.parameters.read_parent import parent_of
+from assoc_hull.variation.parameters.parent import parent_of
+from assoc_hull.variation.parameters.value_limits import hull_box, present_values
+from assoc_hull.variation.request import TOLERANCE, VariationRequest
 
-__all__ = ["Ground", "Variant"]
+__all__ = ["StudyParent", "Variant"]
 
 _PROBES = (0.1, 1e-3)
 """Parts of usual changes by which it is found which lines drive; a smaller one if one folds."""
@@ -56,7 +54,7 @@ class Variant:
 
 
 @attrs.frozen(eq=False)
-class Ground:
+class StudyParent:
     """The parent of a study.
 
     Attributes
@@ -78,7 +76,7 @@ class Ground:
     outputs: Outputs
 
     @classmethod
-    def of(cls, state: HullState, design: Design) -> Ground:
+    def of(cls, state: HullState, design: StudyDesign) -> StudyParent:
         """Prepare a hull; its tables are not changed, and must not change meanwhile.
 
         Raises
@@ -89,21 +87,21 @@ class Ground:
             The parent has not what a parameter changes, or an output; no line can drive.
         """
         measures = measure_all(state)
-        was = present(measures, design.layout)
+        was = present_values(measures, design.layout)
         for name in design.names:
             if name in measures.absent:
                 raise BadInputError(
                     f"cannot vary '{name}': {measures.absent[name]}", "in study", "leave it out"
                 )
         parent = parent_of(state, measures)
-        room = Room(state, parent, was, design.layout, hull_box(state, TOLERANCE))
+        room = AdmissibleValues(state, parent, was, design.layout, hull_box(state, TOLERANCE))
         layers = {each.name: each for each in design.layers}
         free = tuple(
             Freedom.raw(layers[name]) if name in layers
             else Freedom.named(name, was[name], state.particulars.length)
             for name in design.names
         )  # fmt: skip
-        maps = HullMaps(room, Ask({}, layout=design.layout), {}, free)
+        maps = HullMaps(room, VariationRequest({}, layout=design.layout), {}, free)
         lines, follow = _driving(maps)
         aims, outputs = (Outputs.of(state, names) for names in (design.aims, design.outputs))
         return cls(maps, lines, follow, aims, outputs)
@@ -140,7 +138,7 @@ class Ground:
         certificate.check()
         laid = maps.laid(amplitudes, self.lines, follow=self.follow)
         space = SpaceMap(laid.map, laid.map.jacobian)
-        document = Document(copy_of(state))
+        document = Document(copy_state(state))
         with Transaction(document, name) as edit:
             carry_net(edit, NetMap(space, self.lines, laid.planes, laid.features, laid.particulars))
         live = document.state.live("rows")

@@ -1,4 +1,8 @@
-"""The rows of a study: one variant each, here or in processes side by side."""
+"""The rows of a study: one variant each, made here or in processes side by side, and their table.
+
+A row has the values, the outputs, and the reason where there is no hull. Rows are the same to the
+last bit, whatever the number of processes.
+"""
 
 from __future__ import annotations
 
@@ -6,30 +10,60 @@ import pickle
 import signal
 import tempfile
 from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import (
-    FIRST_COMPLETED,
-    BrokenExecutor,
-    Future,
-    ProcessPoolExecutor,
-    wait,
-)
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
 from multiprocessing import get_context, parent_process
 from pathlib import Path
+from typing import Any
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
-from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.errors import (
+    AssocHullError,
+    BadInputError,
+    FoldError,
+    OutOfRangeError,
+    RefusedEditError,
+)
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.model.copy import copy_of
-from assoc_hull.model.state import HullState
-from assoc_hull.study.design import Design
-from assoc_hull.study.failure import kind_of
-from assoc_hull.study.model import Model
-from assoc_hull.study.prepared_parent import Ground
-from assoc_hull.study.search import searched
+from assoc_hull.model.tables import HullState, copy_state
+from assoc_hull.study.design import StudyDesign
+from assoc_hull.study.prepared_parent import StudyParent
+from assoc_hull.study.target_search import NotReachedError, QuadraticModel, search_variant
 
-__all__ = ["Row", "Run", "Tell", "row_of", "run_study"]
+__all__ = [
+    "StudyRow",
+    "StudyRun",
+    "Tell",
+    "failure_kind",
+    "make_row",
+    "run_study",
+    "study_columns",
+]
+
+
+def failure_kind(error: AssocHullError) -> str:
+    """Give a word for what went wrong, by which failed variants are counted.
+
+    Examples
+    --------
+    >>> from assoc_hull.errors import RefusedEditError
+    >>> from assoc_hull.study.run import failure_kind
+    >>> failure_kind(RefusedEditError("x", ("a line folds",)))
+    'refused'
+    """
+    words: tuple[tuple[type[AssocHullError], str], ...] = (
+        (FoldError, "map folds"),
+        (OutOfRangeError, "out of range"),
+        (RefusedEditError, "refused"),
+        (NotReachedError, "not reached"),
+    )
+    return next((word for kind, word in words if isinstance(error, kind)), "no hull")
+
+
+# --------------------------------------------------------------------------------------
+# The rows of a study: one variant each, here or in processes side by side.
 
 Tell = Callable[[str, int, int], None]
 """Takes what is being done, how many variants are done, and of how many."""
@@ -39,7 +73,7 @@ _AHEAD = 4
 
 
 @attrs.frozen(eq=False)
-class Row:
+class StudyRow:
     """What became of a variant.
 
     Attributes
@@ -77,7 +111,7 @@ class Row:
 
 
 @attrs.frozen(eq=False)
-class Run:
+class StudyRun:
     """A hull and a design, ready to make any row.
 
     Attributes
@@ -88,12 +122,12 @@ class Run:
         Of the outputs that are aimed at, if there are any.
     """
 
-    design: Design
-    ground: Ground
-    model: Model | None
+    design: StudyDesign
+    ground: StudyParent
+    model: QuadraticModel | None
 
     @classmethod
-    def of(cls, state: HullState, design: Design) -> Run:
+    def of(cls, state: HullState, design: StudyDesign) -> StudyRun:
         """Prepare a hull.
 
         Raises
@@ -101,8 +135,8 @@ class Run:
         AssocHullError
             It has not what the design changes, or cannot be changed so at all.
         """
-        ground = Ground.of(state, design)
-        return cls(design, ground, Model.of(ground) if design.aims else None)
+        ground = StudyParent.of(state, design)
+        return cls(design, ground, QuadraticModel.of(ground) if design.aims else None)
 
     @property
     def units(self) -> dict[str, str]:
@@ -113,27 +147,27 @@ class Run:
         return {each.name: each.unit for each in ground.maps.free} | told | asked | {"shift": "m"}
 
 
-def row_of(run: Run, number: int) -> Row:
+def make_row(run: StudyRun, number: int) -> StudyRow:
     """Make one variant, and tell what became of it."""
     design = run.design
     try:
-        found = searched(run.ground, run.model, design, number)
+        found = search_variant(run.ground, run.model, design, number)
     except AssocHullError as error:
         values = np.full(len(design.names), np.nan)
         values[: len(design.given)] = design.values[number]
-        return Row(
+        return StudyRow(
             number, values, np.full(len(design.outputs), np.nan), np.nan, np.nan, np.nan, 0,
-            kind_of(error), " ".join(str(error).split()),
+            failure_kind(error), " ".join(str(error).split()),
         )  # fmt: skip
-    return Row(
+    return StudyRow(
         number, found.values, found.outputs,
         found.variant.certificate.least, found.variant.shift, found.residual, found.trials,
     )  # fmt: skip
 
 
 def run_study(
-    run: Run, numbers: Sequence[int], *, workers: int = 1, tell: Tell | None = None
-) -> tuple[tuple[Row, ...], bool]:
+    run: StudyRun, numbers: Sequence[int], *, workers: int = 1, tell: Tell | None = None
+) -> tuple[tuple[StudyRow, ...], bool]:
     """Make variants, in their order.
 
     Parameters
@@ -159,7 +193,7 @@ def run_study(
     BadInputError
         A process came to an end, as it does where a program begins a study whenever it is imported.
     """
-    rows = dict[int, Row]()
+    rows = dict[int, StudyRow]()
     made = _one_by_one(run, numbers) if workers == 1 else _side_by_side(run, numbers, workers)
     interrupted = False
     try:
@@ -173,19 +207,19 @@ def run_study(
     return tuple(rows[number] for number in numbers if number in rows), interrupted
 
 
-def _one_by_one(run: Run, numbers: Sequence[int]) -> Generator[Row]:
+def _one_by_one(run: StudyRun, numbers: Sequence[int]) -> Generator[StudyRow]:
     for number in numbers:
-        yield row_of(run, number)
+        yield make_row(run, number)
 
 
-def _side_by_side(run: Run, numbers: Sequence[int], workers: int) -> Generator[Row]:
+def _side_by_side(run: StudyRun, numbers: Sequence[int], workers: int) -> Generator[StudyRow]:
     """Hand variants out to processes, a few at a time, so that no more are held than are worked on.
 
     Each process prepares the hull for itself, of the same tables: so it has the same bits.
     """
     if parent_process() is not None:
         raise _unguarded()
-    given = pickle.dumps((copy_of(run.ground.maps.state), run.design, run.model))
+    given = pickle.dumps((copy_state(run.ground.maps.state), run.design, run.model))
     # in a file: a process that ends before it has read a long message would block this one
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "study.pickle"
@@ -193,9 +227,9 @@ def _side_by_side(run: Run, numbers: Sequence[int], workers: int) -> Generator[R
         yield from _handed_out(numbers, workers, str(file))
 
 
-def _handed_out(numbers: Sequence[int], workers: int, file: str) -> Generator[Row]:
+def _handed_out(numbers: Sequence[int], workers: int, file: str) -> Generator[StudyRow]:
     pool = ProcessPoolExecutor(workers, get_context("spawn"), _begin, (file,))
-    waiting, running = iter(numbers), set[Future[Row]]()
+    waiting, running = iter(numbers), set[Future[StudyRow]]()
     try:
         while True:
             for number in waiting:
@@ -220,7 +254,7 @@ def _unguarded() -> BadInputError:
     )  # fmt: skip
 
 
-_own: Run | None = None
+_own: StudyRun | None = None
 """What a process of a study works on."""
 
 
@@ -229,9 +263,31 @@ def _begin(file: str) -> None:
     global _own
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     state, design, model = pickle.loads(Path(file).read_bytes())
-    _own = Run(design, Ground.of(state, design), model)
+    _own = StudyRun(design, StudyParent.of(state, design), model)
 
 
-def _row(number: int) -> Row:
+def _row(number: int) -> StudyRow:
     assert _own is not None
-    return row_of(_own, number)
+    return make_row(_own, number)
+
+
+# --------------------------------------------------------------------------------------
+# The rows of a study as columns.
+
+
+def study_columns(design: StudyDesign, rows: Sequence[StudyRow]) -> dict[str, NDArray[Any]]:
+    """Give arrays (n,) by name; see `assoc_hull.studies.Study.table`."""
+    number = np.array([row.number for row in rows], np.int64)
+    values = np.array([row.values for row in rows]).reshape(len(rows), len(design.names))
+    outputs = np.array([row.outputs for row in rows]).reshape(len(rows), len(design.outputs))
+    found: dict[str, NDArray[Any]] = {"number": number}
+    found |= dict(zip(design.names, values.T, strict=True))
+    found |= {f"asked {name}": design.targets[number, i] for i, name in enumerate(design.aims)}
+    found |= dict(zip(design.outputs, outputs.T, strict=True))
+    for name in ("margin", "shift", "residual", "trials"):
+        found[name] = np.array([getattr(row, name) for row in rows])
+    for name in ("failure", "reason"):
+        found[name] = np.array([getattr(row, name) for row in rows], object)
+    found = {name: np.array(column) for name, column in found.items()}
+    freeze(*found.values())
+    return found

@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 from scipy.interpolate import CubicSpline
 
 from assoc_hull.geometry.classical.chord_spline import ChordSpline
-from assoc_hull.geometry.classical.elastica import Elastica
-from assoc_hull.geometry.classical.elastica_fit import fit_elastica
+from assoc_hull.geometry.classical.elastica import Elastica, fit_elastica
 from drawings.common import DRIVEN, FIXED, INK, PALE, SHARED
 
 __all__ = ["classical_splines"]

@@ -5,10 +5,9 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.biarc_chain import biarc_chain
-from assoc_hull.geometry.classical.biarc_rules import BiarcRule
-from assoc_hull.geometry.classical.biarcs import Biarcs, biarcs, free_biarcs
+from assoc_hull.geometry.classical.biarcs import BiarcRule, Biarcs, biarcs, free_biarcs
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from drawings.common import DRIVEN, FIXED, INK, PALE, SHARED, WATCHED, Floats, arrow, bare
 
 __all__ = ["biarc_kinds"]
@@ -31,7 +30,7 @@ def _over_ten(alpha: float, beta: float, rule: BiarcRule = "inverse", least: flo
     return biarcs([[0, 0]], one, [[10, 0]], two, rule=rule, least_radius=least)
 
 
-def _places(arcs: Arcs, arc: int) -> Floats:
+def _places(arcs: PlaneArcs, arc: int) -> Floats:
     t = np.linspace(0.0, float(arcs.length[arc]), 80)
     return arcs.at(np.full(len(t), arc), t)
 

@@ -7,7 +7,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 import assoc_hull as ah
-from assoc_hull.analysis.net.gather import gather
+from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh
 from assoc_hull.surface.cells.net_graph import NetGraph, net_graph
 from drawings.common import ACCENT, INK, Floats, bare
@@ -41,7 +41,7 @@ def closed_mesh_stern() -> Figure:
     bare(axes)
     axes.set_aspect("equal")
     paint(axes, mesh)
-    lines(axes, net_graph(gather(hull.state)))
+    lines(axes, net_graph(gather_net(hull.state)))
     axes.autoscale_view()
     return figure
 

@@ -6,9 +6,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.interpolate import CubicSpline
 
-from assoc_hull.geometry.classical.combined_waterline import waterline
+from assoc_hull.geometry.classical.combined_waterline import combined_waterline as waterline
 from assoc_hull.geometry.classical.conformal_sections import fit_conformal, lewis_sections
-from assoc_hull.geometry.classical.pieces import PiecedCurve
+from assoc_hull.geometry.classical.pieced_curve import PiecedCurve
 from drawings.common import DRIVEN, FAINT, FIXED, INK, PALE, SHARED
 
 __all__ = ["combined_waterline", "conformal_sections"]

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import assoc_hull as ah
-from assoc_hull.model.forms.forms import Forms
+from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.plot import lines_plan
 from assoc_hull.shipped.container_ship_225m import container_ship_225m_design
 from drawings.common import ACCENT, INK, PALE, SHARED, ship

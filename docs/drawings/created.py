@@ -5,7 +5,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 import assoc_hull as ah
-from assoc_hull.model.forms.forms import Forms
+from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.plot import lines_plan
 from assoc_hull.shipped.bulk_carrier_180m import bulk_carrier_180m_design
 from assoc_hull.shipped.versluis_section_areas import AREAS, MOMENTS, X

@@ -8,9 +8,8 @@ from matplotlib.figure import Figure
 from assoc_hull.geometry.curves import CurveData
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.io.offsets.contours import centre_profile, end_contours
-from assoc_hull.io.offsets.flats import flat_of_bottom
-from assoc_hull.shipped.series60_table import todd_table
+from assoc_hull.io.offsets.complete_table import centre_profile, end_contours, flat_of_bottom
+from assoc_hull.shipped.series60 import todd_table
 from drawings.common import DRIVEN, FAINT, FIXED, INK, PALE, SHARED, arrow, bare, curve, ship
 
 __all__ = ["completions", "knuckle_end"]

@@ -10,7 +10,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 from assoc_hull.io.dxf.lines_plan import plan_drawing
-from assoc_hull.io.export_book import ExportBook
+from assoc_hull.io.reports import ExportBook
 from assoc_hull.sources import examples
 
 

@@ -5,7 +5,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from assoc_hull.geometry.classical.arcs import Arcs
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.production import production_arcs
 from drawings.common import DRIVEN, INK, PALE, SHARED, Floats, ship
 
@@ -27,7 +27,7 @@ def production_arcs_picture() -> Figure:
     return figure
 
 
-def _plan(axes: Axes, arcs: Arcs, places: Floats) -> None:
+def _plan(axes: Axes, arcs: PlaneArcs, places: Floats) -> None:
     axes.plot(*places.T, color=PALE, linewidth=6)
     for arc in range(len(arcs)):
         t = np.linspace(0.0, float(arcs.length[arc]), 40)
@@ -43,7 +43,7 @@ def _plan(axes: Axes, arcs: Arcs, places: Floats) -> None:
     )
 
 
-def _curvature(axes: Axes, arcs: Arcs, places: Floats, bend: Floats, tangent: Floats) -> None:
+def _curvature(axes: Axes, arcs: PlaneArcs, places: Floats, bend: Floats, tangent: Floats) -> None:
     signed = tangent[:, 0] * bend[:, 1] - tangent[:, 1] * bend[:, 0]
     axes.plot(places[:, 0], signed, color=PALE, linewidth=3, label="of the line")
     ends = np.concatenate([arcs.start, arcs.ends()[-1:]])[:, 0]

@@ -5,10 +5,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from assoc_hull.model.definition_part import GeneratedCurve
-from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.generate import generated_points, marks_for
-from assoc_hull.model.forms.layout import layout_at
+from assoc_hull.model.form_definition import GeneratedCurve
+from assoc_hull.model.forms.form_values import Forms
+from assoc_hull.model.forms.generate_points import generated_points, marks_for
+from assoc_hull.model.forms.line_layout import layout_at
 from assoc_hull.model.forms.sections import section_shape
 from assoc_hull.shipped.plain_ship import plain_ship_design
 from drawings.common import ACCENT, DRIVEN, FIXED, INK, PALE, SHARED, WATCHED

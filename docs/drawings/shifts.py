@@ -4,12 +4,12 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from assoc_hull.analysis.hydrostatics.area_curve import area_curve
 from assoc_hull.analysis.hydrostatics.flotation import flotation
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.analysis.hydrostatics.section_areas import area_curve
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.variation.shifts.closed_form import closed_form
-from assoc_hull.variation.shifts.shift_request import ShiftAsk
-from assoc_hull.variation.shifts.trials import ShiftWork
+from assoc_hull.variation.shifts.shift_hull import ShiftWork
+from assoc_hull.variation.shifts.shift_request import ShiftRequest
 from drawings.common import DRIVEN, FAINT, INK, PALE, SHARED, ship
 
 __all__ = ["section_shifts"]
@@ -20,12 +20,12 @@ _SHAPES = {"lackenby": PALE, "c1": DRIVEN, "c2": SHARED}
 def section_shifts() -> Figure:
     """Draw CB +.02 and LCB +.5 % Lpp together: delta(x) of three shapes, and areas by `c2`."""
     state = ship().state
-    draught = Planes(np.array([state.particulars.draught]), np.zeros(1), np.zeros(1))
+    draught = FloatingPlanes(np.array([state.particulars.draught]), np.zeros(1), np.zeros(1))
     areas = area_curve(flotation(state), draught)
     x = np.linspace(areas.low, areas.high, 801)
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.8), layout="constrained")
     for shape, colour in _SHAPES.items():
-        asked = ShiftAsk.of(by={"cb": 0.02, "lcb_percent": 0.5}, shape=shape)
+        asked = ShiftRequest.of(by={"cb": 0.02, "lcb_percent": 0.5}, shape=shape)
         work = ShiftWork.of(state, asked)
         found = closed_form(work.task, work.terms)
         left.plot(x, found.moved(x), color=colour, linewidth=1.8, label=shape)

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 import assoc_hull as ah
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.plot import combs_plan, lines_plan
 from drawings.common import ACCENT, INK, PALE, SHARED, Floats
 
@@ -75,7 +75,7 @@ def _raise(hull: ah.Hull) -> list[tuple[float, float, float, float]]:
         for name, fade in _NAMES.items():
             curve = next(each for each in hull.lines[name].curves if each.points[0].x < 0.0)
             a = next(point for point in curve.points if point.x == 0.0).position
-            b = meet_planes(curve.spline, _AHEAD, np.array([2.2])).xyz[0]
+            b = intersect_planes(curve.spline, _AHEAD, np.array([2.2])).xyz[0]
             shape = [a + 0.020 * _UP, b + 0.025 * _UP]
             edit.reshape(curve, points=shape, span=(-4.8, 6.6), fade=fade)
             given += [(*a, 0.020), (*b, 0.025)]

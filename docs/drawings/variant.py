@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.section_areas import section_areas
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.plot import comparison_plan
 from drawings.common import ACCENT, FAINT, INK, PALE, Floats
 
@@ -71,7 +71,7 @@ def variant_areas() -> Figure:
 def _areas(hull: ah.Hull) -> tuple[Floats, Floats]:
     """Give areas of sections along the hull at the design draught, m and m2."""
     x = np.linspace(-5.0, 306.5, 624)
-    planes = Planes(np.array([hull.particulars.draught]), np.zeros(1), np.zeros(1))
+    planes = FloatingPlanes(np.array([hull.particulars.draught]), np.zeros(1), np.zeros(1))
     area = section_areas(flotation(hull.state), x, planes)[0]
     known = np.isfinite(area)  # not where the raked ends begin
     return x[known], area[known]

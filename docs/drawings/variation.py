@@ -5,14 +5,14 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 import assoc_hull as ah
-from assoc_hull.plot.lines_plan.variation_fields import field_plan
-from assoc_hull.variation.fields.field import Field, Piece, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.parameters.compose_map import compose
-from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.plot.lines_plan.variation_fields import variation_fields as field_plan
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
+from assoc_hull.variation.fields.layers import FieldLayer
+from assoc_hull.variation.parameters.compose_map import compose_map
+from assoc_hull.variation.parameters.field_layout import Layout
 from assoc_hull.variation.parameters.parameter_measures import measure_all
-from assoc_hull.variation.parameters.read_parent import parent_of
+from assoc_hull.variation.parameters.parent import parent_of
 from drawings.common import DRIVEN, FAINT, INK, PALE, SHARED
 
 __all__ = ["rounded_hat", "variation_fields"]
@@ -32,7 +32,7 @@ def variation_fields() -> Figure:
     hull = ah.examples.bulk_carrier_207k()
     found = measure_all(hull.state)
     asked = {name: found[name] + more for name, more in _MORE.items()}
-    layers = compose(parent_of(hull.state, found), asked, Layout()).layers
+    layers = compose_map(parent_of(hull.state, found), asked, Layout()).layers
     fields = [field for each in layers if isinstance(each, FieldLayer) for field in each.fields]
     return field_plan(hull, FieldLayer("all", tuple(fields)), paper="A4")
 
@@ -42,9 +42,9 @@ def rounded_hat() -> Figure:
     hull = ah.examples.bulk_carrier_207k()
     found = measure_all(hull.state)
     h, r, top = found["shaft_height"], found["bossing_radius"], found["draught"]
-    (hat,) = compose(parent_of(hull.state, found), {"shaft_height": h + 1.0}, Layout()).layers
+    (hat,) = compose_map(parent_of(hull.state, found), {"shaft_height": h + 1.0}, Layout()).layers
     heights, names = [0.0, h - r, h + r, top], ["base", "shaft-r", "shaft+r", "T"]
-    always = Chain.constant(1.0)
+    always = BlendChain.constant(1.0)
     ways = {
         "ratios, as in the paper": _pieces("a", [0.0, 1.0 / (h - r), 1.0 / (h + r), 0.0], always),
         "shifts from anchor to anchor": _pieces("d", [0.0, 1.0, 1.0, 0.0], always),
@@ -53,7 +53,8 @@ def rounded_hat() -> Figure:
     places = np.column_stack([np.full_like(z, 6.0), np.zeros_like(z), z])
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 4.6), sharey=True,
                                          layout="constrained")  # fmt: skip
-    layers = {name: FieldLayer("local", (Field("shaft", "z", stack(names, heights), pieces),))
+    stack = level_boundaries(names, heights)
+    layers = {name: FieldLayer("local", (StackedField("shaft", "z", stack, pieces),))
               for name, pieces in ways.items()}  # fmt: skip
     assert isinstance(hat, FieldLayer)
     for (name, layer), colour in zip(
@@ -75,8 +76,9 @@ def rounded_hat() -> Figure:
     return figure
 
 
-def _pieces(kind: str, values: list[float], always: Chain) -> tuple[Piece, ...]:
+def _pieces(kind: str, values: list[float], always: BlendChain) -> tuple[AffinePiece, ...]:
     """Give pieces with these ratios less one (a), or these shifts (d)."""
     return tuple(
-        Piece.along(always, *((value, 0.0) if kind == "a" else (0.0, value))) for value in values
+        AffinePiece.along(always, *((value, 0.0) if kind == "a" else (0.0, value)))
+        for value in values
     )

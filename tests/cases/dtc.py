@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import assoc_hull as ah
+from assoc_hull.io.slicing.net import SliceReport
 from assoc_hull.io.slicing.read import read_slices
-from assoc_hull.io.slicing.report import SliceReport
 
 __all__ = ["read_dtc", "read_dtc_with_report"]
 

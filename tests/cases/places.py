@@ -8,14 +8,13 @@ import attrs
 import numpy as np
 
 import assoc_hull as ah
-from assoc_hull.edit.field import on_flat
-from assoc_hull.edit.normals import free_normals, hull_normals
+from assoc_hull.edit.displacement_field import on_flat
+from assoc_hull.edit.hull_normals import free_normals, hull_normals
 from assoc_hull.edit.session import Edit
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.splines.curve_order import folds
-from assoc_hull.model.curve import Curve
+from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.point import Point
+from assoc_hull.model.objects import Curve, Point
 
 PAIRS = (("sections", "waterlines"), ("sections", "buttocks"), ("waterlines", "buttocks"))
 BoolArray = np.typing.NDArray[np.bool_]
@@ -171,7 +170,7 @@ def over_limit(hull: ah.Hull) -> IntArray:
 def folded(hull: ah.Hull, names: tuple[str, ...]) -> int:
     """Count the places where re-lofted curves turn back on themselves."""
     number = {key: i for i, key in enumerate(hull.state.curves.key.data)}
-    return sum(len(folds(hull.state.spline(number[name])).curve) for name in names)
+    return sum(len(curve_folds(hull.state.spline(number[name])).curve) for name in names)
 
 
 def run(

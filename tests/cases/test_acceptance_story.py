@@ -11,10 +11,10 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.report import EditReport
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.splines.closest import closest
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
-from assoc_hull.model.curve import Curve
+from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.objects import Curve
 from tests.independent import trouble
 
 NAMES = {"BTK 0.5": (10.0, 0.4), "BTK 1": (10.0, 2.5)}
@@ -60,7 +60,7 @@ def changed(before: dict[str, str], hull: ah.Hull) -> set[str]:
 def given(hull: ah.Hull, name: str) -> tuple[FloatArray, FloatArray]:
     """Give A, the crossing with station 0 raised by 20 mm, and B, half-way, raised by 25 mm."""
     curve = counter(hull, name)
-    middle = meet_planes(curve.spline, np.array([1.0, 0.0, 0.0]), np.array([2.2])).xyz
+    middle = intersect_planes(curve.spline, np.array([1.0, 0.0, 0.0]), np.array([2.2])).xyz
     station = next(p for p in curve.points if p.x == 0.0)
     b = middle[np.argmax(middle[:, 2])]
     return station.position + np.array([0.0, 0.0, 0.020]), b + np.array([0.0, 0.0, 0.025])
@@ -115,8 +115,8 @@ def test_step_1_all_lines_that_cross_a_re_shaped_waterline_follow(hull: ah.Hull)
             continue
         assert np.abs(point.position - old[point.name]).max() > 1e-5, point.name
         if point.crossing_role != "watched":
-            assert closest(spline, 0, point.position[None])[2][0] < 1e-9
-            assert closest(point.parent_curve.spline, 0, point.position[None])[2][0] < 1e-9
+            assert closest_points(spline, 0, point.position[None])[2][0] < 1e-9
+            assert closest_points(point.parent_curve.spline, 0, point.position[None])[2][0] < 1e-9
         followed.append(point.parent_curve.line.name)
     print(f"\n{len(report.relofted)} curves followed, crossed on the stretch: {followed}")
     assert {"ST 1.25", "ST 1.5", "ST 1.75", "ST 2", "BTK 0.5", "BTK 1"} <= set(followed)
@@ -132,7 +132,7 @@ def test_step_2_every_waterline_passes_through_the_re_shaped_buttocks(hull: ah.H
         assert point.crossing_role == "shared"
         assert abs(point.x - before) > 1e-4
         for curve in (hull.lines[wl].curves[0], counter(hull, name)):
-            assert closest(curve.spline, 0, point.position[None])[2][0] < 1e-9
+            assert closest_points(curve.spline, 0, point.position[None])[2][0] < 1e-9
     largest = max(abs(aft(hull, wl, name).x - x) for (wl, name), x in old.items())
     print(f"\n{report}; a waterline's crossing moved {1e3 * largest:.1f} mm at most")
     assert largest >= 0.020
@@ -145,7 +145,7 @@ def test_step_2_b_is_a_placed_point_where_it_was_put(hull: ah.Hull) -> None:
     assert [point.sort for point in placed] == ["placed", "placed"]
     for name, point in zip(NAMES, placed, strict=True):
         assert np.array_equal(point.position, goals[name])
-        assert closest(counter(hull, name).spline, 0, goals[name][None])[2][0] < 1e-9
+        assert closest_points(counter(hull, name).spline, 0, goals[name][None])[2][0] < 1e-9
 
 
 def test_step_2_lines_farther_off_than_the_fade_keep_their_bits(hull: ah.Hull) -> None:
@@ -168,7 +168,7 @@ def _far(hull: ah.Hull, line: ah.Line) -> bool:
     for name in NAMES:
         spline = counter(hull, name).spline
         for place in points:
-            met = meet_planes(spline, np.array([1.0, 0.0, 0.0]), place[:1].copy()).xyz
+            met = intersect_planes(spline, np.array([1.0, 0.0, 0.0]), place[:1].copy()).xyz
             if len(met) and np.hypot(*(met - place)[:, 1:].T).min() < REACH:
                 return False
     return True

@@ -6,12 +6,12 @@ import pytest
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polylines.circular_arcs import find_arcs
 from assoc_hull.geometry.polylines.corners import find_corners
-from assoc_hull.geometry.polylines.noise import scatter
-from assoc_hull.geometry.polylines.operations import arc_length, resample
-from assoc_hull.geometry.polylines.straight import find_runs
+from assoc_hull.geometry.polylines.noise import point_scatter
+from assoc_hull.geometry.polylines.operations import cumulative_lengths, resample
+from assoc_hull.geometry.polylines.straight_runs import find_straight_runs
 from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.io.slicing.features import plane_columns
-from assoc_hull.io.slicing.mesh import slice_mesh
+from assoc_hull.io.slicing.mesh_lines import slice_mesh
 from tests import meshes
 
 SEEDS, NOISE = 200, 1e-3
@@ -23,7 +23,7 @@ def lines_of(mesh: Triangles) -> list[FloatArray]:
     found = []
     for line in slices.lines:
         points = line.pieces[0].points[:, plane_columns(line.group)]
-        length = float(arc_length(points)[-1])
+        length = float(cumulative_lengths(points)[-1])
         found.append(resample(points, np.linspace(0.0, length, max(60, round(length / 0.2)))))
     return found
 
@@ -40,9 +40,9 @@ def test_nothing_false_is_found(mesh: Triangles) -> None:
     for seed in range(SEEDS):
         line = lines[seed % len(lines)]
         noisy = line + np.random.default_rng(seed).normal(0.0, NOISE, line.shape)
-        noise = scatter(noisy)
+        noise = point_scatter(noisy)
         count["corners"] += len(find_corners(noisy, noise))
-        count["runs"] += len(find_runs(noisy, noise))
+        count["runs"] += len(find_straight_runs(noisy, noise))
         count["arcs"] += len(find_arcs(noisy, noise))
     print(f"\n{SEEDS} seeds over {len(lines)} lines: {count}")
     assert count == {"corners": 0, "runs": 0, "arcs": 0}

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.value import Value
+from assoc_hull.analysis.form.parameter import FormValue
 from assoc_hull.geometry.curves import PointKind
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
@@ -66,7 +66,7 @@ def round_box(radius: float = BILGE) -> ah.Hull:
 
 
 @pytest.fixture(scope="module")
-def found() -> Mapping[str, Value]:
+def found() -> Mapping[str, FormValue]:
     """Form parameters with a screw that stands in the box, which only numbers mind."""
     return ah.form_parameters(round_box(), screw=ah.Screw(height=3.0, diameter=2.0, x=1.0))
 
@@ -89,12 +89,14 @@ def found() -> Mapping[str, Value]:
         ("PI", 2.0),
     ],
 )
-def test_the_box_is_measured_exactly(found: Mapping[str, Value], symbol: str, value: float) -> None:
+def test_the_box_is_measured_exactly(
+    found: Mapping[str, FormValue], symbol: str, value: float
+) -> None:
     """The bilge is drawn by 25 points, within 1e-7 m of the circle."""
     assert found[symbol].number == pytest.approx(value, abs=1e-5)
 
 
-def test_the_bilge_radius_is_found_both_ways(found: Mapping[str, Value]) -> None:
+def test_the_bilge_radius_is_found_both_ways(found: Mapping[str, FormValue]) -> None:
     """BR: by the arc, and from what the section's area leaves of B T."""
     assert found["BR"].number == pytest.approx(BILGE, abs=1e-5)
     assert found["ATT"].number is not None
@@ -102,7 +104,7 @@ def test_the_bilge_radius_is_found_both_ways(found: Mapping[str, Value]) -> None
     assert np.sqrt(lost / (2.0 - 0.5 * np.pi)) == pytest.approx(BILGE, abs=1e-5)
 
 
-def test_straight_sides_have_no_radius(found: Mapping[str, Value]) -> None:
+def test_straight_sides_have_no_radius(found: Mapping[str, FormValue]) -> None:
     """Raft: T/2 and 3T/4 are on the side, T/4 in the bilge: a circle; with a small bilge none."""
     assert found["Raft"].number is not None
     small = ah.form_parameters(round_box(1.0), only=["Raft", "BR"])

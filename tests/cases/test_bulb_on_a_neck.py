@@ -10,10 +10,9 @@ import pytest
 from scipy.optimize import brentq
 
 from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.evaluate import evaluate
+from assoc_hull.analysis.form.floating_shape import FloatingShape
 from assoc_hull.analysis.form.form_parameters import shape_of
-from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.value import Value
+from assoc_hull.analysis.form.parameter import FormValue, evaluate
 from tests.cases.bulb import breadth_at, bulb_hull, contour, fullness, gradient
 
 FP, DRAUGHT = 94.0, 7.0
@@ -25,15 +24,15 @@ WANTED = (
 
 
 @pytest.fixture(scope="module")
-def found() -> Mapping[str, Value]:
+def found() -> Mapping[str, FormValue]:
     """Entries of the bulb, with FP and the draught of this test."""
     shape = shape_of(bulb_hull(), draught=DRAUGHT)
     header = attrs.evolve(shape.header, length=FP, draught=DRAUGHT)
-    moved = Shape(shape.body, header, shape.position, shape.depth)
+    moved = FloatingShape(shape.body, header, shape.position, shape.depth)
     return evaluate(CATALOGUE, WANTED, moved, {})
 
 
-def number(found: Mapping[str, Value], symbol: str) -> float:
+def number(found: Mapping[str, FormValue], symbol: str) -> float:
     """The number of an entry, which must be there."""
     value = found[symbol]
     assert value.number is not None, value.reason
@@ -50,7 +49,7 @@ def tip() -> tuple[float, float]:
     return at(z), z
 
 
-def test_the_tip_is_that_of_the_function(found: Mapping[str, Value]) -> None:
+def test_the_tip_is_that_of_the_function(found: Mapping[str, FormValue]) -> None:
     """BL, BH, L_PR, Z_B; the line is drawn within 1e-3 m, and blunt at the tip."""
     x, z = tip()
     assert number(found, "BL") == pytest.approx(x - FP, abs=1e-3)
@@ -58,7 +57,7 @@ def test_the_tip_is_that_of_the_function(found: Mapping[str, Value]) -> None:
     assert (number(found, "L_PR"), number(found, "Z_B")) == (found["BL"].number, found["BH"].number)
 
 
-def test_the_section_at_fp_is_that_of_the_function(found: Mapping[str, Value]) -> None:
+def test_the_section_at_fp_is_that_of_the_function(found: Mapping[str, FormValue]) -> None:
     """BW, B_B, Abulb, A_BT, h_B; a station stands there."""
     z = np.linspace(0.0, DRAUGHT, 200_001)
     y = np.maximum(breadth_at(0.0 * z + FP, z), 0.0)
@@ -73,7 +72,7 @@ def test_the_section_at_fp_is_that_of_the_function(found: Mapping[str, Value]) -
     )
 
 
-def test_what_lies_before_fp_is_that_of_the_function(found: Mapping[str, Value]) -> None:
+def test_what_lies_before_fp_is_that_of_the_function(found: Mapping[str, FormValue]) -> None:
     """LBA, LIBA, A_BL, V_PR, on a grid of 2 mm and 5 mm."""
     x, z = np.arange(FP, 101.0, 0.002), np.arange(0.0025, DRAUGHT, 0.005)
     y = np.concatenate([breadth_at(x, 0.0 * x + each)[None] for each in z.tolist()])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.hydrostatics.volume import displaced
+from assoc_hull.analysis.hydrostatics.flotation import even_keel_displacement
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.geometry.splines.evaluation import evaluate, sample
@@ -33,14 +33,14 @@ def test_the_volume_is_that_of_the_block_coefficient_within_half_a_per_cent(
     bulk_carrier: ah.Hull,
 ) -> None:
     """0.84 Lpp B T at the design draught, from section areas by the exact Gauss rules."""
-    volume = displaced(bulk_carrier.state).volume
+    volume = even_keel_displacement(bulk_carrier.state).volume
     print(f"\nvolume {volume:.0f} m3, CB {volume / (300 * 50 * 18):.4f}")
     assert volume == pytest.approx(0.84 * 300.0 * 50.0 * 18.0, rel=0.005)
 
 
 def test_lcb_lies_2_to_3_5_per_cent_of_the_length_before_midship(bulk_carrier: ah.Hull) -> None:
     """As full ships have it."""
-    lcb = (displaced(bulk_carrier.state).lcb - 150.0) / 300.0
+    lcb = (even_keel_displacement(bulk_carrier.state).lcb - 150.0) / 300.0
     assert 0.02 < lcb < 0.035
 
 

@@ -7,12 +7,11 @@ from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles, merge_vertices
 from assoc_hull.hull import Hull
 from assoc_hull.io.digitised.read import read_lines
-from assoc_hull.io.lines.slices import Piece, SliceLine, Slices
-from assoc_hull.io.slicing.mesh import slice_mesh
-from assoc_hull.io.slicing.net import net_from_slices
-from assoc_hull.io.slicing.report import SliceReport
+from assoc_hull.io.lines.slices import HullSlices, LinePiece, SliceLine
+from assoc_hull.io.slicing.mesh_lines import slice_mesh
+from assoc_hull.io.slicing.net import SliceReport, net_from_slices
 from assoc_hull.model.kinds import BoundaryKind
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from tests.unit.io.digitised.test_digitised import as_csv
 
 NOISE = 1e-3
@@ -36,7 +35,7 @@ def chine_hull(nx: int = 401) -> Triangles:
     return merge_vertices(np.concatenate([both[0].xyz, both[1].xyz]), face)
 
 
-def scattered(slices: Slices, seed: int) -> str:
+def scattered(slices: HullSlices, seed: int) -> str:
     """The lines as digitised text, with noise across."""
     import attrs
 
@@ -51,7 +50,7 @@ def scattered(slices: Slices, seed: int) -> str:
             across = np.cross(ahead, np.eye(3)[axis])
             across /= np.maximum(np.linalg.norm(across, axis=1), 1e-12)[:, None]
             points[1:-1] += (across * draw.normal(0.0, NOISE, (len(points), 1)))[1:-1]
-            pieces.append(Piece(points, piece.ends))
+            pieces.append(LinePiece(points, piece.ends))
         return attrs.evolve(line, pieces=tuple(pieces))
 
     return as_csv(attrs.evolve(slices, lines=tuple(map(noisy, slices.lines))))

@@ -8,10 +8,10 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.numeric.tensor_bernstein import basis
+from assoc_hull.geometry.numeric.tensor_bernstein import bernstein_basis
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.regions.region_areas import RegionAreas
-from assoc_hull.surface.regions.region_result import RegionResult
+from assoc_hull.surface.regions.region_parts import RegionAreas
+from assoc_hull.surface.regions.result import RegionResult
 from tests.curved_patches import graph_plates, patch, random_nets, references
 
 NAMES = tuple(references())
@@ -149,7 +149,7 @@ def saddle_with_a_convex_disc(radius: float, across: float = 0.1) -> FloatArray:
     x, y = np.meshgrid(at, at, indexing="ij")
     a, b = x - across, y - 0.07
     heights = a**3 - 3.0 * a * b**2 + 3.0 * radius * (a**2 + b**2)
-    to_net = np.linalg.inv(basis(3, (at + 1.0) / 2.0))
+    to_net = np.linalg.inv(bernstein_basis(3, (at + 1.0) / 2.0))
     return np.stack([x, y, to_net @ heights @ to_net.T], axis=-1)
 
 

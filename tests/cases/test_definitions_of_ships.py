@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.model.definition.definition import definition
+from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import from_definition
 from tests.independent import relofted, snapshot
 

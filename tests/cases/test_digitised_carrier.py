@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray, PointKind
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.hull import Hull
 from assoc_hull.io.digitised.read import read_lines
-from assoc_hull.io.slicing.net import net_from_slices
-from assoc_hull.io.slicing.report import SliceReport
+from assoc_hull.io.slicing.net import SliceReport, net_from_slices
 from assoc_hull.model.kinds import BoundaryKind
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from assoc_hull.shipped import bulk_carrier_207k_form as form
 from tests.digitise import as_digitised
 
@@ -39,7 +38,7 @@ def test_the_flats_are_found(read_back: tuple[HullState, SliceReport]) -> None:
 
 def bottom_off(places: FloatArray) -> FloatArray:
     """How far places lie off the border of the flat of bottom, along y, m."""
-    return np.abs(places[:, 1] - form.half_breadth(places[:, 0], 0.0 * places[:, 0]))
+    return np.abs(places[:, 1] - form.carrier_half_breadth(places[:, 0], 0.0 * places[:, 0]))
 
 
 def side_off(places: FloatArray) -> FloatArray:
@@ -104,7 +103,7 @@ def test_lines_are_flat_in_the_flat(read_back: tuple[HullState, SliceReport]) ->
     [curve] = state.lines.curves.data[line]
     z = np.linspace(3.0, 26.0, 50)
     wanted = np.column_stack([np.full(50, 150.0), np.full(50, form.BREADTH / 2.0), z])
-    away = closest(state.curves.spline.data[curve], 0, wanted)[2]
+    away = closest_points(state.curves.spline.data[curve], 0, wanted)[2]
     assert away.max() < 3e-4
 
 

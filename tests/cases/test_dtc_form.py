@@ -11,10 +11,9 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.evaluate import evaluate
+from assoc_hull.analysis.form.floating_shape import FloatingShape
 from assoc_hull.analysis.form.form_parameters import shape_of
-from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.value import Value
+from assoc_hull.analysis.form.parameter import FormValue, evaluate
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.mesh.read import read_triangles
 
@@ -23,12 +22,14 @@ LENGTH, DRAUGHT = 355.0, 14.5
 
 
 @pytest.fixture(scope="module")
-def found(dtc: ah.Hull) -> Mapping[str, Value]:
+def found(dtc: ah.Hull) -> Mapping[str, FormValue]:
     """Entries with the published length."""
     shape = shape_of(dtc, draught=DRAUGHT)
     header = attrs.evolve(shape.header, length=LENGTH)
     wanted = ["BL", "BH", "BW", "SO", "TH"]
-    return evaluate(CATALOGUE, wanted, Shape(shape.body, header, shape.position, shape.depth), {})
+    return evaluate(
+        CATALOGUE, wanted, FloatingShape(shape.body, header, shape.position, shape.depth), {}
+    )
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +38,7 @@ def places(data_folder: Path) -> FloatArray:
     return 59.407 * read_triangles(data_folder / "dtc" / "DTC-scaled.stl.gz").xyz
 
 
-def number(found: Mapping[str, Value], symbol: str) -> float:
+def number(found: Mapping[str, FormValue], symbol: str) -> float:
     """The number of an entry, which must be there."""
     value = found[symbol]
     assert value.number is not None, value.reason
@@ -45,7 +46,7 @@ def number(found: Mapping[str, Value], symbol: str) -> float:
 
 
 def test_bulb_and_transom_are_those_of_the_mesh(
-    found: Mapping[str, Value], places: FloatArray
+    found: Mapping[str, FormValue], places: FloatArray
 ) -> None:
     """BL, BH, SO, TH within the 10 mm to which lines are adopted; the tip is round."""
     low = places[places[:, 2] < DRAUGHT]
@@ -58,7 +59,7 @@ def test_bulb_and_transom_are_those_of_the_mesh(
 
 
 def test_the_section_at_fp_is_as_broad_as_the_mesh(
-    found: Mapping[str, Value], places: FloatArray
+    found: Mapping[str, FormValue], places: FloatArray
 ) -> None:
     """BW, against vertices within 0.4 m of FP, over which the bulb is even."""
     near = places[(np.abs(places[:, 0] - LENGTH) < 0.4) & (places[:, 2] < DRAUGHT)]

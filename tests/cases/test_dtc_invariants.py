@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import assoc_hull as ah
-from assoc_hull.model.definition.definition import definition
+from assoc_hull.model.definition.records import definition
 from tests.cases.walk import walk
 from tests.independent import closure, relofted, snapshot
 from tests.properties.test_i01_consistency import assert_consistent

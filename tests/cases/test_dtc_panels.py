@@ -1,6 +1,6 @@
 """Panels of the DTC: a net that was cut from a mesh, with bulb, stern bulb and transom."""
 
-from assoc_hull.analysis.panels.build import panels
+from assoc_hull.analysis.panels.hull_panels import panels
 from assoc_hull.analysis.panels.mesh_quality import panel_report
 from assoc_hull.hull import Hull
 

@@ -11,11 +11,11 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.screw import Screw
+from assoc_hull.analysis.form.floating_shape import Screw
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.section_areas import section_areas
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from tests import form_truths
 from tests.cases.test_hydrostatics_of_a_box import box_net
 from tests.nets import ellipsoid_net, wigley_net
@@ -107,7 +107,7 @@ def test_a_form_parameter_is_what_the_formula_says(
 def body_ends(bulk_carrier: ah.Hull) -> tuple[float, float]:
     """Where the carrier's parallel body begins and ends, by halving intervals of her sections."""
     body = flotation(bulk_carrier.state)
-    plane = Planes(np.array([18.0]), np.zeros(1), np.zeros(1))
+    plane = FloatingPlanes(np.array([18.0]), np.zeros(1), np.zeros(1))
 
     def areas(x: FloatArray) -> FloatArray:
         (found,) = section_areas(body, x, plane)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 from assoc_hull.shipped.wigley import wigley
 from tests.nets import ellipsoid_net
 
@@ -34,17 +34,17 @@ class Draughts:
 
     body: Flotation
     level: FloatArray
-    found: Immersed
+    found: ImmersedIntegrals
     knot: NDArray[np.bool_]
 
-    def at(self, level: FloatArray) -> Immersed:
+    def at(self, level: FloatArray) -> ImmersedIntegrals:
         """Measure at other draughts."""
         return measured(self.body, level)
 
 
-def measured(body: Flotation, level: FloatArray) -> Immersed:
+def measured(body: Flotation, level: FloatArray) -> ImmersedIntegrals:
     """Measure at even keel, all draughts in one call."""
-    return body.measure(Planes(level.copy(), np.zeros(len(level)), np.zeros(len(level))))
+    return body.measure(FloatingPlanes(level.copy(), np.zeros(len(level)), np.zeros(len(level))))
 
 
 def _shipped_wigley(_: ah.Hull) -> Flotation:

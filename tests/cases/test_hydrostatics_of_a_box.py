@@ -9,7 +9,7 @@ import assoc_hull as ah
 from assoc_hull.geometry.curves import PointKind
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import Association, Particulars
+from assoc_hull.model.tables import Association, Particulars
 
 LENGTH, BREADTH, DEPTH = 100.0, 20.0, 12.0
 KNUCKLE = int(PointKind.KNUCKLE)

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.hydrostatics.compute import table_of
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import table_of
 from assoc_hull.analysis.hydrostatics.record import Hydrostatics
-from assoc_hull.geometry.floating.prepared_strips import prepare
-from assoc_hull.model.state import HullState
+from assoc_hull.geometry.floating.prepared_strips import prepare_strips
+from assoc_hull.model.tables import HullState
 from assoc_hull.shipped.wigley import wigley as shipped_wigley
 from tests import exact_hulls
 from tests.floating_bodies import StripBody, head
@@ -86,8 +86,8 @@ class Row:
 def rows() -> list[Row]:
     """All families, sizes and positions, with their truth."""
     truth = {
-        "wigley": StripBody.of(prepare(exact_hulls.wigley(points=600)), 5.0, 12.5),
-        "ellipsoid": StripBody.of(prepare(exact_hulls.ellipsoid(points=200)), 0.0, 12.0),
+        "wigley": StripBody.of(prepare_strips(exact_hulls.wigley(points=600)), 5.0, 12.5),
+        "ellipsoid": StripBody.of(prepare_strips(exact_hulls.ellipsoid(points=200)), 0.0, 12.0),
     }
     return list(_rows(truth))
 

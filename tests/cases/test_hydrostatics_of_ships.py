@@ -10,7 +10,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.analysis.hydrostatics.section_areas import between_stations, section_areas
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.shipped.series60 import series60_adopted
 
 TODD = {0.60: (0.614, -1.5), 0.70: (0.710, 0.5)}
@@ -19,9 +19,9 @@ TODD = {0.60: (0.614, -1.5), 0.70: (0.710, 0.5)}
 CASES = pytest.mark.parametrize("cb", [0.60, 0.70], ids=["CB .60", "CB .70"])
 
 
-def level(*heights: float) -> Planes:
+def level(*heights: float) -> FloatingPlanes:
     """Planes at even keel."""
-    return Planes(np.array(heights), np.zeros(len(heights)), np.zeros(len(heights)))
+    return FloatingPlanes(np.array(heights), np.zeros(len(heights)), np.zeros(len(heights)))
 
 
 @pytest.fixture(scope="module")
@@ -103,7 +103,7 @@ def test_areas_anywhere_are_those_of_the_stations_there(todd: dict[float, Flotat
 def test_parts_between_stations_make_up_the_whole() -> None:
     """Of a trimmed and heeled ship: ends and two parts add up to volume and moment."""
     body = flotation(series60_adopted(0.70)[0])
-    plane = Planes(np.array([6.0]), np.array([0.01]), np.array([0.2]))
+    plane = FloatingPlanes(np.array([6.0]), np.array([0.01]), np.array([0.2]))
     x = body.sections.x
     whole = body.measure(plane)
     inner = between_stations(body, x[0], x[-1], plane)

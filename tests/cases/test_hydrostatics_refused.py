@@ -14,14 +14,14 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.geometry.curves import FloatArray, PointKind
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.io.digitised.read import read_lines
-from assoc_hull.io.slicing.mesh import slice_mesh
+from assoc_hull.io.slicing.mesh_lines import slice_mesh
 from assoc_hull.io.slicing.net import net_from_slices
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import Association, Particulars
-from assoc_hull.shipped.wigley import half_breadth
+from assoc_hull.model.tables import Association, Particulars
+from assoc_hull.shipped.wigley import wigley_half_breadth
 from tests.cases.test_chine_hull import chine_hull, scattered
 
 WIGLEY = 100.0, 10.0, 6.25
@@ -29,14 +29,14 @@ TOP = 9.375
 Spoil = Callable[[FloatArray], FloatArray]
 
 
-def level(height: float) -> Planes:
+def level(height: float) -> FloatingPlanes:
     """A plane at even keel."""
-    return Planes(np.array([height]), np.zeros(1), np.zeros(1))
+    return FloatingPlanes(np.array([height]), np.zeros(1), np.zeros(1))
 
 
 def points_at(x: FloatArray, z: FloatArray) -> FloatArray:
     """Points of the Wigley hull."""
-    return np.column_stack([x, half_breadth(x, z, *WIGLEY), z])
+    return np.column_stack([x, wigley_half_breadth(x, z, *WIGLEY), z])
 
 
 def spoilt_wigley(spoil: Spoil | None) -> ah.Hull:
@@ -148,7 +148,7 @@ def test_true_shapes_raise_no_doubt(
     hull, draught = ships[name]
     body = flotation(hull.state)
     assert body.layout.lost == ()
-    heeled = Planes(np.array([part * draught]), np.array([0.005]), np.array([0.1]))
+    heeled = FloatingPlanes(np.array([part * draught]), np.array([0.005]), np.array([0.1]))
     assert body.doubts(level(part * draught)) == ()
     assert body.doubts(heeled) == ()
 
@@ -184,7 +184,7 @@ def agree(hull: ah.Hull, draught: float, name: str) -> None:
         draughts = draught + 0.5 * trim, draught - 0.5 * trim
         found = ah.hydrostatics(hull, draughts=draughts, heel_deg=heel)
         tilt = np.array([-trim / ship.length]), np.array([np.tan(np.radians(heel))])
-        other = body.by_waterplanes(Planes(np.array([draughts[0]]), *tilt))
+        other = body.by_waterplanes(FloatingPlanes(np.array([draughts[0]]), *tilt))
         volume = float(other.volume[0])
         away = {
             "volume": volume - found.volume,

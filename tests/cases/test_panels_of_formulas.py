@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.panels.assemble import Choices, assemble, axes_of
-from assoc_hull.analysis.panels.bands import Waterplane, bands_of_strips
+from assoc_hull.analysis.panels.assemble_mesh import DivisionChoices, assemble_mesh, axes_of
+from assoc_hull.analysis.panels.wet_sheets import Waterplane, bands_of_strips
 from assoc_hull.geometry.surfaces.isocurves import Strips
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
 from tests.exact_hulls import box, ellipsoid, wigley
@@ -23,8 +23,8 @@ def divided(
     x = np.linspace(0.0, 100.0, columns + 1)
     every = bands_of_strips(surface, plane)
     axes = axes_of(plane, 50.0)
-    chosen = Choices(rows, True, half, True, 30.0)
-    return PanelMesh(*assemble(every, plane, x, chosen, 100.0, axes), mirror_y=half)
+    chosen = DivisionChoices(rows, True, half, True, 30.0)
+    return PanelMesh(*assemble_mesh(every, plane, x, chosen, 100.0, axes), mirror_y=half)
 
 
 def dry_free_edges(mesh: PanelMesh) -> int:
@@ -84,9 +84,11 @@ def test_the_box_is_exact() -> None:
     """Flat sides and ends: 100 x 20 x 6 m by any number of panels that finds the corners."""
     plane = Waterplane(6.0)
     every = bands_of_strips(box(), plane)
-    chosen = Choices(8, True, True, True, 30.0)
+    chosen = DivisionChoices(8, True, True, True, 30.0)
     x = np.linspace(0.0, 100.0, 11)
-    mesh = PanelMesh(*assemble(every, plane, x, chosen, 100.0, axes_of(plane, 0.0)), mirror_y=True)
+    mesh = PanelMesh(
+        *assemble_mesh(every, plane, x, chosen, 100.0, axes_of(plane, 0.0)), mirror_y=True
+    )
     assert_allclose(mesh.volumes, 12000.0, rtol=1e-12)
     assert mesh.area == pytest.approx(3440.0, rel=1e-12)
     assert_allclose(mesh.buoyancy, [50.0, 0.0, -3.0], atol=1e-9)
@@ -96,9 +98,9 @@ def test_ends_may_stay_open() -> None:
     """Without panels over its ends the box is open there, and the fluxes of x tell."""
     plane = Waterplane(6.0)
     every = bands_of_strips(box(), plane)
-    chosen = Choices(8, True, False, False, 30.0)
+    chosen = DivisionChoices(8, True, False, False, 30.0)
     x = np.linspace(0.0, 100.0, 11)
-    mesh = PanelMesh(*assemble(every, plane, x, chosen, 100.0, axes_of(plane, 0.0)))
+    mesh = PanelMesh(*assemble_mesh(every, plane, x, chosen, 100.0, axes_of(plane, 0.0)))
     assert dry_free_edges(mesh) == 32
     assert mesh.area == pytest.approx(3200.0, rel=1e-12)
     assert_allclose(mesh.volumes, [0.0, 12000.0, 12000.0], atol=1e-8)

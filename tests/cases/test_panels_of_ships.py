@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.panels.build import panels
+from assoc_hull.analysis.panels.hull_panels import panels
 from assoc_hull.analysis.panels.mesh_quality import panel_report
 from assoc_hull.analysis.panels.section_points import section_points
 from assoc_hull.errors import AssocHullError, OutOfRangeError
 from assoc_hull.hull import Hull
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from assoc_hull.sources import examples
 from tests.nets import wigley_net
 from tests.twin_skeg import twin_skeg_ship

@@ -13,10 +13,9 @@ from scipy.optimize import brentq
 
 import assoc_hull as ah
 from assoc_hull.analysis.form.form_parameters import form_parameters, shape_of
-from assoc_hull.analysis.form.largest_section import largest_section
-from assoc_hull.analysis.form.slices import Slices, slices
-from assoc_hull.geometry.floating.between_planes import between
-from assoc_hull.geometry.floating.cross_sections import areas_at
+from assoc_hull.analysis.form.longitudinal_parts import ShipSlices, largest_section, ship_slices
+from assoc_hull.geometry.floating.sections import areas_at
+from assoc_hull.geometry.floating.slices import integrate_slice
 from assoc_hull.geometry.numeric.quadrature import gauss
 from tests import twin_skeg
 from tests.cases.test_twin_skeg import half_area
@@ -34,11 +33,11 @@ def ships(series60_60: ah.Hull, series60_70: ah.Hull, bulk_carrier: ah.Hull) -> 
     return dict(zip(SHIPS, found, strict=True))
 
 
-def parts(hull: ah.Hull, position: tuple[float, float]) -> Slices:
+def parts(hull: ah.Hull, position: tuple[float, float]) -> ShipSlices:
     """Give a ship at draughts in parts of that of the design."""
     draught = shape_of(hull).header.draught
     shape = shape_of(hull, draughts=(position[0] * draught, position[1] * draught))
-    return shape.take(slices)
+    return shape.take(ship_slices)
 
 
 @pytest.mark.parametrize("name", SHIPS)
@@ -76,7 +75,7 @@ def test_a_thin_slice_is_the_integral_of_its_sections(
     aft, strips, (node, weight) = place * shape.length, shape.body.spans, gauss(6)
     ends = np.concatenate([strips.aft, strips.fore])
     assume(not ((ends > aft) & (ends < aft + 0.02)).any())
-    slice_ = between(strips, aft, aft + 0.02, shape.planes).volume
+    slice_ = integrate_slice(strips, aft, aft + 0.02, shape.planes).volume
     mean = float(areas_at(strips, aft + 0.02 * node, shape.planes) @ weight)
     assert abs(slice_ / 0.02 - mean) <= 1e-6 * shape.breadth * shape.draught
 
@@ -143,7 +142,7 @@ def test_the_after_body_of_a_twin_skeg_ship_is_that_of_her_construction() -> Non
 
     Sections to 2e-6; volumes to 3e-5, which the net between its sections is off by.
     """
-    found = shape_of(twin_skeg.twin_skeg_ship()).take(slices)
+    found = shape_of(twin_skeg.twin_skeg_ship()).take(ship_slices)
     places = [twin_skeg.TRANSOM, twin_skeg.AFT]
     for x in (45.0, 37.5):
         volume = sum(

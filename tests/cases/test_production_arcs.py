@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.classical.arc_pieces import Pieces
-from assoc_hull.geometry.classical.arcs import Arcs
+from assoc_hull.geometry.classical.arc_chain_search import FitPieces
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.splines.closest import closest
-from assoc_hull.geometry.splines.segments import power
+from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.geometry.splines.segments import power_coefficients
 from assoc_hull.hull import Hull
 from assoc_hull.production import ProductionArcs, production_arcs
 from tests.arc_optimum import PlaneCurve, fewest_exact
@@ -28,7 +28,7 @@ def curve_of(hull: Hull, name: str) -> tuple[FloatArray, FloatArray]:
     found = hull.find(name)
     spline = getattr(found, "curves", [found])[0].spline
     u = np.linspace(0.0, 1.0, DENSER)
-    cubic = power(spline)
+    cubic = power_coefficients(spline)
     return (np.stack([u**k for k in range(4)], axis=1) @ cubic).reshape(-1, 3), cubic
 
 
@@ -43,7 +43,7 @@ def test_the_waterlines_of_the_dtc_keep_half_a_millimetre(dtc: Hull, arcs: Produ
         t = np.tile(np.linspace(0.0, 1.0, DENSER), len(own)) * own.length[arc]
         found = dtc.find(line.name)
         spline = getattr(found, "curves", [found])[0].spline
-        worst = max(worst, float(closest(spline, 0, line.in_space(own.at(arc, t)))[2].max()))
+        worst = max(worst, float(closest_points(spline, 0, line.in_space(own.at(arc, t)))[2].max()))
         places = curve_of(dtc, line.name)[0] @ line.axes[:2].T
         worst = max(worst, nearest(own, places))
     print(f"{len(lines)} waterlines, at most {1e3 * worst:.4f} mm off")
@@ -51,7 +51,7 @@ def test_the_waterlines_of_the_dtc_keep_half_a_millimetre(dtc: Hull, arcs: Produ
     assert worst == pytest.approx(max(line.deviation.max() for line in lines), rel=0.01)
 
 
-def nearest(arcs: Arcs, places: FloatArray) -> float:
+def nearest(arcs: PlaneArcs, places: FloatArray) -> float:
     """The largest distance of places from the nearest of arcs: of three by where they begin."""
     begin = np.concatenate([[0.0], np.cumsum(arcs.length)])
     run = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places, axis=0).T))])
@@ -91,7 +91,7 @@ def test_no_chain_of_biarcs_has_fewer_arcs(dtc: Hull, arcs: ProductionArcs, name
     biarcs keep the tangents of the curve at break points; so 1.25 of it is kept by far."""
     line = next(each for each in arcs.lines if each.name == name)
     cubic = np.ascontiguousarray(curve_of(dtc, name)[1] @ line.axes[:2].T)
-    pieces = Pieces.of(cubic, np.array([0, len(cubic)]), 1e-6)
+    pieces = FitPieces.of(cubic, np.array([0, len(cubic)]), 1e-6)
     optimum = 0
     for first, stop, straight in zip(pieces.first, pieces.stop, pieces.straight, strict=True):
         curve = PlaneCurve(cubic[first:stop], 4, 8)

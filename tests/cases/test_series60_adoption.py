@@ -8,12 +8,11 @@ import pytest
 from assoc_hull.edit.newline.curve_deviation import deviation
 from assoc_hull.geometry.curves import CurveData, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.shipped.series60 import series60_adopted
-from assoc_hull.shipped.series60_table import todd_table
+from assoc_hull.shipped.series60 import series60_adopted, todd_table
 
 CASES = pytest.mark.parametrize("cb", [0.60, 0.70], ids=["CB .60", "CB .70"])
 
@@ -54,7 +53,7 @@ def test_every_given_line_passes_its_offsets_within_1_mm(
         assert line.position is not None
         position = float(line.position)
         points = _given(cb, group)[min(_given(cb, group), key=lambda k: abs(k - position))]
-        away = closest(line.curves[0].spline, 0, points)[2]
+        away = closest_points(line.curves[0].spline, 0, points)[2]
         assert away.max() <= 1e-3, f"{line.name}: {1e3 * away.max():.2f} mm"
 
 

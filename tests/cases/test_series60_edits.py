@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.normals import hull_normals
-from assoc_hull.model.point import Point
+from assoc_hull.edit.hull_normals import hull_normals
+from assoc_hull.model.objects import Point
 from tests.cases import places
 
 PLACES = 24

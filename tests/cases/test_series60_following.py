@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.normals import hull_normals
+from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.report import EditReport
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.address import address
-from assoc_hull.model.curve import Curve
+from assoc_hull.model.objects import Curve
 from tests.cases import places
 from tests.independent import relofted, snapshot
 

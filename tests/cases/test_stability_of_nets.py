@@ -11,7 +11,7 @@ import assoc_hull as ah
 from assoc_hull.analysis.stability.cross_curves import cross_curves
 from assoc_hull.analysis.stability.equilibrium import equilibrium
 from assoc_hull.analysis.stability.flooding import FloodingPoint
-from assoc_hull.analysis.stability.stability import stability
+from assoc_hull.analysis.stability.stability_report import stability
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError
 from tests.cases.test_hydrostatics_of_a_box import box_net
 from tests.nets import ellipsoid_net, wigley_net

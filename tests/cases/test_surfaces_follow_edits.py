@@ -9,8 +9,8 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.hull import Hull
 from assoc_hull.shell import HullSurface
+from assoc_hull.surface.blocks.fit_net import share_kept
 from assoc_hull.surface.blocks.net_surface import FittedBlock
-from assoc_hull.surface.blocks.previous import share_kept
 
 STAYED = ("stern counter", "stern boss", "body")
 

@@ -11,7 +11,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.hull import Hull
-from assoc_hull.io.cad.check import area_of
+from assoc_hull.io.cad.check_file import area_of
 from assoc_hull.io.cad.write import cad_bytes
 
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"

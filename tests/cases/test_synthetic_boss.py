@@ -13,37 +13,48 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.features.circle import Circle, redraw, touch
-from assoc_hull.variation.features.map import FeatureMap, acting
-from assoc_hull.variation.fields.blend import BLENDS, CUBIC, QUINTIC, Blend
-from assoc_hull.variation.fields.field import Field, Piece, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.features.redrawn_circles import (
+    FeatureMap,
+    SpaceCircle,
+    changed_circles,
+    redraw_circle,
+    tangent_point,
+)
+from assoc_hull.variation.fields.bounded_functions import BLENDS, CUBIC, QUINTIC, Blend, BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
+from assoc_hull.variation.fields.layers import FieldLayer
+from assoc_hull.variation.fields.space_map import VariationMap
 from tests.boss_map import boss_map
 
 SHAFT, BOSS, RADIUS = 5.0, 0.725, 1.0
-NONE = Chain.constant(0.0)
-END = Circle.of([6.0, 0.0, SHAFT], BOSS, [1.0, 0.0, 0.0])
+NONE = BlendChain.constant(0.0)
+END = SpaceCircle.of([6.0, 0.0, SHAFT], BOSS, [1.0, 0.0, 0.0])
 
 
-def similarity(blend: Blend = QUINTIC) -> VMap:
+def similarity(blend: Blend = QUINTIC) -> VariationMap:
     """About the boss a similarity, faded to base and waterline, and by 24 and 60 m forward."""
     return boss_map(6.0, (SHAFT, 6.0), (BOSS, RADIUS), blend)
 
 
-def ratios(blend: Blend) -> VMap:
+def ratios(blend: Blend) -> VariationMap:
     """The paper's own form: ratios of z and of y at levels."""
-    x_z, x_y = Chain.through([6, 66], [1, 0], blend), Chain.through([6, 30], [1, 0], blend)
+    x_z, x_y = (
+        BlendChain.through([6, 66], [1, 0], blend),
+        BlendChain.through([6, 30], [1, 0], blend),
+    )
     z = _ratios("z", [0, 4.275, 5, 5.725, 18], [1, 5 / 4.275, 6 / 5, 7 / 5.725, 1], x_z, blend)
     y = _ratios("y", [2.825, 5, 7.175], [1, 1 / BOSS, 1], x_y, blend)
-    return VMap((FieldLayer("paper", (z, y)),))
+    return VariationMap((FieldLayer("paper", (z, y)),))
 
 
-def _ratios(axis: str, levels: list[float], ratio: list[float], fade: Chain, blend: Blend) -> Field:
+def _ratios(
+    axis: str, levels: list[float], ratio: list[float], fade: BlendChain, blend: Blend
+) -> StackedField:
     names = [f"{level:g}" for level in levels]
-    pieces = tuple(Piece(fade.scaled(each - 1.0), 0.0, NONE) for each in ratio)
-    return Field(axis, "z" if axis == "z" else "y", stack(names, levels), pieces, blend)
+    pieces = tuple(AffinePiece(fade.scaled(each - 1.0), 0.0, NONE) for each in ratio)
+    return StackedField(
+        axis, "z" if axis == "z" else "y", level_boundaries(names, levels), pieces, blend
+    )
 
 
 def square(x: float) -> tuple[float, float]:
@@ -61,7 +72,7 @@ def section(x: float, count: int = 2001) -> FloatArray:
     return np.column_stack([np.full(count, x), y, z])
 
 
-def meets(vmap: VMap, x: float) -> list[float]:
+def meets(vmap: VariationMap, x: float) -> list[float]:
     """Give the heights at which the varied section has the half-breadth 1 m, from below."""
     a, k = square(x)
     reach = float(np.sqrt(a / k))
@@ -113,16 +124,16 @@ def test_the_papers_ratios_leave_no_circle() -> None:
 def test_the_feature_is_there_already_so_nothing_is_added() -> None:
     """A similarity carries the circle to the asked one, but for rounding."""
     vmap = similarity()
-    drawn = redraw("boss", END, vmap, vmap.jacobian, radius=RADIUS, centre=[6.0, 0.0, 6.0])
+    drawn = redraw_circle("boss", END, vmap, vmap.jacobian, radius=RADIUS, centre=[6.0, 0.0, 6.0])
     assert drawn.most() < 1e-15
-    assert acting([drawn]) == (drawn,)
+    assert changed_circles([drawn]) == (drawn,)
 
 
 @pytest.mark.parametrize("blend", [CUBIC, QUINTIC])
 def test_regenerated_after_the_papers_map_the_end_is_round(blend: Blend) -> None:
     """What the ratios blur is drawn anew; farther than the join every bit is the map's."""
     vmap = ratios(blend)
-    drawn = redraw("boss", END, vmap, vmap.jacobian, radius=RADIUS, centre=[6.0, 0.0, 6.0])
+    drawn = redraw_circle("boss", END, vmap, vmap.jacobian, radius=RADIUS, centre=[6.0, 0.0, 6.0])
     after = FeatureMap(vmap, vmap.jacobian, (drawn,))
     found = after(section(6.0, 33))
     assert np.abs(np.hypot(found[:, 1], found[:, 2] - 6.0) - 1.0).max() < 4.5e-16
@@ -139,8 +150,8 @@ def test_the_least_stretch_athwartships_is_that_of_the_tube() -> None:
 
 def test_the_buttock_touches_the_end_and_has_two_branches_there() -> None:
     """At (6, 1, 6), where the end circle is tangent to it: a knuckle of 38.61 degrees."""
-    boss = Circle.of([6.0, 0.0, 6.0], RADIUS, [1.0, 0.0, 0.0])
-    found = touch(boss, [0.0, 1.0, 0.0], 1.0)
+    boss = SpaceCircle.of([6.0, 0.0, 6.0], RADIUS, [1.0, 0.0, 0.0])
+    found = tangent_point(boss, [0.0, 1.0, 0.0], 1.0)
     assert found is not None
     assert found.tolist() == [6.0, 1.0, 6.0]
     below, above = meets(similarity(), 6.001)

@@ -14,10 +14,14 @@ from pathlib import Path
 import pytest
 
 from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.entries.midship import radius_from_area
-from assoc_hull.analysis.form.evaluate import check_catalogue, evaluate
-from assoc_hull.analysis.form.parameter import Parameter, parameter
-from assoc_hull.analysis.form.value import Value
+from assoc_hull.analysis.form.entries.sections import radius_from_area
+from assoc_hull.analysis.form.parameter import (
+    FormParameter,
+    FormValue,
+    check_catalogue,
+    evaluate,
+    parameter,
+)
 from tests.table5 import CLASSES, DIAMETER, INFERRED, PRINTED, Class
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "table5.md"
@@ -44,7 +48,7 @@ AGAIN: dict[str, tuple[tuple[str, ...], Callable[..., float]]] = {
 """Needs and formula of what the catalogue measures on a hull."""
 
 
-def _again(symbol: str) -> Parameter:
+def _again(symbol: str) -> FormParameter:
     needs, formula = AGAIN[symbol]
     make = parameter(
         f"{symbol} again", name="-", unit="-", table="measures", definition="-", source="-",
@@ -74,7 +78,7 @@ def restored(ship: Mapping[str, float]) -> dict[str, float]:
 def computed(symbol: str, **changes: float) -> float:
     """A value from the inputs alone; `changes` replace some of them, or give further ones."""
     ship = INFERRED | INPUTS | changes
-    known = {s: Value(n, "-", s) for s, n in (restored(ship) | ship).items()}
+    known = {s: FormValue(n, "-", s) for s, n in (restored(ship) | ship).items()}
     wanted = f"{symbol} again" if symbol in AGAIN else symbol
     number = evaluate(ENTRIES, [wanted], None, known)[wanted].number
     assert number is not None
@@ -129,7 +133,7 @@ def test_a_value_comes_out_of_the_inputs(symbol: str) -> None:
 def test_an_input_is_not_computed_from_inputs(symbol: str) -> None:
     """No input follows from the others: what could be computed is not taken as given."""
     ship = {each: number for each, number in (INFERRED | INPUTS).items() if each != symbol}
-    known = {s: Value(n, "-", s) for s, n in ship.items()}
+    known = {s: FormValue(n, "-", s) for s, n in ship.items()}
     assert evaluate(CATALOGUE, [symbol], None, known)[symbol].number is None
 
 

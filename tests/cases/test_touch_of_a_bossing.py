@@ -14,9 +14,9 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
-from assoc_hull.model.copy import copy_of
-from assoc_hull.variation.carrying.apply import apply
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.model.tables import copy_state
+from assoc_hull.variation.carrying.carry_hull import apply_map
 from tests.boss_map import boss_map
 from tests.taken_back import taken_back
 
@@ -29,13 +29,13 @@ PLACE = [6.0, 1.0, 6.0]
 def varied(hull: ah.Hull, shaft: tuple[float, float], radius: tuple[float, float]) -> None:
     """Vary the bossing of a hull in place."""
     with Transaction(hull.document, "bossing", Settings(refuse_gaps=False)) as edit:
-        apply(edit, boss_map(FORE, shaft, radius))
+        apply_map(edit, boss_map(FORE, shaft, radius))
 
 
 @pytest.fixture(scope="module")
 def touched(bulk_carrier: ah.Hull) -> ah.Hull:
     """The shaft at 6 m and a radius of 1 m."""
-    hull = ah.Hull(copy_of(bulk_carrier.state))
+    hull = ah.Hull(copy_state(bulk_carrier.state))
     varied(hull, (5.0, 6.0), (0.725, 1.0))
     return hull
 
@@ -80,7 +80,7 @@ def test_between_knuckle_and_the_next_station_it_is_on_the_hull(touched: ah.Hull
     """Along the cylinder, where the plane touches, to 1 mm of the circle."""
     (curve,) = touched.lines["BTK 1"].curves
     for x in (6.4, 6.75, 7.1, FORE):
-        met = meet_planes(curve.spline, np.array([1.0, 0.0, 0.0]), np.array([x])).xyz
+        met = intersect_planes(curve.spline, np.array([1.0, 0.0, 0.0]), np.array([x])).xyz
         z = met[met[:, 2] < 8.0, 2]
         assert len(z) == 2
         assert np.hypot(1.0, z - 6.0).max() - 1.0 < 1.5e-3

@@ -10,10 +10,10 @@ import pytest
 from scipy.integrate import quad
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.value import Value
+from assoc_hull.analysis.form.parameter import FormValue
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.section_areas import between_stations, section_areas
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from tests import twin_skeg as ship
 
 STATION = ship.LENGTH / 20.0
@@ -24,12 +24,12 @@ SLOPE = np.degrees(np.arctan(ship.RISE))
 
 
 @pytest.fixture(scope="module")
-def found() -> Mapping[str, Value]:
+def found() -> Mapping[str, FormValue]:
     """Her form parameters, with her screws."""
     return ah.form_parameters(ship.twin_skeg_ship(), screw=ship.SCREW)
 
 
-def number(found: Mapping[str, Value], symbol: str) -> float:
+def number(found: Mapping[str, FormValue], symbol: str) -> float:
     """The number of an entry, which must be there."""
     value = found[symbol]
     assert value.number is not None, value.reason
@@ -58,12 +58,12 @@ def half_area(x: float, z: float) -> float:
     return 2.0 * ship.WIDTH * (depth * (t - 2.0 / 3.0 * t**3 + 0.2 * t**5) - (top - z) * t)
 
 
-def test_she_has_all_parameters(found: Mapping[str, Value]) -> None:
+def test_she_has_all_parameters(found: Mapping[str, FormValue]) -> None:
     """Every entry has a number, but the one that people choose by eye."""
     assert [symbol for symbol, value in found.items() if value.number is None] == ["C_stern"]
 
 
-def test_her_profile_is_that_of_the_construction(found: Mapping[str, Value]) -> None:
+def test_her_profile_is_that_of_the_construction(found: Mapping[str, FormValue]) -> None:
     """TwTTL, TTLS, StemA, Hap, HSKEG, TH, TRZ, SO: the roof is a straight line."""
     assert number(found, "TwTTL") == pytest.approx(ship.FORE / STATION, abs=1e-9)
     assert number(found, "TTLS") == pytest.approx(SLOPE, abs=1e-9)
@@ -75,14 +75,14 @@ def test_her_profile_is_that_of_the_construction(found: Mapping[str, Value]) -> 
     assert number(found, "SO") == -ship.TRANSOM
 
 
-def test_her_transom_is_immersed(found: Mapping[str, Value]) -> None:
+def test_her_transom_is_immersed(found: Mapping[str, FormValue]) -> None:
     """ATT, B_tr: a box with bilges."""
     area = 2.0 * half_area(ship.TRANSOM, ship.DRAUGHT)
     assert number(found, "ATT") == pytest.approx(area, abs=1e-4)
     assert number(found, "B_tr") == pytest.approx(40.0, abs=1e-9)
 
 
-def test_a_skeg_from_the_side_is_an_arc_below_a_line(found: Mapping[str, Value]) -> None:
+def test_a_skeg_from_the_side_is_an_arc_below_a_line(found: Mapping[str, FormValue]) -> None:
     """LSKEG, ASKEG, XSKEG, RSKEG: chord and arc of a circle in closed form."""
     radius, half = ship.EDGE, np.arctan(ship.RISE)
     segment = radius**2 * (half - np.sin(half) * np.cos(half))
@@ -93,13 +93,13 @@ def test_a_skeg_from_the_side_is_an_arc_below_a_line(found: Mapping[str, Value])
     assert number(found, "RSKEG") == pytest.approx(radius, rel=3e-5)
 
 
-def test_her_skegs_stand_as_inclined_as_they_were_put(found: Mapping[str, Value]) -> None:
+def test_her_skegs_stand_as_inclined_as_they_were_put(found: Mapping[str, FormValue]) -> None:
     """TwVSA, TwLSA: the centre plane is a plane."""
     assert number(found, "TwVSA") == pytest.approx(14.0, abs=1e-3)
     assert number(found, "TwLSA") == pytest.approx(2.5, abs=1e-3)
 
 
-def test_screw_and_shaft_are_as_given(found: Mapping[str, Value]) -> None:
+def test_screw_and_shaft_are_as_given(found: Mapping[str, FormValue]) -> None:
     """TwDS, SCH, PI, SBx, SBD; SA where the arc is as high as the shaft."""
     high = ship.SCREW.height
     reach = np.sqrt(2.0 * ship.EDGE * high - high * high)
@@ -110,7 +110,7 @@ def test_screw_and_shaft_are_as_given(found: Mapping[str, Value]) -> None:
     assert number(found, "SA") == pytest.approx(ship.FORE - reach, abs=1e-5)
 
 
-def test_the_tip_is_as_far_from_the_hull_as_constructed(found: Mapping[str, Value]) -> None:
+def test_the_tip_is_as_far_from_the_hull_as_constructed(found: Mapping[str, FormValue]) -> None:
     """PTC: the skin of the bump over the shaft, 8.5 m off the centre line, at x = 12."""
     x, y = 12.0, 8.5
     top, depth = float(ship.roof(x)), deep(x)
@@ -122,7 +122,7 @@ def test_the_tip_is_as_far_from_the_hull_as_constructed(found: Mapping[str, Valu
 
 @pytest.mark.parametrize(("symbol", "station"), [("S3", 1.5), ("S3'", 1.0)])
 def test_the_stern_area_ratio_is_that_of_the_construction(
-    found: Mapping[str, Value], symbol: str, station: float
+    found: Mapping[str, FormValue], symbol: str, station: float
 ) -> None:
     """The chord starts at the skeg's lowest place, the outer skin goes up from it.
 
@@ -146,7 +146,7 @@ def test_the_stern_area_ratio_is_that_of_the_construction(
     assert skin[:, 1].min() == pytest.approx(float(z[0]), abs=1e-9)
 
 
-def test_breadths_are_those_of_the_outer_skin(found: Mapping[str, Value]) -> None:
+def test_breadths_are_those_of_the_outer_skin(found: Mapping[str, FormValue]) -> None:
     """BCL, B07, Tau at station 2, not those of the tunnel."""
     x = 2.0 * STATION
     t = np.linspace(0.0, 1.0, 400_001)
@@ -161,7 +161,7 @@ def test_breadths_are_those_of_the_outer_skin(found: Mapping[str, Value]) -> Non
     assert number(found, "Tau") == pytest.approx(tau, abs=5e-3)
 
 
-def test_her_bilge_and_bulb_are_the_carriers(found: Mapping[str, Value]) -> None:
+def test_her_bilge_and_bulb_are_the_carriers(found: Mapping[str, FormValue]) -> None:
     """BR, BL: the radius amidships is 2.4 m, the nose stands 6.4 m before FP."""
     assert number(found, "BR") == pytest.approx(ship.BILGE, abs=1e-5)
     assert number(found, "BL") == pytest.approx(6.4, abs=1e-4)
@@ -175,7 +175,7 @@ def test_sections_have_the_areas_of_the_construction(draught: float) -> None:
     """At 8 m the tunnel's roof is dry abaft x = 20.7 and the skegs are immersed by themselves."""
     body = flotation(ship.twin_skeg_ship().state)
     x = np.array([3.0, 6.0, 7.0, 12.0, 15.0, 19.4, 45.0, 85.0])
-    planes = Planes(np.array([draught]), np.zeros(1), np.zeros(1))
+    planes = FloatingPlanes(np.array([draught]), np.zeros(1), np.zeros(1))
     exact = [2.0 * half_area(each, draught) for each in x.tolist()]
     assert section_areas(body, x, planes)[0] == pytest.approx(exact, rel=2e-4, abs=2e-3)
 
@@ -183,7 +183,7 @@ def test_sections_have_the_areas_of_the_construction(draught: float) -> None:
 def test_the_after_body_has_the_volume_of_the_construction() -> None:
     """From AP to midship at the design draught; stations stand 1.5 m apart at the skegs."""
     body = flotation(ship.twin_skeg_ship().state)
-    planes = Planes(np.array([ship.DRAUGHT]), np.zeros(1), np.zeros(1))
+    planes = FloatingPlanes(np.array([ship.DRAUGHT]), np.zeros(1), np.zeros(1))
     volume = float(between_stations(body, 0.0, 150.0, planes).volume[0])
     bounds = [0.0, ship.AFT, ship.FORE, 150.0]
     exact = sum(

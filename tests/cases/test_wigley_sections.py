@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.value import Value
+from assoc_hull.analysis.form.parameter import FormValue
 from tests.nets import wigley_net
 
 DRAUGHT, SHAFT, DIAMETER = 6.25, 2.5, 2.5
@@ -16,12 +16,12 @@ SCREW = ah.Screw(height=SHAFT, diameter=DIAMETER)
 
 
 @pytest.fixture(scope="module")
-def found() -> Mapping[str, Value]:
+def found() -> Mapping[str, FormValue]:
     """Form parameters of a net of 41 stations and 9 waterlines, whose splines are off by 1e-6."""
     return ah.form_parameters(ah.Hull(wigley_net(41, 9)), screw=SCREW)
 
 
-def number(found: Mapping[str, Value], symbol: str) -> float:
+def number(found: Mapping[str, FormValue], symbol: str) -> float:
     """The number of an entry, which must be there."""
     value = found[symbol]
     assert value.number is not None, value.reason
@@ -42,7 +42,7 @@ def radius(station: float) -> float:
     return float(a * b * c / (2.0 * abs(p * s - q * r)))
 
 
-def test_breadths_at_the_shaft(found: Mapping[str, Value]) -> None:
+def test_breadths_at_the_shaft(found: Mapping[str, FormValue]) -> None:
     """BCL, B07, Tau at station 2."""
     shaft, blade = half(2.0, SHAFT), half(2.0, SHAFT + 0.35 * DIAMETER)
     assert number(found, "BCL") == pytest.approx(shaft, abs=1e-5)
@@ -52,7 +52,7 @@ def test_breadths_at_the_shaft(found: Mapping[str, Value]) -> None:
 
 
 @pytest.mark.parametrize(("symbol", "station"), [("S3", 1.5), ("S3'", 1.0)])
-def test_the_stern_area_ratio(found: Mapping[str, Value], symbol: str, station: float) -> None:
+def test_the_stern_area_ratio(found: Mapping[str, FormValue], symbol: str, station: float) -> None:
     """Above SCH the parabola stands off its chord by b (t - t^2); its area is 2/3 b T."""
     low, whole = SHAFT / DRAUGHT, half(station) * DRAUGHT
     outside = whole * ((1.0 - low**2) / 2.0 - (1.0 - low**3) / 3.0)
@@ -62,12 +62,14 @@ def test_the_stern_area_ratio(found: Mapping[str, Value], symbol: str, station: 
 
 
 @pytest.mark.parametrize(("symbol", "station"), [("Rfwd", 19.5), ("Raft", 1.5)])
-def test_the_radius_of_sections(found: Mapping[str, Value], symbol: str, station: float) -> None:
+def test_the_radius_of_sections(
+    found: Mapping[str, FormValue], symbol: str, station: float
+) -> None:
     """Convex."""
     assert number(found, symbol) == pytest.approx(radius(station), rel=1e-5)
 
 
-def test_the_diagonal_is_cut_in_the_golden_section(found: Mapping[str, Value]) -> None:
+def test_the_diagonal_is_cut_in_the_golden_section(found: Mapping[str, FormValue]) -> None:
     """Where 2 t - t^2 = 1 - t; the section of a third of the area has 1 - x^2 = 1/3."""
     golden = 0.5 * (np.sqrt(5.0) - 1.0)
     diagonal = np.hypot(DRAUGHT, 5.0 / 3.0)

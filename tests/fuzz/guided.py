@@ -29,7 +29,7 @@ def _lines(text: str) -> object:
 
 
 def _iges(text: str) -> object:
-    from assoc_hull.io.iges.read import surfaces_of_iges
+    from assoc_hull.io.iges.surfaces import surfaces_of_iges
 
     return surfaces_of_iges(text, "file.igs")
 

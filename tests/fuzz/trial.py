@@ -16,9 +16,9 @@ from unittest import mock
 import attrs
 
 from assoc_hull import cli
-from assoc_hull.cli.parser import make_parser
+from assoc_hull.cli.commands import make_parser
 from assoc_hull.errors import AssocHullError
-from assoc_hull.io.hull_file.open import open_hull_file
+from assoc_hull.io.hull_file.saving import open_hull_file
 from assoc_hull.io.hull_json import read_hull_json
 from tests.fuzz.kind import TARGET, Kind
 

@@ -7,10 +7,9 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ArrayColumn
-from assoc_hull.model.change import TABLES, change_of, run_change
-from assoc_hull.model.definition.definition import fingerprint
-from assoc_hull.model.definition.fingerprint import Printer, is_shape
-from assoc_hull.model.state import HullState
+from assoc_hull.model.change import apply_change, change_of
+from assoc_hull.model.definition.fingerprint import FingerprintCache, fingerprint, is_shape
+from assoc_hull.model.tables import TABLES, HullState
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 
 
@@ -59,10 +58,10 @@ def test_a_change_runs_both_ways_to_the_last_bit(which: int, todo: list[Task]) -
     prints = [fingerprint(hull.state)]
     for _ in range(2):
         for i in range(len(changes) - 1, -1, -1):
-            run_change(hull.state, changes[i], forward=False)
+            apply_change(hull.state, changes[i], forward=False)
             compare(hull, pictures[i])
         for i, change in enumerate(changes, start=1):
-            run_change(hull.state, change, forward=True)
+            apply_change(hull.state, change, forward=True)
             compare(hull, pictures[i])
     prints.append(fingerprint(hull.state))
     assert prints[0] == prints[1]
@@ -81,12 +80,12 @@ def test_a_printer_takes_the_fingerprint_while_the_structure_stays(
 ) -> None:
     """Made anew where a change is not one of shape only, it never differs from the slow way."""
     hull = fresh(which)
-    printer = Printer(hull.state)
+    printer = FingerprintCache(hull.state)
     for task in todo:
         if carry_out(hull, task) is None:
             continue
         journal = hull.document.history[-1].journal
         assert isinstance(journal, Journal)
         if not is_shape(change_of(hull.state, journal)):
-            printer = Printer(hull.state)
+            printer = FingerprintCache(hull.state)
         assert printer.take() == fingerprint(hull.state)

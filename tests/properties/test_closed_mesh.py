@@ -6,19 +6,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
-from assoc_hull.analysis.net.gather import Net, gather
+from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
 from assoc_hull.surface.cells.closed_mesh import mesh_of_net
 
 
 @pytest.fixture(scope="module")
-def net(series60_70: ah.Hull) -> Net:
+def net(series60_70: ah.Hull) -> CurveNet:
     """Series 60 CB .70: 73 lines and four boundary curves."""
-    return gather(series60_70.state)
+    return gather_net(series60_70.state)
 
 
 @settings(max_examples=8)
 @given(seed=st.integers(0, 2**20), share=st.floats(0.0, 0.75))
-def test_any_choice_of_lines_makes_a_closed_mesh(net: Net, seed: int, share: float) -> None:
+def test_any_choice_of_lines_makes_a_closed_mesh(net: CurveNet, seed: int, share: float) -> None:
     """Up to three of four are left out at random; profile, deck edge and flats stay."""
     names = sorted(
         {name for name, end in zip(net.name, net.family, strict=True) if end != "boundary"}

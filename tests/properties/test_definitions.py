@@ -13,13 +13,12 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
-from assoc_hull.model import regenerate
-from assoc_hull.model.copy import copy_of
-from assoc_hull.model.definition.definition import definition
+from assoc_hull.model import generated_curves as regenerate
+from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import from_definition
-from assoc_hull.model.forms.generate import generated_points
-from assoc_hull.model.generated import attached
-from assoc_hull.model.state import HullState
+from assoc_hull.model.forms.generate_points import generated_points
+from assoc_hull.model.generated_curves import attached_curves
+from assoc_hull.model.tables import HullState, copy_state
 from tests.formed import formed
 from tests.independent import closure, relofted, snapshot
 from tests.properties.test_i03_minimality import passes
@@ -31,7 +30,7 @@ made = cache(formed)
 
 def fresh() -> ah.Hull:
     """Give a hull of its own."""
-    return ah.Hull(copy_of(made()))
+    return ah.Hull(copy_state(made()))
 
 
 SIZES = {
@@ -192,7 +191,7 @@ def test_a_failure_anywhere_leaves_the_hull_as_it_was() -> None:
                 break
         assert hull.fingerprint == before
         assert hull.verify() == ()
-        assert len(attached(hull.state)) == 9
+        assert len(attached_curves(hull.state)) == 9
     assert number >= 2
     assert hull.verify() == ()
 

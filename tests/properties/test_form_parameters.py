@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.analysis.form.catalogue import CATALOGUE
+from assoc_hull.analysis.form.floating_shape import Screw
 from assoc_hull.analysis.form.form_parameters import form_parameters
-from assoc_hull.analysis.form.screw import Screw
-from assoc_hull.analysis.form.value import Value
+from assoc_hull.analysis.form.parameter import FormValue
 from assoc_hull.errors import OutOfRangeError
 from assoc_hull.sources import examples
 from tests.mapped import scaled, turned
@@ -52,7 +52,7 @@ def screw(hull: ah.Hull, twin: bool = False) -> Screw:
     )  # fmt: skip
 
 
-def _at_parts(hull: ah.Hull, parts: tuple[float, float], twin: bool) -> Mapping[str, Value]:
+def _at_parts(hull: ah.Hull, parts: tuple[float, float], twin: bool) -> Mapping[str, FormValue]:
     """At parts of the design draught aft and forward."""
     aft, fore = (part * hull.state.particulars.draught for part in parts)
     return form_parameters(hull, draughts=(aft, fore), screw=screw(hull, twin))
@@ -199,12 +199,12 @@ SUMS: dict[str, tuple[tuple[str, ...], Callable[..., float]]] = {
 """What is 1, by the symbols that it is made of."""
 
 
-def numbers(found: Mapping[str, Value], symbols: tuple[str, ...]) -> list[float | None]:
+def numbers(found: Mapping[str, FormValue], symbols: tuple[str, ...]) -> list[float | None]:
     """The numbers of some entries."""
     return [found[each].number for each in symbols]
 
 
-def check_sums(found: Mapping[str, Value]) -> None:
+def check_sums(found: Mapping[str, FormValue]) -> None:
     """What two ways give is the same, wherever both are there."""
     for name, (symbols, formula) in SUMS.items():
         made_of = numbers(found, symbols)

@@ -7,10 +7,10 @@ import pytest
 
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.definition_part import FormDefinition, GeneratedCurve
-from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.generate import generated_points, marks_for
-from assoc_hull.model.forms.layout import layout_at
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.forms.form_values import Forms
+from assoc_hull.model.forms.generate_points import generated_points, marks_for
+from assoc_hull.model.forms.line_layout import layout_at
 from tests.form_ship import AREAS, COURSES, PARTICULARS, WATERLINE
 
 ODD = (0.0, -1.0, 1.0, 1e-9, 1e6, -1e6, 90.0, 180.0, -90.0, 1e-3, 5.0, None)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 
 import assoc_hull as ah
-from assoc_hull.model.point import Crossing, Point
+from assoc_hull.model.objects import Crossing, Point
 from tests.cases import places
 from tests.independent import lost_meetings, trouble
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, hulls, tasks

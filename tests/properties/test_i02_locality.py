@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 
 import assoc_hull as ah
-from assoc_hull.edit.field import FieldContext, Shift
+from assoc_hull.edit.displacement_field import FieldContext, PointDisplacements
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from tests.cases import places
 from tests.independent import Snapshot, relofted, snapshot
 from tests.net_strategies import (
@@ -95,11 +95,13 @@ class Swing:
     calls: int = 0
     strict: bool = False
 
-    def shift(self, ground: FieldContext, part: float) -> Shift:
+    def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
         """15 cm when asked for the whole, so that there are sub-steps; then 20 mm."""
         self.calls += 1
         away = {1: 0.15, 2: 0.02, 3: -0.02}[self.calls]
-        return Shift(np.array([self.row]), np.array([[0.0, away, 0.0]]), np.zeros(0, np.int64))
+        return PointDisplacements(
+            np.array([self.row]), np.array([[0.0, away, 0.0]]), np.zeros(0, np.int64)
+        )
 
     def exact(self) -> tuple[IntArray, FloatArray]:
         """Where it lay."""

@@ -13,7 +13,7 @@ import assoc_hull as ah
 from assoc_hull.edit import update_passes as work
 from assoc_hull.edit.report import EditReport
 from assoc_hull.graph import run_update as engine
-from assoc_hull.graph.run_update import Pass
+from assoc_hull.graph.run_update import UpdatePass
 from tests.cases import places
 from tests.independent import closure, relofted, snapshot
 from tests.net_strategies import (
@@ -28,12 +28,12 @@ from tests.net_strategies import (
 
 
 @contextmanager
-def passes() -> Iterator[list[Pass]]:
+def passes() -> Iterator[list[UpdatePass]]:
     """Listen to the passes of the engine."""
-    heard: list[Pass] = []
-    run = engine.run
+    heard: list[UpdatePass] = []
+    run = engine.run_update
 
-    def listen(*given: object, **named: object) -> Pass:
+    def listen(*given: object, **named: object) -> UpdatePass:
         heard.append(run(*given, **named))  # type: ignore[arg-type]
         return heard[-1]
 

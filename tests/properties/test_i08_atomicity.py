@@ -23,12 +23,12 @@ from assoc_hull.edit.step import Step
 from assoc_hull.errors import AssocHullError, TooFewPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.node import Evaluation
+from assoc_hull.graph.network import Evaluation
 from assoc_hull.graph.table import ArrayColumn
 from assoc_hull.model import network
 from assoc_hull.model.kinds import State
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from tests.cases import places
 from tests.independent import closure, curve_bits, snapshot
 from tests.net_strategies import live_points

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
-from assoc_hull.model.point import Point
+from assoc_hull.model.objects import Point
 from tests.cases import places
 from tests.net_strategies import POOL, fresh, live_points
 

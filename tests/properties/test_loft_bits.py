@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from assoc_hull.geometry.curves import CurveData, SplineBatch
 from assoc_hull.geometry.splines.backend import backend, set_backend
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 
 FIELDS = ("knot", "xyz", "leave", "arrive")
 NORMALS = [(1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.48, 0.6, 0.64)]
@@ -84,9 +84,9 @@ def test_meetings_alone_have_the_bits_they_have_in_a_batch(
     parts = [curve_data(seed + index, size) for index, size in enumerate(sizes)]
     batch = loft(joined(parts))
     offsets = np.sort(np.concatenate([np.linspace(-20, 20, 15), batch.xyz[::7, 0]]))
-    together = meet_planes(batch, np.array(normal), offsets)
+    together = intersect_planes(batch, np.array(normal), offsets)
     for index in range(batch.count):
-        alone = meet_planes(batch.curve(index), np.array(normal), offsets)
+        alone = intersect_planes(batch.curve(index), np.array(normal), offsets)
         mine = together.curve == index
         assert np.array_equal(alone.plane, together.plane[mine])
         assert np.array_equal(alone.sign, together.sign[mine])
@@ -105,12 +105,12 @@ def test_both_backends_give_the_same_bits(
     data = joined([curve_data(seed + index, size) for index, size in enumerate(sizes)])
     mine = loft(data)
     offsets = np.sort(np.concatenate([np.linspace(-20, 20, 15), mine.xyz[::7, 0]]))
-    met = meet_planes(mine, np.array(normal), offsets)
+    met = intersect_planes(mine, np.array(normal), offsets)
     in_use = backend()
     set_backend("numpy")
     try:
         assert same_bits(mine, loft(data))
-        again = meet_planes(mine, np.array(normal), offsets)
+        again = intersect_planes(mine, np.array(normal), offsets)
     finally:
         set_backend(in_use)
     for name in ("curve", "plane", "segment", "t", "xyz", "sign", "tangential"):
@@ -124,7 +124,7 @@ def test_signs_alternate_on_any_curve(seed: int, count: int) -> None:
     spline = loft(curve_data(seed, count))
     levels = spline.xyz[:, 1]
     offsets = np.sort(np.concatenate([levels, np.nextafter(levels, 9e9), levels + 3e-10]))
-    meetings = meet_planes(spline, np.array([0.0, 1.0, 0.0]), offsets)
+    meetings = intersect_planes(spline, np.array([0.0, 1.0, 0.0]), offsets)
     same = np.diff(meetings.plane) == 0
     assert (meetings.sign[1:][same] == -meetings.sign[:-1][same]).all()
     assert (np.diff(meetings.t)[same] >= 0.0).all()

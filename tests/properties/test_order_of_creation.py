@@ -11,8 +11,8 @@ import pytest
 SHUFFLES = """
 import random, sys
 from importlib import import_module
-import assoc_hull.edit.adoption.adopt as home
-from assoc_hull.model.definition.definition import fingerprint
+import assoc_hull.edit.adoption.adopt_lines as home
+from assoc_hull.model.definition.records import fingerprint
 
 seed = int(sys.argv[1])
 plain = home.adopt
@@ -39,7 +39,7 @@ for name, make in makers.items():
         print(name, fingerprint(make()))
 chance = random.Random(seed)
 if seed % 2:
-    carrier = import_module("assoc_hull.shipped.bulk_carrier").bulk_carrier_207k_adopted
+    carrier = import_module("assoc_hull.shipped.bulk_carrier_207k").bulk_carrier_207k_adopted
     print("carrier", fingerprint(carrier()[0]))
 else:
     print("whole", fingerprint(series60.series60(0.70)))

@@ -21,14 +21,15 @@ from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.graph.node import Readers
+from assoc_hull.graph.network import Readers
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
-from assoc_hull.model.definition.canonical_columns import places, point_columns
-from assoc_hull.model.definition.definition import definition, fingerprint
+from assoc_hull.model.definition.canonical_columns import canonical_order, point_columns
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.definition.verify import verify
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.state import HullState, curve_node, row_node
+from assoc_hull.model.tables import HullState, curve_node, row_node
 from tests.strategies import (
     Move,
     Net,
@@ -48,14 +49,14 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 FINGERPRINTS = """
 import json, sys
 from assoc_hull.model.definition.canonical_columns import places, point_columns
-from assoc_hull.model.definition.definition import fingerprint
+from assoc_hull.model.definition.records import fingerprint
 from assoc_hull.model.definition.restore import from_definition
 for line in sys.stdin:
     print(fingerprint(from_definition(json.loads(line))))
 """
 EDITED = """
 from assoc_hull.model.definition.canonical_columns import places, point_columns
-from assoc_hull.model.definition.definition import fingerprint
+from assoc_hull.model.definition.records import fingerprint
 from tests.strategies import Move, PinnedEdit, apply_edit, make_document, wigley_sources
 document = make_document(wigley_sources(5, 3, 2))
 for which in range(0, 60, 7):
@@ -222,7 +223,7 @@ def nudge(document: Document, row: int, axis: int) -> bool:
 
 def nudges(state: HullState) -> list[tuple[int, int]]:
     """Every point that has a value of its own, with each axis in the planes of its curves."""
-    order = places(state)
+    order = canonical_order(state)
     stored = np.asarray(point_columns(state, order)["stored"])
     found = []
     for row in order.rows[stored].tolist():

@@ -13,7 +13,7 @@ import assoc_hull as ah
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import PolicyName
 from assoc_hull.errors import AssocHullError
-from assoc_hull.model.line import Line
+from assoc_hull.model.objects import Line
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Act, Task, fresh, perform, tasks
 from tests.properties.test_changes import picture
 from tests.properties.test_i08_atomicity import failing_at

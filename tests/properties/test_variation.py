@@ -11,10 +11,10 @@ import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
 from assoc_hull.model.kinds import Sort
-from assoc_hull.variation.ask import Stations
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.hat import hat
-from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.fields.anchor_fields import hat_field
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.layers import FieldLayer
+from assoc_hull.variation.request import Stations
 from tests.independent import lost_meetings, trouble
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, hulls, tasks
 
@@ -55,9 +55,9 @@ class Wish:
         if self.rise == 0.0:
             return ()
         size = hull.particulars
-        aft = Chain.through([0.1 * size.length, 0.5 * size.length], [1.0, 0.0])
+        aft = BlendChain.through([0.1 * size.length, 0.5 * size.length], [1.0, 0.0])
         anchors = [("low", 0.3 * size.draught, self.rise * size.draught), ("T", size.draught, 0.0)]
-        return (FieldLayer("raw", (hat("rise", anchors, aft),)),)
+        return (FieldLayer("raw", (hat_field("rise", anchors, aft),)),)
 
 
 _STATIONS: dict[str, Stations] = {"number": "number", "x": "x"}

@@ -15,46 +15,38 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.derivatives.parameters import DRAUGHT
-from assoc_hull.creation.classical.main_types import require_types
-from assoc_hull.creation.classical.middle_body import MiddleBody
-from assoc_hull.creation.classical.midship import Midship
-from assoc_hull.creation.classical.prelikon import Prelikon
-from assoc_hull.creation.classical.prelikon_stations import Station
+from assoc_hull.creation.classical.middle_body import MiddleBody, Midship
+from assoc_hull.creation.classical.prelikon import Prelikon, require_types
+from assoc_hull.creation.classical.prelikon_lines import Station
 from assoc_hull.creation.classical.seaking import Seaking
-from assoc_hull.creation.classical.seaking_parts import DeckCamber, Parallel
-from assoc_hull.creation.classical.seaking_sections import MidshipSection
+from assoc_hull.creation.classical.seaking_parts import DeckCamber, MidshipSection, ParallelPart
 from assoc_hull.creation.classical.sfolds import Sfolds
-from assoc_hull.creation.classical.sfolds_portion import Portion, require_apart, three_eighths
+from assoc_hull.creation.classical.sfolds_portion import (
+    Portion,
+    require_portions_apart,
+    three_eighths_rule,
+)
 from assoc_hull.edit.session import Edit
-from assoc_hull.geometry.classical.appendage import Appendage
-from assoc_hull.geometry.classical.appendage_box import AppendageBox
-from assoc_hull.geometry.classical.arc_section import round_corners, through_points
-from assoc_hull.geometry.classical.arcs import Arcs
-from assoc_hull.geometry.classical.camber import Camber
-from assoc_hull.geometry.classical.camber_kinds import CamberKind
-from assoc_hull.geometry.classical.deck_corner import deck_corner
-from assoc_hull.geometry.classical.deck_house import DeckHouse
-from assoc_hull.geometry.classical.deck_surface import Deck
-from assoc_hull.geometry.classical.frame import Frame
-from assoc_hull.geometry.classical.frame_parabolas import run_bends
-from assoc_hull.geometry.classical.keel_outline import KeelOutline
-from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
-from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
-from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
+from assoc_hull.geometry.classical.appendages import AppendageBox, LoftedAppendage
+from assoc_hull.geometry.classical.arc_curve import round_corners, through_points
+from assoc_hull.geometry.classical.boundary_lines import CodedKnuckleLine, KeelOutline, SpaceCurve
+from assoc_hull.geometry.classical.camber import Camber, CamberKind
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
+from assoc_hull.geometry.classical.deck import Deck, DeckHouse, Sheer
+from assoc_hull.geometry.classical.frame_section import FrameSection, deck_corner, run_bends
+from assoc_hull.geometry.classical.ordinate_section import OrdinateSection, PairedParabolas
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
-from assoc_hull.geometry.classical.sheer import Sheer
-from assoc_hull.geometry.classical.space_curve import SpaceCurve
 from assoc_hull.io.cad.write import write_cad
 from assoc_hull.io.classical.read import holds_definition, read_definition
 from assoc_hull.io.iges.lines import write_iges_lines
-from assoc_hull.io.mesh.closed_mesh_file import write_mesh
-from assoc_hull.io.surfaces.hull_surface_file import write_surface
+from assoc_hull.io.mesh.closed_mesh import write_mesh
+from assoc_hull.io.surfaces.hull_surface import write_surface
 from assoc_hull.plot.plates.hull_map import hull_map
 from assoc_hull.plot.plates.lit_surface import surface_figure
 from assoc_hull.sources import Examples
-from assoc_hull.surface.cells.hull_mesh import closed_mesh
+from assoc_hull.surface.cells.closed_mesh import closed_mesh
 from assoc_hull.surface.plates.hull_plates import hull_plates
-from assoc_hull.surface.plates.seams import Seams
+from assoc_hull.surface.plates.surface_plates import Seams
 from tests.cut_hulls import three_blocks
 from tests.formed import formed
 
@@ -431,7 +423,7 @@ PORTION = Portion.of_areas(3, [0, 4, 8], [1, 2, 1])
 SOLID = Portion.make(3, [0, 4, 8], [SECTION] * 3)
 MIDSHIP = Midship(8.0, 2.0, 0.2, 1.5)
 KEEL = KeelOutline.make(1, 9, [(0, 2), (1, 0)], [(9, 0), (10, 3)], [(1, 0), (9, 0)])
-SIDE = KnuckleLine.make([0, 10], [(8, 9), (8, 9)], [1])
+SIDE = CodedKnuckleLine.make([0, 10], [(8, 9), (8, 9)], [1])
 FRAME = through_points([(0, 0), (4, 0), (5, 3)])
 SHELL = ah.plates(SADDLE, area_tol=1e-3)
 CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
@@ -451,8 +443,8 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
     "OrdinateSection.area_below": (SECTION.area_below, {"z": 1.0}),
     "OrdinateSection.half_breadth": (SECTION.half_breadth, {"z": 1.0}),
     "OrdinateSection.camber": (SECTION.camber, {"y": 1.0}),
-    "require_apart": (require_apart, {"portions": [PORTION]}),
-    "three_eighths": (three_eighths, {"values": [1, 2, 3, 4], "step": 1.0}),
+    "require_apart": (require_portions_apart, {"portions": [PORTION]}),
+    "three_eighths": (three_eighths_rule, {"values": [1, 2, 3, 4], "step": 1.0}),
     "PairedParabolas.make": (
         PairedParabolas.make, {"name": "a", "first": 0.0, "step": 1.0, "values": [1, 2, 3]}
     ),
@@ -501,7 +493,7 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
         },
     ),
     "KnuckleLine.make": (
-        KnuckleLine.make,
+        CodedKnuckleLine.make,
         {"x": [0, 4, 9], "v": [(1, 3), (2, 3), (1, 4)], "code": [2, 3], "blend": "overhauser"},
     ),
     "Camber.make": (
@@ -509,10 +501,10 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
         {"x": [0, 9], "half_breadth": 4.0, "side_height": 3.0, "rise": 0.2, "kind": "line"},
     ),
     "Appendage.make": (
-        Appendage.make, {"sections": [[(0, 0), (1, 0), (1, 1)]], "x": (0, 4), "sign": -1}
+        LoftedAppendage.make, {"sections": [[(0, 0), (1, 0), (1, 1)]], "x": (0, 4), "sign": -1}
     ),
     "Frame.make": (
-        Frame.make,
+        FrameSection.make,
         {
             "x": 3.0, "waterline_points": [(2, 1), (3, 2)], "deck_side": (4, 6), "keel": 0.0,
             "flat": 1.0, "knuckles": [(3.5, 4)], "camber": 0.1, "camber_kind": "line",
@@ -540,12 +532,12 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
         Seaking,
         {
             "particulars": SHIP, "keel": KEEL, "waterlines": (), "deck": SIDE,
-            "frames": np.array([2.0, 5.0]), "parallel": Parallel(MIDSHIP, 2.0, 6.0),
+            "frames": np.array([2.0, 5.0]), "parallel": ParallelPart(MIDSHIP, 2.0, 6.0),
             "knuckles": (), "camber": DeckCamber(), "appendages": (), "buttocks": (1.0,),
             "told": (),
         },
     ),
-    "Parallel": (Parallel, {"section": MIDSHIP, "first": 2.0, "last": 6.0}),
+    "Parallel": (ParallelPart, {"section": MIDSHIP, "first": 2.0, "last": 6.0}),
     "DeckCamber": (
         DeckCamber,
         {"rise": [(0.0, 0.2), (9.0, 0.3)], "kind": "line", "corner": [(0.0, 0.2), (9.0, 0.3)]},
@@ -811,7 +803,7 @@ def test_two_hulls_are_compared_by_good_values(hull: ah.Hull, name: str) -> None
 def test_fairness_is_asked_for_with_good_values(hull: ah.Hull, name: str) -> None:
     """Of a hull and of a plane curve: an error of the family or a result."""
     before = hull.fingerprint
-    curve = Arcs.make([(0.0, 0.0)], [0.0], [0.1], [3.0])
+    curve = PlaneArcs.make([(0.0, 0.0)], [0.0], [0.1], [3.0])
     of_hull: Given = {"of": hull, "lines": ["WL 2.5"], "allowed": 0, "offsets": None}
     of_curve: Given = {"of": curve, "lines": None, "allowed": 0, "offsets": [(1.0, 0.1)]}
     for given in (of_hull, of_curve):

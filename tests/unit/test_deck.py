@@ -12,12 +12,13 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.cli import main
-from assoc_hull.cli.words import hull_words
+from assoc_hull.cli.hull_words import hull_words
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
-from assoc_hull.io.offsets.completion import net_from_table
+from assoc_hull.io.offsets.complete_table import net_from_table
 from assoc_hull.io.offsets.table import OffsetTable
-from assoc_hull.model.definition.definition import definition, fingerprint
-from assoc_hull.model.state import HullState
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.records import definition
+from assoc_hull.model.tables import HullState
 from assoc_hull.shipped.wigley import wigley
 
 OLD = Path(__file__).parent / "io" / "old_files"
@@ -118,13 +119,13 @@ def test_an_older_hull_file_is_open_and_keeps_its_fingerprint(version: int, tmp_
 
 def test_a_comparison_names_the_decks() -> None:
     """Where they differ, and only there."""
-    from assoc_hull.edit.explain.compare import compare
+    from assoc_hull.edit.explain.compare_states import compare_states
 
     one, other = with_deck("open"), with_deck("closed")
-    found = compare(one, other, ("before", "after"))
+    found = compare_states(one, other, ("before", "after"))
     assert found.decks == ("open", "closed")
     assert "  deck: open -> closed" in str(found).splitlines()
-    assert "deck" not in str(compare(one, one, ("before", "after")))
+    assert "deck" not in str(compare_states(one, one, ("before", "after")))
 
 
 @pytest.mark.parametrize("deck", DECKS)

@@ -10,8 +10,8 @@ import assoc_hull as ah
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.state import HullState
-from assoc_hull.shipped.wigley import half_breadth
+from assoc_hull.model.tables import HullState
+from assoc_hull.shipped.wigley import wigley_half_breadth
 
 POINT = "WL 2.5 x ST 7"
 
@@ -183,7 +183,7 @@ def test_graphs_are_given_with_filters(hull: ah.Hull) -> None:
 )
 def test_half_breadths_anywhere(hull: ah.Hull, x: float, z: float, tolerance: float) -> None:
     """Those of the polynomial."""
-    exact = float(half_breadth(np.array(x), np.array(z), 100.0, 10.0, 6.25))
+    exact = float(wigley_half_breadth(np.array(x), np.array(z), 100.0, 10.0, 6.25))
     assert hull.half_breadth(x, z) == pytest.approx(exact, abs=tolerance)
 
 

@@ -14,7 +14,7 @@ from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.shifts import Shifted
 from assoc_hull.variants import vary_by
 from assoc_hull.variation.comparing.line_fairness import compare_fairness, measure_fairness
-from assoc_hull.variation.shifts.swing_hull import swung
+from assoc_hull.variation.shifts.swing_hull import swung_dimensions
 from tests.conftest import Shipped
 
 
@@ -229,7 +229,7 @@ def test_a_hull_that_is_swung_keeps_volume_and_coefficients(wigley: ah.Hull) -> 
 def test_what_gives_way(asked: dict[str, float], gives: dict[str, float]) -> None:
     """The product of length, breadth and draught is held; the depth goes with the draught."""
     now = {"length": 100.0, "breadth": 10.0, "draught": 6.25, "depth": 9.375}
-    assert swung(now, asked) == pytest.approx(gives, rel=1e-14)
+    assert swung_dimensions(now, asked) == pytest.approx(gives, rel=1e-14)
 
 
 @pytest.mark.parametrize(

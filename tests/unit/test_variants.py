@@ -12,9 +12,9 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.hat import hat
-from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.fields.anchor_fields import hat_field
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.layers import FieldLayer
 
 SCRIPT: dict[str, Any] = {
     "version": 1,
@@ -78,7 +78,7 @@ def test_a_report_repeats_its_variation(parent: ah.Hull, variant: ah.Hull) -> No
 
 def test_layers_that_are_no_data_leave_no_script(parent: ah.Hull) -> None:
     """A program made them; the report does not pretend that a file can."""
-    lifted = hat("keel", [("keel", 0.0, 0.2), ("T", 6.0, 0.0)], Chain.constant(1.0))
+    lifted = hat_field("keel", [("keel", 0.0, 0.2), ("T", 6.0, 0.0)], BlendChain.constant(1.0))
     report = ah.vary(parent, layers=[FieldLayer("lifted", (lifted,))]).report
     assert report.script is None
     assert report.edit.name == "vary by fields"

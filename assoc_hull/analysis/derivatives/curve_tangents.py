@@ -7,22 +7,22 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.derivatives.driven_points import Driven
-from assoc_hull.analysis.derivatives.parameters import Shape
+from assoc_hull.analysis.derivatives.driven_points import DrivenPoints
+from assoc_hull.analysis.derivatives.parameters import ShapeParameter
 from assoc_hull.analysis.hydrostatics.flotation import Flotation
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.loft_tangents import loft_tangents
 from assoc_hull.model.lofting import curve_data
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["Moving", "defining_rows", "moving"]
+__all__ = ["CurveTangents", "curve_tangents", "defining_rows"]
 
 _WHERE = "in hydrostatic_derivatives"
 
 
 @attrs.frozen(eq=False)
-class Moving:
+class CurveTangents:
     """Curves, and how all that they are made of changes with k parameters.
 
     Attributes
@@ -73,7 +73,9 @@ def defining_rows(state: HullState, curves: IntArray) -> IntArray:
     return np.concatenate([state.curves.rows.data[each] for each in curves.tolist()])
 
 
-def moving(base: Flotation, shapes: Sequence[Shape]) -> tuple[Moving, SplineBatch]:
+def curve_tangents(
+    base: Flotation, shapes: Sequence[ShapeParameter]
+) -> tuple[CurveTangents, SplineBatch]:
     """Give how a hull moves with parameters, and its curves with tangents.
 
     Parameters
@@ -92,7 +94,7 @@ def moving(base: Flotation, shapes: Sequence[Shape]) -> tuple[Moving, SplineBatc
     batch = found.batch()
     follows = np.flatnonzero([each.follows for each in shapes])
     if len(follows):
-        driven = Driven.of(base.state, base.net)
+        driven = DrivenPoints.of(base.state, base.net)
         here, rates = np.ix_(follows, driven.row), driven.rates(found.points)
         for _ in range(base.net.batch.count):
             gone = driven.moves(batch, rates)[follows]
@@ -103,7 +105,7 @@ def moving(base: Flotation, shapes: Sequence[Shape]) -> tuple[Moving, SplineBatc
     return found, batch
 
 
-def _given(base: Flotation, shapes: Sequence[Shape]) -> Moving:
+def _given(base: Flotation, shapes: Sequence[ShapeParameter]) -> CurveTangents:
     """Take how points and directions move by themselves."""
     state, curve = base.state, base.net.curve
     data = curve_data(state, curve)
@@ -117,7 +119,7 @@ def _given(base: Flotation, shapes: Sequence[Shape]) -> Moving:
         points[k], gradient = each.moves(state)
         if gradient is not None:
             direction[k], end[k] = _turned(data, gradient[row])
-    return Moving(data, row, place, points, direction, end)
+    return CurveTangents(data, row, place, points, direction, end)
 
 
 def _turned(data: CurveData, gradient: FloatArray) -> tuple[FloatArray, FloatArray]:

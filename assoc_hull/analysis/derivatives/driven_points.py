@@ -12,18 +12,18 @@ from typing import cast
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.net.gather import Net
-from assoc_hull.analysis.net.moved_layout import on_cubics
+from assoc_hull.analysis.net.curve_net import CurveNet
+from assoc_hull.analysis.net.moved_layout import evaluate_cubics
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.dual import Dual, real
-from assoc_hull.geometry.splines.segments import locate, power
-from assoc_hull.model.state import HullState
+from assoc_hull.geometry.splines.segments import locate_parameters, power_coefficients
+from assoc_hull.model.tables import HullState
 
-__all__ = ["Driven"]
+__all__ = ["DrivenPoints"]
 
 
 @attrs.frozen(eq=False)
-class Driven:
+class DrivenPoints:
     """Points that are computed from curves, (d,).
 
     Attributes
@@ -47,7 +47,7 @@ class Driven:
         freeze(self.row, self.segment, self.u, self.normal)
 
     @classmethod
-    def of(cls, state: HullState, net: Net) -> Driven:
+    def of(cls, state: HullState, net: CurveNet) -> DrivenPoints:
         """Take them from the tables; one without a plane or a place on its driver stays."""
         table, number = state.rows, np.full(state.curves.count + 1, -1)
         number[net.curve] = np.arange(len(net.curve))
@@ -57,7 +57,7 @@ class Driven:
         driver, reader = (number[table.curve.data[row, each]] for each in (side, 1 - side))
         place, normal = table.parameter.data[row, side], net.normal[reader]
         good = (driver >= 0) & (reader >= 0) & np.isfinite(place) & np.isfinite(normal).all(axis=1)
-        segment, u = locate(net.batch, driver[good], place[good])
+        segment, u = locate_parameters(net.batch, driver[good], place[good])
         return cls(row[good], segment, u, normal[good])
 
     def rates(self, points: FloatArray) -> FloatArray:
@@ -73,7 +73,7 @@ class Driven:
 
         `rates` (k, d) tells how fast the planes of the lines move along their normals.
         """
-        place, slope = on_cubics(power(batch)[self.segment], self.u)
+        place, slope = evaluate_cubics(power_coefficients(batch)[self.segment], self.u)
         dot, along = cast("Dual", place).dot, real(slope)
         steep = (along * self.normal).sum(axis=1)
         share = ((dot * self.normal).sum(axis=2) - rates) / np.where(steep == 0.0, np.inf, steep)

@@ -5,11 +5,16 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.derivatives.parameters import HELD, Named, Rates, Shape
+from assoc_hull.analysis.derivatives.parameters import (
+    FIXED_DIMENSIONS,
+    Rates,
+    ShapeParameter,
+    TitledParameter,
+)
 from assoc_hull.arguments import checked, instance, shown, text
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["Moves"]
 
@@ -39,7 +44,7 @@ def _gradient(values: object) -> FloatArray:
 
 
 @attrs.frozen(eq=False)
-class Moves(Named, Shape):
+class Moves(TitledParameter, ShapeParameter):
     """A parameter by which all defining points move as given.
 
     Points that are computed from curves follow these exactly, whatever stands in their rows;
@@ -67,7 +72,7 @@ class Moves(Named, Shape):
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.analysis.derivatives.derivatives import hydrostatic_derivatives
+    >>> from assoc_hull.analysis.derivatives.hydrostatic_derivatives import hydrostatic_derivatives
     >>> from assoc_hull.analysis.derivatives.given_motion import Moves
     >>> from assoc_hull.analysis.derivatives.parameters import Rates
     >>> from assoc_hull.sources import examples
@@ -84,7 +89,7 @@ class Moves(Named, Shape):
     gradient: FloatArray | None = attrs.field(
         default=None, converter=attrs.converters.optional(_gradient)
     )
-    rates: Rates = attrs.field(default=HELD)
+    rates: Rates = attrs.field(default=FIXED_DIMENSIONS)
     unit: str = "-"
 
     def __attrs_post_init__(self) -> None:

@@ -17,13 +17,24 @@ from assoc_hull.arguments import checked, choice, flag, number, numbers, text
 from assoc_hull.errors import BadInputError, FreedomError, PointRoleError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.plane import AXES
-from assoc_hull.model.address import resolve
+from assoc_hull.model.address import resolve_address
 from assoc_hull.model.links import free_axes
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = [
-    "DRAUGHT", "DRAUGHT_AFT", "DRAUGHT_FORE", "HEEL", "HELD", "TRIM", "Deformation", "Named",
-    "Parameter", "PointMove", "Position", "Rates", "Shape",
+    "DRAUGHT",
+    "DRAUGHT_AFT",
+    "DRAUGHT_FORE",
+    "FIXED_DIMENSIONS",
+    "HEEL",
+    "TRIM",
+    "Deformation",
+    "Parameter",
+    "PointMove",
+    "Position",
+    "Rates",
+    "ShapeParameter",
+    "TitledParameter",
 ]  # fmt: skip
 
 _WHERE = "in hydrostatic_derivatives"
@@ -51,7 +62,7 @@ class Parameter(ABC):
         return "m"
 
 
-class Named(Parameter):
+class TitledParameter(Parameter):
     """A parameter with a name and a unit of its own."""
 
     name: str
@@ -69,7 +80,7 @@ class Named(Parameter):
 
 
 @attrs.frozen
-class Position(Named):
+class Position(TitledParameter):
     """A parameter of the floating position: `DRAUGHT` and so on, or one of your own.
 
     Attributes
@@ -119,14 +130,14 @@ class Rates:
     draught: float = attrs.field(default=0.0, validator=checked(number, _WHERE))
 
 
-HELD = Rates()
+FIXED_DIMENSIONS = Rates()
 """No principal dimension changes."""
 
 
-class Shape(Parameter):
+class ShapeParameter(Parameter):
     """A parameter of the shape: points move, given directions may turn."""
 
-    rates: Rates = HELD
+    rates: Rates = FIXED_DIMENSIONS
     """How the principal dimensions go along."""
 
     @property
@@ -143,7 +154,7 @@ class Shape(Parameter):
 
 
 @attrs.frozen
-class PointMove(Shape):
+class PointMove(ShapeParameter):
     """One defining point that moves in the planes of its lines; m.
 
     All other defining points stay, and so do given directions; the curves through the point
@@ -187,7 +198,7 @@ class PointMove(Shape):
         FreedomError
             It is not free along the axis.
         """
-        row = resolve(state, self.address).row
+        row = resolve_address(state, self.address).row
         if row < 0:
             raise BadInputError(f"{self.address!r} names no point", _WHERE, "ask hull.points")
         if not (state.rows.reader.data[row] >= 0).any():
@@ -227,12 +238,12 @@ def _along(state: HullState, row: int, axis: int) -> FloatArray:
     return one
 
 
-Field = Callable[[FloatArray], FloatArray]
+VectorField = Callable[[FloatArray], FloatArray]
 """From places (n, 3), m, to something for each."""
 
 
 @attrs.frozen
-class Deformation(Named, Shape):
+class Deformation(TitledParameter, ShapeParameter):
     """A smooth field by which all defining points move.
 
     Planes of sections and waterlines may move along; the curves are lofted anew.
@@ -252,8 +263,8 @@ class Deformation(Named, Shape):
     """
 
     name: str = attrs.field(validator=checked(text, _WHERE))
-    field: Field
-    gradient: Field | None = None
+    field: VectorField
+    gradient: VectorField | None = None
     unit: str = "-"
 
     def moves(self, state: HullState) -> tuple[FloatArray, FloatArray | None]:
@@ -270,7 +281,11 @@ class Deformation(Named, Shape):
         return self._called(self.field, xyz, used, (3,)), turn
 
     def _called(
-        self, function: Field, xyz: FloatArray, used: NDArray[np.bool_], shape: tuple[int, ...]
+        self,
+        function: VectorField,
+        xyz: FloatArray,
+        used: NDArray[np.bool_],
+        shape: tuple[int, ...],
     ) -> FloatArray:
         if not callable(function):
             raise WrongTypeError(f"{self.name!r} has no function", _WHERE, "give one of (n, 3)")

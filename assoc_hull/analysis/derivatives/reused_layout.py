@@ -16,20 +16,25 @@ import numpy as np
 
 from assoc_hull.analysis.derivatives.curve_tangents import defining_rows
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
-from assoc_hull.analysis.net.gather import Net, Part, gather
-from assoc_hull.analysis.net.loops import Frame
-from assoc_hull.analysis.net.moved_layout import followed
+from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart, gather_net
+from assoc_hull.analysis.net.moved_layout import move_cells
+from assoc_hull.analysis.net.strip_boundaries import StripBoundary
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.segments import locate, segment_start
+from assoc_hull.geometry.splines.segments import locate_parameters, segment_start
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
 from assoc_hull.model.lofting import curve_data
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["flotation_like", "moved", "moved_to", "same_structure"]
+__all__ = [
+    "flotation_at_points",
+    "flotation_with_layout",
+    "flotation_with_layout_of",
+    "same_structure",
+]
 
 
-def moved(base: Flotation, data: CurveData, points: FloatArray) -> Flotation:
+def flotation_at_points(base: Flotation, data: CurveData, points: FloatArray) -> Flotation:
     """Give a hull of other places of its points, by the layout that it had.
 
     Parameters
@@ -56,7 +61,7 @@ def moved(base: Flotation, data: CurveData, points: FloatArray) -> Flotation:
     return _put(base, base.state, _net(base.net, batch), points)
 
 
-def moved_to(base: Flotation, state: HullState) -> Flotation | None:
+def flotation_with_layout(base: Flotation, state: HullState) -> Flotation | None:
     """Give what `flotation` gives of tables, but by the layout of a hull of the same structure.
 
     Parameters
@@ -76,22 +81,22 @@ def moved_to(base: Flotation, state: HullState) -> Flotation | None:
     --------
     >>> import assoc_hull as ah
     >>> from assoc_hull.analysis.hydrostatics.flotation import flotation
-    >>> from assoc_hull.analysis.derivatives.reused_layout import moved_to
+    >>> from assoc_hull.analysis.derivatives.reused_layout import flotation_with_layout
     >>> hull = ah.examples.wigley()
     >>> before = flotation(hull.state)
     >>> with hull.edit("fuller") as edit:
     ...     edit.move("WL 2.5 x ST 7", y=3.3)
-    >>> moved_to(before, hull.state).layout.frames is before.layout.frames
+    >>> flotation_with_layout(before, hull.state).layout.frames is before.layout.frames
     False
     """
-    net = gather(state)
+    net = gather_net(state)
     kinds = curve_data(state, net.curve).kind
     if not same_structure(base, state, net) or not np.array_equal(kinds, base.kinds):
         return None
     return _put(base, state, net, state.rows.xyz.data)
 
 
-def flotation_like(base: HullState, state: HullState) -> Flotation:
+def flotation_with_layout_of(base: HullState, state: HullState) -> Flotation:
     """Make what floats of a hull, by the layout of another one if their structure is the same.
 
     Parameters
@@ -106,10 +111,10 @@ def flotation_like(base: HullState, state: HullState) -> Flotation:
     BadInputError
         As `flotation`.
     """
-    return moved_to(flotation(base), state) or flotation(state)
+    return flotation_with_layout(flotation(base), state) or flotation(state)
 
 
-def same_structure(base: Flotation, state: HullState, net: Net) -> bool:
+def same_structure(base: Flotation, state: HullState, net: CurveNet) -> bool:
     """Tell whether a net has the lines and crossings of a hull, in the same order."""
     was = base.net
     numbers = ("curve", "end", "flat", "knuckle", "centre", "watched", "row")
@@ -130,14 +135,14 @@ def _order(x: FloatArray) -> IntArray:
     return np.unique(x, return_inverse=True)[1]
 
 
-def _put(base: Flotation, state: HullState, net: Net, points: FloatArray) -> Flotation:
-    cells = followed(base.layout, base.net, net.batch, points)
+def _put(base: Flotation, state: HullState, net: CurveNet, points: FloatArray) -> Flotation:
+    cells = move_cells(base.layout, base.net, net.batch, points)
     frames = _frames(base.layout.frames, base.net.batch, net.batch)
     layout = attrs.evolve(base.layout, cells=cells, frames=frames)
     return Flotation(state, net, layout, CoonsStrips.on(cells, net.batch), base.kinds)
 
 
-def _net(net: Net, batch: SplineBatch) -> Net:
+def _net(net: CurveNet, batch: SplineBatch) -> CurveNet:
     """Give the lines as they have become; a section stands where its first point is."""
     first = batch.start[:-1]
     gone = batch.xyz[first, 0] - net.batch.xyz[first, 0]
@@ -147,13 +152,15 @@ def _net(net: Net, batch: SplineBatch) -> Net:
 
 def _carried(was: SplineBatch, now: SplineBatch, curve: IntArray, t: FloatArray) -> FloatArray:
     """Give parameters at the same parts of the same segments."""
-    segment, u = locate(was, curve, t)
+    segment, u = locate_parameters(was, curve, t)
     first = segment_start(was)[segment]
     found: FloatArray = now.knot[first] * (1.0 - u) + now.knot[first + 1] * u
     return found
 
 
-def _frames(frames: tuple[Frame, ...], was: SplineBatch, now: SplineBatch) -> tuple[Frame, ...]:
+def _frames(
+    frames: tuple[StripBoundary, ...], was: SplineBatch, now: SplineBatch
+) -> tuple[StripBoundary, ...]:
     """Give strips whose sides run between the same places of the lines as they have become."""
     parts = [part for each in frames for side in _sides(each) for part in side]
     if not parts:
@@ -166,13 +173,13 @@ def _frames(frames: tuple[Frame, ...], was: SplineBatch, now: SplineBatch) -> tu
         aft, fore, keel, deck = (
             tuple(_between(part[0], *next(ends)) for part in side) for side in _sides(each)
         )
-        found.append(Frame(aft, fore, keel, deck, each.slab, each.plane))
+        found.append(StripBoundary(aft, fore, keel, deck, each.slab, each.plane))
     return tuple(found)
 
 
-def _between(curve: int, low: float, high: float) -> Part:
+def _between(curve: int, low: float, high: float) -> CurvePart:
     return curve, low, high
 
 
-def _sides(frame: Frame) -> tuple[tuple[Part, ...], ...]:
+def _sides(frame: StripBoundary) -> tuple[tuple[CurvePart, ...], ...]:
     return frame.aft, frame.fore, frame.keel, frame.deck

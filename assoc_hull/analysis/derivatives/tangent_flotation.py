@@ -12,26 +12,28 @@ from functools import cached_property
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.derivatives.curve_tangents import Moving, moving
-from assoc_hull.analysis.derivatives.parameters import Shape
+from assoc_hull.analysis.derivatives.curve_tangents import CurveTangents, curve_tangents
+from assoc_hull.analysis.derivatives.parameters import ShapeParameter
 from assoc_hull.analysis.hydrostatics.floating_body import StationAreas
 from assoc_hull.analysis.hydrostatics.flotation import Flotation
-from assoc_hull.analysis.net.gather import Net
-from assoc_hull.analysis.net.moved_layout import followed
-from assoc_hull.analysis.net.sections import flat_ends_below, sections_of
+from assoc_hull.analysis.net.curve_net import CurveNet, flat_ends_below, sections_of
+from assoc_hull.analysis.net.moved_layout import move_cells
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
-from assoc_hull.geometry.floating.immersed_sections import sections_below
-from assoc_hull.geometry.floating.immersion import immersed
-from assoc_hull.geometry.floating.prepared_strips import Prepared, prepare
+from assoc_hull.geometry.floating.immersion import (
+    FloatingPlanes,
+    ImmersedIntegrals,
+    integrate_immersed,
+)
+from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
+from assoc_hull.geometry.floating.sections import sections_below
 from assoc_hull.geometry.numeric.dual import Dual, as_array, is_plain
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
 
-__all__ = ["Varied", "varied_by"]
+__all__ = ["TangentFlotation", "tangent_flotation"]
 
 
 @attrs.frozen(eq=False)
-class Varied:
+class TangentFlotation:
     """The surface of a net whose splines are of any arithmetic; implements `Measurable`.
 
     Attributes
@@ -49,25 +51,25 @@ class Varied:
     base: Flotation
     batch: SplineBatch
     points: FloatArray
-    moving: Moving | None = None
+    moving: CurveTangents | None = None
 
     @cached_property
-    def net(self) -> Net:
+    def net(self) -> CurveNet:
         """The lines."""
         return attrs.evolve(self.base.net, batch=self.batch)
 
     @cached_property
-    def prepared(self) -> Prepared:
+    def prepared(self) -> PreparedStrips:
         """The surface with its integrals."""
-        cells = followed(self.base.layout, self.base.net, self.batch, self.points)
+        cells = move_cells(self.base.layout, self.base.net, self.batch, self.points)
         strips = CoonsStrips.on(cells, self.batch)
-        return prepare(strips, plain=None if is_plain(self.batch.xyz) else self.base.strips)
+        return prepare_strips(strips, plain=None if is_plain(self.batch.xyz) else self.base.strips)
 
-    def measure(self, planes: Planes) -> Immersed:
+    def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Give the integrals below each plane."""
-        return immersed(self.prepared, planes)
+        return integrate_immersed(self.prepared, planes)
 
-    def stations(self, planes: Planes) -> StationAreas:
+    def stations(self, planes: FloatingPlanes) -> StationAreas:
         """Give the areas of the stations below each plane."""
         found = sections_of(self.net, self.base.closed)
         area = found.per_station(sections_below(found.curves, planes))
@@ -82,12 +84,12 @@ class Varied:
         gone: FloatArray = x + (self.batch.xyz[row, 0] - was)
         return gone
 
-    def transom(self, planes: Planes) -> FloatArray:
+    def transom(self, planes: FloatingPlanes) -> FloatArray:
         """Give the area of transom and other flat ends below each plane, (d,), m2."""
         return flat_ends_below(self.net, self.base.closed, planes)
 
 
-def varied_by(base: Flotation, shapes: Sequence[Shape]) -> Varied:
+def tangent_flotation(base: Flotation, shapes: Sequence[ShapeParameter]) -> TangentFlotation:
     """Give a hull whose lines carry tangents, one per parameter.
 
     Parameters
@@ -102,5 +104,5 @@ def varied_by(base: Flotation, shapes: Sequence[Shape]) -> Varied:
     BadInputError
         A curve of the hull has failed; a parameter that cannot be used.
     """
-    found, batch = moving(base, shapes)
-    return Varied(base, batch, as_array(Dual(found.place, found.points)), found)
+    found, batch = curve_tangents(base, shapes)
+    return TangentFlotation(base, batch, as_array(Dual(found.place, found.points)), found)

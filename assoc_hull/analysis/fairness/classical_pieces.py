@@ -5,45 +5,50 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.chord_spline import ChordSpline
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.geometry.classical.elastica import Elastica
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.splines.fairness_graph import searched_distance
-from assoc_hull.geometry.splines.fairness_pieces import Seen, SplinePieces
+from assoc_hull.geometry.splines.curve_pieces import (
+    PieceDerivatives,
+    SplinePieces,
+    searched_distance,
+)
 
-__all__ = ["ArcPieces", "ElasticaPieces", "chord_pieces"]
+__all__ = ["ArcFairnessPieces", "ElasticaFairnessPieces", "chord_spline_pieces"]
 
 _UP = np.array([0.0, 0.0, 1.0])
 
 
-def chord_pieces(spline: ChordSpline) -> SplinePieces:
+def chord_spline_pieces(spline: ChordSpline) -> SplinePieces:
     """Give a chord spline as pieces: it is a composite cubic.
 
     Examples
     --------
     >>> from assoc_hull.geometry.classical.chord_spline import ChordSpline
-    >>> from assoc_hull.analysis.fairness.classical_pieces import chord_pieces
+    >>> from assoc_hull.analysis.fairness.classical_pieces import chord_spline_pieces
     >>> from assoc_hull.geometry.fairness.criteria import criteria
     >>> batten = ChordSpline.through([(0, 0), (2, 1), (4, 1.5), (7, 1.2), (9, 0)])
-    >>> criteria(chord_pieces(batten))[0].failed
+    >>> criteria(chord_spline_pieces(batten))[0].failed
     ()
     """
     return SplinePieces.of(spline.batch, _UP)
 
 
-def _seen(angle: FloatArray, curvature: FloatArray, rate: FloatArray, speed: FloatArray) -> Seen:
+def _seen(
+    angle: FloatArray, curvature: FloatArray, rate: FloatArray, speed: FloatArray
+) -> PieceDerivatives:
     """Put together what is seen from direction, curvature and its slope."""
     tangent = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     left = np.stack([-tangent[..., 1], tangent[..., 0]], axis=-1)
-    return Seen(tangent, curvature, rate, speed, curvature[..., None] * left, rate)
+    return PieceDerivatives(tangent, curvature, rate, speed, curvature[..., None] * left, rate)
 
 
 @attrs.frozen(eq=False)
-class ArcPieces:
+class ArcFairnessPieces:
     """One chain of arcs and straight lines."""
 
-    arcs: Arcs
+    arcs: PlaneArcs
 
     @property
     def owner(self) -> IntArray:
@@ -60,7 +65,7 @@ class ArcPieces:
         """Only the steps of curvature count."""
         return True
 
-    def seen(self, u: FloatArray) -> Seen:
+    def seen(self, u: FloatArray) -> PieceDerivatives:
         """Look at all arcs at parameters u (k,)."""
         arcs = self.arcs
         shape = (len(arcs), len(u))
@@ -78,7 +83,7 @@ class ArcPieces:
 
 
 @attrs.frozen(eq=False)
-class ElasticaPieces:
+class ElasticaFairnessPieces:
     """A chain of elastica, joined end to end; each is looked at in `parts` pieces."""
 
     segments: tuple[Elastica, ...]
@@ -99,7 +104,7 @@ class ElasticaPieces:
         """Curvature changes along an elastica."""
         return False
 
-    def seen(self, u: FloatArray) -> Seen:
+    def seen(self, u: FloatArray) -> PieceDerivatives:
         """Look at all pieces at parameters u (k,)."""
         rows = [self._one(each, u) for each in self.segments]
         angle, curvature, rate, speed = (np.concatenate(each) for each in zip(*rows, strict=True))

@@ -1,25 +1,46 @@
-"""Form parameters of a hull: a value for each entry of the catalogue."""
+"""Form parameters of a hull: a value for each entry of the catalogue, and the report of them.
+
+`form_parameters` gives values by symbol, kept until a line of the hull changes. `form_report` puts
+them into parts with headings and notes, and says what they hold good for.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
+from typing import Any
 
-from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.evaluate import check_catalogue, evaluate
-from assoc_hull.analysis.form.parameter import Parameter
-from assoc_hull.analysis.form.screw import Screw
-from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.value import Value
-from assoc_hull.analysis.hydrostatics.floating import require_numbers
-from assoc_hull.analysis.hydrostatics.flotation import flotation
-from assoc_hull.analysis.hydrostatics.hydrostatic_header import SALT
-from assoc_hull.analysis.hydrostatics.hydrostatics import position_of
-from assoc_hull.analysis.hydrostatics.measured_hull import HasState, header_of, state_of
-from assoc_hull.arguments import shown
-from assoc_hull.errors import WrongTypeError
-from assoc_hull.model.named_mapping import Named
+import attrs
 
-__all__ = ["form_parameters", "shape_of"]
+from assoc_hull.analysis.form.catalogue import CATALOGUE, GIVEN, TABLES, TITLES, by_table
+from assoc_hull.analysis.form.floating_shape import FloatingShape, Screw
+from assoc_hull.analysis.form.parameter import FormParameter, FormValue, check_catalogue, evaluate
+from assoc_hull.analysis.hydrostatics.floating_body import (
+    FloatingPosition,
+    planes_of,
+    require_numbers,
+)
+from assoc_hull.analysis.hydrostatics.flotation import flotation, header_of
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import position_of
+from assoc_hull.analysis.hydrostatics.record import SALT, HydrostaticHeader
+from assoc_hull.arguments import all_of, choice, shown, text
+from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.named_mapping import NamedMapping
+from assoc_hull.model.tables import HasState, state_of
+
+__all__ = [
+    "FormReport",
+    "ReportPart",
+    "ReportRow",
+    "form_parameters",
+    "form_report",
+    "number_text",
+    "shape_of",
+]
+
+# --------------------------------------------------------------------------------------
+# Form parameters of a hull: a value for each entry of the catalogue.
 
 _WHERE = "in form parameters"
 _MOST = 8
@@ -38,8 +59,8 @@ def form_parameters(
     shell_factor: float = 1.0,
     transom: bool = False,
     only: Iterable[str] | None = None,
-    further: Iterable[Parameter] = (),
-) -> Mapping[str, Value]:
+    further: Iterable[FormParameter] = (),
+) -> Mapping[str, FormValue]:
     """Give the form parameters of a hull, upright at a draught.
 
     Values are computed once: until a line of the hull changes, asking again costs nothing.
@@ -85,19 +106,19 @@ def form_parameters(
     """
     shape, known = _shape(hull, draught, draughts, screw, rho, shell_factor, transom)
     own = _entries(further)
-    entries: Mapping[str, Parameter] = CATALOGUE
+    entries: Mapping[str, FormParameter] = CATALOGUE
     if own:
-        entries = Named("form parameter", check_catalogue([*CATALOGUE.values(), *own]))
+        entries = NamedMapping("form parameter", check_catalogue([*CATALOGUE.values(), *own]))
         known = dict(known)  # another call may bring another entry of this name
     wanted = tuple(entries) if only is None else _symbols(only)
-    return Named("form parameter", evaluate(entries, wanted, shape, known))
+    return NamedMapping("form parameter", evaluate(entries, wanted, shape, known))
 
 
-def _entries(further: object) -> tuple[Parameter, ...]:
+def _entries(further: object) -> tuple[FormParameter, ...]:
     """Take entries of a caller's own."""
     found = tuple(further) if isinstance(further, Iterable) else (further,)
     for each in found:
-        if not isinstance(each, Parameter):
+        if not isinstance(each, FormParameter):
             raise WrongTypeError(
                 f"further holds {shown(each)}", _WHERE, "give entries made by `parameter`"
             )
@@ -122,7 +143,7 @@ def shape_of(
     rho: float = SALT,
     shell_factor: float = 1.0,
     transom: bool = False,
-) -> Shape:
+) -> FloatingShape:
     """Give what entries of the catalogue measure; arguments as for `form_parameters`."""
     return _shape(hull, draught, draughts, screw, rho, shell_factor, transom)[0]
 
@@ -135,7 +156,7 @@ def _shape(
     rho: float,
     shell_factor: float,
     transom: bool,
-) -> tuple[Shape, dict[str, Value]]:
+) -> tuple[FloatingShape, dict[str, FormValue]]:
     """Give a hull at its position, and what is known of it."""
     if not (screw is None or isinstance(screw, Screw)):
         raise WrongTypeError(f"screw is {shown(screw)}", _WHERE, "give a Screw")
@@ -146,10 +167,225 @@ def _shape(
     header = header_of(hull, body, terms)
     require_numbers(draughts if draught is None else draught, body.limits)
     position = position_of(header, draught, draughts, 0.0, "moulded")
-    kept: dict[object, tuple[Shape, dict[str, Value]]] = body.kept.setdefault(_KEPT, {})
+    kept: dict[object, tuple[FloatingShape, dict[str, FormValue]]] = body.kept.setdefault(_KEPT, {})
     key = (position, screw, header.rho, header.shell_factor, header.transom)
     if key not in kept:
         if len(kept) >= _MOST:
             kept.pop(next(iter(kept)), None)
-        kept[key] = Shape(body, header, position, state.particulars.depth, screw), {}
+        kept[key] = FloatingShape(body, header, position, state.particulars.depth, screw), {}
     return kept[key]
+
+
+# --------------------------------------------------------------------------------------
+# Form parameters of a hull as a report: what they hold good for, parts with headings, notes.
+
+_HEAD = (
+    "ship", "design draught", "datum", "water", "shell factor", "wetted surface", "deck", "date",
+    "fingerprint",
+)  # fmt: skip
+_REPORT_WHERE = "in a report of form parameters"
+
+
+@attrs.frozen
+class ReportRow:
+    """A line of a report.
+
+    Attributes
+    ----------
+    entry : Parameter
+        What it is.
+    value : Value
+        A number, or the reason why there is none.
+    notes : tuple of int
+        Numbers of the notes that stand below the report for it, from 1.
+    """
+
+    entry: FormParameter
+    value: FormValue
+    notes: tuple[int, ...]
+
+    @property
+    def mark(self) -> str:
+        """The notes as they are marked in the line."""
+        return ",".join(map(str, self.notes)) + ")" if self.notes else ""
+
+
+@attrs.frozen
+class ReportPart:
+    """Lines of a report below a heading; `table` is the part of the catalogue."""
+
+    table: str
+    title: str
+    rows: tuple[ReportRow, ...]
+
+
+@attrs.frozen(eq=False)
+class FormReport:
+    """Form parameters of a hull, upright at a draught.
+
+    Attributes
+    ----------
+    header : HydrostaticHeader
+        Ship, dimensions, water, fingerprint, date.
+    position : FloatingPosition
+        Where it floats.
+    screw : Screw or None
+        If it was given.
+    entries : mapping of str to Parameter
+        The entries of all values, by symbol.
+    particulars, values : mapping of str to Value
+        Principal particulars, which stand in the head whatever is wanted; what was wanted.
+    doubts : tuple of str
+        What makes the integrals doubtful.
+    """
+
+    header: HydrostaticHeader
+    position: FloatingPosition
+    screw: Screw | None
+    entries: Mapping[str, FormParameter]
+    particulars: Mapping[str, FormValue]
+    values: Mapping[str, FormValue]
+    doubts: tuple[str, ...]
+
+    @cached_property
+    def notes(self) -> tuple[str, ...]:
+        """Reasons and warnings, each once, as they come up from part to part."""
+        found = dict[str, None]()
+        for entries in self._by_table.values():
+            for each in entries:
+                found.update(dict.fromkeys(_remarks(self._value(each))))
+        return tuple(found)
+
+    @cached_property
+    def parts(self) -> tuple[ReportPart, ...]:
+        """The particulars, and the parts of the catalogue of which something was wanted."""
+        number = {words: k for k, words in enumerate(self.notes, 1)}
+
+        def row(entry: FormParameter) -> ReportRow:
+            value = self._value(entry)
+            return ReportRow(entry, value, tuple(number[words] for words in _remarks(value)))
+
+        return tuple(
+            ReportPart(table, TITLES.get(table, table), tuple(map(row, entries)))
+            for table, entries in self._by_table.items()
+        )
+
+    @cached_property
+    def _by_table(self) -> dict[str, list[FormParameter]]:
+        """The entries that stand in the report: as they were wanted, below the particulars."""
+        symbols = {**self.particulars, **self.values}
+        return by_table(self.entries[symbol] for symbol in symbols)
+
+    def _value(self, entry: FormParameter) -> FormValue:
+        """Give the value of an entry, a particular or what was wanted."""
+        chosen = self.values if entry.symbol in self.values else self.particulars
+        return chosen[entry.symbol]
+
+    def lines(self) -> Iterator[tuple[str, str]]:
+        """Give the head, but for the particulars, as pairs of a title and words."""
+        known = {**dict(self.header.lines()), "design draught": f"{self.header.draught:.3f} m"}
+        yield from ((title, known[title]) for title in _HEAD if title in known)
+        yield "screw", _screw_words(self.screw)
+        yield from (("doubt", each) for each in self.doubts)
+
+
+def form_report(
+    hull: HasState,
+    *,
+    draught: float | None = None,
+    draughts: tuple[float, float] | None = None,
+    screw: Screw | None = None,
+    rho: float = SALT,
+    shell_factor: float = 1.0,
+    transom: bool = False,
+    only: Iterable[str] | None = None,
+    tables: Iterable[str] | None = None,
+    further: Iterable[FormParameter] = (),
+    date: str | None = None,
+) -> FormReport:
+    """Report the form parameters of a hull, upright at a draught.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    draught, draughts, screw, rho, shell_factor, transom, further
+        As for `form_parameters`.
+    only : iterable of str or None
+        Symbols of the entries wanted.
+    tables : iterable of str or None
+        Or parts of the catalogue, such as "hull form"; all entries if neither is given.
+    date : str or None
+        For the head.
+
+    Raises
+    ------
+    BadInputError
+        As `form_parameters`; also `only` beside `tables`, or a part that is none.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.form.form_parameters import form_report
+    >>> from assoc_hull.sources import examples
+    >>> report = form_report(examples.wigley(), draught=6.25, only=["V", "Cb"])
+    >>> [part.title for part in report.parts]
+    ['Principal particulars', 'Hydrostatic values']
+    """
+    if date is not None:
+        text(date, "date", _REPORT_WHERE)
+    some = (further,) if isinstance(further, FormParameter) else further
+    own = tuple(all_of(some, FormParameter, "further", _REPORT_WHERE))
+    entries = {**CATALOGUE, **{each.symbol: each for each in own}}
+    place: dict[str, Any] = {"draught": draught, "draughts": draughts, "screw": screw, "rho": rho,
+             "shell_factor": shell_factor, "transom": transom}  # fmt: skip
+    values = form_parameters(
+        hull,
+        **place,
+        only=_wanted(entries, only, tables),
+        further=own,
+    )
+    given = [s for s, each in entries.items() if each.table == GIVEN]
+    particulars = form_parameters(hull, **place, only=given, further=own)
+    shape = shape_of(hull, **place)
+    header = attrs.evolve(shape.header, fingerprint=fingerprint(state_of(hull)), date=date)
+    doubts = shape.body.doubts(planes_of([shape.position], shape.length), False)
+    return FormReport(header, shape.position, screw, entries, particulars, values, tuple(doubts))
+
+
+def _wanted(
+    entries: Mapping[str, FormParameter], only: Iterable[str] | None, tables: Iterable[str] | None
+) -> Iterable[str] | None:
+    """Give the symbols wanted; None: all."""
+    if tables is None:
+        return only
+    if only is not None:
+        raise BadInputError("only and tables are both given", _REPORT_WHERE, "give one of them")
+    some = (tables,) if isinstance(tables, str) else all_of(tables, str, "tables", _REPORT_WHERE)
+    chosen = [choice(each, "a table", TABLES, _REPORT_WHERE) for each in some]
+    return [symbol for symbol, each in entries.items() if each.table in chosen]
+
+
+def number_text(row: ReportRow) -> str:
+    """Give the number of a line as it is printed; a dash where there is none."""
+    if row.value.number is None:
+        return "-"
+    digits = row.entry.digits
+    return f"{round(row.value.number, digits) + 0.0:.{digits}f}"
+
+
+def _remarks(value: FormValue) -> Iterator[str]:
+    yield from (each for each in (value.reason, value.warning) if each is not None)
+
+
+def _screw_words(screw: Screw | None) -> str:
+    if screw is None:
+        return "not given"
+    words = [f"diameter {screw.diameter:g} m", f"shaft {screw.height:g} m above the base line"]
+    if screw.x is not None:
+        words.append(f"x {screw.x:g} m")
+    words.append(f"two, {screw.spacing:g} m apart" if screw.spacing else "one")
+    if screw.boss_diameter is not None:
+        words.append(f"boss {screw.boss_diameter:g} m")
+    if screw.boss_x is not None:
+        words.append(f"its aft face at x {screw.boss_x:g} m")
+    return ", ".join(words)

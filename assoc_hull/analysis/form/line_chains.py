@@ -12,18 +12,18 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.integrals.plane_chains import (
+from assoc_hull.geometry.integrals.chains import (
     PlaneChains,
-    backward,
-    cut,
-    ends_of,
-    joined,
-    loop,
-    straight,
+    chain_ends,
+    closed_loop,
+    cut_chain,
+    join_chains,
+    reversed_chain,
+    straight_chain,
 )
 from assoc_hull.geometry.numeric.polynomials import differentiate, horner
 from assoc_hull.geometry.numeric.roots import unit_roots
-from assoc_hull.model.curve import Curve
+from assoc_hull.model.objects import Curve
 
 __all__ = ["AXES", "Span", "closed_chain", "function_chain"]
 
@@ -63,16 +63,16 @@ def function_chain(
     """
     runs = _in_order(curves, axes, along=0)
     if span is not None:
-        runs = [part for run in runs for part in cut(run, 0, *span)]
+        runs = [part for run in runs for part in cut_chain(run, 0, *span)]
     runs = [run for run in runs if np.abs(run[:, 1:]).max(initial=0.0) > 0.0]
     where, axis = f"in a transform of {name}", AXES[axes[0]]
-    ends = [ends_of(run)[side][0] for run in runs for side in (0, 1)]
+    ends = [chain_ends(run)[side][0] for run in runs for side in (0, 1)]
     if not runs or max(ends) <= min(ends):
         what = f"it has no extent along {axis}" + (" in the span" if span else "")
         raise BadInputError(what, where, "choose another abscissa or span")
     size = max(ends) - min(ends) if span is None else span[1] - span[0]
     _refuse_gaps(runs, _MEET * size, axis, where)
-    whole = joined(runs)
+    whole = join_chains(runs)
     _refuse_return(whole, _MEET * size, axis, where)
     return PlaneChains.single(whole if span is None else _filled(whole, span))
 
@@ -111,16 +111,16 @@ def closed_chain(
     places = np.concatenate([run[:, 0] for run in runs])
     size = float(np.ptp(places, axis=0).max())
     for one, next_ in pairwise(runs):
-        gap = np.abs(ends_of(one)[1] - ends_of(next_)[0]).max()
+        gap = np.abs(chain_ends(one)[1] - chain_ends(next_)[0]).max()
         if gap > _MEET * size:
             what = f"its curves lie {gap:.3g} m apart"
             raise BadInputError(what, where, "take one of its curves")
-    whole = joined(runs)
+    whole = join_chains(runs)
     if span is not None:
-        whole = joined(cut(whole, other, *span))
+        whole = join_chains(cut_chain(whole, other, *span))
     if not len(whole):
         raise BadInputError("it does not reach into the span", where, "choose another span")
-    return PlaneChains.single(loop(whole, mirror))
+    return PlaneChains.single(closed_loop(whole, mirror))
 
 
 def _in_order(curves: Sequence[Curve], axes: tuple[int, int], along: int) -> list[FloatArray]:
@@ -128,14 +128,14 @@ def _in_order(curves: Sequence[Curve], axes: tuple[int, int], along: int) -> lis
     found = []
     for curve in curves:
         chain = PlaneChains.of(curve.spline, axes).cubic
-        first, last = ends_of(chain)
-        found.append(chain if first[along] <= last[along] else backward(chain))
-    return sorted(found, key=lambda chain: float(sum(end[along] for end in ends_of(chain))))
+        first, last = chain_ends(chain)
+        found.append(chain if first[along] <= last[along] else reversed_chain(chain))
+    return sorted(found, key=lambda chain: float(sum(end[along] for end in chain_ends(chain))))
 
 
 def _refuse_gaps(runs: Sequence[FloatArray], allowed: float, axis: str, where: str) -> None:
     for one, next_ in pairwise(runs):
-        low, high = float(ends_of(one)[1][0]), float(ends_of(next_)[0][0])
+        low, high = float(chain_ends(one)[1][0]), float(chain_ends(next_)[0][0])
         if high - low > allowed:
             what = f"it has no curve from {axis} {low:.6g} to {high:.6g} m"
             raise BadInputError(what, where, "take one of its curves, or a span beside the gap")
@@ -158,11 +158,11 @@ def _refuse_return(chain: FloatArray, allowed: float, axis: str, where: str) -> 
 
 def _filled(chain: FloatArray, span: tuple[float, float]) -> FloatArray:
     """Lead a chain to both ends of the range, nil where there was no curve."""
-    first, last = ends_of(chain)
+    first, last = chain_ends(chain)
     parts = [chain]
     for place, end, after in ((first, span[0], False), (last, span[1], True)):
         if abs(place[0] - end) > _MEET * (span[1] - span[0]):
             gap = [np.array([end, 0.0]), np.array([place[0], 0.0])]
-            line = straight(*(gap[::-1] if after else gap))
+            line = straight_chain(*(gap[::-1] if after else gap))
             parts = [*parts, line] if after else [line, *parts]
-    return joined(parts)
+    return join_chains(parts)

@@ -1,20 +1,52 @@
-"""Measures of the centre-line profile: where it stands, its bulb, what lies before FP."""
+"""Measures of the centre-line profile: bulb, what lies before FP, transom, boss end, aperture.
+
+The profile is made of the curves in the centre plane at which the hull ends. Transom and boss end
+are flat ends of the net: the transom across the ship, aft of all lines; the boss end begins and
+ends on the centre plane.
+"""
 
 from __future__ import annotations
 
+import attrs
 import numpy as np
 
-from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.value import Absent
+from assoc_hull.analysis.form.floating_shape import FloatingShape
+from assoc_hull.analysis.form.half_section import section_at
+from assoc_hull.analysis.form.parameter import Absent
+from assoc_hull.analysis.net.curve_net import ON_CENTRE, CurveNet
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.integrals.beside import area_along, beside, runs
-from assoc_hull.geometry.splines.plane_places import Places, across, turning_places
-from assoc_hull.geometry.splines.segments import power
+from assoc_hull.geometry.integrals.chains import area_along, clip_cubics, continuous_runs
+from assoc_hull.geometry.numeric.circle_fit import fit_circle
+from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.plane_intersections import (
+    PointsOnCurves,
+    coordinate_turns,
+    points_at_coordinate,
+)
+from assoc_hull.geometry.splines.segments import power_coefficients
 
 __all__ = [
-    "LEAST_BULB", "NO_PROFILE", "area_before_fp", "bulb_tip", "profile_at", "profile_curves",
-    "slope_deg", "tips",
-]  # fmt: skip
+    "LEAST_BULB",
+    "NO_PROFILE",
+    "Boss",
+    "aft_end",
+    "area_before_fp",
+    "boss",
+    "boss_curve",
+    "bottom_at",
+    "bulb_tip",
+    "height_above",
+    "leaves_boss",
+    "profile_at",
+    "profile_curves",
+    "slope_deg",
+    "tips",
+    "transom",
+    "transom_curves",
+]
+
+# --------------------------------------------------------------------------------------
+# Measures of the centre-line profile: where it stands, its bulb, what lies before FP.
 
 NO_PROFILE = Absent("no profile drawn")
 
@@ -28,7 +60,7 @@ _TURN = 1e-6
 """A profile that runs back by less (m) does not turn."""
 
 
-def profile_curves(shape: Shape) -> SplineBatch | None:
+def profile_curves(shape: FloatingShape) -> SplineBatch | None:
     """Give the curves of the centre plane at which the hull ends."""
     net = shape.body.net
     chosen = np.flatnonzero(net.end & net.centre)
@@ -37,10 +69,10 @@ def profile_curves(shape: Shape) -> SplineBatch | None:
     return SplineBatch.join([net.batch.part(i, i + 1) for i in chosen.tolist()])
 
 
-def profile_at(shape: Shape, axis: int, value: float) -> Places | None:
+def profile_at(shape: FloatingShape, axis: int, value: float) -> PointsOnCurves | None:
     """Give where the profile has an x (axis 0) or a z (axis 2), m; None without a profile."""
     curves = shape.take(profile_curves)
-    return None if curves is None else across(curves, axis, value)
+    return None if curves is None else points_at_coordinate(curves, axis, value)
 
 
 def slope_deg(along: FloatArray) -> float:
@@ -48,7 +80,7 @@ def slope_deg(along: FloatArray) -> float:
     return float(np.degrees(np.arctan2(abs(along[2]), abs(along[0]))))
 
 
-def bulb_tip(shape: Shape) -> FloatArray | Absent:
+def bulb_tip(shape: FloatingShape) -> FloatArray | Absent:
     """Give the foremost place of the bulb, (3,), m.
 
     It is the foremost place before FP and below the design draught from which the profile runs
@@ -75,7 +107,7 @@ def tips(curves: SplineBatch, sense: float = 1.0) -> FloatArray:
     sense : float
         1: it runs aft from there both ways, as from the nose of a bulb; -1: forward.
     """
-    return _tips(_chained(list(turning_places(curves, 0))), sense)
+    return _tips(_chained(list(coordinate_turns(curves, 0))), sense)
 
 
 def _chained(runs: list[FloatArray]) -> list[FloatArray]:
@@ -123,7 +155,7 @@ def _falls(ahead: FloatArray) -> bool:
     return bool(back.any() and not beyond[: int(back.argmax())].any())
 
 
-def area_before_fp(shape: Shape, height: float, tan_trim: float) -> float:
+def area_before_fp(shape: FloatingShape, height: float, tan_trim: float) -> float:
     """Give the lateral area of the profile before FP and below a waterline, m2.
 
     Parameters
@@ -138,12 +170,147 @@ def area_before_fp(shape: Shape, height: float, tan_trim: float) -> float:
         return 0.0
     total = 0.0
     for i in range(curves.count):
-        cubic = power(curves.part(i, i + 1)).copy()
+        cubic = power_coefficients(curves.part(i, i + 1)).copy()
         # Measured from FP and from the waterline; a shear leaves areas as they are.
         cubic[:, :, 2] -= tan_trim * cubic[:, :, 0]
         cubic[:, 0, 0] -= shape.length
-        before = beside(cubic, np.array([-1.0, 0.0, 0.0]), 0.0)
-        for run in runs(beside(before, np.array([0.0, 0.0, 1.0]), height)):
+        before = clip_cubics(cubic, np.array([-1.0, 0.0, 0.0]), 0.0)
+        for run in continuous_runs(clip_cubics(before, np.array([0.0, 0.0, 1.0]), height)):
             rises = run[-1].sum(axis=0)[2] >= run[0, 0, 2]
             total += (1.0 if rises else -1.0) * area_along(run, (0, 2))
     return total
+
+
+# --------------------------------------------------------------------------------------
+# Measures of the stern: transom, boss end, bottom above the screw, aperture.
+
+_AT_END = 1e-3
+"""A flat end so near to the aftmost place of the lines (m) is the transom."""
+
+_LEVEL = 1e-4
+"""Places that differ in height by less (m) are level."""
+
+
+def _flat_ends(net: CurveNet, length: float) -> list[int]:
+    """Give the curves of the net that are flat ends of the after body."""
+    return np.flatnonzero(net.end & (net.x < 0.5 * length)).tolist()
+
+
+def transom_curves(net: CurveNet, length: float) -> list[int]:
+    """Give the curves of the transom's edge: a flat end across the ship aft of all lines.
+
+    Parameters
+    ----------
+    net : Net
+        The lines.
+    length : float, m
+        Lpp.
+    """
+    aftmost = float(net.batch.xyz[:, 0].min())
+    return [i for i in _flat_ends(net, length) if net.x[i] <= aftmost + _AT_END]
+
+
+def transom(shape: FloatingShape) -> SplineBatch | Absent:
+    """Give the edge of the transom: a flat end across the ship at the aft end of all lines."""
+    net = shape.body.net
+    chosen = transom_curves(net, shape.length)
+    if not chosen:
+        return Absent("no transom")
+    return SplineBatch.join([net.batch.part(i, i + 1) for i in chosen])
+
+
+@attrs.frozen
+class Boss:
+    """A boss end on the centre line, as drawn.
+
+    Attributes
+    ----------
+    x : float, m
+        Of its aft face.
+    top : float, m
+        z of its upper side.
+    height, diameter : float, m
+        Centre above the base line, and size, of the circle through its edge.
+    """
+
+    x: float
+    top: float
+    height: float
+    diameter: float
+
+
+def boss_curve(net: CurveNet, length: float) -> int | None:
+    """Give the edge of a boss end: a flat end from the centre plane to it, not the transom.
+
+    Parameters
+    ----------
+    net : Net
+        The lines.
+    length : float, m
+        Lpp.
+    """
+    edge = transom_curves(net, length)
+    aft = float(net.batch.part(edge[0], edge[0] + 1).xyz[0, 0]) if edge else np.nan
+    for i in _flat_ends(net, length):
+        ends = net.batch.part(i, i + 1).xyz[[0, -1], 1]
+        if net.x[i] != aft and np.abs(ends).max() <= ON_CENTRE:
+            return i
+    return None
+
+
+def boss(shape: FloatingShape) -> Boss | None:
+    """Give the boss end: a flat end that begins and ends on the centre plane, not the transom."""
+    net = shape.body.net
+    i = boss_curve(net, shape.length)
+    if i is None:
+        return None
+    one = net.batch.part(i, i + 1)
+    places = sample(one)[1][:, 1:]
+    edge_of = fit_circle(np.concatenate([places, places * [-1.0, 1.0]]))
+    top = float(one.xyz[[0, -1], 2].max())
+    return Boss(float(net.x[i]), top, float(edge_of.centre[1]), 2.0 * edge_of.radius)
+
+
+def leaves_boss(shape: FloatingShape, end: Boss) -> float | Absent:
+    """Give x where the profile above leaves the boss, whose upper side is level, m."""
+    curves = shape.take(profile_curves)
+    if curves is None:
+        return NO_PROFILE
+    for i in range(curves.count):
+        xyz = curves.part(i, i + 1).xyz
+        for run in (xyz, xyz[::-1]):
+            if abs(run[0, 0] - end.x) <= ON_CENTRE and abs(run[0, 2] - end.top) <= ON_CENTRE:
+                level = np.abs(run[:, 2] - end.top) <= _LEVEL
+                return float(run[int(np.append(level, False).argmin()) - 1, 0])
+    return Absent("no profile above the boss")
+
+
+def aft_end(shape: FloatingShape) -> float | Absent:
+    """Give x of the aft end of the profile, m."""
+    curves = shape.take(profile_curves)
+    if curves is None:
+        return NO_PROFILE
+    return float(np.concatenate(coordinate_turns(curves, 0))[:, 0].min())
+
+
+def bottom_at(shape: FloatingShape, x: float) -> tuple[float, FloatArray] | Absent:
+    """Give height (m) and direction of the profile at a place, where it is lowest."""
+    found = profile_at(shape, 0, x)
+    if found is None:
+        return NO_PROFILE
+    if not len(found.t):
+        return Absent("the profile does not reach there")
+    lowest = int(found.xyz[:, 2].argmin())
+    return float(found.xyz[lowest, 2]), found.along[lowest]
+
+
+def height_above(shape: FloatingShape, x: float, y: float, z: float) -> float | Absent:
+    """Give the height of the hull over a place, m: its lowest z there that is above `z`."""
+    if y == 0.0:
+        places = profile_at(shape, 0, x)
+        found = np.zeros(0) if places is None else places.xyz[:, 2]
+    else:
+        section = section_at(shape, x)
+        found = np.zeros(0) if section is None else section.heights(y)
+    above = found[found > z]
+    return float(above.min()) if len(above) else Absent("no hull above the screw")

@@ -1,4 +1,10 @@
-"""What hydrostatics asks of a hull: integrals below planes, areas of stations and transom."""
+"""A body that floats: its position, between what planes it can, what is measured, its freeboard.
+
+A plane is ``z = T_A + (T_F - T_A) x / Lpp - y tan(heel)``: draughts are those of the centre line,
+moulded (from the base line), heel is + with starboard down. Hydrostatics and stability ask a hull
+for what the protocols here say, and for nothing else; `Flotation` and `MeshFlotation` answer.
+Appendages are added by name to what is measured of the moulded hull.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +12,374 @@ from collections.abc import Sequence
 from typing import Protocol
 
 import attrs
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
 
-from assoc_hull.analysis.hydrostatics.floating import Limits
+from assoc_hull.arguments import checked, not_negative, number, numbers, place, plain, text
+from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 
-__all__ = ["Change", "FloatingBody", "Floats", "Measurable", "StationAreas"]
+__all__ = [
+    "Appendage",
+    "Floatable",
+    "FloatingBody",
+    "FloatingPosition",
+    "Freeboard",
+    "IntegralChange",
+    "Measurable",
+    "StationAreas",
+    "WaterplaneLimits",
+    "deck_edge_heel",
+    "least_freeboard",
+    "planes_of",
+    "require_afloat",
+    "require_numbers",
+    "require_volume",
+    "rising_numbers",
+    "with_appendages",
+]
+
+# --------------------------------------------------------------------------------------
+# Where a hull floats: draughts at the perpendiculars and heel, and what of them can be.
+#
+# A plane is ``z = T_A + (T_F - T_A) x / Lpp - y tan(heel)``: draughts are those of the centre
+# line, moulded (from the base line), heel is + with starboard down.
+
+_IN_POSITION = "in a floating position"
+
+
+def _heel(_: object, __: object, value: object) -> None:
+    if not -90.0 < number(value, "heel_deg", _IN_POSITION) < 90.0:
+        raise OutOfRangeError(
+            "heel", float(str(value)), _IN_POSITION, "lays the ship on her side", -89.9, 89.9, "deg"
+        )
+
+
+@attrs.frozen
+class FloatingPosition:
+    """A floating position.
+
+    Attributes
+    ----------
+    draught_aft, draught_fore : float, m
+        T_A and T_F: on the centre line, at the perpendiculars, moulded.
+    heel_deg : float, degrees
+        + starboard down; between -90 and 90.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
+    >>> FloatingPosition(6.0, 5.0).trim_by_stern
+    1.0
+    """
+
+    draught_aft: float = attrs.field(converter=plain, validator=checked(number, _IN_POSITION))
+    draught_fore: float = attrs.field(converter=plain, validator=checked(number, _IN_POSITION))
+    heel_deg: float = attrs.field(default=0.0, converter=plain, validator=_heel)
+
+    @property
+    def draught_mean(self) -> float:
+        """Mean of the two draughts, m."""
+        return 0.5 * (self.draught_aft + self.draught_fore)
+
+    @property
+    def trim_by_stern(self) -> float:
+        """T_A - T_F, m."""
+        return self.draught_aft - self.draught_fore
+
+    def __str__(self) -> str:
+        return (
+            f"at T_A {self.draught_aft:g} m, T_F {self.draught_fore:g} m, "
+            f"heel {self.heel_deg:g} deg"
+        )
+
+
+def planes_of(positions: Sequence[FloatingPosition], length: float) -> FloatingPlanes:
+    """Give the planes of floating positions.
+
+    Parameters
+    ----------
+    positions : sequence of d FloatingPosition
+        Where the hull floats.
+    length : float, m
+        Between perpendiculars.
+
+    Returns
+    -------
+    Planes
+        One per position.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, planes_of
+    >>> planes_of([FloatingPosition(6.0, 5.0)], 100.0).tan_trim.tolist()
+    [-0.01]
+    """
+    aft = np.array([each.draught_aft for each in positions], np.float64)
+    fore = np.array([each.draught_fore for each in positions], np.float64)
+    heel = np.array([each.heel_deg for each in positions], np.float64)
+    return FloatingPlanes(aft, (fore - aft) / length, np.tan(np.radians(heel)))
+
+
+@attrs.frozen(eq=False)
+class WaterplaneLimits:
+    """Between what a plane must lie to be a waterplane of a hull; port side, m.
+
+    Attributes
+    ----------
+    bottom : (n, 3)
+        Places of the hull among which the lowest is, at any trim and heel.
+    deck : (k, 3)
+        The deck edge.
+    closed : bool
+        The deck is closed: it may go under, as long as some of it is dry. An open deck is
+        drowned as soon as its edge is.
+    """
+
+    bottom: FloatArray
+    deck: FloatArray
+    closed: bool
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.bottom, self.deck)
+
+    def mean_draughts(self, planes: FloatingPlanes, length: float) -> tuple[FloatArray, FloatArray]:
+        """Give the least and the most mean draught (m) at the trim and heel of each plane."""
+        lift = 0.5 * length * planes.tan_trim
+        low = _heights(self.bottom, planes, up=-1.0).min(axis=1)
+        top = _heights(self.deck, planes, up=1.0 if self.closed else -1.0)
+        return low + lift, (top.max(axis=1) if self.closed else top.min(axis=1)) + lift
+
+
+def _heights(points: FloatArray, planes: FloatingPlanes, up: float) -> FloatArray:
+    """Give the heights at x = y = 0 of planes through points, (d, n).
+
+    Of port and starboard that is taken which lies higher over the water (`up` 1), or deeper (-1).
+    """
+    x, y, z = points.T
+    side = up * np.abs(planes.tan_heel[:, None]) * np.abs(y)
+    found: FloatArray = z - planes.tan_trim[:, None] * x + side
+    return found
+
+
+def require_afloat(
+    positions: Sequence[FloatingPosition], limits: WaterplaneLimits, length: float
+) -> FloatingPlanes:
+    """Give the planes of floating positions, or say which cannot be.
+
+    Parameters
+    ----------
+    positions : sequence of d FloatingPosition
+        Where the hull floats.
+    limits : Limits
+        Of the hull.
+    length : float, m
+        Between perpendiculars.
+
+    Raises
+    ------
+    OutOfRangeError
+        A plane misses the ship, below or above, or drowns an open deck; with the range of
+        mean draughts at that trim and heel.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.analysis.hydrostatics.floating_body import (
+    ...     FloatingPosition,
+    ...     require_afloat,
+    ...     WaterplaneLimits,
+    ... )
+    >>> box = np.array([[0.0, 10, 0], [100, 10, 0]])
+    >>> limits = WaterplaneLimits(box, box + [0, 0, 12.0], closed=False)
+    >>> require_afloat([FloatingPosition(13.0, 13.0)], limits, 100.0)
+    Traceback (most recent call last):
+    ...
+    assoc_hull.errors.OutOfRangeError: a mean draught of 13 m drowns the open deck, at T_A 13 m, \
+T_F 13 m, heel 0 deg; give one from 0 to 12 m
+    """
+    planes = planes_of(positions, length)
+    least, most = limits.mean_draughts(planes, length)
+    for each, low, high in zip(positions, least.tolist(), most.tolist(), strict=True):
+        value = each.draught_mean
+        if low >= high:
+            what = f"no draught keeps the deck dry, {each}"
+            raise BadInputError(
+                what, "in hydrostatics", "give less trim or heel, or close the deck"
+            )
+        if not low < value <= high:
+            over = "lies above the deck" if limits.closed else "drowns the open deck"
+            why = "lies below the keel" if value <= low else over
+            raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m")
+    return planes
+
+
+def require_numbers(draughts: object, limits: WaterplaneLimits) -> None:
+    """Refuse draughts of which one is no finite number, with the range at even keel.
+
+    Parameters
+    ----------
+    draughts : float, or (k,), m
+        What was given; what is no number at all is left to others.
+    limits : Limits
+        Of the hull.
+
+    Raises
+    ------
+    OutOfRangeError
+        One that is nan or infinite.
+    """
+    try:
+        given = np.ravel(np.array(draughts, np.float64)) if draughts is not None else np.zeros(0)
+    except (TypeError, ValueError, OverflowError):
+        return
+    odd = given[~np.isfinite(given)]
+    if len(odd):
+        level = FloatingPlanes(np.zeros(1), np.zeros(1), np.zeros(1))
+        least, most = (float(each[0]) for each in limits.mean_draughts(level, 0.0))
+        why = "is no finite number"
+        raise OutOfRangeError("a draught", float(odd[0]), _IN_POSITION, why, least, most, "m")
+
+
+def rising_numbers(values: object, name: str, where: str) -> FloatArray:
+    """Take numbers (k,), m, that rise; one number will do.
+
+    Raises
+    ------
+    BadInputError
+        No number, one that is not finite, or one that is not above the one before.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.hydrostatics.floating_body import rising_numbers
+    >>> rising_numbers([4, 5, 6.5], "draughts", "in a table").tolist()
+    [4.0, 5.0, 6.5]
+    """
+    found = np.atleast_1d(numbers(values, name, where))
+    if not len(found):
+        raise BadInputError(f"{name} is empty", where, "give one number or more")
+    step = np.diff(found)
+    if (step <= 0.0).any():
+        k = int(np.argmax(step <= 0.0))
+        pair = f"{found[k + 1]:g} stands after {found[k]:g}"
+        raise BadInputError(
+            f"{name} does not rise: {pair}", where, "give rising numbers, each once"
+        )
+    return found
+
+
+# --------------------------------------------------------------------------------------
+# Appendages: what is added to a moulded hull by name, or taken from it.
+
+_IN_APPENDAGE = "in an appendage"
+
+
+def _three(value: object) -> tuple[float, float, float]:
+    """Take a place as three numbers."""
+    x, y, z = place(value, "centroid", _IN_APPENDAGE).tolist()
+    return x, y, z
+
+
+@attrs.frozen
+class Appendage:
+    """A rudder, a bilge keel, a bow thruster's tunnel: listed apart in every table.
+
+    It counts whole where the place of its centroid is under water, and else not at all.
+
+    Attributes
+    ----------
+    name : str
+        Of the appendage.
+    volume : float, m3
+        Of all of it, both sides; negative for a recess that the moulded hull encloses.
+    centroid : (float, float, float), m
+        x from AP, y + to port, z from the base line.
+    area : float, m2
+        That it adds to the wetted surface.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.hydrostatics.floating_body import Appendage
+    >>> Appendage("bow thruster tunnel", -12.5, (140.0, 0.0, 3.2), 31.0).volume
+    -12.5
+    """
+
+    name: str = attrs.field(validator=checked(text, _IN_APPENDAGE))
+    volume: float = attrs.field(validator=checked(number, _IN_APPENDAGE))
+    centroid: tuple[float, float, float] = attrs.field(converter=_three)
+    area: float = attrs.field(default=0.0, validator=checked(not_negative, _IN_APPENDAGE))
+
+    def immersed(self, planes: FloatingPlanes) -> NDArray[np.bool_]:
+        """Tell below which planes its centroid lies, (d,)."""
+        x, y, z = self.centroid
+        wet: NDArray[np.bool_] = z < planes.height + planes.tan_trim * x - planes.tan_heel * y
+        return wet
+
+
+def with_appendages(
+    immersed: ImmersedIntegrals, appendages: Sequence[Appendage], planes: FloatingPlanes
+) -> ImmersedIntegrals:
+    """Add appendages to what is measured of a bare hull: to volume, moments and shell.
+
+    Parameters
+    ----------
+    immersed : Immersed
+        Below d planes.
+    appendages : sequence of Appendage
+        Each counts below the planes under which its centroid lies.
+    planes : Planes
+        The planes.
+    """
+    for each in appendages:
+        x, y, z = each.centroid
+        wet = each.immersed(planes)
+        volume = np.where(wet, each.volume, 0.0)
+        immersed = attrs.evolve(
+            immersed,
+            volume=immersed.volume + volume,
+            moment_x=immersed.moment_x + volume * x,
+            moment_y=immersed.moment_y + volume * y,
+            moment_z=immersed.moment_z + volume * z,
+            shell=immersed.shell + np.where(wet, each.area, 0.0),
+        )
+    return immersed
+
+
+def require_volume(
+    volume: FloatArray, appendages: Sequence[Appendage], planes: FloatingPlanes, where: str
+) -> None:
+    """Refuse appendages that take away all of the hull.
+
+    Parameters
+    ----------
+    volume : (d,), m3
+        Of hull and appendages, below each plane.
+    appendages : sequence of Appendage
+        They.
+    planes : Planes
+        The planes.
+    where : str
+        For the error.
+
+    Raises
+    ------
+    BadInputError
+        Nothing is left below a plane.
+    """
+    if not appendages or (volume > 0.0).all():
+        return
+    k = int(np.argmin(volume))
+    added = sum(each.volume * float(each.immersed(planes)[k]) for each in appendages)
+    bare = float(volume[k]) - added
+    what = f"appendages of {added:g} m3 leave nothing of the {bare:g} m3 of the bare hull"
+    at = f"below z {float(planes.height[k]):g} m at AP"
+    raise BadInputError(what, f"{where}, {at}", "give volumes that are a part of the hull's")
+
+
+# --------------------------------------------------------------------------------------
+# What hydrostatics asks of a hull: integrals below planes, areas of stations and transom.
 
 
 @attrs.frozen(eq=False)
@@ -37,7 +405,7 @@ class StationAreas:
 
 
 @attrs.frozen(eq=False)
-class Change:
+class IntegralChange:
     """By how much what is measured may be off: changes that come together, with their signs.
 
     Attributes
@@ -50,7 +418,7 @@ class Change:
         Change of the transom's area.
     """
 
-    immersed: Immersed
+    immersed: ImmersedIntegrals
     areas: FloatArray | None = None
     transom: FloatArray | None = None
 
@@ -58,28 +426,28 @@ class Change:
 class Measurable(Protocol):
     """A hull that can be cut by planes; both sides of it, m."""
 
-    def measure(self, planes: Planes) -> Immersed:
+    def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Give the integrals below each plane."""
         ...
 
-    def stations(self, planes: Planes) -> StationAreas:
+    def stations(self, planes: FloatingPlanes) -> StationAreas:
         """Give the areas of the stations below each plane."""
         ...
 
-    def transom(self, planes: Planes) -> FloatArray:
+    def transom(self, planes: FloatingPlanes) -> FloatArray:
         """Give the area of transom and other flat ends below each plane, (d,), m2."""
         ...
 
 
-class Floats(Protocol):
+class Floatable(Protocol):
     """What can be floated: integrals below planes, and what planes must lie between."""
 
     @property
-    def limits(self) -> Limits:
+    def limits(self) -> WaterplaneLimits:
         """What a waterplane must lie between, and the deck edge."""
         ...
 
-    def measure(self, planes: Planes) -> Immersed:
+    def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Give the integrals below each plane."""
         ...
 
@@ -88,14 +456,136 @@ class FloatingBody(Measurable, Protocol):
     """One that also knows where it floats, and how far its numbers can be trusted."""
 
     @property
-    def limits(self) -> Limits:
+    def limits(self) -> WaterplaneLimits:
         """What a waterplane must lie between, and the deck edge."""
         ...
 
-    def changes(self, planes: Planes) -> Sequence[Change]:
+    def changes(self, planes: FloatingPlanes) -> Sequence[IntegralChange]:
         """Give by how much the integrals may be off; the amounts of several items add up."""
         ...
 
-    def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
+    def doubts(self, planes: FloatingPlanes, numbers: bool = True) -> Sequence[str]:
         """Name what makes the integrals doubtful; `numbers` compares them by other routes too."""
         ...
+
+
+# --------------------------------------------------------------------------------------
+# Freeboard, and the heel at which the deck edge goes under.
+
+_STEEPEST = 89.0  # degrees
+_STEP = 10.0
+_FINE = 1e-8
+
+
+@attrs.frozen
+class Freeboard:
+    """Where the deck edge is nearest to the water.
+
+    Attributes
+    ----------
+    least : float, m
+        Height of the deck edge above the water, at right angles to the water; below 0 if it is
+        under water.
+    place : (float, float, float), m
+        Of that point of the deck edge; y below 0 to starboard.
+    """
+
+    least: float
+    place: tuple[float, float, float]
+
+
+def least_freeboard(deck: FloatArray, position: FloatingPosition, length: float) -> Freeboard:
+    """Give the least freeboard.
+
+    Parameters
+    ----------
+    deck : (n, 3), m
+        The deck edge, port side.
+    position : FloatingPosition
+        Where the hull floats.
+    length : float, m
+        Between perpendiculars.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
+    >>> from assoc_hull.analysis.hydrostatics.floating_body import least_freeboard
+    >>> edge = np.array([[0.0, 10, 12], [100, 10, 12]])
+    >>> least_freeboard(edge, FloatingPosition(6.0, 5.0), 100.0)
+    Freeboard(least=5.99970002249813, place=(0.0, 10.0, 12.0))
+    """
+    plane = planes_of([position], length)
+    both = np.concatenate([deck, deck * [1.0, -1.0, 1.0]])
+    x, y, z = both.T
+    above = z - plane.height - plane.tan_trim * x + plane.tan_heel * y
+    above = above / np.sqrt(1.0 + plane.tan_trim**2 + plane.tan_heel**2)
+    near = int(np.argmin(above))
+    x0, y0, z0 = both[near].tolist()
+    return Freeboard(float(above[near]), (x0, y0, z0))
+
+
+def deck_edge_heel(
+    body: Floatable,
+    position: FloatingPosition,
+    length: float,
+    appendages: tuple[Appendage, ...] = (),
+) -> float | None:
+    """Give the heel (degrees, to starboard) at which the deck edge goes under.
+
+    Displacement and trim stay as they are. At each heel there is one plane that touches the
+    deck edge; the edge is dry as long as the hull displaces more below that plane than it has to.
+
+    Parameters
+    ----------
+    body : Floats
+        The hull.
+    position : FloatingPosition
+        Where it floats upright; its own heel does not count.
+    length : float, m
+        Between perpendiculars.
+    appendages : tuple of Appendage
+        That carry as well.
+
+    Returns
+    -------
+    float or None
+        0 if it is under water upright; None if it stays dry to 89 degrees.
+    """
+    upright = attrs.evolve(position, heel_deg=0.0)
+    planes = planes_of([upright], length)
+    slope = float(planes.tan_trim[0])
+    want = float(with_appendages(body.measure(planes), appendages, planes).volume[0])
+
+    def spare(heel: float) -> float:
+        """Give what the hull displaces below the plane that touches its deck edge, less that."""
+        return _touching_volume(body, heel, slope, length, appendages) - want
+
+    if spare(0.0) <= 0.0:
+        return 0.0
+    deck = body.limits.deck
+    turn = np.arctan2(least_freeboard(deck, upright, length).least, np.abs(deck[:, 1]).max() + 1e-9)
+    low, high = 0.0, min(1.2 * float(np.degrees(turn)), _STEEPEST)
+    while spare(high) > 0.0:
+        if high >= _STEEPEST:
+            return None
+        low, high = high, min(high + _STEP, _STEEPEST)
+    return float(brentq(spare, low, high, xtol=_FINE))
+
+
+def _touching_volume(
+    body: Floatable,
+    heel: float,
+    slope: float,
+    length: float,
+    appendages: tuple[Appendage, ...],
+) -> float:
+    """Give the volume below the plane that touches the deck edge from below at a heel."""
+    turned = np.array([slope]), np.array([np.tan(np.radians(heel))])
+    limits = body.limits
+    edge = WaterplaneLimits(limits.bottom, limits.deck, closed=False)
+    least, most = edge.mean_draughts(FloatingPlanes(np.zeros(1), *turned), length)
+    if most[0] <= least[0]:
+        return 0.0
+    touching = FloatingPlanes(most - 0.5 * length * slope, *turned)
+    return float(with_appendages(body.measure(touching), appendages, touching).volume[0])

@@ -1,40 +1,77 @@
 """A hull as what floats: its surface below planes, its stations, its doubts.
 
-The surface goes through the lines of the net (`assoc_hull.analysis.net`); it is put together
-anew only when a line has changed.
+The surface goes through the lines of the net (`assoc_hull.analysis.net`). It is kept with the
+tables, and put together again only when a line has changed. Here is also the door from a hull to
+what is measured of it: `body_of`, `header_of`, and the volume at even keel for previews.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.hydrostatics.doubt import doubtful_lines, doubtful_numbers, open_sections
-from assoc_hull.analysis.hydrostatics.estimate import Spread, by_waterplanes, spread_of
-from assoc_hull.analysis.hydrostatics.floating import Limits
-from assoc_hull.analysis.hydrostatics.floating_body import Change, StationAreas
-from assoc_hull.analysis.net.cells import Layout, lay_out
-from assoc_hull.analysis.net.gather import Net, gather
-from assoc_hull.analysis.net.sections import Sections, flat_ends_below, sections_of
+from assoc_hull.analysis.hydrostatics.accuracy import (
+    ErrorEstimator,
+    doubtful_lines,
+    doubtful_numbers,
+    error_estimator,
+    integrate_by_waterplanes,
+    open_sections,
+)
+from assoc_hull.analysis.hydrostatics.floating_body import (
+    FloatingBody,
+    IntegralChange,
+    StationAreas,
+    WaterplaneLimits,
+)
+from assoc_hull.analysis.hydrostatics.record import HydrostaticHeader
+from assoc_hull.analysis.net.curve_net import (
+    CurveNet,
+    NetSections,
+    flat_ends_below,
+    gather_net,
+    sections_of,
+)
+from assoc_hull.analysis.net.surface_layout import SurfaceLayout, lay_out_surface
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
-from assoc_hull.geometry.floating.immersed_sections import sections_and_moments_below
-from assoc_hull.geometry.floating.immersion import immersed
-from assoc_hull.geometry.floating.prepared_strips import Prepared, prepare
-from assoc_hull.geometry.floating.strip_spans import Spans, spans
+from assoc_hull.geometry.floating.immersion import (
+    FloatingPlanes,
+    ImmersedIntegrals,
+    integrate_immersed,
+)
+from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
+from assoc_hull.geometry.floating.raked_strips import StripSpans, strip_spans
+from assoc_hull.geometry.floating.sections import sections_and_moments_below
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
+from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.index import Objects
 from assoc_hull.model.lofting import curve_data
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState, state_of
 
-__all__ = ["Flotation", "flotation"]
+if TYPE_CHECKING:
+    from assoc_hull.model.tables import HasState
+
+__all__ = [
+    "EvenKeelDisplacement",
+    "Flotation",
+    "body_of",
+    "even_keel_displacement",
+    "flotation",
+    "header_of",
+]
+
+# --------------------------------------------------------------------------------------
+# A hull as what floats: its surface below planes, its stations, its doubts.
+#
+# The surface goes through the lines of the net (`assoc_hull.analysis.net`); it is put together
+# anew only when a line has changed.
 
 _KEPT = "flotation"
 """Under this name what floats of a hull is kept with its tables."""
@@ -64,32 +101,32 @@ class Flotation:
     """
 
     state: HullState
-    net: Net
-    layout: Layout
+    net: CurveNet
+    layout: SurfaceLayout
     strips: CoonsStrips
     kinds: NDArray[np.int8]
     kept: dict[object, Any] = attrs.field(factory=dict, init=False, repr=False)
-    _route: dict[bytes, Immersed] = attrs.field(factory=dict, init=False, repr=False)
+    _route: dict[bytes, ImmersedIntegrals] = attrs.field(factory=dict, init=False, repr=False)
 
     @cached_property
-    def prepared(self) -> Prepared:
+    def prepared(self) -> PreparedStrips:
         """The surface with its integrals."""
-        return prepare(self.strips)
+        return prepare_strips(self.strips)
 
     @cached_property
-    def spans(self) -> Spans:
+    def spans(self) -> StripSpans:
         """How far its strips reach along the ship."""
-        return spans(self.prepared)
+        return strip_spans(self.prepared)
 
     @cached_property
-    def sections(self) -> Sections:
+    def sections(self) -> NetSections:
         """The sections as drawn."""
         return sections_of(self.net, self.closed)
 
     @cached_property
-    def spread(self) -> Spread:
+    def spread(self) -> ErrorEstimator:
         """What tells how far numbers may be off."""
-        return spread_of(self.state, self.net, self.strips, self.closed)
+        return error_estimator(self.state, self.net, self.strips, self.closed)
 
     @property
     def closed(self) -> bool:
@@ -97,21 +134,21 @@ class Flotation:
         return self.state.particulars.deck == "closed"
 
     @cached_property
-    def limits(self) -> Limits:
+    def limits(self) -> WaterplaneLimits:
         """What a waterplane must lie between, and the deck edge."""
         places = sample(self.net.batch, _SAMPLES)[1]
         deck = self.layout.deck_edge(self.net)
-        return Limits(places, deck, self.closed)
+        return WaterplaneLimits(places, deck, self.closed)
 
-    def measure(self, planes: Planes) -> Immersed:
+    def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Give the integrals below each plane."""
-        return immersed(self.prepared, planes)
+        return integrate_immersed(self.prepared, planes)
 
-    def stations(self, planes: Planes) -> StationAreas:
+    def stations(self, planes: FloatingPlanes) -> StationAreas:
         """Give the areas of the stations below each plane."""
         return self.stations_and_moments(planes)[0]
 
-    def stations_and_moments(self, planes: Planes) -> tuple[StationAreas, FloatArray]:
+    def stations_and_moments(self, planes: FloatingPlanes) -> tuple[StationAreas, FloatArray]:
         """Give the areas of the stations, and their moments about the base line, (d, n), m3."""
         found = self.sections
         each = sections_and_moments_below(found.curves, planes)
@@ -119,17 +156,17 @@ class Flotation:
         freeze(moment)
         return StationAreas(found.x.copy(), area, found.names), moment
 
-    def transom(self, planes: Planes) -> FloatArray:
+    def transom(self, planes: FloatingPlanes) -> FloatArray:
         """Give the area of transom and other flat ends below each plane, (d,), m2."""
         return flat_ends_below(self.net, self.closed, planes)
 
-    def changes(self, planes: Planes) -> Sequence[Change]:
+    def changes(self, planes: FloatingPlanes) -> Sequence[IntegralChange]:
         """Give by how much the integrals may be off; the amounts of several items add up."""
         return self.spread.changes(
             self.measure(planes), self.by_waterplanes(planes), self.sections, planes
         )
 
-    def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
+    def doubts(self, planes: FloatingPlanes, numbers: bool = True) -> Sequence[str]:
         """Say what is wrong with the hull, line by line; nothing if it can be trusted.
 
         Parameters
@@ -164,14 +201,14 @@ class Flotation:
     def _doubtful_lines(self) -> list[str]:
         return doubtful_lines(self.net, self.layout, self.sections, self.kinds)
 
-    def by_waterplanes(self, planes: Planes) -> Immersed:
+    def by_waterplanes(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Give volume and moments by the vertical route; the last answer is kept."""
         key = b"".join(np.ascontiguousarray(each).tobytes() for each in attrs.astuple(planes))
         found = self._route.get(key)
         if found is None:
             known = self.measure(planes)
             places = self.net.batch.xyz
-            found = by_waterplanes(self.prepared, planes, known, places, self._corners)
+            found = integrate_by_waterplanes(self.prepared, planes, known, places, self._corners)
             # Another thread may do the same: what is returned is not read back from the store.
             self._route.clear()
             self._route[key] = found
@@ -196,8 +233,8 @@ def flotation(state: HullState) -> Flotation:
     >>> import numpy as np
     >>> from assoc_hull.analysis.hydrostatics.flotation import flotation
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.geometry.floating.immersed import Planes
-    >>> planes = Planes(np.array([6.25]), np.zeros(1), np.zeros(1))
+    >>> from assoc_hull.geometry.floating.immersion import FloatingPlanes
+    >>> planes = FloatingPlanes(np.array([6.25]), np.zeros(1), np.zeros(1))
     >>> round(float(flotation(wigley()).measure(planes).volume[0]))  # 4/9 L B T
     2777
     """
@@ -205,14 +242,14 @@ def flotation(state: HullState) -> Flotation:
     known: tuple[Hashable, Flotation] | None = state.kept.get(_KEPT)
     if known is not None and known[0] == stamp:
         return known[1]
-    net = gather(state)
+    net = gather_net(state)
     stations = np.unique(net.x[np.isfinite(net.x) & ~net.end])
     if len(stations) < 2:
         raise BadInputError(
             f"{len(stations)} section(s)", "in hydrostatics", "give two sections or more"
         )
     ship = state.particulars
-    layout = lay_out(net, ship.length, ship.deck == "closed")
+    layout = lay_out_surface(net, ship.length, ship.deck == "closed")
     if not layout.frames:
         raise BadInputError(
             "no surface between the sections", "in hydrostatics", "draw profile and deck edge"
@@ -234,3 +271,90 @@ def _stamp(state: HullState) -> Hashable:
         state.lines.offset.writes,
         tuple(state.lines.name.data),
     )
+
+
+# --------------------------------------------------------------------------------------
+# A hull as hydrostatics measures it, and the head of what comes of it.
+
+
+def body_of(hull: HasState) -> FloatingBody:
+    """Make what can be measured of a hull."""
+    # The one place where hydrostatics meets the integrals of a net.
+
+    body: FloatingBody = flotation(state_of(hull))
+    return body
+
+
+def header_of(hull: HasState, body: FloatingBody, terms: Mapping[str, object]) -> HydrostaticHeader:
+    """Head the numbers: dimensions of the hull, and what the caller chose.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    body : FloatingBody
+        What is measured of it.
+    terms : mapping
+        Fields of the header that the caller chose. The fingerprint takes longer than the algebra
+        of one position: who shows none gives an empty one.
+    """
+    state = state_of(hull)
+    ship = state.particulars
+    chosen: dict[str, object] = {
+        "kg": None, "keel_thickness": 0.0, "transom": False, "date": None, **terms
+    }  # fmt: skip
+    if "fingerprint" not in chosen:
+        chosen["fingerprint"] = fingerprint(state)
+    return HydrostaticHeader(
+        ship=ship.name, length=ship.length, breadth=ship.breadth, draught=ship.draught,
+        deck="closed" if body.limits.closed else "open", **chosen,  # type: ignore[arg-type]
+    )  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------
+# Volume and centre of buoyancy at even keel, for the preview of an edit.
+
+
+@attrs.frozen
+class EvenKeelDisplacement:
+    """What the hull displaces at even keel, both sides.
+
+    Attributes
+    ----------
+    volume : float, m3
+        Moulded.
+    lcb : float, m
+        Longitudinal centre of buoyancy from AP, + forward.
+    """
+
+    volume: float
+    lcb: float
+
+
+def even_keel_displacement(state: HullState, draught: float | None = None) -> EvenKeelDisplacement:
+    """Measure volume and LCB at even keel.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    draught : float or None, m
+        The design draught if None.
+
+    Raises
+    ------
+    BadInputError
+        Fewer than two sections, or no surface between them.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.hydrostatics.flotation import even_keel_displacement
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> round(even_keel_displacement(wigley()).volume, 1)  # 4/9 L B T = 2777.8
+    2777.4
+    """
+    level = state.particulars.draught if draught is None else draught
+    planes = FloatingPlanes(np.array([level], np.float64), np.zeros(1), np.zeros(1))
+    below = flotation(state).measure(planes)
+    volume, moment = float(below.volume[0]), float(below.moment_x[0])
+    return EvenKeelDisplacement(volume, moment / volume if volume else float("nan"))

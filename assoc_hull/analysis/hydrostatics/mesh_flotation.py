@@ -9,24 +9,22 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import flag
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
 from assoc_hull.geometry.floating.immersed_triangles import (
     TriangleBody,
     immersed_triangles,
     make_body,
 )
+from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 from assoc_hull.geometry.surfaces.triangles import (
     Triangles,
     check_mesh,
+    inconsistent_triangles,
     merge_vertices,
-    unmatched_edges,
-    weld_edges,
-)
-from assoc_hull.geometry.surfaces.winding import (
-    against_neighbours,
     part_contents,
     sheet_labels,
-    turned,
+    turn_triangles,
+    unmatched_edges,
+    weld_edges,
 )
 
 __all__ = ["MeshFlotation", "mesh_flotation"]
@@ -57,7 +55,7 @@ class MeshFlotation:
     half: bool
     turned: int
 
-    def measure(self, planes: Planes) -> Immersed:
+    def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Integrate what the hull has below each plane.
 
         The mesh does not know a deck: whatever of it is below the plane is part of `shell`,
@@ -101,13 +99,13 @@ def mesh_flotation(
     --------
     >>> import numpy as np
     >>> from assoc_hull.analysis.hydrostatics.mesh_flotation import mesh_flotation
-    >>> from assoc_hull.geometry.floating.immersed import Planes
+    >>> from assoc_hull.geometry.floating.immersion import FloatingPlanes
     >>> from assoc_hull.geometry.surfaces.triangles import grid_triangles
     >>> x, z = np.meshgrid(np.linspace(0, 100, 81), np.linspace(0, 6.25, 31), indexing="ij")
     >>> y = 5.0 * (1.0 - (x / 50.0 - 1.0) ** 2) * (1.0 - (1.0 - z / 6.25) ** 2)
     >>> side = grid_triangles(np.stack([x, y, z], axis=2))
     >>> hull = mesh_flotation(side.xyz, side.face)
-    >>> level = Planes(np.array([6.25]), np.zeros(1), np.zeros(1))
+    >>> level = FloatingPlanes(np.array([6.25]), np.zeros(1), np.zeros(1))
     >>> hull.half, hull.measure(level).volume.round(1).tolist()  # 4/9 L B T = 2777.8
     (True, [2776.6])
     """
@@ -170,8 +168,8 @@ def _mirrored(mesh: Triangles, near: float) -> Triangles:
 
 def _outward(mesh: Triangles) -> tuple[Triangles, int]:
     """Turn all triangles outward, and count those that were not."""
-    flip = against_neighbours(mesh)
-    agreed = turned(mesh, flip)
+    flip = inconsistent_triangles(mesh)
+    agreed = turn_triangles(mesh, flip)
     _refuse_one_sided(agreed)
     label = sheet_labels(agreed)
     content = part_contents(agreed, label)
@@ -181,7 +179,7 @@ def _outward(mesh: Triangles) -> tuple[Triangles, int]:
         return agreed, int(flip.sum())
     if (sound & ~inward).any():
         raise _inside_out(agreed, label, content)
-    return turned(agreed, ~np.zeros_like(flip)), int((~flip).sum())
+    return turn_triangles(agreed, ~np.zeros_like(flip)), int((~flip).sum())
 
 
 def _refuse_one_sided(mesh: Triangles) -> None:

@@ -1,25 +1,160 @@
-"""The record of a hull's hydrostatics at one floating position."""
+"""The record of hydrostatics, the table of records, their head, and what each value is.
+
+`FIELDS` says symbol, unit, datum, sign and formula of each value, after the ITTC's list and
+Principles of Naval Architecture (vol. I, 1988). A `HydrostaticTable` holds columns over draughts
+and trims; a `Hydrostatics` is one row of it. The header says what the numbers hold good for.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
-from assoc_hull.model.named_mapping import Named
+from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingPosition, Freeboard
+from assoc_hull.arguments import all_of, checked, flag, not_negative, number, plain, positive, text
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.model.named_mapping import NamedMapping
 
-__all__ = ["Hydrostatics", "record"]
+__all__ = [
+    "FIELDS",
+    "FRESH",
+    "SALT",
+    "AppendageShare",
+    "HydrostaticHeader",
+    "HydrostaticTable",
+    "Hydrostatics",
+    "RecordField",
+    "record_of_row",
+]
+
+# --------------------------------------------------------------------------------------
+# What each value of a hydrostatics record is: symbol, unit, datum, sign, formula.
+#
+# Symbols are those of the ITTC's list (ITTC Symbols and Terminology List, version 2021, 2.2.1
+# and 2.2.3), where it has one. Formulas are those of the ship's text books (E.V. Lewis, ed.,
+# Principles of Naval Architecture, vol. I, SNAME 1988, ch. I), for a floating plane that may be
+# trimmed and heeled. L is Lpp, B the moulded breadth, T the mean draught; tt and th are the
+# tangents of trim and heel and ``s = sqrt(1 + tt^2 + th^2)``, ``c = sqrt(1 + tt^2)``.
+
+
+@attrs.frozen
+class RecordField:
+    """What a value is.
+
+    Attributes
+    ----------
+    name, symbol, unit : str
+        As in the record; as on paper; a dash where there is none.
+    title : str
+        In words, with datum and sign.
+    formula : str
+        How it follows from the integrals.
+    digits : int
+        After the point, in a table for people.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    title: str
+    formula: str
+    digits: int
+
+
+_FIELDS = (
+    RecordField("volume", "∇", "m3", "displacement volume, moulded, with appendages",
+          "integral of dV below the plane", 2),
+    RecordField("displacement", "Δ", "t", "displacement mass", "rho V shell_factor", 2),
+    RecordField("lcb", "LCB", "m", "centre of buoyancy, from AP, + forward",
+                "integral of x dV / V", 4),
+    RecordField("lcb_percent", "LCB%", "% L", "centre of buoyancy from midship, + forward",
+          "100 (LCB - L/2) / L", 4),
+    RecordField("tcb", "TCB", "m", "centre of buoyancy from the centre plane, + to port",
+          "integral of y dV / V", 4),
+    RecordField("kb", "KB", "m", "centre of buoyancy above the base line: its z, also when heeled",
+          "integral of z dV / V", 4),
+    RecordField("waterplane_area", "A_W", "m2", "area of the true, inclined waterplane",
+                "s A_proj", 2),
+    RecordField("lcf", "LCF", "m", "centre of flotation, from AP, + forward",
+                "integral of x dA / A", 4),
+    RecordField("tcf", "TCF", "m", "centre of flotation from the centre plane, + to port",
+          "integral of y dA / A", 4),
+    RecordField("i_t", "I_T", "m4", "transverse second moment of the true waterplane, about its "
+          "longitudinal axis through its centroid", "(s^3 / c^2) I_T_proj", 1),
+    RecordField("i_l", "I_L", "m4", "longitudinal second moment of the true waterplane, about its "
+          "transverse axis through its centroid",
+          "s (c^2 I_L_proj - 2 tt th I_LT_proj + (tt th / c)^2 I_T_proj)", 0),
+    RecordField("i_lt", "I_LT", "m4", "product of inertia of the true waterplane about these axes",
+          "s^2 (I_LT_proj - tt th I_T_proj / c^2)", 1),
+    RecordField("bmt", "BM_T", "m", "transverse metacentric radius", "I_T / V", 4),
+    RecordField("bml", "BM_L", "m", "longitudinal metacentric radius", "I_L / V", 3),
+    RecordField("kmt", "KM_T", "m", "transverse metacentre above the base line; none when heeled",
+          "KB + BM_T", 4),
+    RecordField("kml", "KM_L", "m", "longitudinal metacentre above the base line; none when heeled",
+          "KB + BM_L", 3),
+    RecordField("gmt", "GM_T", "m", "transverse metacentric height; none without KG, or heeled",
+          "KM_T - KG", 4),
+    RecordField("gml", "GM_L", "m", "longitudinal metacentric height; none without KG, or heeled",
+          "KM_L - KG", 3),
+    RecordField("tpc", "TPC", "t/cm", "weight that immerses by 1 cm", "rho A_W / 100", 3),
+    RecordField("mtc", "MTC", "t m/cm", "moment that trims by 1 cm between the perpendiculars",
+          "rho V GM_L / (100 L); with BM_L for GM_L where GM_L is none", 3),
+    RecordField("wetted_surface", "S", "m2", "wetted surface, by the true surface element, with "
+          "appendages; the transom if asked for", "integral of dS", 2),
+    RecordField("wetted_surface_girth", "S_G", "m2", "girths of the sections integrated over the "
+          "length; bare hull; less than S, named for comparison with published values",
+          "integral of girth dx", 2),
+    RecordField("transom_area", "A_T", "m2", "immersed area of the transom", "in its own plane", 3),
+    RecordField("lwl", "L_WL", "m", "length of the waterplane along x", "x_most - x_least", 3),
+    RecordField("bwl", "B_WL", "m", "breadth of the waterplane along y", "y_most - y_least", 3),
+    RecordField("a_max", "A_X", "m2", "area of the largest station", "largest A(x)", 3),
+    RecordField("x_a_max", "x_X", "m", "where the largest station is, from AP, + forward",
+                "x of A_X", 3),
+    RecordField("a_midship", "A_M", "m2", "area of the section at L/2", "A(L/2)", 3),
+    RecordField("cb", "C_B", "-", "block coefficient", "V / (L B T)", 5),
+    RecordField("cm", "C_M", "-", "midship section coefficient", "A_M / (B T)", 5),
+    RecordField("cx", "C_X", "-", "coefficient of the largest section", "A_X / (B T)", 5),
+    RecordField("cp", "C_P", "-", "prismatic coefficient, on the largest section",
+                "V / (A_X L)", 5),
+    RecordField("cvp", "C_VP", "-", "vertical prismatic coefficient", "C_B / C_W", 5),
+    RecordField("cw", "C_W", "-", "waterplane coefficient", "A_W / (L B)", 5),
+    RecordField("cb_lwl", "C_B,WL", "-", "block coefficient on the waterplane's dimensions",
+          "V / (L_WL B_WL T)", 5),
+    RecordField("cp_lwl", "C_P,WL", "-", "prismatic coefficient on the waterplane's length",
+          "V / (A_X L_WL)", 5),
+    RecordField("draught_mean", "T", "m", "mean of the draughts at AP and FP, moulded",
+          "(T_A + T_F) / 2", 4),
+    RecordField("trim_by_stern", "t", "m", "trim, + by the stern", "T_A - T_F", 4),
+    RecordField("waterplane_area_proj", "A_proj", "m2", "area of the waterplane in plan",
+          "integral of dx dy", 2),
+    RecordField("i_t_proj", "I_T_proj", "m4",
+                "transverse second moment in plan, about the centroid",
+          "integral of (y - TCF)^2 dx dy", 1),
+    RecordField("i_l_proj", "I_L_proj", "m4",
+                "longitudinal second moment in plan, about the centroid",
+          "integral of (x - LCF)^2 dx dy", 0),
+    RecordField("i_lt_proj", "I_LT_proj", "m4", "product of inertia in plan, about the centroid",
+          "integral of (x - LCF)(y - TCF) dx dy", 1),
+)  # fmt: skip
+
+FIELDS: Mapping[str, RecordField] = MappingProxyType({each.name: each for each in _FIELDS})
+"""The values of a record by name, in their order."""
+
+
+# --------------------------------------------------------------------------------------
+# The record of a hull's hydrostatics at one floating position.
 
 _MAY_LACK = frozenset({"kmt", "kml", "gmt", "gml"})
 """Values that some positions do not have."""
 
 
 def _frozen(values: Mapping[str, float | None]) -> Mapping[str, float | None]:
-    return Named("value", values)
+    return NamedMapping("value", values)
 
 
 @attrs.frozen(eq=False)
@@ -27,7 +162,7 @@ class Hydrostatics:
     """Hydrostatics at one floating position, both sides, in ship axes.
 
     x is from AP, + forward; y + to port; z from the base line, up; m, t, m3. `FIELDS` in
-    `assoc_hull.analysis.hydrostatics.record_fields` tells of each value its symbol, unit, datum,
+    `assoc_hull.analysis.hydrostatics.record` tells of each value its symbol, unit, datum,
     sign and
     formula, in the order of this record. Lpp and moulded breadth stand in every coefficient
     unless it says `_lwl`; the draught in them is the mean one, moulded.
@@ -117,7 +252,7 @@ class Hydrostatics:
     notes: tuple[str, ...] = ()
 
 
-def record(
+def record_of_row(
     columns: Mapping[str, NDArray[np.float64]],
     errors: Mapping[str, NDArray[np.float64]],
     i: int,
@@ -137,9 +272,9 @@ def record(
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.analysis.hydrostatics.record import record
-    >>> from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
-    >>> found = record({name: np.array([1.0]) for name in FIELDS}, {}, 0)
+    >>> from assoc_hull.analysis.hydrostatics.record import record_of_row
+    >>> from assoc_hull.analysis.hydrostatics.record import FIELDS
+    >>> found = record_of_row({name: np.array([1.0]) for name in FIELDS}, {}, 0)
     >>> found.volume, found.error["volume"]
     (1.0, None)
     """
@@ -152,3 +287,209 @@ def record(
 
 def _number(value: float) -> float | None:
     return None if np.isnan(value) else value
+
+
+# --------------------------------------------------------------------------------------
+# The head of a table of hydrostatics: without it nobody can tell what the numbers mean.
+
+SALT, FRESH = 1.025, 1.000
+"""Densities of salt and fresh water, t/m3."""
+
+_WHERE = "in hydrostatics"
+_WATERS = {SALT: "salt water", FRESH: "fresh water"}
+
+
+def _appendages(values: object) -> tuple[Appendage, ...]:
+    return tuple(all_of(values, Appendage, "appendages", _WHERE))
+
+
+@attrs.frozen
+class HydrostaticHeader:
+    """What a table of hydrostatics holds good for.
+
+    Attributes
+    ----------
+    ship : str
+        Name.
+    length, breadth, draught : float, m
+        Lpp, moulded breadth, moulded design draught.
+    rho : float, t/m3
+        Density of the water.
+    shell_factor : float
+        Displacement over that of the moulded volume.
+    kg : float or None, m
+        Centre of gravity above the base line, if one was given.
+    keel_thickness : float, m
+        From the base line down to the underside of keel.
+    transom : bool
+        The immersed transom is a part of the wetted surface.
+    deck : str
+        "open" or "closed".
+    appendages : tuple of Appendage
+        That are added to the moulded hull.
+    fingerprint : str
+        Of the hull.
+    date : str or None
+        As the caller gives it.
+    """
+
+    ship: str
+    length: float
+    breadth: float
+    draught: float
+    rho: float = attrs.field(converter=plain, validator=checked(positive, _WHERE))
+    shell_factor: float = attrs.field(converter=plain, validator=checked(positive, _WHERE))
+    kg: float | None = attrs.field(
+        converter=attrs.converters.optional(plain),
+        validator=attrs.validators.optional(checked(number, _WHERE)),
+    )
+    keel_thickness: float = attrs.field(converter=plain, validator=checked(not_negative, _WHERE))
+    transom: bool = attrs.field(validator=checked(flag, _WHERE))
+    deck: str
+    appendages: tuple[Appendage, ...] = attrs.field(converter=_appendages)
+    fingerprint: str
+    date: str | None = attrs.field(
+        default=None, validator=attrs.validators.optional(checked(text, _WHERE))
+    )
+
+    @property
+    def water(self) -> str:
+        """The water in words."""
+        return f"{_WATERS.get(self.rho, 'water')}, {self.rho:.6g} t/m3"
+
+    @property
+    def datum(self) -> str:
+        """Origin, axes and signs in words."""
+        return (
+            "x from AP, + forward; y from the centre plane, + to port; z from the base line, up; "
+            "draughts moulded, on the centre line at the perpendiculars; trim + by the stern; "
+            "heel + starboard down"
+        )
+
+    def lines(self) -> Iterator[tuple[str, str]]:
+        """Give the head as pairs of a title and words."""
+        yield "ship", self.ship
+        yield "Lpp, B, T", f"{self.length:.3f} m, {self.breadth:.3f} m, {self.draught:.3f} m"
+        yield "datum", self.datum
+        yield "water", self.water
+        yield "shell factor", f"{self.shell_factor:g}"
+        yield "KG", "not given" if self.kg is None else f"{self.kg:g} m"
+        yield (
+            "keel",
+            (
+                f"draught to the underside of keel is the moulded one + {self.keel_thickness:g} m"
+                if self.keel_thickness
+                else "no keel thickness given: draughts are moulded"
+            ),
+        )
+        yield "wetted surface", "with the transom" if self.transom else "without the transom"
+        yield "deck", self.deck
+        yield from self._added()
+        if self.date is not None:
+            yield "date", self.date
+        yield "fingerprint", self.fingerprint
+
+    def _added(self) -> Iterator[tuple[str, str]]:
+        if not self.appendages:
+            yield "appendages", "none: bare hull"
+        for each in self.appendages:
+            x, y, z = each.centroid
+            yield (
+                "appendage",
+                f"{each.name}: {each.volume:g} m3 at ({x:g}, {y:g}, {z:g}) m, {each.area:g} m2",
+            )
+
+
+# --------------------------------------------------------------------------------------
+# Hydrostatics at many floating positions: a table over draughts and trims.
+
+
+def _columns(values: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:
+    for each in values.values():
+        freeze(each)
+    return NamedMapping("value", values)
+
+
+@attrs.frozen(eq=False)
+class AppendageShare:
+    """What an appendage adds at each position of a table, (d,).
+
+    Attributes
+    ----------
+    appendage : Appendage
+        Which.
+    volume, area : m3, m2
+        That it adds; 0 where its centroid is dry.
+    percent : % of the volume with all appendages
+        Its share.
+    """
+
+    appendage: Appendage
+    volume: FloatArray
+    area: FloatArray
+    percent: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.volume, self.area, self.percent)
+
+
+@attrs.frozen(eq=False)
+class HydrostaticTable:
+    """Hydrostatics over draughts and trims: ``table[i]``, or ``table[i, j]`` by draught and trim.
+
+    Attributes
+    ----------
+    header : HydrostaticHeader
+        What the numbers hold good for.
+    shape : (int, int)
+        How many mean draughts, and trims; the trims of one draught follow one another.
+    positions : tuple of d FloatingPosition
+        Draughts moulded.
+    columns : mapping of str to (d,)
+        The values of the records by name; nan where a position has none.
+    errors : mapping of str to (d,)
+        How far they may be off; empty if it was not asked.
+    freeboards : tuple of d Freeboard
+        Where the deck edge is nearest to the water.
+    shares : tuple of AppendageShare
+        The appendages, apart.
+    notes : tuple of str
+        What was found wrong and is reported.
+    """
+
+    header: HydrostaticHeader
+    shape: tuple[int, int]
+    positions: tuple[FloatingPosition, ...]
+    columns: Mapping[str, FloatArray] = attrs.field(converter=_columns)
+    errors: Mapping[str, FloatArray] = attrs.field(converter=_columns)
+    freeboards: tuple[Freeboard, ...] = ()
+    shares: tuple[AppendageShare, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def __getitem__(self, place: int | tuple[int, int]) -> Hydrostatics:
+        if isinstance(place, tuple):
+            place = int(np.arange(len(self)).reshape(self.shape)[place])
+        return record_of_row(self.columns, self.errors, range(len(self))[place], self.notes)
+
+    def __iter__(self) -> Iterator[Hydrostatics]:
+        return (self[i] for i in range(len(self)))
+
+    @property
+    def rows(self) -> tuple[Hydrostatics, ...]:
+        """One record per position."""
+        return tuple(self)
+
+    @property
+    def draughts(self) -> Mapping[str, FloatArray]:
+        """Draughts at the perpendiculars, moulded and to the underside of keel, and heel, (d,)."""
+        keel = self.header.keel_thickness
+        aft = np.array([each.draught_aft for each in self.positions])
+        fore = np.array([each.draught_fore for each in self.positions])
+        found = {"draught_aft": aft, "draught_fore": fore}
+        if keel:
+            found |= {"draught_aft_extreme": aft + keel, "draught_fore_extreme": fore + keel}
+        heel = np.array([each.heel_deg for each in self.positions])
+        return _columns(found | ({"heel_deg": heel} if heel.any() else {}))

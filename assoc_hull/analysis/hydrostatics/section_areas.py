@@ -1,7 +1,8 @@
-"""The sectional-area curve between stations, and what lies between two of them.
+"""Areas of sections: of stations, anywhere along the hull, as a curve over x, over the draught.
 
-Areas at any x are those of the surface there, not of a curve laid through the stations: inside
-a parallel body they stay what they are.
+Areas at any x are those of the surface there, not of a curve laid through the stations: inside a
+parallel body they stay what they are. `area_curve` runs from the aftmost wet place to the foremost;
+`bonjean` gives the stations up to level planes.
 """
 
 from __future__ import annotations
@@ -9,19 +10,47 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.hydrostatics.flotation import Flotation
-from assoc_hull.analysis.net.between import areas_between
-from assoc_hull.analysis.net.slabs import planes as stands
+from assoc_hull.analysis.hydrostatics.floating_body import (
+    FloatingPosition,
+    StationAreas,
+    require_afloat,
+)
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, body_of, flotation
+from assoc_hull.analysis.net.curve_net import station_planes
+from assoc_hull.analysis.net.surface_layout import areas_between, strip_extents
+from assoc_hull.arguments import integer
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
-from assoc_hull.geometry.floating.immersion import immersed
-from assoc_hull.geometry.floating.prepared_strips import prepare
+from assoc_hull.geometry.floating.immersion import (
+    FloatingPlanes,
+    ImmersedIntegrals,
+    integrate_immersed,
+)
+from assoc_hull.geometry.floating.prepared_strips import prepare_strips
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner
+from assoc_hull.geometry.numeric.roots import unit_roots
+from assoc_hull.geometry.splines.segments import power_coefficients
 from assoc_hull.geometry.surfaces.isocurves import IsoCurves, Strips
+from assoc_hull.model.tables import HasState, state_of
 
-__all__ = ["between_stations", "section_areas"]
+__all__ = [
+    "AreaCurve",
+    "Bonjean",
+    "area_curve",
+    "between_stations",
+    "bonjean",
+    "section_areas",
+    "sectional_areas",
+    "wet_extent",
+]
 
-_ON = 1e-6
+# --------------------------------------------------------------------------------------
+# The sectional-area curve between stations, and what lies between two of them.
+#
+# Areas at any x are those of the surface there, not of a curve laid through the stations: inside
+# a parallel body they stay what they are.
+
+_ON_STATION = 1e-6
 """So near to a station (m) a place is on it."""
 
 
@@ -44,7 +73,9 @@ class _Some:
         return self.whole.curves(self.chosen[strip], v)
 
 
-def between_stations(body: Flotation, aft: float, fore: float, planes: Planes) -> Immersed:
+def between_stations(
+    body: Flotation, aft: float, fore: float, planes: FloatingPlanes
+) -> ImmersedIntegrals:
     """Integrate the part of a hull that lies between two stations.
 
     Parameters
@@ -72,30 +103,30 @@ def between_stations(body: Flotation, aft: float, fore: float, planes: Planes) -
     >>> from assoc_hull.analysis.hydrostatics.flotation import flotation
     >>> from assoc_hull.analysis.hydrostatics.section_areas import between_stations
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.geometry.floating.immersed import Planes
-    >>> planes = Planes(np.array([6.25]), np.zeros(1), np.zeros(1))
+    >>> from assoc_hull.geometry.floating.immersion import FloatingPlanes
+    >>> planes = FloatingPlanes(np.array([6.25]), np.zeros(1), np.zeros(1))
     >>> part = between_stations(flotation(wigley()), 25.0, 75.0, planes)
     >>> round(float(part.volume[0]))  # 11/16 of 4/9 L B T
     1910
     """
-    x = stands(body.net)
+    x = station_planes(body.net)
     first, last = _station(x, aft), _station(x, fore)
     slab = np.array([frame.slab for frame in body.layout.frames], np.int64)
     chosen = np.flatnonzero((slab > first) & (slab <= last))
-    return immersed(prepare(_Some(body.strips, chosen)), planes)
+    return integrate_immersed(prepare_strips(_Some(body.strips, chosen)), planes)
 
 
 def _station(x: FloatArray, place: float) -> int:
     if np.isinf(place):
         return -1 if place < 0.0 else len(x)
     near = int(np.abs(x - place).argmin())
-    if not abs(x[near] - place) <= _ON:
+    if not abs(x[near] - place) <= _ON_STATION:
         what = f"no station stands at x {place:g} m"
         raise BadInputError(what, "in hydrostatics", f"the nearest is at {x[near]:g} m")
     return near
 
 
-def section_areas(body: Flotation, x: FloatArray, planes: Planes) -> FloatArray:
+def section_areas(body: Flotation, x: FloatArray, planes: FloatingPlanes) -> FloatArray:
     """Give the areas of sections anywhere along a hull.
 
     Parameters
@@ -120,14 +151,14 @@ def section_areas(body: Flotation, x: FloatArray, planes: Planes) -> FloatArray:
     >>> from assoc_hull.analysis.hydrostatics.flotation import flotation
     >>> from assoc_hull.analysis.hydrostatics.section_areas import section_areas
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.geometry.floating.immersed import Planes
-    >>> planes = Planes(np.array([6.25]), np.zeros(1), np.zeros(1))
+    >>> from assoc_hull.geometry.floating.immersion import FloatingPlanes
+    >>> planes = FloatingPlanes(np.array([6.25]), np.zeros(1), np.zeros(1))
     >>> section_areas(flotation(wigley()), np.array([-5.0, 37.5, 50.0]), planes).round(2).tolist()
     [[0.0, 39.06, 41.66]]
     """
-    station = stands(body.net)
+    station = station_planes(body.net)
     slab = np.searchsorted(station, x, side="left")
-    on = np.abs(station[np.minimum(slab, len(station) - 1)] - x) <= _ON
+    on = np.abs(station[np.minimum(slab, len(station) - 1)] - x) <= _ON_STATION
     found = np.full((len(planes.height), len(x)), np.nan)
     found[:, (x < body.net.batch.xyz[:, 0].min()) | (x > body.net.batch.xyz[:, 0].max())] = 0.0
     own = body.stations(planes)
@@ -140,3 +171,232 @@ def section_areas(body: Flotation, x: FloatArray, planes: Planes) -> FloatArray:
             found[:, here] = areas
     freeze(found)
     return found
+
+
+# --------------------------------------------------------------------------------------
+# The sectional-area curve as a function of x, from the aftmost wet place to the foremost.
+
+_ON_END = 1e-9  # m above the water is on it
+_SAME = 1e-6  # m between two places along the ship
+
+
+@attrs.frozen(eq=False)
+class _Slab:
+    """A part between x `low` and `high` in which the area is a parabola: two ends and the mean."""
+
+    low: float
+    high: float
+    first: float
+    last: float
+    mean: float
+
+    def at(self, x: FloatArray) -> FloatArray:
+        t = (x - self.low) / (self.high - self.low)
+        bulge = 6.0 * self.mean - 3.0 * (self.first + self.last)
+        found: FloatArray = self.first * (1.0 - t) + self.last * t + bulge * t * (1.0 - t)
+        return found
+
+
+@attrs.frozen(eq=False)
+class AreaCurve:
+    """Areas of sections over x, below one plane.
+
+    Attributes
+    ----------
+    low, high : float, m
+        Aftmost and foremost wet place.
+    breaks : (b,), m
+        Stations between the two, and ends of parts: there the curve may bend or jump.
+    largest : float, m2
+        Area of the largest station.
+    """
+
+    low: float
+    high: float
+    breaks: FloatArray
+    largest: float
+    _body: Flotation
+    _planes: FloatingPlanes
+    _slabs: tuple[_Slab, ...]
+
+    def at(self, x: FloatArray) -> FloatArray:
+        """Give the areas at x (n,), m2; nil beyond the ends."""
+        found = np.zeros(len(x))
+        rest = (x >= self.low) & (x <= self.high)
+        for slab in self._slabs:
+            here = rest & (x >= slab.low) & (x <= slab.high)
+            found[here] = slab.at(x[here])
+            rest &= ~here
+        found[rest] = section_areas(self._body, x[rest], self._planes)[0]
+        freeze(found)
+        return found
+
+
+def area_curve(body: Flotation, planes: FloatingPlanes) -> AreaCurve:
+    """Give the sectional-area curve below one plane.
+
+    Between stations the areas are those of the surface. Where no curve of the surface lies in a
+    plane across the ship (before a raked stem, say) it is a parabola between the areas at both
+    ends, nil at the end of the hull, with the volume of the surface below it.
+
+    Parameters
+    ----------
+    body : Flotation
+        The hull.
+    planes : Planes
+        One plane.
+
+    Returns
+    -------
+    AreaCurve
+        The curve.
+
+    Raises
+    ------
+    BadInputError
+        Nothing is wet.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.analysis.hydrostatics.section_areas import area_curve
+    >>> from assoc_hull.analysis.hydrostatics.flotation import flotation
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.geometry.floating.immersion import FloatingPlanes
+    >>> planes = FloatingPlanes(np.array([6.25]), np.zeros(1), np.zeros(1))
+    >>> curve = area_curve(flotation(wigley()), planes)
+    >>> curve.low, curve.high, curve.at(np.array([2.0, 50.0])).round(1).tolist()
+    (0.0, 100.0, [3.3, 41.7])
+    """
+    low, high = wet_extent(body, planes)
+    stations = _inside(station_planes(body.net), low, high)
+    edges = np.concatenate([[low], stations, [high]])
+    middle = 0.5 * (edges[1:] + edges[:-1])
+    unknown = np.flatnonzero(np.isnan(section_areas(body, middle, planes)[0]))
+    slabs = tuple(_slab(body, planes, *edges[i : i + 2].tolist()) for i in unknown.tolist())
+    largest = float(body.stations(planes).area.max())
+    plane = np.flatnonzero(body.layout.cells.plane)
+    breaks = np.concatenate([stations, strip_extents(body.strips, plane).ravel()])
+    return AreaCurve(low, high, _inside(breaks, low, high), largest, body, planes, slabs)
+
+
+def _inside(x: FloatArray, low: float, high: float) -> FloatArray:
+    """Give places between two, each once, ascending."""
+    every = np.sort(x[(x > low + _SAME) & (x < high - _SAME)])
+    found: FloatArray = every[np.diff(every, prepend=-np.inf) > _SAME]
+    return found
+
+
+def _slab(body: Flotation, planes: FloatingPlanes, low: float, high: float) -> _Slab:
+    """Give the parabola of a part in which sections are not known."""
+    stations = station_planes(body.net)
+    near = [np.abs(stations - x).min() <= 1e-6 for x in (low, high)]
+    aft, fore = low if near[0] else -np.inf, high if near[1] else np.inf
+    areas = section_areas(body, np.array([low, high]), planes)[0]
+    first, last = (float(a) if on else 0.0 for a, on in zip(areas, near, strict=True))
+    volume = float(between_stations(body, aft, fore, planes).volume[0])
+    return _Slab(low, high, first, last, volume / (high - low))
+
+
+def wet_extent(body: Flotation, planes: FloatingPlanes) -> tuple[float, float]:
+    """Give the least and the largest x (m) of a hull below one plane, a bulb included.
+
+    Raises
+    ------
+    BadInputError
+        Nothing is wet.
+    """
+    cubic = power_coefficients(body.net.batch)
+    height, trim, heel = (
+        float(each[0]) for each in (planes.height, planes.tan_trim, planes.tan_heel)
+    )
+    over = cubic[:, :, 2] - trim * cubic[:, :, 0] - abs(heel) * cubic[:, :, 1]
+    over[:, 0] -= height
+    end = np.ones((len(cubic), 1))
+    t = np.concatenate(
+        [0.0 * end, unit_roots(differentiate(cubic[:, :, 0])), unit_roots(over), end], axis=1
+    )
+    x = horner(cubic[:, :, 0], t)[horner(over, t) <= _ON_END]
+    if not len(x):
+        raise BadInputError(
+            "nothing is under water", "in a sectional-area curve", "give more draught"
+        )
+    return float(x.min()), float(x.max())
+
+
+# --------------------------------------------------------------------------------------
+# Areas of stations: at one floating position, and over the draught (Bonjean curves).
+#
+# Source: E.V. Lewis, ed., Principles of Naval Architecture, vol. I, SNAME 1988, ch. I.
+
+_WHERE = "in Bonjean curves"
+
+
+@attrs.frozen(eq=False)
+class Bonjean:
+    """Areas of the stations up to level planes, and their moments.
+
+    Attributes
+    ----------
+    z : (k,), m
+        Heights of the planes above base.
+    stations : StationAreas
+        Below each of them.
+    moment : (k, n), m3
+        Of these areas about the base line: the integral of z dA.
+    """
+
+    z: FloatArray
+    stations: StationAreas
+    moment: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.z, self.moment)
+
+
+def sectional_areas(hull: HasState, position: FloatingPosition) -> StationAreas:
+    """Give the areas of the stations at a floating position, (1, n).
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    position : FloatingPosition
+        Where it floats, moulded.
+
+    Raises
+    ------
+    OutOfRangeError
+        It does not float there.
+    """
+    body = body_of(hull)
+    planes = require_afloat([position], body.limits, hull.state.particulars.length)
+    return body.stations(planes)
+
+
+def bonjean(hull: HasState, levels: int = 41) -> Bonjean:
+    """Give the Bonjean curves of a hull, from the keel to the deck edge.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    levels : int
+        At so many heights: from the lowest place of the hull to the lowest of an open deck edge,
+        or the highest of a closed one.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.hydrostatics.section_areas import bonjean
+    >>> from assoc_hull.sources import examples
+    >>> curves = bonjean(examples.wigley(), 5)
+    >>> curves.stations.area.shape == curves.moment.shape == (5, len(curves.stations.x))
+    True
+    """
+    count = integer(levels, "levels", _WHERE, least=2, most=1000)
+    body = flotation(state_of(hull))
+    level = FloatingPlanes(np.zeros(1), np.zeros(1), np.zeros(1))
+    low, high = body.limits.mean_draughts(level, hull.state.particulars.length)
+    z = np.linspace(float(low[0]), float(high[0]), count)
+    planes = FloatingPlanes(z.copy(), np.zeros(count), np.zeros(count))
+    return Bonjean(z, *body.stations_and_moments(planes))

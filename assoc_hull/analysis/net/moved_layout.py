@@ -12,16 +12,21 @@ import itertools
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.net.cells import Layout, blends
-from assoc_hull.analysis.net.gather import Net
+from assoc_hull.analysis.net.curve_net import CurveNet
+from assoc_hull.analysis.net.surface_layout import SurfaceLayout, blend_cubics
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.numeric.dual import real
-from assoc_hull.geometry.numeric.generic_sums import nil
+from assoc_hull.geometry.numeric.generic_sums import common_zeros
 from assoc_hull.geometry.splines.paths import Paths, bit_lengths
-from assoc_hull.geometry.splines.segments import locate, power, segment_curve, segment_start
-from assoc_hull.geometry.surfaces.coons import Cells
+from assoc_hull.geometry.splines.segments import (
+    locate_parameters,
+    power_coefficients,
+    segment_curve,
+    segment_start,
+)
+from assoc_hull.geometry.surfaces.coons import CoonsCells
 
-__all__ = ["followed", "on_cubics"]
+__all__ = ["evaluate_cubics", "move_cells"]
 
 _INSIDE = 1e-12
 """An end of a bit that is not so near to a knot, in parts of the segment, lies inside."""
@@ -33,7 +38,9 @@ _STEPS = 3
 """Towards the point on a curve that is nearest: points hardly leave their curves."""
 
 
-def followed(layout: Layout, net: Net, batch: SplineBatch, points: FloatArray) -> Cells:
+def move_cells(
+    layout: SurfaceLayout, net: CurveNet, batch: SplineBatch, points: FloatArray
+) -> CoonsCells:
     """Put the cells of a net on its lines as they have become.
 
     Parameters
@@ -56,7 +63,7 @@ def followed(layout: Layout, net: Net, batch: SplineBatch, points: FloatArray) -
         aft, fore = (_heights(length[layout.rails[begin:end, i]]) for i in (0, 1))
         either = [each for each in (aft, fore) if each is not None]
         height = 0.5 * (either[0] + either[-1])
-        blend.append(blends(height, layout.flat[own], layout.knuckle[own])[1])
+        blend.append(blend_cubics(height, layout.flat[own], layout.knuckle[own])[1])
     return attrs.evolve(layout.cells, paths=paths, blend=np.concatenate(blend)[layout.cell])
 
 
@@ -66,7 +73,7 @@ def _heights(length: FloatArray) -> FloatArray | None:
     return None if real(up)[-1] == 0.0 else up / up[-1]
 
 
-def _moved(paths: Paths, net: Net, batch: SplineBatch, points: FloatArray) -> Paths:
+def _moved(paths: Paths, net: CurveNet, batch: SplineBatch, points: FloatArray) -> Paths:
     """Move the ends of bits that lie inside segments, with the crossings there."""
     bits = len(paths.segment)
     end = np.concatenate([paths.low, paths.high])
@@ -79,13 +86,13 @@ def _moved(paths: Paths, net: Net, batch: SplineBatch, points: FloatArray) -> Pa
     if not len(inside):
         return paths
     target, normal = _targets(net, batch, points, crossing, side)
-    u = _nearest(power(batch)[segment], target, normal, end[inside])
-    moved = nil((2 * bits,), u) + end
+    u = _nearest(power_coefficients(batch)[segment], target, normal, end[inside])
+    moved = common_zeros((2 * bits,), u) + end
     moved[inside] = u
     return attrs.evolve(paths, low=moved[:bits], high=moved[bits:])
 
 
-def _crossings(net: Net, segment: IntArray, u: FloatArray) -> tuple[IntArray, IntArray]:
+def _crossings(net: CurveNet, segment: IntArray, u: FloatArray) -> tuple[IntArray, IntArray]:
     """Give the crossings at places of segments, and on which side; -1 where there is none."""
     first = segment_start(net.batch)[segment]
     t = net.batch.knot[first] + u * (net.batch.knot[first + 1] - net.batch.knot[first])
@@ -107,7 +114,7 @@ def _crossings(net: Net, segment: IntArray, u: FloatArray) -> tuple[IntArray, In
 
 
 def _targets(
-    net: Net, batch: SplineBatch, points: FloatArray, crossing: IntArray, side: IntArray
+    net: CurveNet, batch: SplineBatch, points: FloatArray, crossing: IntArray, side: IntArray
 ) -> tuple[FloatArray, FloatArray]:
     """Give what places of crossings keep to: points, and normals of planes through them.
 
@@ -115,9 +122,9 @@ def _targets(
     of the other; there the normal is given, which is nan for the others.
     """
     other = net.meets[crossing, 1 - side]
-    segment, u = locate(net.batch, other, net.place[crossing, 1 - side])
+    segment, u = locate_parameters(net.batch, other, net.place[crossing, 1 - side])
     watched = net.watched[crossing]
-    beside = on_cubics(power(batch)[segment], u)[0]
+    beside = evaluate_cubics(power_coefficients(batch)[segment], u)[0]
     target = np.where(watched[:, None], beside, points[net.row[crossing]])
     return target, np.where(watched[:, None], net.normal[other], np.nan)
 
@@ -128,13 +135,13 @@ def _nearest(cubic: FloatArray, point: FloatArray, normal: FloatArray, u: FloatA
     Where there is no normal: where they come nearest to the points.
     """
     for _ in range(_STEPS):
-        place, slope = on_cubics(cubic, u)
+        place, slope = evaluate_cubics(cubic, u)
         across = np.where(np.isnan(normal), slope, normal)
         u = u + ((point - place) * across).sum(axis=1) / (slope * across).sum(axis=1)
     return u
 
 
-def on_cubics(cubic: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
+def evaluate_cubics(cubic: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Give places and slopes of cubics (k, 4, 3) at one u each, (k, 3); in any arithmetic."""
     w = u[:, None]
     place = ((cubic[:, 3] * w + cubic[:, 2]) * w + cubic[:, 1]) * w + cubic[:, 0]

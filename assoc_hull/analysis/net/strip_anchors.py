@@ -8,13 +8,13 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.net.gather import Net, Part
-from assoc_hull.analysis.net.loops import Frame
+from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart
+from assoc_hull.analysis.net.strip_boundaries import StripBoundary
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 
-__all__ = ["Anchor", "Spans", "anchors", "spans"]
+__all__ = ["LineSpans", "StripAnchor", "line_spans", "strip_anchors"]
 
 _PLACES = ("boundary", "waterlines", "buttocks", "diagonals", "frames")
 """Where two lines cross one another between sections, the family that stands first is taken.
@@ -33,12 +33,12 @@ _STEADY = 0.02
 _SAME = 1e-6
 """Places on one curve so near to one another (m) are one."""
 
-Spot = tuple[int, float]
+CurvePlace = tuple[int, float]
 """A part of a rail by its number, and the parameter (m) on its curve."""
 
 
 @attrs.frozen
-class Anchor:
+class StripAnchor:
     """A line along a strip.
 
     Attributes
@@ -54,16 +54,16 @@ class Anchor:
         side of the strip.
     """
 
-    parts: tuple[Part, ...]
-    aft: Spot
-    fore: Spot
+    parts: tuple[CurvePart, ...]
+    aft: CurvePlace
+    fore: CurvePlace
     low: float
     high: float
     course: FloatArray | None = attrs.field(default=None, eq=False)
 
 
 @attrs.frozen
-class Spans:
+class LineSpans:
     """Stretches of lines between neighbouring crossings with sections or ends of the hull.
 
     Attributes
@@ -79,16 +79,16 @@ class Spans:
         The ends of each stretch and three places between, evenly spaced in x.
     """
 
-    span: tuple[tuple[Part, Spot, Spot, int], ...]
+    span: tuple[tuple[CurvePart, CurvePlace, CurvePlace, int], ...]
     steady: tuple[bool, ...]
     of: dict[tuple[int, int], tuple[int, ...]]
     course: FloatArray
 
 
-def spans(net: Net) -> Spans:
+def line_spans(net: CurveNet) -> LineSpans:
     """Cut all lines along the ship at sections and ends."""
     rail = net.end | np.isfinite(net.x)
-    found: list[tuple[Part, Spot, Spot, int]] = []
+    found: list[tuple[CurvePart, CurvePlace, CurvePlace, int]] = []
     marks: dict[int, list[tuple[float, int, float]]] = {}
     for both, place in zip(net.meets.tolist(), net.place.tolist(), strict=True):
         for own, other in ((0, 1), (1, 0)):
@@ -105,10 +105,10 @@ def spans(net: Net) -> Spans:
         key = (min(c0, c1), max(c0, c1))
         of[key] = (*of.get(key, ()), i)
     parts = [each[0] for each in found]
-    return Spans(tuple(found), steady(net, parts), of, _courses(net, parts))
+    return LineSpans(tuple(found), runs_monotonic(net, parts), of, _courses(net, parts))
 
 
-def _place(net: Net, curve: int) -> int:
+def _place(net: CurveNet, curve: int) -> int:
     """Give the place of a line's family among those that run along the ship."""
     family = net.family[curve]
     if family not in _PLACES:
@@ -119,7 +119,7 @@ def _place(net: Net, curve: int) -> int:
     return _PLACES.index(family)
 
 
-def steady(net: Net, parts: Sequence[Part]) -> tuple[bool, ...]:
+def runs_monotonic(net: CurveNet, parts: Sequence[CurvePart]) -> tuple[bool, ...]:
     """Tell along which parts of curves x only grows, or only falls, and nowhere hardly at all."""
     curve, t = _sampled(parts)
     slope = derivative(net.batch, curve.repeat(t.shape[1]), t.ravel())[:, 0].reshape(t.shape)
@@ -130,7 +130,7 @@ def steady(net: Net, parts: Sequence[Part]) -> tuple[bool, ...]:
     )
 
 
-def _courses(net: Net, parts: Sequence[Part]) -> FloatArray:
+def _courses(net: CurveNet, parts: Sequence[CurvePart]) -> FloatArray:
     """Give ends of parts of curves and the places at 1/4, 1/2 and 3/4 of their length, (n, 5, 3).
 
     The length is that along the ship; places lie on straight lines between samples.
@@ -149,13 +149,15 @@ def _courses(net: Net, parts: Sequence[Part]) -> FloatArray:
     return np.concatenate([place[:, :1], between, place[:, -1:]], axis=1)
 
 
-def _sampled(parts: Sequence[Part]) -> tuple[IntArray, FloatArray]:
+def _sampled(parts: Sequence[CurvePart]) -> tuple[IntArray, FloatArray]:
     """Give the curves of parts, (n,), and parameters along them, (n, k), m."""
     begin, finish = (np.array([part[i] for part in parts], np.float64)[:, None] for i in (1, 2))
     return np.array([part[0] for part in parts], np.int64), begin + (finish - begin) * _SAMPLES
 
 
-def anchors(frame: Frame, every: Spans) -> tuple[Frame, list[Anchor]]:
+def strip_anchors(
+    frame: StripBoundary, every: LineSpans
+) -> tuple[StripBoundary, list[StripAnchor]]:
     """Give the anchors of a strip from keel to deck, its sides included.
 
     Where lines cross between the rails those of the family that stands first stay; the others
@@ -169,22 +171,22 @@ def anchors(frame: Frame, every: Spans) -> tuple[Frame, list[Anchor]]:
         frame = pointed
         found = _found(frame, every)
     aft, fore = _rails(frame)
-    keel = Anchor(frame.keel, aft.begin, fore.begin, 0.0, 0.0)
-    deck = Anchor(frame.deck, aft.finish, fore.finish, 1.0, 1.0)
+    keel = StripAnchor(frame.keel, aft.begin, fore.begin, 0.0, 0.0)
+    deck = StripAnchor(frame.deck, aft.finish, fore.finish, 1.0, 1.0)
     return frame, _in_order(keel, deck, found)
 
 
-def _rails(frame: Frame) -> tuple[_Rail, _Rail]:
+def _rails(frame: StripBoundary) -> tuple[_Rail, _Rail]:
     return (
         _Rail.of(frame.aft, frame.keel[:1], frame.deck[:1], 1),
         _Rail.of(frame.fore, frame.keel[-1:], frame.deck[-1:], 2),
     )
 
 
-def _found(frame: Frame, every: Spans) -> list[tuple[int, Anchor]]:
+def _found(frame: StripBoundary, every: LineSpans) -> list[tuple[int, StripAnchor]]:
     """Find the stretches of lines from one rail to the other."""
     aft, fore = _rails(frame)
-    found: list[tuple[int, Anchor]] = []
+    found: list[tuple[int, StripAnchor]] = []
     for i in (
         i
         for a in aft.curves
@@ -202,12 +204,12 @@ def _found(frame: Frame, every: Spans) -> list[tuple[int, Anchor]]:
             if low is not None and high is not None:
                 at = aft.height(low), fore.height(high)
                 at = (at[1] if aft.is_point else at[0], at[0] if fore.is_point else at[1])
-                found.append((rank, Anchor((way,), low, high, *at, run)))
+                found.append((rank, StripAnchor((way,), low, high, *at, run)))
                 break
     return found
 
 
-def _pointed(frame: Frame, run: Sequence[Anchor]) -> Frame | None:
+def _pointed(frame: StripBoundary, run: Sequence[StripAnchor]) -> StripBoundary | None:
     """Give the frame with a rail that is a point, if all anchors run to one."""
     if frame.plane or len(run) < 2:
         return None
@@ -230,7 +232,9 @@ def _pointed(frame: Frame, run: Sequence[Anchor]) -> Frame | None:
     return None
 
 
-def _in_order(keel: Anchor, deck: Anchor, found: Sequence[tuple[int, Anchor]]) -> list[Anchor]:
+def _in_order(
+    keel: StripAnchor, deck: StripAnchor, found: Sequence[tuple[int, StripAnchor]]
+) -> list[StripAnchor]:
     """Take anchors one after the other that do not cross those taken."""
     taken = [keel, deck]
     for _, anchor in sorted(found, key=lambda each: (each[0], each[1].low, each[1].high)):
@@ -241,7 +245,7 @@ def _in_order(keel: Anchor, deck: Anchor, found: Sequence[tuple[int, Anchor]]) -
     return taken
 
 
-def _fits(below: Anchor, above: Anchor) -> bool:
+def _fits(below: StripAnchor, above: StripAnchor) -> bool:
     """Tell whether one anchor lies above another: apart on both rails, or joined at one end.
 
     A waterline that begins at the keel of a section makes a cell of three sides.
@@ -253,7 +257,7 @@ def _fits(below: Anchor, above: Anchor) -> bool:
     return apart and not _cross(below, above)
 
 
-def _cross(below: Anchor, above: Anchor) -> bool:
+def _cross(below: StripAnchor, above: StripAnchor) -> bool:
     """Tell whether two anchors change places on their way: there the surface would fold.
 
     Looked at is at which side one lies of the other, at three places between the rails.
@@ -264,7 +268,7 @@ def _cross(below: Anchor, above: Anchor) -> bool:
     return bool((apart[1:-1] @ (apart[0] + apart[-1]) <= 0.0).any())
 
 
-def _turned(part: Part) -> Part:
+def _turned(part: CurvePart) -> CurvePart:
     return part[0], part[2], part[1]
 
 
@@ -272,15 +276,19 @@ def _turned(part: Part) -> Part:
 class _Rail:
     """A rail, to find places on it."""
 
-    parts: tuple[Part, ...]
+    parts: tuple[CurvePart, ...]
     base: tuple[float, ...]
     length: float
-    corner: tuple[tuple[Spot, Spot], ...]
+    corner: tuple[tuple[CurvePlace, CurvePlace], ...]
     """Places on the sides at which the rail begins and ends, and where on the rail that is."""
 
     @classmethod
     def of(
-        cls, parts: tuple[Part, ...], keel: Sequence[Part], deck: Sequence[Part], end: int
+        cls,
+        parts: tuple[CurvePart, ...],
+        keel: Sequence[CurvePart],
+        deck: Sequence[CurvePart],
+        end: int,
     ) -> _Rail:
         """Make a rail; `end` says which end of the sides it joins: 1 their begin, 2 their end."""
         sizes = [abs(part[2] - part[1]) for part in parts]
@@ -300,14 +308,14 @@ class _Rail:
         return self.length == 0.0
 
     @property
-    def begin(self) -> Spot:
+    def begin(self) -> CurvePlace:
         return 0, self.parts[0][1]
 
     @property
-    def finish(self) -> Spot:
+    def finish(self) -> CurvePlace:
         return len(self.parts) - 1, self.parts[-1][2]
 
-    def spot(self, place: Spot) -> Spot | None:
+    def spot(self, place: CurvePlace) -> CurvePlace | None:
         """Find a place on a curve on the rail, None if it is not there."""
         curve, t = place
         for i, (c, t0, t1) in enumerate(self.parts):
@@ -318,7 +326,7 @@ class _Rail:
                 return spot
         return None
 
-    def height(self, spot: Spot) -> float:
+    def height(self, spot: CurvePlace) -> float:
         """Say how far up the rail a place is, from 0 to 1."""
         if self.is_point:
             return 0.0

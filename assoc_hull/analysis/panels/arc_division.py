@@ -10,13 +10,12 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.panels.sheets import Sheet
+from assoc_hull.analysis.panels.wet_sheets import WetSheet
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.numeric.polynomials import differentiate
-from assoc_hull.geometry.splines.equal_arcs import Chains, shares
-from assoc_hull.geometry.splines.length import length_until
+from assoc_hull.geometry.splines.arc_length import CubicChains, length_until, share_by_length
 
-__all__ = ["Arc", "Divided", "Piece", "divide"]
+__all__ = ["ArcPiece", "DividedSheets", "SheetArc", "divide_sheets"]
 
 _POINT = 1e-6
 """An arc so short, in lengths of the ship, is a point."""
@@ -31,7 +30,7 @@ _MAIN = 0.5
 
 
 @attrs.define(eq=False)
-class Piece:
+class ArcPiece:
     """A stretch of an arc at the end of sheets; `users` are (sheet, end) that run along it.
 
     `places` are its beginning, middle and end, `points` what all who have it take.
@@ -44,7 +43,7 @@ class Piece:
 
 
 @attrs.define(eq=False)
-class Arc:
+class SheetArc:
     """The arc at one end of a sheet: lengths and places where it is parted, and its pieces."""
 
     sheet: int
@@ -57,7 +56,7 @@ class Arc:
 
 
 @attrs.frozen(eq=False)
-class Divided:
+class DividedSheets:
     """Sheets with their points.
 
     Attributes
@@ -71,13 +70,13 @@ class Divided:
     """
 
     points: list[list[FloatArray]]
-    arcs: list[Arc]
-    pieces: list[Piece]
+    arcs: list[SheetArc]
+    pieces: list[ArcPiece]
 
 
-def divide(
-    every: list[Sheet], panels: int, length: float, knuckle_deg: float | None = None
-) -> Divided:
+def divide_sheets(
+    every: list[WetSheet], panels: int, length: float, knuckle_deg: float | None = None
+) -> DividedSheets:
     """Put points on all arcs.
 
     Parameters
@@ -92,17 +91,17 @@ def divide(
         Points are put where an arc turns by more; None for nowhere.
     """
     arcs = _arcs(every, length, knuckle_deg)
-    pieces: list[Piece] = []
+    pieces: list[ArcPiece] = []
     parts = _counts(every, arcs, pieces, panels, _NEAR * length)
     points = [
         _points(sheet, parts[i], [arc for arc in arcs if arc.sheet == i], pieces, length,
                 knuckle_deg)
         for i, sheet in enumerate(every)
     ]  # fmt: skip
-    return Divided(points, arcs, pieces)
+    return DividedSheets(points, arcs, pieces)
 
 
-def _arcs(every: list[Sheet], length: float, knuckle_deg: float | None) -> list[Arc]:
+def _arcs(every: list[WetSheet], length: float, knuckle_deg: float | None) -> list[SheetArc]:
     """Find where the arcs at the ends of sheets are parted."""
     found, corner = [], []
     for i, sheet in enumerate(every):
@@ -135,13 +134,13 @@ def _gathered(corners: FloatArray, near: float) -> FloatArray:
 
 
 def _parted(
-    one: Chains,
+    one: CubicChains,
     who: tuple[int, int, int],
     own: FloatArray,
     cut: FloatArray,
     places: FloatArray,
     near: float,
-) -> Arc:
+) -> SheetArc:
     """Put cuts in order, between the ends of the arc, each once."""
     whole = float(one.length[0])
     inside = (cut > 2.0 * near) & (cut < whole - 2.0 * near)
@@ -151,14 +150,14 @@ def _parted(
     new = np.diff(cut, prepend=-np.inf) > 2.0 * near
     cut = np.concatenate([[0.0], cut[new], [whole]])
     places = np.vstack([own[:1], places[new], own[1:]])
-    return Arc(*who, cut, places, _at(one, 0.5 * (cut[1:] + cut[:-1])))
+    return SheetArc(*who, cut, places, _at(one, 0.5 * (cut[1:] + cut[:-1])))
 
 
-def _at(one: Chains, lengths: FloatArray) -> FloatArray:
+def _at(one: CubicChains, lengths: FloatArray) -> FloatArray:
     return one.at_lengths(np.zeros(len(lengths), np.int64), lengths)
 
 
-def _knuckles(sheet: Sheet, chain: int, knuckle_deg: float | None) -> FloatArray:
+def _knuckles(sheet: WetSheet, chain: int, knuckle_deg: float | None) -> FloatArray:
     """Give the lengths at which an arc turns sharply."""
     if knuckle_deg is None:
         return np.zeros(0)
@@ -167,7 +166,9 @@ def _knuckles(sheet: Sheet, chain: int, knuckle_deg: float | None) -> FloatArray
     return found
 
 
-def _corners_on(one: Chains, corners: FloatArray, near: float) -> tuple[FloatArray, FloatArray]:
+def _corners_on(
+    one: CubicChains, corners: FloatArray, near: float
+) -> tuple[FloatArray, FloatArray]:
     """Find the corners that lie on an arc: their lengths along it, and the corners themselves."""
     u = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
     count, many = len(one.cubic), len(corners)
@@ -204,7 +205,7 @@ def _slope(slopes: FloatArray, u: FloatArray) -> FloatArray:
 
 
 def _counts(
-    every: list[Sheet], arcs: list[Arc], pieces: list[Piece], panels: int, near: float
+    every: list[WetSheet], arcs: list[SheetArc], pieces: list[ArcPiece], panels: int, near: float
 ) -> list[int]:
     """Give the number of parts of each sheet, and of each piece; the longest arcs come first."""
     girth = [float(sheet.chains.length.max(initial=0.0)) for sheet in every]
@@ -225,7 +226,7 @@ def _counts(
     return parts
 
 
-def _known(pieces: list[Piece], arc: Arc, j: int, near: float) -> int | None:
+def _known(pieces: list[ArcPiece], arc: SheetArc, j: int, near: float) -> int | None:
     """Find the piece that a stretch of an arc is."""
     own = np.array([arc.places[j], arc.middles[j], arc.places[j + 1]])
     for i, piece in enumerate(pieces):
@@ -234,7 +235,7 @@ def _known(pieces: list[Piece], arc: Arc, j: int, near: float) -> int | None:
     return None
 
 
-def _claim(sheet: Sheet, pieces: list[Piece], arc: Arc, total: int, near: float) -> None:
+def _claim(sheet: WetSheet, pieces: list[ArcPiece], arc: SheetArc, total: int, near: float) -> None:
     """Give the stretches of an arc their pieces, new ones with a share of the points."""
     known = [_known(pieces, arc, j, near) for j in range(len(arc.cut) - 1)]
     free = [j for j, each in enumerate(known) if each is None]
@@ -242,7 +243,7 @@ def _claim(sheet: Sheet, pieces: list[Piece], arc: Arc, total: int, near: float)
     if free:
         # What is not straight in the centre plane would vanish if it were parted once only.
         least = np.where(np.abs(arc.middles[free, 1]) > 10.0 * near, 2, 1)
-        share = iter(shares(np.diff(arc.cut)[free], left, least).tolist())
+        share = iter(share_by_length(np.diff(arc.cut)[free], left, least).tolist())
     for j, each in enumerate(known):
         if each is None:
             pieces.append(_piece(sheet, arc, j, next(share)))
@@ -251,19 +252,19 @@ def _claim(sheet: Sheet, pieces: list[Piece], arc: Arc, total: int, near: float)
         arc.pieces.append(each)
 
 
-def _piece(sheet: Sheet, arc: Arc, j: int, parts: int) -> Piece:
+def _piece(sheet: WetSheet, arc: SheetArc, j: int, parts: int) -> ArcPiece:
     """Make a piece of a stretch of an arc."""
     lengths = np.linspace(arc.cut[j], arc.cut[j + 1], parts + 1)
     points = sheet.chains.at_lengths(np.full(parts + 1, arc.chain), lengths)
     points[[0, -1]] = arc.places[j : j + 2]
-    return Piece(np.array([arc.places[j], arc.middles[j], arc.places[j + 1]]), parts, points)
+    return ArcPiece(np.array([arc.places[j], arc.middles[j], arc.places[j + 1]]), parts, points)
 
 
 def _points(
-    sheet: Sheet,
+    sheet: WetSheet,
     parts: int,
-    own: list[Arc],
-    pieces: list[Piece],
+    own: list[SheetArc],
+    pieces: list[ArcPiece],
     length: float,
     knuckle_deg: float | None,
 ) -> list[FloatArray]:
@@ -279,7 +280,7 @@ def _points(
         else:
             cut = _knuckles(sheet, chain, knuckle_deg)
             cut = np.concatenate([[0.0], cut, [chains.length[chain]]])
-            cuts.append(_lengths(cut, shares(np.diff(cut), parts).tolist()))
+            cuts.append(_lengths(cut, share_by_length(np.diff(cut), parts).tolist()))
     number = np.repeat(np.arange(chains.count), [len(each) for each in cuts])
     every = chains.at_lengths(number, np.concatenate(cuts))
     found = np.split(every, np.cumsum([len(each) for each in cuts])[:-1])

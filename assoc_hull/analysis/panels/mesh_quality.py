@@ -12,7 +12,7 @@ from assoc_hull.arguments import instance
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh, PanelOrigin
 
-__all__ = ["FreeEdges", "PanelReport", "Spread", "panel_report"]
+__all__ = ["FreeEdges", "PanelReport", "PanelStatistics", "panel_report"]
 
 _GRAVITY = 9.80665
 _PER_WAVE = 6.0
@@ -23,7 +23,7 @@ _SMALL = 1e-6
 
 
 @attrs.frozen
-class Spread:
+class PanelStatistics:
     """How a number is spread over the panels: least, median, 95 of 100, most."""
 
     least: float
@@ -32,7 +32,7 @@ class Spread:
     most: float
 
     @classmethod
-    def of(cls, values: FloatArray) -> Spread:
+    def of(cls, values: FloatArray) -> PanelStatistics:
         """Take the values of all panels, (p,)."""
         low, middle, high, most = np.percentile(values, [0.0, 50.0, 95.0, 100.0]).tolist()
         return cls(low, middle, high, most)
@@ -108,9 +108,9 @@ class PanelReport:
     volume: tuple[float, float, float]
     area: float
     buoyancy: tuple[float, float, float]
-    aspect: Spread
-    warp: Spread
-    size: Spread
+    aspect: PanelStatistics
+    warp: PanelStatistics
+    size: PanelStatistics
     diagonal: float
     degenerate: int
     edges: FreeEdges
@@ -234,7 +234,7 @@ def panel_report(mesh: PanelMesh) -> PanelReport:
 
     Examples
     --------
-    >>> from assoc_hull.analysis.panels.build import panels
+    >>> from assoc_hull.analysis.panels.hull_panels import panels
     >>> from assoc_hull.analysis.panels.mesh_quality import panel_report
     >>> from assoc_hull.sources import examples
     >>> report = panel_report(panels(examples.wigley(), count=500))
@@ -248,13 +248,23 @@ def panel_report(mesh: PanelMesh) -> PanelReport:
     x, y, z = mesh.volumes.tolist()
     cx, cy, cz = mesh.buoyancy.tolist()
     return PanelReport(
-        title=mesh.title, panels=mesh.count, triangles=int(mesh.triangle.sum()),
-        vertices=len(mesh.xyz), images=mesh.images, volume=(x, y, z), area=mesh.area,
-        buoyancy=(cx, cy, cz), aspect=Spread.of(aspect[good]), warp=Spread.of(warp[good]),
-        size=Spread.of(np.sqrt(mesh.areas)), diagonal=float(diagonal.max()),
-        degenerate=int(small.sum()), edges=_free(mesh),
-        above=int((mesh.xyz[:, 2][mesh.panel] > 0.0).any(axis=1).sum()), origin=mesh.origin,
-    )  # fmt: skip
+        title=mesh.title,
+        panels=mesh.count,
+        triangles=int(mesh.triangle.sum()),
+        vertices=len(mesh.xyz),
+        images=mesh.images,
+        volume=(x, y, z),
+        area=mesh.area,
+        buoyancy=(cx, cy, cz),
+        aspect=PanelStatistics.of(aspect[good]),
+        warp=PanelStatistics.of(warp[good]),
+        size=PanelStatistics.of(np.sqrt(mesh.areas)),
+        diagonal=float(diagonal.max()),
+        degenerate=int(small.sum()),
+        edges=_free(mesh),
+        above=int((mesh.xyz[:, 2][mesh.panel] > 0.0).any(axis=1).sum()),
+        origin=mesh.origin,
+    )
 
 
 def _free(mesh: PanelMesh) -> FreeEdges:

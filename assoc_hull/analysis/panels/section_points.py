@@ -5,14 +5,14 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.hydrostatics.floating import require_afloat, require_numbers
-from assoc_hull.analysis.hydrostatics.flotation import flotation
-from assoc_hull.analysis.hydrostatics.hydrostatics import position_of
-from assoc_hull.analysis.hydrostatics.measured_hull import HasState, header_of, state_of
-from assoc_hull.analysis.panels.bands import Band, Waterplane, bands
+from assoc_hull.analysis.hydrostatics.floating_body import require_afloat, require_numbers
+from assoc_hull.analysis.hydrostatics.flotation import flotation, header_of
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import position_of
+from assoc_hull.analysis.panels.wet_sheets import Band, Waterplane, bands
 from assoc_hull.arguments import integer, numbers
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.splines.equal_arcs import Chains
+from assoc_hull.geometry.splines.arc_length import CubicChains
+from assoc_hull.model.tables import HasState, state_of
 
 __all__ = ["section_points"]
 
@@ -82,7 +82,7 @@ def section_points(
     wet = [i for i, cubics in enumerate(sections) if len(cubics)]
     if wet:
         start = np.append(0, np.cumsum([len(sections[i]) for i in wet])).astype(np.int64)
-        found[wet] = Chains(start, np.concatenate([sections[i] for i in wet])).equal(count)
+        found[wet] = CubicChains(start, np.concatenate([sections[i] for i in wet])).equal(count)
     freeze(found)
     return found
 

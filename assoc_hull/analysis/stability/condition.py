@@ -1,32 +1,104 @@
-"""The condition of a ship: what she weighs, where its centre lies, and how she floats upright."""
+"""The condition of a ship: what she weighs, where its centre lies, and how she floats upright.
+
+Also the checks of what callers of stability, cross curves and equilibrium give: heels, what to do
+about doubts.
+"""
 
 from __future__ import annotations
+
+from typing import Literal, get_args
 
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.hydrostatics.appendage import require_volume
-from assoc_hull.analysis.hydrostatics.floating import (
+from assoc_hull.analysis.hydrostatics.floating_body import (
+    FloatingBody,
     FloatingPosition,
     planes_of,
     require_afloat,
     require_numbers,
+    require_volume,
+    rising_numbers,
 )
-from assoc_hull.analysis.hydrostatics.floating_body import FloatingBody
-from assoc_hull.analysis.hydrostatics.hydrostatic_header import HydrostaticHeader
-from assoc_hull.analysis.hydrostatics.hydrostatics import position_of
-from assoc_hull.analysis.hydrostatics.loading import Load, immersion
-from assoc_hull.analysis.stability.afloat import Afloat
-from assoc_hull.analysis.stability.levers import Case, TrimRule
-from assoc_hull.errors import BadInputError
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import position_of
+from assoc_hull.analysis.hydrostatics.immersion import Load, position_under_load
+from assoc_hull.analysis.hydrostatics.record import HydrostaticHeader
+from assoc_hull.analysis.stability.righting_lever import StabilityCase, TrimRule
+from assoc_hull.analysis.stability.sinkage_and_trim import DisplacingHull
+from assoc_hull.arguments import choice
+from assoc_hull.errors import BadInputError, OutOfRangeError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 
-__all__ = ["Asked", "Condition", "case_of", "condition_of"]
+__all__ = [
+    "HEELS",
+    "Condition",
+    "ConditionRequest",
+    "OnError",
+    "case_of",
+    "checked_on_error",
+    "condition_of",
+    "doubts_of",
+    "heels_of",
+]
+
+# --------------------------------------------------------------------------------------
+# Checks of what is asked of stability.
 
 _WHERE = "in stability"
 
+HEELS: tuple[float, ...] = tuple(float(each) for each in range(0, 95, 5))
+"""Heels of a table that are taken if none are given, degrees."""
+
+OnError = Literal["refuse", "report"]
+
+
+def heels_of(heels: object) -> FloatArray:
+    """Take rising heels, degrees, from -90 to 90.
+
+    Raises
+    ------
+    BadInputError
+        No numbers, or some that do not rise.
+    OutOfRangeError
+        One beyond.
+    """
+    found = rising_numbers(heels, "heels", _WHERE)
+    far = found[np.abs(found) > 90.0]
+    if len(far):
+        why = "turns the ship over"
+        raise OutOfRangeError("a heel", float(far[0]), _WHERE, why, -90.0, 90.0, "deg")
+    return found
+
+
+def checked_on_error(on_error: object) -> None:
+    """Refuse what is no way to deal with doubts, before anything is computed."""
+    choice(on_error, "on_error", get_args(OnError), _WHERE)
+
+
+def doubts_of(body: FloatingBody, planes: FloatingPlanes, on_error: str) -> tuple[str, ...]:
+    """Give the doubts about a hull.
+
+    Raises
+    ------
+    BadInputError
+        There are some, and they are to be refused.
+    """
+    checked_on_error(on_error)
+    doubts = tuple(body.doubts(planes, numbers=False))
+    if doubts and on_error == "refuse":
+        more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
+        remedy = "mend the hull, or take the numbers with on_error='report'"
+        raise BadInputError(doubts[0] + more, _WHERE, remedy)
+    return doubts
+
+
+# --------------------------------------------------------------------------------------
+# The condition of a ship: what she weighs, where its centre lies, and how she floats upright.
+
 
 @attrs.frozen
-class Asked:
+class ConditionRequest:
     """What a caller tells of the condition; all as for `stability`."""
 
     weight: float | None = None
@@ -61,7 +133,9 @@ class Condition:
     upright: FloatingPosition
 
 
-def condition_of(body: FloatingBody, header: HydrostaticHeader, asked: Asked) -> Condition:
+def condition_of(
+    body: FloatingBody, header: HydrostaticHeader, asked: ConditionRequest
+) -> Condition:
     """Work out a condition.
 
     Parameters
@@ -91,7 +165,7 @@ def condition_of(body: FloatingBody, header: HydrostaticHeader, asked: Asked) ->
     require_numbers(asked.draughts if asked.draught is None else asked.draught, body.limits)
     upright = _upright(body, header, asked)
     planes = require_afloat([upright], body.limits, header.length)
-    found = Afloat(body, header.length, header.appendages).measure(planes)
+    found = DisplacingHull(body, header.length, header.appendages).measure(planes)
     require_volume(found.volume, header.appendages, planes, _WHERE)
     volume = float(found.volume[0])
     lcg = asked.lcg
@@ -102,7 +176,9 @@ def condition_of(body: FloatingBody, header: HydrostaticHeader, asked: Asked) ->
     return Condition(weight, volume, lcg, asked.tcg, asked.kg, upright)
 
 
-def _upright(body: FloatingBody, header: HydrostaticHeader, asked: Asked) -> FloatingPosition:
+def _upright(
+    body: FloatingBody, header: HydrostaticHeader, asked: ConditionRequest
+) -> FloatingPosition:
     """Give where she floats at no heel."""
     if asked.weight is None:
         return position_of(header, asked.draught, asked.draughts, 0.0, "moulded")
@@ -110,16 +186,16 @@ def _upright(body: FloatingBody, header: HydrostaticHeader, asked: Asked) -> Flo
         asked.weight, header.rho, header.shell_factor, asked.lcg, asked.kg,
         appendages=header.appendages,
     )  # fmt: skip
-    return immersion(body, load, header.length)
+    return position_under_load(body, load, header.length)
 
 
 def case_of(
     body: FloatingBody, header: HydrostaticHeader, conditions: list[Condition], trim: TrimRule
-) -> Case:
+) -> StabilityCase:
     """Put conditions of one ship together, to be heeled."""
     planes = planes_of([each.upright for each in conditions], header.length)
-    return Case(
-        Afloat(body, header.length, header.appendages),
+    return StabilityCase(
+        DisplacingHull(body, header.length, header.appendages),
         np.array([each.volume for each in conditions]),
         np.array([each.upright.draught_mean for each in conditions]),
         planes.tan_trim,

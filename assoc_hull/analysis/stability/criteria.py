@@ -10,7 +10,7 @@ import attrs
 
 from assoc_hull.analysis.stability.lever_curve import LeverCurve
 
-__all__ = ["Criterion", "Judged", "intact_criteria"]
+__all__ = ["CriteriaInput", "Criterion", "intact_criteria"]
 
 _M, _MRAD, _DEG = "m", "m rad", "deg"
 _NO_POINT = "phi_f not given, 40 used"
@@ -75,7 +75,7 @@ class Criterion:
 
 
 @attrs.frozen
-class Judged:
+class CriteriaInput:
     """What criteria look at.
 
     Attributes
@@ -110,7 +110,7 @@ class Judged:
         return f"phi_f {self.flooding_deg:.2f} deg"
 
 
-def intact_criteria(judged: Judged) -> tuple[Criterion, ...]:
+def intact_criteria(judged: CriteriaInput) -> tuple[Criterion, ...]:
     """Evaluate the criteria of 2.2, and list that of 2.3.
 
     Parameters
@@ -135,7 +135,7 @@ def intact_criteria(judged: Judged) -> tuple[Criterion, ...]:
     )
 
 
-def _area(judged: Judged, name: str, span: tuple[float, float], least: float) -> Criterion:
+def _area(judged: CriteriaInput, name: str, span: tuple[float, float], least: float) -> Criterion:
     """Judge the area between two heels, or to where water comes in before the second."""
     made = Criterion("2.2.1", name, least, _MRAD, None, judged.about_flooding)
     low, high = span[0], min(span[1], judged.limit)
@@ -148,7 +148,7 @@ def _area(judged: Judged, name: str, span: tuple[float, float], least: float) ->
     return attrs.evolve(made, value=value, note="" if plain else made.note)
 
 
-def _lever(judged: Judged) -> Criterion:
+def _lever(judged: CriteriaInput) -> Criterion:
     """Judge the largest lever at 30 degrees or more."""
     code, name = "2.2.2", "largest GZ at 30 deg or more"
     if judged.curve.end < 30.0 - _ROUNDING:
@@ -157,7 +157,7 @@ def _lever(judged: Judged) -> Criterion:
     return Criterion(code, name, 0.2, _M, gz, f"at {heel:.2f} deg")
 
 
-def _angle(judged: Judged) -> Criterion:
+def _angle(judged: CriteriaInput) -> Criterion:
     """Judge the heel of the largest lever."""
     code, name, least = "2.2.3", "heel of the largest GZ", 25.0
     gz, heel = judged.curve.largest

@@ -7,18 +7,29 @@ from collections.abc import Iterable, Iterator, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.hydrostatics.appendage import Appendage
-from assoc_hull.analysis.hydrostatics.floating import planes_of, rising
-from assoc_hull.analysis.hydrostatics.floating_body import FloatingBody
-from assoc_hull.analysis.hydrostatics.hydrostatic_header import SALT, HydrostaticHeader
-from assoc_hull.analysis.hydrostatics.measured_hull import HasState, body_of, header_of
-from assoc_hull.analysis.stability.asked import OnError, checked_on_error, heels_of, require_sound
-from assoc_hull.analysis.stability.condition import Asked, Condition, case_of, condition_of
-from assoc_hull.analysis.stability.heeled import heeled
-from assoc_hull.analysis.stability.levers import TrimRule
+from assoc_hull.analysis.hydrostatics.floating_body import (
+    Appendage,
+    FloatingBody,
+    planes_of,
+    rising_numbers,
+)
+from assoc_hull.analysis.hydrostatics.flotation import body_of, header_of
+from assoc_hull.analysis.hydrostatics.record import SALT, HydrostaticHeader
+from assoc_hull.analysis.stability.condition import (
+    Condition,
+    ConditionRequest,
+    OnError,
+    case_of,
+    checked_on_error,
+    condition_of,
+    doubts_of,
+    heels_of,
+)
+from assoc_hull.analysis.stability.righting_lever import TrimRule, float_at_heels
 from assoc_hull.arguments import choice, number
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.model.tables import HasState
 
 __all__ = ["CrossCurves", "cross_curves", "cross_curves_of"]
 
@@ -145,14 +156,14 @@ def cross_curves(
     asked = _asked(weights, draughts, number(trim_by_stern, "trim_by_stern", _WHERE), header.kg)
     found = cross_curves_of(body, header, asked, trim, wanted)
     upright = planes_of([each.upright for each in found.conditions], header.length)
-    doubts = require_sound(body, upright, on_error)
+    doubts = doubts_of(body, upright, on_error)
     return attrs.evolve(found, notes=(*found.notes, *doubts))
 
 
 def cross_curves_of(
     body: FloatingBody,
     header: HydrostaticHeader,
-    asked: Sequence[Asked],
+    asked: Sequence[ConditionRequest],
     trim: TrimRule,
     heels: FloatArray,
 ) -> CrossCurves:
@@ -160,7 +171,7 @@ def cross_curves_of(
     conditions = [condition_of(body, header, each) for each in asked]
     case = case_of(body, header, conditions, trim)
     rows = np.repeat(np.arange(len(conditions)), len(heels))
-    found = heeled(case, np.tile(heels, len(conditions)), rows)
+    found = float_at_heels(case, np.tile(heels, len(conditions)), rows)
     kn = found.kn.reshape(len(conditions), len(heels))
     deck = "closed" if body.limits.closed else "open"
     notes = [f"the deck is {deck}"]
@@ -171,7 +182,7 @@ def cross_curves_of(
 
 def _asked(
     weights: object, draughts: object, trim_by_stern: float, kg: float | None
-) -> list[Asked]:
+) -> list[ConditionRequest]:
     """Take the displacements."""
     if (weights is None) == (draughts is None):
         raise BadInputError(
@@ -180,7 +191,10 @@ def _asked(
     if weights is not None:
         if trim_by_stern:
             raise BadInputError("trim_by_stern is given with weights", _WHERE, "give draughts")
-        return [Asked(weight=each, kg=kg) for each in rising(weights, "weights", _WHERE).tolist()]
+        return [
+            ConditionRequest(weight=each, kg=kg)
+            for each in rising_numbers(weights, "weights", _WHERE).tolist()
+        ]
     half = 0.5 * trim_by_stern
-    levels = rising(draughts, "draughts", _WHERE).tolist()
-    return [Asked(draughts=(each + half, each - half), kg=kg) for each in levels]
+    levels = rising_numbers(draughts, "draughts", _WHERE).tolist()
+    return [ConditionRequest(draughts=(each + half, each - half), kg=kg) for each in levels]

@@ -12,21 +12,31 @@ from typing import Literal
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.hydrostatics.appendage import Appendage
-from assoc_hull.analysis.hydrostatics.crossings import crossings
-from assoc_hull.analysis.hydrostatics.equilibrium import tons
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition, planes_of
-from assoc_hull.analysis.hydrostatics.floating_body import FloatingBody
-from assoc_hull.analysis.hydrostatics.hydrostatic_header import SALT, HydrostaticHeader
-from assoc_hull.analysis.hydrostatics.measured_hull import HasState, body_of, header_of
-from assoc_hull.analysis.stability.asked import OnError, checked_on_error, require_sound
-from assoc_hull.analysis.stability.condition import Asked, Condition, case_of, condition_of
+from assoc_hull.analysis.hydrostatics.bracketed_roots import sign_changes
+from assoc_hull.analysis.hydrostatics.floating_body import (
+    Appendage,
+    FloatingBody,
+    FloatingPosition,
+    planes_of,
+)
+from assoc_hull.analysis.hydrostatics.flotation import body_of, header_of
+from assoc_hull.analysis.hydrostatics.immersion import weight_in_tons
+from assoc_hull.analysis.hydrostatics.record import SALT, HydrostaticHeader
+from assoc_hull.analysis.stability.condition import (
+    Condition,
+    ConditionRequest,
+    OnError,
+    case_of,
+    checked_on_error,
+    condition_of,
+    doubts_of,
+)
 from assoc_hull.analysis.stability.flooding import open_deck_limit
-from assoc_hull.analysis.stability.heeled import Heeled, heeled
-from assoc_hull.analysis.stability.levers import Case
+from assoc_hull.analysis.stability.righting_lever import HeeledShip, StabilityCase, float_at_heels
 from assoc_hull.arguments import number
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.model.tables import HasState
 
 __all__ = ["Equilibrium", "equilibrium", "equilibrium_of"]
 
@@ -135,16 +145,20 @@ def equilibrium(
     body = body_of(hull)
     header = header_of(hull, body, terms)
     ahead, aside = number(lcg, "lcg", _WHERE), number(tcg, "tcg", _WHERE)
-    found = equilibrium_of(body, header, Asked(tons(weight), None, None, ahead, aside, header.kg))
-    doubts = require_sound(body, planes_of([found.position], header.length), on_error)
+    found = equilibrium_of(
+        body, header, ConditionRequest(weight_in_tons(weight), None, None, ahead, aside, header.kg)
+    )
+    doubts = doubts_of(body, planes_of([found.position], header.length), on_error)
     return attrs.evolve(found, notes=(*found.notes, *doubts))
 
 
-def equilibrium_of(body: FloatingBody, header: HydrostaticHeader, asked: Asked) -> Equilibrium:
+def equilibrium_of(
+    body: FloatingBody, header: HydrostaticHeader, asked: ConditionRequest
+) -> Equilibrium:
     """Find where a floating body comes to rest; as `equilibrium`, of which it is the inner part."""
     condition = condition_of(body, header, asked)
     case = case_of(body, header, [condition], "free")
-    upright = heeled(case, np.zeros(1))
+    upright = float_at_heels(case, np.zeros(1))
     gz, gm = float(upright.gz[0]), float(upright.growth[0])
     notes: tuple[str, ...] = (f"the deck is {header.deck}",)
     if abs(gz) <= _NONE and gm > 0.0:
@@ -158,13 +172,13 @@ def equilibrium_of(body: FloatingBody, header: HydrostaticHeader, asked: Asked) 
     return Equilibrium(_position(case, rest), kind, float(rest.growth[0]), gm, condition, notes)
 
 
-def _rest(case: Case, side: float, limit: float | None, *, loll: bool) -> Heeled:
+def _rest(case: StabilityCase, side: float, limit: float | None, *, loll: bool) -> HeeledShip:
     """Give the ship at the first heel at which her lever rises through nought."""
     at = np.append(_LEAST if loll else 0.0, _STEPS)
     if limit is not None:
         at = np.append(at[at < limit], max(limit - _RIM, at[0]))
     for some in (at[:_SOON], at):  # most ships are at rest soon
-        tried = heeled(case, side * some)
+        tried = float_at_heels(case, side * some)
         levers = side * tried.gz
         levers[0] = -np.inf  # she goes on from upright
         rights = np.flatnonzero(levers >= 0.0)
@@ -180,13 +194,13 @@ def _rest(case: Case, side: float, limit: float | None, *, loll: bool) -> Heeled
     first = int(rights[0])
 
     def lever(heel: FloatArray, _: IntArray) -> FloatArray:
-        return side * heeled(case, side * heel, near=tried).gz
+        return side * float_at_heels(case, side * heel, near=tried).gz
 
-    heel = crossings(lever, at[[first - 1]], at[[first]])
-    return heeled(case, side * heel, near=tried)
+    heel = sign_changes(lever, at[[first - 1]], at[[first]])
+    return float_at_heels(case, side * heel, near=tried)
 
 
-def _position(case: Case, at: Heeled) -> FloatingPosition:
+def _position(case: StabilityCase, at: HeeledShip) -> FloatingPosition:
     lift = 0.5 * case.afloat.length * float(at.slope[0])
     mean = float(at.mean[0])
     return FloatingPosition(mean - lift, mean + lift, float(at.heel_deg[0]))

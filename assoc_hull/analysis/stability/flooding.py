@@ -7,19 +7,20 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.hydrostatics.crossings import crossings
-from assoc_hull.analysis.hydrostatics.floating import Limits
-from assoc_hull.analysis.hydrostatics.floating_body import Floats
-from assoc_hull.analysis.hydrostatics.freeboard import deck_edge_angle
+from assoc_hull.analysis.hydrostatics.bracketed_roots import sign_changes
+from assoc_hull.analysis.hydrostatics.floating_body import (
+    Floatable,
+    WaterplaneLimits,
+    deck_edge_heel,
+)
 from assoc_hull.analysis.stability.condition import Condition
-from assoc_hull.analysis.stability.heeled import heeled
 from assoc_hull.analysis.stability.lever_curve import LeverCurve
-from assoc_hull.analysis.stability.levers import Case
+from assoc_hull.analysis.stability.righting_lever import StabilityCase, float_at_heels
 from assoc_hull.arguments import checked, flag, place, text
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 
-__all__ = ["Flooding", "FloodingPoint", "both_sides", "drowned_at", "open_deck_limit"]
+__all__ = ["Flooding", "FloodingPoint", "immersion_heels", "mirrored_places", "open_deck_limit"]
 
 _WHERE = "in a down-flooding point"
 _STEP, _STEEPEST = 5.0, 85.0
@@ -58,7 +59,7 @@ class FloodingPoint:
     def places(self) -> FloatArray:
         """Where it is, (1 or 2, 3), m."""
         one = np.array([self.place])
-        return both_sides(one) if self.both_sides else one
+        return mirrored_places(one) if self.both_sides else one
 
 
 @attrs.frozen
@@ -77,12 +78,12 @@ class Flooding:
     heel_deg: float | None
 
 
-def both_sides(places: FloatArray) -> FloatArray:
+def mirrored_places(places: FloatArray) -> FloatArray:
     """Give places, (k, 3), and those of the other side."""
     return np.concatenate([places, places * [1.0, -1.0, 1.0]])
 
 
-def drowned_at(curve: LeverCurve, groups: Sequence[FloatArray]) -> list[float | None]:
+def immersion_heels(curve: LeverCurve, groups: Sequence[FloatArray]) -> list[float | None]:
     """Tell at which heel the first place of each group goes under.
 
     Parameters
@@ -108,18 +109,18 @@ def drowned_at(curve: LeverCurve, groups: Sequence[FloatArray]) -> list[float | 
     some = np.flatnonzero(wet.any(axis=0) & ~wet[0])
 
     def height(heel: FloatArray, rows: IntArray) -> FloatArray:
-        here = heeled(curve.case, side * heel, near=heels)
+        here = float_at_heels(curve.case, side * heel, near=heels)
         return np.array(
             [here.dry(groups[some[row]])[k].min() for k, row in enumerate(rows.tolist())]
         )
 
-    angles = crossings(height, at[first[some] - 1], at[first[some]])
+    angles = sign_changes(height, at[first[some] - 1], at[first[some]])
     for i, angle in zip(some.tolist(), angles.tolist(), strict=True):
         found[i] = angle
     return found
 
 
-def open_deck_limit(case: Case, condition: Condition, side: int) -> float | None:
+def open_deck_limit(case: StabilityCase, condition: Condition, side: int) -> float | None:
     """Tell to which heel (degrees) the edge of an open deck stays dry; None: to the end.
 
     Parameters
@@ -131,19 +132,19 @@ def open_deck_limit(case: Case, condition: Condition, side: int) -> float | None
     """
     afloat = case.afloat
     if case.trim == "fixed":
-        return deck_edge_angle(afloat.body, condition.upright, afloat.length, afloat.appendages)
-    edge = both_sides(afloat.body.limits.deck)
+        return deck_edge_heel(afloat.body, condition.upright, afloat.length, afloat.appendages)
+    edge = mirrored_places(afloat.body.limits.deck)
     over = attrs.evolve(case, afloat=attrs.evolve(afloat, body=_Lidded(afloat.body)))
 
     def dry(heel: FloatArray, _: IntArray) -> FloatArray:
-        least = heeled(over, side * heel).dry(edge).min(axis=1)
+        least = float_at_heels(over, side * heel).dry(edge).min(axis=1)
         return np.where(np.isfinite(least), least, -np.inf)
 
     low = 0.0
     while low < _STEEPEST:
         high = min(low + _STEP, _STEEPEST)
         if dry(np.array([high]), np.zeros(1, np.int64))[0] <= 0.0:
-            return float(crossings(dry, np.array([low]), np.array([high]))[0])
+            return float(sign_changes(dry, np.array([low]), np.array([high]))[0])
         low = high
     return None
 
@@ -156,11 +157,11 @@ class _Lidded:
     is found from both sides.
     """
 
-    body: Floats
+    body: Floatable
 
     @property
-    def limits(self) -> Limits:
+    def limits(self) -> WaterplaneLimits:
         return attrs.evolve(self.body.limits, closed=True)
 
-    def measure(self, planes: Planes) -> Immersed:
+    def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         return self.body.measure(planes)

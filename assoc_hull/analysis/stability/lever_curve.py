@@ -14,9 +14,8 @@ import attrs
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from assoc_hull.analysis.hydrostatics.crossings import crossings
-from assoc_hull.analysis.stability.heeled import Heeled, heeled
-from assoc_hull.analysis.stability.levers import Case
+from assoc_hull.analysis.hydrostatics.bracketed_roots import sign_changes
+from assoc_hull.analysis.stability.righting_lever import HeeledShip, StabilityCase, float_at_heels
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
 __all__ = ["LeverCurve", "lever_curve"]
@@ -44,8 +43,8 @@ class LeverCurve:
         Towards which side the ship is judged: 1 starboard, -1 port.
     """
 
-    case: Case
-    heels: Heeled
+    case: StabilityCase
+    heels: HeeledShip
     side: int
 
     @cached_property
@@ -63,7 +62,7 @@ class LeverCurve:
         more = [self.side * each for each in heel_deg if each is not None]
         if not more:
             return self
-        found = _afloat(heeled(self.case, np.array(more), near=self.heels))
+        found = _afloat(float_at_heels(self.case, np.array(more), near=self.heels))
         return LeverCurve(self.case, self.heels.joined(found), self.side)
 
     @property
@@ -116,7 +115,7 @@ class LeverCurve:
         if low < 0 or low + 1 >= len(heel) or growth[low] * growth[low + 1] >= 0.0:
             return float(gz[k]), float(heel[k])
         place = self._crossing("growth", heel[low], heel[low + 1])
-        top = heeled(self.case, np.array([self.side * place]), near=self.heels)
+        top = float_at_heels(self.case, np.array([self.side * place]), near=self.heels)
         return self.side * float(top.gz[0]), place
 
     @cached_property
@@ -143,13 +142,15 @@ class LeverCurve:
         """Find where levers or slopes change their sign, computed anew."""
 
         def value(heel: FloatArray, _: IntArray) -> FloatArray:
-            found: FloatArray = getattr(heeled(self.case, self.side * heel, near=self.heels), name)
+            found: FloatArray = getattr(
+                float_at_heels(self.case, self.side * heel, near=self.heels), name
+            )
             return found
 
-        return float(crossings(value, np.array([low]), np.array([high]))[0])
+        return float(sign_changes(value, np.array([low]), np.array([high]))[0])
 
 
-def lever_curve(case: Case, heel_deg: FloatArray, side: int) -> LeverCurve:
+def lever_curve(case: StabilityCase, heel_deg: FloatArray, side: int) -> LeverCurve:
     """Compute the curve of a condition.
 
     Parameters
@@ -166,7 +167,7 @@ def lever_curve(case: Case, heel_deg: FloatArray, side: int) -> LeverCurve:
     LeverCurve
         At these heels, and at some in between.
     """
-    known = _afloat(heeled(case, heel_deg))
+    known = _afloat(float_at_heels(case, heel_deg))
     close = _CLOSE * max(1.0, float(np.abs(known.gz).max(initial=0.0)))
     low, high = _suspect(known, _FALL * close)
     for _ in range(_ROUNDS):
@@ -174,7 +175,7 @@ def lever_curve(case: Case, heel_deg: FloatArray, side: int) -> LeverCurve:
             break
         curve = LeverCurve(case, known, side)
         middle = 0.5 * (low + high)
-        found = heeled(case, middle, near=known)
+        found = float_at_heels(case, middle, near=known)
         poor = np.abs(found.gz - curve.gz(middle)) > close
         known = known.joined(_afloat(found))
         low, high = (
@@ -184,13 +185,13 @@ def lever_curve(case: Case, heel_deg: FloatArray, side: int) -> LeverCurve:
     return LeverCurve(case, known, side)
 
 
-def _afloat(heels: Heeled) -> Heeled:
+def _afloat(heels: HeeledShip) -> HeeledShip:
     """Leave out the heels at which she does not float."""
     good = np.isfinite(heels.gz)
-    return Heeled(*(each[good] for each in attrs.astuple(heels, recurse=False)))
+    return HeeledShip(*(each[good] for each in attrs.astuple(heels, recurse=False)))
 
 
-def _suspect(heels: Heeled, close: float) -> tuple[FloatArray, FloatArray]:
+def _suspect(heels: HeeledShip, close: float) -> tuple[FloatArray, FloatArray]:
     """Give the intervals beside heels whose lever the cubic between their neighbours misses."""
     at, gz, growth = np.radians(heels.heel_deg), heels.gz, heels.growth
     if len(at) < 3:

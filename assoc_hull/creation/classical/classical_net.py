@@ -10,14 +10,13 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from assoc_hull.arguments import shown
-from assoc_hull.edit.adoption.adopt import adopt
-from assoc_hull.edit.adoption.report import AdoptionReport
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.newline.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import Association, HullState, Particulars
+from assoc_hull.model.tables import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 if TYPE_CHECKING:
@@ -114,7 +113,7 @@ def classical_net(
     --------
     >>> from assoc_hull.creation.classical.middle_body import MiddleBody
     >>> from assoc_hull.creation.classical.classical_net import classical_net
-    >>> from assoc_hull.creation.classical.midship import Midship
+    >>> from assoc_hull.creation.classical.middle_body import Midship
     >>> body = MiddleBody(Midship(16.0, 2.0, 0.3, 2.5), length=40.0, depth=14.0, draught=9.0)
     >>> state, report = classical_net(body)
     >>> print(f"{body.volume(9.0):.5f}")

@@ -18,19 +18,18 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.creation.classical.report import (
     ClassicalReport,
-    Figure,
-    Section,
+    DefinedSection,
+    ReportFigure,
     departures,
     measure_net,
 )
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checked_input import numbers
-from assoc_hull.geometry.classical.checks import figure
+from assoc_hull.geometry.classical.checked_input import digits, numbers
 from assoc_hull.geometry.classical.conformal_sections import ConformalSections, lewis_sections
 from assoc_hull.geometry.curves import EndKind, FloatArray, PointKind, freeze
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import Ends, HullState, Particulars
+from assoc_hull.model.tables import Ends, HullState, Particulars
 
 __all__ = ["LewisHull"]
 
@@ -103,18 +102,18 @@ class LewisHull:
             what = f"Lewis hull: {len(stations)} stations that do not all rise"
             raise GeometryError(what, "give five or more, from aft forward")
         if beams[0] or beams[-1]:
-            what = f"Lewis hull: half-breadths {figure(beams[0])}, {figure(beams[-1])} at the ends"
+            what = f"Lewis hull: half-breadths {digits(beams[0])}, {digits(beams[-1])} at the ends"
             raise GeometryError(what, "let them be 0")
         if not 0.0 < deep < side or ((heights <= 0.0) | (heights >= deep)).any():
-            rest = f"depth {figure(side)}, levels {heights.tolist()}"
-            what = f"Lewis hull: draught {figure(deep)}, {rest}"
+            rest = f"depth {digits(side)}, levels {heights.tolist()}"
+            what = f"Lewis hull: draught {digits(deep)}, {rest}"
             raise GeometryError(what, "let levels lie below the draught, that below the depth")
         found = cls(stations, beams, full, deep, side, tuple(heights.tolist()), str(name))
         low = found.offsets[..., 1].min(axis=1)
         if low.min() < -1e-9 * deep:
             worst = int(np.argmin(low))
-            place = figure(stations[worst + 1])
-            what = f"Lewis hull: section at x={place} swells {figure(-low[worst])} m below the base"
+            place = digits(stations[worst + 1])
+            what = f"Lewis hull: section at x={place} swells {digits(-low[worst])} m below the base"
             told = {"x": float(stations[worst + 1]), "below": float(-low[worst])}
             raise GeometryError(what, "take a smaller area coefficient there", told)
         return found
@@ -226,19 +225,21 @@ class LewisHull:
             for each in (self.areas, self.areas * self.x, 2.0 * self.half_breadth)
         )
         figures = (
-            Figure("volume", volume, "m3", None if net is None else net.volume),
-            Figure("centre of volume, x", moment / volume, "m", None if net is None else net.x),
-            Figure("area of the waterplane", plane, "m2", None if net is None else net.area),
+            ReportFigure("volume", volume, "m3", None if net is None else net.volume),
+            ReportFigure(
+                "centre of volume, x", moment / volume, "m", None if net is None else net.x
+            ),
+            ReportFigure("area of the waterplane", plane, "m2", None if net is None else net.area),
         )
         away = () if state is None else departures(state, self._curves())
         return ClassicalReport(self.kind, self.name, figures, self.notes, away)
 
-    def _curves(self) -> tuple[Section, ...]:
+    def _curves(self) -> tuple[DefinedSection, ...]:
         """Give the sections below the waterline, closely, with the half areas of whole ones."""
         dense = self._above_base(self.sections.at(np.linspace(0.0, 0.5 * np.pi, 8 * self.points)))
         over = (self.depth - self.draught) * self.half_breadth[1:-1]
         half = 0.5 * self.areas[1:-1] + over
         return tuple(
-            Section(f"ST {x:g}", np.column_stack([np.full(len(places), x), places]), area)
+            DefinedSection(f"ST {x:g}", np.column_stack([np.full(len(places), x), places]), area)
             for x, places, area in zip(self.x[1:-1].tolist(), dense, half.tolist(), strict=True)
         )

@@ -1,56 +1,297 @@
-"""A ship by main types: sections of lines and arcs, decks, boundaries, boxes and deck houses.
+"""A ship by main types (PRELIKON): sections of lines and arcs, decks, boundaries, boxes, houses.
 
-Source: the PRELIKON system in Kim & Chang, "Some Representations of Ship Hulls by Mathematical
-Method for Design and Production", J. SNAK.
-
-Examples
---------
->>> from assoc_hull.creation.classical.prelikon import Prelikon
->>> from assoc_hull.creation.classical.prelikon_stations import Station
->>> from assoc_hull.geometry.classical.arc_section import through_points
->>> from assoc_hull.model.state import Particulars
->>> bilge = through_points([(0, 0), (8, 0), (10, 2), (10, 9)], kind=["line", "arc", "line"],
-...                        radius=[None, 2.0, None])
->>> body = Prelikon.make(Particulars("Body", 40, 20, 9, 6),
-...                      [Station(x, bilge) for x in (0.0, 20.0, 40.0)])
->>> round(body.volume_below(6.0).volume, 6)
-4731.327412
+`Prelikon` is the definition; its lines come from `prelikon_lines`. Volumes are exact areas of
+sections integrated by parabolas along the ship. Notes and report follow the class: what the net
+leaves out, and the definition's own numbers beside those of a net.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from types import MappingProxyType
 from typing import Self
 
 import attrs
 import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import simpson
+from scipy.interpolate import PchipInterpolator
 
-from assoc_hull.analysis.hydrostatics.appendage import Appendage
-from assoc_hull.arguments import all_of, instance
-from assoc_hull.creation.classical.main_types import require_types
-from assoc_hull.creation.classical.prelikon_lines import lies_on, lines_of
-from assoc_hull.creation.classical.prelikon_notes import asked_cuts, default_cuts, notes_of
-from assoc_hull.creation.classical.prelikon_profile import Profile, profile_of
-from assoc_hull.creation.classical.prelikon_report import report_of
-from assoc_hull.creation.classical.prelikon_stations import (
+from assoc_hull.analysis.hydrostatics.floating_body import Appendage
+from assoc_hull.arguments import all_of, instance, shown
+from assoc_hull.creation.classical.prelikon_lines import (
+    ENDS,
+    SAME_PLACE,
+    ArcJoint,
+    CentrelineProfile,
     Station,
+    arc_joints,
+    make_profile,
+    prelikon_lines,
+    section_contact,
     sorted_stations,
-    trimmed,
+    station_name,
+    trim_station,
     upper_deck,
 )
-from assoc_hull.creation.classical.prelikon_sums import Sum, volume_below, volume_to_deck
-from assoc_hull.creation.classical.report import ClassicalReport
+from assoc_hull.creation.classical.report import (
+    ClassicalReport,
+    DefinedSection,
+    ReportFigure,
+    departures,
+    measure_net,
+    with_net_figures,
+)
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.appendage_box import AppendageBox
-from assoc_hull.geometry.classical.arc_boundary import ArcBoundary
-from assoc_hull.geometry.classical.checks import finite
-from assoc_hull.geometry.classical.deck_house import DeckHouse
-from assoc_hull.geometry.classical.deck_surface import Deck, require_apart
-from assoc_hull.geometry.classical.space_curve import SpaceCurve
+from assoc_hull.geometry.classical.appendages import AppendageBox
+from assoc_hull.geometry.classical.arc_curve import ArcBoundary
+from assoc_hull.geometry.classical.boundary_lines import SpaceCurve
+from assoc_hull.geometry.classical.checked_input import digits, finite_array
+from assoc_hull.geometry.classical.deck import Deck, DeckHouse, require_decks_apart
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.model.tables import HullState, Particulars
 
-__all__ = ["Prelikon"]
+__all__ = [
+    "LATER",
+    "MAIN_TYPES",
+    "HullVolume",
+    "LongitudinalIntegral",
+    "Prelikon",
+    "area_above_side",
+    "checked_cuts",
+    "integrate_along",
+    "prelikon_cuts",
+    "prelikon_notes",
+    "prelikon_report",
+    "require_types",
+    "volume_below",
+    "volume_to_deck",
+]
+
+# --------------------------------------------------------------------------------------
+# The main types of a PRELIKON job, and which of them needs which.
+
+MAIN_TYPES: Mapping[int, str] = MappingProxyType({
+    1: "general",
+    2: "sheer",
+    3: "camber",
+    4: "deck",
+    5: "transverse sections",
+    6: "boundary curves",
+    7: "appendages",
+    8: "deck houses",
+    9: "space curves",
+})  # fmt: skip
+"""Number and name of every main type."""
+
+LATER = (7, 8)
+"""Main types that are better given after the others, when the body plan has been looked at."""
+
+_REQUIRED = (1, 5)
+_NEEDS = {4: (2, 3), 8: (2, 3, 4)}
+
+
+def require_types(given: Iterable[object]) -> tuple[int, ...]:
+    """Check that a job has the main types that it needs.
+
+    Origin and units (1) and transverse sections (5) must be there; a deck (4) needs sheer and
+    camber, a deck house (8) those and a deck. After the PRELIKON system in Kim & Chang, "Some
+    Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
+
+    Parameters
+    ----------
+    given : iterable of int
+        Numbers of main types, in any order.
+
+    Returns
+    -------
+    tuple of int
+        They, sorted, each once.
+
+    Raises
+    ------
+    GeometryError
+        ``"main type {t}: unknown"``, ``"main type {t} is required"``,
+        ``"main type {t} needs main type {u}"``.
+    """
+    try:
+        listed = list(given)
+    except TypeError:
+        what = f"main types: expected numbers, got {shown(given)}"
+        raise GeometryError(what, "give a set of numbers") from None
+    numbers = sorted({_known(each) for each in listed})
+    for needed in _REQUIRED:
+        if needed not in numbers:
+            raise GeometryError(
+                f"main type {needed} is required", f"give the {MAIN_TYPES[needed]}",
+                {"type": needed},
+            )  # fmt: skip
+    for each in numbers:
+        for needed in _NEEDS.get(each, ()):
+            if needed not in numbers:
+                raise GeometryError(
+                    f"main type {each} needs main type {needed}",
+                    f"give the {MAIN_TYPES[needed]}, or leave out the {MAIN_TYPES[each]}",
+                    {"type": each, "needs": needed},
+                )  # fmt: skip
+    return tuple(numbers)
+
+
+def _known(each: object) -> int:
+    if isinstance(each, bool) or not isinstance(each, int) or each not in MAIN_TYPES:
+        raise GeometryError(f"main type {shown(each)}: unknown", "use 1 to 9", {"type": each})
+    return each
+
+
+# --------------------------------------------------------------------------------------
+# Volumes and centres of a hull of sections: exact areas, parabolas along the ship.
+
+_ABOVE = 1e6
+"""A height (m) above all hulls."""
+
+
+@attrs.frozen
+class LongitudinalIntegral:
+    """An integral along the ship.
+
+    Attributes
+    ----------
+    total, moment : float
+        Integrals of f and of x f.
+    error : float
+        How far `total` may be off: three times what another interpolation of the same values
+        differs by, or half of what every second station gives, if that is more; no bound.
+    """
+
+    total: float
+    moment: float
+    error: float
+
+
+@attrs.frozen
+class HullVolume:
+    """A volume, both sides.
+
+    Attributes
+    ----------
+    volume : float, m3
+        Of it.
+    x, z : float, m
+        Its centre, from AP or wherever x is counted from, and from the base line.
+    error : float, m3
+        How far the volume may be off by the rule of integration.
+    """
+
+    volume: float
+    x: float
+    z: float
+    error: float
+
+
+def integrate_along(x: ArrayLike, values: ArrayLike) -> LongitudinalIntegral:
+    """Integrate values at stations by parabolas through each three of them.
+
+    With an odd number of stations at equal distances this is Simpson's first rule; where
+    distances differ the parabolas are those through unequal steps, and an even number of stations
+    has its last interval under the parabola of the last three. Two stations make a trapezium.
+
+    Parameters
+    ----------
+    x, values : (m,)
+        Two stations or more, x increasing.
+    """
+    at, given = finite_array(x, "stations", (None,)), finite_array(values, "stations", (None,))
+    total = float(simpson(given, x=at))
+    other = float(PchipInterpolator(at, given).integrate(at[0], at[-1]))
+    error = 3.0 * abs(total - other)
+    if len(at) > 4:
+        some = np.append(np.arange(0, len(at) - 1, 2), len(at) - 1)
+        error = max(error, 0.5 * abs(total - float(simpson(given[some], x=at[some]))))
+    return LongitudinalIntegral(total, float(simpson(at * given, x=at)), error)
+
+
+def area_above_side(station: Station, deck: Deck, level: float = np.inf) -> tuple[float, float]:
+    """Give area (m2) and moment (m3, about z = 0) between deck and the level of the deck edge.
+
+    One side; the station is cut off at the deck. Above `level` (m) nothing counts.
+    """
+    y, z = station.curve.arcs.ends()[-1].tolist()
+    if y <= 0.0 or level <= z:
+        return 0.0, 0.0
+    nodes, weights = np.polynomial.legendre.leggauss(32)
+    breaks = deck.camber.y
+    scale = y / deck.camber.half_breadth if deck.camber.scale == "local" else 1.0
+    inner = breaks[1:-1] * scale
+    ends = np.concatenate([[0.0], inner[inner < y], [y]])
+    half = 0.5 * np.diff(ends)
+    at = (ends[:-1, None] + half[:, None] * (1.0 + nodes)).ravel()
+    weight = (half[:, None] * weights).ravel()
+    top = np.minimum(deck.at(station.x, at, np.full(len(at), y)), level)
+    return float((weight * (top - z)).sum()), float((weight * 0.5 * (top**2 - z**2)).sum())
+
+
+def volume_below(
+    stations: Sequence[Station], profile: CentrelineProfile, draught: float
+) -> HullVolume:
+    """Give what lies below a height (m): exact areas, parabolas along the ship.
+
+    The integral runs between the places where the profile is farthest out below that height; areas
+    go to nil there, unless the hull ends flat.
+    """
+    area, moment = np.array([_areas_below(each, draught) for each in stations]).T
+    return _hull_volume(stations, profile, draught, area, moment)
+
+
+def volume_to_deck(
+    stations: Sequence[Station], profile: CentrelineProfile, deck: Deck | None
+) -> HullVolume:
+    """Give all of the hull, the space under the camber included."""
+    found = []
+    for each in stations:
+        area, moment = _areas_below(each, np.inf)
+        more, above = (0.0, 0.0) if deck is None else area_above_side(each, deck)
+        found.append((area + more, moment + above))
+    area, moment = np.array(found).T
+    return _hull_volume(stations, profile, np.inf, area, moment)
+
+
+def _areas_below(station: Station, level: float) -> tuple[float, float]:
+    """Give area and moment of half a section below a level: what is open above is closed there."""
+    area, _, moment = station.curve.moments_below(level)
+    return area, moment
+
+
+def _hull_volume(
+    stations: Sequence[Station], profile: CentrelineProfile, draught: float, area: FloatArray,
+    moment: FloatArray,
+) -> HullVolume:  # fmt: skip
+    x = np.array([each.x for each in stations])
+    level = min(draught, _ABOVE)
+    after, fore = profile.aftermost(level), profile.foremost(level)
+    within = (x > after + SAME_PLACE) & (x < fore - SAME_PLACE)
+    ends = [np.abs(x - place) <= SAME_PLACE for place in (after, fore)]
+    sides = [np.concatenate([area[at][:1], np.zeros(1)])[0] for at in ends]
+    tops = [np.concatenate([moment[at][:1], np.zeros(1)])[0] for at in ends]
+    x = np.concatenate([[after], x[within], [fore]])
+    area = np.concatenate([sides[:1], area[within], sides[1:]])
+    moment = np.concatenate([tops[:1], moment[within], tops[1:]])
+    if len(x) < 3 and not area.any():
+        return HullVolume(0.0, float(x.mean()), draught, 0.0)
+    volume, height = integrate_along(x, 2.0 * area), integrate_along(x, 2.0 * moment)
+    if volume.total == 0.0:
+        return HullVolume(0.0, float(x.mean()), draught, 0.0)
+    return HullVolume(
+        volume.total, volume.moment / volume.total, height.total / volume.total, volume.error
+    )
+
+
+# --------------------------------------------------------------------------------------
+# A ship by main types: sections of lines and arcs, decks, boundaries, boxes and deck houses.
+#
+# Source: the PRELIKON system in Kim & Chang, "Some Representations of Ship Hulls by Mathematical
+# Method for Design and Production", J. SNAK.
 
 _WHERE = "in a ship of main types"
 
@@ -90,7 +331,7 @@ class Prelikon:
     boxes: tuple[AppendageBox, ...]
     houses: tuple[DeckHouse, ...]
     curves: tuple[SpaceCurve, ...]
-    profile: Profile
+    profile: CentrelineProfile
     cuts: Mapping[str, tuple[float, ...]]
     notes: tuple[str, ...]
 
@@ -136,12 +377,15 @@ class Prelikon:
             what = f"transverse sections: {len(given)} of them"
             raise GeometryError(what, "give two or more", {"count": len(given)})
         deck = upper_deck(given_decks)
-        cut = tuple(trimmed(each, deck) for each in given)
-        profile = profile_of(cut, bounds, deck)
+        cut = tuple(trim_station(each, deck) for each in given)
+        profile = make_profile(cut, bounds, deck)
         _require_decks(given, given_decks, given_houses)
-        chosen = default_cuts(cut, particulars.draught) | asked_cuts(cuts)
+        chosen = prelikon_cuts(cut, particulars.draught) | checked_cuts(cuts)
         before = all_of(notes, str, "notes", _WHERE)
-        told = (*before, *notes_of(cut, profile, bounds, given_curves, given_boxes, given_houses))
+        told = (
+            *before,
+            *prelikon_notes(cut, profile, bounds, given_curves, given_boxes, given_houses),
+        )
         return cls(
             particulars, cut, given_decks, bounds, given_boxes, given_houses, given_curves, profile,
             chosen, told,
@@ -160,7 +404,9 @@ class Prelikon:
     @property
     def knuckles(self) -> tuple[SpaceCurve, ...]:
         """The space curves at which all sections they pass have a corner: lines of the net."""
-        return tuple(each for each in self.curves if lies_on(each, self.stations).is_knuckle)
+        return tuple(
+            each for each in self.curves if section_contact(each, self.stations).is_knuckle
+        )
 
     @property
     def appendages(self) -> tuple[Appendage, ...]:
@@ -169,7 +415,7 @@ class Prelikon:
             Appendage(each.name, each.volume, each.centroid, each.surface) for each in self.boxes
         )
 
-    def volume_below(self, z: float) -> Sum:
+    def volume_below(self, z: float) -> HullVolume:
         """Give the moulded volume below a height (m), without appendages, and its centre.
 
         Raises
@@ -177,9 +423,9 @@ class Prelikon:
         GeometryError
             A height that is no finite number.
         """
-        return volume_below(self.stations, self.profile, float(finite(z, "draught", ())))
+        return volume_below(self.stations, self.profile, float(finite_array(z, "draught", ())))
 
-    def volume_to_deck(self) -> Sum:
+    def volume_to_deck(self) -> HullVolume:
         """Give the whole moulded volume, up to the cambered deck, and its centre."""
         return volume_to_deck(self.stations, self.profile, self.deck)
 
@@ -191,12 +437,12 @@ class Prelikon:
         GeometryError
             A deck whose sheer or camber does not reach as far as the hull.
         """
-        return lines_of(self.stations, self.profile, self.deck, self.knuckles)
+        return prelikon_lines(self.stations, self.profile, self.deck, self.knuckles)
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give volumes and centres of hull, boxes and houses, beside those of a net of it."""
         given = None if state is None else instance(state, HullState, "state", "in a report")
-        return report_of(self, given)
+        return prelikon_report(self, given)
 
 
 def _require_decks(
@@ -208,15 +454,203 @@ def _require_decks(
     x = np.array([each.x for each in stations])
     edges = {
         deck.number: np.array([
-            trimmed(each, deck).curve.arcs.ends()[-1, 0] for each in stations
+            trim_station(each, deck).curve.arcs.ends()[-1, 0] for each in stations
         ])
         for deck in decks
         if len(decks) > 1 or any(house.deck.number == deck.number for house in houses)
     }  # fmt: skip
     if len(decks) > 1:
-        require_apart(decks, x, np.min(list(edges.values()), axis=0))
+        require_decks_apart(decks, x, np.min(list(edges.values()), axis=0))
     for house in houses:
         if house.deck.number not in edges:
             what = f"deck house: unknown deck {house.deck.number}"
             raise GeometryError(what, "give the deck to the ship", {"deck": house.deck.number})
         house.require_breadth(x, edges[house.deck.number])
+
+
+# --------------------------------------------------------------------------------------
+# What a ship of main types says beside its numbers, and where its net is cut by itself.
+
+_REPORTED_TURN = 1e-4
+"""Jumps of direction (rad) that are told."""
+
+
+def prelikon_cuts(stations: Sequence[Station], draught: float) -> dict[str, tuple[float, ...]]:
+    """Give heights of waterlines and half-breadths of buttocks where none are given, m."""
+    top = min(float(each.curve.arcs.ends()[-1, 1]) for each in stations)
+    wide = max(float(each.curve.joints()[:, 0].max()) for each in stations)
+    heights = [part * draught for part in (0.15, 0.4, 0.7, 1.0)]
+    heights.append(0.5 * (draught + top))
+    return {
+        "buttocks": tuple(part * wide for part in (0.25, 0.5, 0.75)),
+        "waterlines": tuple(z for z in heights if z < top - SAME_PLACE),
+    }
+
+
+def checked_cuts(cuts: object) -> dict[str, tuple[float, ...]]:
+    """Take heights of waterlines and half-breadths of buttocks as they are asked for, m.
+
+    Raises
+    ------
+    GeometryError
+        No mapping, another family of lines, or places that are no finite numbers.
+    """
+    if cuts is None:
+        return {}
+    if not isinstance(cuts, Mapping):
+        what = f"the planes of a net are {shown(cuts)}"
+        raise GeometryError(what, "give places by family of lines")
+    found = {}
+    for group, places in cuts.items():
+        if group not in ("buttocks", "waterlines"):
+            what = f"a net is not cut by {shown(group)}"
+            raise GeometryError(what, "use one of buttocks, waterlines")
+        found[group] = tuple(finite_array(places, group, (None,)).tolist())
+    return found
+
+
+def prelikon_notes(
+    stations: Sequence[Station],
+    profile: CentrelineProfile,
+    boundaries: Sequence[ArcBoundary],
+    curves: Sequence[SpaceCurve],
+    boxes: Sequence[AppendageBox],
+    houses: Sequence[DeckHouse],
+) -> tuple[str, ...]:
+    """Tell what the net leaves out, and how what it leaves out lies to the sections."""
+    found = _joint_notes(stations)
+    found += [note for each in curves if (note := _curve_notes(each, stations))]
+    found += [_boundary_notes(each, stations) for each in boundaries if each.name not in ENDS]
+    for name, count in (("appendage box", len(boxes)), ("deck house", len(houses))):
+        if count:
+            plural = {"appendage box": "appendage boxes"}.get(name, f"{name}s")
+            title = f"1 {name} is" if count == 1 else f"{count} {plural} are"
+            found.append(f"{title} told here and not in the net")
+    return tuple(found)
+
+
+def _joint_notes(stations: Sequence[Station]) -> list[str]:
+    """Tell of the corners between mean circles that the net passes smoothly."""
+    passed = [
+        abs(float(turn))
+        for each in stations
+        for joint, turn in zip(arc_joints(each.curve), each.curve.turns(), strict=True)
+        if joint != ArcJoint.CORNER and abs(turn) > _REPORTED_TURN
+    ]
+    if not passed:
+        return []
+    most = digits(round(max(passed), 4))
+    return [
+        f"sections have {len(passed)} joints at which their direction jumps, by up to {most} rad: "
+        "the net is smooth there"
+    ]
+
+
+def _curve_notes(curve: SpaceCurve, stations: Sequence[Station]) -> str:
+    """Tell of a space curve that is no line of the net."""
+    lying = section_contact(curve, stations)
+    title = f'space curve "{curve.name}" is not in the net'
+    if lying.is_knuckle:
+        return ""
+    if lying.count < 2:
+        return f"{title}: it passes {lying.count} section(s)"
+    if lying.distance > SAME_PLACE:
+        off = f"{digits(round(lying.distance, 4))} m at x={digits(lying.where)}"
+        return f"{title}: it leaves the sections by up to {off}"
+    return f"{title}: it lies on the sections, of which not all have a corner there"
+
+
+def _boundary_notes(boundary: ArcBoundary, stations: Sequence[Station]) -> str:
+    """Tell how a boundary curve in another plane lies to the sections."""
+    title = f'boundary "{boundary.name}" is not in the net'
+    worst, where = -1.0, np.nan
+    for each in stations:
+        given = boundary.curve.where(0, each.x)[:, 1]
+        met = each.curve.where(0, boundary.y)[:, 1]
+        if len(given) and len(met):
+            off = float(np.abs(given[:, None] - met).min(axis=1).max())
+            if off > worst:
+                worst, where = off, each.x
+    if worst < 0.0:
+        return f"{title}: it passes no section"
+    return (
+        f"{title}: it leaves the sections by up to {digits(round(worst, 4))} m at x={digits(where)}"
+    )
+
+
+# --------------------------------------------------------------------------------------
+# The numbers of a ship of main types, and those of a net of it beside them.
+
+_STEP = 0.1
+"""Distance (m) of the places of a section that are sought in the net."""
+
+
+def prelikon_report(ship: Prelikon, state: HullState | None) -> ClassicalReport:
+    """Tell volumes and centres of hull, boxes and houses.
+
+    Parameters
+    ----------
+    ship : Prelikon
+        The ship.
+    state : HullState or None
+        A net of it.
+    """
+    hull, notes = with_net_figures(partial(_hull_figures, ship), state)
+    figures = (*hull, *_box_figures(ship), *_house_figures(ship))
+    away = () if state is None else departures(state, _defined_sections(ship))
+    return ClassicalReport(ship.kind, ship.particulars.name, figures, (*ship.notes, *notes), away)
+
+
+def _hull_figures(ship: Prelikon, state: HullState | None) -> list[ReportFigure]:
+    draught = ship.particulars.draught
+    side = min(float(each.curve.arcs.ends()[-1, 1]) for each in ship.stations)
+    found = []
+    for name, height in (("the draught", draught), ("the lowest deck side", side)):
+        if height > side:
+            continue
+        # At the deck itself a closed deck would lie in the plane.
+        net = None if state is None else measure_net(state, height - 1e-9)
+        own = ship.volume_below(height)
+        title = f"hull below {name} {height:g} m"
+        found += _volume_figure(title, own, None if net is None else (net.volume, net.x, net.z))
+    return [*found, *_volume_figure("hull to the deck, with camber", ship.volume_to_deck(), None)]
+
+
+def _volume_figure(
+    title: str, own: HullVolume, net: tuple[float, float, float] | None
+) -> list[ReportFigure]:
+    beside = (None, None, None) if net is None else net
+    return [
+        ReportFigure(f"{title}: volume", own.volume, "m3", beside[0], own.error),
+        ReportFigure(f"{title}: centre x", own.x, "m", beside[1]),
+        ReportFigure(f"{title}: centre z", own.z, "m", beside[2]),
+    ]
+
+
+def _box_figures(ship: Prelikon) -> list[ReportFigure]:
+    found = []
+    for each in ship.boxes:
+        found.append(ReportFigure(f"{each.name}: volume", each.volume, "m3"))
+        for axis, at in zip("xyz", each.centroid, strict=True):
+            found.append(ReportFigure(f"{each.name}: centre {axis}", at, "m"))
+    return found
+
+
+def _house_figures(ship: Prelikon) -> list[ReportFigure]:
+    found = []
+    for each in ship.houses:
+        found.append(ReportFigure(f"{each.name}: volume", each.volume, "m3"))
+        found.append(ReportFigure(f"{each.name}: profile area", each.profile_area, "m2"))
+        found.append(ReportFigure(f"{each.name}: centre x", each.centroid[0], "m"))
+        found.append(ReportFigure(f"{each.name}: centre z", each.centroid[2], "m"))
+    return found
+
+
+def _defined_sections(ship: Prelikon) -> list[DefinedSection]:
+    found = []
+    for k, each in enumerate(ship.stations):
+        yz = each.curve.sampled(_STEP)
+        area = each.curve.moments_below(np.inf)[0]
+        name = station_name(ship.stations, k, ship.profile.flat)
+        found.append(DefinedSection(name, np.column_stack([np.full(len(yz), each.x), yz]), area))
+    return found

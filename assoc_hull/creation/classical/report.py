@@ -18,25 +18,25 @@ from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.arguments import instance, text
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.integrals.area_moments import line_integral
-from assoc_hull.geometry.splines.closest import closest
-from assoc_hull.model.state import HullState
+from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.model.tables import HullState
 
 __all__ = [
     "ClassicalReport",
+    "DefinedSection",
     "Departure",
-    "Figure",
-    "Measured",
-    "Section",
-    "beside_net",
+    "NetMeasure",
+    "ReportFigure",
     "departures",
     "measure_net",
+    "with_net_figures",
 ]
 
 
 @attrs.frozen
-class Figure:
+class ReportFigure:
     """One number of a definition.
 
     Attributes
@@ -98,11 +98,11 @@ class ClassicalReport:
 
     kind: str
     title: str
-    figures: tuple[Figure, ...]
+    figures: tuple[ReportFigure, ...]
     notes: tuple[str, ...] = ()
     departures: tuple[Departure, ...] = ()
 
-    def figure(self, name: str) -> Figure:
+    def figure(self, name: str) -> ReportFigure:
         """Give a number by its name.
 
         Raises
@@ -140,7 +140,7 @@ class ClassicalReport:
         return "\n".join([*lines, *(f"note: {each}" for each in self.notes)]) + "\n"
 
 
-def _row(each: Figure, beside: bool) -> str:
+def _row(each: ReportFigure, beside: bool) -> str:
     row = f"  {each.name:42}{each.value:16.6f} {each.unit:4}"
     if beside and each.net is not None:
         part = f" ({each.net / each.value - 1.0:+.1e})" if each.value else ""
@@ -151,7 +151,7 @@ def _row(each: Figure, beside: bool) -> str:
 
 
 @attrs.frozen
-class Measured:
+class NetMeasure:
     """What a net has below a level plane, both sides.
 
     Attributes
@@ -170,7 +170,7 @@ class Measured:
     area: float
 
 
-def measure_net(state: HullState, height: float) -> Measured:
+def measure_net(state: HullState, height: float) -> NetMeasure:
     """Measure a net below a height (m) above the base line.
 
     Examples
@@ -182,10 +182,10 @@ def measure_net(state: HullState, height: float) -> Measured:
     (2777, 50.0)
     """
     instance(state, HullState, "state", "in a report of a definition")
-    plane = Planes(np.array([height]), np.zeros(1), np.zeros(1))
+    plane = FloatingPlanes(np.array([height]), np.zeros(1), np.zeros(1))
     found = flotation(state).measure(plane)
     volume = float(found.volume[0])
-    return Measured(
+    return NetMeasure(
         volume,
         float(found.moment_x[0]) / volume,
         float(found.moment_z[0]) / volume,
@@ -193,9 +193,9 @@ def measure_net(state: HullState, height: float) -> Measured:
     )
 
 
-def beside_net(
-    figures: Callable[[HullState | None], Iterable[Figure]], state: HullState | None
-) -> tuple[tuple[Figure, ...], tuple[str, ...]]:
+def with_net_figures(
+    figures: Callable[[HullState | None], Iterable[ReportFigure]], state: HullState | None
+) -> tuple[tuple[ReportFigure, ...], tuple[str, ...]]:
     """Give figures with those of a net beside them; a note in their place if it has none.
 
     Parameters
@@ -212,7 +212,7 @@ def beside_net(
 
 
 @attrs.frozen(eq=False)
-class Section:
+class DefinedSection:
     """A section as a definition has it.
 
     Attributes
@@ -233,7 +233,7 @@ class Section:
         freeze(self.points)
 
 
-def departures(state: HullState, sections: Sequence[Section]) -> tuple[Departure, ...]:
+def departures(state: HullState, sections: Sequence[DefinedSection]) -> tuple[Departure, ...]:
     """Tell how far the lines of a net leave the curves of a definition.
 
     Parameters
@@ -250,7 +250,7 @@ def departures(state: HullState, sections: Sequence[Section]) -> tuple[Departure
             continue
         curves = state.lines.curves.data[names[each.name]]
         batch = SplineBatch.join([state.spline(curve) for curve in curves])
-        away = [closest(batch, k, each.points)[2] for k in range(batch.count)]
+        away = [closest_points(batch, k, each.points)[2] for k in range(batch.count)]
         area = float(line_integral(batch, (1, 0), (1, 2), along=1).sum())
         farthest = float(np.min(away, axis=0).max())
         found.append(Departure(each.name, farthest, each.area, area))

@@ -1,31 +1,72 @@
-"""What a ship by boundary data is made of besides its lines: midship section, deck, appendages."""
+"""What a ship by boundary data (SEAKING) is made of, and its sections.
+
+Knuckles, parallel part, appendages and deck camber are its parts besides keel and waterlines. A
+section is a frame or the midship section; the functions give it as an outline, as points and as an
+area. Last stand the checks of what must go together: heights, ends, the midship section.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+import math
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import Any, Self
 
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import instance
-from assoc_hull.creation.classical.midship import Midship
+from assoc_hull.creation.classical.line_outline import PlaneOutline, smooth_piece, straight_piece
+from assoc_hull.creation.classical.middle_body import Midship, midship_outline
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.appendage import Appendage
+from assoc_hull.geometry.classical.appendages import LoftedAppendage
+from assoc_hull.geometry.classical.boundary_lines import CodedKnuckleLine, KeelOutline
 from assoc_hull.geometry.classical.camber import KINDS
-from assoc_hull.geometry.classical.checks import finite
-from assoc_hull.geometry.classical.choices import one_of
-from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
+from assoc_hull.geometry.classical.checked_input import (
+    bounded_height,
+    digits,
+    finite_array,
+    one_of,
+    within_range,
+)
+from assoc_hull.geometry.classical.circular_arcs import arc_area, arc_moment
+from assoc_hull.geometry.classical.frame_section import (
+    DeckCorner,
+    FrameSection,
+    Quadratics,
+    deck_corner,
+    deck_pieces,
+)
+from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["WHERE", "Attached", "DeckCamber", "Knuckle", "Parallel", "is_a"]
+__all__ = [
+    "WHERE",
+    "AttachedAppendage",
+    "DeckCamber",
+    "Knuckle",
+    "MidshipSection",
+    "ParallelPart",
+    "SeakingSection",
+    "check_deck",
+    "check_frames",
+    "check_heights",
+    "check_parallel",
+    "half_area",
+    "instance_validator",
+    "section_outline",
+    "section_samples",
+]
+
+# --------------------------------------------------------------------------------------
+# What a ship by boundary data is made of besides its lines: midship section, deck, appendages.
 
 WHERE = "in a ship by boundary data"
 """What errors of type say of the place."""
 
 
-def is_a(kind: type) -> Callable[[object, attrs.Attribute[Any], object], None]:
+def instance_validator(kind: type) -> Callable[[object, attrs.Attribute[Any], object], None]:
     """Give a validator: the value of a field is of this class."""
 
     def look(_: object, field: attrs.Attribute[Any], value: object) -> None:
@@ -35,33 +76,33 @@ def is_a(kind: type) -> Callable[[object, attrs.Attribute[Any], object], None]:
 
 
 def _place(given: object) -> float:
-    return float(finite(given, "midship", ()))  # type: ignore[arg-type]
+    return float(finite_array(given, "midship", ()))  # type: ignore[arg-type]
 
 
 @attrs.frozen
 class Knuckle:
     """A knuckle line: its name, and half-breadths and heights over x."""
 
-    name: str = attrs.field(validator=is_a(str))
-    line: KnuckleLine = attrs.field(validator=is_a(KnuckleLine))
+    name: str = attrs.field(validator=instance_validator(str))
+    line: CodedKnuckleLine = attrs.field(validator=instance_validator(CodedKnuckleLine))
 
 
 @attrs.frozen
-class Parallel:
+class ParallelPart:
     """A midship section, and from where to where (m) the ship has it."""
 
-    section: Midship = attrs.field(validator=is_a(Midship))
+    section: Midship = attrs.field(validator=instance_validator(Midship))
     first: float = attrs.field(converter=_place)
     last: float = attrs.field(converter=_place)
 
 
 @attrs.frozen
-class Attached:
+class AttachedAppendage:
     """An appendage: its name, and whether it is drawn on one side and stands on both."""
 
-    name: str = attrs.field(validator=is_a(str))
-    body: Appendage = attrs.field(validator=is_a(Appendage))
-    both: bool = attrs.field(default=True, validator=is_a(bool))
+    name: str = attrs.field(validator=instance_validator(str))
+    body: LoftedAppendage = attrs.field(validator=instance_validator(LoftedAppendage))
+    both: bool = attrs.field(default=True, validator=instance_validator(bool))
 
     @property
     def volume(self) -> float:
@@ -70,7 +111,7 @@ class Attached:
 
 
 def _rows(given: ArrayLike) -> FloatArray:
-    return finite(given, "deck", (None, 2))
+    return finite_array(given, "deck", (None, 2))
 
 
 @attrs.frozen(eq=False)
@@ -106,3 +147,214 @@ class DeckCamber:
         if not len(self.corner) or not self.corner[0, 0] <= x <= self.corner[-1, 0]:
             return rise, 0.0
         return rise, float(np.interp(x, *self.corner.T))
+
+
+# --------------------------------------------------------------------------------------
+# Sections of a ship by boundary data, as the net and the report need them.
+
+_DRAWN = 64
+"""Chords that stand for a bilge in a comparison."""
+
+
+@attrs.frozen
+class MidshipSection:
+    """The midship section where the ship is parallel.
+
+    Attributes
+    ----------
+    x : float, m
+        Where it stands.
+    midship : Midship
+        Its shape.
+    depth : float, m
+        Height of the deck side.
+    deck : Quadratics or None
+        Camber; None of a deck straight across.
+    corner : DeckCorner or None
+        Between side and deck.
+    """
+
+    x: float
+    midship: Midship
+    depth: float
+    deck: Quadratics | None
+    corner: DeckCorner | None
+
+    @classmethod
+    def make(
+        cls, x: float, midship: Midship, depth: float, rise: float | None = None,
+        kind: str = "parabola", radius: float = 0.0,
+    ) -> Self:  # fmt: skip
+        """Put a deck with a rise (m; None without) and a corner radius (m, 0 without) on it.
+
+        Raises
+        ------
+        GeometryError
+            ``"frame x={x}: corner radius {r} does not fit"``.
+        """
+        instance(midship, Midship, "midship", "in a section")
+        given = (depth, radius, x, 0.0 if rise is None else rise)
+        height, round_off, place, crown = (bounded_height(each, "frame") for each in given)
+        top, corner = np.array([midship.half_breadth, height]), None
+        if round_off:
+            name = f"frame x={digits(place)}"
+            corner = deck_corner(
+                midship.half_breadth, height, crown, round_off, kind=kind, name=name
+            )
+            if corner.side_point[1] < midship.centre[1]:
+                what = f"{name}: corner radius {digits(round_off)} does not fit"
+                raise GeometryError(what, "give a smaller radius", {"r": round_off})
+        one_of(kind, KINDS, "camber: kind")
+        bare = rise is None and corner is None
+        deck = None if bare else deck_pieces(top, crown, kind, corner)
+        return cls(place, midship, height, deck, corner)
+
+    @property
+    def largest_jump(self) -> float:
+        """Nil: what corners it has are meant, rad."""
+        return 0.0
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """None."""
+        return ()
+
+    def area(self, level: float | None = None) -> float:
+        """Give the area of both sides below a height (m), m2; all of it if None."""
+        height = math.inf if level is None else level
+        found = self.midship.area(min(max(height, 0.0), self._side))
+        if self.corner is not None:
+            found += 2.0 * arc_area(self.corner.arc(), self.corner.centre, height)
+        return found + (0.0 if self.deck is None else 2.0 * self.deck.area_below(height))
+
+    def moment(self, level: float) -> float:
+        """Give the moment of that area about the base, m3."""
+        found = self.midship.moment(min(max(level, 0.0), self._side))
+        if self.corner is not None:
+            found += 2.0 * arc_moment(self.corner.arc(), self.corner.centre, level)
+        return found + (0.0 if self.deck is None else 2.0 * self.deck.moment_below(level))
+
+    @property
+    def _side(self) -> float:
+        return self.depth if self.corner is None else self.corner.side_point[1]
+
+    def half_breadth(self, level: float) -> float:
+        """Give the half-breadth at a height (m), m; nan where it has none."""
+        if not 0.0 <= level <= self.depth:
+            return math.nan
+        return float(self.midship.half_breadths(level))
+
+
+SeakingSection = FrameSection | MidshipSection
+"""Either kind."""
+
+
+def section_outline(section: SeakingSection) -> PlaneOutline:
+    """Give a section from the centre line to the deck side as the net draws it.
+
+    Its given points are points of the line, corners are knuckles; a flat of bottom is left
+    horizontally. Between points the kernel's smooth curve runs in the place of parabolas.
+    """
+    if isinstance(section, MidshipSection):
+        return midship_outline(section.midship, section.depth)
+    pieces = [straight_piece((0.0, 0.0), (section.flat, 0.0))]
+    for number, run in enumerate(section.runs):
+        level = number == 0 and section.level_start
+        if len(run.points) == 2 and not level:
+            pieces.append(straight_piece(*run.points))
+        else:
+            pieces.append(smooth_piece(run.points, start=0.0 if level else None))
+    return PlaneOutline.of(pieces)
+
+
+def section_samples(section: SeakingSection) -> FloatArray:
+    """Give points close together on the definition's curve, (n, 2), m."""
+    if isinstance(section, FrameSection):
+        return section.drawn()
+    outline = midship_outline(section.midship, section.depth)
+    bilge = section.midship.bilge()
+    if bilge is None:
+        return outline.points
+    along = np.linspace(0.0, float(bilge.length[0]), _DRAWN + 1)
+    return np.concatenate([outline.points, bilge.at(np.zeros(len(along), np.int64), along)])
+
+
+def half_area(section: SeakingSection) -> float:
+    """Give the area of one side up to the deck side, without camber and corner, m2."""
+    if isinstance(section, MidshipSection):
+        return 0.5 * section.midship.area(section.depth)
+    return section.side_area
+
+
+# --------------------------------------------------------------------------------------
+# What of a ship by boundary data must go together: heights, ends, the midship section.
+
+_SAME = 1e-6
+"""Places (m) that differ by less are one."""
+
+
+def check_heights(waterlines: Sequence[ParallelWaterline]) -> None:
+    """Refuse waterlines that do not stand one above the other."""
+    for one, other in pairwise(waterlines):
+        if other.z - one.z <= _SAME:
+            raise GeometryError(
+                f"waterline z={digits(other.z)}: stands at or below the one before it",
+                "give waterlines upward, each once", {"z": other.z},
+            )  # fmt: skip
+
+
+def check_deck(deck: CodedKnuckleLine, keel: KeelOutline) -> None:
+    """Refuse a deck side that is too short, below nil or below the keel."""
+    if deck.single:
+        what = "deck side: has one column of values"
+        raise GeometryError(what, "give half-breadths and heights", {})
+    first, last = keel.ends
+    if deck.ends[0] > first + _SAME or deck.ends[1] < last - _SAME:
+        raise GeometryError(
+            f"deck side: must cover [{digits(first)}, {digits(last)}]",
+            "let it run as far as the contour", {"ends": deck.ends},
+        )  # fmt: skip
+    if (deck.v[:, 0] < 0.0).any():
+        row = int(np.argmax(deck.v[:, 0] < 0.0))
+        raise GeometryError(
+            f"deck side: negative half-breadth at row {row}", "give 0 or more", {"row": row}
+        )
+    for x in (first, last):
+        top, bottom = float(deck.at(x)[1]), float(keel.height(x))
+        if top < bottom - _SAME:
+            what = f"deck side: z={digits(top)} at x={digits(x)} lies below the contour"
+            raise GeometryError(what, "raise it or lower the contour", {"x": x, "z": top})
+
+
+def check_frames(frames: FloatArray, ends: tuple[float, float]) -> None:
+    """Refuse frames that are out of order or beyond the ends."""
+    finite_array(frames, "frames", (None,))
+    step = np.diff(frames)
+    if len(frames) < 2 or (step <= _SAME).any():
+        row = int(np.argmax(step <= _SAME)) + 1 if len(frames) > 1 else 0
+        what = f"frames: x not strictly increasing at row {row}"
+        raise GeometryError(what, "give two frames or more, in order from aft", {"row": row})
+    within_range(frames, "frames", *ends)
+
+
+def check_parallel(parallel: ParallelPart, deck: CodedKnuckleLine, keel: KeelOutline) -> None:
+    """Refuse a midship section off the level keel, or of another breadth than the deck side."""
+    first, last, half = parallel.first, parallel.last, parallel.section.half_breadth
+    if not keel.x_a - _SAME <= first < last <= keel.x_b + _SAME:
+        raise GeometryError(
+            f"midship: its part [{digits(first)}, {digits(last)}] leaves the level keel",
+            f"let it lie between {digits(keel.x_a)} and {digits(keel.x_b)}", {},
+        )  # fmt: skip
+    nodes = deck.x[(deck.x > first) & (deck.x < last)]
+    for x in (first, *nodes.tolist(), last):
+        y, z = deck.at(x).tolist()
+        if abs(y - half) > _SAME:
+            raise GeometryError(
+                f"midship: the deck side at x={digits(x)} has y={digits(y)}, not a={digits(half)}",
+                "let the deck side run parallel there", {"x": x, "y": y, "a": half},
+            )  # fmt: skip
+        if parallel.section.centre[1] > z:
+            raise GeometryError(
+                f"midship: bilge centre z={digits(parallel.section.centre[1])} above the side "
+                f"height {digits(z)}", "give a smaller radius or rise", {"x": x, "D": z},
+            )  # fmt: skip

@@ -25,12 +25,11 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import all_of, shown
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite
-from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
-from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
+from assoc_hull.geometry.classical.checked_input import digits, finite_array
+from assoc_hull.geometry.classical.ordinate_section import OrdinateSection, PairedParabolas
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["KINDS", "MAIN", "Portion", "require_apart", "three_eighths"]
+__all__ = ["KINDS", "MAIN", "Portion", "require_portions_apart", "three_eighths_rule"]
 
 KINDS = (
     "stern", "aft portion", "middle body (aft)", "middle body (fwd)", "fore body", "bow", "stem",
@@ -101,7 +100,7 @@ class Portion:
     @classmethod
     def of_areas(cls, number: int, stations: ArrayLike, areas: ArrayLike) -> Self:
         """Make a portion of which the section areas (m,), m2, alone are known; errors as `make`."""
-        given = finite(areas, "section areas", (None,))
+        given = finite_array(areas, "section areas", (None,))
         x = _stations(number, stations, len(given))
         return cls(number, x, given, np.full(len(x), np.nan), ())
 
@@ -180,7 +179,7 @@ class Portion:
         if not self.sections:
             what = f"portion {self.number}: no sections, only areas"
             raise GeometryError(what, "make it of sections", {"number": self.number})
-        level = float(finite(z, f"portion {self.number}", ()))
+        level = float(finite_array(z, f"portion {self.number}", ()))
         return np.array([each.area_below(min(level, each.hd)) for each in self.sections])
 
 
@@ -190,7 +189,7 @@ def _stations(number: object, stations: ArrayLike, count: int) -> FloatArray:
         what = f"portion {shown(number)}: number must be 1..{len(KINDS)}"
         raise GeometryError(what, "give that of its kind", {"number": number})
     name = f"portion {number}"
-    x = finite(stations, name, (None,))
+    x = finite_array(stations, name, (None,))
     if len(x) != count:
         what = f"{name}: {len(x)} stations and {count} sections"
         raise GeometryError(what, "give one each", {"stations": len(x), "sections": count})
@@ -202,21 +201,21 @@ def _stations(number: object, stations: ArrayLike, count: int) -> FloatArray:
     step = np.diff(x)
     expected = float(step[0])
     if expected <= 0.0:
-        what = f"{name}: stations not ascending at index 0 (step {figure(expected)})"
+        what = f"{name}: stations not ascending at index 0 (step {digits(expected)})"
         raise GeometryError(what, "give them from aft forward", {"step": expected})
     uneven = np.flatnonzero(np.abs(step - expected) > _EQUAL * expected)
     if len(uneven):
         index = int(uneven[0])
         raise GeometryError(
-            f"{name}: stations not equally spaced at index {index} (step {figure(step[index])}, "
-            f"expected {figure(expected)})",
+            f"{name}: stations not equally spaced at index {index} (step {digits(step[index])}, "
+            f"expected {digits(expected)})",
             "space them equally, or give a portion each",
             {"index": index, "step": float(step[index]), "expected": expected},
         )  # fmt: skip
     return x
 
 
-def require_apart(portions: Sequence[Portion]) -> tuple[str, ...]:
+def require_portions_apart(portions: Sequence[Portion]) -> tuple[str, ...]:
     """Refuse portions of the main body that overlap, and tell the gaps between them.
 
     Parameters
@@ -236,9 +235,9 @@ def require_apart(portions: Sequence[Portion]) -> tuple[str, ...]:
 
     Examples
     --------
-    >>> from assoc_hull.creation.classical.sfolds_portion import Portion, require_apart
+    >>> from assoc_hull.creation.classical.sfolds_portion import Portion, require_portions_apart
     >>> one, two = (Portion.of_areas(k, [k, k + 1, k + 2], [1, 1, 1]) for k in (2, 5))
-    >>> require_apart([one, two])
+    >>> require_portions_apart([one, two])
     ('portions 2 and 5 of the main body leave a gap in x: [4,5]',)
     """
     given = all_of(portions, Portion, "portions", "of a main body")
@@ -251,14 +250,14 @@ def require_apart(portions: Sequence[Portion]) -> tuple[str, ...]:
         told = {"portions": (one.number, two.number), "from": begin, "to": end}
         if begin < end - near:
             most = min(end, float(two.stations[-1]))
-            what = f"{text} overlap in x: [{figure(begin)},{figure(most)}]"
+            what = f"{text} overlap in x: [{digits(begin)},{digits(most)}]"
             raise GeometryError(what, "let one end where the other begins", told | {"to": most})
         if begin > end + near:
-            notes.append(f"{text} leave a gap in x: [{figure(end)},{figure(begin)}]")
+            notes.append(f"{text} leave a gap in x: [{digits(end)},{digits(begin)}]")
     return tuple(notes)
 
 
-def three_eighths(values: ArrayLike, step: float) -> float:
+def three_eighths_rule(values: ArrayLike, step: float) -> float:
     """Integrate four values at equal steps by Simpson's second rule, 3 s (f0+3f1+3f2+f3) / 8.
 
     Parameters
@@ -275,10 +274,10 @@ def three_eighths(values: ArrayLike, step: float) -> float:
 
     Examples
     --------
-    >>> from assoc_hull.creation.classical.sfolds_portion import three_eighths
-    >>> three_eighths([1, 4, 9, 16], 1.0)
+    >>> from assoc_hull.creation.classical.sfolds_portion import three_eighths_rule
+    >>> three_eighths_rule([1, 4, 9, 16], 1.0)
     21.0
     """
-    given = finite(values, "3/8 rule", (4,))
-    spacing = float(finite(step, "3/8 rule", ()))
+    given = finite_array(values, "3/8 rule", (4,))
+    spacing = float(finite_array(step, "3/8 rule", ()))
     return float(0.375 * spacing * (np.array([1.0, 3.0, 3.0, 1.0]) @ given))

@@ -12,15 +12,21 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import derivative
-from assoc_hull.geometry.splines.plane_intersections import Meetings, meet_planes
-from assoc_hull.geometry.splines.segments import bernstein
+from assoc_hull.geometry.splines.plane_intersections import PlaneIntersections, intersect_planes
+from assoc_hull.geometry.splines.segments import bezier_points
 from assoc_hull.model.gaps import crossing_normals
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["Contact", "Meeting", "find_contacts", "find_meetings", "snap"]
+__all__ = [
+    "Contact",
+    "LineIntersection",
+    "find_contacts",
+    "find_line_intersections",
+    "snap_to_coordinate_planes",
+]
 
 _REACH = 0.1
 """How far (m) the end of a line may lie from the boundary curve it is meant to end on."""
@@ -56,7 +62,7 @@ class Contact:
 
 
 @attrs.frozen(eq=False)
-class Meeting:
+class LineIntersection:
     """A crossing of two given curves.
 
     Attributes
@@ -84,7 +90,9 @@ class Meeting:
     sign: int
 
 
-def snap(state: HullState, lines: tuple[int, ...], xyz: FloatArray) -> FloatArray:
+def snap_to_coordinate_planes(
+    state: HullState, lines: tuple[int, ...], xyz: FloatArray
+) -> FloatArray:
     """Put a place exactly into the coordinate planes of lines."""
     out = np.array(xyz)
     for line in lines:
@@ -159,21 +167,21 @@ class _Boundaries:
     reference: SplineBatch
     low: FloatArray
     high: FloatArray
-    _met: dict[tuple[int, int], Meetings] = attrs.field(factory=dict)
+    _met: dict[tuple[int, int], PlaneIntersections] = attrs.field(factory=dict)
 
     @classmethod
     def of(cls, state: HullState, reference: SplineBatch) -> _Boundaries:
-        control = bernstein(reference)
+        control = bezier_points(reference)
         return cls(state, reference, control.min(axis=1) - _BESIDE, control.max(axis=1) + _BESIDE)
 
-    def meet(self, boundary: int, line: int) -> Meetings:
+    def meet(self, boundary: int, line: int) -> PlaneIntersections:
         """Give where a boundary passes the plane of a line: the same for both ends of it."""
         key = (boundary, line)
         if key not in self._met:
             lines = self.state.lines
             offset = np.array([float(lines.offset.data[line])])
             curve = self.reference.curve(boundary)
-            self._met[key] = meet_planes(curve, lines.normal.data[line], offset)
+            self._met[key] = intersect_planes(curve, lines.normal.data[line], offset)
         return self._met[key]
 
     def may_touch(self, boundary: int, place: FloatArray) -> bool:
@@ -198,19 +206,25 @@ def _nearest(
         for i in range(len(met.t)):
             away = float(np.linalg.norm(met.xyz[i] - place))
             if away < _REACH and (best is None or away < best[0]):
-                xyz = snap(state, planes, met.xyz[i])
+                xyz = snap_to_coordinate_planes(state, planes, met.xyz[i])
                 best = (away, boundary, float(met.t[i]), xyz, int(met.sign[i]))
         if (best is not None and best[0] <= _TOUCH) or not known.may_touch(boundary, place):
             continue
-        at, xyz, away_all = closest(known.reference, boundary, place[None])
+        at, xyz, away_all = closest_points(known.reference, boundary, place[None])
         if float(away_all[0]) < _TOUCH:
-            best = (0.0, boundary, float(at[0]), snap(state, planes, xyz[0]), 0)
+            best = (
+                0.0,
+                boundary,
+                float(at[0]),
+                snap_to_coordinate_planes(state, planes, xyz[0]),
+                0,
+            )
     return None if best is None else best[1:]
 
 
-def find_meetings(state: HullState, reference: SplineBatch) -> list[Meeting]:
+def find_line_intersections(state: HullState, reference: SplineBatch) -> list[LineIntersection]:
     """Find all crossings of associated families, in a fixed order."""
-    found: list[Meeting] = []
+    found: list[LineIntersection] = []
     names = state.groups.name.data
     for link in state.associations:
         first, second = names.index(link.a), names.index(link.b)
@@ -223,10 +237,10 @@ def find_meetings(state: HullState, reference: SplineBatch) -> list[Meeting]:
     return found
 
 
-def _pair_up(state: HullState, reference: SplineBatch, a: int, b: int) -> list[Meeting]:
+def _pair_up(state: HullState, reference: SplineBatch, a: int, b: int) -> list[LineIntersection]:
     """Match the meetings of two families, plane by plane."""
     on_a, on_b = _meet(state, reference, a, b), _meet(state, reference, b, a)
-    found: list[Meeting] = []
+    found: list[LineIntersection] = []
     for line_a, line_b in sorted(set(on_a) & {(first, second) for second, first in on_b}):
         ends = [
             (one, other, *_gap(one, other))
@@ -240,10 +254,15 @@ def _pair_up(state: HullState, reference: SplineBatch, a: int, b: int) -> list[M
                 continue
             used |= keys
             lines = (line_a, line_b)
-            spots = snap(state, lines, one.xyz), snap(state, lines, other.xyz)
+            spots = (
+                snap_to_coordinate_planes(state, lines, one.xyz),
+                snap_to_coordinate_planes(state, lines, other.xyz),
+            )
             angles = (one.angle_deg, other.angle_deg)
             found.append(
-                Meeting(one.curve, other.curve, (one.at, other.at), angles, spots, gap, one.sign)
+                LineIntersection(
+                    one.curve, other.curve, (one.at, other.at), angles, spots, gap, one.sign
+                )
             )
     return found
 
@@ -278,7 +297,7 @@ def _meet(
     batch = SplineBatch.join([reference.curve(curve) for curve in curves.tolist()])
     for normal in sorted({tuple(row) for row in state.lines.normal.data[lines].tolist()}):
         chosen = lines[(state.lines.normal.data[lines] == normal).all(axis=1)]
-        met = meet_planes(batch, np.array(normal), state.lines.offset.data[chosen].copy())
+        met = intersect_planes(batch, np.array(normal), state.lines.offset.data[chosen].copy())
         for root in _roots(batch, curves, met, np.array(normal)):
             line = int(chosen[root[0]])
             found[state.line_of(root[1].curve), line].append(root[1])
@@ -286,7 +305,7 @@ def _meet(
 
 
 def _roots(
-    batch: SplineBatch, curves: IntArray, met: Meetings, normal: FloatArray
+    batch: SplineBatch, curves: IntArray, met: PlaneIntersections, normal: FloatArray
 ) -> list[tuple[int, _Root]]:
     slope = derivative(batch, met.curve, met.t)
     tangent = slope / np.linalg.norm(slope, axis=1)[:, None]

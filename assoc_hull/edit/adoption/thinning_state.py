@@ -9,28 +9,38 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.edit.adoption.match_crossings import Contact, Meeting
+from assoc_hull.edit.adoption.match_crossings import Contact, LineIntersection
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.kinds import Role
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = [
-    "SAME", "Item", "Left", "Net", "PointItem", "Thinned", "Work", "add_point", "is_thinned",
-    "knots_of", "loft_orders", "thinned_at",
+    "SAME_PLACE",
+    "CurveItem",
+    "OmittedPoint",
+    "PointItem",
+    "ReferenceNet",
+    "ThinnedNet",
+    "ThinningState",
+    "add_point",
+    "is_thinned",
+    "knots_of",
+    "loft_orders",
+    "thinned_at",
 ]  # fmt: skip
 
 
 @attrs.frozen(eq=False)
-class Net:
+class ReferenceNet:
     """Given lines with their references and all that meets."""
 
     state: HullState
     sources: tuple[LineSource, ...]
     reference: SplineBatch
     contacts: tuple[Contact, ...]
-    meetings: tuple[Meeting, ...]
+    meetings: tuple[LineIntersection, ...]
 
 
 @attrs.frozen(eq=False)
@@ -45,7 +55,7 @@ class PointItem:
 
 
 @attrs.frozen(eq=False)
-class Thinned:
+class ThinnedNet:
     """The outcome: roles in the order of contacts and meetings, points, and curve orders.
 
     `order` lists, per curve, indices into contacts, then meetings, then points. `left` tells
@@ -56,11 +66,11 @@ class Thinned:
     meeting_role: tuple[Role, ...]
     points: tuple[PointItem, ...]
     order: tuple[tuple[int, ...], ...]
-    left: tuple[Left, ...]
+    left: tuple[OmittedPoint, ...]
 
 
 @attrs.frozen
-class Left:
+class OmittedPoint:
     """A given point left out: the curve passes it `away` (m), more than the line's tolerance.
 
     It lies `beside` (m) a point the curve is made through, too close to adopt it; or, where
@@ -74,11 +84,11 @@ class Left:
     bends: bool = False
 
 
-SAME = 1e-4
+SAME_PLACE = 1e-4
 """Places closer than this (m) are one place of the net."""
 
 
-class Item(NamedTuple):
+class CurveItem(NamedTuple):
     """Something on a curve: a contact, a meeting, or a given point; `number` counts them all."""
 
     at: float
@@ -88,7 +98,7 @@ class Item(NamedTuple):
 
 
 @attrs.define(eq=False)
-class Given:
+class NumberedItems:
     """Contacts, then meetings, then points, by their numbers.
 
     Attributes
@@ -123,7 +133,7 @@ class Given:
 
 
 @attrs.define(eq=False)
-class Work:
+class ThinningState:
     """What lies on each curve, what of it was chosen, and the points that were added.
 
     Attributes
@@ -144,24 +154,24 @@ class Work:
         Number of contacts and meetings; points are counted after them.
     """
 
-    net: Net
-    items: list[list[Item]]
+    net: ReferenceNet
+    items: list[list[CurveItem]]
     chosen: list[set[int]]
     points: list[PointItem]
     held: dict[int, list[int]]
-    given: Given = attrs.field(init=False)
+    given: NumberedItems = attrs.field(init=False)
     fixed_count: int = attrs.field(init=False)
 
     def __attrs_post_init__(self) -> None:
         self.given = _given(self.net)
         self.fixed_count = len(self.net.contacts) + len(self.net.meetings)
 
-    def numbers(self, order: Sequence[Item]) -> IntArray:
+    def numbers(self, order: Sequence[CurveItem]) -> IntArray:
         """Give the numbers of items, (k,)."""
         return np.array([item.number for item in order], np.int64)
 
 
-def _given(net: Net) -> Given:
+def _given(net: ReferenceNet) -> NumberedItems:
     """Put contacts and meetings into columns.
 
     A contact has the kind that its plane curve was given there; all else, of the boundary too,
@@ -175,14 +185,14 @@ def _given(net: Net) -> Given:
         source = net.sources[each.curve]
         curve[i], kind[i] = each.curve, source.kind[each.point]
         direction[i] = source.direction[each.point]
-    return Given(np.array(xyz).reshape(-1, 3), curve, kind, direction)
+    return NumberedItems(np.array(xyz).reshape(-1, 3), curve, kind, direction)
 
 
-def add_point(work: Work, curve: int, point: int) -> Item:
+def add_point(work: ThinningState, curve: int, point: int) -> CurveItem:
     """Put a given point on its curve as a point by itself."""
     source = work.net.sources[curve]
     at = float(work.net.reference.knot[work.net.reference.start[curve] + point])
-    item = Item(at, work.fixed_count + len(work.points), True, 90.0)
+    item = CurveItem(at, work.fixed_count + len(work.points), True, 90.0)
     added = PointItem(
         curve,
         source.points[point],
@@ -197,7 +207,9 @@ def add_point(work: Work, curve: int, point: int) -> Item:
     return item
 
 
-def loft_orders(work: Work, curves: Sequence[int], orders: Sequence[Sequence[Item]]) -> SplineBatch:
+def loft_orders(
+    work: ThinningState, curves: Sequence[int], orders: Sequence[Sequence[CurveItem]]
+) -> SplineBatch:
     """Loft curves through the items that define them, one order to each curve named."""
     net, sizes = work.net, [len(order) for order in orders]
     start = np.zeros(len(orders) + 1, np.int64)
@@ -218,13 +230,13 @@ def loft_orders(work: Work, curves: Sequence[int], orders: Sequence[Sequence[Ite
     )
 
 
-def knots_of(work: Work, curve: int) -> FloatArray:
+def knots_of(work: ThinningState, curve: int) -> FloatArray:
     """Give the parameters of the given points of a curve, m."""
     reference = work.net.reference
     return reference.knot[int(reference.start[curve]) : int(reference.start[curve + 1])]
 
 
-def is_thinned(work: Work, curve: int, item: Item) -> bool:
+def is_thinned(work: ThinningState, curve: int, item: CurveItem) -> bool:
     """Tell whether an item is a crossing left out for its spacing alone.
 
     One that meets the other's plane at a small angle may define the curve under no rule: it
@@ -234,11 +246,11 @@ def is_thinned(work: Work, curve: int, item: Item) -> bool:
     return steep and item.number < work.fixed_count and item.number not in work.chosen[curve]
 
 
-def thinned_at(work: Work, curve: int, point: int) -> int | None:
+def thinned_at(work: ThinningState, curve: int, point: int) -> int | None:
     """Give the number of the crossing at a given point that does not define the curve."""
     place = work.net.sources[curve].points[point]
     for item in work.items[curve]:
         near = is_thinned(work, curve, item)
-        if near and float(np.abs(work.given.xyz[item.number] - place).max()) < SAME:
+        if near and float(np.abs(work.given.xyz[item.number] - place).max()) < SAME_PLACE:
             return item.number
     return None

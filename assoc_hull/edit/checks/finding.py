@@ -5,7 +5,7 @@ from __future__ import annotations
 import attrs
 
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["Finding", "row_finding"]
 

@@ -14,7 +14,7 @@ from assoc_hull.edit.checks.finding import Finding
 from assoc_hull.geometry.curves import IntArray, PointKind
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Role, Sort, State
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["REMEDY", "find_tables"]
 

@@ -7,16 +7,14 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from assoc_hull.arguments import choice, integer, shown
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.explain.explain import Thing
-from assoc_hull.edit.modifications.set_form import definition_meant
+from assoc_hull.edit.explain.causes import Thing
+from assoc_hull.edit.modifications.definitions import definition_meant
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.graph import graph_filter as filters
-from assoc_hull.model.definition_part import FormDefinition
-from assoc_hull.model.handles import handle
-from assoc_hull.model.line import Line
-from assoc_hull.model.point import Crossing, Point
-from assoc_hull.model.state import HullState
-from assoc_hull.model.view import graph, point_id
+from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.object_graph import object_graph, point_id
+from assoc_hull.model.objects import Crossing, Line, Point, handle
+from assoc_hull.model.tables import HullState
 
 if TYPE_CHECKING:
     import networkx
@@ -34,7 +32,7 @@ def graph_of(
     only: OnlyName | None = None,
     edit: int | None = None,
 ) -> networkx.MultiDiGraph[str]:
-    """Give objects and links as a graph, see `assoc_hull.model.view.graph`, or a part of it.
+    """Give objects and links as a graph (`model.object_graph`), or a part of it.
 
     Parameters
     ----------
@@ -74,15 +72,15 @@ def graph_of(
         choice(only, "only", ONLY, "in graph")
     number = -1 if only == "changed" and edit is None else edit
     changed = None if number is None else changed_by(document, number)
-    found = graph(document.state)
+    found = object_graph(document.state)
     kept = set(found)
     if around is not None:
-        kept &= filters.near(found, _nodes(document.state, around, found), *hops)
+        kept &= filters.nodes_within(found, _nodes(document.state, around, found), *hops)
     if changed is not None:
         kept &= changed
     if only in ("two-way", "one-way", "latent"):
         found = _linked(found, only)
-    return filters.only(found, kept) if len(kept) < len(found) else found
+    return filters.subgraph(found, kept) if len(kept) < len(found) else found
 
 
 def _linked(found: networkx.MultiDiGraph[str], kind: OnlyName) -> networkx.MultiDiGraph[str]:
@@ -100,7 +98,7 @@ def _linked(found: networkx.MultiDiGraph[str], kind: OnlyName) -> networkx.Multi
             nodes |= {tail, head}
             if data["kind"] == "touch actual":
                 nodes.update(found.successors(head))
-    return filters.only(found, nodes, kept)
+    return filters.subgraph(found, nodes, kept)
 
 
 def _nodes(
@@ -126,7 +124,7 @@ def _nodes(
 
 
 def changed_by(document: Document, number: int) -> frozenset[str]:
-    """Name what an edit changed, as nodes of the graphs of `assoc_hull.model.view`.
+    """Name what an edit changed, as nodes of the graphs of `assoc_hull.model.object_graph`.
 
     Parameters
     ----------

@@ -1,25 +1,85 @@
-"""Adopted points ride: when a driven neighbour moves, the shape between goes along.
+"""Adopted points: put among those that define a curve, linked, and used to close gaps.
 
-An adopted point holds a shape that crossings alone cannot. Its place is its base plus a
-linear blend of the displacements of its nearest driven neighbours since they were last
-linked; so there and back is exact. A generated point does not ride, and none that was one:
-definitions place it, or a designer did.
+`insert_defining_point` puts any point where it makes the least detour. Adopted points ride: they
+go along with the driven points beside them, by links that are made anew when these change. A
+watched gap over its limit is mended with an adopted point on the curve that gives way; one that
+comes from definitions never does.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.geometry.curves import IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.generated import kept_rows
+from assoc_hull.model.generated_curves import attached_curves, kept_rows
 from assoc_hull.model.kinds import Sort
-from assoc_hull.model.state import HullState
+from assoc_hull.model.make_objects import Maker, PointSpec
+from assoc_hull.model.tables import HullState
 
-__all__ = ["rebase", "ride_links"]
+__all__ = [
+    "insert_defining_point",
+    "insertion_index",
+    "least_detour",
+    "link_adopted_points",
+    "mend_gaps",
+    "rebase_adopted_points",
+]
+
+# --------------------------------------------------------------------------------------
+# Putting a point among those that define a curve.
 
 
-def ride_links(state: HullState, curves: IntArray, journal: Journal) -> None:
+def insertion_index(xyz: FloatArray, place: FloatArray) -> int:
+    """Give the index before which a place belongs: the least detour from neighbour to neighbour.
+
+    Parameters
+    ----------
+    xyz : (n, 3), m
+        The points of a curve, in order.
+    place : (3,), m
+        The new point.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.edit.followup.adopted_points import insertion_index
+    >>> insertion_index(np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0]]), np.array([1.0, 0.5, 0]))
+    2
+    """
+    return int(_detours(xyz, place).argmin()) + 1
+
+
+def least_detour(xyz: FloatArray, place: FloatArray) -> float:
+    """Give the least detour (m) through a place, from one point of a curve (n, 3) to the next."""
+    return float(_detours(xyz, place).min())
+
+
+def _detours(xyz: FloatArray, place: FloatArray) -> FloatArray:
+    to = np.sqrt(((xyz - place) ** 2).sum(axis=1))
+    step = np.sqrt((np.diff(xyz, axis=0) ** 2).sum(axis=1))
+    found: FloatArray = to[:-1] + to[1:] - step
+    return found
+
+
+def insert_defining_point(maker: Maker, curve: int, row: int) -> None:
+    """Let a point define a curve, between the two points it lies between."""
+    rows: IntArray = maker.state.curves.rows.data[curve]
+    place = maker.state.rows.xyz.data[row]
+    index = insertion_index(maker.state.rows.xyz.data[rows], place)
+    maker.define(curve, np.insert(rows, index, row))
+
+
+# --------------------------------------------------------------------------------------
+# Adopted points ride: when a driven neighbour moves, the shape between goes along.
+#
+# An adopted point holds a shape that crossings alone cannot. Its place is its base plus a
+# linear blend of the displacements of its nearest driven neighbours since they were last
+# linked; so there and back is exact. A generated point does not ride, and none that was one:
+# definitions place it, or a designer did.
+
+
+def link_adopted_points(state: HullState, curves: IntArray, journal: Journal) -> None:
     """Link the adopted points of curves to their driven neighbours as these lie now."""
     for curve in curves.tolist():
         rows: IntArray = state.curves.rows.data[curve]
@@ -43,7 +103,7 @@ def ride_links(state: HullState, curves: IntArray, journal: Journal) -> None:
         anchor = np.where(driven, anchor, -1)
         journal.put(state.rows.anchor, rows[adopted], anchor)
         journal.put(state.rows.anchor_weight, rows[adopted], _weights(state, rows, adopted, pair))
-        rebase(state, rows[adopted], journal)
+        rebase_adopted_points(state, rows[adopted], journal)
 
 
 def _weights(
@@ -60,7 +120,7 @@ def _weights(
     return np.asarray(weight, np.float64)
 
 
-def rebase(state: HullState, rows: IntArray, journal: Journal) -> None:
+def rebase_adopted_points(state: HullState, rows: IntArray, journal: Journal) -> None:
     """Take the present places of adopted points and of their neighbours as the base."""
     if not len(rows):
         return
@@ -68,3 +128,68 @@ def rebase(state: HullState, rows: IntArray, journal: Journal) -> None:
     at = np.where((anchor >= 0)[:, :, None], state.rows.xyz.data[anchor], 0.0)
     journal.put(state.rows.base, rows, state.rows.xyz.data[rows])
     journal.put(state.rows.anchor_from, rows, at)
+
+
+# --------------------------------------------------------------------------------------
+# Mending a watched gap: one curve gets a point where the other passes.
+#
+# The curve of higher rank gives way, unless a crossing or a border holds it just there. One that
+# comes from definitions never does.
+
+_NEAR = 0.15
+"""An adopted point as near as this (m) is moved instead of setting another beside it."""
+
+
+def mend_gaps(
+    maker: Maker, rows: IntArray, on: IntArray | None = None
+) -> tuple[IntArray, IntArray]:
+    """Close gaps over their limit, the widest first on each stretch.
+
+    Parameters
+    ----------
+    maker : Maker
+        Writes the points.
+    rows : (k,) int
+        Watched crossings, in the order in which they are mended.
+    on : (k,) int or None
+        The curve that is to give way at each; the one of higher rank, else the other, if None.
+
+    Returns
+    -------
+    curves, points : (c,) int, (p,) int
+        Curves whose recipe changed, and points that were moved.
+    """
+    state, curves, moved = maker.state, set[int](), set[int]()
+    giving = state.rows.curve.data[rows, 1] if on is None else on
+    for row, curve in zip(rows.tolist(), giving.tolist(), strict=True):
+        pair: list[int] = state.rows.curve.data[row].tolist()
+        # Where a fixed point beside the crossing holds one curve, the other gives way.
+        other = pair[1 - pair.index(curve)]
+        for yielding in (curve,) if on is not None else (curve, other):
+            place = state.rows.spot.data[row, 1 - pair.index(yielding)].copy()
+            point = _hold(maker, yielding, place)
+            if point is not None:
+                curves.add(yielding)
+                moved |= {point} - {-1}
+                break
+    touched = np.array(sorted(curves), np.int64)
+    link_adopted_points(state, touched, maker.journal)
+    return touched, np.array(sorted(moved), np.int64)
+
+
+def _hold(maker: Maker, curve: int, place: FloatArray) -> int | None:
+    """Lead a curve through a place: give the point moved there, -1 for a new one, None if held."""
+    state = maker.state
+    if curve in attached_curves(state):
+        return None
+    defining: IntArray = state.curves.rows.data[curve]
+    away = np.sqrt(((state.rows.xyz.data[defining] - place) ** 2).sum(axis=1))
+    nearest = int(away.argmin())
+    if away[nearest] >= _NEAR:
+        point = maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0]
+        insert_defining_point(maker, curve, int(point))
+        return -1
+    if state.rows.sort.data[defining[nearest]] != Sort.ADOPTED:
+        return None
+    maker.journal.put(state.rows.xyz, [defining[nearest]], [place])
+    return int(defining[nearest])

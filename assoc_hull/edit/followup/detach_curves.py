@@ -16,13 +16,12 @@ from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ArrayColumn, ListColumn
-from assoc_hull.model.definition_part import GeneratedCurve
-from assoc_hull.model.generated import attached
+from assoc_hull.model.form_definition import GeneratedCurve
+from assoc_hull.model.generated_curves import attached_curves, points_given
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.network import bits_differ
-from assoc_hull.model.regenerate import points_given
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["detach", "detach_rows", "detached_note", "edited", "off_definitions", "tidy", "whole"]
 
@@ -46,7 +45,7 @@ def edited(state: HullState, journal: Journal, pending: Pending) -> set[int]:
     """
     fresh = _changed(journal, state.produced.curve)
     made_so = {state.produced.curve.data[number].curve for number in fresh}
-    known = {c: made for c, made in attached(state).items() if c not in made_so}
+    known = {c: made for c, made in attached_curves(state).items() if c not in made_so}
     if not known:
         return set()
     moved = _moved(state, journal, pending)
@@ -105,7 +104,7 @@ def whole(state: HullState, made: GeneratedCurve) -> bool:
 
 def off_definitions(state: HullState, curves: Iterable[int]) -> set[int]:
     """Give those of some attached curves that are not as the definitions have them, to the bit."""
-    known = attached(state)
+    known = attached_curves(state)
     chosen = [known[curve] for curve in curves if curve in known]
     broken = {made.curve for made in chosen if not whole(state, made)}
     return broken | _off(state, [made for made in chosen if made.curve not in broken])
@@ -164,7 +163,7 @@ def tidy(maker: Maker) -> None:
 
 def detach_rows(maker: Maker, pending: Pending, rows: IntArray) -> bool:
     """Detach the curves that some points are generated on; tell whether there are any."""
-    known: Mapping[int, GeneratedCurve] = attached(maker.state)
+    known: Mapping[int, GeneratedCurve] = attached_curves(maker.state)
     moved = set(rows.tolist())
     left = {curve for curve, made in known.items() if moved.intersection(made.rows)}
     detach(maker, pending, left)

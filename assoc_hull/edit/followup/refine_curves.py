@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.followup.remake import recipe_for, remake
+from assoc_hull.edit.followup.generated_curves import recipe_for, remake_points
 from assoc_hull.edit.update_passes import Work
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.model.definition_part import GeneratedCurve
-from assoc_hull.model.forms.generate import marks_suffice
-from assoc_hull.model.generated import attached
+from assoc_hull.model.form_definition import GeneratedCurve
+from assoc_hull.model.forms.generate_points import marks_suffice
+from assoc_hull.model.generated_curves import attached_curves, end_points, forms_of, line_offset
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.regenerate import ends_of, forms_of, place_of
 
 __all__ = ["refine_forms"]
 
@@ -41,13 +40,13 @@ def refine_forms(work: Work, curves: IntArray) -> list[int]:
         A curve that cannot be held by any points.
     """
     state, maker = work.state, Maker(work.state, work.journal)
-    known = attached(state)
+    known = attached_curves(state)
     done = {}
     chosen = [known[curve] for curve in curves.tolist() if curve in known]
     for made in _not_held(work, chosen):
         recipe = recipe_for(state, made, made.layout)
         if recipe.marks != made.marks:
-            done[made.key] = remake(maker, made, recipe)
+            done[made.key] = remake_points(maker, made, recipe)
     if done:
         maker.generated(({each.key: each for each in state.generated} | done).values())
         work.renew()
@@ -59,6 +58,6 @@ def _not_held(work: Work, made: list[GeneratedCurve]) -> list[GeneratedCurve]:
     state, numbers = work.state, [each.curve for each in made]
     if not made:
         return []
-    places = np.array([place_of(state, curve) for curve in numbers])
-    held = marks_suffice(forms_of(state), made, places, ends_of(state, numbers))
+    places = np.array([line_offset(state, curve) for curve in numbers])
+    held = marks_suffice(forms_of(state), made, places, end_points(state, numbers))
     return [each for each, enough in zip(made, held.tolist(), strict=True) if not enough]

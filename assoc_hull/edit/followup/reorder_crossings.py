@@ -12,19 +12,19 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.edit.checks.after_update import Wide
-from assoc_hull.edit.followup.adopted_points import ride_links
-from assoc_hull.edit.followup.births_and_deaths import generates
+from assoc_hull.edit.checks.update_findings import WideGaps
+from assoc_hull.edit.followup.adopted_points import link_adopted_points
 from assoc_hull.edit.update_passes import Work
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.splines.closest import closest
-from assoc_hull.geometry.splines.curve_order import folds
+from assoc_hull.geometry.splines.curve_order import curve_folds
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.gaps import gap_at
-from assoc_hull.model.generated import kept_rows
+from assoc_hull.model.generated_curves import kept_rows
 from assoc_hull.model.kinds import Role, Sort, State
+from assoc_hull.model.links import generates
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.roles import Candidates, choose
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["limit_watched", "renew_followers", "widen_limits"]
 
@@ -91,7 +91,7 @@ def _has_passed(state: HullState, curve: int) -> bool:
     if state.curves.state.data[curve] != State.CLEAN or not _follows(state, curve):
         return False
     spline, limits = state.spline(curve), state.tolerances
-    if len(folds(spline).curve):
+    if len(curve_folds(spline).curve):
         return True
     step = np.diff(spline.knot)
     rows: IntArray = state.curves.rows.data[curve]
@@ -144,7 +144,7 @@ def _renew(work: Work, curve: int) -> list[int]:
     work.journal.put(table.limit, lost, _OPEN)
     maker.define(curve, points.rows[chosen])
     maker.remove_rows(points.rows[~chosen & ~points.crossing])
-    ride_links(state, np.array([curve]), work.journal)
+    link_adopted_points(state, np.array([curve]), work.journal)
     work.pending.computed |= set(driven.tolist())
     name = state.lines.name.data[state.line_of(curve)]
     work.pending.notes.append(
@@ -163,7 +163,7 @@ def _points(state: HullState, curve: int, before: SplineBatch) -> _Points:
     watched = watched[np.isfinite(table.parameter.data[watched]).all(axis=1)]
     rows = np.concatenate([own, watched])
     xyz = np.concatenate([table.xyz.data[own], table.spot.data[watched, 0]])
-    at = closest(before, 0, xyz)[0].copy()
+    at = closest_points(before, 0, xyz)[0].copy()
     at[0], at[len(own) - 1] = -np.inf, np.inf
     order = np.argsort(at, kind="stable")
     rows, xyz = rows[order], xyz[order]
@@ -199,7 +199,7 @@ def limit_watched(work: Work) -> None:
         work.journal.put(state.rows.limit, watched, np.maximum(least, 1.5 * gap))
 
 
-def widen_limits(work: Work, wide: Wide) -> bool:
+def widen_limits(work: Work, wide: WideGaps) -> bool:
     """Give watched crossings of lines that others make limits as at a birth; tell whether any.
 
     How near such lines pass one another between the crossings that make them is a matter of how

@@ -12,8 +12,12 @@ from collections.abc import Mapping, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.feature_points import followed, in_plane
-from assoc_hull.edit.followup.find_features import LOOSE, find_features
+from assoc_hull.edit.followup.features import (
+    LOOSE,
+    feature_in_plane,
+    find_features,
+    followed_feature,
+)
 from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.update_passes import Work
 from assoc_hull.geometry.curves import IntArray
@@ -21,7 +25,7 @@ from assoc_hull.model.address import address
 from assoc_hull.model.feature_geometry import ROUNDING, line_numbers, places_off
 from assoc_hull.model.features import Feature
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["settle_features"]
 
@@ -117,7 +121,7 @@ def _settle(work: Work, found: _Settling, old: Feature, hand: _Hand, *, whole: b
     state = work.state
     carried = work.pending.features
     places = None if carried is None else carried.places
-    new = followed(state, old, found.lines, places) if whole else old
+    new = followed_feature(state, old, found.lines, places) if whole else old
     touched = _by_hand(state, old, hand) or (_by_hand(state, new, hand) if new else "")
     if touched:
         found.notes.append(f"the feature {old.name!r} is dissolved: {touched} was set by hand")
@@ -181,7 +185,7 @@ def _as_before(
     """Give a feature found anew the key it had, and the circle it had where that fits as well."""
     if old is None or old.kind != new.kind:
         return new
-    again = in_plane(state, attrs.evolve(old, points=new.points), lines[new.lines[0]])
+    again = feature_in_plane(state, attrs.evolve(old, points=new.points), lines[new.lines[0]])
     off = places_off(again, state.rows.xyz.data[list(new.points)]) if again else np.ones(1)
     if again is None or off.max() > LOOSE:
         return attrs.evolve(new, key=old.key)

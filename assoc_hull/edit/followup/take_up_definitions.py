@@ -9,19 +9,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.followup.attachable import attachable
 from assoc_hull.edit.followup.detach_curves import detach, edited, tidy
-from assoc_hull.edit.followup.remake import layout_now, recipe_for, remake
+from assoc_hull.edit.followup.generated_curves import (
+    attachable_curves,
+    layout_now,
+    recipe_for,
+    remake_points,
+)
 from assoc_hull.edit.pending_changes import Pending
 from assoc_hull.edit.report import FormChange
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.definition_part import FormDefinition, GeneratedCurve
-from assoc_hull.model.forms.layout import layout_at
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.forms.line_layout import layout_at
+from assoc_hull.model.generated_curves import forms_of, line_offset
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.regenerate import forms_of, place_of
-from assoc_hull.model.state import HullState, form_node
+from assoc_hull.model.tables import HullState, form_node
 
 __all__ = ["form_changes", "take_up_forms"]
 
@@ -55,7 +59,7 @@ def take_up_forms(state: HullState, journal: Journal, pending: Pending) -> IntAr
     _refuse_both(state, pending, left)
     detach(maker, pending, left)
     nodes = _write(maker, pending)
-    made = [each for line in sorted(pending.attach) for each in attachable(state, line)]
+    made = [each for line in sorted(pending.attach) for each in attachable_curves(state, line)]
     _remake(maker, pending, [*made, *(_other_pieces(state) if pending.forms else ())])
     if pending.structural:
         tidy(maker)
@@ -99,7 +103,7 @@ def _refuse_other_number(state: HullState, made: GeneratedCurve) -> None:
     if curves.index(made.curve) + 1 < len(curves):
         return
     try:
-        layout_at(forms_of(state), made.what, place_of(state, made.curve), 1)
+        layout_at(forms_of(state), made.what, line_offset(state, made.curve), 1)
     except BadInputError:
         number = 1
     else:
@@ -117,7 +121,9 @@ def _remake(maker: Maker, pending: Pending, curves: list[GeneratedCurve]) -> Non
     done: dict[str, GeneratedCurve] = {}
     for made in curves:
         if made.key not in done:
-            done[made.key] = remake(maker, made, recipe_for(state, made, layout_now(state, made)))
+            done[made.key] = remake_points(
+                maker, made, recipe_for(state, made, layout_now(state, made))
+            )
     if done:
         known = {each.key: each for each in state.generated}
         maker.generated((known | done).values())

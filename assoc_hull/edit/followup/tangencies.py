@@ -1,10 +1,9 @@
-"""Touches: planes that are tangent to a feature, and the lines that turn there.
+"""Planes that are tangent to a feature, and the lines that turn there.
 
 A plane tangent to a round end meets it in a double root, on which rounding would decide. So
 whoever makes the feature says where it is touched, and that is one crossing of sign 0: the line
-comes to the boundary curve there, turns in a knuckle, and goes on. The crossing defines both,
-with the bits of the feature. The double root itself counts for nothing, nor does a place that
-the hull lies off by less than the drivers may off their images, from the touch on.
+comes to the boundary curve there, turns in a knuckle, and goes on. The double root itself counts
+for nothing, nor does a meeting from which the curve hardly leaves the plane.
 """
 
 from __future__ import annotations
@@ -14,23 +13,21 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.newline.plane_marks import Marks
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import evaluate
-from assoc_hull.model.kinds import BoundaryKind, Role, Sort
+from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.state import HullState, Meets
+from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = [
     "NO_ROOT",
-    "Touch",
-    "clear",
-    "is_touch",
-    "slips",
-    "touch_rows",
-    "with_touches",
-    "without_double",
+    "PlaneTangency",
+    "clear_at_tangencies",
+    "is_tangency",
+    "runs_along_tangency",
+    "tangency_rows",
+    "without_double_roots",
 ]
 
 NO_ROOT = -1
@@ -49,7 +46,7 @@ _PROBES = 33
 
 
 @attrs.frozen(eq=False)
-class Touch:
+class PlaneTangency:
     """Where a plane touches a feature.
 
     Attributes
@@ -70,17 +67,17 @@ class Touch:
         freeze(self.xyz)
 
 
-def is_touch(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
+def is_tangency(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
     """Tell which points are crossings at a touch."""
     table = state.rows
     crossing = table.alive.data[rows] & (table.sort.data[rows] == Sort.CROSSING)
     return np.asarray(crossing & table.contact.data[rows] & (table.sign.data[rows] == 0))
 
 
-def touch_rows(state: HullState, curve: int, line: int) -> list[int]:
+def tangency_rows(state: HullState, curve: int, line: int) -> list[int]:
     """Give the crossings at which a line touches a curve; one, or none."""
     rows: IntArray = state.curves.rows.data[curve]
-    rows = rows[is_touch(state, rows)]
+    rows = rows[is_tangency(state, rows)]
     return [row for row in rows.tolist() if state.line_of(_other(state, row, curve)) == line]
 
 
@@ -89,14 +86,14 @@ def _other(state: HullState, row: int, curve: int) -> int:
     return int(b if a == curve else a)
 
 
-def without_double(xyz: FloatArray, place: FloatArray | None) -> np.typing.NDArray[np.bool_]:
+def without_double_roots(xyz: FloatArray, place: FloatArray | None) -> np.typing.NDArray[np.bool_]:
     """Tell which meetings (k, 3), m, a touch does not stand for, (k,) bool."""
     if place is None:
         return np.ones(len(xyz), bool)
     return np.asarray(((xyz - place) ** 2).sum(axis=1) > _DOUBLE * _DOUBLE)
 
 
-def clear(maker: Maker, touches: Sequence[Touch]) -> None:
+def clear_at_tangencies(maker: Maker, touches: Sequence[PlaneTangency]) -> None:
     """Make room on boundary curves for the crossings at touches.
 
     A point adopted where one comes to be goes; a crossing with another line reads the curve.
@@ -106,7 +103,7 @@ def clear(maker: Maker, touches: Sequence[Touch]) -> None:
         rows: IntArray = state.curves.rows.data[each.curve]
         near = ((state.rows.xyz.data[rows] - each.xyz) ** 2).sum(axis=1) <= _SAME * _SAME
         near[[0, -1]] = False
-        gone = rows[near & ~is_touch(state, rows)]
+        gone = rows[near & ~is_tangency(state, rows)]
         if not len(gone):
             continue
         maker.define(each.curve, rows[~np.isin(rows, gone)])
@@ -116,84 +113,33 @@ def clear(maker: Maker, touches: Sequence[Touch]) -> None:
         maker.roles(left, np.full(len(left), int(Role.DRIVES_B)))
 
 
-def with_touches(state: HullState, marks: Marks, line: int, touches: Sequence[Touch]) -> Marks:
-    """Put touches among the marks of a line, and take out what they stand for.
-
-    Parameters
-    ----------
-    state : HullState
-        The tables.
-    marks : Marks
-        Where the plane of the line meets the net.
-    line : int
-        The line.
-    touches : sequence of Touch
-        All of its touches. Those of boundary curves become marks at which it turns.
-    """
-    normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
-    kept = np.ones(len(marks.curve), bool)
-    for each in touches:
-        kept &= ~((marks.curve == each.curve) & ~without_double(marks.xyz, each.xyz))
-        kept &= ~_along(state, marks, each, normal, offset)
-    found = marks.take(np.flatnonzero(kept))
-    ends = [
-        each for each in touches
-        if state.lines.boundary.data[state.line_of(each.curve)] == BoundaryKind.END
-    ]  # fmt: skip
-    return found.join(_as_marks(state, ends)) if ends else found
-
-
-def _as_marks(state: HullState, touches: Sequence[Touch]) -> Marks:
-    count = len(touches)
-    at = [float(closest(state.spline(each.curve), 0, each.xyz[None])[0][0]) for each in touches]
-    return Marks(
-        np.array([each.curve for each in touches], np.int64),
-        np.array(at),
-        np.array([each.xyz for each in touches]),
-        np.zeros(count, np.int64),
-        np.full(count, int(BoundaryKind.KNUCKLE)),
-        np.full(count, NO_ROOT),
-        np.zeros(count, bool),
-    )
-
-
-def _along(
-    state: HullState, marks: Marks, touch: Touch, normal: FloatArray, offset: float
-) -> np.typing.NDArray[np.bool_]:
-    """Tell which marks lie on curves that run in the plane, nearly, from a touch to the mark."""
-    found = np.zeros(len(marks.curve), bool)
-    for curve in np.unique(marks.curve).tolist():
-        start = _passes(state, curve, touch.xyz)
-        for i in np.flatnonzero(marks.curve == curve).tolist() if start is not None else []:
-            found[i] = _hardly(state, curve, (start or 0.0, float(marks.at[i])), (normal, offset))
-    return found
-
-
-def slips(state: HullState, curve: int, spot: int) -> bool:
+def runs_along_tangency(state: HullState, curve: int, spot: int) -> bool:
     """Tell whether a meeting with a line that touches a feature is none.
 
     From it to the next one, or to the touch, the curve hardly leaves the plane.
     """
-    meets: Meets = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets.data[curve]
     line = int(meets.line[spot])
     rows = np.concatenate([state.curves.rows.data[each] for each in state.lines.curves.data[line]])
-    rows = rows[is_touch(state, rows)]
+    rows = rows[is_tangency(state, rows)]
     if not len(rows):
         return False
-    passed = [_passes(state, curve, state.rows.xyz.data[row]) for row in rows.tolist()]
+    passed = [
+        parameter_at_tangency(state, curve, state.rows.xyz.data[row]) for row in rows.tolist()
+    ]
     here, along = float(meets.parameter[spot]), meets.line == line
     others = [*np.delete(meets.parameter[along], int(along[:spot].sum())).tolist(), *passed]
     plane = state.lines.normal.data[line], float(state.lines.offset.data[line])
-    return any(_hardly(state, curve, (here, at), plane) for at in others if at is not None)
+    return any(stays_near_plane(state, curve, (here, at), plane) for at in others if at is not None)
 
 
-def _passes(state: HullState, curve: int, place: FloatArray) -> float | None:
+def parameter_at_tangency(state: HullState, curve: int, place: FloatArray) -> float | None:
     """Give where a curve passes a touch, its parameter (m); None if it does not."""
-    at, _, away = closest(state.spline(curve), 0, place[None])
+    at, _, away = closest_points(state.spline(curve), 0, place[None])
     return float(at[0]) if float(away[0]) <= _FLAT else None
 
 
-def _hardly(
+def stays_near_plane(
     state: HullState, curve: int, span: tuple[float, float], plane: tuple[FloatArray, float]
 ) -> bool:
     """Tell whether a curve hardly leaves a plane between two parameters (m)."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.arguments import flag, word
-from assoc_hull.edit.modifications.set_role import change_role
-from assoc_hull.edit.newline.plane_intersections import meet_groups, strike_planes
-from assoc_hull.edit.newline.remove_line import leave_behind
+from assoc_hull.edit.modifications.roles import change_role
+from assoc_hull.edit.newline.plane_intersections import intersect_groups, remove_planes
+from assoc_hull.edit.newline.remove_line import replace_crossings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.state import Association, HullState
+from assoc_hull.model.tables import Association, HullState
 
 __all__ = ["associate", "dissociate"]
 
@@ -40,7 +40,7 @@ def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> Non
     edit.maker.associate(Association(a, b, two_way))
     edit.pending.structural = True
     if not known:
-        meet_groups(edit, a, b)
+        intersect_groups(edit, a, b)
     if two_way:
         return
     for row in _crossings(state, a, b).tolist():
@@ -110,17 +110,17 @@ def dissociate(edit: Transaction, a: str, b: str) -> None:
         )
     edit.pending.structural = True
     rows = _crossings(state, a, b)
-    leave_behind(edit, rows, np.zeros(0, np.int64))
+    replace_crossings(edit, rows, np.zeros(0, np.int64))
     edit.maker.remove_rows(rows)
     edit.journal.set(state.settings.associations, [0], [left])
     for group, other in ((a, b), (b, a)):
-        _strike(edit, group, other)
+        _remove_planes(edit, group, other)
 
 
-def _strike(edit: Transaction, group: str, other: str) -> None:
+def _remove_planes(edit: Transaction, group: str, other: str) -> None:
     """Take the planes of one group out of the meetings of another's curves."""
     state, names = edit.state, edit.state.groups.name.data
     planes = np.flatnonzero(state.lines.group.data == names.index(other))
     curves = state.live("curves")
     owner = state.lines.group.data[state.curves.line.data[curves]]
-    strike_planes(edit, planes, curves[owner == names.index(group)])
+    remove_planes(edit, planes, curves[owner == names.index(group)])

@@ -11,7 +11,7 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind
 from assoc_hull.model.kinds import State
-from assoc_hull.model.state import Ends
+from assoc_hull.model.tables import Ends
 
 __all__ = ["set_end"]
 

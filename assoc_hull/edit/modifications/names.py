@@ -8,13 +8,13 @@ from assoc_hull.arguments import shown, word
 from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, NameTakenError
-from assoc_hull.model.address import Place
-from assoc_hull.model.state import HullState
+from assoc_hull.model.address import ResolvedAddress
+from assoc_hull.model.tables import HullState
 
 __all__ = ["rename", "rename_hull"]
 
 
-def rename(edit: Transaction, what: Place, name: object) -> None:
+def rename(edit: Transaction, what: ResolvedAddress, name: object) -> None:
     """Give a line or a point another name.
 
     Parameters

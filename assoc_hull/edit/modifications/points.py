@@ -14,9 +14,8 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import place as one_place
 from assoc_hull.arguments import word
 from assoc_hull.edit.arguments import direction_in
-from assoc_hull.edit.followup.adopted_points import ride_links
-from assoc_hull.edit.followup.thread import interval_of
-from assoc_hull.edit.newline.line_planes import along_planes, into_planes
+from assoc_hull.edit.followup.adopted_points import insertion_index, link_adopted_points
+from assoc_hull.edit.newline.line_planes import checked_in_planes, completed_in_planes
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import (
     BadInputError,
@@ -26,14 +25,14 @@ from assoc_hull.errors import (
     TooFewPointsError,
 )
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.address import address
 from assoc_hull.model.gaps import tangents
-from assoc_hull.model.generated import attached
+from assoc_hull.model.generated_curves import attached_curves
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import free_axes
 from assoc_hull.model.make_objects import PointSpec
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["delete", "insert", "move", "pin", "set_kind", "unpin"]
 
@@ -71,8 +70,8 @@ def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
     curves = [curve for curve in state.rows.curve.data[row].tolist() if curve >= 0]
     lines, what = [state.line_of(curve) for curve in curves], f"move of {address(state, row)}"
     given = {_AXES[axis]: value for axis, value in to.items()}
-    place = along_planes(state, lines, state.rows.xyz.data[row], given)
-    edit.write(np.array([row]), into_planes(state, lines, place, f"in a {what}")[None], what)
+    place = completed_in_planes(state, lines, state.rows.xyz.data[row], given)
+    edit.write(np.array([row]), checked_in_planes(state, lines, place, f"in a {what}")[None], what)
     edit.pending.moved_curves |= set(curves)
     if state.rows.sort.data[row] == Sort.ADOPTED:
         pin(edit, row)
@@ -87,7 +86,9 @@ def _refuse_computed(state: HullState, row: int) -> None:
     driver = int(state.rows.driver.data[row])
     title = None if driver < 0 else str(state.lines.name.data[state.line_of(driver)])
     kind = "watched" if role is Role.WATCHED else "driven"
-    ways = _WAYS_OUT if driver not in attached(state) else f"{_BY_DEFINITION}, or {_WAYS_OUT}"
+    ways = (
+        _WAYS_OUT if driver not in attached_curves(state) else f"{_BY_DEFINITION}, or {_WAYS_OUT}"
+    )
     raise PointRoleError(address(state, row), kind, title, ways)
 
 
@@ -109,14 +110,14 @@ def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
     state = edit.state
     name = str(state.lines.name.data[state.line_of(curve)])
     given = one_place(place, f"the place of a point of {name}")
-    xyz = into_planes(state, [state.line_of(curve)], given, "in insert")
+    xyz = checked_in_planes(state, [state.line_of(curve)], given, "in insert")
     rows: IntArray = state.curves.rows.data[curve]
     away = np.sqrt(((state.rows.xyz.data[rows] - xyz) ** 2).sum(axis=1))
     if away.min() < state.tolerances.coincident:
         x, y, z = xyz.tolist()
         raise CoincidentPointsError(name, (x, y, z), float(away.min()), state.tolerances.coincident)
     row = int(edit.maker.points([PointSpec(curve, xyz, Sort.PLACED)])[0])
-    index = interval_of(state.rows.xyz.data[rows], xyz)
+    index = insertion_index(state.rows.xyz.data[rows], xyz)
     edit.maker.define(curve, np.insert(rows, index, row))
     edit.pending.by_hand.add((row, curve))
     _changed(edit, curve)
@@ -214,7 +215,9 @@ def _direction(state: HullState, curve: int, place: FloatArray) -> FloatArray:
     at = np.flatnonzero((spline.xyz == place).all(axis=1))
     if len(at):
         return np.array(spline.leave[at[0]])
-    found: FloatArray = tangents(state, np.array([curve]), closest(spline, 0, place[None])[0])[0]
+    found: FloatArray = tangents(
+        state, np.array([curve]), closest_points(spline, 0, place[None])[0]
+    )[0]
     return found
 
 
@@ -242,4 +245,4 @@ def _resort(edit: Transaction, row: int, old: Sort, new: Sort) -> None:
     edit.journal.put(state.rows.sort, [row], int(new))
     edit.journal.put(state.rows.anchor, [row], -1)
     edit.pending.structural = True
-    ride_links(state, state.rows.curve.data[row, :1], edit.journal)
+    link_adopted_points(state, state.rows.curve.data[row, :1], edit.journal)

@@ -11,9 +11,14 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.arguments import pair
-from assoc_hull.edit.field import FieldContext, context, flat_distance, row_spacing
-from assoc_hull.edit.followup.thread import thread
-from assoc_hull.edit.pull_field import Pull
+from assoc_hull.edit.displacement_field import (
+    FieldContext,
+    PullField,
+    field_context,
+    flat_distance,
+    row_spacing,
+)
+from assoc_hull.edit.followup.adopted_points import insert_defining_point
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import PointRoleError
 from assoc_hull.geometry.curves import IntArray
@@ -63,7 +68,7 @@ def pull(
         reach = (3.0 * row_spacing(state, place), 3.0 * row_spacing(state, place))
     else:
         reach = pair(radius, "radius", positive=True)
-    ground = context(state, across_flats=across_flats)
+    ground = field_context(state, across_flats=across_flats)
     border = _border_distance(ground, row)
     if border is None:
         raise PointRoleError(
@@ -75,7 +80,7 @@ def pull(
     if amount == 0.0:
         return
     fade, normal = min(reach[1], border), ground.normal[row].copy()
-    edit.pending.fields.append(Pull(row, place, amount, normal, reach, fade, across_flats))
+    edit.pending.fields.append(PullField(row, place, amount, normal, reach, fade, across_flats))
     _hold(edit, row)
 
 
@@ -92,7 +97,7 @@ def _hold(edit: Transaction, row: int) -> None:
         if not carries or float(np.sqrt((step * step).sum(axis=1)).min()) < _NEAR:
             continue
         point = int(edit.maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
-        thread(edit.maker, curve, point)
+        insert_defining_point(edit.maker, curve, point)
         edit.pending.structural = True
         edit.pending.curves.add(curve)
         edit.pending.notes.append(

@@ -1,9 +1,9 @@
-"""Re-shaping a curve: it takes the designer's new shape, the hull around it follows.
+"""Re-shape a curve: it takes the designer's new shape, and the hull around it follows.
 
-The designer gives points the curve is to pass. Between them, and out to the ends of the
-span, their displacements are blended smoothly (quintic, curvature-continuous) and added to
-the present shape, so what the curve had of detail it keeps. The curve's own shared points
-take the exact meeting of this new shape with the partner planes.
+The designer gives points within a span. Between them, and out to its ends, their displacements are
+blended (quintic, curvature-continuous) and added to the present shape, so the curve keeps what it
+had of detail. `ReshapeField` lets the other points take the curve's normal change, fading with the
+distance; lines of a group that takes nothing from the curve's group stay.
 """
 
 from __future__ import annotations
@@ -15,24 +15,194 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import pair, places
-from assoc_hull.edit.field import bell, flat_distance, on_flat, on_profile, row_spacing
-from assoc_hull.edit.followup.thread import interval_of
+from assoc_hull.edit.displacement_field import (
+    FieldContext,
+    PointDisplacements,
+    flat_distance,
+    move_normal,
+    on_flat,
+    on_profile,
+    quintic_fade,
+    row_spacing,
+)
+from assoc_hull.edit.followup.adopted_points import insertion_index
+from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.modifications.points import pin
-from assoc_hull.edit.modifications.reshape_field import Reshape
-from assoc_hull.edit.newline.line_planes import into_planes
-from assoc_hull.edit.normals import hull_normals
+from assoc_hull.edit.newline.line_planes import checked_in_planes
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.make_objects import PointSpec
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["reshape"]
+__all__ = [
+    "ReshapeField",
+    "reshape",
+]
+
+# --------------------------------------------------------------------------------------
+# The field of a re-shaped curve: how the hull around it follows.
+#
+# For a waterline or a buttock the other points take the curve's normal change at the same x,
+# fading with the distance seen along x; for a section the change at its nearest point seen
+# along x, fading along the length. What defines lines of a group that takes nothing from the
+# curve's, by a one-way association, stays.
+
+
+@attrs.frozen(eq=False)
+class ReshapeField:
+    """The field of a re-shaped curve.
+
+    Attributes
+    ----------
+    curve : int
+        The curve.
+    old, new : SplineBatch
+        Its spline before, and the designer's.
+    normal : (k, 3)
+        Outward normals of the hull at the knots of `old`.
+    rows, places : (r,) int, (r, 3), m
+        The curve's own points, and where the designer's curve has them.
+    start : (r, 3), m
+        Where they were.
+    radius : (float, float), m, or None
+        Fade along the length and the girth; None: no other point moves.
+    along_x : bool
+        Whether the curve is a section, whose change fades along the length.
+    span : (float, float), m
+        Parameters on `old` between which the curve changes.
+    flat : (k,), m
+        Distance of the knots of `old` from the nearest border of a flat. Where another
+        point is as far from it as the curve, it moves as much as the curve.
+    across_flats : bool
+        Whether flats are moved too.
+    """
+
+    curve: int
+    old: SplineBatch
+    new: SplineBatch
+    normal: FloatArray
+    rows: IntArray
+    places: FloatArray
+    start: FloatArray
+    radius: tuple[float, float] | None
+    along_x: bool
+    span: tuple[float, float]
+    flat: FloatArray
+    across_flats: bool
+
+    @property
+    def strict(self) -> bool:
+        """Whether the curve's own points move and no other."""
+        return self.radius is None
+
+    def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
+        """Give the displacements for a part of the whole change."""
+        own = part * (self.places - self.start)
+        if self.radius is None:
+            return PointDisplacements(self.rows, own, np.zeros(0, np.int64))
+        others = ground.free[~np.isin(ground.free, self.rows)]
+        others = others[~(ground.state.rows.reader.data[others] == self.curve).any(axis=1)]
+        others = others[~_defines(ground.state, others, _givers(ground.state, self.curve))]
+        distance = ground.flat_distance[np.searchsorted(ground.free, others)]
+        amount, at = self._amount(ground.state.rows.xyz.data[others])
+        amount = part * amount
+        if not self.across_flats:
+            own_distance = np.interp(at, self.old.knot, self.flat)
+            amount = amount * (
+                1.0 - quintic_fade(distance / np.minimum(self.radius[1], own_distance))
+            )
+        reach = amount != 0.0
+        rest = move_normal(ground, others[reach], amount[reach])
+        return PointDisplacements(
+            np.concatenate([self.rows, rest.rows]), np.concatenate([own, rest.delta]), rest.left
+        )
+
+    def exact(self) -> tuple[IntArray, FloatArray]:
+        """Give the curve's own points, which land on the designer's curve."""
+        return self.rows, self.places
+
+    def left(self, state: HullState, done: float) -> float:
+        """Give the part of the change that is still to come, when a part is `done`."""
+        return 1.0 - done
+
+    def _amount(self, xyz: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give the faded normal change at points, and the parameter it comes from, (k,), m."""
+        assert self.radius is not None
+        if self.along_x:
+            fade = quintic_fade((xyz[:, 0] - self.old.xyz[0, 0]) / self.radius[0])
+            near = np.flatnonzero(fade != 0.0)
+            flat = np.array(xyz[near])
+            flat[:, 0] = self.old.xyz[0, 0]
+            at, amount = np.zeros(len(xyz)), np.zeros(len(xyz))
+            at[near] = closest_points(self.old, 0, flat)[0] if len(near) else 0.0
+            amount[near] = fade[near] * self._change(at[near])
+            return amount, at
+        return self._at_same_x(xyz)
+
+    def _at_same_x(self, xyz: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Take the change where the old curve has the same x, nearest seen along x."""
+        assert self.radius is not None
+        levels, place = np.unique(xyz[:, 0], return_inverse=True)
+        met = intersect_planes(self.old, np.array([1.0, 0.0, 0.0]), levels)
+        first = np.searchsorted(met.plane, np.arange(len(levels) + 1))
+        amount, at = np.zeros(len(xyz)), np.zeros(len(xyz))
+        change = self._change(met.t) if len(met.t) else np.zeros(0)
+        for turn in range(int(np.diff(first).max(initial=0))):
+            index = first[:-1][place] + turn
+            has = np.flatnonzero(index < first[1:][place])
+            step = xyz[has, 1:] - met.xyz[index[has], 1:]
+            girth = np.sqrt((step * step).sum(axis=1))
+            value = change[index[has]] * quintic_fade(girth / self.radius[1])
+            stronger = np.abs(value) > np.abs(amount[has])
+            amount[has[stronger]] = value[stronger]
+            at[has[stronger]] = met.t[index[has[stronger]]]
+        return amount, at
+
+    def _change(self, at: FloatArray) -> FloatArray:
+        """Give the normal change of the curve at parameters of the old one, (k,), m."""
+        zero = np.zeros(len(at), np.int64)
+        here = evaluate(self.old, zero, np.clip(at, 0.0, self.old.knot[-1]))
+        inside = (at > self.span[0]) & (at < self.span[1])
+        there = closest_points(self.new, 0, here)[1]
+        normal = np.column_stack(
+            [np.interp(at, self.old.knot, self.normal[:, i]) for i in range(3)]
+        )
+        length = np.sqrt((normal * normal).sum(axis=1))
+        normal = normal / np.where(length > 1e-12, length, 1.0)[:, None]
+        change: FloatArray = ((there - here) * normal).sum(axis=1)
+        return np.where(inside, change, 0.0)
+
+
+def _givers(state: HullState, curve: int) -> IntArray:
+    """Give the groups that generate points on a curve's group and take none from it."""
+    names = state.groups.name.data
+    mine = names[int(state.lines.group.data[state.line_of(curve)])]
+    given = [link.a for link in state.associations if link.b == mine and not link.two_way]
+    return np.array([names.index(name) for name in given], np.int64)
+
+
+def _defines(state: HullState, rows: IntArray, groups: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell which points define a curve of one of the groups."""
+    reader = state.rows.reader.data[rows]
+    group = state.lines.group.data[state.curves.line.data[reader]]
+    found: np.typing.NDArray[np.bool_] = (np.isin(group, groups) & (reader >= 0)).any(axis=1)
+    return found
+
+
+# --------------------------------------------------------------------------------------
+# Re-shaping a curve: it takes the designer's new shape, the hull around it follows.
+#
+# The designer gives points the curve is to pass. Between them, and out to the ends of the
+# span, their displacements are blended smoothly (quintic, curvature-continuous) and added to
+# the present shape, so what the curve had of detail it keeps. The curve's own shared points
+# take the exact meeting of this new shape with the partner planes.
 
 _NEAR = 0.5
 """A point of the new shape as near as this (m) to a crossing, in its plane, is that crossing."""
@@ -69,7 +239,7 @@ class _Design:
         index = np.clip(np.searchsorted(self.at, parameters, side="right") - 1, 0, len(self.at) - 2)
         low, high = self.at[index], self.at[index + 1]
         part = (parameters - low) / np.where(high > low, high - low, 1.0)
-        fade = bell(part)[:, None]
+        fade = quintic_fade(part)[:, None]
         value = self.shift[index] * fade + self.shift[index + 1] * (1.0 - fade)
         inside = (parameters >= self.at[0]) & (parameters <= self.at[-1])
         return np.where(inside[:, None], value, 0.0)
@@ -137,7 +307,7 @@ def reshape(
     normals = hull_normals(state)[state.curves.rows.data[curve]]
     made = _place(edit, curve, design.shape, rows, goals)
     edit.pending.fields.append(
-        Reshape(
+        ReshapeField(
             curve, old, new, normals, rows, goals, start, radius, section,
             (float(design.at[0]), float(design.at[-1])), flat, across_flats,
         )
@@ -159,7 +329,7 @@ def _checked(
             f"in reshape of {name}",
             "widen the span or leave the point out",
         )
-    return into_planes(state, [state.line_of(curve)], shape, f"in reshape of {name}")
+    return checked_in_planes(state, [state.line_of(curve)], shape, f"in reshape of {name}")
 
 
 def _free_ends(state: HullState, curve: int) -> tuple[bool, bool]:
@@ -196,10 +366,10 @@ def _design(
 
     Where the span reaches past a free end, the blend does too, and that end moves along.
     """
-    at, foot, _ = closest(old, 0, shape)
+    at, foot, _ = closest_points(old, 0, shape)
     order = np.argsort(at, kind="stable")
     at, foot, shape = at[order], foot[order], shape[order]
-    met = meet_planes(old, np.eye(3)[axis], np.array(span))
+    met = intersect_planes(old, np.eye(3)[axis], np.array(span))
     before, after = met.t[met.t < at[0]], met.t[met.t > at[-1]]
     reach = [float(np.abs(np.array(span) - end).min()) for end in old.xyz[[0, -1], axis]]
     low = float(before.max()) if len(before) else float(old.knot[0]) - free[0] * reach[0]
@@ -219,7 +389,7 @@ def _displaced(old: SplineBatch, design: _Design, flat: FloatArray) -> FloatArra
     moved = design.at_parameters(old.knot)
     reference = float(np.interp(design.shape_at, old.knot, flat).min())
     if np.isfinite(reference) and reference > 0.0:
-        moved = moved * (1.0 - bell(flat / reference))[:, None]
+        moved = moved * (1.0 - quintic_fade(flat / reference))[:, None]
     return moved
 
 
@@ -289,7 +459,7 @@ def _meeting(
     if not state.lines.planar.data[other]:
         return place
     normal, offset = state.lines.normal.data[other].copy(), state.lines.offset.data[[other]].copy()
-    met = meet_planes(new, normal, offset)
+    met = intersect_planes(new, normal, offset)
     ends = new.xyz[[0, -1]]
     found = np.concatenate([met.xyz, ends[np.abs(ends @ normal - offset) < 1e-9]])
     out = place.copy()
@@ -340,7 +510,7 @@ def _place(
             continue
         row = int(edit.maker.points([PointSpec(curve, point, Sort.PLACED)])[0])
         order: IntArray = state.curves.rows.data[curve]
-        index = interval_of(state.rows.xyz.data[order], point)
+        index = insertion_index(state.rows.xyz.data[order], point)
         edit.maker.define(curve, np.insert(order, index, row))
         edit.pending.structural = True
         edit.pending.curves.add(curve)

@@ -1,8 +1,9 @@
-"""A new line, cut from the lines that are there: adding one is no change of shape.
+"""Cut a new line from the lines that are there: adding one is no change of shape.
 
-The new plane meets boundary curves (contacts) and the curves of lower rank (crossings);
-the role rule chooses which of these define the new line. A crossing defines the old curve
-too only if that stays within 0.1 mm; else the old curve drives the new one.
+The new plane meets boundary curves (contacts) and curves of lower rank (crossings); the role rule
+chooses which of these define the line. A crossing defines the old curve too only if that stays
+within `Tolerances.keep`; else the old curve drives the new one. Turns at which the line would fold
+are rounded with points that follow from the normals of the hull at the marks beside them.
 """
 
 from __future__ import annotations
@@ -14,32 +15,160 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.edit.arguments import line_name
-from assoc_hull.edit.followup.births_and_deaths import generates
+from assoc_hull.edit.followup.adopted_points import insert_defining_point
 from assoc_hull.edit.followup.tangencies import NO_ROOT
-from assoc_hull.edit.followup.thread import thread
 from assoc_hull.edit.newline.curve_deviation import deviation_with
-from assoc_hull.edit.newline.facet_order import through_facets
-from assoc_hull.edit.newline.guides import with_guides
-from assoc_hull.edit.newline.hairpin import closing_point, turning_points
-from assoc_hull.edit.newline.headings import headings
-from assoc_hull.edit.newline.kept_runs import NO_STAYS, Stays
+from assoc_hull.edit.newline.kept_runs import NO_KEPT_RUNS, KeptRuns
 from assoc_hull.edit.newline.line_planes import new_plane, ready_group
-from assoc_hull.edit.newline.nearest_order import chain
-from assoc_hull.edit.newline.plane_intersections import enter_line
-from assoc_hull.edit.newline.plane_marks import Marks, find_marks, spread
-from assoc_hull.edit.newline.required_marks import hold
+from assoc_hull.edit.newline.mark_order import headings, nearest_order, through_facets
+from assoc_hull.edit.newline.marks import (
+    Marks,
+    distinct_marks,
+    find_marks,
+    required_marks,
+    with_guides,
+)
+from assoc_hull.edit.newline.plane_intersections import enter_line_plane
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind
-from assoc_hull.geometry.splines.curve_order import folds
+from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.gaps import tangents
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Role, Sort
+from assoc_hull.model.links import generates
 from assoc_hull.model.make_objects import CrossingSpec, PointSpec
 from assoc_hull.model.roles import Candidates, choose
-from assoc_hull.model.state import Ends, HullState
+from assoc_hull.model.tables import Ends, HullState
 
-__all__ = ["add_line", "make_piece", "pieces_of"]
+__all__ = [
+    "add_line",
+    "make_piece",
+    "ordered_pieces",
+    "ring_closing_point",
+    "turning_points",
+]
+
+# --------------------------------------------------------------------------------------
+# Rounding the turns of a new line that runs into a facet and back out of it.
+#
+# Where a line turns back between two neighbouring lines of the net, its two marks there lie
+# abreast and a curve through them would fold. The hull's normals at the marks tell how the
+# line runs on from each, so the outermost point of the turn follows.
+
+_ROUNDS = 3
+"""A turn that is halved three times bends by a few degrees from point to point."""
+
+_TURN = 0.87
+"""Cosine of the least turn between two points that is given another one."""
+
+
+def turning_points(data: CurveData, heading: FloatArray) -> list[tuple[int, FloatArray]]:
+    """Give the points to be added to the turns at which a curve would fold.
+
+    Parameters
+    ----------
+    data : CurveData
+        One curve.
+    heading : (n, 3)
+        Unit vectors along or against the curve at its n points; nil where not known.
+
+    Returns
+    -------
+    list of (int, (3,) m)
+        Before which point each belongs, and its place: the middle of an arc of a circle
+        that turns by the angle between the headings on either side. In order.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.edit.newline.add_line import turning_points
+    >>> from assoc_hull.geometry.curves import CurveData
+    >>> bend = np.array([[3.0, 0, 0.2], [0, 0, 0], [0, 0, 2], [3, 0, 1.8]])
+    >>> way = np.array([[-1.0, 0, 0], [-1, 0, 0], [1, 0, 0], [1, 0, 0]])
+    >>> [(at, place.tolist()) for at, place in turning_points(CurveData.single(bend), way)]
+    [(2, [-1.0, 0.0, 1.0])]
+    """
+    heading, own = _along(data.xyz, heading), np.arange(len(data.xyz))
+    added: list[tuple[int, FloatArray]] = []
+    for _ in range(_ROUNDS):
+        turns = _turns(data.xyz, heading, curve_folds(loft(data)).knot.tolist())
+        if not turns:
+            break
+        added += [(int(own[at]), place) for at, place, _ in turns]
+        before = [at for at, _, _ in turns]
+        places = np.array([place for _, place, _ in turns])
+        heading = np.insert(heading, before, [way for _, _, way in turns], axis=0)
+        own = np.insert(own, before, own[before])
+        data = CurveData.single(
+            np.insert(data.xyz, before, places, axis=0),
+            np.insert(data.kind, before, PointKind.SMOOTH),
+            np.insert(data.direction, before, 0.0, axis=0),
+        )
+    order = {place.tobytes(): i for i, place in enumerate(data.xyz)}
+    return sorted(added, key=lambda item: order[item[1].tobytes()])
+
+
+def _turns(
+    xyz: FloatArray, heading: FloatArray, folded: list[int]
+) -> list[tuple[int, FloatArray, FloatArray]]:
+    """Give the turns beside points at which a curve folds: before which, where, which way."""
+    found: list[tuple[int, FloatArray, FloatArray]] = []
+    for first in sorted({max(knot - side, 0) for knot in folded for side in (0, 1)}):
+        pair = slice(first, first + 2)
+        if first + 1 < len(xyz) and float((heading[first] * heading[first + 1]).sum()) < _TURN:
+            place = _outermost(xyz[pair], heading[pair])
+            if place is not None:
+                chord = xyz[first + 1] - xyz[first]
+                way = chord / np.sqrt((chord * chord).sum())
+                found.append((first + 1, place, way))
+    return found
+
+
+def ring_closing_point(xyz: FloatArray, heading: FloatArray) -> FloatArray:
+    """Give the place, (3,) m, at which a ring through points begins and ends.
+
+    Parameters
+    ----------
+    xyz : (n, 3), m
+        Points in order; the place lies between the last and the first.
+    heading : (n, 3)
+        As for `turning_points`.
+    """
+    ends, way = xyz[[-1, 0]], _along(xyz, heading)[[-1, 0]]
+    place = _outermost(ends, way)
+    middle: FloatArray = 0.5 * (ends[0] + ends[1])
+    return middle if place is None else place
+
+
+def _along(xyz: FloatArray, heading: FloatArray) -> FloatArray:
+    """Turn headings the way the points follow one another."""
+    chord = np.diff(xyz, axis=0)
+    against = float((chord * (heading[:-1] + heading[1:])).sum()) < 0.0
+    return -heading if against else heading
+
+
+def _outermost(ends: FloatArray, heading: FloatArray) -> FloatArray | None:
+    """Give the middle of an arc between two points; None where they turn to no side."""
+    chord = ends[1] - ends[0]
+    length = float(np.sqrt((chord * chord).sum()))
+    side = heading[0] - heading[1]
+    side = side - chord * float((side * chord).sum()) / length**2
+    size = float(np.sqrt((side * side).sum()))
+    if size < 1e-6:
+        return None
+    turn = float(np.arccos(np.clip((heading[0] * heading[1]).sum(), -1.0, 1.0)))
+    away = 0.5 * length * np.tan(0.25 * turn)
+    found: FloatArray = 0.5 * (ends[0] + ends[1]) + side / size * away
+    return found
+
+
+# --------------------------------------------------------------------------------------
+# A new line, cut from the lines that are there: adding one is no change of shape.
+#
+# The new plane meets boundary curves (contacts) and the curves of lower rank (crossings);
+# the role rule chooses which of these define the new line. A crossing defines the old curve
+# too only if that stays within 0.1 mm; else the old curve drives the new one.
 
 _RING = 4
 """A ring of fewer marks than this makes no curve."""
@@ -90,9 +219,9 @@ def add_line(
     if title is None:
         title = _free_name(state, cut.group, f"{family.prefix} {cut.title}")
     line = edit.maker.line(cut.group, title, (cut.normal, cut.offset), key=cut.key)
-    for piece in pieces_of(edit, line, marks):
-        make_piece(edit, line, spread(piece), keep or state.tolerances.keep)
-    enter_line(edit, line)
+    for piece in ordered_pieces(edit, line, marks):
+        make_piece(edit, line, distinct_marks(piece), keep or state.tolerances.keep)
+    enter_line_plane(edit, line)
     curves, table = np.array(state.lines.curves.data[line], np.int64), state.rows
     on = table.alive.data & np.isin(table.curve.data, curves).any(axis=1)
     met = np.flatnonzero(on & (table.sort.data == Sort.CROSSING))
@@ -100,7 +229,7 @@ def add_line(
     return line
 
 
-def pieces_of(edit: Transaction, line: int, marks: Marks) -> list[Marks]:
+def ordered_pieces(edit: Transaction, line: int, marks: Marks) -> list[Marks]:
     """Put marks in order, piece by piece; sections upward, other lines from aft forward.
 
     A ring, that ends on no boundary curve, begins and ends between its two nearest marks.
@@ -110,7 +239,7 @@ def pieces_of(edit: Transaction, line: int, marks: Marks) -> list[Marks]:
     axis = 2 if state.family(line).axis == 0 else 0
     trails = through_facets(state, marks, state.lines.normal.data[line])
     if trails is None:
-        ordered = chain(marks.xyz, marks.boundary == BoundaryKind.END, axis)
+        ordered = nearest_order(marks.xyz, marks.boundary == BoundaryKind.END, axis)
         return with_guides(state, line, [marks.take(piece) for piece in ordered])
     rings = [_opened(marks.xyz, ring) for ring in trails.rings if len(ring) >= _RING]
     name = state.lines.name.data[line]
@@ -152,7 +281,7 @@ def make_piece(
     keep: float,
     curve: int | None = None,
     known: Mapping[tuple[int, int], int] | None = None,
-    stays: Stays = NO_STAYS,
+    stays: KeptRuns = NO_KEPT_RUNS,
 ) -> int:
     """Make one curve of a line from marks in order along it.
 
@@ -181,7 +310,7 @@ def make_piece(
     state = edit.state
     kind, direction = _kinds(state, line, marks)
     ruled = _pick(state, line, marks, kind, direction)
-    picked = hold(state, marks, kind, direction, ruled)
+    picked = required_marks(state, marks, kind, direction, ruled)
     run = stays.of(state, marks)
     picked |= (run >= 0) & ((np.roll(run, 1) != run) | (np.roll(run, -1) != run))
     if curve is None:
@@ -207,7 +336,7 @@ def make_piece(
     edit.maker.define(curve, whole)
     for i, role in enumerate(roles):
         if role is Role.SHARED and run[i] < 0:
-            thread(edit.maker, int(chosen.curve[i]), int(rows[i]))
+            insert_defining_point(edit.maker, int(chosen.curve[i]), int(rows[i]))
             edit.pending.curves.add(int(chosen.curve[i]))
     return curve
 
@@ -216,12 +345,12 @@ def _rounded(edit: Transaction, curve: int, marks: Marks, rows: list[int]) -> li
     """Add points to the turns at which a new curve would fold, and where a ring closes."""
     state, line = edit.state, edit.state.line_of(curve)
     data = CurveData.single(marks.xyz, *_kinds(state, line, marks))
-    if not len(folds(loft(data))) and not marks.ring:
+    if not len(curve_folds(loft(data))) and not marks.ring:
         return rows
     heading = headings(state, marks, state.lines.normal.data[line])
     turns = turning_points(data, heading)
     if marks.ring:
-        close = closing_point(marks.xyz, heading)
+        close = ring_closing_point(marks.xyz, heading)
         turns = [(0, close), *turns, (len(rows), close)]
     points = [PointSpec(curve, _in_plane(state, line, at), Sort.ADOPTED) for _, at in turns]
     added = edit.maker.points(points)

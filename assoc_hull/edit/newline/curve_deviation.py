@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.followup.thread import interval_of
+from assoc_hull.edit.followup.adopted_points import insertion_index
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate, sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.segments import segment_start
 from assoc_hull.model.lofting import curve_data
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["deviation", "deviation_with", "drift"]
+__all__ = ["deviation", "deviation_with", "quick_deviation"]
 
 _SAMPLES = 6
 """Places a segment at which two curves are compared."""
@@ -29,11 +29,11 @@ def deviation(old: SplineBatch, new: SplineBatch) -> FloatArray:
     """Give the largest distance of each new curve from the old one, (m,), m."""
     start, places = sample(new, 6)
     return np.array(
-        [closest(old, i, places[start[i] : start[i + 1]])[2].max() for i in range(new.count)]
+        [closest_points(old, i, places[start[i] : start[i + 1]])[2].max() for i in range(new.count)]
     )
 
 
-def drift(old: SplineBatch, new: SplineBatch, at: FloatArray) -> FloatArray:
+def quick_deviation(old: SplineBatch, new: SplineBatch, at: FloatArray) -> FloatArray:
     """Give the largest distance of each new curve from the old one, quickly.
 
     Parameters
@@ -75,7 +75,7 @@ def _feet(batch: SplineBatch, xyz: FloatArray) -> FloatArray:
     low, high = np.zeros(batch.count), np.zeros(batch.count)
     for i in range(batch.count):
         part = slice(int(batch.start[i]), int(batch.start[i + 1]))
-        index = interval_of(batch.xyz[part], xyz[i])
+        index = insertion_index(batch.xyz[part], xyz[i])
         low[i], high[i] = batch.knot[part][index - 1 : index + 1]
     at = 0.5 * (low + high)
     for _ in range(_NEWTON):
@@ -132,5 +132,5 @@ def deviation_with(
             data.end_vector.copy(),
         )
     )
-    moved = drift(old, trial, np.insert(old.knot, position, at))
+    moved = quick_deviation(old, trial, np.insert(old.knot, position, at))
     return np.where(fits, moved, np.inf), room

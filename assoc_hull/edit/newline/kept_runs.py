@@ -13,22 +13,31 @@ from collections.abc import Mapping, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.newline.plane_marks import Marks
+from assoc_hull.edit.newline.marks import Marks
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.network import bits_differ
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["NO_STAYS", "Run", "Stays", "come_back", "compute", "give_up", "rest", "settle_runs"]
+__all__ = [
+    "NO_KEPT_RUNS",
+    "KeptRun",
+    "KeptRuns",
+    "assign_runs",
+    "compute_kept_crossings",
+    "release_points",
+    "restore_roles",
+    "suspend_roles",
+]
 
 _END = 1e-6
 """A place as near as this (m) to an end of a run, along the line, is in it."""
 
 
 @attrs.frozen(eq=False)
-class Run:
+class KeptRun:
     """Points of one curve, in order along it, that stay.
 
     Attributes
@@ -54,7 +63,7 @@ class Run:
 
 
 @attrs.frozen(eq=False)
-class Stays:
+class KeptRuns:
     """The runs of a line that stay.
 
     Attributes
@@ -64,7 +73,7 @@ class Stays:
         Roles of crossings among them while the line is taken out: they define nothing meanwhile.
     """
 
-    runs: tuple[Run, ...] = ()
+    runs: tuple[KeptRun, ...] = ()
     roles: Mapping[int, int] = attrs.field(factory=dict)
 
     def rows(self) -> IntArray:
@@ -78,7 +87,7 @@ class Stays:
         """
         found = np.full(len(marks.curve), -1)
         for number, run in enumerate(self.runs):
-            at, _, away = closest(state.spline(run.curve), 0, marks.xyz)
+            at, _, away = closest_points(state.spline(run.curve), 0, marks.xyz)
             inside = (at >= run.span[0] - _END) & (at <= run.span[1] + _END)
             found[inside & (away <= state.tolerances.adoption)] = number
         for number in range(len(self.runs)):
@@ -88,7 +97,7 @@ class Stays:
                 found[between[marks.guide[between] & (found[between] < 0)]] = number
         return found
 
-    def on(self, state: HullState, pieces: list[Marks]) -> Stays:
+    def on(self, state: HullState, pieces: list[Marks]) -> KeptRuns:
         """Leave out runs that come to lie on no piece, on two, or not side by side on one."""
         owners = [self.of(state, piece) for piece in pieces]
         kept = [
@@ -126,7 +135,7 @@ class Stays:
         return -2 - number
 
 
-NO_STAYS = Stays()
+NO_KEPT_RUNS = KeptRuns()
 
 
 def _together(mask: np.typing.NDArray[np.bool_]) -> bool:
@@ -146,13 +155,13 @@ def _turned(state: HullState, rows: list[int], before: list[int], after: list[in
     return rows if straight <= turned else rows[::-1]
 
 
-def rest(maker: Maker, stays: Stays) -> None:
+def suspend_roles(maker: Maker, stays: KeptRuns) -> None:
     """Let crossings that stay define nothing by a computed place while their line is away."""
     rows = np.array(sorted(stays.roles), np.int64)
     maker.roles(rows, np.full(len(rows), int(Role.WATCHED)))
 
 
-def give_up(maker: Maker, stays: Stays, left: Stays) -> set[int]:
+def release_points(maker: Maker, stays: KeptRuns, left: KeptRuns) -> set[int]:
     """Take what does not stay after all out of the curves that it defines; tell which these are."""
     state = maker.state
     lost = np.setdiff1d(stays.rows(), left.rows())
@@ -167,7 +176,7 @@ def give_up(maker: Maker, stays: Stays, left: Stays) -> set[int]:
     return changed
 
 
-def settle_runs(maker: Maker, stays: Stays, pieces: Sequence[tuple[int, Marks]]) -> None:
+def assign_runs(maker: Maker, stays: KeptRuns, pieces: Sequence[tuple[int, Marks]]) -> None:
     """Let the points of runs be on the curves whose pieces the runs lie on now."""
     state, table, put = maker.state, maker.state.rows, maker.journal.put
     for new, piece in pieces:
@@ -180,7 +189,7 @@ def settle_runs(maker: Maker, stays: Stays, pieces: Sequence[tuple[int, Marks]])
                 put(table.reader, [row], [[new if each == run.curve else each for each in reader]])
 
 
-def come_back(maker: Maker, stays: Stays) -> None:
+def restore_roles(maker: Maker, stays: KeptRuns) -> None:
     """Let crossings that stay be computed as they were, once both their lines are there."""
     state = maker.state
     for row in sorted(stays.roles.keys() & set(stays.rows().tolist())):
@@ -189,7 +198,7 @@ def come_back(maker: Maker, stays: Stays) -> None:
             maker.roles(np.array([row]), np.array([stays.roles[row]]))
 
 
-def compute(maker: Maker, stays: Stays) -> set[int]:
+def compute_kept_crossings(maker: Maker, stays: KeptRuns) -> set[int]:
     """Give crossings that stay and are computed the places of their drivers; tell what they change.
 
     Returns

@@ -19,10 +19,17 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.kinds import FAMILIES
-from assoc_hull.model.state import Association, HullState
+from assoc_hull.model.tables import Association, HullState
 from assoc_hull.tolerance import IN_PLANE, SAME_PLANE
 
-__all__ = ["Cut", "along_planes", "into_planes", "new_plane", "ready_group", "shifted_plane"]
+__all__ = [
+    "CuttingPlane",
+    "checked_in_planes",
+    "completed_in_planes",
+    "new_plane",
+    "ready_group",
+    "shifted_plane",
+]
 
 _DIAGONALS = "diagonals"
 _ROUNDED = 1e-12
@@ -33,7 +40,7 @@ _GIVERS = ("boundary", "sections")
 
 
 @attrs.frozen(eq=False)
-class Cut:
+class CuttingPlane:
     """The plane of a line that is to be.
 
     Attributes
@@ -80,7 +87,7 @@ def ready_group(edit: Transaction, name: object, position: ArrayLike) -> str:
     return group
 
 
-def new_plane(state: HullState, group: str, position: ArrayLike, own: int = -1) -> Cut:
+def new_plane(state: HullState, group: str, position: ArrayLike, own: int = -1) -> CuttingPlane:
     """Check a position for a line of a group.
 
     Parameters
@@ -110,12 +117,12 @@ def new_plane(state: HullState, group: str, position: ArrayLike, own: int = -1) 
         )
     else:
         place = number(position, "position", f"for a line of {group}")
-        cut = Cut(index, np.eye(3)[family.axis], place, f"{place:g}", None)
+        cut = CuttingPlane(index, np.eye(3)[family.axis], place, f"{place:g}", None)
     _refuse_taken(state, group, cut, own)
     return cut
 
 
-def _inclined(index: int, group: str, position: ArrayLike) -> Cut:
+def _inclined(index: int, group: str, position: ArrayLike) -> CuttingPlane:
     """Give the plane of a diagonal by height on the centre line, m, and angle, degrees."""
     what = f"the position of a diagonal is {shown(position)}"
     remedy = "give (height on the centre line in m, degrees by which it falls outward)"
@@ -130,10 +137,10 @@ def _inclined(index: int, group: str, position: ArrayLike) -> Cut:
     slope = math.radians(angle)
     normal = np.array([0.0, math.sin(slope), math.cos(slope)])
     key = f"{group}:{height:.6f} at {angle:.6f} deg"
-    return Cut(index, normal, height * math.cos(slope), f"{height:g} {angle:g}", key)
+    return CuttingPlane(index, normal, height * math.cos(slope), f"{height:g} {angle:g}", key)
 
 
-def shifted_plane(state: HullState, line: int, position: ArrayLike) -> Cut:
+def shifted_plane(state: HullState, line: int, position: ArrayLike) -> CuttingPlane:
     """Check a new position for a line; a diagonal keeps its angle, its height is given.
 
     Raises
@@ -152,12 +159,12 @@ def shifted_plane(state: HullState, line: int, position: ArrayLike) -> Cut:
     height = number(position, "position", f"for a line of {group}")
     normal = state.lines.normal.data[line].copy()
     offset = height * float(normal[2])
-    cut = Cut(int(state.lines.group.data[line]), normal, offset, f"{height:g}", None)
+    cut = CuttingPlane(int(state.lines.group.data[line]), normal, offset, f"{height:g}", None)
     _refuse_taken(state, group, cut, line)
     return cut
 
 
-def _refuse_taken(state: HullState, group: str, cut: Cut, own: int) -> None:
+def _refuse_taken(state: HullState, group: str, cut: CuttingPlane, own: int) -> None:
     lines = state.lines
     mine = lines.alive.data & (lines.group.data == cut.group) & lines.planar.data
     mine &= np.arange(len(mine)) != own
@@ -168,7 +175,9 @@ def _refuse_taken(state: HullState, group: str, cut: Cut, own: int) -> None:
         raise BadInputError(f"there is a line at {cut.title} m already", f"in {group}", remedy)
 
 
-def into_planes(state: HullState, lines: list[int], xyz: FloatArray, where: str) -> FloatArray:
+def checked_in_planes(
+    state: HullState, lines: list[int], xyz: FloatArray, where: str
+) -> FloatArray:
     """Check that places lie in the planes of lines; put them there to the bit.
 
     Parameters
@@ -209,7 +218,7 @@ def into_planes(state: HullState, lines: list[int], xyz: FloatArray, where: str)
     return out
 
 
-def along_planes(
+def completed_in_planes(
     state: HullState, lines: list[int], xyz: FloatArray, given: Mapping[int, float]
 ) -> FloatArray:
     """Give the place with some coordinates given, the others as the planes of lines say.

@@ -4,24 +4,30 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.followup.births_and_deaths import bear
-from assoc_hull.edit.followup.mend_gaps import mend
+from assoc_hull.edit.followup.adopted_points import mend_gaps
+from assoc_hull.edit.followup.crossings import make_crossing
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.gaps import gap_at, watched_on
 from assoc_hull.model.index import Index
 from assoc_hull.model.loft_hull import attach_curves, set_limits
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.state import HullState, Meets, curve_node
+from assoc_hull.model.tables import CurveIntersections, HullState, curve_node
 
-__all__ = ["enter_line", "meet_groups", "partner_curves", "strike_line", "strike_planes"]
+__all__ = [
+    "enter_line_plane",
+    "intersect_groups",
+    "partner_curves",
+    "remove_line_plane",
+    "remove_planes",
+]
 
 _ROUNDS = 4
 _NO_POINTS: IntArray = np.zeros(0, np.int64)
 
 
-def enter_line(edit: Transaction, line: int, stay: IntArray = _NO_POINTS) -> None:
+def enter_line_plane(edit: Transaction, line: int, stay: IntArray = _NO_POINTS) -> None:
     """Loft the curves of a new line, and enter its plane with the curves it may meet.
 
     At crossings that `stay` the line is as it was, and needs no points to be held there.
@@ -36,15 +42,15 @@ def enter_line(edit: Transaction, line: int, stay: IntArray = _NO_POINTS) -> Non
     attach_curves(state, partners, journal, line)
     attach_curves(state, mine, journal)
     for curve in mine.tolist():
-        meets: Meets = state.curves.meets.data[curve]
+        meets: CurveIntersections = state.curves.meets.data[curve]
         for spot in np.flatnonzero(meets.row < 0).tolist():
-            bear(edit.maker, curve, spot, set(), watch=True)
+            make_crossing(edit.maker, curve, spot, set(), watch=True)
     _hold_shape(edit, network, mine, stay)
     set_limits(state, journal, watched_on(state, mine))
     edit.pending.fresh += mine.tolist()
 
 
-def meet_groups(edit: Transaction, a: str, b: str) -> None:
+def intersect_groups(edit: Transaction, a: str, b: str) -> None:
     """Let the lines of two groups that were strangers meet; all crossings are watched."""
     state = edit.state
     edit.document.refresh()
@@ -60,9 +66,9 @@ def meet_groups(edit: Transaction, a: str, b: str) -> None:
     first = state.live("curves")
     born: list[int] = []
     for curve in first[owner[first] == names.index(a)].tolist():
-        meets: Meets = state.curves.meets.data[curve]
+        meets: CurveIntersections = state.curves.meets.data[curve]
         for spot in np.flatnonzero(meets.row < 0).tolist():
-            row = bear(edit.maker, curve, spot, set(), watch=True)
+            row = make_crossing(edit.maker, curve, spot, set(), watch=True)
             born += [] if row is None else [row]
     set_limits(state, edit.journal, np.array(born, np.int64))
 
@@ -77,7 +83,7 @@ def _hold_shape(edit: Transaction, network: HullNetwork, mine: IntArray, stay: I
             return
         sides = np.isin(state.rows.curve.data[wide], mine)
         on = state.rows.curve.data[wide][np.arange(len(wide)), sides.argmax(axis=1)]
-        touched, _ = mend(edit.maker, wide, on)
+        touched, _ = mend_gaps(edit.maker, wide, on)
         if not len(touched):
             return
         network.evaluate(curve_node(touched), edit.journal)
@@ -103,14 +109,14 @@ def _add_meets(edit: Transaction, curves: IntArray, line: int) -> None:
         return
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
     plane = state.lines.normal.data[line].copy(), state.lines.offset.data[[line]].copy()
-    met = meet_planes(batch, *plane)
+    met = intersect_planes(batch, *plane)
     for local, curve in enumerate(curves.tolist()):
         mine = met.curve == local
         if not mine.any():
             continue
-        old: Meets = state.curves.meets.data[curve]
+        old: CurveIntersections = state.curves.meets.data[curve]
         xyz = _in_own_plane(state, curve, met.xyz[mine])
-        new = Meets(
+        new = CurveIntersections(
             np.concatenate([old.line, np.full(int(mine.sum()), line)]),
             np.concatenate([old.sign, met.sign[mine]]),
             np.concatenate([old.row, np.full(int(mine.sum()), -1)]),
@@ -131,7 +137,9 @@ def _in_own_plane(state: HullState, curve: int, xyz: FloatArray) -> FloatArray:
     return out
 
 
-def _sorted(state: HullState, index: Index, curve: int, meets: Meets) -> Meets:
+def _sorted(
+    state: HullState, index: Index, curve: int, meets: CurveIntersections
+) -> CurveIntersections:
     """Bring meetings into the order in which the update finds them."""
     group = int(state.lines.group.data[state.line_of(curve)])
     place = {
@@ -144,16 +152,16 @@ def _sorted(state: HullState, index: Index, curve: int, meets: Meets) -> Meets:
     return meets.take(np.lexsort((meets.parameter, rank)))
 
 
-def strike_planes(edit: Transaction, planes: IntArray, curves: IntArray) -> None:
+def remove_planes(edit: Transaction, planes: IntArray, curves: IntArray) -> None:
     """Take the planes of lines out of the meetings of curves."""
     column = edit.state.curves.meets
     for curve in curves.tolist():
-        meets: Meets = column.data[curve]
+        meets: CurveIntersections = column.data[curve]
         keep = ~np.isin(meets.line, planes)
         if not keep.all():
             edit.journal.set(column, [curve], [meets.take(keep)])
 
 
-def strike_line(edit: Transaction, line: int) -> None:
+def remove_line_plane(edit: Transaction, line: int) -> None:
     """Take the plane of a line out of the meetings of all curves."""
-    strike_planes(edit, np.array([line]), edit.state.live("curves"))
+    remove_planes(edit, np.array([line]), edit.state.live("curves"))

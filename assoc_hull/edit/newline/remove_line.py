@@ -8,20 +8,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.followup.births_and_deaths import unmeet
-from assoc_hull.edit.newline.curve_deviation import drift
-from assoc_hull.edit.newline.plane_intersections import strike_line
+from assoc_hull.edit.followup.crossings import make_latent
+from assoc_hull.edit.newline.curve_deviation import quick_deviation
+from assoc_hull.edit.newline.plane_intersections import remove_line_plane
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import TooFewPointsError
 from assoc_hull.geometry.curves import CurveData, IntArray
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.make_objects import PointSpec
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["leave_behind", "prune", "remove_line"]
+__all__ = ["prune_points", "remove_line", "replace_crossings"]
 
 
 def remove_line(edit: Transaction, line: int) -> None:
@@ -39,17 +39,17 @@ def remove_line(edit: Transaction, line: int) -> None:
         raise TooFewPointsError("the hull without its last line", 0)
     edit.pending.structural = True
     mine = np.array(state.lines.curves.data[line], np.int64)
-    crossings, own = _rows_of(state, mine)
+    crossings, own = _crossings_and_points(state, mine)
     edit.pending.gone += sorted(state.rows.key.data[row] for row in crossings.tolist())
-    leave_behind(edit, crossings, mine)
+    replace_crossings(edit, crossings, mine)
     edit.maker.remove_rows(np.concatenate([crossings, own]))
-    strike_line(edit, line)
+    remove_line_plane(edit, line)
     edit.journal.put(state.curves.alive, mine, False)
     edit.journal.put(state.lines.alive, [line], False)
     edit.pending.curves -= set(mine.tolist())
 
 
-def _rows_of(state: HullState, curves: IntArray) -> tuple[IntArray, IntArray]:
+def _crossings_and_points(state: HullState, curves: IntArray) -> tuple[IntArray, IntArray]:
     """Give the crossings of curves, and their own points."""
     table = state.rows
     mine = table.alive.data & np.isin(table.curve.data, curves).any(axis=1)
@@ -57,13 +57,13 @@ def _rows_of(state: HullState, curves: IntArray) -> tuple[IntArray, IntArray]:
     return np.flatnonzero(mine & crossing), np.flatnonzero(mine & ~crossing)
 
 
-def leave_behind(edit: Transaction, crossings: IntArray, going: IntArray) -> None:
+def replace_crossings(edit: Transaction, crossings: IntArray, going: IntArray) -> None:
     """Replace crossings by adopted points on the curves they define, but for those going."""
     state, touched = edit.state, dict[int, list[int]]()
     edit.refuse_moved(crossings)
     for row in crossings.tolist():
         for side, curve in enumerate(state.rows.curve.data[row].tolist()):
-            unmeet(edit.maker, curve, row)
+            make_latent(edit.maker, curve, row)
             if state.rows.reader.data[row, side] != curve or curve in going:
                 continue
             point = PointSpec(
@@ -75,11 +75,11 @@ def leave_behind(edit: Transaction, crossings: IntArray, going: IntArray) -> Non
             edit.maker.define(curve, np.where(rows == row, new, rows))
             touched.setdefault(curve, []).append(new)
     for curve in sorted(touched):
-        prune(edit, curve, np.array(touched[curve]))
+        prune_points(edit, curve, np.array(touched[curve]))
         edit.pending.curves.add(curve)
 
 
-def prune(edit: Transaction, curve: int, points: IntArray) -> None:
+def prune_points(edit: Transaction, curve: int, points: IntArray) -> None:
     """Drop adopted points one by one, as long as the curve stays within the tolerance.
 
     Parameters
@@ -96,7 +96,7 @@ def prune(edit: Transaction, curve: int, points: IntArray) -> None:
     rows: IntArray = state.curves.rows.data[curve]
     known = np.array(published.knot)
     if len(known) != len(rows):
-        known = np.array(closest(published, 0, state.rows.xyz.data[rows])[0])
+        known = np.array(closest_points(published, 0, state.rows.xyz.data[rows])[0])
     inner = rows[1:-1]
     inner = inner[np.isin(inner, points)]
     for row in inner[state.rows.kind.data[inner, 0] == 0].tolist():
@@ -115,7 +115,7 @@ def prune(edit: Transaction, curve: int, points: IntArray) -> None:
             )
         )
         at = np.delete(known, place)
-        if float(drift(published, trial, at)[0]) <= state.tolerances.prune:
+        if float(quick_deviation(published, trial, at)[0]) <= state.tolerances.prune:
             known = at
             kept: IntArray = state.curves.rows.data[curve]
             edit.maker.define(curve, kept[kept != row])

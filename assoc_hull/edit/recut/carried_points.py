@@ -12,9 +12,15 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.tangencies import Touch
-from assoc_hull.edit.mapped_planes import PLANE, Planes, flat_borders, heights, into_planes
-from assoc_hull.edit.newline.kept_runs import Stays
+from assoc_hull.edit.followup.tangencies import PlaneTangency
+from assoc_hull.edit.mapped_planes import (
+    IN_PLANE,
+    TransformedPlanes,
+    flat_borders,
+    plane_heights,
+    snap_into_planes,
+)
+from assoc_hull.edit.newline.kept_runs import KeptRuns
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray
@@ -22,15 +28,22 @@ from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.state import Ends, HullState
+from assoc_hull.model.tables import Ends, HullState
 
-__all__ = ["Carried", "Through", "carry_directions", "carry_ends", "carry_points", "through"]
+__all__ = [
+    "DefiningPoints",
+    "TransformationState",
+    "carry_directions",
+    "carry_ends",
+    "carry_points",
+    "curve_data_through",
+]
 
 BoolArray = np.typing.NDArray[np.bool_]
 
 
 @attrs.define(eq=False)
-class Through:
+class DefiningPoints:
     """The points a curve is to be made through, in order.
 
     Attributes
@@ -49,7 +62,7 @@ class Through:
 
 
 @attrs.define(eq=False)
-class Carried:
+class TransformationState:
     """A transformation under way; the tables hold the places of before.
 
     Attributes
@@ -110,7 +123,7 @@ class Carried:
 
     maker: Maker
     space: SpaceMap
-    planes: Planes
+    planes: TransformedPlanes
     driver: BoolArray
     image: FloatArray
     value: FloatArray
@@ -118,15 +131,15 @@ class Carried:
     still: BoolArray
     known: BoolArray
     slid: BoolArray
-    made: dict[int, Through] = attrs.field(factory=dict)
+    made: dict[int, DefiningPoints] = attrs.field(factory=dict)
     gone: set[int] = attrs.field(factory=set)
     watched: set[int] = attrs.field(factory=set)
     come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
     contacts: list[tuple[int, int]] = attrs.field(factory=list)
     anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
-    stays: dict[int, Stays] = attrs.field(factory=dict)
+    stays: dict[int, KeptRuns] = attrs.field(factory=dict)
     held: set[int] = attrs.field(factory=set)
-    touches: dict[tuple[int, int], Touch] = attrs.field(factory=dict)
+    touches: dict[tuple[int, int], PlaneTangency] = attrs.field(factory=dict)
     fine: dict[int, float] = attrs.field(factory=dict)
     driven: set[int] = attrs.field(factory=set)
     kept: set[int] = attrs.field(factory=set)
@@ -172,7 +185,7 @@ class Carried:
         curves = self.state.rows.curve.data[row].tolist()
         return any(self.state.line_of(curve) in self.anew for curve in curves if curve >= 0)
 
-    def touched(self, line: int) -> tuple[Touch, ...]:
+    def touched(self, line: int) -> tuple[PlaneTangency, ...]:
         """Give the touches of a line, by curve."""
         found = sorted(key for key in self.touches if key[1] == line)
         return tuple(self.touches[key] for key in found)
@@ -183,7 +196,9 @@ class Carried:
         return int(two if one == curve else one)
 
 
-def carry_points(maker: Maker, space: SpaceMap, planes: Planes, driver: BoolArray) -> Carried:
+def carry_points(
+    maker: Maker, space: SpaceMap, planes: TransformedPlanes, driver: BoolArray
+) -> TransformationState:
     """Map all points, and see which come to lie in the planes of their lines.
 
     Raises
@@ -207,16 +222,16 @@ def carry_points(maker: Maker, space: SpaceMap, planes: Planes, driver: BoolArra
     drives = np.ones(table.count, bool)
     for side in (0, 1):
         held = (line[:, side] >= 0) & planes.planar[line[:, side]]
-        off = heights(image, planes.normal[line[:, side]]) - planes.offset[line[:, side]]
-        direct &= ~held | (np.abs(off) <= PLANE)
+        off = plane_heights(image, planes.normal[line[:, side]]) - planes.offset[line[:, side]]
+        direct &= ~held | (np.abs(off) <= IN_PLANE)
         drives &= (line[:, side] < 0) | driver[line[:, side]]
     value = image.copy()
     value[live] = np.where(
-        direct[live][:, None], into_planes(state, planes, live, image[live]), image[live]
+        direct[live][:, None], snap_into_planes(state, planes, live, image[live]), image[live]
     )
     crossing = table.sort.data == Sort.CROSSING
     known = np.where(crossing, direct, drives & direct)
-    return Carried(
+    return TransformationState(
         maker, space, planes, driver, image, value, direct, still, known,
         np.zeros(table.count, bool),
     )  # fmt: skip
@@ -238,8 +253,8 @@ def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:
         )  # fmt: skip
 
 
-def through(
-    work: Carried, curves: Sequence[int], parts: Sequence[Through] | None = None
+def curve_data_through(
+    work: TransformationState, curves: Sequence[int], parts: Sequence[DefiningPoints] | None = None
 ) -> CurveData:
     """Give what the chosen points make of curves, for lofting beside the tables.
 
@@ -292,7 +307,7 @@ def _turned(slope: FloatArray, vectors: FloatArray) -> FloatArray:
     return np.where(still[:, None], vectors, new)
 
 
-def carry_directions(work: Carried, journal: Journal) -> set[int]:
+def carry_directions(work: TransformationState, journal: Journal) -> set[int]:
     """Turn the given directions of points with the mapping; give the curves they change.
 
     A direction stays in the plane of its curve, and in the flat it borders.
@@ -319,7 +334,7 @@ def carry_directions(work: Carried, journal: Journal) -> set[int]:
     return changed - {-1}
 
 
-def carry_ends(work: Carried, journal: Journal) -> set[int]:
+def carry_ends(work: TransformationState, journal: Journal) -> set[int]:
     """Turn and bend the end conditions of curves with the mapping; give those that change."""
     state, changed, ends = work.state, set[int](), work.state.curves.ends.data
     bound = [curve for curve in state.live("curves").tolist() if any(ends[curve].kind)]
@@ -334,7 +349,9 @@ def carry_ends(work: Carried, journal: Journal) -> set[int]:
     return changed
 
 
-def _end(work: Carried, curve: int, at: int, slope: FloatArray) -> tuple[float, float, float]:
+def _end(
+    work: TransformationState, curve: int, at: int, slope: FloatArray
+) -> tuple[float, float, float]:
     """Give the vector of one end condition under the mapping, of the slope (1, 3, 3) there."""
     ends: Ends = work.state.curves.ends.data[curve]
     if ends.kind[at] == EndKind.FREE or (slope[0] == np.eye(3)).all():

@@ -14,17 +14,22 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.mapped_features import CarriedFeatures
-from assoc_hull.edit.mapped_planes import Planes
-from assoc_hull.edit.recut.carried_points import Carried, carry_directions, carry_ends, carry_points
+from assoc_hull.edit.mapped_planes import TransformedPlanes
+from assoc_hull.edit.recut.carried_points import (
+    TransformationState,
+    carry_directions,
+    carry_ends,
+    carry_points,
+)
 from assoc_hull.edit.recut.slide_into_planes import slide_over
-from assoc_hull.edit.recut.transform import carry_meetings, move_planes, refuse_others
+from assoc_hull.edit.recut.transform import carry_intersections, move_planes, refuse_others
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.features import Feature
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.model.tables import HullState, Particulars
 
 __all__ = ["NetMap", "carry_net"]
 
@@ -51,13 +56,13 @@ class NetMap:
 
     space: SpaceMap
     drivers: IntArray
-    planes: Planes
+    planes: TransformedPlanes
     features: tuple[Feature, ...]
     particulars: Particulars
     within: float = 2e-3
 
 
-def carry_net(edit: Transaction, by: NetMap) -> Carried:
+def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
     """Carry a net within an edit that holds nothing else.
 
     Parameters
@@ -88,7 +93,7 @@ def carry_net(edit: Transaction, by: NetMap) -> Carried:
     slide_over(work)
     carry_directions(work, edit.journal)
     carry_ends(work, edit.journal)
-    carry_meetings(edit, by.space)
+    carry_intersections(edit, by.space)
     move_planes(maker, by.planes)
     if by.particulars != state.particulars:
         edit.journal.set(state.settings.particulars, [0], [by.particulars])
@@ -111,14 +116,14 @@ def _given(state: HullState) -> IntArray:
     return rows
 
 
-def _features(work: Carried, by: NetMap) -> CarriedFeatures:
+def _features(work: TransformationState, by: NetMap) -> CarriedFeatures:
     """Let features keep their points, as long as these lie on them."""
     rows = {row for each in by.features for row in each.points}
     places = {row: work.image[row] for row in sorted(rows)}
     return CarriedFeatures(by.features, frozenset(), by.within, places)
 
 
-def _refuse_bent(state: HullState, planes: Planes) -> None:
+def _refuse_bent(state: HullState, planes: TransformedPlanes) -> None:
     for line, away in sorted(planes.bent.items()):
         if state.lines.boundary.data[line] < 0:
             raise BadInputError(

@@ -1,69 +1,109 @@
-"""Followers that come to end elsewhere on boundary curves: which these are, and what stays known.
+"""Followers that come to end elsewhere on boundary curves.
 
-Such a line has another course there than its image, so it is cut wholly anew.
+First it is told which these are, from the intersections of the images of boundary curves. Where
+there are as many ends as before, each lost one is handed over to one that is won. Else the line is
+taken out while the others are carried and cut, and then cut wholly anew, as a shifted line; runs
+of its points that the mapping leaves where they are stay with all that they define.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
+from itertools import permutations
+
+import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.births_and_deaths import ONE_PLACE
-from assoc_hull.edit.followup.tangencies import NO_ROOT, touch_rows, without_double
-from assoc_hull.edit.recut.carried_points import Carried
-from assoc_hull.edit.recut.driver_image import Roots
+from assoc_hull.edit.followup.crossings import ONE_PLACE
+from assoc_hull.edit.followup.tangencies import (
+    NO_ROOT,
+    PlaneTangency,
+    clear_at_tangencies,
+    tangency_rows,
+    without_double_roots,
+)
+from assoc_hull.edit.newline.kept_runs import NO_KEPT_RUNS, KeptRun, KeptRuns, suspend_roles
+from assoc_hull.edit.newline.marks import find_marks, with_tangencies
+from assoc_hull.edit.newline.plane_intersections import remove_line_plane
+from assoc_hull.edit.newline.shift_line import crossings_and_placed, recut_line
+from assoc_hull.edit.recut.carried_points import TransformationState
+from assoc_hull.edit.recut.driver_image import ImageIntersections
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import NoMeetingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
-from assoc_hull.model.align_intersections import align_roots
-from assoc_hull.model.kinds import BoundaryKind
-from assoc_hull.model.state import HullState, Meets
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.model.align_intersections import align_plane_roots
+from assoc_hull.model.kinds import BoundaryKind, Role
+from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["doubles", "ends_change", "pairs_of", "recognise", "runs_along"]
+__all__ = [
+    "aligned_pairs",
+    "bring_back_line",
+    "double_root_crossings",
+    "find_kept_runs",
+    "hand_over_ends",
+    "has_changed_ends",
+    "recognise_crossings",
+    "runs_along_plane",
+    "take_out_lines",
+]
+
+# --------------------------------------------------------------------------------------
+# Followers that come to end elsewhere on boundary curves: which these are, and what stays known.
+#
+# Such a line has another course there than its image, so it is cut wholly anew.
 
 _ALONG = 0.02
 """A curve that rises through a plane by a smaller part of its length runs along it."""
 
 
-def pairs_of(
-    work: Carried, curve: int, line: int, local: int, roots: Roots
+def aligned_pairs(
+    work: TransformationState, curve: int, line: int, local: int, roots: ImageIntersections
 ) -> tuple[IntArray, IntArray, list[tuple[int, int]]]:
     """Align the old meetings of a driver with a plane with the new ones of its image."""
-    meets: Meets = work.state.curves.meets.data[curve]
+    meets: CurveIntersections = work.state.curves.meets.data[curve]
     old = np.flatnonzero(meets.line == line)
     new = np.flatnonzero(roots.curve == local)
     touch = work.touches.get((curve, line))
-    new = new[without_double(roots.xyz[new], touch.xyz if touch else None)]
+    new = new[without_double_roots(roots.xyz[new], touch.xyz if touch else None)]
     carried = work.space.places(meets.xyz[old]) if len(old) else np.zeros((0, 3))
-    return old, new, align_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new])
+    return old, new, align_plane_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new])
 
 
-def doubles(state: HullState, curve: int, line: int) -> set[int]:
+def double_root_crossings(state: HullState, curve: int, line: int) -> set[int]:
     """Give the crossings at double roots: they have no meeting.
 
     A line may end squarely on a meeting of sign 0 as well.
     """
-    meets: Meets = state.curves.meets.data[curve]
-    return set(touch_rows(state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
+    meets: CurveIntersections = state.curves.meets.data[curve]
+    return set(tangency_rows(state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
 
 
-def ends_change(work: Carried, curve: int, line: int, local: int, roots: Roots) -> bool:
+def has_changed_ends(
+    work: TransformationState, curve: int, line: int, local: int, roots: ImageIntersections
+) -> bool:
     """Tell whether a follower would end on a boundary curve more or fewer times, or far off."""
     state = work.state
     if state.lines.boundary.data[state.line_of(curve)] != BoundaryKind.END:
         return False
-    meets: Meets = state.curves.meets.data[curve]
-    if bool(doubles(state, curve, line)) != ((curve, line) in work.touches):
+    meets: CurveIntersections = state.curves.meets.data[curve]
+    if bool(double_root_crossings(state, curve, line)) != ((curve, line) in work.touches):
         return True
-    old, new, pairs = pairs_of(work, curve, line, local, roots)
+    old, new, pairs = aligned_pairs(work, curve, line, local, roots)
     lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
     if len(pairs) < len(new) or bool((meets.row[old[lost]] >= 0).any()):
         return True
     slip = [work.space.places(meets.xyz[old[[i]]])[0] - roots.xyz[new[j]] for i, j in pairs]
     far = [float((step * step).sum()) > ONE_PLACE * ONE_PLACE for step in slip]
     ends = new[[j for (_, j), away in zip(pairs, far, strict=True) if away]]
-    return bool(runs_along(work, curve, line, roots.t[ends]).any())
+    return bool(runs_along_plane(work, curve, line, roots.t[ends]).any())
 
 
-def runs_along(work: Carried, curve: int, line: int, t: FloatArray) -> np.typing.NDArray[np.bool_]:
+def runs_along_plane(
+    work: TransformationState, curve: int, line: int, t: FloatArray
+) -> np.typing.NDArray[np.bool_]:
     """Tell where the image of a curve runs along the plane of a line, or nearly: it touches it.
 
     An end that has slid there stands anywhere along the touch, as rounding has it.
@@ -75,14 +115,279 @@ def runs_along(work: Carried, curve: int, line: int, t: FloatArray) -> np.typing
     return np.asarray(np.abs(rise) <= _ALONG * np.sqrt((turned * turned).sum(axis=1)))
 
 
-def recognise(work: Carried, curve: int, line: int, local: int, roots: Roots) -> None:
+def recognise_crossings(
+    work: TransformationState, curve: int, line: int, local: int, roots: ImageIntersections
+) -> None:
     """Note which crossings of a line that is cut anew are which meetings of a driver."""
-    meets: Meets = work.state.curves.meets.data[curve]
-    old, _, pairs = pairs_of(work, curve, line, local, roots)
+    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    old, _, pairs = aligned_pairs(work, curve, line, local, roots)
     for one, other in pairs:
         row = int(meets.row[old[one]])
         if row >= 0:
             work.anew[line][curve, other] = row
     if (curve, line) in work.touches:
-        for row in touch_rows(work.state, curve, line):
+        for row in tangency_rows(work.state, curve, line):
             work.anew[line][curve, NO_ROOT] = row
+
+
+# --------------------------------------------------------------------------------------
+# Followers that come to end on other boundary curves than before, as often as before.
+#
+# Each end that is lost is handed over to a meeting that is won, so the line need not be cut anew:
+# what the mapping leaves still along it keeps its bits.
+
+_FAR = 0.1
+"""No end is handed over farther than this part of the piece's length."""
+
+_MOST = 3
+"""More ends than this are not told apart."""
+
+
+def hand_over_ends(
+    work: TransformationState,
+    curves: IntArray,
+    some: IntArray,
+    line: int,
+    roots: ImageIntersections,
+) -> bool:
+    """Say which meeting takes the place of which end; tell whether that can be said.
+
+    Parameters
+    ----------
+    work : Carried
+        The transformation; `work.ends` takes the meetings.
+    curves : (m,) int
+        The drivers.
+    some : (k,) int
+        Those that are cut with the plane of the line, by place among them.
+    line : int
+        The follower.
+    roots : Roots
+        Where their images meet its plane.
+    """
+    lost, won = list[int](), list[int]()
+    for local in some.tolist():
+        curve = int(curves[local])
+        if work.state.lines.boundary.data[work.state.line_of(curve)] != BoundaryKind.END:
+            continue
+        meets: CurveIntersections = work.state.curves.meets.data[curve]
+        if double_root_crossings(work.state, curve, line) or any(
+            touched == curve for touched, _ in work.touches
+        ):
+            return False
+        old, new, pairs = aligned_pairs(work, curve, line, local, roots)
+        gained = np.delete(new, [other for _, other in pairs])
+        if runs_along_plane(work, curve, line, roots.t[gained]).any():
+            return False
+        lost += meets.row[np.delete(old, [one for one, _ in pairs])].tolist()
+        won += gained.tolist()
+    lost = [row for row in lost if row >= 0]
+    ends = [_end_of(work, line, row) for row in lost]
+    if not lost or len(lost) != len(won) or len(lost) > _MOST or None in ends:
+        return False
+    order = _nearest(work.image[lost], roots.xyz[won])
+    for end, row, root in zip(ends, lost, order, strict=True):
+        assert end is not None
+        step = roots.xyz[won[root]] - work.image[row]
+        length = float(work.state.spline(end[0]).knot[-1])
+        if float(np.sqrt((step * step).sum())) > _FAR * length:
+            return False
+    for end, root in zip(ends, order, strict=True):
+        assert end is not None
+        work.ends[int(curves[roots.curve[won[root]]]), won[root]] = end
+    return True
+
+
+def _end_of(work: TransformationState, line: int, row: int) -> tuple[int, int] | None:
+    """Give the piece of a line that begins (0) or ends (1) at a crossing; None if none does."""
+    for curve in work.state.lines.curves.data[line]:
+        rows: IntArray = work.state.curves.rows.data[curve]
+        for side in (0, 1):
+            if int(rows[-side]) == row:
+                return int(curve), side
+    return None
+
+
+def _nearest(before: FloatArray, after: FloatArray) -> tuple[int, ...]:
+    """Pair places with the least total distance: the place after of each one before."""
+    away = np.sqrt(((before[:, None] - after[None]) ** 2).sum(axis=2))
+    every = np.arange(len(before))
+    return min(permutations(every.tolist()), key=lambda order: float(away[every, order].sum()))
+
+
+# --------------------------------------------------------------------------------------
+# Which points of lines that are cut wholly anew a mapping leaves where they are.
+
+_SHORTEST = 2
+"""A run has at least so many points."""
+
+
+def find_kept_runs(work: TransformationState) -> None:
+    """Find what stays of the lines that are to be cut anew.
+
+    A crossing of two such lines stays if it does on both.
+    """
+    state = work.state
+    spans = {line: _spans(work, line) for line in work.anew}
+    found = {line: {row for run in runs for row in run.every()} for line, runs in spans.items()}
+    both = {
+        row for line, rows in found.items() for row in rows
+        if all(row in found.get(state.line_of(curve), rows)
+               for curve in state.rows.curve.data[row].tolist() if curve >= 0)
+    }  # fmt: skip
+    work.held |= both
+    for line, runs in spans.items():
+        work.stays[line] = KeptRuns(
+            tuple(_left(run, both) for run in runs), _roles(state, both, line)
+        )
+
+
+def _spans(work: TransformationState, line: int) -> list[KeptRun]:
+    """Give the runs of a line that the mapping leaves where they are."""
+    found = list[KeptRun]()
+    for curve in work.state.lines.curves.data[line]:
+        rows: IntArray = work.state.curves.rows.data[curve]
+        knot = work.state.spline(curve).knot
+        edge = np.diff(np.concatenate([[False], work.still[rows], [False]]).astype(np.int64))
+        for first, last in zip(
+            np.flatnonzero(edge == 1).tolist(), np.flatnonzero(edge == -1).tolist(), strict=True
+        ):
+            if last - first >= _SHORTEST:
+                span = float(knot[first]), float(knot[last - 1])
+                found.append(KeptRun(curve, rows[first:last], _passed(work, curve, span), span))
+    return found
+
+
+def _passed(work: TransformationState, curve: int, span: tuple[float, float]) -> IntArray:
+    """Give the crossings within a span of a curve that do not define it, and stay."""
+    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    inside = (meets.parameter >= span[0]) & (meets.parameter <= span[1]) & (meets.row >= 0)
+    rows = np.setdiff1d(meets.row[inside], work.state.curves.rows.data[curve])
+    found: IntArray = rows[work.still[rows]]
+    return found
+
+
+def _left(run: KeptRun, rows: set[int]) -> KeptRun:
+    """Leave out the points of a run that do not stay."""
+    kept = np.array(sorted(rows), np.int64)
+    return attrs.evolve(
+        run, rows=run.rows[np.isin(run.rows, kept)], passed=run.passed[np.isin(run.passed, kept)]
+    )
+
+
+def _roles(state: HullState, rows: set[int], line: int) -> dict[int, int]:
+    """Give the roles of crossings on a line that are computed from a curve."""
+    table = state.rows
+    return {
+        row: int(table.role.data[row]) for row in sorted(rows)
+        if table.driver.data[row] >= 0
+        and line in [state.line_of(curve) for curve in table.curve.data[row].tolist()]
+    }  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------
+# Followers that come to end elsewhere on boundary curves: cut wholly anew, as a shifted line.
+#
+# Such a line is taken out while the others are carried and cut; when they are lofted, its
+# plane is met with them, and crossings with drivers that are still there keep their identity.
+
+
+def take_out_lines(edit: Transaction, work: TransformationState, *, may_go: bool = False) -> None:
+    """Take lines that are cut anew out of the net, and note that they come back.
+
+    Those that the hull does not reach any more go for good where they may.
+    """
+    state, put = edit.state, edit.journal.put
+    keys = state.lines.key.data
+    # Those of lower rank come back first, as the others are cut from them too.
+    for line in sorted(work.anew, key=lambda each: (state.family(each).rank, str(keys[each]))):
+        mine = np.array(state.lines.curves.data[line], np.int64)
+        stays = work.stays[line]
+        crossings, placed = (
+            np.setdiff1d(rows, stays.rows()) for rows in crossings_and_placed(state, mine)
+        )
+        edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))
+        suspend_roles(edit.maker, stays)
+        remove_line_plane(edit, line)
+        put(state.rows.xyz, placed, work.image[placed])
+        put(state.curves.alive, mine, False)
+        put(state.lines.alive, [line], False)
+        touches = work.touched(line)
+        known = work.anew[line]
+        edit.pending.after.append(
+            partial(bring_back_line, edit, line, known, touches, stays, may_go=may_go)
+        )
+
+
+def bring_back_line(
+    edit: Transaction,
+    line: int,
+    known: dict[tuple[int, int], int],
+    touches: Sequence[PlaneTangency] = (),
+    stays: KeptRuns = NO_KEPT_RUNS,
+    *,
+    may_go: bool = False,
+) -> None:
+    """Cut a line that was taken out from the others as they are now; what stays joins the cut.
+
+    Where the hull does not reach its plane any more the line goes if it may, and the report says
+    so.
+
+    Raises
+    ------
+    NoMeetingError
+        So it is, and the line may not go, or the designer has placed points on it.
+    """
+    state, put = edit.state, edit.journal.put
+    edit.document.refresh()
+    normal, offset = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
+    try:
+        marks = find_marks(state, int(state.lines.group.data[line]), normal, offset)
+    except NoMeetingError as error:
+        if not may_go:
+            raise
+        _let_go(edit, line, error)
+        return
+    if touches:
+        every = set(zip(marks.curve.tolist(), marks.root.tolist(), strict=True))
+        marks = with_tangencies(state, marks, line, touches)
+        clear_at_tangencies(edit.maker, [each for each in touches if _bounds(state, each)])
+        left = set(zip(marks.curve.tolist(), marks.root.tolist(), strict=True))
+        known = {mark: row for mark, row in known.items() if mark not in every - left}
+    put(state.lines.alive, [line], True)
+    put(state.curves.alive, state.lines.curves.data[line], True)
+    recut_line(edit, line, marks, _still_there(edit, line, known), stays)
+
+
+def _let_go(edit: Transaction, line: int, error: NoMeetingError) -> None:
+    """Remove a line that was taken out for good, unless it holds what the designer placed."""
+    state = edit.state
+    mine = np.array(state.lines.curves.data[line], np.int64)
+    crossings, placed = crossings_and_placed(state, mine)
+    if len(placed):
+        raise error
+    on = state.rows.alive.data & np.isin(state.rows.curve.data, mine).any(axis=1)
+    edit.pending.gone += sorted(str(state.rows.key.data[row]) for row in crossings.tolist())
+    edit.maker.remove_rows(np.flatnonzero(on))
+    edit.pending.curves -= set(mine.tolist())
+    edit.pending.notes.append(f"{state.lines.name.data[line]} is gone: {error}")
+
+
+def _bounds(state: HullState, touch: PlaneTangency) -> bool:
+    """Tell whether a touch is of a boundary curve that lines end on."""
+    kind = state.lines.boundary.data[state.line_of(touch.curve)]
+    return bool(kind == BoundaryKind.END)
+
+
+def _still_there(
+    edit: Transaction, line: int, known: dict[tuple[int, int], int]
+) -> dict[tuple[int, int], int]:
+    """Leave out crossings with curves that, lofted, meet the plane otherwise than their image."""
+    table = edit.state.lines
+    plane = table.normal.data[line].copy(), table.offset.data[[line]].copy()
+    count = {curve: intersect_planes(edit.state.spline(curve), *plane).count for curve, _ in known}
+    rows = edit.state.rows
+    return {
+        (curve, root): row for (curve, root), row in known.items()
+        if root < count[curve] and rows.alive.data[row]
+    }  # fmt: skip

@@ -1,21 +1,32 @@
-"""Drivers under a mapping: their exact images are cut with the planes of the followers.
+"""Drivers under a mapping: bent out of their planes, cut with those of the followers.
 
-A driver is made through the images of its own points and through the places where its
-image meets the planes of the followers. Where the spline through these leaves the image by
-more than the tolerance, adopted points hold it.
+A driver is made through the images of its own points and the places where its image meets the
+planes of followers; adopted points hold it where the spline through these would leave the image.
+A driver that is bent out of its plane becomes a space curve: it has no plane to cut others with,
+and its crossings lie where it meets the planes of the other lines.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.followup.tangencies import touch_rows
-from assoc_hull.edit.mapped_planes import PLANE, into_planes
-from assoc_hull.edit.recut.carried_points import Carried, Through, through
-from assoc_hull.edit.recut.changed_ends import ends_change, pairs_of, recognise
-from assoc_hull.edit.recut.driver_image import Image, Roots, misfit
-from assoc_hull.edit.recut.find_kept_runs import find_stays
-from assoc_hull.edit.recut.new_boundary_ends import hand_over
+from assoc_hull.edit.followup.tangencies import tangency_rows
+from assoc_hull.edit.mapped_planes import IN_PLANE, snap_into_planes
+from assoc_hull.edit.newline.plane_intersections import remove_line_plane
+from assoc_hull.edit.recut.carried_points import (
+    DefiningPoints,
+    TransformationState,
+    curve_data_through,
+)
+from assoc_hull.edit.recut.changed_ends import (
+    aligned_pairs,
+    find_kept_runs,
+    hand_over_ends,
+    has_changed_ends,
+    recognise_crossings,
+)
+from assoc_hull.edit.recut.driver_image import CurveImages, ImageIntersections, image_misfit
+from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
@@ -23,9 +34,120 @@ from assoc_hull.model.address import address
 from assoc_hull.model.index import Index
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort
 from assoc_hull.model.make_objects import CrossingSpec
-from assoc_hull.model.state import HullState, Meets
+from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["cut_drivers", "hold_images"]
+__all__ = [
+    "bend_lines",
+    "cut_drivers",
+    "drop_bent_planes",
+    "hold_to_images",
+]
+
+# --------------------------------------------------------------------------------------
+# Drivers that a mapping bends out of their planes: they become curves in space.
+#
+# A space curve has no plane that other lines could be cut with. What it crosses passes
+# through it as through a knuckle line without a knuckle: the crossing lies on the space curve
+# where that meets the other line's plane, with two freedoms, and always defines the line.
+
+_SAME = 1e-3
+"""Two points of a boundary curve as near as this (m) are one."""
+
+
+def bend_lines(work: TransformationState) -> None:
+    """Give the crossings of lines that become space curves the roles they can have.
+
+    Raises
+    ------
+    BadInputError
+        A bent line is cut from one of lower rank that stays in its plane.
+    """
+    state = work.state
+    for line in _bent(work):
+        for row in _crossings(work, line).tolist():
+            a, b = (state.line_of(c) for c in state.rows.curve.data[row].tolist())
+            role = int(state.rows.role.data[row])
+            if state.lines.boundary.data[a] >= 0:
+                _share(work, row)
+            elif b == line and a not in work.planes.bent:
+                _refuse(work, line, int(state.rows.curve.data[row, 0]))
+            elif role == Role.DRIVES_A or (role == Role.DRIVES_B and b in work.planes.bent):
+                work.gone.add(row)
+            else:
+                work.maker.journal.put(state.rows.contact, [row], role != Role.WATCHED)
+
+
+def _bent(work: TransformationState) -> list[int]:
+    """Give the lines that become space curves, but for boundary curves, by key."""
+    lines = work.state.lines
+    inner = [line for line in work.planes.bent if lines.boundary.data[line] < 0]
+    return sorted(inner, key=lambda line: str(lines.key.data[line]))
+
+
+def _crossings(work: TransformationState, line: int) -> IntArray:
+    table = work.state.rows
+    mine = np.isin(table.curve.data, work.state.lines.curves.data[line]).any(axis=1)
+    found: IntArray = np.flatnonzero(table.alive.data & mine & (table.sort.data == Sort.CROSSING))
+    return found
+
+
+def _share(work: TransformationState, row: int) -> None:
+    """Let a contact define its boundary curve too, which cannot meet the line's plane now.
+
+    An adopted point of the boundary curve in the same place gives way, with its kind.
+    """
+    table, put = work.state.rows, work.maker.journal.put
+    if table.role.data[row] == Role.SHARED:
+        return
+    boundary = int(table.curve.data[row, 0])
+    rows: IntArray = work.state.curves.rows.data[boundary]
+    step = table.xyz.data[rows] - table.xyz.data[row]
+    near = rows[np.sqrt((step * step).sum(axis=1)) < _SAME]
+    for other in near.tolist():
+        if table.sort.data[other] != Sort.ADOPTED:
+            _refuse(work, work.state.line_of(int(table.curve.data[row, 1])), boundary)
+        side = int(table.curve.data[other, 0] != boundary)
+        kind, direction = table.kind.data[row].copy(), table.direction.data[row].copy()
+        kind[0], direction[0] = table.kind.data[other, side], table.direction.data[other, side]
+        put(table.kind, [row], [kind])
+        put(table.direction, [row], [direction])
+        work.gone.add(other)
+    work.extra.setdefault(boundary, []).append((float(table.parameter.data[row, 0]), row))
+    work.maker.roles(np.array([row]), np.array([int(Role.SHARED)]))
+
+
+def _refuse(work: TransformationState, line: int, curve: int) -> None:
+    names = work.state.lines.name.data
+    other = names[work.state.line_of(curve)]
+    raise BadInputError(
+        f"the mapping bends {names[line]} {work.planes.bent[line]:.3g} m out of its plane, and "
+        f"{other} cannot meet it as a curve in space", "in transform",
+        f"leave {names[line]} a follower, or use a mapping that keeps its plane",
+    )  # fmt: skip
+
+
+def drop_bent_planes(edit: Transaction, work: TransformationState) -> None:
+    """Take out the planes of bent lines, and the crossings that only they measured."""
+    table = edit.state.rows
+    for line in sorted(work.planes.bent):
+        remove_line_plane(edit, line)
+        if edit.state.lines.boundary.data[line] < 0:
+            rows = _crossings(work, line)
+            watched = rows[table.role.data[rows] == Role.WATCHED]
+            work.gone |= set(watched.tolist())
+            if len(watched):
+                edit.pending.notes.append(
+                    f"{edit.state.lines.name.data[line]}: {len(watched)} watched crossings are "
+                    "watched no more: a curve in space has no plane to measure them by"
+                )
+
+
+# --------------------------------------------------------------------------------------
+# Drivers under a mapping: their exact images are cut with the planes of the followers.
+#
+# A driver is made through the images of its own points and through the places where its
+# image meets the planes of the followers. Where the spline through these leaves the image by
+# more than the tolerance, adopted points hold it.
 
 _ROUNDS = 8
 _LEAST = 0.1
@@ -38,7 +160,7 @@ _NEAR = 0.15
 """An adopted point as near as this (m) to a crossing that slid adds nothing."""
 
 
-def cut_drivers(work: Carried, index: Index) -> Image:
+def cut_drivers(work: TransformationState, index: Index) -> CurveImages:
     """Find where drivers cross followers, and in what order their points now come.
 
     Raises
@@ -50,20 +172,20 @@ def cut_drivers(work: Carried, index: Index) -> Image:
     mine = [curve for curve in state.live("curves").tolist() if work.drives(curve)]
     curves = np.array(sorted(mine, key=lambda c: str(state.curves.key.data[c])), np.int64)
     batch = SplineBatch.join([state.spline(c) for c in curves.tolist()])
-    image = Image.of(work.space, batch, tuple(curves.tolist()))
+    image = CurveImages.of(work.space, batch, tuple(curves.tolist()))
     slid: dict[int, float] = {}
     for line in _followers(work):
         some = _partners(work, index, line, curves)
         if len(some):
             _cut_with(work, image, curves, some, line, slid)
-    find_stays(work)
+    find_kept_runs(work)
     for local, curve in enumerate(curves.tolist()):
         knots = image.batch.knot[image.batch.start[local] : image.batch.start[local + 1]]
         _order(work, curve, knots, slid)
     return image
 
 
-def _followers(work: Carried) -> list[int]:
+def _followers(work: TransformationState) -> list[int]:
     """Give the planar lines that follow, by key."""
     state = work.state
     live = state.live("lines")
@@ -71,7 +193,7 @@ def _followers(work: Carried) -> list[int]:
     return sorted(chosen.tolist(), key=lambda line: str(state.lines.key.data[line]))
 
 
-def _partners(work: Carried, index: Index, line: int, curves: IntArray) -> IntArray:
+def _partners(work: TransformationState, index: Index, line: int, curves: IntArray) -> IntArray:
     """Give the places in `curves` of those that are cut with the plane of a line."""
     groups = [
         group
@@ -83,13 +205,13 @@ def _partners(work: Carried, index: Index, line: int, curves: IntArray) -> IntAr
 
 
 def _cut_with(
-    work: Carried, image: Image, curves: IntArray, some: IntArray, line: int,
+    work: TransformationState, image: CurveImages, curves: IntArray, some: IntArray, line: int,
     slid: dict[int, float],
 ) -> None:  # fmt: skip
     """Cut the images with the plane of one follower, where that is not as it was."""
     planes, table = work.planes, work.state.lines
     normal, offset = planes.normal[line], float(planes.offset[line])
-    new = image.changed(normal, float(table.offset.data[line]), offset, PLANE)
+    new = image.changed(normal, float(table.offset.data[line]), offset, IN_PLANE)
     needed = [
         local for local in some.tolist()
         if new[local] or _off(work, curves[local], line)
@@ -98,38 +220,43 @@ def _cut_with(
     if not needed:
         return
     roots = image.meet(normal, offset)
-    other = any(ends_change(work, int(curves[local]), line, local, roots) for local in needed)
-    if other and not hand_over(work, curves, some, line, roots):
+    other = any(has_changed_ends(work, int(curves[local]), line, local, roots) for local in needed)
+    if other and not hand_over_ends(work, curves, some, line, roots):
         work.anew[line] = {}
         for local in some.tolist():
-            recognise(work, int(curves[local]), line, local, roots)
+            recognise_crossings(work, int(curves[local]), line, local, roots)
         return
     for local in needed:
         _match(work, int(curves[local]), line, local, roots, slid)
 
 
-def _off(work: Carried, curve: int, line: int) -> bool:
+def _off(work: TransformationState, curve: int, line: int) -> bool:
     """Tell whether a crossing of a curve with a line has left its plane."""
-    meets: Meets = work.state.curves.meets.data[int(curve)]
+    meets: CurveIntersections = work.state.curves.meets.data[int(curve)]
     rows = meets.row[(meets.line == line) & (meets.row >= 0)]
     return not bool(work.direct[rows].all())
 
 
 def _match(
-    work: Carried, curve: int, line: int, local: int, roots: Roots, slid: dict[int, float]
+    work: TransformationState,
+    curve: int,
+    line: int,
+    local: int,
+    roots: ImageIntersections,
+    slid: dict[int, float],
 ) -> None:
     """Say which crossing each meeting of one image with one plane is."""
-    meets: Meets = work.state.curves.meets.data[curve]
-    old, new, pairs = pairs_of(work, curve, line, local, roots)
+    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    old, new, pairs = aligned_pairs(work, curve, line, local, roots)
     if (curve, line) in work.touches:
-        for row in touch_rows(work.state, curve, line):
+        for row in tangency_rows(work.state, curve, line):
             work.value[row] = work.touches[curve, line].xyz
             work.known[row] = work.slid[row] = True
     for one, other in pairs:
         row = int(meets.row[old[one]])
         if row >= 0 and not work.direct[row]:
             place = roots.xyz[[new[other]]]
-            work.value[row] = into_planes(work.state, work.planes, np.array([row]), place)[0]
+            work.value[row] = snap_into_planes(work.state, work.planes, np.array([row]), place)[0]
             work.known[row] = work.slid[row] = True
             slid[row] = float(roots.t[new[other]])
     lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
@@ -138,7 +265,9 @@ def _match(
         _win(work, curve, line, roots, int(new[other]))
 
 
-def _win(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
+def _win(
+    work: TransformationState, curve: int, line: int, roots: ImageIntersections, at: int
+) -> None:
     """Note a place at which a driver has come to meet a follower's plane.
 
     At the border of a flat and at a knuckle line the follower gets a contact.
@@ -149,7 +278,9 @@ def _win(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
         _touch(work, curve, line, roots, at)
 
 
-def _touch(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
+def _touch(
+    work: TransformationState, curve: int, line: int, roots: ImageIntersections, at: int
+) -> None:
     """Make a contact of a follower with a boundary curve that has come to it."""
     state, xyz = work.state, roots.xyz[at]
     border = state.line_of(curve)
@@ -163,17 +294,17 @@ def _touch(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
     piece = work.piece(line, xyz) if end is None else end[0]
     spec = CrossingSpec(curve, piece, xyz, Role.DRIVES_B, sign, None, contact=True, kind_b=kind)
     row = int(work.maker.crossings([spec])[0])
-    work.add(into_planes(state, work.planes, np.array([row]), xyz[None])[0])
+    work.add(snap_into_planes(state, work.planes, np.array([row]), xyz[None])[0])
     work.contacts.append((line, row))
     if end is not None:
         work.new_ends[end] = row
-    meets: Meets = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets.data[curve]
     before = np.flatnonzero(meets.line == line)
     where = int(before[0]) if len(before) else len(meets.line)
     where += int((meets.parameter[before] < roots.t[at]).sum())
     work.maker.journal.set(
         state.curves.meets, [curve],
-        [Meets(
+        [CurveIntersections(
             np.insert(meets.line, where, line), np.insert(meets.sign, where, roots.sign[at]),
             np.insert(meets.row, where, row), np.insert(meets.parameter, where, roots.t[at]),
             np.insert(meets.xyz, where, xyz, axis=0),
@@ -181,7 +312,9 @@ def _touch(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
     )  # fmt: skip
 
 
-def _order(work: Carried, curve: int, knots: FloatArray, slid: dict[int, float]) -> None:
+def _order(
+    work: TransformationState, curve: int, knots: FloatArray, slid: dict[int, float]
+) -> None:
     """Put the points of a driver in the order in which its image passes them."""
     state = work.state
     more = work.extra.get(curve, [])
@@ -204,14 +337,14 @@ def _order(work: Carried, curve: int, knots: FloatArray, slid: dict[int, float])
     if any(row in slid for row in order):
         held = _doubled(work, curve, [row for _, _, row in kept], slid)
         kept = [each for each in kept if each[2] not in held]
-    work.made[curve] = Through(
+    work.made[curve] = DefiningPoints(
         [row for _, _, row in kept],
         [work.value[row].copy() for _, _, row in kept],
         [t for t, _, _ in kept],
     )
 
 
-def _settle(work: Carried, curve: int, row: int) -> None:
+def _settle(work: TransformationState, curve: int, row: int) -> None:
     """Give a point of a driver that nothing has placed yet the place of its image.
 
     A crossing that is computed from a follower starts there too.
@@ -229,7 +362,9 @@ def _settle(work: Carried, curve: int, row: int) -> None:
         work.gone.add(row)
 
 
-def _doubled(work: Carried, curve: int, order: list[int], slid: dict[int, float]) -> set[int]:
+def _doubled(
+    work: TransformationState, curve: int, order: list[int], slid: dict[int, float]
+) -> set[int]:
     """Let a driver drive crossings that slid onto another of its points, instead of passing it.
 
     Two points of a curve cannot lie at one place. The follower is made through the crossing as
@@ -253,7 +388,7 @@ def _doubled(work: Carried, curve: int, order: list[int], slid: dict[int, float]
     return found
 
 
-def _crowded(state: HullState, work: Carried, order: list[int]) -> set[int]:
+def _crowded(state: HullState, work: TransformationState, order: list[int]) -> set[int]:
     """Give the smooth adopted points that a crossing has slid beside."""
     place = work.value[order]
     step = np.sqrt((np.diff(place, axis=0) ** 2).sum(axis=1))
@@ -266,7 +401,7 @@ def _crowded(state: HullState, work: Carried, order: list[int]) -> set[int]:
     return found
 
 
-def hold_images(work: Carried, image: Image, tolerance: float) -> int:
+def hold_to_images(work: TransformationState, image: CurveImages, tolerance: float) -> int:
     """Give drivers adopted points until they stay within the tolerance of their images.
 
     Returns
@@ -280,9 +415,9 @@ def hold_images(work: Carried, image: Image, tolerance: float) -> int:
     limit = np.array([work.fine.get(curve, tolerance) for curve in curves])
     least = np.array([_LEAST_FINE if curve in work.fine else _LEAST for curve in curves])
     for _ in range(_ROUNDS):
-        batch = loft(through(work, curves), [str(keys[curve]) for curve in curves])
+        batch = loft(curve_data_through(work, curves), [str(keys[curve]) for curve in curves])
         at = np.concatenate([np.array(work.made[curve].at) for curve in curves])
-        away, middle = misfit(image, np.arange(len(curves)), batch, at)
+        away, middle = image_misfit(image, np.arange(len(curves)), batch, at)
         count = np.diff(batch.start) - 1
         owner = np.repeat(np.arange(len(curves)), count)
         chord = np.delete(np.diff(batch.knot), batch.start[1:-1] - 1)
@@ -300,7 +435,7 @@ def hold_images(work: Carried, image: Image, tolerance: float) -> int:
     return added
 
 
-def _in_plane(work: Carried, curve: int, place: FloatArray) -> FloatArray:
+def _in_plane(work: TransformationState, curve: int, place: FloatArray) -> FloatArray:
     """Put a new point of a curve exactly into the curve's plane."""
     line, out = work.state.line_of(curve), place.copy()
     if work.planes.planar[line]:

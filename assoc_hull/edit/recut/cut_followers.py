@@ -1,10 +1,8 @@
 """Followers of a transformation: cut again from the drivers, then from one another by rank.
 
-A follower is made through its crossings with drivers and with the followers cut before it.
-Where its plane is kept by the mapping, its own points are carried as they are. Where not,
-another part of the hull comes to lie in the plane: placed points are brought there along
-the hull, adopted ones that held the old shape go, and new ones hold the new shape where a
-line that is cut before passes without defining.
+Where a mapping keeps a part of a follower's plane, its image there is exact and gives crossings
+with other followers. Adopted points that stand in for a crossing go where it goes. Where another
+part of the hull comes to lie in the plane, the points are found by `follower_points`.
 """
 
 from __future__ import annotations
@@ -13,33 +11,162 @@ from collections import Counter
 
 import numpy as np
 
-from assoc_hull.edit.followup.thread import detour
-from assoc_hull.edit.mapped_planes import into_planes
-from assoc_hull.edit.recut.carried_points import Carried, Through, through
-from assoc_hull.edit.recut.choose_points import (
-    choose,
+from assoc_hull.edit.followup.adopted_points import least_detour
+from assoc_hull.edit.mapped_planes import IN_PLANE, plane_heights, snap_into_planes
+from assoc_hull.edit.recut.carried_points import (
+    DefiningPoints,
+    TransformationState,
+    curve_data_through,
+)
+from assoc_hull.edit.recut.driver_image import CurveImages, ImageIntersections
+from assoc_hull.edit.recut.follower_points import (
+    OptionalPoint,
+    choose_fair_points,
     free_points,
-    insert,
-    into_own_plane,
+    insert_by_detour,
+    into_curve_plane,
     loose_points,
     round_turns,
-    slip_along,
-    tie,
-    tie_own,
+    slide_own_points,
+    tie_to_crossings,
+    tie_to_own_points,
 )
-from assoc_hull.edit.recut.fairest_choice import Option
 from assoc_hull.edit.recut.projected_image import gaps_across
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
-from assoc_hull.model.align_intersections import align_roots
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.model.align_intersections import align_plane_roots
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.state import Meets
+from assoc_hull.model.tables import CurveIntersections
 
-__all__ = ["cut_followers"]
+__all__ = [
+    "cut_followers",
+    "cut_kept",
+    "settle_stand_ins",
+]
+
+# --------------------------------------------------------------------------------------
+# Points that stand in for crossings which define their line no more, or never did.
+#
+# Where a crossing is watched, an adopted point may lie at its place and define the line instead.
+# When a mapping carries the drivers, such a point goes where the crossing goes.
+
+_SAME = 1e-3
+"""A point as near as this (m) to a crossing stands in for it."""
+
+
+def settle_stand_ins(work: TransformationState) -> None:
+    """Give stand-ins of followers the places that their crossings with drivers have come to."""
+    state = work.state
+    for curve in state.live("curves").tolist():
+        if work.drives(curve) or state.line_of(curve) in work.anew:
+            continue
+        own, crossing = _own(work, curve), _settled(work, curve)
+        if not len(own) or not len(crossing):
+            continue
+        side = (state.rows.curve.data[crossing, 0] != curve).astype(np.int64)
+        spot = state.rows.spot.data[crossing, side]
+        away = np.sqrt(((state.rows.xyz.data[own][:, None] - spot[None]) ** 2).sum(axis=2))
+        near = away.argmin(axis=1)
+        mine = away.min(axis=1) <= _SAME
+        work.value[own[mine]] = work.value[crossing[near[mine]]]
+        work.known[own[mine]] = True
+
+
+def _own(work: TransformationState, curve: int) -> IntArray:
+    """Give the adopted points of a follower that are not settled, and that the mapping moves."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    adopted = work.state.rows.sort.data[rows] == Sort.ADOPTED
+    found: IntArray = rows[adopted & ~work.known[rows] & ~work.still[rows]]
+    return found
+
+
+def _settled(work: TransformationState, curve: int) -> IntArray:
+    """Give the crossings on a follower that do not define it and have come to their places."""
+    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    rows = meets.row[meets.row >= 0]
+    rows = rows[work.known[rows] & ~(work.state.rows.reader.data[rows] == curve).any(axis=1)]
+    return np.array([row for row in rows.tolist() if row not in work.gone], np.int64)
+
+
+# --------------------------------------------------------------------------------------
+# Followers whose planes a mapping keeps for a part: there their images are exact.
+#
+# A line follows as a whole as soon as the mapping bends its plane anywhere, be it round one
+# feature. Elsewhere its image lies in its plane, to rounding, and is the hull itself: crossings
+# with other followers are taken from it, not from what these come to be between their drivers.
+
+
+def cut_kept(work: TransformationState) -> None:
+    """Find where images of followers that lie in their planes meet the planes of others."""
+    state = work.state
+    wanted = {
+        curve: rows
+        for curve in sorted(_curves(work), key=lambda c: str(state.curves.key.data[c]))
+        if len(rows := _unknown(work, curve))
+    }
+    if not wanted:
+        return
+    curves = list(wanted)
+    batch = SplineBatch.join([state.spline(curve) for curve in curves])
+    image = CurveImages.of(work.space, batch, tuple(curves))
+    lines = {state.line_of(work.other(row, c)) for c, rows in wanted.items() for row in rows}
+    for line in sorted(lines, key=lambda each: str(state.lines.key.data[each])):
+        roots = image.meet(work.planes.normal[line], float(work.planes.offset[line]))
+        for local, curve in enumerate(curves):
+            if any(state.line_of(work.other(row, curve)) == line for row in wanted[curve]):
+                _settle(work, curve, line, roots, np.flatnonzero(roots.curve == local))
+
+
+def _curves(work: TransformationState) -> list[int]:
+    """Give the curves of planar followers that are not cut wholly anew."""
+    state = work.state
+    return [
+        curve for curve in state.live("curves").tolist()
+        if not work.drives(curve) and state.line_of(curve) not in work.anew
+        and work.planes.planar[state.line_of(curve)]
+    ]  # fmt: skip
+
+
+def _unknown(work: TransformationState, curve: int) -> list[int]:
+    """Give the crossings of a follower with other followers that have no place yet."""
+    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    rows: IntArray = meets.row[meets.row >= 0]
+    return [
+        row for row in rows[~work.known[rows]].tolist()
+        if row not in work.gone and not work.apart(row) and not work.drives(work.other(row, curve))
+    ]  # fmt: skip
+
+
+def _settle(
+    work: TransformationState, curve: int, line: int, roots: ImageIntersections, new: IntArray
+) -> None:
+    """Give crossings of a curve with a line their places where its image lies in its plane."""
+    own = work.state.line_of(curve)
+    off = plane_heights(roots.xyz[new], work.planes.normal[own]) - work.planes.offset[own]
+    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    old = np.flatnonzero(meets.line == line)
+    carried = work.space.places(meets.xyz[old])
+    for one, other in align_plane_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new]):
+        row = int(meets.row[old[one]])
+        if row >= 0 and not work.known[row] and abs(float(off[other])) <= IN_PLANE:
+            place = roots.xyz[[new[other]]]
+            work.value[row] = snap_into_planes(work.state, work.planes, np.array([row]), place)[0]
+            work.known[row] = work.slid[row] = True
+            work.kept.add(row)
+
+
+# --------------------------------------------------------------------------------------
+# Followers of a transformation: cut again from the drivers, then from one another by rank.
+#
+# A follower is made through its crossings with drivers and with the followers cut before it.
+# Where its plane is kept by the mapping, its own points are carried as they are. Where not,
+# another part of the hull comes to lie in the plane: placed points are brought there along
+# the hull, adopted ones that held the old shape go, and new ones hold the new shape where a
+# line that is cut before passes without defining.
 
 _NEAR = 0.15
 """No point is added as near as this (m) to another one."""
@@ -47,7 +174,7 @@ _NEAR = 0.15
 _ROUNDS = 6
 
 
-def cut_followers(work: Carried) -> None:
+def cut_followers(work: TransformationState) -> None:
     """Find where all followers pass.
 
     Raises
@@ -71,14 +198,14 @@ def cut_followers(work: Carried) -> None:
         work.made[curve] = _points(work, curve)
 
 
-def _crossings(work: Carried, curve: int) -> list[int]:
+def _crossings(work: TransformationState, curve: int) -> list[int]:
     """Give the crossings that define a curve and are still there."""
     rows: IntArray = work.state.curves.rows.data[curve]
     mine = rows[work.state.rows.sort.data[rows] == Sort.CROSSING]
     return [row for row in mine.tolist() if row not in work.gone and not work.apart(row)]
 
 
-def _check_cut(work: Carried, curve: int) -> None:
+def _check_cut(work: TransformationState, curve: int) -> None:
     """See that a follower is defined by a driver, or by a follower cut before it."""
     state = work.state
     boundary = state.lines.boundary.data >= 0
@@ -97,13 +224,13 @@ def _check_cut(work: Carried, curve: int) -> None:
         )  # fmt: skip
 
 
-def _before(work: Carried, row: int, curve: int) -> bool:
+def _before(work: TransformationState, row: int, curve: int) -> bool:
     """Tell whether the other curve of a crossing is cut before a follower."""
     other = work.other(row, curve)
     return work.drives(other) or work.state.rank(other) < work.state.rank(curve)
 
 
-def _carry_own(work: Carried, curve: int) -> None:
+def _carry_own(work: TransformationState, curve: int) -> None:
     """Give the own points of a follower whose plane is kept the places of their images."""
     rows: IntArray = work.state.curves.rows.data[curve]
     mine = rows[work.state.rows.sort.data[rows] != Sort.CROSSING]
@@ -111,10 +238,10 @@ def _carry_own(work: Carried, curve: int) -> None:
         work.known[mine] = True
         return
     _carry_free_ends(work, rows)
-    slip_along(work, curve)
+    slide_own_points(work, curve)
 
 
-def _carry_free_ends(work: Carried, rows: IntArray) -> None:
+def _carry_free_ends(work: TransformationState, rows: IntArray) -> None:
     """Carry ends that lie on no boundary curve: they go along with the crossing beside them."""
     for order in (rows, rows[::-1]):
         end = int(order[0])
@@ -123,11 +250,11 @@ def _carry_free_ends(work: Carried, rows: IntArray) -> None:
         beside = order[(work.state.rows.sort.data[order] == Sort.CROSSING) & work.known[order]]
         slip = work.value[beside[0]] - work.image[beside[0]] if len(beside) else np.zeros(3)
         place = (work.image[end] + slip)[None]
-        work.value[end] = into_planes(work.state, work.planes, np.array([end]), place)[0]
+        work.value[end] = snap_into_planes(work.state, work.planes, np.array([end]), place)[0]
         work.known[end] = True
 
 
-def _slides(work: Carried, curve: int) -> bool:
+def _slides(work: TransformationState, curve: int) -> bool:
     """Tell whether another part of the hull comes to lie in the plane of a follower."""
     rows: IntArray = work.state.curves.rows.data[curve]
     own = work.state.rows.sort.data[rows] != Sort.CROSSING
@@ -135,7 +262,7 @@ def _slides(work: Carried, curve: int) -> bool:
     return new or bool(work.slid[rows].any() or (~work.direct[rows[own]]).any())
 
 
-def _points(work: Carried, curve: int) -> Through:
+def _points(work: TransformationState, curve: int) -> DefiningPoints:
     """Put the points of a follower that are known into order.
 
     Where crossings slid, those of one family and the ends keep their order, and the others
@@ -144,32 +271,34 @@ def _points(work: Carried, curve: int) -> Through:
     state = work.state
     order = _ordered(work, curve)
     if not _slides(work, curve):
-        return Through(order, [work.value[row].copy() for row in order], [])
+        return DefiningPoints(order, [work.value[row].copy() for row in order], [])
     work.watched -= set(order)
     loose = loose_points(work, curve, order)
     order = [row for row in order if row not in set(loose)]
     new = [row for _, row in work.contacts if curve in state.rows.curve.data[row]]
     new = [row for row in new if row not in work.new_ends.values()]
     base = _base(work, curve, order)
-    found = Through(base, [work.value[row].copy() for row in base], [])
+    found = DefiningPoints(base, [work.value[row].copy() for row in base], [])
     for row in [*new, *(each for each in order if each not in set(base))]:
-        insert(found, row, work.value[row])
+        insert_by_detour(found, row, work.value[row])
     for place in _coming(work, curve):
-        insert(found, -1, into_own_plane(work, curve, place), least=_NEAR)
+        insert_by_detour(found, -1, into_curve_plane(work, curve, place), least=_NEAR)
     for row in new:
         _direct(work, curve, found, row)
     own = [row for row in loose if state.rows.sort.data[row] == Sort.ADOPTED]
     ties = [row for row in loose if row not in set(own)]
-    tie(work, curve, found, ties)
+    tie_to_crossings(work, curve, found, ties)
     options = _hold(work, curve, found)
-    tie_own(work, curve, found, own)
+    tie_to_own_points(work, curve, found, own)
     options += free_points(work, own, [*ties, *_smooth(work, curve, found, ties)])
-    choose(work, curve, found, options)
+    choose_fair_points(work, curve, found, options)
     round_turns(work, curve, found)
     return found
 
 
-def _smooth(work: Carried, curve: int, found: Through, ties: list[int]) -> list[int]:
+def _smooth(
+    work: TransformationState, curve: int, found: DefiningPoints, ties: list[int]
+) -> list[int]:
     """Give the crossings with drivers, where these slid, that need not define a follower."""
     table = work.state.rows
     return [
@@ -180,7 +309,7 @@ def _smooth(work: Carried, curve: int, found: Through, ties: list[int]) -> list[
     ]  # fmt: skip
 
 
-def _hold(work: Carried, curve: int, found: Through) -> list[Option]:
+def _hold(work: TransformationState, curve: int, found: DefiningPoints) -> list[OptionalPoint]:
     """Hold a follower where lines cut before it pass its plane without defining it.
 
     Give the places at which they do, as it passed them before.
@@ -192,35 +321,41 @@ def _hold(work: Carried, curve: int, found: Through) -> list[Option]:
     places = np.zeros((0, 3))
     for _ in range(_ROUNDS):
         work.made[curve] = found
-        spline = loft(through(work, [curve]))
+        spline = loft(curve_data_through(work, [curve]))
         if not len(places):
             places = _as_before(work, curve, rows, spline)
-        at, _, away = closest(spline, 0, places)
+        at, _, away = closest_points(spline, 0, places)
         segment = np.searchsorted(spline.knot, at, side="right")
         wide = np.flatnonzero(away > limit * _share(work, curve, rows, spline, at))
         wide = wide[np.argsort(-away[wide], kind="stable")]
         first = np.unique(segment[wide], return_index=True)[1]
-        added = [insert(found, -1, places[i], least=_NEAR) for i in wide[np.sort(first)].tolist()]
+        added = [
+            insert_by_detour(found, -1, places[i], least=_NEAR)
+            for i in wide[np.sort(first)].tolist()
+        ]
         if not any(added):
             break
     share = _share(work, curve, rows, spline, at)
     return [
-        Option(-1, place, 2.0 * limit * part) for place, part in zip(places, share, strict=True)
+        OptionalPoint(-1, place, 2.0 * limit * part)
+        for place, part in zip(places, share, strict=True)
     ]
 
 
-def _as_before(work: Carried, curve: int, rows: IntArray, spline: SplineBatch) -> FloatArray:
+def _as_before(
+    work: TransformationState, curve: int, rows: IntArray, spline: SplineBatch
+) -> FloatArray:
     """Give the places of lines that pass a follower, less the gaps at which they did before."""
-    at, _, _ = closest(spline, 0, work.value[rows])
+    at, _, _ = closest_points(spline, 0, work.value[rows])
     slope = derivative(spline, np.zeros(len(at), np.int64), at)
     left = np.cross(work.planes.normal[work.state.line_of(curve)], slope)
     left = left / np.sqrt((left * left).sum(axis=1))[:, None]
     places = work.value[rows] - gaps_across(work, curve, rows, left)[:, None] * left
-    return np.array([into_own_plane(work, curve, place) for place in places])
+    return np.array([into_curve_plane(work, curve, place) for place in places])
 
 
 def _share(
-    work: Carried, curve: int, rows: IntArray, spline: SplineBatch, at: FloatArray
+    work: TransformationState, curve: int, rows: IntArray, spline: SplineBatch, at: FloatArray
 ) -> FloatArray:
     """Give how much less than usual a follower may pass off places that it drives, (k,).
 
@@ -236,7 +371,7 @@ def _share(
     return share
 
 
-def _passed(work: Carried, curve: int) -> IntArray:
+def _passed(work: TransformationState, curve: int) -> IntArray:
     """Give the crossings at which lines cut before a follower pass its plane unheard."""
     table, meets = work.state.rows, work.state.curves.meets.data[curve]
     rows = meets.row[meets.row >= 0]
@@ -249,7 +384,7 @@ def _passed(work: Carried, curve: int) -> IntArray:
     return np.array(kept, np.int64)
 
 
-def _direct(work: Carried, curve: int, found: Through, row: int) -> None:
+def _direct(work: TransformationState, curve: int, found: DefiningPoints, row: int) -> None:
     """Give a new contact with the border of a flat its direction: along the flat."""
     table = work.state.rows
     if table.kind.data[row, 1] != PointKind.TANGENT:
@@ -262,7 +397,7 @@ def _direct(work: Carried, curve: int, found: Through, row: int) -> None:
     work.maker.journal.put(table.direction, [row], [[np.zeros(3), along]])
 
 
-def _coming(work: Carried, curve: int) -> list[FloatArray]:
+def _coming(work: TransformationState, curve: int) -> list[FloatArray]:
     """Give the places at which drivers have come to meet the plane of a follower's piece."""
     line = work.state.line_of(curve)
     places = [place for other, place in work.come if other == line]
@@ -271,17 +406,17 @@ def _coming(work: Carried, curve: int) -> list[FloatArray]:
     return [place for place in places if _piece(work, line, place) == curve]
 
 
-def _piece(work: Carried, line: int, place: FloatArray) -> int:
+def _piece(work: TransformationState, line: int, place: FloatArray) -> int:
     """Give the piece of a line that makes the least detour through a place."""
     state, least = work.state, (np.inf, -1)
     for curve in state.lines.curves.data[line]:
         known = _ordered(work, curve)
         if len(known) > 1:
-            least = min(least, (detour(work.value[known], place), int(curve)))
+            least = min(least, (least_detour(work.value[known], place), int(curve)))
     return least[1]
 
 
-def _ordered(work: Carried, curve: int) -> list[int]:
+def _ordered(work: TransformationState, curve: int) -> list[int]:
     """Give the points of a curve that are known, in the order of before, with its new ends."""
     rows: IntArray = work.state.curves.rows.data[curve]
     inner = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
@@ -289,7 +424,7 @@ def _ordered(work: Carried, curve: int) -> list[int]:
     return [row for row in (ends[0], *inner, ends[1]) if row is not None]
 
 
-def _base(work: Carried, curve: int, order: list[int]) -> list[int]:
+def _base(work: TransformationState, curve: int, order: list[int]) -> list[int]:
     """Give the points of a curve that keep their order: ends, and the family that cuts most."""
     state = work.state
     group = {
@@ -308,10 +443,10 @@ def _base(work: Carried, curve: int, order: list[int]) -> list[int]:
     ]  # fmt: skip
 
 
-def _give(work: Carried, curve: int) -> None:
+def _give(work: TransformationState, curve: int) -> None:
     """Cut a follower with the planes of those that come after it, where these have to slide."""
     state = work.state
-    meets: Meets = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets.data[curve]
     rows = meets.row[meets.row >= 0]
     wanted = [
         row for row in rows[~work.known[rows]].tolist()
@@ -320,22 +455,24 @@ def _give(work: Carried, curve: int) -> None:
     if not wanted:
         return
     work.made[curve] = _points(work, curve)
-    spline = loft(through(work, [curve]), [str(state.curves.key.data[curve])])
+    spline = loft(curve_data_through(work, [curve]), [str(state.curves.key.data[curve])])
     for line in sorted({state.line_of(work.other(row, curve)) for row in wanted}):
         _cut_one(work, curve, spline, line, set(wanted))
 
 
-def _cut_one(work: Carried, curve: int, spline: SplineBatch, line: int, wanted: set[int]) -> None:
+def _cut_one(
+    work: TransformationState, curve: int, spline: SplineBatch, line: int, wanted: set[int]
+) -> None:
     """Cut one follower with the plane of one after it, and say which crossing is which."""
-    meets: Meets = work.state.curves.meets.data[curve]
+    meets: CurveIntersections = work.state.curves.meets.data[curve]
     old = np.flatnonzero(meets.line == line)
-    met = meet_planes(spline, work.planes.normal[line], work.planes.offset[[line]])
-    pairs = align_roots(meets.sign[old], work.space.places(meets.xyz[old]), met.sign, met.xyz)
+    met = intersect_planes(spline, work.planes.normal[line], work.planes.offset[[line]])
+    pairs = align_plane_roots(meets.sign[old], work.space.places(meets.xyz[old]), met.sign, met.xyz)
     found = {int(meets.row[old[one]]): other for one, other in pairs}
     for row in meets.row[old].tolist():
         if row in found and row in wanted:
             place = met.xyz[[found[row]]]
-            work.value[row] = into_planes(work.state, work.planes, np.array([row]), place)[0]
+            work.value[row] = snap_into_planes(work.state, work.planes, np.array([row]), place)[0]
             work.known[row] = work.slid[row] = True
         elif row >= 0 and row in wanted:
             work.gone.add(row)

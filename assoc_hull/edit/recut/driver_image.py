@@ -9,14 +9,14 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.edit.mapped_planes import heights
+from assoc_hull.edit.mapped_planes import plane_heights
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.numeric.false_position import false_position
+from assoc_hull.geometry.numeric.roots import false_position
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.segments import segment_start
 
-__all__ = ["Image", "Roots", "misfit"]
+__all__ = ["CurveImages", "ImageIntersections", "image_misfit"]
 
 _SAMPLES = 16
 """Places a segment at which the side of a plane is asked."""
@@ -28,7 +28,7 @@ BoolArray = np.typing.NDArray[np.bool_]
 
 
 @attrs.frozen(eq=False)
-class Roots:
+class ImageIntersections:
     """Where images meet one plane, sorted by curve and parameter.
 
     Attributes
@@ -50,7 +50,7 @@ class Roots:
 
 
 @attrs.frozen(eq=False)
-class Image:
+class CurveImages:
     """The image of a batch of curves.
 
     Attributes
@@ -76,7 +76,7 @@ class Image:
     after: FloatArray
 
     @classmethod
-    def of(cls, space: SpaceMap, batch: SplineBatch, curves: tuple[int, ...]) -> Image:
+    def of(cls, space: SpaceMap, batch: SplineBatch, curves: tuple[int, ...]) -> CurveImages:
         """Sample a batch of curves and map the samples."""
         first = segment_start(batch)
         part = np.arange(_SAMPLES) / _SAMPLES
@@ -106,26 +106,26 @@ class Image:
         near : float, m
             Places as near to the plane as this do not count.
         """
-        was, now = heights(self.before, normal) - old, heights(self.after, normal) - new
+        was, now = plane_heights(self.before, normal) - old, plane_heights(self.after, normal) - new
         other = ((was >= 0.0) != (now >= 0.0)) & ~((np.abs(was) <= near) & (np.abs(now) <= near))
         return np.bincount(self.owner[other], minlength=self.batch.count) > 0
 
-    def meet(self, normal: FloatArray, offset: float) -> Roots:
+    def meet(self, normal: FloatArray, offset: float) -> ImageIntersections:
         """Meet the images with a plane."""
-        level = heights(self.after, normal) - offset
+        level = plane_heights(self.after, normal) - offset
         above = level >= 0.0
         low = np.flatnonzero((above[1:] != above[:-1]) & (self.owner[1:] == self.owner[:-1]))
         curve, sign = self.owner[low], np.where(above[low], -1, 1).astype(np.int8)
         t = false_position(
-            lambda rows, at: heights(self.at(curve[rows], at), normal) - offset,
+            lambda rows, at: plane_heights(self.at(curve[rows], at), normal) - offset,
             self.t[low], self.t[low + 1], level[low], level[low + 1],
         )  # fmt: skip
         xyz = self.at(curve, t) if len(t) else np.zeros((0, 3))
-        return Roots(curve, t, xyz, sign)
+        return ImageIntersections(curve, t, xyz, sign)
 
 
-def misfit(
-    image: Image, curve: IntArray, batch: SplineBatch, at: FloatArray
+def image_misfit(
+    image: CurveImages, curve: IntArray, batch: SplineBatch, at: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Compare curves with images between the points they were made through.
 

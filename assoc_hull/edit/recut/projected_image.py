@@ -10,15 +10,15 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.edit.recut.carried_points import Carried
+from assoc_hull.edit.recut.carried_points import TransformationState
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.kinds import Sort
-from assoc_hull.model.state import Meets
+from assoc_hull.model.tables import CurveIntersections
 
-__all__ = ["Shadow", "gaps_across", "shadow_of"]
+__all__ = ["ProjectedImage", "gaps_across", "projected_image"]
 
 _SAMPLES = 4
 """Places a segment through which the image is made."""
@@ -34,7 +34,7 @@ _DOUBT = 0.05
 
 
 @attrs.frozen(eq=False)
-class Shadow:
+class ProjectedImage:
     """The image of a curve in its plane, with the distances that are known.
 
     Attributes
@@ -98,7 +98,7 @@ class Shadow:
         return found
 
 
-def shadow_of(work: Carried, curve: int) -> Shadow | None:
+def projected_image(work: TransformationState, curve: int) -> ProjectedImage | None:
     """Lay the image of a follower into its plane; None where the hull is known nowhere there."""
     state, line = work.state, work.state.line_of(curve)
     normal, offset = work.planes.normal[line], float(work.planes.offset[line])
@@ -109,7 +109,7 @@ def shadow_of(work: Carried, curve: int) -> Shadow | None:
     rows, at = _known(work, curve)
     if not len(rows):
         return None
-    there, foot, _ = closest(spline, 0, work.value[rows])
+    there, foot, _ = closest_points(spline, 0, work.value[rows])
     step = work.value[rows] - foot
     beyond = _along(spline, there, step)
     slip = np.sqrt(((work.value[rows] - work.space.places(_places(work, curve, at))) ** 2).sum(1))
@@ -123,17 +123,17 @@ def shadow_of(work: Carried, curve: int) -> Shadow | None:
         return None
     order = order[np.concatenate([[True], np.diff(there[order]) > _APART])]
     ends = _ends(work, curve, spline)
-    return Shadow(spline, t, normal, there[order], across[order], ends)
+    return ProjectedImage(spline, t, normal, there[order], across[order], ends)
 
 
-def _ends(work: Carried, curve: int, spline: SplineBatch) -> tuple[float, float]:
+def _ends(work: TransformationState, curve: int, spline: SplineBatch) -> tuple[float, float]:
     """Give how far the ends of a follower slide along its image, + onward."""
     found = [0.0, 0.0]
     for i, row in enumerate((work.end(curve, 0), work.end(curve, 1))):
         if not work.known[row]:
             continue
         at = np.array([0.0 if i == 0 else float(spline.knot[-1])])
-        there, foot, _ = closest(spline, 0, work.value[[row]])
+        there, foot, _ = closest_points(spline, 0, work.value[[row]])
         along = _along(spline, there, work.value[[row]] - foot)
         found[i] = float(there[0] - at[0] + along[0])
     return found[0], found[1]
@@ -146,7 +146,9 @@ def _along(spline: SplineBatch, t: FloatArray, step: FloatArray) -> FloatArray:
     return found
 
 
-def gaps_across(work: Carried, curve: int, rows: IntArray, left: FloatArray) -> FloatArray:
+def gaps_across(
+    work: TransformationState, curve: int, rows: IntArray, left: FloatArray
+) -> FloatArray:
     """Give how far lines that pass a follower unheard lay beside it before, (k,), m.
 
     Parameters
@@ -177,7 +179,7 @@ def _dense(spline: SplineBatch) -> tuple[FloatArray, FloatArray]:
     return t, evaluate(spline, np.zeros(len(t), np.int64), t)
 
 
-def _places(work: Carried, curve: int, t: FloatArray) -> FloatArray:
+def _places(work: TransformationState, curve: int, t: FloatArray) -> FloatArray:
     return evaluate(work.state.spline(curve), np.zeros(len(t), np.int64), t)
 
 
@@ -189,10 +191,10 @@ def _left(spline: SplineBatch, normal: FloatArray, t: FloatArray) -> FloatArray:
     return found
 
 
-def _known(work: Carried, curve: int) -> tuple[IntArray, FloatArray]:
+def _known(work: TransformationState, curve: int) -> tuple[IntArray, FloatArray]:
     """Give the points of a follower that are known already, and their parameters on it before."""
     state, table = work.state, work.state.rows
-    meets: Meets = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets.data[curve]
     own: IntArray = state.curves.rows.data[curve]
     at = dict(zip(meets.row.tolist(), meets.parameter.tolist(), strict=True))
     at |= dict(zip(own.tolist(), state.spline(curve).knot.tolist(), strict=True))
@@ -206,7 +208,7 @@ def _known(work: Carried, curve: int) -> tuple[IntArray, FloatArray]:
     return np.array(rows, np.int64), np.array([at[row] for row in rows])
 
 
-def _first(work: Carried, row: int, curve: int) -> bool:
+def _first(work: TransformationState, row: int, curve: int) -> bool:
     """Tell whether a point does not wait for its follower to be cut."""
     if work.state.rows.sort.data[row] != Sort.CROSSING or row in work.kept:
         return bool(work.direct[row]) or row in work.kept

@@ -12,14 +12,14 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.edit.mapped_planes import heights, into_planes
-from assoc_hull.edit.recut.carried_points import Carried
+from assoc_hull.edit.mapped_planes import plane_heights, snap_into_planes
+from assoc_hull.edit.recut.carried_points import TransformationState
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["slide_over"]
 
@@ -36,7 +36,7 @@ _NEAR = 1e-9
 BoolArray = np.typing.NDArray[np.bool_]
 
 
-def slide_over(work: Carried) -> IntArray:
+def slide_over(work: TransformationState) -> IntArray:
     """Move points that the mapping takes out of the planes of their lines back into these.
 
     Parameters
@@ -58,12 +58,12 @@ def slide_over(work: Carried) -> IntArray:
     rows = _sliding(work)
     if len(rows):
         ways = _Ways.of(work, rows)
-        work.value[rows] = into_planes(work.state, work.planes, rows, ways.solved(work))
+        work.value[rows] = snap_into_planes(work.state, work.planes, rows, ways.solved(work))
         work.slid[rows] = True
     return rows
 
 
-def _sliding(work: Carried) -> IntArray:
+def _sliding(work: TransformationState) -> IntArray:
     """Give the points that have to slide: none that are computed from curves, or only watched."""
     table, live = work.state.rows, work.state.live("rows")
     watched = (table.sort.data == Sort.CROSSING) & (table.role.data == Role.WATCHED)
@@ -103,7 +103,7 @@ class _Ways:
     offset: FloatArray
 
     @classmethod
-    def of(cls, work: Carried, rows: IntArray) -> _Ways:
+    def of(cls, work: TransformationState, rows: IntArray) -> _Ways:
         state = work.state
         own = state.rows.curve.data[rows]
         line = np.where(own >= 0, state.curves.line.data[own], -1)
@@ -125,7 +125,7 @@ class _Ways:
             np.where(plane, work.planes.offset[line], 0.0),
         )  # fmt: skip
 
-    def solved(self, work: Carried) -> FloatArray:
+    def solved(self, work: TransformationState) -> FloatArray:
         """Give the images of the places that lie in the planes, (k, 3), m; by Newton's rule."""
         start = work.state.rows.xyz.data[self.rows]
         way, far = np.zeros((len(self.rows), 2)), np.inf
@@ -179,12 +179,12 @@ class _Ways:
         last: FloatArray = self.batch.knot[self.batch.start[curve + 1] - 1]
         return last
 
-    def _require(self, work: Carried, image: FloatArray, way: FloatArray) -> None:
+    def _require(self, work: TransformationState, image: FloatArray, way: FloatArray) -> None:
         """See that all have come into their planes."""
         off = np.zeros(len(image))
         for side in (0, 1):
             asked = ~self.barred[:, 1 - side]
-            away = np.abs(heights(image, self.normal[:, side]) - self.offset[:, side])
+            away = np.abs(plane_heights(image, self.normal[:, side]) - self.offset[:, side])
             off = np.maximum(off, np.where(asked, away, 0.0))
         worst = int(off.argmax())
         if not off[worst] <= _NEAR:

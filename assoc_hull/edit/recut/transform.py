@@ -13,33 +13,42 @@ from collections.abc import Callable, Mapping, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.births_and_deaths import unmeet
+from assoc_hull.edit.followup.crossings import make_latent
 from assoc_hull.edit.mapped_features import carry_features
-from assoc_hull.edit.mapped_planes import Planes, carry_planes
+from assoc_hull.edit.mapped_planes import TransformedPlanes, carry_planes
 from assoc_hull.edit.recut.carried_points import (
-    Carried,
-    Through,
+    DefiningPoints,
+    TransformationState,
     carry_directions,
     carry_ends,
     carry_points,
 )
-from assoc_hull.edit.recut.cut_drivers import cut_drivers, hold_images
-from assoc_hull.edit.recut.cut_followers import cut_followers
-from assoc_hull.edit.recut.cut_kept_planes import cut_kept
-from assoc_hull.edit.recut.recut_whole_line import take_out
-from assoc_hull.edit.recut.replacement_points import settle_stand_ins
-from assoc_hull.edit.recut.space_curves import bend_lines, let_go
+from assoc_hull.edit.recut.changed_ends import take_out_lines
+from assoc_hull.edit.recut.cut_drivers import (
+    bend_lines,
+    cut_drivers,
+    drop_bent_planes,
+    hold_to_images,
+)
+from assoc_hull.edit.recut.cut_followers import cut_followers, cut_kept, settle_stand_ins
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.make_objects import Maker, PointSpec
 from assoc_hull.model.network import bits_differ
-from assoc_hull.model.state import HullState, Meets, Particulars
+from assoc_hull.model.tables import CurveIntersections, HullState, Particulars
 
-__all__ = ["Reshape", "carry_meetings", "driving", "move_planes", "refuse_others", "transform"]
+__all__ = [
+    "PlaceFeaturePoints",
+    "carry_intersections",
+    "driving_lines",
+    "move_planes",
+    "refuse_others",
+    "transform",
+]
 
-Reshape = Callable[[Carried], None]
+PlaceFeaturePoints = Callable[[TransformationState], None]
 """Gives points that features own their exact places, before the drivers are cut."""
 
 _TOLERANCE = 2e-3
@@ -57,7 +66,7 @@ def transform(
     follow: bool = False,
     levels: Mapping[int, float] | None = None,
     tolerance: float = _TOLERANCE,
-    reshape: Reshape | None = None,
+    reshape: PlaceFeaturePoints | None = None,
     particulars: Particulars | None = None,
     keep_features: bool = False,
     lines_may_go: bool = False,
@@ -107,7 +116,7 @@ def transform(
             f"give at least {_FINEST:g} m: finer, and points crowd without end",
         )  # fmt: skip
     state = edit.state
-    driver = driving(state, drivers)
+    driver = driving_lines(state, drivers)
     refuse_others(edit)
     edit.pending.alone = True
     planes = carry_planes(state, space, np.flatnonzero(driver), follow=follow, levels=levels)
@@ -129,16 +138,16 @@ def transform(
     settle_stand_ins(work)
     cut_followers(work)
     _watch(edit, work)
-    added = hold_images(work, image, tolerance)
-    let_go(edit, work)
+    added = hold_to_images(work, image, tolerance)
+    drop_bent_planes(edit, work)
     move_planes(edit.maker, planes)  # first, so that lines that come back find their new ones
-    take_out(edit, work, may_go=lines_may_go)
+    take_out_lines(edit, work, may_go=lines_may_go)
     _publish(edit, work, turned)
     _tell(edit, work, added, size)
     return added
 
 
-def driving(state: HullState, drivers: Sequence[int]) -> np.typing.NDArray[np.bool_]:
+def driving_lines(state: HullState, drivers: Sequence[int]) -> np.typing.NDArray[np.bool_]:
     """Mark the driving lines, (l,): those that are named, and boundary curves.
 
     Raises
@@ -168,7 +177,7 @@ def refuse_others(edit: Transaction) -> None:
         raise BadInputError(*pending.not_alone(edit.name))
 
 
-def _anything(state: HullState, work: Carried) -> bool:
+def _anything(state: HullState, work: TransformationState) -> bool:
     """Tell whether the mapping moves anything by a bit."""
     live = state.live("rows")
     same = not bits_differ(work.value[live] + 0.0, state.rows.xyz.data[live] + 0.0).any()
@@ -182,7 +191,7 @@ def _anything(state: HullState, work: Carried) -> bool:
     )
 
 
-def move_planes(maker: Maker, planes: Planes) -> None:
+def move_planes(maker: Maker, planes: TransformedPlanes) -> None:
     """Write where the planes of all lines have come to."""
     table, put = maker.state.lines, maker.journal.put
     lines = maker.state.live("lines")
@@ -191,12 +200,12 @@ def move_planes(maker: Maker, planes: Planes) -> None:
     put(table.offset, lines, planes.offset[lines])
 
 
-def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
+def _publish(edit: Transaction, work: TransformationState, turned: set[int]) -> None:
     """Hand everything over to the update."""
     state, pending = edit.state, edit.pending
     for curve in sorted(work.made):
         _define(edit, curve, work.made[curve], work.gone)
-    carry_meetings(edit, work.space)
+    carry_intersections(edit, work.space)
     _remove(edit, work)
     live = state.live("rows")
     live = live[live < len(work.value)]
@@ -219,7 +228,7 @@ def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
     pending.relink |= set(state.live("curves").tolist())
 
 
-def _watch(edit: Transaction, work: Carried) -> None:
+def _watch(edit: Transaction, work: TransformationState) -> None:
     """Let crossings define neither of their curves any more."""
     rows = np.array(sorted(work.watched), np.int64)
     if not len(rows):
@@ -238,7 +247,7 @@ def _watch(edit: Transaction, work: Carried) -> None:
     )
 
 
-def _define(edit: Transaction, curve: int, chosen: Through, gone: set[int]) -> None:
+def _define(edit: Transaction, curve: int, chosen: DefiningPoints, gone: set[int]) -> None:
     """Say which points define a curve now; make the new adopted ones."""
     new = [place for row, place in zip(chosen.row, chosen.place, strict=True) if row < 0]
     specs = [PointSpec(curve, place, Sort.ADOPTED) for place in new]
@@ -249,34 +258,34 @@ def _define(edit: Transaction, curve: int, chosen: Through, gone: set[int]) -> N
         edit.maker.define(curve, rows)
 
 
-def carry_meetings(edit: Transaction, space: SpaceMap) -> None:
+def carry_intersections(edit: Transaction, space: SpaceMap) -> None:
     """Let the update look for each meeting where the mapping has carried it."""
     state, table = edit.state, edit.state.curves.meets
     curves = [curve for curve in state.live("curves").tolist() if len(table.data[curve].line)]
     if not curves:
         return
-    meets: list[Meets] = [table.data[curve] for curve in curves]
+    meets: list[CurveIntersections] = [table.data[curve] for curve in curves]
     carried = space.places(np.concatenate([each.xyz for each in meets]))
     parts = np.split(carried, np.cumsum([len(each.line) for each in meets])[:-1])
     for curve, each, xyz in zip(curves, meets, parts, strict=True):
         edit.journal.set(table, [curve], [attrs.evolve(each, xyz=xyz)])
 
 
-def _remove(edit: Transaction, work: Carried) -> None:
+def _remove(edit: Transaction, work: TransformationState) -> None:
     """Take out what has no place any more."""
     state, keys = edit.state, edit.state.rows.key.data
     rows = sorted(work.gone, key=lambda row: str(keys[row]))
     for row in rows:
         for curve in state.rows.curve.data[row].tolist():
             if curve >= 0 and state.rows.sort.data[row] == Sort.CROSSING:
-                unmeet(edit.maker, curve, row)
+                make_latent(edit.maker, curve, row)
     edit.maker.remove_rows(rows)
     edit.pending.gone += [
         str(keys[row]) for row in rows if state.rows.sort.data[row] == Sort.CROSSING
     ]
 
 
-def _tell(edit: Transaction, work: Carried, added: int, before: Particulars) -> None:
+def _tell(edit: Transaction, work: TransformationState, added: int, before: Particulars) -> None:
     """Put into the report what was carried and what was cut again."""
     state, pending = edit.state, edit.pending
     every = {*state.live("lines").tolist(), *work.anew}

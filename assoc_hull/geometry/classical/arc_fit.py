@@ -1,49 +1,335 @@
-"""Plane curves as chains of few arcs within a tolerance, tangents without a break.
+"""Fit plane curves by few arcs within a tolerance, with tangents that do not break.
 
-Curves are cut at corners and straight runs (`arc_pieces`), pieces become chains (`arc_beam`),
-these arc records (`arc_links`), and every chain is measured against its curve both ways on ten
-times as many places as the search used (`arc_check`). A piece that does not keep the tolerance
-there is searched again with more places.
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.geometry.classical.arc_fit import fit_arcs
->>> from assoc_hull.geometry.curves import CurveData
->>> from assoc_hull.geometry.splines.segments import power
->>> from assoc_hull.geometry.splines.loft import loft
->>> x = np.linspace(0.0, 10.0, 6)
->>> curve = loft(CurveData.single(np.stack([x, np.sin(0.5 * x), 0.0 * x], axis=1)))
->>> fit = fit_arcs(power(curve)[:, :, :2], np.array([0, 5]), within=0.001)
->>> len(fit.arcs), bool(fit.deviation.max() <= 0.001)
-(11, True)
+`fit_arcs` searches chains (`arc_chain_search`), makes arcs of them (`ArcLinks`), and measures the
+distance between arcs and curves both ways on ten times as many places as the search used. A piece
+that does not keep the tolerance there is searched again with more places.
 """
 
 from __future__ import annotations
+
+from typing import Self
 
 import attrs
 import numpy as np
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.arc_beam import Chain, chains
-from assoc_hull.geometry.classical.arc_check import Apart, apart
-from assoc_hull.geometry.classical.arc_links import Links, merged
-from assoc_hull.geometry.classical.arc_pieces import Pieces
-from assoc_hull.geometry.classical.arc_trials import Limits
-from assoc_hull.geometry.classical.arcs import Arcs
-from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.arc_chain_search import (
+    ArcChain,
+    ArcLimits,
+    FitPieces,
+    search_chains,
+)
+from assoc_hull.geometry.classical.biarc_family import biarcs_by_ratio
+from assoc_hull.geometry.classical.checked_input import digits, finite_array, wrap_angle
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs, sinc
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
-__all__ = ["ArcFit", "fit_arcs"]
+__all__ = [
+    "ArcDeviation",
+    "ArcFit",
+    "ArcLinks",
+    "fit_arcs",
+    "measure_deviation",
+    "merge_arcs",
+]
+
+# --------------------------------------------------------------------------------------
+# Single arcs and biarcs of chains as arc records; neighbours of one circle become one arc.
+#
+# A link is what a chain is made of: a straight line, an arc or a biarc over a stretch of a piece.
+
+_SAME = 1e-10
+"""m, rad: arcs that one arc replaces may leave it, and turn from it, by no more."""
+
+_STRAIGHT_TURN = 1e-11  # rad
+_MOST_TURN = 3.0  # rad: a longer arc is not told by its ends well
+
+
+@attrs.frozen(eq=False)
+class ArcLinks:
+    """Links of many pieces, in order.
+
+    Attributes
+    ----------
+    piece : (n,) int
+        The piece of each.
+    low, high : (n,)
+        Parameters of the piece.
+    arcs : Arcs
+        Their arcs.
+    arc : (n, 2) int
+        First and last arc of each, the same one but for biarcs.
+    """
+
+    piece: IntArray
+    low: FloatArray
+    high: FloatArray
+    arcs: PlaneArcs
+    arc: IntArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.piece, self.low, self.high, self.arc)
+
+    @classmethod
+    def of(cls, pieces: FitPieces, chains: dict[int, ArcChain]) -> Self:
+        """Make the records of chains by piece; straight pieces need none.
+
+        Parameters
+        ----------
+        pieces : Pieces
+            The curves.
+        chains : dict of int to Chain
+            Of pieces that are not straight; those without are left out.
+        """
+        rows = [i for i in range(len(pieces)) if pieces.straight[i] or i in chains]
+        parts = [chains[i] if i in chains else _line(pieces, i) for i in rows]
+        piece = np.repeat(np.array(rows, np.int64), [len(each.ratio) for each in parts])
+        cut = {
+            "low": [each.w[:-1] for each in parts], "high": [each.w[1:] for each in parts],
+            "begin": [each.angle[:-1] for each in parts],
+            "end": [each.angle[1:] for each in parts], "ratio": [each.ratio for each in parts],
+        }  # fmt: skip
+        low, high, begin, end, ratio = (
+            np.concatenate([*each, np.zeros(0)]) for each in cut.values()
+        )
+        arcs, arc = _records(pieces, piece, (low, high), (begin, end), ratio)
+        return cls(piece, low, high, arcs, arc)
+
+
+def _line(pieces: FitPieces, row: int) -> ArcChain:
+    ends = np.array([pieces.first[row], pieces.stop[row]], np.float64)
+    return ArcChain(ends, pieces.angle[row].copy(), np.array([np.nan]))
+
+
+def _records(
+    pieces: FitPieces, piece: IntArray, w: tuple[FloatArray, FloatArray],
+    angle: tuple[FloatArray, FloatArray], ratio: FloatArray,
+) -> tuple[PlaneArcs, IntArray]:  # fmt: skip
+    """Give the arcs of links, and the first and last of each."""
+    begin, end = (pieces.at(piece, each) for each in w)
+    step = end - begin
+    chord, course = np.hypot(step[:, 0], step[:, 1]), np.arctan2(step[:, 1], step[:, 0])
+    alpha, beta = (wrap_angle(each - course) for each in angle)
+    pair = np.isfinite(ratio)
+    count = np.where(pair, 2, 1)
+    last = np.cumsum(count) - 1
+    first = last - count + 1
+    start = np.empty((int(count.sum()), 2))
+    way, bend, length = (np.empty(len(start)) for _ in range(3))
+    one = first[~pair]
+    start[one], way[one] = begin[~pair], angle[0][~pair]
+    bend[one] = -2.0 * np.sin(alpha[~pair]) / chord[~pair]
+    length[one] = chord[~pair] / sinc(alpha[~pair])
+    made = biarcs_by_ratio(chord[pair], alpha[pair], beta[pair], ratio[pair])
+    cosine, sine = np.cos(course[pair]), np.sin(course[pair])
+    x, y = made.join
+    join = begin[pair] + np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=1)
+    for arc, place, direction, k in (
+        (first[pair], begin[pair], angle[0][pair], 0),
+        (last[pair], join, course[pair] + made.tau, 1),
+    ):
+        start[arc], way[arc], bend[arc], length[arc] = (
+            place, direction, made.bend[k], made.length[k]
+        )  # fmt: skip
+    bend[np.abs(bend * length) < _STRAIGHT_TURN] = 0.0
+    return PlaneArcs(start, wrap_angle(way), bend, length), np.stack([first, last], axis=1)
+
+
+def merge_arcs(arcs: PlaneArcs, group: IntArray) -> tuple[PlaneArcs, IntArray]:
+    """Put neighbours that lie on one circle or line together.
+
+    Parameters
+    ----------
+    arcs : Arcs
+        In order.
+    group : (n,) int
+        Arcs of different groups stay apart.
+
+    Returns
+    -------
+    arcs : Arcs
+        Fewer, or as many.
+    first : (k,) int
+        The first of the given arcs in each.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.classical.arc_fit import merge_arcs
+    >>> from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
+    >>> one = PlaneArcs.make([[0, 0]], [0.0], [0.5], [2.0])
+    >>> join = one.at(np.array([0]), [0.5])[0]
+    >>> both = PlaneArcs.make([[0, 0], join], [0, 0.25], [0.5, 0.5], [0.5, 1.5])
+    >>> len(merge_arcs(both, np.zeros(2, int))[0])
+    1
+    """
+    if not len(arcs):
+        return arcs, np.zeros(0, np.int64)
+    ends, turned = arcs.ends(), arcs.end_angles()
+    both = arcs.length[:-1] + arcs.length[1:]
+    step = np.abs(np.diff(arcs.curvature)) * both
+    same = (np.diff(group) == 0) & (step < _SAME) & (step * both < 8.0 * _SAME)
+    same &= np.abs(wrap_angle(turned[:-1] - arcs.angle[1:])) < _SAME
+    first = np.flatnonzero(np.append(True, ~same))
+    turn = np.add.reduceat(arcs.curvature * arcs.length, first)
+    if (np.abs(turn) > _MOST_TURN).any():
+        # A circle that closes: every arc of it stays as it is.
+        wide = np.repeat(np.abs(turn) > _MOST_TURN, np.diff(np.append(first, len(arcs))))
+        first = np.flatnonzero(np.append(True, ~same | wide[1:]))
+        turn = np.add.reduceat(arcs.curvature * arcs.length, first)
+    last = np.append(first[1:], len(arcs)) - 1
+    alone = first == last
+    chord_step = ends[last] - arcs.start[first]
+    chord = np.hypot(chord_step[:, 0], chord_step[:, 1])
+    course = np.arctan2(chord_step[:, 1], chord_step[:, 0])
+    angle, bend, length = course - 0.5 * turn, 2.0 * np.sin(0.5 * turn) / chord, chord
+    length = length / sinc(0.5 * turn)
+    return (
+        PlaneArcs(
+            arcs.start[first],
+            np.where(alone, arcs.angle[first], wrap_angle(angle)),
+            np.where(alone, arcs.curvature[first], bend),
+            np.where(alone, arcs.length[first], length),
+        ),
+        first,
+    )
+
+
+# --------------------------------------------------------------------------------------
+# How far chains of arcs and the curves they stand for lie apart, both ways, densely sampled.
+#
+# What is given is never too small: the distance to a link is that to its own arcs, and a place on
+# an arc is as far from the curve as from the foot that was found.
+
+_STEPS = 4
+
+
+@attrs.frozen(eq=False)
+class ArcDeviation:
+    """Largest distances per link.
+
+    Attributes
+    ----------
+    curve : (n,), m
+        Of places on the curve from the arcs.
+    arcs : (n,), m
+        Of places on the arcs from the curve.
+    w : (n,)
+        The place on the curve that is farthest.
+    """
+
+    curve: FloatArray
+    arcs: FloatArray
+    w: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.curve, self.arcs, self.w)
+
+    @property
+    def most(self) -> FloatArray:
+        """The larger of both, (n,), m."""
+        return np.asarray(np.maximum(self.curve, self.arcs))
+
+
+def measure_deviation(pieces: FitPieces, links: ArcLinks, samples: int) -> ArcDeviation:
+    """Measure links against their stretches of the curves, at so many places each way."""
+    if not len(links.piece):
+        return ArcDeviation(np.zeros(0), np.zeros(0), np.zeros(0))
+    w = _link_parameters(links, samples)
+    piece = links.piece[:, None]
+    places = pieces.at(piece, w)
+    off = _from_arcs(links, places)
+    row, worst = np.arange(len(w)), np.argmax(off, axis=1)
+    return ArcDeviation(off[row, worst], _from_curve(pieces, links, w, places), w[row, worst])
+
+
+def _link_parameters(links: ArcLinks, samples: int) -> FloatArray:
+    """Give parameters along the links, (n, samples), points of the curves among them.
+
+    Cubics may be of very different lengths: what lies between two parameters belongs to one.
+    """
+    step = (links.high - links.low)[:, None] / (samples - 1)
+    w = links.low[:, None] + step * np.arange(samples)
+    w[:, -1] = links.high
+    whole = np.round(w)
+    near = np.abs(w - whole) <= 0.5 * step
+    near[:, [0, -1]] = False
+    w[near] = whole[near]
+    # The ends stay; a point of the curve beside one takes the place next to it.
+    for end, beside, point in ((0, 1, np.ceil(w[:, 0])), (-1, -2, np.floor(w[:, -1]))):
+        gap = np.abs(point - w[:, end])
+        close = (gap > 0.0) & (gap <= 0.5 * step[:, 0])
+        w[close, beside] = point[close]
+    return w
+
+
+def _from_arcs(links: ArcLinks, places: FloatArray) -> FloatArray:
+    """Give the distances of places, (n, k, 2), from the arcs of their links, (n, k)."""
+    flat = places.reshape(-1, 2)
+    found = [
+        links.arcs.distance(np.repeat(links.arc[:, end], places.shape[1]), flat) for end in (0, 1)
+    ]
+    return np.asarray(np.minimum(*found).reshape(places.shape[:2]))
+
+
+def _from_curve(
+    pieces: FitPieces, links: ArcLinks, w: FloatArray, places: FloatArray
+) -> FloatArray:
+    """Give the largest distance of places on the arcs of each link from its curve, (n,), m."""
+    count = w.shape[1]
+    length = links.arcs.length
+    first, last = links.arc.T
+    whole = np.where(first == last, length[first], length[first] + length[last])
+    t = whole[:, None] * np.linspace(0.0, 1.0, count)
+    behind = (t > length[first][:, None]) & (first != last)[:, None]
+    arc = np.where(behind, last[:, None], first[:, None])
+    on = np.where(behind, t - length[first][:, None], t)
+    q = links.arcs.at(arc.ravel(), on.ravel()).reshape(*t.shape, 2)
+    # Arcs and curve run side by side: the same part of the way is a good guess of the foot.
+    step = np.diff(places, axis=1)
+    run = np.concatenate(
+        [np.zeros((len(w), 1)), np.cumsum(np.hypot(step[..., 0], step[..., 1]), axis=1)], axis=1
+    )
+    run /= run[:, -1:]
+    shift = 2.0 * np.arange(len(w))[:, None]
+    part = (t / whole[:, None] + shift).ravel()
+    foot = np.interp(part, (run + shift).ravel(), w.ravel()).reshape(t.shape)
+    # From there by no more than a place to either side: beyond a point all is of another length.
+    number = np.searchsorted((run + shift).ravel(), part, "right") - 1
+    own = number.reshape(t.shape) - count * np.arange(len(w))[:, None]
+    low, high = (np.take_along_axis(w, np.clip(own + by, 0, count - 1), axis=1) for by in (-1, 2))
+    piece = np.broadcast_to(links.piece[:, None], t.shape)
+    least = np.full(t.shape, np.inf)
+    for step_number in range(_STEPS + 1):
+        away = pieces.at(piece, foot) - q
+        least = np.minimum(least, np.hypot(away[..., 0], away[..., 1]))
+        if step_number == _STEPS:
+            break
+        slope = pieces.slope(piece, foot)
+        gain = (away * slope).sum(axis=-1) / np.maximum((slope * slope).sum(axis=-1), 1e-300)
+        foot = np.clip(foot - gain, low, high)
+    return np.asarray(least.max(axis=1))
+
+
+# --------------------------------------------------------------------------------------
+# Plane curves as chains of few arcs within a tolerance, tangents without a break.
+#
+# Curves are cut at corners and straight runs (`arc_pieces`), pieces become chains (`arc_beam`),
+# these arc records (`arc_links`), and every chain is measured against its curve both ways on ten
+# times as many places as the search used (`arc_check`). A piece that does not keep the tolerance
+# there is searched again with more places.
 
 _SAMPLES = 24
 _DENSER = 10
 _MARGIN = 0.98
 """The search keeps this part of the tolerance; the rest is for what lies between its places."""
+
 _FLAT = 0.002
 """A straight run leaves its chord by no more than this part of the tolerance,"""
+
 _FLATTEST = 1e-5
 """and m: what is straight does not depend on how coarse arcs may be."""
+
 _AGAIN = 4
 
 
@@ -70,7 +356,7 @@ class ArcFit:
         Where a curve is bent most, of such curves: the place (m) and the radius (m); else nan.
     """
 
-    arcs: Arcs
+    arcs: PlaneArcs
     start: IntArray
     smooth: np.typing.NDArray[np.bool_]
     deviation: FloatArray
@@ -81,11 +367,11 @@ class ArcFit:
     def __attrs_post_init__(self) -> None:
         freeze(self.start, self.smooth, self.deviation, self.place, self.stuck, self.sharpest)
 
-    def of(self, curve: int) -> Arcs:
+    def of(self, curve: int) -> PlaneArcs:
         """Give the arcs of one curve."""
         own = slice(int(self.start[curve]), int(self.start[curve + 1]))
         arcs = self.arcs
-        return Arcs(arcs.start[own], arcs.angle[own], arcs.curvature[own], arcs.length[own])
+        return PlaneArcs(arcs.start[own], arcs.angle[own], arcs.curvature[own], arcs.length[own])
 
 
 def fit_arcs(
@@ -111,13 +397,16 @@ def fit_arcs(
         Arrays of other shapes, numbers that are not finite, a tolerance that is not above 0, a
         cubic that is a point.
     """
-    cubic, start = _checked(cubic, start)
-    within, least_radius = _length(within, "within"), _length(least_radius, "least_radius")
+    cubic, start = _checked_cubics(cubic, start)
+    within, least_radius = (
+        _positive_length(within, "within"),
+        _positive_length(least_radius, "least_radius"),
+    )
     if within == 0.0:
         raise GeometryError("arcs: within is 0", "give a tolerance above 0, m", {"within": 0.0})
-    pieces = Pieces.of(cubic, start, min(_FLAT * within, _FLATTEST))
+    pieces = FitPieces.of(cubic, start, min(_FLAT * within, _FLATTEST))
     bend = np.inf if least_radius <= 0.0 else (1.0 + 1e-12) / least_radius
-    made, links, off = _made(pieces, Limits(_MARGIN * within, bend, _SAMPLES), within)
+    made, links, off = _searched_links(pieces, ArcLimits(_MARGIN * within, bend, _SAMPLES), within)
     curve = pieces.curve[links.piece]
     count = len(start) - 1
     stuck = np.ones(count, bool)
@@ -134,10 +423,10 @@ def fit_arcs(
     return ArcFit(arcs, starts, smooth, deviation, place, stuck, sharpest)
 
 
-def _checked(cubic: FloatArray, start: IntArray) -> tuple[FloatArray, IntArray]:
+def _checked_cubics(cubic: FloatArray, start: IntArray) -> tuple[FloatArray, IntArray]:
     """Take cubics and where those of each curve begin."""
-    found = finite(cubic, "arcs", (None, 4, 2))
-    starts = finite(start, "arcs", (None,))
+    found = finite_array(cubic, "arcs", (None, 4, 2))
+    starts = finite_array(start, "arcs", (None,))
     whole = starts.astype(np.int64)
     fits = len(whole) > 0 and whole[0] == 0 and whole[-1] == len(found)
     if not fits or (whole != starts).any() or (np.diff(whole) < 1).any():
@@ -152,26 +441,28 @@ def _checked(cubic: FloatArray, start: IntArray) -> tuple[FloatArray, IntArray]:
     return found, whole
 
 
-def _length(value: float, name: str) -> float:
-    found = float(finite(value, f"arcs: {name}", ()))
+def _positive_length(value: float, name: str) -> float:
+    found = float(finite_array(value, f"arcs: {name}", ()))
     if found < 0.0:
-        raise GeometryError(f"arcs: {name} is {figure(found)}", "give a length in m", {name: found})
+        raise GeometryError(f"arcs: {name} is {digits(found)}", "give a length in m", {name: found})
     return found
 
 
-def _made(pieces: Pieces, limits: Limits, within: float) -> tuple[dict[int, Chain], Links, Apart]:
+def _searched_links(
+    pieces: FitPieces, limits: ArcLimits, within: float
+) -> tuple[dict[int, ArcChain], ArcLinks, ArcDeviation]:
     """Search all pieces, measure them, and search those again that are too far off."""
-    made: dict[int, Chain] = {}
+    made: dict[int, ArcChain] = {}
     rows = np.flatnonzero(~pieces.straight)
     samples = _DENSER * limits.samples
     for _ in range(_AGAIN):
-        found = chains(pieces, rows, limits)
+        found = search_chains(pieces, rows, limits)
         made |= {
             row: each for row, each in zip(rows.tolist(), found, strict=True)
-            if isinstance(each, Chain)
+            if isinstance(each, ArcChain)
         }  # fmt: skip
-        links = Links.of(pieces, made)
-        off = apart(pieces, links, samples)
+        links = ArcLinks.of(pieces, made)
+        off = measure_deviation(pieces, links, samples)
         far = np.unique(links.piece[off.most > within])
         rows = far[~pieces.straight[far]]
         if not len(rows):
@@ -179,11 +470,13 @@ def _made(pieces: Pieces, limits: Limits, within: float) -> tuple[dict[int, Chai
         for row in rows.tolist():
             del made[row]
         limits = attrs.evolve(limits, within=0.95 * limits.within, samples=2 * limits.samples)
-    links = Links.of(pieces, made)
-    return made, links, apart(pieces, links, samples)
+    links = ArcLinks.of(pieces, made)
+    return made, links, measure_deviation(pieces, links, samples)
 
 
-def _largest(pieces: Pieces, links: Links, off: Apart, count: int) -> tuple[FloatArray, FloatArray]:
+def _largest(
+    pieces: FitPieces, links: ArcLinks, off: ArcDeviation, count: int
+) -> tuple[FloatArray, FloatArray]:
     """Give deviations and places of whole curves."""
     deviation, place = np.zeros((count, 2)), np.full((count, 2), np.nan)
     curve = pieces.curve[links.piece]
@@ -196,8 +489,8 @@ def _largest(pieces: Pieces, links: Links, off: Apart, count: int) -> tuple[Floa
 
 
 def _joined(
-    pieces: Pieces, links: Links, keep: np.typing.NDArray[np.bool_], count: int
-) -> tuple[Arcs, np.typing.NDArray[np.bool_], IntArray]:
+    pieces: FitPieces, links: ArcLinks, keep: np.typing.NDArray[np.bool_], count: int
+) -> tuple[PlaneArcs, np.typing.NDArray[np.bool_], IntArray]:
     """Give the arcs of curves, neighbours of one circle as one, and which go on smoothly."""
     first, last = links.arc[keep].T
     numbers = np.concatenate([first, last[last != first]])
@@ -211,13 +504,13 @@ def _joined(
     turned = np.abs(np.angle(np.exp(1j * (old.angle[numbers[1:]] - ends[numbers[:-1]]))))
     cut = (turned > 1e-9) | (np.diff(curves) != 0)
     group = np.concatenate([[0], np.cumsum(cut)]) if len(numbers) else np.zeros(0, np.int64)
-    arcs = Arcs(*(each[numbers] for each in (old.start, old.angle, old.curvature, old.length)))
-    arcs, begin = merged(arcs, group)
+    arcs = PlaneArcs(*(each[numbers] for each in (old.start, old.angle, old.curvature, old.length)))
+    arcs, begin = merge_arcs(arcs, group)
     smooth = np.append(False, np.diff(group[begin]) == 0)[: len(begin)]
     return arcs, smooth, np.searchsorted(curves[begin], np.arange(count + 1))
 
 
-def _sharpest(pieces: Pieces, rows: list[int]) -> FloatArray:
+def _sharpest(pieces: FitPieces, rows: list[int]) -> FloatArray:
     """Give place and radius (m) where some pieces are bent most."""
     best = np.array([np.nan, np.nan, np.inf])
     for row in rows:

@@ -1,48 +1,243 @@
-"""Biarcs between points with directions: two arcs of circles each, many at once.
+"""Biarcs between points with directions: two circular arcs each, many at once.
 
-What two arcs still leave free is settled by a rule, after Kim and Chang, "Some Representations of
-Ship Hulls by Mathematical Method for Design and Production", J. SNAK. The closed forms stand in
-`biarc_c` (one bend) and `biarc_s` (with an inflection); all end as the ratio of two chords, of
-which `biarc_family` makes the arcs.
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.geometry.classical.biarcs import biarcs
->>> found = biarcs([[0, 0]], np.radians([60]), [[10, 0]], np.radians([-30]))
->>> found.kind.tolist(), (1 / np.abs(found.arcs.curvature)).round(6).tolist()
-(['C'], [2.41181, 11.248444])
->>> found.arcs.ends()[1].round(12).tolist()
-[10.0, 0.0]
+What two arcs leave free is settled by a rule (`BiarcRule`); radii below the least that can be made
+are repaired, the smaller one first. The equations stand in `biarc_family`.
 """
 
 from __future__ import annotations
+
+from typing import Literal, cast, get_args
 
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.arcs import Arcs
-from assoc_hull.geometry.classical.biarc_family import BiarcChords, interval, shared
-from assoc_hull.geometry.classical.biarc_repair import least_radii, repaired_chords
-from assoc_hull.geometry.classical.biarc_rules import (
-    BiarcRule,
-    biarc_kinds,
-    known_rule,
-    ruled_chords,
-)  # fmt: skip
-from assoc_hull.geometry.classical.checks import figure, finite
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.classical.biarc_family import (
+    BiarcChords,
+    biarc_label,
+    biarcs_of_shares,
+    chords_of_radii,
+    direction_of_radius,
+    one_bend_limit,
+    other_radius,
+    ratio_radii,
+    stationary_chords,
+)
+from assoc_hull.geometry.classical.checked_input import digits, finite_array, one_of
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
-__all__ = ["Biarcs", "biarcs", "free_biarcs"]
+__all__ = [
+    "BiarcRule",
+    "Biarcs",
+    "biarc_kinds",
+    "biarcs",
+    "check_rule",
+    "chords_by_rule",
+    "free_biarcs",
+    "least_radii",
+    "radius_limits",
+    "repaired_chords",
+]
+
+# --------------------------------------------------------------------------------------
+# Which biarc of the family is taken: by rule, and where none applies.
+#
+# Source: Kim and Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
+# Production", J. SNAK. Closed forms are in `biarc_c` and `biarc_s`.
+
+BiarcRule = Literal["inverse", "as_printed", "min_jump", "equal_chord"]
 
 BoolArray = NDArray[np.bool_]
 StrArray = NDArray[np.str_]
 
-_SHARP = 1.0 + 1e-12
+_LEAST_ANGLE = 1e-11
+"""An angle below this (rad) is none."""
+
+
+def check_rule(rule: object) -> BiarcRule:
+    """Take the name of a rule.
+
+    Raises
+    ------
+    GeometryError
+        No such rule.
+    """
+    return cast(BiarcRule, one_of(rule, get_args(BiarcRule), "biarc: no rule is called"))
+
+
+def biarc_kinds(chords: BiarcChords) -> StrArray:
+    """Tell "line", "circle", "C" (one bend) or "S" (an inflection), for each of n.
+
+    An angle below 1e-11 rad is none, and two of the same side that differ by less are one circle.
+    Where one angle is none and the other is not, it is an "S".
+    """
+    a, b = np.abs(chords.alpha), np.abs(chords.beta)
+    bent = chords.one_bend
+    return np.select(
+        [
+            chords.steepest < _LEAST_ANGLE,
+            np.minimum(a, b) < _LEAST_ANGLE,
+            bent & (np.abs(a - b) < _LEAST_ANGLE),
+            bent,
+        ],
+        ["line", "S", "circle", "C"],
+        "S",
+    )
+
+
+def chords_by_rule(
+    chords: BiarcChords, kind: StrArray, rule: BiarcRule
+) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Give the chords of both arcs, in any unit, by a rule.
+
+    Returns
+    -------
+    first, second : (n,)
+        Chords.
+    fallback : (n,) bool
+        Where the rule would need a radius below nil, and equal chords stand in for it.
+    """
+    first, second = np.ones((2, len(chords)))
+    fallback = np.zeros(len(chords), bool)
+    if rule == "equal_chord":
+        return first, second, fallback
+    a, b = np.abs(chords.alpha), np.abs(chords.beta)
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    fallback = (kind == "C") & (3.0 * low - high < _LEAST_ANGLE)
+    c = np.flatnonzero((kind == "C") & ~fallback)
+    first[c], second[c] = stationary_chords(a[c], b[c])
+    if rule != "min_jump":
+        s = np.flatnonzero((kind == "S") & (low >= _LEAST_ANGLE))
+        q = a[s] / b[s] if rule == "inverse" else b[s] / a[s]
+        radii = ratio_radii(chords.chord[s], a[s], b[s], q)
+        first[s], second[s] = chords_of_radii(chords.chord[s], a[s], b[s], *radii)
+    return first, second, fallback
+
+
+# --------------------------------------------------------------------------------------
+# Biarcs whose radii are at least what can be made: the smaller one takes that, the other follows.
+#
+# Source: Kim and Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
+# Production", J. SNAK, whose repair of radii below nil this is.
+
+ChordPair = tuple[FloatArray, FloatArray]
+
+_SLACK = 1e-12
+"""So much of a radius is rounding."""
+
 _LEAST = 1e-12
-"""Share of a chord below which an arc is none."""
+"""So much of a chord is none."""
+
+
+def least_radii(radius: ArrayLike, chords: BiarcChords) -> FloatArray:
+    """Take one radius for all, or one each, m; 0 asks for none.
+
+    Raises
+    ------
+    GeometryError
+        Not finite, below 0, of another count, or too small to be seen beside the chord.
+    """
+    count = len(chords)
+    flat = not isinstance(radius, list | tuple) and np.ndim(radius) == 0
+    found = np.broadcast_to(finite_array(radius, "biarc", () if flat else (count,)), (count,))
+    if (found < 0.0).any():
+        index = int(np.flatnonzero(found < 0.0)[0])
+        what = f"biarc: least radius {digits(found[index])} is below 0"
+        raise GeometryError(what, "give 0 for none", {"index": index, "radius": found[index]})
+    minute = np.flatnonzero((found > 0.0) & (found < _LEAST * chords.chord))
+    if len(minute):
+        index = int(minute[0])
+        what = f"biarc: least radius {digits(found[index])} is none beside the chord"
+        told = {"index": index, "radius": float(found[index])}
+        raise GeometryError(what, "give 0 for none", told, biarc_label(index, count))
+    return found
+
+
+def radius_limits(chords: BiarcChords, kind: StrArray) -> FloatArray:
+    """Give the least radius (m) that each could be asked for; infinite for lines."""
+    a, b = np.abs(chords.alpha), np.abs(chords.beta)
+    found = np.full(len(chords), np.inf)
+    for rows, limit in (
+        (np.flatnonzero(np.isin(kind, ("C", "circle"))), one_bend_limit),
+        (np.flatnonzero(kind == "S"), _balanced),
+    ):
+        found[rows] = limit(chords.chord[rows], a[rows], b[rows])
+    return found
+
+
+def _balanced(chord: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
+    return ratio_radii(chord, a, b, np.ones_like(a))[0]
+
+
+def repaired_chords(
+    chords: BiarcChords, kind: StrArray, rows: IntArray, radius: FloatArray, at_start: BoolArray
+) -> ChordPair:
+    """Give the chords (m) of both arcs where the smaller radius is given.
+
+    Parameters
+    ----------
+    chords : BiarcChords, n of them
+        What is spanned.
+    kind : (n,) str
+        By `biarc_kinds`.
+    rows : (k,)
+        Which of them; no lines.
+    radius : (n,), m
+        The smaller radius.
+    at_start : (n,) bool
+        Whether it is the first of the two, where there is an inflection. Where there is none, it
+        is the one at the larger angle.
+
+    Returns
+    -------
+    first, second : (k,), m
+        Chords.
+
+    Raises
+    ------
+    GeometryError
+        ``"biarc: r_min={} not attainable, limit {}"``.
+    """
+    _refuse_unattainable(chords, kind, rows, radius)
+    a, b = np.abs(chords.alpha[rows]), np.abs(chords.beta[rows])
+    chord, least = chords.chord[rows], radius[rows]
+    tau = direction_of_radius(chord, a, b, least)
+    bent = np.sin(0.5 * (b - tau)), np.sin(0.5 * (a + tau))
+    begin = at_start[rows]
+    far = other_radius(chord, np.where(begin, a, b), np.where(begin, b, a), least)
+    radii = np.where(begin, least, far), np.where(begin, far, least)
+    wound = chords_of_radii(chord, a, b, *radii)
+    winds = kind[rows] == "S"
+    return np.where(winds, wound[0], bent[0]), np.where(winds, wound[1], bent[1])
+
+
+def _refuse_unattainable(
+    chords: BiarcChords, kind: StrArray, rows: IntArray, radius: FloatArray
+) -> None:
+    limit = radius_limits(chords, kind)
+    reached = np.where(kind == "S", radius <= limit * (1.0 + _SLACK), radius < limit)
+    bad = rows[~reached[rows]]
+    if len(bad):
+        index = int(bad[0])
+        raise GeometryError(
+            f"biarc: r_min={digits(radius[index])} not attainable, limit {digits(limit[index])}",
+            "ask for less, or move the points", {
+                "index": index, "r_min": float(radius[index]), "limit": float(limit[index]),
+            }, biarc_label(index, len(chords)),
+        )  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------
+# Biarcs between points with directions: two arcs of circles each, many at once.
+#
+# What two arcs still leave free is settled by a rule, after Kim and Chang, "Some Representations of
+# Ship Hulls by Mathematical Method for Design and Production", J. SNAK. The closed forms stand in
+# `biarc_c` (one bend) and `biarc_s` (with an inflection); all end as the ratio of two chords, of
+# which `biarc_family` makes the arcs.
+
+_SHARP = 1.0 + 1e-12
 
 
 @attrs.frozen(eq=False)
@@ -66,7 +261,7 @@ class Biarcs:
         What is to be said, whole sentences.
     """
 
-    arcs: Arcs
+    arcs: PlaneArcs
     tau: FloatArray
     kind: StrArray
     fallback: BoolArray
@@ -146,19 +341,19 @@ def biarcs(
     ([-0.04948079, 0.1453659], [-0.25])
     """
     chords = BiarcChords.of(start, start_angle, end, end_angle)
-    taken = known_rule(rule)
+    taken = check_rule(rule)
     least = least_radii(least_radius, chords)
     kind = biarc_kinds(chords)
     chords = _straightened(chords, kind)
-    first, second, fallback = ruled_chords(chords, kind, taken)
-    arcs, tau = shared(chords, first, second)
+    first, second, fallback = chords_by_rule(chords, kind, taken)
+    arcs, tau = biarcs_of_shares(chords, first, second)
     bends = np.abs(arcs.curvature.reshape(-1, 2))
     repaired = (bends.max(axis=1, initial=0.0) * least > _SHARP) | (fallback & (least > 0.0))
     if repaired.any():
         rows = np.flatnonzero(repaired)
         at_start = bends[:, 0] >= bends[:, 1]
         first[rows], second[rows] = repaired_chords(chords, kind, rows, least, at_start)
-        arcs, tau = shared(chords, first, second)
+        arcs, tau = biarcs_of_shares(chords, first, second)
         fallback &= ~repaired
     notes = (*_wide(chords), *_fallbacks(fallback), *_repairs(repaired, least))
     return Biarcs(arcs, tau, kind, fallback, repaired, notes)
@@ -190,16 +385,16 @@ def free_biarcs(
     [3.112089, 7.263709]
     """
     chords = BiarcChords.of(start, start_angle, end, end_angle)
-    part = finite(share, "biarc", (len(chords),))
+    part = finite_array(share, "biarc", (len(chords),))
     bad = np.flatnonzero((part < _LEAST) | (1.0 - part < _LEAST))
     if len(bad):
         index = int(bad[0])
-        what = f"biarc: share {figure(part[index])} of the first chord"
+        what = f"biarc: share {digits(part[index])} of the first chord"
         told = {"index": index, "share": float(part[index])}
         raise GeometryError(
-            what, "give one between 0 and 1, each by 1e-12", told, interval(index, len(part))
+            what, "give one between 0 and 1, each by 1e-12", told, biarc_label(index, len(part))
         )
-    arcs, tau = shared(chords, part, 1.0 - part)
+    arcs, tau = biarcs_of_shares(chords, part, 1.0 - part)
     none = np.zeros(len(chords), bool)
     return Biarcs(arcs, tau, biarc_kinds(chords), none, none.copy(), _wide(chords))
 
@@ -217,7 +412,7 @@ def _wide(chords: BiarcChords) -> tuple[str, ...]:
     rows = np.flatnonzero(chords.steepest > 0.5 * np.pi * _SHARP)
     if not len(rows):
         return ()
-    angle = figure(np.degrees(chords.steepest[rows].max()))
+    angle = digits(np.degrees(chords.steepest[rows].max()))
     return (f"biarc: end angle {angle} deg to the chord exceeds 90 deg{_where(rows)}.",)
 
 
@@ -233,7 +428,7 @@ def _repairs(repaired: BoolArray, least: FloatArray) -> tuple[str, ...]:
     rows = np.flatnonzero(repaired)
     if not len(rows):
         return ()
-    radius = figure(least[rows].max())
+    radius = digits(least[rows].max())
     return (f"biarc: the smaller radius is the least radius {radius}{_where(rows)}.",)
 
 

@@ -1,37 +1,274 @@
-"""Input of a size that arithmetic can bear, whole numbers, lists and mappings, or an error.
+"""Check what is handed in to a classical curve; every refusal is a GeometryError.
 
-Examples
---------
->>> from assoc_hull.geometry.classical.checked_input import numbers
->>> numbers([1, 1e-200], "offsets", (None,)).tolist()
-[1.0, 0.0]
+The functions take what a caller gave and give back an array, a number, a word or a list.
+Each takes the name of the curve, with which its message begins. `arguments` checks what users
+hand to a hull; here input may be any array, and its shape and size are what matters.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import shown
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import called, figure, finite, inside
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = [
     "LEAST_EXTENT",
     "MOST_EXTENT",
-    "bearable",
-    "listed",
-    "mapped",
+    "argument_text",
+    "bounded_height",
+    "broadcast_numbers",
+    "check_magnitude",
+    "checked_list",
+    "checked_mapping",
+    "digits",
+    "finite_array",
     "number",
+    "number_array",
     "numbers",
-    "places",
-    "together",
-    "weights_of",
+    "one_of",
+    "positive_weights",
+    "require_broadcast",
     "whole_number",
+    "within_range",
+    "wrap_angle",
 ]
+
+# --------------------------------------------------------------------------------------
+# What every classical curve asks of its input: finite numbers, in the shape that is wanted.
+
+
+def argument_text(name: object) -> str:
+    """Write what was handed in for a name, for a message of one line.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.classical.checked_input import argument_text
+    >>> argument_text("cubic"), argument_text([1, 2])
+    ("'cubic'", 'a list')
+    """
+    return repr(name) if isinstance(name, str) else f"a {type(name).__name__}"
+
+
+def digits(value: float) -> str:
+    """Write a number for a message: up to ten digits, no trailing noughts.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.classical.checked_input import digits
+    >>> digits(14.306497441074546), digits(2.0)
+    ('14.30649744', '2')
+    """
+    return f"{float(value) + 0.0:.10g}"
+
+
+def finite_array(values: ArrayLike, name: str, shape: tuple[int | None, ...] | None) -> FloatArray:
+    """Take finite numbers of a shape; None in the shape stands for any size.
+
+    Parameters
+    ----------
+    values : array_like
+        As handed in.
+    name : str
+        Of the curve, for the message.
+    shape : tuple of (int or None), or None
+        Wanted; None is any shape.
+
+    Returns
+    -------
+    array of the shape
+        A copy, writeable.
+
+    Raises
+    ------
+    GeometryError
+        ``"{name}: expected shape {s}, got {t}"``, ``"{name}: non-finite value at index {i}"``.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.classical.checked_input import finite_array
+    >>> finite_array([0, float("nan")], "sheer", (None,))
+    Traceback (most recent call last):
+    ...
+    assoc_hull.errors.GeometryError: sheer: non-finite value at index 1; give a number
+    """
+    each = ["..."] if shape is None else ["n" if size is None else str(size) for size in shape]
+    wanted = f"({', '.join(each)})"
+    found = _numbers(values, name, wanted)
+    fits = shape is None or (
+        found.ndim == len(shape)
+        and all(size is None or size == has for size, has in zip(shape, found.shape, strict=True))
+    )
+    if not fits:
+        raise GeometryError(
+            f"{name}: expected shape {wanted}, got {found.shape}", "give an array of this shape",
+            {"expected": wanted, "got": found.shape},
+        )  # fmt: skip
+    bad = np.argwhere(~np.isfinite(found))
+    if len(bad):
+        place = tuple(bad[0].tolist()) or (0,)
+        index: object = place if found.ndim > 1 else place[0]
+        raise GeometryError(
+            f"{name}: non-finite value at index {index}", "give a number", {"index": index}
+        )
+    return found
+
+
+def _numbers(values: ArrayLike, name: str, wanted: str) -> FloatArray:
+    """Take real numbers of any shape, as a copy."""
+    try:
+        found = np.array(values)
+        if found.dtype.kind in "cmM":  # numpy would only warn
+            raise TypeError
+        return found.astype(np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise GeometryError(
+            f"{name}: expected shape {wanted}, got no array of numbers", "give numbers",
+            {"expected": wanted},
+        ) from None  # fmt: skip
+
+
+def within_range(
+    x: ArrayLike, name: str, least: float, most: float, slack: float = 0.0
+) -> FloatArray:
+    """Take places within a range of definition; nothing is extrapolated.
+
+    Parameters
+    ----------
+    x : array_like, m
+        Of any shape.
+    name : str
+        Of the curve, for the message.
+    least, most : float, m
+        The range.
+    slack : float, m
+        So far outside counts as the end, by rounding.
+
+    Raises
+    ------
+    GeometryError
+        ``"{name}: x={x} outside [{a}, {b}]"``; or a value that is no finite number.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.classical.checked_input import within_range
+    >>> within_range(11.0, "camber", 0.0, 10.0)
+    Traceback (most recent call last):
+    ...
+    assoc_hull.errors.GeometryError: camber: x=11 outside [0, 10]; ask between these
+    """
+    found = finite_array(x, name, None)
+    outside = (found < least - slack) | (found > most + slack)
+    if outside.any():
+        first = float(found[outside].flat[0])
+        raise GeometryError(
+            f"{name}: x={digits(first)} outside [{digits(least)}, {digits(most)}]",
+            "ask between these", {"x": first, "least": least, "most": most},
+        )  # fmt: skip
+    return np.clip(found, least, most)
+
+
+def require_broadcast(name: str, first: FloatArray, second: FloatArray) -> None:
+    """Check that two arrays of places fit one another, as they stand or broadcast.
+
+    Parameters
+    ----------
+    name : str
+        Of the curve, for the message.
+    first, second : array
+        Of any shapes.
+
+    Raises
+    ------
+    GeometryError
+        ``"{name}: expected shape {s}, got {t}"``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.classical.checked_input import require_broadcast
+    >>> require_broadcast("deck", np.zeros((4, 1)), np.zeros(3))
+    """
+    try:
+        np.broadcast_shapes(first.shape, second.shape)
+    except ValueError:
+        raise GeometryError(
+            f"{name}: expected shape {first.shape}, got {second.shape}",
+            "give as many of both, or one", {"expected": first.shape, "got": second.shape},
+        ) from None  # fmt: skip
+
+
+def wrap_angle(angle: ArrayLike) -> FloatArray:
+    """Map angles (rad) to [-pi, pi); nothing is lost where they lie there already.
+
+    Examples
+    --------
+    >>> import math
+    >>> from assoc_hull.geometry.classical.checked_input import wrap_angle
+    >>> wrap_angle([0.25, math.pi, -math.pi]).tolist()
+    [0.25, -3.141592653589793, -3.141592653589793]
+    """
+    found = np.asarray(angle, np.float64)
+    turned = np.mod(found + np.pi, 2.0 * np.pi) - np.pi
+    return np.where((found >= -np.pi) & (found < np.pi), found, turned)
+
+
+# --------------------------------------------------------------------------------------
+# Words and signs that a curve is told by: one of a few, or an error that names them.
+
+Choice = TypeVar("Choice", str, int)
+
+_HIGHEST = 1e6
+"""No hull reaches up or down to here (m)."""
+
+
+def bounded_height(value: object, name: str) -> float:
+    """Take a height, m; one beyond any hull counts as a million metres.
+
+    Raises
+    ------
+    GeometryError
+        Anything that is no finite number.
+    """
+    found = float(finite_array(value, name, ()))  # type: ignore[arg-type]
+    return min(max(found, -_HIGHEST), _HIGHEST)
+
+
+def one_of(value: object, known: Sequence[Choice], what: str) -> Choice:
+    """Take one of a few words or whole numbers; `what` begins the message.
+
+    Raises
+    ------
+    GeometryError
+        Anything else.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.classical.checked_input import one_of
+    >>> one_of("z", ("x", "y"), "spline: no axis")
+    Traceback (most recent call last):
+    ...
+    assoc_hull.errors.GeometryError: spline: no axis 'z'; there are x, y
+    """
+    if isinstance(value, str | int | float):
+        for each in known:
+            if value == each and isinstance(value, str) == isinstance(each, str):
+                return each
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    raise GeometryError(
+        f"{what} {shown(value) if is_number else argument_text(value)}",
+        f"there are {', '.join(map(str, known))}",
+        {"given": shown(value)},
+    )
+
+
+# --------------------------------------------------------------------------------------
+# Input of a size that arithmetic can bear, whole numbers, lists and mappings, or an error.
 
 _MOST, _NIL = 1e30, 1e-30
 """Beyond the first a number is no measure of a ship, and its powers overflow; below the other it is
@@ -51,7 +288,7 @@ def numbers(values: ArrayLike, name: str, shape: tuple[int | None, ...]) -> Floa
     GeometryError
         As `checks.finite`; ``"{name}: {v} is beyond measure"``.
     """
-    return _measured(finite(values, name, shape), name)
+    return _measured(finite_array(values, name, shape), name)
 
 
 def number(value: ArrayLike, name: str) -> float:
@@ -59,12 +296,12 @@ def number(value: ArrayLike, name: str) -> float:
     return float(numbers(value, name, ()))
 
 
-def places(values: ArrayLike, name: str) -> FloatArray:
+def number_array(values: ArrayLike, name: str) -> FloatArray:
     """Take numbers of any shape; raises as `numbers`."""
-    return _measured(inside(values, name, -np.inf, np.inf), name)
+    return _measured(within_range(values, name, -np.inf, np.inf), name)
 
 
-def together(values: Iterable[ArrayLike], name: str) -> tuple[FloatArray, ...]:
+def broadcast_numbers(values: Iterable[ArrayLike], name: str) -> tuple[FloatArray, ...]:
     """Take arrays that go together in one shape.
 
     Raises
@@ -72,7 +309,7 @@ def together(values: Iterable[ArrayLike], name: str) -> tuple[FloatArray, ...]:
     GeometryError
         As `numbers`; shapes that do not.
     """
-    given = [places(each, name) for each in values]
+    given = [number_array(each, name) for each in values]
     try:
         return tuple(np.broadcast_arrays(*given))
     except ValueError:
@@ -80,7 +317,7 @@ def together(values: Iterable[ArrayLike], name: str) -> tuple[FloatArray, ...]:
         raise GeometryError(f"{name}: shapes {told}", "give arrays of one shape") from None
 
 
-def bearable(values: FloatArray, name: str) -> FloatArray:
+def check_magnitude(values: FloatArray, name: str) -> FloatArray:
     """Take coordinates of any shape, m, whose squares and cubes are numbers.
 
     Raises
@@ -91,8 +328,8 @@ def bearable(values: FloatArray, name: str) -> FloatArray:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.classical.checked_input import bearable
-    >>> bearable(np.array([0.0, 1e200]), "circle")
+    >>> from assoc_hull.geometry.classical.checked_input import check_magnitude
+    >>> check_magnitude(np.array([0.0, 1e200]), "circle")
     Traceback (most recent call last):
     ...
     assoc_hull.errors.GeometryError: circle: a coordinate of 1e+200 m; give lengths in m
@@ -100,7 +337,7 @@ def bearable(values: FloatArray, name: str) -> FloatArray:
     size = float(np.abs(values).max(initial=0.0))
     if size and not LEAST_EXTENT <= size <= MOST_EXTENT:
         raise GeometryError(
-            f"{name}: a coordinate of {figure(size)} m", "give lengths in m", {"size": size}
+            f"{name}: a coordinate of {digits(size)} m", "give lengths in m", {"size": size}
         )
     return values
 
@@ -114,12 +351,12 @@ def whole_number(value: object, name: str, least: int, most: int) -> int:
         Anything else.
     """
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-        shown = str(value) if isinstance(value, int) and abs(value) < 1e9 else called(value)
+        shown = str(value) if isinstance(value, int) and abs(value) < 1e9 else argument_text(value)
         raise GeometryError(f"{name} {shown}", f"give a whole number from {least} to {most}")
     return value
 
 
-def mapped(value: object, name: str) -> Mapping[object, object]:
+def checked_mapping(value: object, name: str) -> Mapping[object, object]:
     """Take a mapping.
 
     Raises
@@ -128,11 +365,11 @@ def mapped(value: object, name: str) -> Mapping[object, object]:
         Anything else.
     """
     if not isinstance(value, Mapping):
-        raise GeometryError(f"{name}: {called(value)}", "give a mapping of names")
+        raise GeometryError(f"{name}: {argument_text(value)}", "give a mapping of names")
     return value
 
 
-def listed(value: Iterable[Item], name: str) -> list[Item]:
+def checked_list(value: Iterable[Item], name: str) -> list[Item]:
     """Take a sequence as a list.
 
     Raises
@@ -141,14 +378,14 @@ def listed(value: Iterable[Item], name: str) -> list[Item]:
         What cannot be gone through, and text.
     """
     if isinstance(value, str | bytes) or not isinstance(value, Iterable):
-        raise GeometryError(f"{name}: {called(value)}", "give a list")
+        raise GeometryError(f"{name}: {argument_text(value)}", "give a list")
     try:
         return list(value)
     except TypeError:  # an array of no dimension says that it can be gone through
-        raise GeometryError(f"{name}: {called(value)}", "give a list") from None
+        raise GeometryError(f"{name}: {argument_text(value)}", "give a list") from None
 
 
-def weights_of(weights: ArrayLike | None, count: int, name: str) -> FloatArray:
+def positive_weights(weights: ArrayLike | None, count: int, name: str) -> FloatArray:
     """Take weights above 0, (count,); ones if None.
 
     Raises
@@ -173,6 +410,6 @@ def _measured(found: FloatArray, name: str) -> FloatArray:
     if size.size and size.max() > _MOST:
         value = float(found.flat[int(size.argmax())])
         raise GeometryError(
-            f"{name}: {figure(value)} is beyond measure", "give metres", {"value": value}
+            f"{name}: {digits(value)} is beyond measure", "give metres", {"value": value}
         )
     return np.where(size < _NIL, 0.0, found)

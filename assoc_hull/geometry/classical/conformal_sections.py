@@ -23,8 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checked_input import numbers, whole_number
-from assoc_hull.geometry.classical.checks import figure, inside
+from assoc_hull.geometry.classical.checked_input import digits, numbers, whole_number, within_range
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["ConformalSections", "fit_conformal", "lewis_sections"]
@@ -88,7 +87,9 @@ class ConformalSections:
         >>> lewis_sections([6.0], [5.0], [0.94]).at(0.0)[0].round(9).tolist()
         [0.0, 5.0]
         """
-        return _image(self.scale, self.terms, inside(t, "conformal section", 0.0, 0.5 * np.pi))
+        return _image(
+            self.scale, self.terms, within_range(t, "conformal section", 0.0, 0.5 * np.pi)
+        )
 
     def areas(self) -> FloatArray:
         """Give the areas of the whole sections below the waterline, (k,), m2."""
@@ -126,7 +127,7 @@ class ConformalSections:
         """
         bad = np.flatnonzero(~self.simple())
         if len(bad):
-            told = ", ".join(figure(each) for each in self.terms[bad[0]])
+            told = ", ".join(digits(each) for each in self.terms[bad[0]])
             raise GeometryError(
                 f"conformal section: not simple (section {bad[0]}, terms {told})",
                 "take another area coefficient or ratio of breadth to draught, or fewer terms",
@@ -170,13 +171,13 @@ def lewis_sections(
     for name, values in (("half-breadth", beam), ("draught", deep), ("area coefficient", sigma)):
         bad = np.flatnonzero(values <= 0.0)
         if len(bad):
-            what = f"conformal section: {name} {figure(values[bad[0]])} at index {bad[0]}"
+            what = f"conformal section: {name} {digits(values[bad[0]])} at index {bad[0]}"
             raise GeometryError(what, "give values above 0", {"index": int(bad[0])})
     ratio, full = (beam - deep) / (beam + deep), 4.0 * sigma / np.pi
     c1 = 3.0 + full + (1.0 - full) * ratio**2
     bad = np.flatnonzero(c1 > 4.5)
     if len(bad):
-        value = figure(sigma[bad[0]])
+        value = digits(sigma[bad[0]])
         what = f"conformal section: no two terms give area coefficient {value} at index {bad[0]}"
         raise GeometryError(what, "give a smaller one", {"index": int(bad[0])})
     a3 = (3.0 - c1 + np.sqrt(9.0 - 2.0 * c1)) / c1
@@ -231,7 +232,7 @@ def fit_conformal(offsets: ArrayLike, terms: int) -> tuple[ConformalSections, Fl
         what = f"conformal section: coincident points at index {int(np.argmin(steps)) + 1}"
         raise GeometryError(what, "leave one of them out")
     if points[0, 1] <= points[-1, 1]:
-        what = f"conformal section: depths from {figure(points[0, 1])} to {figure(points[-1, 1])}"
+        what = f"conformal section: depths from {digits(points[0, 1])} to {digits(points[-1, 1])}"
         raise GeometryError(what, "give offsets from the keel to the waterline")
     arc = np.concatenate([[0.0], np.cumsum(steps)])
     start: FloatArray = 0.5 * np.pi * arc / arc[-1]
@@ -261,7 +262,7 @@ def fit_conformal(offsets: ArrayLike, terms: int) -> tuple[ConformalSections, Fl
         start = whole(found.x)
     linear, rest = _linear(points, start, terms)
     if linear[0] <= 0.0:
-        what = f"conformal section: not simple (scale {figure(linear[0])})"
+        what = f"conformal section: not simple (scale {digits(linear[0])})"
         raise GeometryError(what, "give offsets from keel to waterline", {"scale": linear[0]})
     section = ConformalSections(linear[:1].copy(), (linear[1:] / linear[0])[None, :]).checked()
     return section, np.hypot(*rest.reshape(2, -1))

@@ -19,8 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checked_input import numbers
-from assoc_hull.geometry.classical.checks import figure, inside
+from assoc_hull.geometry.classical.checked_input import digits, numbers, within_range
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["lackenby_shift", "one_minus_prismatic"]
@@ -66,19 +65,19 @@ def lackenby_shift(
     ).tolist()
     _check_half(full, p)
     _check_half(full, p + dp)
-    places = inside(x, "Lackenby", p, 1.0)
+    places = within_range(x, "Lackenby", p, 1.0)
     spread = full * (1.0 - 2.0 * centre) - p * (1.0 - full)
     if not spread > 0.0:
-        what = f"Lackenby: A = {figure(spread)} of phi {figure(full)}, centroid {figure(centre)}"
+        what = f"Lackenby: A = {digits(spread)} of phi {digits(full)}, centroid {digits(centre)}"
         raise GeometryError(what, "no half body has these", {"A": spread})
     first = dp / (1.0 - p)
     rest = (dphi - dp * (1.0 - full) / (1.0 - p)) / spread
     # dx = (1 - x)(first + (x - p) rest): its rate is linear in x, so both ends tell.
     rate = 1.0 - first + rest * np.array([1.0 - p, -(1.0 - p)])
     if rate.min() <= 0.0:
-        place = figure((p, 1.0)[int(np.argmin(rate))])
+        place = digits((p, 1.0)[int(np.argmin(rate))])
         raise GeometryError(
-            f"Lackenby: sections cross (1 + d(dx)/dx = {figure(rate.min())} at x={place})",
+            f"Lackenby: sections cross (1 + d(dx)/dx = {digits(rate.min())} at x={place})",
             "change less, or lengthen the parallel part with it", {"rate": float(rate.min())},
         )  # fmt: skip
     return np.asarray((1.0 - places) * (first + (places - p) * rest))
@@ -109,14 +108,14 @@ def one_minus_prismatic(x: ArrayLike, phi: float, change: float) -> FloatArray:
     _check_half(full, 0.0)
     rate = 1.0 - dphi / (1.0 - full)
     if rate <= 0.0:
-        what = f"Lackenby: sections cross (1 + d(dx)/dx = {figure(rate)})"
+        what = f"Lackenby: sections cross (1 + d(dx)/dx = {digits(rate)})"
         raise GeometryError(what, "change less", {"rate": rate})
-    return np.asarray((1.0 - inside(x, "Lackenby", 0.0, 1.0)) * dphi / (1.0 - full))
+    return np.asarray((1.0 - within_range(x, "Lackenby", 0.0, 1.0)) * dphi / (1.0 - full))
 
 
 def _check_half(phi: float, parallel: float) -> None:
     if not 0.0 < phi < 1.0:
-        raise GeometryError(f"Lackenby: phi {figure(phi)}", "give a coefficient from 0 to 1")
+        raise GeometryError(f"Lackenby: phi {digits(phi)}", "give a coefficient from 0 to 1")
     if not 0.0 <= parallel < 1.0:
-        what = f"Lackenby: parallel part {figure(parallel)}"
+        what = f"Lackenby: parallel part {digits(parallel)}"
         raise GeometryError(what, "give one from 0 to below 1")

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checked_input import numbers, weights_of, whole_number
+from assoc_hull.geometry.classical.checked_input import numbers, positive_weights, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["LinearFit", "OrthogonalFit", "bounded_fit", "held_fit", "linear_fit", "orthogonal_fit"]
@@ -71,7 +71,7 @@ def linear_fit(
     """
     columns = numbers(matrix, name, (None, None))
     right = numbers(data, name, (len(columns),))
-    root = np.sqrt(weights_of(weights, len(columns), name))
+    root = np.sqrt(positive_weights(weights, len(columns), name))
     found, _, rank, _ = np.linalg.lstsq(root[:, None] * columns, root * right, rcond=None)
     if rank < columns.shape[1]:
         raise _deficient(name, int(rank), columns.shape[1])

@@ -1,18 +1,7 @@
 """A waterline with end points of its own and a parallel part: two splines and a line between.
 
-Without the parting, one spline over shoulder and parallel part swings beyond the half-breadth.
-Both splines leave the parallel part in its direction; their other end is free, without second
-derivative, or has a given slope. Where every chord rises less than it runs, a spline is the cubic
-y(x); blunter ends are bent as a batten over their chords. Source: Kim & Chang, "Some
-Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
-
-Examples
---------
->>> from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
->>> run = [(0, 0), (5, 5.1), (12, 10.2), (20, 13.6), (30, 15), (50, 15)]
->>> line = ParallelWaterline.make(6.0, run, parallel=(30, 50), method="graph")
->>> round(float(line.at(8)), 8), line.slope([30, 40]).round(9).tolist()
-(7.58802432, [0.0, 0.0])
+First come its three kinds of pieces: level line, cubic y(x), batten bent over its chords. A spline
+is a cubic where every chord rises less than it runs, else a batten.
 """
 
 from __future__ import annotations
@@ -22,14 +11,117 @@ from typing import Literal, Self
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite, inside
-from assoc_hull.geometry.classical.choices import one_of
-from assoc_hull.geometry.classical.waterline_piece import Chorded, Graph, Level, Piece
+from assoc_hull.geometry.classical.checked_input import digits, finite_array, one_of, within_range
+from assoc_hull.geometry.classical.chord_spline import ChordSpline
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["ParallelWaterline"]
+__all__ = [
+    "ChordedPiece",
+    "GraphPiece",
+    "LevelPiece",
+    "ParallelWaterline",
+    "WaterlinePiece",
+]
+
+# --------------------------------------------------------------------------------------
+# Pieces of a waterline: the cubic y(x), the level line, the batten bent over its chords.
+
+
+@attrs.frozen
+class LevelPiece:
+    """A line along the ship: from `first` to `last`, at a half-breadth, m."""
+
+    first: float
+    last: float
+    half_breadth: float
+
+    def of(self, x: FloatArray, order: int) -> FloatArray:
+        """Give half-breadths (m), or with `order` 1 slopes, at x (n,), m."""
+        return np.full(len(x), 0.0 if order else self.half_breadth)
+
+
+@attrs.frozen(eq=False)
+class GraphPiece:
+    """A cubic spline y(x) from `first` to `last`, m."""
+
+    first: float
+    last: float
+    spline: CubicSpline
+
+    @classmethod
+    def through(cls, points: FloatArray, ends: tuple[float | None, float | None]) -> Self:
+        """Lay it through points (n, 2), m; an end has a slope, or no second derivative."""
+        first, last = ((2, 0.0) if each is None else (1, each) for each in ends)
+        x, y = points.T
+        spline = CubicSpline(x, y, bc_type=(first, last))  # type: ignore[arg-type]
+        return cls(float(x[0]), float(x[-1]), spline)
+
+    def of(self, x: FloatArray, order: int) -> FloatArray:
+        """Give half-breadths (m), or with `order` 1 slopes, at x (n,), m."""
+        return np.asarray(self.spline(x, order))
+
+
+@attrs.frozen(eq=False)
+class ChordedPiece:
+    """A batten over chords from `first` to `last`, m."""
+
+    first: float
+    last: float
+    spline: ChordSpline
+    name: str
+
+    @classmethod
+    def through(
+        cls, points: FloatArray, ends: tuple[float | None, float | None], name: str
+    ) -> Self:
+        """Bend it over points (n, 2), m; an end has a slope, or is free.
+
+        Raises
+        ------
+        GeometryError
+            The points turn it too sharply; what is wrong begins with `name`.
+        """
+        first, last = (None if each is None else float(np.arctan(each)) for each in ends)
+        try:
+            spline = ChordSpline.through(points, first, last)
+        except GeometryError as error:
+            raise GeometryError(f"{name}: {error.what}", error.remedy, error.values) from None
+        return cls(float(points[0, 0]), float(points[-1, 0]), spline, name)
+
+    def of(self, x: FloatArray, order: int) -> FloatArray:
+        """Give half-breadths (m), or with `order` 1 slopes, at x (n,), m.
+
+        Raises
+        ------
+        GeometryError
+            The batten passes an x more than once.
+        """
+        met = self.spline.where("x", x)
+        if len(met) != len(x):
+            twice = np.flatnonzero(np.bincount(met.index, minlength=len(x)) > 1)
+            place = float(x[twice[0]])
+            what = f"{self.name}: the batten turns back and passes x={place:.10g} more than once"
+            raise GeometryError(what, "give more points near the end", {"x": place})
+        if order:
+            return np.asarray(np.tan(self.spline.direction(met.t)))
+        return np.asarray(met.points[:, 1])
+
+
+WaterlinePiece = LevelPiece | GraphPiece | ChordedPiece
+"""Any of them."""
+
+
+# --------------------------------------------------------------------------------------
+# A waterline with end points of its own and a parallel part: two splines and a line between.
+#
+# Without the parting, one spline over shoulder and parallel part swings beyond the half-breadth.
+# Both splines leave the parallel part in its direction; their other end is free, without second
+# derivative, or has a given slope. Where every chord rises less than it runs, a spline is the cubic
+# y(x); blunter ends are bent as a batten over their chords. Source: Kim & Chang, "Some
+# Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
 
 Method = Literal["graph", "chord"]
 
@@ -58,7 +150,7 @@ class ParallelWaterline:
 
     z: float
     points: FloatArray
-    pieces: tuple[Piece, ...]
+    pieces: tuple[WaterlinePiece, ...]
     parallel: tuple[float, float] | None
 
     def __attrs_post_init__(self) -> None:
@@ -99,8 +191,8 @@ class ParallelWaterline:
             ``"...: needs at least 2 points {side} of the parallel part"``; a batten that its
             points turn too sharply.
         """
-        height = float(finite(z, "waterline", ()))
-        name = f"waterline z={figure(height)}"
+        height = float(finite_array(z, "waterline", ()))
+        name = f"waterline z={digits(height)}"
         given = _with_ends(_checked(points, name), aft_end, fwd_end, name)
         if method is not None:
             one_of(method, ("graph", "chord"), f"{name}: method is")
@@ -111,7 +203,7 @@ class ParallelWaterline:
                 raise GeometryError(what, "give two or more", {"points": len(given)})
             return cls(height, given, (_spline(given, ends, method, name),), None)
         first, last, level = _parallel(given, parallel, parallel_half_breadth, name)
-        pieces: list[Piece] = [Level(first, last, level)]
+        pieces: list[WaterlinePiece] = [LevelPiece(first, last, level)]
         aft, fore = given[given[:, 0] < first - _SAME], given[given[:, 0] > last + _SAME]
         joint = np.array([[first, level], [last, level]])
         if len(aft):
@@ -129,7 +221,7 @@ class ParallelWaterline:
     @property
     def name(self) -> str:
         """What it is called in messages."""
-        return f"waterline z={figure(self.z)}"
+        return f"waterline z={digits(self.z)}"
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -138,7 +230,7 @@ class ParallelWaterline:
 
     def covers(self, x: ArrayLike) -> np.typing.NDArray[np.bool_]:
         """Tell whether it has a point at x (m)."""
-        place = finite(x, self.name, None)
+        place = finite_array(x, self.name, None)
         return np.asarray((place >= self.ends[0] - _SAME) & (place <= self.ends[1] + _SAME))
 
     def at(self, x: ArrayLike) -> FloatArray:
@@ -156,7 +248,7 @@ class ParallelWaterline:
         return self._of(x, 1)
 
     def _of(self, x: ArrayLike, order: int) -> FloatArray:
-        place = inside(x, self.name, *self.ends, slack=_SAME)
+        place = within_range(x, self.name, *self.ends, slack=_SAME)
         flat = place.ravel()
         found = np.empty(flat.shape)
         number = np.searchsorted([each.last for each in self.pieces[:-1]], flat, side="right")
@@ -167,7 +259,7 @@ class ParallelWaterline:
 
 
 def _checked(points: ArrayLike, name: str) -> FloatArray:
-    given = finite(points, name, (None, 2))
+    given = finite_array(points, name, (None, 2))
     back = np.flatnonzero(np.diff(given[:, 0]) <= 0.0)
     if len(back):
         row = int(back[0]) + 1
@@ -188,7 +280,7 @@ def _with_ends(
     for end, sign in ((aft, 1.0), (fore, -1.0)):
         if end is None:
             continue
-        place = _checked(np.atleast_2d(finite(end, f"{name}, end", (2,))), f"{name}, end")
+        place = _checked(np.atleast_2d(finite_array(end, f"{name}, end", (2,))), f"{name}, end")
         kept = given[sign * given[:, 0] > sign * place[0, 0] + _SAME]
         given = np.concatenate([place, kept] if sign > 0.0 else [kept, place])
     return given
@@ -198,7 +290,8 @@ def _slopes(given: object, name: str) -> tuple[float | None, float | None]:
     if not isinstance(given, tuple | list) or len(given) != 2:
         raise GeometryError(f"{name}: end_slope is no pair", "give a slope or None for each end")
     first, last = (
-        None if each is None else float(finite(each, f"{name}, end slope", ())) for each in given
+        None if each is None else float(finite_array(each, f"{name}, end slope", ()))
+        for each in given
     )
     return first, last
 
@@ -207,23 +300,23 @@ def _parallel(
     given: FloatArray, parallel: tuple[float, float], breadth: float | None, name: str
 ) -> tuple[float, float, float]:
     """Take the parallel part: where it begins, ends, and its half-breadth."""
-    first, last = finite(parallel, f"{name}, parallel part", (2,)).tolist()
+    first, last = finite_array(parallel, f"{name}, parallel part", (2,)).tolist()
     outside = not len(given) or first < given[0, 0] - _SAME or last > given[-1, 0] + _SAME
     if outside or not first < last:
-        what = f"{name}: parallel part [{figure(first)},{figure(last)}] outside the ends"
+        what = f"{name}: parallel part [{digits(first)},{digits(last)}] outside the ends"
         if not outside:
-            what = f"{name}: parallel part [{figure(first)},{figure(last)}] has no length"
+            what = f"{name}: parallel part [{digits(first)},{digits(last)}] has no length"
         raise GeometryError(what, "let it lie between the ends", {"p": first, "q": last})
     within = given[(given[:, 0] >= first - _SAME) & (given[:, 0] <= last + _SAME)]
     if breadth is None and not len(within):
         what = f"{name}: no point lies in the parallel part"
         raise GeometryError(what, "give its half-breadth", {"p": first, "q": last})
-    level = float(within[0, 1] if breadth is None else finite(breadth, name, ()))
+    level = float(within[0, 1] if breadth is None else finite_array(breadth, name, ()))
     for x, y in within.tolist():
         if abs(y - level) > _SAME:
             raise GeometryError(
-                f"{name}: point ({figure(x)},{figure(y)}) lies in the parallel part but y differs "
-                f"from {figure(level)}",
+                f"{name}: point ({digits(x)},{digits(y)}) lies in the parallel part but y differs "
+                f"from {digits(level)}",
                 "move the point or the end of the parallel part", {"x": x, "y": y, "y_p": level},
             )  # fmt: skip
     return first, last, level
@@ -238,8 +331,8 @@ def _enough(points: FloatArray, side: str, name: str) -> None:
 
 def _spline(
     points: FloatArray, ends: tuple[float | None, float | None], method: Method | None, name: str
-) -> Piece:
+) -> WaterlinePiece:
     """Lay a spline as its chords ask for, or as is forced."""
     chords = np.abs(np.diff(points[:, 1]) / np.diff(points[:, 0]))
     graph = method == "graph" or (method is None and bool((chords < _BLUNT).all()))
-    return Graph.through(points, ends) if graph else Chorded.through(points, ends, name)
+    return GraphPiece.through(points, ends) if graph else ChordedPiece.through(points, ends, name)

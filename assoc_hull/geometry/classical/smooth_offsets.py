@@ -20,13 +20,13 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checked_input import (
+    digits,
     number,
+    number_array,
     numbers,
-    places,
-    weights_of,
+    positive_weights,
     whole_number,
 )
-from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["SmoothedTable", "smooth_offsets", "smooth_table"]
@@ -61,14 +61,14 @@ def smooth_offsets(y: ArrayLike, stiffness: float, weights: ArrayLike | None = N
     """
     from scipy.linalg import solveh_banded
 
-    values = places(y, "offsets")
+    values = number_array(y, "offsets")
     if values.ndim not in (1, 2):
         raise GeometryError(f"offsets: shape {values.shape}", "give (n,) or (n, k)")
     stiff = number(stiffness, "offsets: stiffness")
     if len(values) < 4 or stiff < 0.0:
-        what = f"offsets: {len(values)} values, stiffness {figure(stiff)}"
+        what = f"offsets: {len(values)} values, stiffness {digits(stiff)}"
         raise GeometryError(what, "give four values or more, and a stiffness of 0 or more")
-    w = weights_of(weights, len(values), "offsets")
+    w = positive_weights(weights, len(values), "offsets")
     third = np.array([-1.0, 3.0, -3.0, 1.0])
     bands = np.zeros((4, len(values)))
     for i in range(4):
@@ -147,7 +147,7 @@ def smooth_table(
             what = f"offsets: {len(each)} places that do not all rise"
             raise GeometryError(what, "give five or more, rising")
     if weight < 0.0:
-        raise GeometryError(f"offsets: weight {figure(weight)}", "give one of 0 or more")
+        raise GeometryError(f"offsets: weight {digits(weight)}", "give one of 0 or more")
     last = whole_number(most, "offsets: rounds", 1, 10_000)
     along, up = ((p - p[0]) / (p[-1] - p[0]) for p in (stations, levels))
     change, rounds = np.inf, 0

@@ -30,11 +30,10 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline, PPoly
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checked_input import bearable
-from assoc_hull.geometry.classical.checks import finite, inside
+from assoc_hull.geometry.classical.checked_input import check_magnitude, finite_array, within_range
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["TruncatedPower", "power_columns", "solved_directly"]
+__all__ = ["TruncatedPower", "power_columns", "solve_truncated_powers"]
 
 
 @attrs.frozen(eq=False)
@@ -95,7 +94,7 @@ class TruncatedPower:
         GeometryError
             ``"spline: x={x} outside [{a}, {b}]"``.
         """
-        found = inside(x, "spline", float(self.x[0]), float(self.x[-1]))
+        found = within_range(x, "spline", float(self.x[0]), float(self.x[-1]))
         return np.asarray(self.curve(found))
 
     @property
@@ -105,10 +104,10 @@ class TruncatedPower:
 
 
 def _checked(x: ArrayLike, y: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    places = bearable(finite(x, "spline", (None,)), "spline")
+    places = check_magnitude(finite_array(x, "spline", (None,)), "spline")
     if len(places) < 3:
         raise GeometryError("spline: at least 3 points", "give more", {"points": len(places)})
-    heights = bearable(finite(y, "spline", (len(places),)), "spline")
+    heights = check_magnitude(finite_array(y, "spline", (len(places),)), "spline")
     back = np.diff(places) <= 0.0
     if back.any():
         index = int(np.argmax(back)) + 1
@@ -143,7 +142,7 @@ def power_columns(x: ArrayLike) -> FloatArray:
     >>> bool(np.linalg.cond(far) > 1e9 * np.linalg.cond(near))
     True
     """
-    places = finite(x, "spline", (None,))
+    places = finite_array(x, "spline", (None,))
     places = _checked(places, np.zeros(len(places)))[0]
     beyond = np.maximum(places[:, None] - places[None, 1:-1], 0.0)
     values = np.column_stack([places[:, None] ** np.arange(4), beyond**3])
@@ -152,7 +151,7 @@ def power_columns(x: ArrayLike) -> FloatArray:
     return np.vstack([values, bends])
 
 
-def solved_directly(x: ArrayLike, y: ArrayLike) -> FloatArray:
+def solve_truncated_powers(x: ArrayLike, y: ArrayLike) -> FloatArray:
     """Solve for the coefficients a, b, c, A_0, A_1 ... of powers of x itself, (n + 2,).
 
     For comparison only: it loses digits where x is far from nil or points are many.

@@ -1,4 +1,10 @@
-"""Curvature combs: teeth along curves that show how they bend."""
+"""Curvature along curves: combs for the eye, and numbers for how unfair a comb is.
+
+`comb_teeth` gives the teeth of a drawing. `curvature_sign_changes`, `greatest_curvatures` and
+`comb_integrals` say the same in numbers, before and after a curve was varied: curvature within a
+dead band has no sign. That is another count than `inflections`, which looks at how far the tangent
+turns.
+"""
 
 from __future__ import annotations
 
@@ -6,16 +12,31 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.polynomials import differentiate, horner
+from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.numeric.vectors import check_normals, dot
-from assoc_hull.geometry.splines.curvature import plane_curvature, space_curvature
-from assoc_hull.geometry.splines.segments import power, segment_curve, segment_start
+from assoc_hull.geometry.splines.evaluation import plane_curvature, space_curvature
+from assoc_hull.geometry.splines.segments import (
+    power_coefficients,
+    segment_curve,
+    segment_start,
+    sum_per_curve,
+)
 
-__all__ = ["combs"]
+__all__ = [
+    "DEAD_BAND",
+    "comb_integrals",
+    "comb_teeth",
+    "curvature_sign_changes",
+    "greatest_curvatures",
+]
+
+# --------------------------------------------------------------------------------------
+# Curvature combs: teeth along curves that show how they bend.
 
 
-def combs(
+def comb_teeth(
     batch: SplineBatch, normals: ArrayLike, per_segment: int = 8, scale: float = 1.0
 ) -> tuple[FloatArray, FloatArray]:
     """Give curvature combs: points of the curves, and the tips of the teeth on them.
@@ -53,11 +74,11 @@ def combs(
     --------
     >>> import numpy as np
     >>> from assoc_hull.geometry.curves import SplineBatch
-    >>> from assoc_hull.geometry.fairness.combs import combs
+    >>> from assoc_hull.geometry.fairness.combs import comb_teeth
     >>> xyz = np.array([[0.0, 0, 0], [2, 0, 0]])
     >>> leave, arrive = np.array([[1.0, -2, 0]] * 2), np.array([[1.0, 2, 0]] * 2)
     >>> parabola = SplineBatch(np.array([0, 2]), np.array([0.0, 2]), xyz, leave, arrive)
-    >>> base, tip = combs(parabola, [0, 0, 1], per_segment=3, scale=0.5)
+    >>> base, tip = comb_teeth(parabola, [0, 0, 1], per_segment=3, scale=0.5)
     >>> base[0, 1].tolist(), tip[0, 1].tolist()
     ([1.0, -1.0, 0.0], [1.0, 0.0, 0.0])
     """
@@ -66,7 +87,7 @@ def combs(
             f"{per_segment} teeth per segment", "in a curvature comb", "give two or more"
         )
     normal = check_normals(normals, batch.count)[segment_curve(batch), None]
-    cubics = power(batch)
+    cubics = power_coefficients(batch)
     u = np.broadcast_to(np.linspace(0.0, 1.0, per_segment), (len(cubics), per_segment))
     slopes = differentiate(cubics)
     base = horner(cubics, u).copy()
@@ -84,3 +105,153 @@ def _teeth(first: FloatArray, second: FloatArray, normal: FloatArray) -> FloatAr
     with np.errstate(invalid="ignore", divide="ignore"):
         signed = plane_curvature(first, second, normal) / size
     return np.where(np.isnan(normal), space_curvature(first, second), signed[..., None] * left)
+
+
+# --------------------------------------------------------------------------------------
+# How unfair curves are: curvature that changes its sign, and how fast curvature changes.
+#
+# Both are asked of a curve before and after it was varied, so they need to be the same for the
+# same bits and to forgive what nobody sees: curvature within a dead band has no sign. That is
+# another count than `assoc_hull.geometry.fairness.inflections.inflections`, which looks at how far
+# the tangent turns: a long flat wave turns much and bends little.
+
+DEAD_BAND = 2e-3
+"""Curvature, 1/m, that nobody sees: a radius of 500 m."""
+
+_SAMPLES = 17
+"""Places on each segment, both ends among them, where the sign is looked at."""
+
+_NODES = 8
+"""Places of Gauss's rule on each segment."""
+
+
+def curvature_sign_changes(batch: SplineBatch, normals: ArrayLike, band: float) -> IntArray:
+    """Count the changes of sign of the curvature beyond a dead band, along each curve.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    normals : (m, 3) or (3,)
+        Unit normal of the plane that each curve is seen in; a row of nan counts 0.
+    band : float, 1/m
+        Curvature up to this, of either sign, has none.
+
+    Returns
+    -------
+    (m,) int
+        Changes along each curve. A knuckle is no bend, and begins no new count.
+
+    Raises
+    ------
+    BadInputError
+        A normal is not of unit length, or the band is negative.
+    TooFewPointsError
+        A curve has fewer than two points.
+    """
+    if not band >= 0.0:
+        raise BadInputError(
+            f"a dead band of {band} 1/m", "where signs of curvature were counted", "give 0 or more"
+        )
+    value = _sampled(batch, normals)
+    curve = np.repeat(segment_curve(batch), _SAMPLES)
+    # The comparison is false for nan, which drops curves that have no plane, and cusps.
+    told = np.flatnonzero(np.abs(value) > band)
+    sign, owner = value[told] > 0.0, curve[told]
+    changed = (sign[1:] != sign[:-1]) & (owner[1:] == owner[:-1])
+    count: IntArray = np.bincount(owner[1:][changed], minlength=batch.count)
+    freeze(count)
+    return count
+
+
+def greatest_curvatures(batch: SplineBatch, normals: ArrayLike) -> FloatArray:
+    """Give the greatest amount of curvature along each curve, 1/m.
+
+    Parameters
+    ----------
+    batch, normals : SplineBatch, (m, 3) or (3,)
+        As for `curvature_sign_changes`, at whose places it looks.
+
+    Returns
+    -------
+    (m,), 1/m
+        The greatest curvature; 0 where the curve has no plane.
+    """
+    value = np.nan_to_num(np.abs(_sampled(batch, normals)), posinf=np.inf)
+    curve = np.repeat(segment_curve(batch), _SAMPLES)
+    first = np.searchsorted(curve, np.arange(batch.count))
+    greatest: FloatArray = np.maximum.reduceat(value, first) if len(value) else np.zeros(0)
+    freeze(greatest)
+    return greatest
+
+
+def _sampled(batch: SplineBatch, normals: ArrayLike) -> FloatArray:
+    """Give the signed curvature at places along each segment, one segment after the other."""
+    first, second, _, normal = _derivatives(batch, normals, np.linspace(0.0, 1.0, _SAMPLES))
+    return plane_curvature(first, second, normal).ravel()
+
+
+def _derivatives(
+    batch: SplineBatch, normals: ArrayLike, u: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Give three derivatives (s, k, 3) by the segments' parameters, and normals (s, 1, 3)."""
+    normal = check_normals(normals, batch.count)[segment_curve(batch), None]
+    slopes = differentiate(power_coefficients(batch))
+    bends = differentiate(slopes)
+    at = np.broadcast_to(u, (len(slopes), len(u)))
+    found = [horner(each, at) for each in (slopes, bends, differentiate(bends))]
+    return found[0], found[1], found[2], normal
+
+
+def comb_integrals(batch: SplineBatch, normals: ArrayLike) -> FloatArray:
+    """Give the integral of (dk/ds)^2 ds along each curve, k the curvature in its plane.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    normals : (m, 3) or (3,)
+        Unit normal of the plane that each curve is seen in; a row of nan gives 0.
+
+    Returns
+    -------
+    (m,), 1/m3
+        The integrals over the segments; what curvature jumps by at a knuckle is not counted.
+
+    Raises
+    ------
+    BadInputError
+        A normal is not of unit length.
+    TooFewPointsError
+        A curve has fewer than two points.
+
+    Notes
+    -----
+    With derivatives by any parameter, c = n . (P' x P'') and w the square of the speed v,
+    k = c / v^3, so dk/ds = (c' w - 1.5 c w') / v^6.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.fairness.combs import comb_integrals
+    >>> from assoc_hull.geometry.curves import SplineBatch
+    >>> xyz = np.array([[0.0, 0, 0], [3, 0, 0]])
+    >>> along = np.array([[1.0, 0, 0], [1, 0, 0]])
+    >>> line = SplineBatch(np.array([0, 2]), np.array([0.0, 3]), xyz, along, along.copy())
+    >>> comb_integrals(line, [0, 0, 1]).tolist()
+    [0.0]
+    """
+    nodes, weights = gauss(_NODES)
+    first, second, third, normal = _derivatives(batch, normals, nodes)
+    first, second, third = (each - dot(each, normal)[..., None] * normal
+                            for each in (first, second, third))  # fmt: skip
+    square, growth = dot(first, first), 2.0 * dot(first, second)
+    bend = dot(normal, np.cross(first, second))
+    turn = dot(normal, np.cross(first, third))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        # (dk/ds)^2 ds = (c' w - 1.5 c w')^2 / v^12 v du
+        density = (turn * square - 1.5 * bend * growth) ** 2 / square**5.5
+    inside = np.where(np.isfinite(density), density, 0.0) @ weights
+    found = sum_per_curve(batch, inside)
+    freeze(found)
+    return found

@@ -31,9 +31,9 @@ from numpy.typing import ArrayLike, NDArray
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.numeric.quadrature import gauss
-from assoc_hull.geometry.splines.fairness_pieces import Pieces, Seen
+from assoc_hull.geometry.splines.curve_pieces import PieceDerivatives, PiecewiseCurves
 
-__all__ = ["LIMITS", "FairnessRecord", "Limits", "Offsets", "criteria"]
+__all__ = ["LIMITS", "FairnessLimits", "FairnessRecord", "OffsetDeviations", "criteria"]
 
 _NODES = 8
 _SAMPLES = 20
@@ -45,7 +45,7 @@ _STRAIGHT = 1e-6
 
 
 @attrs.frozen
-class Limits:
+class FairnessLimits:
     """Up to which values the first four criteria hold.
 
     Attributes
@@ -63,11 +63,11 @@ class Limits:
     deviation: float = 1.0
 
 
-LIMITS = Limits()
+LIMITS = FairnessLimits()
 
 
 @attrs.frozen(eq=False)
-class Offsets:
+class OffsetDeviations:
     """Points that curves are meant to pass, by how much each has gone astray.
 
     Attributes
@@ -83,7 +83,9 @@ class Offsets:
     tolerance: FloatArray
 
     @classmethod
-    def measured(cls, pieces: Pieces, points: ArrayLike, tolerances: ArrayLike) -> Offsets:
+    def measured(
+        cls, pieces: PiecewiseCurves, points: ArrayLike, tolerances: ArrayLike
+    ) -> OffsetDeviations:
         """Measure points (k, d), m, from the first curve; one tolerance (m), or one each.
 
         Raises
@@ -169,7 +171,7 @@ class FairnessRecord:
     variation: float
     support_jumps: float | None
     extrema: int
-    limits: Limits = attrs.field(default=LIMITS, repr=False)
+    limits: FairnessLimits = attrs.field(default=LIMITS, repr=False)
 
     @property
     def unwanted_inflections(self) -> int | None:
@@ -197,13 +199,13 @@ class FairnessRecord:
 
 
 def criteria(
-    pieces: Pieces,
+    pieces: PiecewiseCurves,
     *,
     names: Sequence[str] = (),
     knuckles: NDArray[np.bool_] | None = None,
     allowed: int | IntArray = 0,
-    offsets: Offsets | None = None,
-    limits: Limits = LIMITS,
+    offsets: OffsetDeviations | None = None,
+    limits: FairnessLimits = LIMITS,
 ) -> tuple[FairnessRecord, ...]:
     """Take the numbers of curves.
 
@@ -232,7 +234,7 @@ def criteria(
     >>> import numpy as np
     >>> from scipy.interpolate import CubicSpline
     >>> from assoc_hull.geometry.fairness.criteria import criteria
-    >>> from assoc_hull.geometry.splines.fairness_graph import GraphPieces
+    >>> from assoc_hull.geometry.splines.curve_pieces import GraphPieces
     >>> y = [0, 1, 1.8, 2.45, 2.85, 3.1, 3.2]
     >>> record = criteria(GraphPieces.of(CubicSpline(np.arange(7.0), y, bc_type="natural")))[0]
     >>> round(record.variation, 8), round(record.support_jumps, 10), record.inflections
@@ -308,7 +310,7 @@ class _Jumps:
     third: FloatArray
 
     @classmethod
-    def across(cls, ends: Seen, counted: NDArray[np.bool_]) -> _Jumps:
+    def across(cls, ends: PieceDerivatives, counted: NDArray[np.bool_]) -> _Jumps:
         before, after = ends.tangent[:-1, -1], ends.tangent[1:, 0]
         apart = np.sqrt(((after - before) ** 2).sum(axis=1))
         # The chord between unit vectors tells small angles with all digits.
@@ -341,7 +343,7 @@ def _sign_changes(value: FloatArray, owner: IntArray, count: int, least: FloatAr
 
 
 def _arcs(
-    inner: Seen, weights: FloatArray, owner: IntArray, count: int
+    inner: PieceDerivatives, weights: FloatArray, owner: IntArray, count: int
 ) -> tuple[FloatArray, IntArray]:
     """Give the sum of squared steps of curvature over distances between middles; extremes."""
     length, bend = (inner.speed * weights).sum(axis=1), inner.curvature[:, 0]
@@ -354,7 +356,9 @@ def _arcs(
     )
 
 
-def _deviation(offsets: Offsets | None, count: int) -> tuple[IntArray, FloatArray, FloatArray]:
+def _deviation(
+    offsets: OffsetDeviations | None, count: int
+) -> tuple[IntArray, FloatArray, FloatArray]:
     """Count the offsets of each curve; largest and root mean square of distance over tolerance."""
     worst, squares = np.zeros(count), np.zeros(count)
     if offsets is None:

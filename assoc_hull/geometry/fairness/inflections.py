@@ -21,15 +21,15 @@ from assoc_hull.geometry.fairness.criteria import FairnessRecord, criteria
 from assoc_hull.geometry.numeric.polynomials import differentiate, horner
 from assoc_hull.geometry.numeric.roots import quadratic_roots
 from assoc_hull.geometry.numeric.vectors import check_normals, dot
-from assoc_hull.geometry.splines.segments import power, segment_curve, segment_start
+from assoc_hull.geometry.splines.segments import power_coefficients, segment_curve, segment_start
 
-__all__ = ["FairnessRecord", "Places", "criteria", "inflections"]
+__all__ = ["FairnessRecord", "InflectionPoints", "criteria", "inflections"]
 
 _STRAIGHT = 1e-9  # rad: a turn below this is the rounding of a straight stretch
 
 
 @attrs.frozen(eq=False)
-class Places:
+class InflectionPoints:
     """Places on curves of a batch, in the order of the curves.
 
     Attributes
@@ -62,7 +62,7 @@ class _Parts:
 
 def inflections(
     batch: SplineBatch, normals: ArrayLike, lobe_deg: float = 0.2
-) -> tuple[IntArray, Places]:
+) -> tuple[IntArray, InflectionPoints]:
     """Count the changes of the sign of curvature along each plane curve.
 
     A lobe is a stretch that bends to one side. The count is one less than the greatest
@@ -115,7 +115,9 @@ def inflections(
         )
     lobes = _lobes(_parts(batch, check_normals(normals, batch.count)))
     before = _changes(lobes, max(float(np.deg2rad(lobe_deg)), _STRAIGHT))
-    places = Places(lobes.curve[before], 0.5 * (lobes.end[before] + lobes.begin[before + 1]))
+    places = InflectionPoints(
+        lobes.curve[before], 0.5 * (lobes.end[before] + lobes.begin[before + 1])
+    )
     count = np.bincount(places.curve, minlength=batch.count)
     freeze(count)
     return count, places
@@ -128,7 +130,7 @@ def _hodographs(batch: SplineBatch, normals: FloatArray) -> FloatArray:
     across = np.cross(normals, axis)
     across /= np.sqrt(dot(across, across))[:, None]
     ahead = np.cross(across, normals)
-    curve, slopes = segment_curve(batch), differentiate(power(batch))
+    curve, slopes = segment_curve(batch), differentiate(power_coefficients(batch))
     return np.stack([dot(slopes, plane[curve, None]) for plane in (ahead, across)], axis=2)
 
 

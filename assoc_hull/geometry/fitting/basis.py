@@ -3,8 +3,8 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.fitting.basis import basis_rows, clamped
->>> first, rows = basis_rows(clamped(np.array([0.0, 1.0, 2.0])), np.array([0.0, 1.5]), 1)
+>>> from assoc_hull.geometry.fitting.basis import basis_rows, clamped_knots
+>>> first, rows = basis_rows(clamped_knots(np.array([0.0, 1.0, 2.0])), np.array([0.0, 1.5]), 1)
 >>> first.tolist(), rows[0].sum(axis=1).tolist(), rows[1].sum(axis=1).tolist()
 ([0, 1], [1.0, 1.0], [0.0, 0.0])
 """
@@ -16,12 +16,12 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.knots import span_at
 
-__all__ = ["DEGREE", "basis_rows", "clamped"]
+__all__ = ["DEGREE", "basis_rows", "clamped_knots"]
 
 DEGREE = 3
 
 
-def clamped(breaks: FloatArray) -> FloatArray:
+def clamped_knots(breaks: FloatArray) -> FloatArray:
     """Give the knots of a cubic spline: its ends four times, what is between as it stands.
 
     Parameters
@@ -38,8 +38,8 @@ def clamped(breaks: FloatArray) -> FloatArray:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.fitting.basis import clamped
-    >>> clamped(np.array([0.0, 1.0, 4.0])).tolist()
+    >>> from assoc_hull.geometry.fitting.basis import clamped_knots
+    >>> clamped_knots(np.array([0.0, 1.0, 4.0])).tolist()
     [0.0, 0.0, 0.0, 0.0, 1.0, 4.0, 4.0, 4.0, 4.0]
     """
     return np.concatenate([np.repeat(breaks[:1], DEGREE), breaks, np.repeat(breaks[-1:], DEGREE)])
@@ -72,8 +72,8 @@ def basis_rows(knots: FloatArray, at: FloatArray, order: int = 0) -> tuple[IntAr
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.fitting.basis import basis_rows, clamped
-    >>> basis_rows(clamped(np.array([0.0, 2.0])), np.array([1.0]))[1].tolist()
+    >>> from assoc_hull.geometry.fitting.basis import basis_rows, clamped_knots
+    >>> basis_rows(clamped_knots(np.array([0.0, 2.0])), np.array([1.0]))[1].tolist()
     [[[0.125, 0.375, 0.375, 0.125]]]
     """
     span = span_at(knots, DEGREE, at)

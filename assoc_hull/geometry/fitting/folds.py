@@ -3,12 +3,12 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.fitting.folds import elements
+>>> from assoc_hull.geometry.fitting.folds import surface_elements
 >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
 >>> net = np.zeros((4, 4, 3))
 >>> net[..., 0], net[..., 1] = np.mgrid[0:4, 0:4]
 >>> knots = [0, 0, 0, 0, 3, 3, 3, 3]
->>> found = elements(SplineSurface("plane", (3, 3), knots, knots, net))
+>>> found = surface_elements(SplineSurface("plane", (3, 3), knots, knots, net))
 >>> round(found.least, 9), len(found.folded)
 (1.0, 0)
 """
@@ -20,10 +20,10 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.fitting.foot_points import derivatives
-from assoc_hull.geometry.patches.knots import limits
+from assoc_hull.geometry.patches.knots import span_limits
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
-__all__ = ["Elements", "elements", "facing"]
+__all__ = ["SurfaceElements", "normal_cosines", "surface_elements"]
 
 _PART = 4
 """Places a span each way."""
@@ -33,7 +33,7 @@ _SINGULAR = 0.1
 
 
 @attrs.frozen(eq=False)
-class Elements:
+class SurfaceElements:
     """Normals of a surface on a grid of places, borders among them.
 
     Attributes
@@ -67,7 +67,7 @@ class Elements:
         freeze(self.u, self.v, self.normal, self.folded)
 
 
-def elements(surface: SplineSurface, part: int = _PART) -> Elements:
+def surface_elements(surface: SplineSurface, part: int = _PART) -> SurfaceElements:
     """Measure a bicubic surface on a grid of some places a span.
 
     Parameters
@@ -82,7 +82,7 @@ def elements(surface: SplineSurface, part: int = _PART) -> Elements:
     BadInputError
         Weights, or degrees other than 3.
     """
-    u, v = (_places(limits(knots, 3), part) for knots in (surface.knots_u, surface.knots_v))
+    u, v = (_places(span_limits(knots, 3), part) for knots in (surface.knots_u, surface.knots_v))
     uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1)
     _, along, across = derivatives(surface, uv.reshape(-1, 2))
     normal = np.cross(along, across).reshape(len(u), len(v), 3)
@@ -95,7 +95,7 @@ def elements(surface: SplineSurface, part: int = _PART) -> Elements:
         if size[i, j] < _SINGULAR * median
     )  # fmt: skip
     least = float(size[worst]) / median if median > 0.0 else 0.0
-    return Elements(u, v, normal, median, least, at, uv[_turned(normal)], corners)
+    return SurfaceElements(u, v, normal, median, least, at, uv[_turned(normal)], corners)
 
 
 def _places(spans: FloatArray, part: int) -> FloatArray:
@@ -113,7 +113,7 @@ def _turned(normal: FloatArray) -> np.typing.NDArray[np.bool_]:
     return found
 
 
-def facing(surface: SplineSurface, uv: FloatArray, normal: FloatArray) -> FloatArray:
+def normal_cosines(surface: SplineSurface, uv: FloatArray, normal: FloatArray) -> FloatArray:
     """Give the cosine of the surface's normals with given directions.
 
     Parameters

@@ -1,12 +1,8 @@
 """What a triangulated body has below floating planes, each triangle cut exactly.
 
-A triangle is below a plane, above it, or cut: then the plane takes off a corner. Over
-triangles all integrands are polynomials, so no value here has an error but rounding.
-
-The flux is that of height above the plane, ``h dz``: it is nil on the plane itself, which so
-needs no lid. A vertex in the plane counts as above it: values are those of a plane that comes
-from below. So a row of vertices in the plane is counted once, and a level top face that the
-plane just reaches is the waterplane.
+A plane takes a corner off a triangle. Over triangles all integrands are polynomials, so no value
+has an error but rounding. The flux is that of height above the plane, which needs no lid; the
+edges of the waterplane give its area, moments and extents. A vertex in the plane counts as above.
 """
 
 from __future__ import annotations
@@ -16,11 +12,86 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
-from assoc_hull.geometry.floating.water_edges import WaterEdges, edge_extents, edge_moments, joined
+from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 from assoc_hull.geometry.surfaces.triangles import Triangles, unmatched_edges
 
-__all__ = ["TriangleBody", "immersed_triangles", "make_body"]
+__all__ = [
+    "TriangleBody",
+    "WaterEdges",
+    "edge_extents",
+    "edge_moments",
+    "immersed_triangles",
+    "join_edges",
+    "make_body",
+]
+
+# --------------------------------------------------------------------------------------
+# Straight pieces of the edges of waterplanes: areas, moments and extents from them.
+
+
+@attrs.frozen(eq=False)
+class WaterEdges:
+    """Straight pieces of the edge of waterplanes.
+
+    Attributes
+    ----------
+    plane : (k,) int
+        The plane of each; ascending for `edge_extents`.
+    ends : (k, 2, 3), m
+        Begin and end, the waterplane to the left.
+    """
+
+    plane: IntArray
+    ends: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.plane, self.ends)
+
+
+def edge_moments(cuts: WaterEdges, count: int) -> tuple[FloatArray, ...]:
+    """Give area, first and second moments of waterplanes by Green's theorem, (count,) each."""
+    (x, y), (to_x, to_y) = cuts.ends[:, 0, :2].T, cuts.ends[:, 1, :2].T
+    swept = 0.5 * (x * to_y - y * to_x)
+    columns = [
+        swept,
+        swept * (x + to_x) / 3.0,
+        swept * (y + to_y) / 3.0,
+        swept * (x * x + x * to_x + to_x * to_x) / 6.0,
+        swept * (2.0 * (x * y + to_x * to_y) + x * to_y + to_x * y) / 12.0,
+        swept * (y * y + y * to_y + to_y * to_y) / 6.0,
+    ]
+    return tuple(np.asarray(np.bincount(cuts.plane, each, count), np.float64) for each in columns)
+
+
+def edge_extents(cuts: WaterEdges, count: int) -> tuple[FloatArray, ...]:
+    """Give the least and most x, then y, of waterplanes; nan where there is none."""
+    found = np.full((count, 4), np.nan)
+    if len(cuts.plane):
+        first = np.flatnonzero(np.append(True, np.diff(cuts.plane) != 0))
+        low = np.minimum.reduceat(cuts.ends.min(axis=1), first)
+        high = np.maximum.reduceat(cuts.ends.max(axis=1), first)
+        rows = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1)
+        found[cuts.plane[first]] = rows
+    return tuple(column.copy() for column in found.T)
+
+
+def join_edges(one: WaterEdges, other: WaterEdges) -> WaterEdges:
+    """Give the pieces of both, sorted by plane; those given need not be."""
+    plane = np.concatenate([one.plane, other.plane])
+    order = np.argsort(plane, kind="stable")
+    return WaterEdges(plane[order], np.concatenate([one.ends, other.ends])[order])
+
+
+# --------------------------------------------------------------------------------------
+# What a triangulated body has below floating planes, each triangle cut exactly.
+#
+# A triangle is below a plane, above it, or cut: then the plane takes off a corner. Over
+# triangles all integrands are polynomials, so no value here has an error but rounding.
+#
+# The flux is that of height above the plane, ``h dz``: it is nil on the plane itself, which so
+# needs no lid. A vertex in the plane counts as above it: values are those of a plane that comes
+# from below. So a row of vertices in the plane is counted once, and a level top face that the
+# plane just reaches is the waterplane.
 
 _AT_ONCE = 200_000
 """About so many cut triangles are held at a time."""
@@ -59,7 +130,7 @@ def make_body(mesh: Triangles) -> TriangleBody:
     return TriangleBody(mesh, unmatched_edges(mesh), _triangle_sums(mesh.corners))
 
 
-def immersed_triangles(body: TriangleBody, planes: Planes) -> Immersed:
+def immersed_triangles(body: TriangleBody, planes: FloatingPlanes) -> ImmersedIntegrals:
     """Integrate what a body has below each plane.
 
     Raises
@@ -70,12 +141,12 @@ def immersed_triangles(body: TriangleBody, planes: Planes) -> Immersed:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.floating.immersed import Planes
+    >>> from assoc_hull.geometry.floating.immersion import FloatingPlanes
     >>> from assoc_hull.geometry.floating.immersed_triangles import immersed_triangles, make_body
     >>> from assoc_hull.geometry.surfaces.triangles import Triangles
     >>> xyz = np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]])
     >>> corner = Triangles(xyz, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
-    >>> level = Planes(np.array([1.0, 3]), np.zeros(2), np.zeros(2))
+    >>> level = FloatingPlanes(np.array([1.0, 3]), np.zeros(2), np.zeros(2))
     >>> below = immersed_triangles(make_body(corner), level)
     >>> below.volume.round(12).tolist(), below.area.round(12).tolist()
     ([3.166666666667, 4.5], [2.0, 0.0])
@@ -83,12 +154,12 @@ def immersed_triangles(body: TriangleBody, planes: Planes) -> Immersed:
     tilt, group = np.unique(
         np.stack([planes.tan_trim, planes.tan_heel], axis=1), axis=0, return_inverse=True
     )
-    values = np.empty((len(attrs.fields(Immersed)), len(planes.height)))
+    values = np.empty((len(attrs.fields(ImmersedIntegrals)), len(planes.height)))
     for number, (trim, heel) in enumerate(tilt.tolist()):
         rows = np.flatnonzero(group.reshape(-1) == number)
         rows = rows[np.argsort(planes.height[rows], kind="stable")]
         values[:, rows] = _parallel(body, _Levels.make(body.mesh, trim, heel), planes.height[rows])
-    return Immersed(*(row.copy() for row in values))
+    return ImmersedIntegrals(*(row.copy() for row in values))
 
 
 @attrs.frozen(eq=False)
@@ -143,7 +214,7 @@ def _block(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatArra
     most = sign < 0.0
     sums += _sum_rows(plane[most], body.sums[:, face[most]], count)
     turned = np.where(sign[:, None, None] > 0.0, corners[:, :0:-1], corners[:, 1:])
-    cuts = joined(WaterEdges(plane, turned), _wet_rim(body, levels.vertex, height))
+    cuts = join_edges(WaterEdges(plane, turned), _wet_rim(body, levels.vertex, height))
     solid = _solid(sums, height, levels.trim, -levels.heel)
     shell = sums[10], sums[11], np.zeros(count)
     return np.stack([*solid, *edge_moments(cuts, count), *shell, *edge_extents(cuts, count)])

@@ -10,14 +10,23 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.floating.immersion_critical import Critical, critical
-from assoc_hull.geometry.floating.immersion_roots import Tilted, tilt
-from assoc_hull.geometry.floating.tiles import Tiles, from_curves, integrals, subset
+from assoc_hull.geometry.floating.tile_intersections import (
+    CriticalPoints,
+    TiltedTiles,
+    find_critical_points,
+    tilt_tiles,
+)
+from assoc_hull.geometry.floating.tiles import (
+    CurveTiles,
+    integrate_tiles,
+    tiles_of_curves,
+    tiles_subset,
+)
 from assoc_hull.geometry.numeric.dual import real
 from assoc_hull.geometry.numeric.quadrature import lobatto
 from assoc_hull.geometry.surfaces.isocurves import Strips
 
-__all__ = ["LEVEL", "Prepared", "prepare"]
+__all__ = ["LEVEL", "PreparedStrips", "prepare_strips"]
 
 LEVEL = 1e-9
 """Of a strip's depth: so much is no slope."""
@@ -29,7 +38,7 @@ _MORE = 6  # points of the rule where something happens, beyond those where noth
 
 
 @attrs.frozen(eq=False)
-class Prepared:
+class PreparedStrips:
     """Strips with the curves on which they are integrated.
 
     Attributes
@@ -54,7 +63,7 @@ class Prepared:
     strip: IntArray
     v: FloatArray
     weight: FloatArray
-    tiles: Tiles
+    tiles: CurveTiles
     plain: Strips
     _whole: FloatArray
 
@@ -67,9 +76,9 @@ class Prepared:
         return _weighted(self.tiles, self.weight, heeled=True)
 
     @cached_property
-    def upright(self) -> Tilted:
+    def upright(self) -> TiltedTiles:
         """Heights over the planes of no trim and no heel."""
-        return tilt(self.tiles, np.zeros(1), np.zeros(1))
+        return tilt_tiles(self.tiles, np.zeros(1), np.zeros(1))
 
     @cached_property
     def depth(self) -> FloatArray:
@@ -80,27 +89,27 @@ class Prepared:
         return np.where(depth > _POINT, depth, 1.0)
 
     @cached_property
-    def ends(self) -> tuple[IntArray, Tiles]:
+    def ends(self) -> tuple[IntArray, CurveTiles]:
         """Curves at v = 0 and 1 of all strips: which they are, and their tiles."""
         end = np.flatnonzero((self.v == 0.0) | (self.v == 1.0))
-        return end, subset(self.tiles, end)
+        return end, tiles_subset(self.tiles, end)
 
     @cached_property
-    def upright_ends(self) -> Critical:
+    def upright_ends(self) -> CriticalPoints:
         """Critical points of these curves, for no trim and no heel."""
         return self._ends_critical(self.upright)
 
-    def critical(self, tilted: Tilted) -> Critical:
+    def critical(self, tilted: TiltedTiles) -> CriticalPoints:
         """Critical points of the curves at both ends of all strips, but for level edges."""
         return self.upright_ends if tilted is self.upright else self._ends_critical(tilted)
 
-    def _ends_critical(self, inclined: Tilted) -> Critical:
+    def _ends_critical(self, inclined: TiltedTiles) -> CriticalPoints:
         curve, tiles = self.ends
-        found = critical(tiles, tilt(tiles, inclined.trim, inclined.heel))
+        found = find_critical_points(tiles, tilt_tiles(tiles, inclined.trim, inclined.heel))
         moves = np.flatnonzero(~self._level(found))
         return attrs.evolve(found, curve=curve[found.curve]).take(moves)
 
-    def _level(self, found: Critical) -> NDArray[np.bool_]:
+    def _level(self, found: CriticalPoints) -> NDArray[np.bool_]:
         """Tell which points belong to an edge that is level along the strip, as most keels are.
 
         Such an edge comes out of the water all at once: nothing comes into the strip with it.
@@ -115,7 +124,7 @@ class Prepared:
         return level
 
 
-def prepare(strips: Strips, factor: int = 1, plain: Strips | None = None) -> Prepared:
+def prepare_strips(strips: Strips, factor: int = 1, plain: Strips | None = None) -> PreparedStrips:
     """Integrate the tiles of a body's curves.
 
     Parameters
@@ -145,13 +154,13 @@ def prepare(strips: Strips, factor: int = 1, plain: Strips | None = None) -> Pre
     rules = [lobatto(int(points) + 1) for points in order]
     nodes = [np.concatenate(parts) for parts in zip(*rules, strict=True)]
     v, weight = nodes if nodes else (np.zeros(0), np.zeros(0))
-    tiles = from_curves(strips.curves(strip, v))
+    tiles = tiles_of_curves(strips.curves(strip, v))
     fine = order + _MORE
     whole = _weighted(tiles, weight, heeled=False)
     known = strips if plain is None else plain
-    return Prepared(strips, fine, strip, v, weight, tiles, known, whole)
+    return PreparedStrips(strips, fine, strip, v, weight, tiles, known, whole)
 
 
-def _weighted(tiles: Tiles, weight: FloatArray, heeled: bool) -> FloatArray:
-    whole = integrals(tiles.coefficients, tiles.deck, tiles.lean, heeled)
+def _weighted(tiles: CurveTiles, weight: FloatArray, heeled: bool) -> FloatArray:
+    whole = integrate_tiles(tiles.coefficients, tiles.deck, tiles.lean, heeled)
     return whole * np.take(weight, tiles.curve)

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.numeric.dual import real
-from assoc_hull.geometry.numeric.generic_sums import differs, mix, root
+from assoc_hull.geometry.numeric.generic_sums import combine_rows, differs_from_zero, safe_sqrt
 from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
@@ -31,12 +31,12 @@ __all__ = [
     "CHUNK",
     "HEELED",
     "PLAIN",
-    "Tiles",
-    "expand",
-    "from_curves",
-    "integrals",
-    "powers",
-    "subset",
+    "CurveTiles",
+    "cubic_powers",
+    "integrate_tiles",
+    "tile_rows",
+    "tiles_of_curves",
+    "tiles_subset",
 ]
 
 CHUNK = 2048
@@ -55,7 +55,7 @@ _BOTH = np.concatenate([_VALUE, _SLOPE])
 
 
 @attrs.frozen(eq=False)
-class Tiles:
+class CurveTiles:
     """Tiles of k curves, tile by tile from keel to deck, curve by curve.
 
     Attributes
@@ -87,13 +87,13 @@ class Tiles:
         return len(self.start) - 1
 
 
-def powers(u: FloatArray) -> FloatArray:
+def cubic_powers(u: FloatArray) -> FloatArray:
     """Give 1, u, u^2, u^3 as rows, (4, k)."""
     square = u * u
     return np.stack([1.0 + 0.0 * u, u, square, square * u])
 
 
-def from_curves(curves: IsoCurves) -> Tiles:
+def tiles_of_curves(curves: IsoCurves) -> CurveTiles:
     """Take over curves.
 
     Parameters
@@ -111,12 +111,12 @@ def from_curves(curves: IsoCurves) -> Tiles:
     rows = [each[:, power, axis] for each in both for axis in range(3) for power in range(4)]
     coefficients = np.stack(rows).reshape(6, 4, -1)
     owner = np.repeat(np.arange(curves.count), np.diff(curves.start))
-    lean = np.asarray(differs(coefficients[0::3, 1:]).any(axis=(0, 1)))
+    lean = np.asarray(differs_from_zero(coefficients[0::3, 1:]).any(axis=(0, 1)))
     edge = _edges(curves.deck, owner, curves.count)
-    return Tiles(coefficients, owner, curves.start, curves.deck, lean, edge)
+    return CurveTiles(coefficients, owner, curves.start, curves.deck, lean, edge)
 
 
-def expand(tiles: Tiles, curve: IntArray) -> tuple[IntArray, IntArray]:
+def tile_rows(tiles: CurveTiles, curve: IntArray) -> tuple[IntArray, IntArray]:
     """List the tiles of some curves, possibly repeatedly.
 
     Parameters
@@ -137,7 +137,7 @@ def expand(tiles: Tiles, curve: IntArray) -> tuple[IntArray, IntArray]:
     return np.arange(len(row)) + (tiles.start[curve] - begin)[row], row
 
 
-def subset(tiles: Tiles, curve: IntArray) -> Tiles:
+def tiles_subset(tiles: CurveTiles, curve: IntArray) -> CurveTiles:
     """Take some curves.
 
     Parameters
@@ -152,10 +152,10 @@ def subset(tiles: Tiles, curve: IntArray) -> Tiles:
     Tiles
         Their tiles, in that order.
     """
-    rows, owner = expand(tiles, curve)
+    rows, owner = tile_rows(tiles, curve)
     start = np.searchsorted(owner, np.arange(len(curve) + 1))
     deck = tiles.deck[rows]
-    return Tiles(
+    return CurveTiles(
         np.take(tiles.coefficients, rows, axis=2),
         owner,
         start,
@@ -165,7 +165,7 @@ def subset(tiles: Tiles, curve: IntArray) -> Tiles:
     )
 
 
-def integrals(
+def integrate_tiles(
     coefficients: FloatArray, deck: NDArray[np.bool_], lean: NDArray[np.bool_], heeled: bool
 ) -> FloatArray:
     """Integrate over tiles, or over parts of them that are given as tiles.
@@ -187,7 +187,8 @@ def integrals(
     if len(deck) > CHUNK:
         parts = [slice(i, i + CHUNK) for i in range(0, len(deck), CHUNK)]
         done = [
-            integrals(coefficients[..., some], deck[some], lean[some], heeled) for some in parts
+            integrate_tiles(coefficients[..., some], deck[some], lean[some], heeled)
+            for some in parts
         ]
         return np.concatenate(done, axis=1)
     sums = (_general if lean.any() else _sections)(coefficients, heeled)
@@ -197,44 +198,44 @@ def integrals(
 def _sections(coefficients: FloatArray, heeled: bool) -> list[FloatArray]:
     """Integrate over tiles of constant x and x_v."""
     (y, z), (y_u, z_u) = _values_slopes(coefficients[1:3])
-    y_v, z_v = mix(_VALUE, coefficients[4:])
+    y_v, z_v = combine_rows(_VALUE, coefficients[4:])
     x, x_v = coefficients[0, 0], coefficients[3, 0]
     flux, stretch = y * z_u, y_u * y_u + z_u * z_u
     n_x = y_u * z_v - z_u * y_v
-    volume = x_v * mix(_WEIGHTS, flux)
+    volume = x_v * combine_rows(_WEIGHTS, flux)
     sums = [
         volume,
         x * volume,
-        0.5 * x_v * mix(_WEIGHTS, y * flux),
-        x_v * mix(_WEIGHTS, z * flux),
-        mix(_WEIGHTS, root(n_x * n_x + (x_v * x_v) * stretch)),
-        np.where(real(x_v) < 0.0, -x_v, x_v) * mix(_WEIGHTS, root(stretch)),
+        0.5 * x_v * combine_rows(_WEIGHTS, y * flux),
+        x_v * combine_rows(_WEIGHTS, z * flux),
+        combine_rows(_WEIGHTS, safe_sqrt(n_x * n_x + (x_v * x_v) * stretch)),
+        np.where(real(x_v) < 0.0, -x_v, x_v) * combine_rows(_WEIGHTS, safe_sqrt(stretch)),
     ]
     if heeled:
         rise = y * y_u
-        volume = -x_v * mix(_WEIGHTS, rise)
-        sums += [volume, x * volume, -0.5 * x_v * mix(_WEIGHTS, y * rise)]
-        sums.append(-x_v * mix(_WEIGHTS, z * rise))
+        volume = -x_v * combine_rows(_WEIGHTS, rise)
+        sums += [volume, x * volume, -0.5 * x_v * combine_rows(_WEIGHTS, y * rise)]
+        sums.append(-x_v * combine_rows(_WEIGHTS, z * rise))
     return sums
 
 
 def _general(coefficients: FloatArray, heeled: bool) -> list[FloatArray]:
     """Integrate over any tiles."""
     (x, y, z), (x_u, y_u, z_u) = _values_slopes(coefficients[:3])
-    x_v, y_v, z_v = mix(_VALUE, coefficients[3:])
+    x_v, y_v, z_v = combine_rows(_VALUE, coefficients[3:])
     n_x, n_y, n_z = y_u * z_v - z_u * y_v, z_u * x_v - x_u * z_v, x_u * y_v - y_u * x_v
     flux, round_about = y * n_y, n_y * n_y + n_z * n_z
-    size = root(n_x * n_x + round_about)
-    values = [flux, x * flux, 0.5 * y * flux, z * flux, size, root(round_about)]
+    size = safe_sqrt(n_x * n_x + round_about)
+    values = [flux, x * flux, 0.5 * y * flux, z * flux, size, safe_sqrt(round_about)]
     if heeled:
         flux = y * n_z
         values += [flux, x * flux, 0.5 * y * flux, z * flux]
-    return [mix(_WEIGHTS, each) for each in values]
+    return [combine_rows(_WEIGHTS, each) for each in values]
 
 
 def _values_slopes(point: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Give values and slopes at the Gauss points, (c, 6, k) each, of cubics (c, 4, k)."""
-    both = mix(_BOTH, point)
+    both = combine_rows(_BOTH, point)
     return both[:, :_POINTS], both[:, _POINTS:]
 
 

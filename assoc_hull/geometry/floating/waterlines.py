@@ -1,8 +1,8 @@
-"""The waterline of a body: where a floating plane cuts its surface, arc by arc.
+"""The waterline of a body: where a floating plane cuts its surface, and its main piece.
 
-Each curve across a strip meets the plane at some places. As far as their number stays the same
-along the strip they form arcs, which end where two of them run together or one leaves the strip.
-An arc is known at so many places that the polynomial through these has it, with its slopes.
+Each curve across a strip meets the plane at some places; as far as their number stays the same they
+form arcs. `outer_line` joins arcs end to end from where the waterline is broadest to its end,
+forward or aft: that is the piece of which entrance angles are measured.
 """
 
 from __future__ import annotations
@@ -12,15 +12,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.floating.immersed import Planes
-from assoc_hull.geometry.floating.immersion_extents import slopes
-from assoc_hull.geometry.floating.immersion_roots import candidates, cuts, tilt
-from assoc_hull.geometry.floating.strip_spans import Spans
-from assoc_hull.geometry.floating.tiles import from_curves, powers
-from assoc_hull.geometry.numeric.interpolation import differences
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.geometry.floating.raked_strips import StripSpans
+from assoc_hull.geometry.floating.tile_intersections import candidate_pairs, cut_tiles, tilt_tiles
+from assoc_hull.geometry.floating.tiles import cubic_powers, tiles_of_curves
+from assoc_hull.geometry.floating.waterplane_cuts import tile_slopes
+from assoc_hull.geometry.numeric.interpolation import differentiation_matrix
 from assoc_hull.geometry.numeric.quadrature import lobatto, root_walk
 
-__all__ = ["Arcs", "waterline_arcs"]
+__all__ = [
+    "OuterLine",
+    "WaterlineArcs",
+    "outer_line",
+    "waterline_arcs",
+]
+
+# --------------------------------------------------------------------------------------
+# The waterline of a body: where a floating plane cuts its surface, arc by arc.
+#
+# Each curve across a strip meets the plane at some places. As far as their number stays the same
+# along the strip they form arcs, which end where two of them run together or one leaves the strip.
+# An arc is known at so many places that the polynomial through these has it, with its slopes.
 
 _NODES = 8
 _PIECES = 12  # of each part of a raked strip: lines bend there
@@ -36,7 +48,7 @@ _CHUNK = 256  # curves at a time
 
 
 @attrs.frozen(eq=False)
-class Arcs:
+class WaterlineArcs:
     """Arcs of a waterline, port side, each from aft along its strip.
 
     Attributes
@@ -62,7 +74,7 @@ class Arcs:
         return len(self.point)
 
 
-def waterline_arcs(body: Spans, plane: Planes) -> Arcs:
+def waterline_arcs(body: StripSpans, plane: FloatingPlanes) -> WaterlineArcs:
     """Cut strips by a floating plane.
 
     Parameters
@@ -82,11 +94,11 @@ def waterline_arcs(body: Spans, plane: Planes) -> Arcs:
     >>> import numpy as np
     >>> from assoc_hull.analysis.hydrostatics.flotation import flotation
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.geometry.floating.immersed import Planes
-    >>> from assoc_hull.geometry.floating.strip_spans import spans
+    >>> from assoc_hull.geometry.floating.immersion import FloatingPlanes
+    >>> from assoc_hull.geometry.floating.raked_strips import strip_spans
     >>> from assoc_hull.geometry.floating.waterlines import waterline_arcs
-    >>> plane = Planes(np.array([6.25]), np.zeros(1), np.zeros(1))
-    >>> arcs = waterline_arcs(spans(flotation(wigley()).prepared), plane)
+    >>> plane = FloatingPlanes(np.array([6.25]), np.zeros(1), np.zeros(1))
+    >>> arcs = waterline_arcs(strip_spans(flotation(wigley()).prepared), plane)
     >>> area = 2.0 * (arcs.point[:, :, 1] * arcs.slope[:, :, 0]) @ arcs.weight
     >>> round(float(area.sum()))  # 2/3 L B
     667
@@ -110,8 +122,8 @@ def waterline_arcs(body: Spans, plane: Planes) -> Arcs:
     # Where an arc begins or ends inside a strip the waterline stands across it.
     told = np.isfinite(slope) & (rate[own[:, 0]] > 0.0)[..., None]
     point = both[..., :2].copy()
-    slope = np.where(told, slope, np.einsum("ij,kjc->kic", differences(t), point))
-    return Arcs(point, slope, weight.copy())
+    slope = np.where(told, slope, np.einsum("ij,kjc->kic", differentiation_matrix(t), point))
+    return WaterlineArcs(point, slope, weight.copy())
 
 
 @attrs.frozen(eq=False)
@@ -133,7 +145,7 @@ class _Parts:
     ends: NDArray[np.bool_]
 
 
-def _pieces(parts: _Parts, body: Spans) -> _Parts:
+def _pieces(parts: _Parts, body: StripSpans) -> _Parts:
     """Cut parts of strips into pieces, more of those that are raked or want a higher order."""
     wanted = -(-np.asarray(body.prepared.strips.order) // _PER_PIECE)
     count = np.where(body.flat, wanted, np.maximum(wanted, _PIECES))[parts.strip]
@@ -148,7 +160,7 @@ def _pieces(parts: _Parts, body: Spans) -> _Parts:
     )
 
 
-def _parts(body: Spans, plane: Planes) -> _Parts:
+def _parts(body: StripSpans, plane: FloatingPlanes) -> _Parts:
     """Part strips where the number of places changes."""
     strips = body.prepared.strips
     look = np.linspace(0.0, 1.0, _LOOKS)
@@ -172,7 +184,7 @@ def _parts(body: Spans, plane: Planes) -> _Parts:
 
 
 def _across(
-    body: Spans, plane: Planes, strip: IntArray, v: FloatArray, inner: FloatArray
+    body: StripSpans, plane: FloatingPlanes, strip: IntArray, v: FloatArray, inner: FloatArray
 ) -> NDArray[np.bool_]:
     """Tell whether lines stand across the strip at one end v of its parts."""
     beside = v + np.clip(inner - v, -_BESIDE, _BESIDE)
@@ -187,7 +199,7 @@ def _across(
 
 
 def _changes(
-    body: Spans, plane: Planes, look: FloatArray, seen: IntArray
+    body: StripSpans, plane: FloatingPlanes, look: FloatArray, seen: IntArray
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Find where the number changes between looks: the strip, and v right before and behind."""
     strip, step = np.nonzero(seen[:, 1:] != seen[:, :-1])
@@ -210,13 +222,15 @@ def _changes(
     return own, before, behind
 
 
-def _count(body: Spans, plane: Planes, strip: IntArray, v: FloatArray) -> IntArray:
+def _count(body: StripSpans, plane: FloatingPlanes, strip: IntArray, v: FloatArray) -> IntArray:
     """Tell how often curves meet the plane."""
     found: IntArray = np.bincount(_cut(body, plane, strip, v)[0], minlength=len(v))
     return found
 
 
-def _cut(body: Spans, plane: Planes, strip: IntArray, v: FloatArray) -> tuple[IntArray, FloatArray]:
+def _cut(
+    body: StripSpans, plane: FloatingPlanes, strip: IntArray, v: FloatArray
+) -> tuple[IntArray, FloatArray]:
     """Give where curves meet the plane: of which curve, and x, y, dx/dv, dy/dv there, (k, 4).
 
     In the order of the curves, and along each from keel to deck.
@@ -225,10 +239,10 @@ def _cut(body: Spans, plane: Planes, strip: IntArray, v: FloatArray) -> tuple[In
     owner, place = [], []
     for begin in range(0, len(v), _CHUNK):
         some = slice(begin, begin + _CHUNK)
-        tiles = from_curves(strips.curves(strip[some], v[some]))
-        tilted = tilt(tiles, plane.tan_trim, np.zeros(1))
-        tile, _ = candidates(tilted, plane.height)
-        met = cuts(tilted, tile, np.repeat(plane.height, len(tile)))
+        tiles = tiles_of_curves(strips.curves(strip[some], v[some]))
+        tilted = tilt_tiles(tiles, plane.tan_trim, np.zeros(1))
+        tile, _ = candidate_pairs(tilted, plane.height)
+        met = cut_tiles(tilted, tile, np.repeat(plane.height, len(tile)))
         at = tile[met.pair]
         order = np.argsort(at + np.minimum(met.u, 1.0), kind="stable")
         owner.append(begin + tiles.curve[at[order]])
@@ -240,10 +254,157 @@ def _cut(body: Spans, plane: Planes, strip: IntArray, v: FloatArray) -> tuple[In
 
 def _along(coefficients: FloatArray, u: FloatArray, trim: FloatArray) -> FloatArray:
     """Give x, y, dx/dv and dy/dv (k, 4) of the waterline at places of tiles (6, 4, k)."""
-    both = (coefficients * powers(u)).sum(axis=1)
-    up = slopes(coefficients[:3], u)
+    both = (coefficients * cubic_powers(u)).sum(axis=1)
+    up = tile_slopes(coefficients[:3], u)
     rise = up[2] - trim * up[0]
     # No way along the waterline can be told where a curve is but a point, or level.
     rise = np.where(np.abs(rise) > _LEVEL, rise, np.nan)
     rate = both[3:5] - up[:2] * ((both[5] - trim * both[3]) / rise)
     return np.concatenate([both[:2], rate]).T
+
+
+# --------------------------------------------------------------------------------------
+# The main piece of a waterline: from where it is broadest to its end, forward or aft.
+#
+# A waterline may be in several pieces (a bulb's top, skegs). The main one is that which holds the
+# greatest half breadth; its arcs are joined end to end from there.
+
+_SAME = 1e-9
+"""Half breadths that differ by a smaller part are both the greatest."""
+
+_SPECK = 1e-3
+"""m: arcs that are no longer are left out, and ends that lie no farther apart are one."""
+
+
+@attrs.frozen(eq=False)
+class OuterLine:
+    """A line in plan from where it is broadest to its end, as m arcs of n places.
+
+    Attributes
+    ----------
+    point : (m, n, 2), m
+        x and y; the line runs along the first axis, then along the second.
+    slope : (m, n, 2), m
+        Their derivatives along each arc, from 0 to 1, in the direction in which the line runs.
+    weight : (n,)
+        Shares of the places in integrals along an arc.
+    """
+
+    point: FloatArray
+    slope: FloatArray
+    weight: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.point, self.slope, self.weight)
+
+    @property
+    def end(self) -> tuple[float, float]:
+        """Where the line ends: x and y, m."""
+        x, y = self.point[-1, -1].tolist()
+        return x, y
+
+    @property
+    def aftmost(self) -> tuple[float, float]:
+        """Where the line is farthest aft: x and y, m; of several places that first met."""
+        places = self.point.reshape(-1, 2)
+        x, y = places[int((places[:, 0] <= places[:, 0].min() + _SPECK).argmax())].tolist()
+        return x, y
+
+    @property
+    def angle(self) -> FloatArray:
+        """By how much the line runs inward, (m, n), radians: pi / 2 where it runs across."""
+        inward: FloatArray = np.arctan2(-self.slope[..., 1], np.abs(self.slope[..., 0]))
+        return inward
+
+    def entrance(self, near: float, step: float) -> float:
+        """Give the angle at the end of the line, or where it leaves the radius there; radians.
+
+        The line is rounded there if, within `near` (m) of y = 0, it turns over a length of `step`
+        (m) as much as a circle of radius `near` or more. It has left the radius at the end of the
+        first such length, seen from the end of the line, over which it turns by no more than half
+        of the most. So short waves of the curvature do not count, and behind a circle the angle is
+        that of the tangent there.
+        """
+        angle = np.unwrap(self.angle.ravel()[::-1])
+        place = self.point.reshape(-1, 2)[::-1]
+        along = np.append(0.0, np.cumsum(np.hypot(*np.diff(place, axis=0).T)))
+        behind = np.interp(along + step, along, angle)
+        turn = np.where(along + step <= along[-1], angle - behind, 0.0)
+        most = int(np.where(place[:, 1] <= near, turn, -np.inf).argmax())
+        slack = np.flatnonzero(turn[most:] <= 0.5 * turn[most])
+        if turn[most] * near < step or not len(slack):
+            return float(angle[0])
+        k = most + int(slack[0])
+        share = (turn[k - 1] - 0.5 * turn[most]) / (turn[k - 1] - turn[k])
+        return float(behind[k - 1] + share * (behind[k] - behind[k - 1]))
+
+    def angle_beside(self, half_breadth: float) -> float:
+        """Give the angle where the line, seen from its end, is first so far out (m); radians."""
+        angle = np.unwrap(self.angle.ravel()[::-1])
+        y = self.point[..., 1].ravel()[::-1]
+        k = int((y >= half_breadth).argmax())
+        if k == 0:
+            return float(angle[0])
+        share = (half_breadth - y[k - 1]) / (y[k] - y[k - 1])
+        return float(angle[k - 1] + share * (angle[k] - angle[k - 1]))
+
+    def bluntness(self) -> float:
+        """Integral of the square of the sine of `angle` over -y, m; a flat end has sine 1."""
+        dx, dy = self.slope[..., 0], self.slope[..., 1]
+        square = dx * dx + dy * dy
+        each = -dy * dy * dy / np.where(square > 0.0, square, 1.0)
+        return float((each @ self.weight).sum()) + self.end[1]
+
+
+def outer_line(arcs: WaterlineArcs, *, forward: bool) -> OuterLine | None:
+    """Follow a waterline from where it is broadest.
+
+    Parameters
+    ----------
+    arcs : Arcs
+        All arcs of the waterline.
+    forward : bool
+        To its forward end; else to its after end.
+
+    Returns
+    -------
+    OuterLine or None
+        Of places equally broad it begins at that next to the end; None without a waterline.
+    """
+    size = np.ptp(arcs.point, axis=1).max(axis=1, initial=0.0)
+    some = np.flatnonzero(size > _SPECK)
+    if not len(some):
+        return None
+    point, slope = arcs.point[some], arcs.slope[some]
+    if not forward:
+        point, slope = point[:, ::-1], -slope[:, ::-1]
+    way = [(_broadest(point, 1.0 if forward else -1.0), False)]
+    left = set(range(len(some))) - {way[0][0]}
+    while left:
+        last, turned = way[-1]
+        end = point[last, 0 if turned else -1]
+        chosen = np.array(sorted(left))
+        away = np.abs(point[chosen][:, [0, -1]] - end).max(axis=2)
+        row, side = np.unravel_index(int(away.argmin()), away.shape)
+        if not away[row, side] <= 2.0 * _SPECK:
+            break
+        way.append((int(chosen[row]), bool(side == 1)))
+        left.remove(way[-1][0])
+    return _joined(point, slope, way, arcs.weight)
+
+
+def _broadest(point: FloatArray, sense: float) -> int:
+    """Give the arc to begin with: of those that reach the greatest breadth the farthest."""
+    most = point[..., 1].max()
+    held = point[..., 1] >= most * (1.0 - _SAME)
+    ahead = sense * point[..., 0]
+    place = np.where(held, ahead, -np.inf).max(axis=1)
+    return int(np.lexsort((ahead.mean(axis=1), np.round(place / _SPECK)))[-1])
+
+
+def _joined(
+    point: FloatArray, slope: FloatArray, way: list[tuple[int, bool]], weight: FloatArray
+) -> OuterLine:
+    places = [point[arc, ::-1] if turned else point[arc] for arc, turned in way]
+    slopes = [-slope[arc, ::-1] if turned else slope[arc] for arc, turned in way]
+    return OuterLine(np.stack(places), np.stack(slopes), weight.copy())

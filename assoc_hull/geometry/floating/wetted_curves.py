@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.numeric.polynomials import horner
 from assoc_hull.geometry.numeric.roots import unit_roots
-from assoc_hull.geometry.splines.equal_arcs import Chains
-from assoc_hull.geometry.splines.paths import stretch
+from assoc_hull.geometry.splines.arc_length import CubicChains
+from assoc_hull.geometry.splines.paths import restrict_cubics
 from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 __all__ = ["WetRuns", "wet_runs"]
@@ -43,7 +43,7 @@ class WetRuns:
     curve: IntArray
     bottom: NDArray[np.bool_]
     top: NDArray[np.bool_]
-    chains: Chains
+    chains: CubicChains
     deck: NDArray[np.bool_]
 
     def __attrs_post_init__(self) -> None:
@@ -123,7 +123,7 @@ def _chains(
     high: FloatArray,
     first: IntArray,
     last: IntArray,
-) -> tuple[Chains, IntArray]:
+) -> tuple[CubicChains, IntArray]:
     """Put the runs together; also give the tile of each of their cubics."""
     size = tile[last] - tile[first] + 1
     start = np.append(0, np.cumsum(size)).astype(np.int64)
@@ -132,4 +132,4 @@ def _chains(
     begin, finish = np.zeros(len(run)), np.ones(len(run))
     begin[start[:-1]] = low[first]
     finish[start[1:] - 1] = high[last]
-    return Chains(start, stretch(curves.point[which], begin, finish)), which
+    return CubicChains(start, restrict_cubics(curves.point[which], begin, finish)), which

@@ -1,30 +1,8 @@
 """What is wrong, or merely worth knowing, about the parameters of a form-parameter curve.
 
-A curve is taken as rising, from its start up and forward to its finish; a falling one is mirrored
-first. C0 to C6 look at parameters alone, the rest at the curve that they make:
-
-| code | about |
-|---|---|
-| C0 | the finish lies ahead of the start; tangents and area are above 0 |
-| C1 | end angles within 0 and 90 degrees |
-| C2 | curvature at a level or upright end does not lead out of the box of both ends |
-| C3 | the area fits into that box |
-| C4 | so does the moment about the lower end; about x = 0 that would hold for x above 0 only |
-| C4s | the centroid is that of some rising curve of this area: a sharp bound |
-| C5.1, C5.2, C5.3 | the start below, above or along the chord: what must hold without inflection |
-| C6 | the area lies between the chord and the two end tangents: so does one without inflection |
-| back, box | the abscissa runs back, the ordinate leaves the box |
-| inflections, loop | the curvature changes its sign, the curve meets itself |
-
-Conditions C1 to C5 are those of Kim & Kang 1992; C5 looks at the curvature of both ends here.
-
-Examples
---------
->>> from assoc_hull.geometry.form_curves.checks import check_parameters
->>> from assoc_hull.geometry.form_curves.parameters import FormParameters
->>> curve = FormParameters(0.0, 0.0, 0.5, 0.0, 0.3, 0.0, 1.0, 1.0, 1.2, 0.0, 0.3, 0.0, 0.4, 0.9)
->>> [(each.code, each.severity) for each in check_parameters(curve)]
-[('C4s', 'warning')]
+The bounds come first: between which areas and centroids a curve can lie by its ends alone, and
+between which centroids it runs forward. `check_parameters` looks at the 14 numbers before there
+is a curve, `check_shape` at the curve. The table of codes stands above the checks.
 """
 
 from __future__ import annotations
@@ -36,19 +14,203 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_curves.extremes import least_coordinate, least_rate
-from assoc_hull.geometry.form_curves.forward import forward_centroids
-from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.form_curves.limits import area_limits, centroid_box, centroid_limits
-from assoc_hull.geometry.form_curves.parameters import FormParameters
-from assoc_hull.geometry.form_curves.shape import crosses_itself, inflections
+from assoc_hull.geometry.form_curves.curve import FormParameters
+from assoc_hull.geometry.form_curves.integrals import MiddleTerms, form_integrals, middle_terms
+from assoc_hull.geometry.form_curves.middle_vertex import centroid_extreme, with_middle
+from assoc_hull.geometry.form_curves.shape import (
+    crosses_itself,
+    form_inflections,
+    least_coordinate,
+    least_rate,
+)
 
 __all__ = [
     "SEVERITIES",
     "FormMessage",
+    "area_limits",
+    "centroid_box",
+    "centroid_limits",
     "check_parameters",
     "check_shape",
+    "forward_centroids",
 ]
+
+# --------------------------------------------------------------------------------------
+# Between which bounds area and centroid of a form-parameter curve can lie, by its ends alone.
+#
+# All bounds are necessary; `centroid_limits` is sharp for curves that rise, or fall, all the way.
+
+Place = tuple[float, float]
+"""Abscissa and ordinate."""
+
+
+def area_limits(start: Place, finish: Place) -> tuple[float, float]:
+    """Give the areas between which a curve can stay between the heights of its ends."""
+    low, high = sorted((start[1], finish[1]))
+    length = abs(finish[0] - start[0])
+    return low * length, high * length
+
+
+def centroid_box(start: Place, finish: Place, area: float) -> tuple[float, float]:
+    """Give the centroids between which the moment about the lower end fits into the box of both.
+
+    Parameters
+    ----------
+    start, finish : (float, float)
+        The ends.
+    area : float
+        Above 0.
+    """
+    if finish[1] < start[1]:
+        low, high = centroid_box((-finish[0], finish[1]), (-start[0], start[1]), area)
+        return -high, -low
+    half = 0.5 * (finish[0] - start[0]) ** 2 / area
+    return start[0] + half * start[1], start[0] + half * finish[1]
+
+
+def centroid_limits(start: Place, finish: Place, area: float) -> tuple[float, float]:
+    """Give the centroids that curves of an area can have which rise, or fall, all the way.
+
+    Parameters
+    ----------
+    start, finish : (float, float)
+        The ends.
+    area : float
+        int y dx.
+
+    Returns
+    -------
+    (float, float)
+        nan if the ends are equally high, or the area is not within `area_limits`.
+    """
+    if finish[1] < start[1]:
+        low, high = centroid_limits((-finish[0], finish[1]), (-start[0], start[1]), area)
+        return -high, -low
+    length, height = finish[0] - start[0], finish[1] - start[1]
+    if not (height > 0.0 and length > 0.0 and area > 0.0):
+        return math.nan, math.nan
+    full = (area / length - start[1]) / height
+    if not 0.0 <= full <= 1.0:
+        return math.nan, math.nan
+    base, rest = 0.5 * start[1] * length * length, height * full * length * length
+    low = start[0] + (base + 0.5 * full * rest) / area
+    return low, start[0] + (base + rest * (1.0 - 0.5 * full)) / area
+
+
+# --------------------------------------------------------------------------------------
+# Between which centroids form-parameter curves of an area run forward: dx/dt nowhere below 0.
+#
+# All middle vertices of an area lie on a line; the least dx/dt of the curve is a concave function
+# of the place on it, so those that run forward are a stretch of that line. On the side of the
+# extreme of the moment on which the chosen root lies, the moment is monotone: the stretch is an
+# interval of centroids, and every centroid in it has a curve that runs forward.
+
+_THIRDS, _HALVES = 70, 60
+"""Steps toward the largest least rate, and toward both ends of the stretch."""
+
+
+def forward_centroids(ends: FloatArray, area: FloatArray) -> FloatArray:
+    """Give the centroids between which curves of an area run forward.
+
+    Parameters
+    ----------
+    ends : (n, 6, 2)
+        P0, P1, P2, P4, P5, P6.
+    area : (n,)
+        int y dx, above 0.
+
+    Returns
+    -------
+    (n, 2)
+        The least and the largest; nan where no curve of the area runs forward, or where its
+        abscissae do not depend on the middle vertex of the area.
+    """
+    terms = middle_terms(ends)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        low, high = _bracket(ends)
+        low, high = _beside_extreme(ends, terms, area, low, high)
+        top = _highest(ends, terms, area, low, high)
+        fine = _rate(ends, terms, area, top) >= 0.0
+        edges = [_edge(ends, terms, area, top, each) for each in (low, high)]
+        found = np.stack([_centroid(terms, area, each) for each in edges], axis=1)
+    return np.where(fine[:, None], np.sort(found, axis=1), np.nan)
+
+
+def _bracket(ends: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give abscissae of the middle vertex beyond which a curve runs back for certain."""
+    x = ends[:, :, 0]
+    return x[:, 2] - np.abs(x[:, 2] - x[:, 1]), x[:, 3] + np.abs(x[:, 4] - x[:, 3])
+
+
+def _beside_extreme(
+    ends: FloatArray, terms: MiddleTerms, area: FloatArray, low: FloatArray, high: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Keep the side of the extreme of the moment on which the nearest root lies."""
+    at, want = centroid_extreme(ends, area)
+    lies = np.isfinite(at)
+    low = np.where(lies & (want >= at), np.maximum(low, at), low)
+    high = np.where(lies & (want < at), np.minimum(high, at), high)
+    return np.minimum(low, high), high
+
+
+def _ordinate(terms: MiddleTerms, area: FloatArray, x: FloatArray) -> FloatArray:
+    """Give the ordinates of middle vertices of the area."""
+    return np.asarray((area - terms.area + terms.lever[:, 1] * x) / terms.lever[:, 0])
+
+
+def _rate(ends: FloatArray, terms: MiddleTerms, area: FloatArray, x: FloatArray) -> FloatArray:
+    return least_rate(with_middle(ends, x, _ordinate(terms, area, x)), 0)
+
+
+def _centroid(terms: MiddleTerms, area: FloatArray, x: FloatArray) -> FloatArray:
+    return np.asarray(terms.moment_at(x, _ordinate(terms, area, x)) / area)
+
+
+def _highest(
+    ends: FloatArray, terms: MiddleTerms, area: FloatArray, low: FloatArray, high: FloatArray
+) -> FloatArray:
+    """Find where the least rate is largest: it is concave, so thirds can be left out."""
+    for _ in range(_THIRDS):
+        one, two = low + (high - low) / 3.0, high - (high - low) / 3.0
+        left = _rate(ends, terms, area, one) >= _rate(ends, terms, area, two)
+        low, high = np.where(left, low, one), np.where(left, two, high)
+    return np.asarray(0.5 * (low + high))
+
+
+def _edge(
+    ends: FloatArray, terms: MiddleTerms, area: FloatArray, inside: FloatArray, outside: FloatArray
+) -> FloatArray:
+    """Find the last place from inside that runs forward."""
+    whole = _rate(ends, terms, area, outside) >= 0.0
+    near, far = inside, outside
+    for _ in range(_HALVES):
+        middle = 0.5 * (near + far)
+        forward = _rate(ends, terms, area, middle) >= 0.0
+        near, far = np.where(forward, middle, near), np.where(forward, far, middle)
+    return np.where(whole, outside, near)
+
+
+# --------------------------------------------------------------------------------------
+# What is wrong, or merely worth knowing, about the parameters of a form-parameter curve.
+#
+# A curve is taken as rising, from its start up and forward to its finish; a falling one is mirrored
+# first. C0 to C6 look at parameters alone, the rest at the curve that they make:
+#
+# | code | about |
+# |---|---|
+# | C0 | the finish lies ahead of the start; tangents and area are above 0 |
+# | C1 | end angles within 0 and 90 degrees |
+# | C2 | curvature at a level or upright end does not lead out of the box of both ends |
+# | C3 | the area fits into that box |
+# | C4 | so does the moment about the lower end; about x = 0 that would hold for x above 0 only |
+# | C4s | the centroid is that of some rising curve of this area: a sharp bound |
+# | C5.1, C5.2, C5.3 | the start below, above or along the chord: what must hold without inflection
+# |
+# | C6 | the area lies between the chord and the two end tangents: so does one without inflection |
+# | back, box | the abscissa runs back, the ordinate leaves the box |
+# | inflections, loop | the curvature changes its sign, the curve meets itself |
+#
+# Conditions C1 to C5 are those of Kim & Kang 1992; C5 looks at the curvature of both ends here.
 
 SEVERITIES = ("error", "warning", "info")
 
@@ -237,7 +399,7 @@ def check_shape(vertices: FloatArray) -> tuple[FormMessage, ...]:
             f"allowed {_span(*ends)}"
         )
         found.append(FormMessage("box", "warning", text))
-    bends = inflections(vertices)
+    bends = form_inflections(vertices)
     if bends:
         places = ", ".join(f"{each:.4g}" for each in bends)
         text = f"curvature changes its sign {len(bends)} time(s), at t = {places}"

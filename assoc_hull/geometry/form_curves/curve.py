@@ -1,30 +1,12 @@
-"""Form-parameter curves: a cubic B-spline of 7 vertices from what its ends and its area are to be.
+"""Form-parameter curves: a cubic B-spline of 7 vertices, from its 14 parameters and back to them.
 
-A curve runs in a plane, t from 0 to 4, over uniform knots; it does not pass through its first
-and last vertex. Its 7 vertices are 14 numbers: at both ends a point, an angle, a curvature, the
-length of the tangent vector and its *stretch* (second derivative along the tangent); then the area
-under the curve and the abscissa of the centroid of that area. So the first three vertices follow
-from the start, the last three from the finish, the middle one from area and centroid.
-
-All functions take batches and work elementwise: a curve has the same bits alone and in a batch.
-Angles are radians from the positive abscissa, a curvature is positive where the curve turns left.
+`FormEnd` says what an end is to be, `form_vertices` makes the curve. `form_values` reads the
+parameters off the vertices of a curve that was changed by hand; `FormParameters` has those of one
+curve by name. Functions take batches and work elementwise: a curve has the same bits alone and in
+a batch. Angles are radians, a curvature is positive where the curve turns left.
 
 S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2),
-1992; the method goes back to Creutz 1977. Which of the two middle vertices is taken, and the
-vertices without area, are our decisions.
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.geometry.form_curves.curve import form_vertices, FormEnd
->>> from assoc_hull.geometry.form_curves.integrals import form_integrals
->>> run = FormEnd.of(-1.0, 0.0, np.radians(60.0), -2.0, 0.1525819451966713)
->>> body = FormEnd.of(-0.3, 1.0, 0.0, 0.0, 0.1525819451966713)
->>> vertices = form_vertices(run, body, area=np.array([0.55]), centroid=np.array([-0.59]))
->>> vertices[0, 3].round(9).tolist()
-[-0.92217359, 0.787861836]
->>> form_integrals(vertices).area.round(12).tolist()
-[0.55]
+1992; the method goes back to Creutz 1977.
 """
 
 from __future__ import annotations
@@ -37,8 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_curves.integrals import FormIntegrals, form_integrals, power_form
-from assoc_hull.geometry.form_curves.middle import (
+from assoc_hull.geometry.form_curves.integrals import form_integrals
+from assoc_hull.geometry.form_curves.middle_vertex import (
     area_vertex,
     fair_vertex,
     middle_vertex,
@@ -46,9 +28,33 @@ from assoc_hull.geometry.form_curves.middle import (
 )
 
 __all__ = [
-    "FormEnd", "FormIntegrals", "area_vertex", "end_vertices", "fair_vertex", "form_at",
-    "form_integrals", "form_vertices", "middle_vertex", "power_form",
-]  # fmt: skip
+    "NAMES",
+    "FormEnd",
+    "FormParameters",
+    "FormValues",
+    "end_of",
+    "end_vertices",
+    "form_at",
+    "form_values",
+    "form_vertices",
+]
+
+# --------------------------------------------------------------------------------------
+# Form-parameter curves: a cubic B-spline of 7 vertices from what its ends and its area are to be.
+#
+# A curve runs in a plane, t from 0 to 4, over uniform knots; it does not pass through its first
+# and last vertex. Its 7 vertices are 14 numbers: at both ends a point, an angle, a curvature, the
+# length of the tangent vector and its *stretch* (second derivative along the tangent); then the
+# area
+# under the curve and the abscissa of the centroid of that area. So the first three vertices follow
+# from the start, the last three from the finish, the middle one from area and centroid.
+#
+# All functions take batches and work elementwise: a curve has the same bits alone and in a batch.
+# Angles are radians from the positive abscissa, a curvature is positive where the curve turns left.
+#
+# S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2),
+# 1992; the method goes back to Creutz 1977. Which of the two middle vertices is taken, and the
+# vertices without area, are our decisions.
 
 
 @attrs.frozen(eq=False)
@@ -180,3 +186,174 @@ def form_vertices(
     if (some := ~free & ~loose).any():
         middle[some] = middle_vertex(ends[some], area[some], centroid[some])[0]
     return with_middle(ends, middle[:, 0], middle[:, 1])
+
+
+# --------------------------------------------------------------------------------------
+# From the vertices of a form-parameter curve back to its parameters.
+#
+# The first three vertices give point, tangent and second derivative at the start, the last three
+# those at the finish; area and centroid are integrals. With the stretch of both ends these are 14
+# numbers, as many as the vertices have, so a curve that was changed by hand is had again from them.
+# Without the stretches it is not.
+
+_STILL = 1e-12
+"""Of the size of a curve: a shorter tangent has no direction."""
+
+_TINY = 1e-100
+"""A tangent whose square is hardly a number has none either."""
+
+_EMPTY = 1e-12
+"""Of the square of the size: a smaller area has no centroid."""
+
+
+@attrs.frozen(eq=False)
+class FormValues:
+    """The parameters of curves.
+
+    Attributes
+    ----------
+    start, finish : FormEnd
+        Of each curve. Where the tangent is nil the angle is that which was handed in, else nan;
+        the curvature is nan.
+    area, centroid, moment : (n,)
+        int y dx, int x y dx / area and int x y dx. Where the area is nil the centroid is nan.
+    """
+
+    start: FormEnd
+    finish: FormEnd
+    area: FloatArray
+    centroid: FloatArray
+    moment: FloatArray
+
+
+def end_of(vertices: FloatArray, angle: FloatArray | None = None) -> FormEnd:
+    """Give the ends that three vertices each make.
+
+    Parameters
+    ----------
+    vertices : (n, 3, 2)
+        In the order of t.
+    angle : (n,) or None, rad
+        What the angle is taken for where the tangent is nil.
+    """
+    a, b, c = (vertices[:, each] for each in range(3))
+    point, first, second = (a + 4.0 * b + c) / 6.0, (c - a) / 2.0, a - 2.0 * b + c
+    tangent = np.array([math.hypot(x, y) for x, y in first.tolist()])
+    still = tangent <= np.maximum(_STILL * np.abs(vertices).max(axis=(1, 2)), _TINY)
+    turn = np.array([math.atan2(y, x) for x, y in first.tolist()])
+    turn = np.where(still, np.nan if angle is None else angle, turn)
+    cos = np.array([math.cos(each) for each in turn.tolist()])
+    sin = np.array([math.sin(each) for each in turn.tolist()])
+    across = second[:, 1] * cos - second[:, 0] * sin
+    with np.errstate(divide="ignore", invalid="ignore"):
+        curvature = np.where(still, np.nan, across / (tangent * tangent))
+    stretch = second[:, 0] * cos + second[:, 1] * sin
+    return FormEnd(point[:, 0], point[:, 1], turn, curvature, tangent, stretch)
+
+
+def form_values(
+    vertices: FloatArray, angles: tuple[FloatArray, FloatArray] | None = None
+) -> FormValues:
+    """Give the parameters of curves.
+
+    Parameters
+    ----------
+    vertices : (n, 7, 2)
+        One curve a row.
+    angles : two of (n,) or None, rad
+        What the angles at both ends are taken for where a tangent is nil.
+    """
+    given = (None, None) if angles is None else angles
+    found = form_integrals(vertices)
+    size = np.ptp(vertices, axis=1).max(axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        empty = np.abs(found.area) <= _EMPTY * size * size
+        centroid = np.where(empty, np.nan, found.moment / found.area)
+    start, finish = end_of(vertices[:, :3], given[0]), end_of(vertices[:, 4:], given[1])
+    return FormValues(start, finish, found.area, centroid, found.moment)
+
+
+# --------------------------------------------------------------------------------------
+# The 14 parameters of one form-parameter curve, by name, and how they go with their curve.
+
+
+@attrs.frozen
+class FormParameters:
+    """The parameters of one curve.
+
+    Attributes
+    ----------
+    start_x, start_y, finish_x, finish_y : float
+        The ends, in the unit of the plane.
+    start_angle, finish_angle : float, rad
+        Of the tangent, from the positive abscissa to the left.
+    start_curvature, finish_curvature : float, 1/unit
+        Positive where the curve turns left as t rises.
+    start_tangent, finish_tangent : float, unit
+        Lengths of the derivative by t, which runs from 0 to 4.
+    start_stretch, finish_stretch : float, unit
+        Components of the second derivative along the tangent.
+    area : float
+        int y dx; nan if it is as it comes out.
+    centroid : float
+        int x y dx / area; nan if it is as it comes out, or if there is no area.
+    """
+
+    start_x: float
+    start_y: float
+    start_angle: float
+    start_curvature: float
+    start_tangent: float
+    start_stretch: float
+    finish_x: float
+    finish_y: float
+    finish_angle: float
+    finish_curvature: float
+    finish_tangent: float
+    finish_stretch: float
+    area: float = float("nan")
+    centroid: float = float("nan")
+
+    @classmethod
+    def of(cls, values: FormValues, row: int = 0) -> Self:
+        """Take those of one curve of a batch."""
+        found = [
+            getattr(end, name)[row]
+            for end in (values.start, values.finish)
+            for name in ("x", "y", "angle", "curvature", "tangent", "stretch")
+        ]
+        return cls(*(float(each) for each in (*found, values.area[row], values.centroid[row])))
+
+    def ends(self) -> tuple[FormEnd, FormEnd]:
+        """Give both ends, as a batch of one curve."""
+        start = (self.start_x, self.start_y, self.start_angle, self.start_curvature)
+        finish = (self.finish_x, self.finish_y, self.finish_angle, self.finish_curvature)
+        return (
+            FormEnd.of(*start, self.start_tangent, self.start_stretch),
+            FormEnd.of(*finish, self.finish_tangent, self.finish_stretch),
+        )
+
+    def integrals(self) -> tuple[FloatArray, FloatArray]:
+        """Give area and centroid, as those of a batch of one curve."""
+        return np.array([self.area]), np.array([self.centroid])
+
+    def mirrored(self) -> FormParameters:
+        """Give those of the curve mirrored at x = 0 and run backward; curvatures keep their sign.
+
+        A falling curve becomes a rising one.
+        """
+        return FormParameters(
+            -self.finish_x, self.finish_y, -self.finish_angle, self.finish_curvature,
+            self.finish_tangent, -self.finish_stretch, -self.start_x, self.start_y,
+            -self.start_angle, self.start_curvature, self.start_tangent, -self.start_stretch,
+            self.area, -self.centroid,
+        )  # fmt: skip
+
+    @property
+    def rising(self) -> FormParameters:
+        """These, or those mirrored if the curve ends lower than it starts."""
+        return self.mirrored() if self.finish_y < self.start_y else self
+
+
+NAMES = tuple(field.name for field in attrs.fields(FormParameters))
+"""In their order."""

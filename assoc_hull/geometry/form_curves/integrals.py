@@ -1,34 +1,121 @@
 """Integrals under form-parameter curves, exactly, and how they depend on the middle vertex.
 
-With the basis functions N_i of the seven vertices the area is a sum of y_i x_j times the integral
-of N_i N_j', the moment one of three vertices at a time (`assoc_hull.geometry.form_curves.basis`
-has these
-numbers as fractions). Since N_3 vanishes at both ends of a curve, the area is affine in the middle
-vertex (x3, y3), and the moment has two quadratic terms only:
-
-    A  = A0 + D_x y3 - D_y x3
-    My = M0 + m1 x3 + m2 y3 + x3 (C_x y3 - C_y x3) / 2
-
-Integrals are taken in this form: they keep their digits where the middle vertex lies far away.
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.geometry.form_curves.integrals import form_integrals
->>> line = np.column_stack([np.arange(-1.0, 6.0), np.full(7, 2.0)])
->>> found = form_integrals(line[None])
->>> [round(float(each[0]), 12) for each in (found.area, found.moment, found.moment_y)]
-[8.0, 16.0, 8.0]
+Area and moments are sums of products of basis functions of the seven vertices. The area is affine
+in the middle vertex and the moment has two quadratic terms only (`MiddleTerms`). `area_table` and
+`moment_table` have the same integrals as fractions: tests compare with them.
 """
 
 from __future__ import annotations
+
+from fractions import Fraction
+from functools import lru_cache
 
 import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["FormIntegrals", "MiddleTerms", "form_integrals", "middle_terms", "power_form"]
+__all__ = [
+    "VERTICES",
+    "FormIntegrals",
+    "MiddleTerms",
+    "area_table",
+    "form_basis",
+    "form_integrals",
+    "middle_terms",
+    "moment_table",
+    "power_form",
+]
+
+# --------------------------------------------------------------------------------------
+# The basis functions of form-parameter curves, and integrals of their products, as fractions.
+#
+# These tables are what area and moments of curves rest upon: with N_i on [0, 4],
+#
+#     A  = sum y_i x_j a_ij          a_ij  = int N_i N_j' dt        denominators divide 720
+#     My = sum y_i x_j x_k b_ijk     b_ijk = int N_i N_j N_k' dt    denominators divide 181440
+#
+# Curves are integrated by `assoc_hull.geometry.form_curves.integrals`, segment by segment; the
+# tables say what must come out, and give the coefficients of the middle vertex.
+
+VERTICES = 7
+_SEGMENTS = 4
+_PARTS = ((1, -3, 3, -1), (4, 0, -6, 3), (1, 3, 3, -3), (0, 0, 0, 1))
+"""Six times the basis functions of a segment, in ascending powers of u."""
+
+Power = tuple[Fraction, ...]
+"""A polynomial in ascending powers."""
+
+
+def form_basis(vertex: int, segment: int) -> Power:
+    """Give the basis function of a vertex on a segment, in ascending powers of u = t - segment."""
+    part = vertex - segment
+    inside = 0 <= part < len(_PARTS)
+    return tuple(Fraction(each, 6) for each in _PARTS[part]) if inside else (Fraction(0),)
+
+
+def _times(one: Power, other: Power) -> Power:
+    found = [Fraction(0)] * (len(one) + len(other) - 1)
+    for i, left in enumerate(one):
+        for j, right in enumerate(other):
+            found[i + j] += left * right
+    return tuple(found)
+
+
+def _slope(power: Power) -> Power:
+    return tuple(n * each for n, each in enumerate(power))[1:] or (Fraction(0),)
+
+
+def _integral(power: Power) -> Fraction:
+    """Integrate from 0 to 1."""
+    return sum((each / (n + 1) for n, each in enumerate(power)), Fraction(0))
+
+
+@lru_cache(maxsize=1)
+def area_table() -> tuple[tuple[Fraction, ...], ...]:
+    """Give a_ij = int N_i N_j' dt, 7 rows of 7."""
+    return tuple(
+        tuple(
+            sum(
+                (
+                    _integral(_times(form_basis(i, s), _slope(form_basis(j, s))))
+                    for s in range(_SEGMENTS)
+                    if 0 <= i - s < 4 and 0 <= j - s < 4
+                ),
+                Fraction(0),
+            )
+            for j in range(VERTICES)
+        )
+        for i in range(VERTICES)
+    )
+
+
+@lru_cache(maxsize=1)
+def moment_table() -> tuple[tuple[tuple[Fraction, ...], ...], ...]:
+    """Give b_ijk = int N_i N_j N_k' dt, 7 tables of 7 rows of 7."""
+    found = [[[Fraction(0)] * VERTICES for _ in range(VERTICES)] for _ in range(VERTICES)]
+    for s in range(_SEGMENTS):
+        for i in range(s, s + 4):
+            for j in range(s, s + 4):
+                both = _times(form_basis(i, s), form_basis(j, s))
+                for k in range(s, s + 4):
+                    found[i][j][k] += _integral(_times(both, _slope(form_basis(k, s))))
+    return tuple(tuple(tuple(row) for row in table) for table in found)
+
+
+# --------------------------------------------------------------------------------------
+# Integrals under form-parameter curves, exactly, and how they depend on the middle vertex.
+#
+# With the basis functions N_i of the seven vertices the area is a sum of y_i x_j times the integral
+# of N_i N_j', the moment one of three vertices at a time
+# (`assoc_hull.geometry.form_curves.integrals` has these
+# numbers as fractions). Since N_3 vanishes at both ends of a curve, the area is affine in the
+# middle vertex (x3, y3), and the moment has two quadratic terms only:
+#
+#     A  = A0 + D_x y3 - D_y x3
+#     My = M0 + m1 x3 + m2 y3 + x3 (C_x y3 - C_y x3) / 2
+#
+# Integrals are taken in this form: they keep their digits where the middle vertex lies far away.
 
 
 def power_form(vertices: FloatArray) -> FloatArray:
@@ -53,7 +140,6 @@ def power_form(vertices: FloatArray) -> FloatArray:
 
 _MIDDLE = power_form(np.repeat(np.eye(7)[3, :, None], 2, axis=1)[None])[..., 0]
 """N_3 in powers, (1, 4 segments, 4 powers)."""
-
 
 _BLOCK = 256
 """So many curves at once: what lies between their powers and their sums stays near at hand."""

@@ -1,15 +1,7 @@
-"""What a form-parameter curve is like: energies, length, inflections, loops.
+"""What a form-parameter curve is like: least values, energies, length, inflections, loops.
 
-Inflections are exact: between knots x' y'' - y' x'' is quadratic. Length and the
-energy of bending are integrated by Gauss' rule.
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.geometry.form_curves.chain import cubic_vertices
->>> from assoc_hull.geometry.form_curves.shape import inflections
->>> inflections(cubic_vertices((0.0, 0.0), (4.0, 1.0), (1.0, 0.0), (1.0, 0.0)))
-(2.0,)
+A negative least rate of the abscissa means that a curve folds back. Inflections are exact; the
+length and the energy of bending are integrated by Gauss's rule.
 """
 
 from __future__ import annotations
@@ -23,7 +15,62 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curves.integrals import power_form
 from assoc_hull.geometry.numeric.roots import quadratic_roots
 
-__all__ = ["ENERGIES", "crosses_itself", "energy", "form_length", "inflections"]
+__all__ = [
+    "ENERGIES",
+    "crosses_itself",
+    "form_energy",
+    "form_inflections",
+    "form_length",
+    "least_coordinate",
+    "least_rate",
+]
+
+# --------------------------------------------------------------------------------------
+# Least values along form-parameter curves: one may fold back, or fall below an axis.
+
+
+def least_rate(vertices: FloatArray, axis: int) -> FloatArray:
+    """Give the least derivative by t of a coordinate along curves.
+
+    Parameters
+    ----------
+    vertices : (n, 7, 2)
+        One curve a row.
+    axis : int
+        0 for the abscissa, 1 for the ordinate.
+
+    Returns
+    -------
+    (n,)
+    """
+    power = power_form(vertices)[..., axis]
+    a, b, c = power[..., 1], 2.0 * power[..., 2], 3.0 * power[..., 3]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        turn = -b / (2.0 * c)
+    turn = np.where((turn > 0.0) & (turn < 1.0), turn, 0.0)
+    found = np.minimum(np.minimum(a, a + b + c), a + turn * (b + turn * c))
+    return np.asarray(found.min(axis=1))
+
+
+def least_coordinate(vertices: FloatArray, axis: int) -> FloatArray:
+    """Give the least value of a coordinate along curves; arguments as of `least_rate`."""
+    power = power_form(vertices)[..., axis]
+    a, b, c = power[..., 1], 2.0 * power[..., 2], 3.0 * power[..., 3]
+    found = np.minimum(power[..., 0], power.sum(axis=-1))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        half = -0.5 * (b + np.copysign(np.sqrt(b * b - 4.0 * a * c), b))
+        for root in (half / c, a / half):
+            u = np.where((root > 0.0) & (root < 1.0), root, 0.0)
+            at = power[..., 0] + u * (power[..., 1] + u * (power[..., 2] + u * power[..., 3]))
+            found = np.minimum(found, at)
+    return np.asarray(found.min(axis=1))
+
+
+# --------------------------------------------------------------------------------------
+# What a form-parameter curve is like: energies, length, inflections, loops.
+#
+# Inflections are exact: between knots x' y'' - y' x'' is quadratic. Length and the
+# energy of bending are integrated by Gauss' rule.
 
 ENERGIES: tuple[Literal["E2", "E3", "J"], ...] = ("E2", "E3", "J")
 """int |Q''|^2 dt, int |Q'''|^2 dt, and length times int curvature^2 ds."""
@@ -31,6 +78,7 @@ ENERGIES: tuple[Literal["E2", "E3", "J"], ...] = ("E2", "E3", "J")
 _NODES, _WEIGHTS = (0.5 * each for each in leggauss(16))
 _STRAIGHT = 1e-9
 """rad: a stretch that turns less is straight."""
+
 _STEPS = 48
 """Chords of a segment, in looking for loops."""
 
@@ -40,7 +88,7 @@ def _total(parts: FloatArray) -> FloatArray:
     return np.asarray(((parts[:, 0] + parts[:, 1]) + parts[:, 2]) + parts[:, 3])
 
 
-def energy(vertices: FloatArray, kind: str = "E3") -> FloatArray:
+def form_energy(vertices: FloatArray, kind: str = "E3") -> FloatArray:
     """Give the energies of curves.
 
     Parameters
@@ -94,7 +142,7 @@ def form_length(vertices: FloatArray) -> FloatArray:
     return _total(length)
 
 
-def inflections(vertices: FloatArray) -> tuple[float, ...]:
+def form_inflections(vertices: FloatArray) -> tuple[float, ...]:
     """Give where the curvature of a curve changes its sign: parameters t, rising.
 
     Parameters

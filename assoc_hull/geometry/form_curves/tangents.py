@@ -30,10 +30,16 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curves.curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_curves.extremes import least_rate
-from assoc_hull.geometry.form_curves.shape import energy
+from assoc_hull.geometry.form_curves.shape import form_energy, least_rate
 
-__all__ = ["FASTEST", "SLOWEST", "FairTangents", "chords", "fairest_tangents", "usual_tangents"]
+__all__ = [
+    "FASTEST",
+    "SLOWEST",
+    "FairTangents",
+    "chord_lengths",
+    "fairest_tangents",
+    "usual_tangents",
+]
 
 SLOWEST, FASTEST = 0.15, 1.6
 """Bounds of a pace."""
@@ -65,7 +71,7 @@ class FairTangents:
     at_bound: NDArray[np.bool_]
 
 
-def chords(start: FormEnd, finish: FormEnd) -> FloatArray:
+def chord_lengths(start: FormEnd, finish: FormEnd) -> FloatArray:
     """Give the distances of both ends, (n,)."""
     x, y = finish.x - start.x, finish.y - start.y
     return np.asarray(np.sqrt(x * x + y * y))
@@ -73,7 +79,7 @@ def chords(start: FormEnd, finish: FormEnd) -> FloatArray:
 
 def usual_tangents(start: FormEnd, finish: FormEnd) -> FloatArray:
     """Give tangents of an eighth of the chord, (n, 2)."""
-    return np.asarray(np.repeat(_USUAL * chords(start, finish)[:, None] / 4.0, 2, axis=1))
+    return np.asarray(np.repeat(_USUAL * chord_lengths(start, finish)[:, None] / 4.0, 2, axis=1))
 
 
 @attrs.frozen(eq=False)
@@ -89,7 +95,7 @@ class _Task:
     def cost(self, pace: FloatArray) -> FloatArray:
         """Give the energy and the penalty of paces, (n, k, 2): (n, k), infinite if no curve."""
         count = pace.shape[1]
-        even = np.repeat(chords(self.start, self.finish) / 4.0, count)
+        even = np.repeat(chord_lengths(self.start, self.finish) / 4.0, count)
         each = [np.repeat(part, count) for part in (self.area, self.centroid)]
         start = _with(self.start, count, even * pace[:, :, 0].reshape(-1))
         finish = _with(self.finish, count, even * pace[:, :, 1].reshape(-1))
@@ -99,7 +105,7 @@ class _Task:
             lack = _LEAST_PACE - np.where(width > 0.0, least_rate(vertices, 0) / width, np.inf)
             # E2 and E3 are squares of lengths, J is a number: so is what is added to it.
             scale = 1.0 if self.kind == "J" else 16.0 * even * even
-            cost = energy(vertices, self.kind) + scale * _PENALTY * np.maximum(lack, 0.0) ** 2
+            cost = form_energy(vertices, self.kind) + scale * _PENALTY * np.maximum(lack, 0.0) ** 2
         return np.where(np.isfinite(cost), cost, np.inf).reshape(-1, count)
 
 
@@ -158,7 +164,7 @@ def fairest_tangents(
     pace = _exponential(best)
     bound = (best <= low + 1e-7) | (best >= high - 1e-7)
     lost = ~np.isfinite(least)
-    tangents = np.where(lost[:, None], np.nan, pace * chords(start, finish)[:, None] / 4.0)
+    tangents = np.where(lost[:, None], np.nan, pace * chord_lengths(start, finish)[:, None] / 4.0)
     return FairTangents(tangents, least, bound & ~lost[:, None])
 
 

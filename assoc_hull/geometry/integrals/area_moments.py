@@ -1,8 +1,8 @@
-"""Areas and moments along curves by Green's theorem, and integrals over stations.
+"""Areas and moments of plane regions by Green's theorem, along the curves that bound them.
 
-The integrands are polynomials in the parameter of a segment. The Gauss rules have as many
-points as make them exact: three suffice for the area only (degree 5), second moments need
-six (degree 11).
+The integrands are polynomials in the parameter of a segment. The Gauss rules have as many points
+as make them exact: three suffice for the area only (degree 5), second moments need six
+(degree 11). Arrays that carry tangents pass through.
 
 Source: H.J. Son, H.C. Kim, "hull form parameter modules for performance analysis", J. of
 CAD/CAM (Korea) 13(6), 2008, which uses three points throughout.
@@ -17,17 +17,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.dual import Dual, real
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner, varied_roots
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner
 from assoc_hull.geometry.numeric.quadrature import gauss
-from assoc_hull.geometry.numeric.roots import unit_roots
-from assoc_hull.geometry.splines.segments import bernstein, power, segment_curve, sum_per_curve
+from assoc_hull.geometry.numeric.roots import roots_with_tangents, unit_roots
+from assoc_hull.geometry.splines.segments import (
+    bezier_points,
+    power_coefficients,
+    segment_curve,
+    sum_per_curve,
+)
 
 __all__ = [
     "AreaMoments",
-    "checked_stations",
-    "integrate_stations",
     "line_integral",
     "plane_integrals",
     "section_area",
@@ -117,7 +120,7 @@ def line_integral(
             "give exponents from 0, and 0 or 1 for du or dv",
         )
     degree = 3 * sum(exponents) + 2
-    plane = power(batch)[:, :, list(axes)]
+    plane = power_coefficients(batch)[:, :, list(axes)]
     nodes, weights = gauss(max(_POINTS, degree // 2 + 1))
     first, second, step_first, step_second = _at_nodes(plane, nodes)
     step = step_second if along else step_first
@@ -168,7 +171,7 @@ def plane_integrals(
     [3.0]
     """
     _check_axes(axes)
-    sums = sum_per_curve(batch, _sectors(power(batch)[:, :, list(axes)]))
+    sums = sum_per_curve(batch, _sectors(power_coefficients(batch)[:, :, list(axes)]))
     if close:
         begin, end = batch.xyz[batch.start[:-1]], batch.xyz[batch.start[1:] - 1]
         nil = np.zeros(begin.shape)
@@ -228,10 +231,10 @@ def section_area(
             "give one height for all or one for each",
         )
     top = np.broadcast_to(heights, (batch.count,))[segment_curve(batch)]
-    below: NDArray[np.bool_] = real(bernstein(batch))[:, :, axes[1]] <= real(top)[:, None]
+    below: NDArray[np.bool_] = real(bezier_points(batch))[:, :, axes[1]] <= real(top)[:, None]
     whole = np.asarray(below.all(axis=1))
     cut = ~whole & below.any(axis=1)
-    plane = power(batch)[:, :, list(axes)]
+    plane = power_coefficients(batch)[:, :, list(axes)]
     uncut = _strips(plane[~cut], np.zeros(int((~cut).sum())), np.where(whole[~cut], 1.0, 0.0))
     strips = np.concatenate([uncut, _cut_strips(plane[cut], top[cut])])
     order = np.argsort(np.concatenate([np.flatnonzero(~cut), np.flatnonzero(cut)]))
@@ -239,64 +242,6 @@ def section_area(
     area = np.where(np.signbit(real(sums)), -sums, sums)
     freeze(area)
     return area
-
-
-def integrate_stations(x: ArrayLike, values: ArrayLike) -> FloatArray:
-    """Integrate over stations: the integral of the C2 cubic spline through the values.
-
-    The spline is the not-a-knot one, exact for cubics; the parabola through three stations
-    and the straight line through two. The integral is linear in the values.
-
-    Parameters
-    ----------
-    x : (n,), m
-        Positions of the stations, ascending, n >= 2.
-    values : (n, ...)
-        Values at the stations.
-
-    Returns
-    -------
-    (...)
-        The integrals, in the unit of the values times m.
-
-    Raises
-    ------
-    BadInputError
-        Fewer than two stations, positions that do not ascend, numbers that are not finite,
-        or not one value per station.
-
-    Examples
-    --------
-    >>> from assoc_hull.geometry.integrals.area_moments import integrate_stations
-    >>> float(integrate_stations([0, 1, 3, 4], [0, 1, 27, 64]))  # x^3
-    64.0
-    """
-    place, value = checked_stations(x, values)
-    rows = value.reshape(len(place), -1)
-    step = np.diff(place)[:, None]
-    slope = _spline_slopes(step[:, 0], rows)
-    parts = step * (rows[:-1] + rows[1:]) / 2.0 + step**2 * (slope[:-1] - slope[1:]) / 12.0
-    total: FloatArray = parts.sum(axis=0).reshape(value.shape[1:])
-    freeze(total)
-    return total
-
-
-def checked_stations(x: ArrayLike, values: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Take positions of stations and their values, as `integrate_stations` does."""
-    place, value = np.asarray(x, np.float64), np.asarray(values, np.float64)
-    if place.ndim != 1 or len(place) < 2 or value.shape[:1] != place.shape:
-        raise BadInputError(
-            f"stations of shape {place.shape} with values of shape {value.shape}",
-            "in an integral over stations",
-            "give two stations or more, with one value each",
-        )
-    if not (np.isfinite(value).all() and np.isfinite(place).all() and (np.diff(place) > 0).all()):
-        raise BadInputError(
-            "positions that do not ascend, or numbers that are not finite",
-            "in an integral over stations",
-            "sort the stations and leave out repeated ones",
-        )
-    return place, value
 
 
 def _check_axes(axes: tuple[int, int]) -> None:
@@ -350,44 +295,9 @@ def _cut_strips(plane: FloatArray, top: FloatArray) -> FloatArray:
     below = horner(real(height), 0.5 * (edge[:, :-1] + edge[:, 1:])) <= 0.0
     crossing = np.zeros(edge.shape, bool)
     crossing[:, 1:-1] = below[:, :-1] != below[:, 1:]
-    edge = varied_roots(height, edge, crossing)
+    edge = roots_with_tangents(height, edge, crossing)
     total = np.zeros(len(top))
     for part in range(edge.shape[1] - 1):
         strip = _strips(plane, edge[:, part], edge[:, part + 1])
         total = total + np.where(below[:, part], strip, 0.0)
     return total
-
-
-def _spline_slopes(step: FloatArray, rows: FloatArray) -> FloatArray:
-    """Give the slopes of the not-a-knot spline at its stations, (n, c)."""
-    rise = np.diff(rows, axis=0) / step[:, None]
-    if len(step) == 1:
-        return np.concatenate([rise, rise])
-    matrix, right = _interior_rows(step, rise)
-    if len(step) == 2:
-        # One parabola: the slope of a chord is the mean of the slopes at its ends.
-        matrix[0, :2], matrix[-1, -2:] = 1.0, 1.0
-        right[0], right[-1] = 2.0 * rise[0], 2.0 * rise[-1]
-    else:
-        # One cubic over the two outermost intervals: equal third derivatives.
-        matrix[0, :3], right[0] = _joined(step[:2], rise[:2])
-        matrix[-1, :-4:-1], right[-1] = _joined(step[:-3:-1], rise[:-3:-1])
-    return np.asarray(np.linalg.solve(matrix, right), np.float64)
-
-
-def _joined(step: FloatArray, rise: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the equation of two intervals that share one cubic: its row and right side."""
-    near, far = 1.0 / step**2
-    return np.array([near, near - far, -far]), 2.0 * (rise[0] * near - rise[1] * far)
-
-
-def _interior_rows(step: FloatArray, rise: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the equations of equal second derivatives; the first and last row are nil."""
-    count = len(step) + 1
-    matrix, right = np.zeros((count, count)), np.zeros((count, rise.shape[1]))
-    inner: IntArray = np.arange(1, count - 1)
-    matrix[inner, inner - 1] = 1.0 / step[:-1]
-    matrix[inner, inner] = 2.0 / step[:-1] + 2.0 / step[1:]
-    matrix[inner, inner + 1] = 1.0 / step[1:]
-    right[1:-1] = 3.0 * (rise[:-1] / step[:-1, None] + rise[1:] / step[1:, None])
-    return matrix, right

@@ -3,11 +3,11 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.numeric.circle_fit import Circle, fit_circle, unrolled
+>>> from assoc_hull.geometry.numeric.circle_fit import CircleFit, fit_circle, unroll_on_circle
 >>> t = np.linspace(0.0, 1.0, 9)
 >>> points = 3.0 * np.column_stack([np.cos(t), np.sin(t)])
 >>> circle = fit_circle(points)
->>> round(circle.radius, 9), unrolled(points, circle)[0][-1].round(9)
+>>> round(circle.radius, 9), unroll_on_circle(points, circle)[0][-1].round(9)
 (3.0, np.float64(3.0))
 """
 
@@ -18,11 +18,17 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
-__all__ = ["Circle", "fit_circle", "off_quick_circle", "off_three", "unrolled"]
+__all__ = [
+    "CircleFit",
+    "fit_circle",
+    "quick_circle_residuals",
+    "three_point_residuals",
+    "unroll_on_circle",
+]
 
 
 @attrs.frozen(eq=False)
-class Circle:
+class CircleFit:
     """A circle fitted to points.
 
     Attributes
@@ -43,7 +49,7 @@ class Circle:
         freeze(self.centre)
 
 
-def fit_circle(points: FloatArray) -> Circle:
+def fit_circle(points: FloatArray) -> CircleFit:
     """Fit a circle: least squares of the distances.
 
     Parameters
@@ -73,7 +79,7 @@ def fit_circle(points: FloatArray) -> Circle:
         if float(np.abs(step).max()) < 1e-10 * float(guess[2]):
             break
     spread = float(np.sqrt(max(float(inverse[2, 2]), 0.0)))
-    return Circle(middle + size * guess[:2], size * float(guess[2]), spread)
+    return CircleFit(middle + size * guess[:2], size * float(guess[2]), spread)
 
 
 def _first_circle(points: FloatArray) -> tuple[FloatArray, float, FloatArray]:
@@ -90,14 +96,16 @@ def _first_circle(points: FloatArray) -> tuple[FloatArray, float, FloatArray]:
     return middle, size, np.array([known[0], known[1], radius])
 
 
-def off_quick_circle(points: FloatArray, first: int, last: int) -> FloatArray:
+def quick_circle_residuals(points: FloatArray, first: int, last: int) -> FloatArray:
     """Give how far all points lie off a circle quickly fitted to those from first to last, m."""
     middle, size, circle = _first_circle(points[first : last + 1])
     away = (points - middle) / size - circle[:2]
     return np.asarray(size * (np.sqrt((away * away).sum(axis=1)) - circle[2]))
 
 
-def unrolled(points: FloatArray, circle: Circle) -> tuple[FloatArray, FloatArray, float, float]:
+def unroll_on_circle(
+    points: FloatArray, circle: CircleFit
+) -> tuple[FloatArray, FloatArray, float, float]:
     """Give lengths along a circle, distances off it (positive outside), first angle and sense."""
     away = points - circle.centre
     angle = np.unwrap(np.arctan2(away[:, 1], away[:, 0]))
@@ -106,7 +114,9 @@ def unrolled(points: FloatArray, circle: Circle) -> tuple[FloatArray, FloatArray
     return sense * circle.radius * (angle - angle[0]), off, float(angle[0]), sense
 
 
-def off_three(points: FloatArray, first: IntArray, last: IntArray) -> tuple[FloatArray, FloatArray]:
+def three_point_residuals(
+    points: FloatArray, first: IntArray, last: IntArray
+) -> tuple[FloatArray, FloatArray]:
     """Give how far the quarter points of windows lie off the circle through three, and depths."""
     a, b, c = points[first], points[(first + last) // 2], points[last]
     chord, side = c - a, b - a

@@ -14,17 +14,17 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.numeric.dual import Dual, as_array, is_plain, real
 from assoc_hull.geometry.numeric.dual import sum_by as sum_rows_by
 
-__all__ = ["differs", "mix", "nil", "root", "sum_by"]
+__all__ = ["combine_rows", "common_zeros", "differs_from_zero", "safe_sqrt", "sum_columns_by"]
 
 
-def differs(values: FloatArray) -> NDArray[np.bool_]:
+def differs_from_zero(values: FloatArray) -> NDArray[np.bool_]:
     """Tell which numbers are not nil, or have a derivative that is not."""
     if isinstance(values, Dual):
         return np.asarray((values.value != 0.0) | (values.dot != 0.0).any(axis=0))
     return np.asarray(values != 0.0)
 
 
-def nil(shape: tuple[int, ...], *like: FloatArray) -> FloatArray:
+def common_zeros(shape: tuple[int, ...], *like: FloatArray) -> FloatArray:
     """Give zeros of the arithmetic that results from all of some numbers."""
     for each in like:
         if isinstance(each, Dual):
@@ -36,7 +36,7 @@ _NONE = 1e-22
 """A square of less is rounding about nil, from which a root would take any direction."""
 
 
-def root(values: FloatArray) -> FloatArray:
+def safe_sqrt(values: FloatArray) -> FloatArray:
     """Give square roots; where there is nothing to take one of, nil and no derivative."""
     if is_plain(values):
         return np.sqrt(values)
@@ -44,7 +44,7 @@ def root(values: FloatArray) -> FloatArray:
     return np.where(some, np.sqrt(np.where(some, values, 1.0)), 0.0)
 
 
-def mix(matrix: FloatArray, values: FloatArray) -> FloatArray:
+def combine_rows(matrix: FloatArray, values: FloatArray) -> FloatArray:
     """Combine rows: ``matrix @ values``, of which the matrix is plain.
 
     Parameters
@@ -63,7 +63,7 @@ def mix(matrix: FloatArray, values: FloatArray) -> FloatArray:
     return mixed
 
 
-def sum_by(values: FloatArray, owner: IntArray, count: int) -> FloatArray:
+def sum_columns_by(values: FloatArray, owner: IntArray, count: int) -> FloatArray:
     """Add up columns by owner.
 
     Parameters
@@ -83,7 +83,7 @@ def sum_by(values: FloatArray, owner: IntArray, count: int) -> FloatArray:
     Examples
     --------
     >>> import numpy as np
-    >>> sum_by(np.array([[1.0, 2.0, 4.0]]), np.array([1, 0, 1]), 3)
+    >>> sum_columns_by(np.array([[1.0, 2.0, 4.0]]), np.array([1, 0, 1]), 3)
     array([[2., 5., 0.]])
     """
     if count == 1:
@@ -91,8 +91,8 @@ def sum_by(values: FloatArray, owner: IntArray, count: int) -> FloatArray:
         return alone
     if isinstance(values, Dual):
         dot = values.dot.reshape(values.count * len(values), values.shape[1])
-        sums = sum_by(dot, owner, count).reshape(values.count, len(values), count)
-        return as_array(Dual(sum_by(values.value, owner, count), sums))
+        sums = sum_columns_by(dot, owner, count).reshape(values.count, len(values), count)
+        return as_array(Dual(sum_columns_by(values.value, owner, count), sums))
     if not is_plain(values):
         summed: FloatArray = sum_rows_by(values.T, owner, count).T
         return summed

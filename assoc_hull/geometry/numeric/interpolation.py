@@ -3,10 +3,12 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.numeric.interpolation import interpolate
+>>> from assoc_hull.geometry.numeric.interpolation import interpolate_linear
 >>> curve, at = np.array([0, 0, 2]), np.array([0.0, 2.0, 1.0])
 >>> value = np.array([[0.0], [4.0], [7.0]])
->>> found, told = interpolate(curve, at, value, np.array([0, 1, 2]), np.array([0.5, 0.5, 0.5]))
+>>> found, told = interpolate_linear(
+...     curve, at, value, np.array([0, 1, 2]), np.array([0.5, 0.5, 0.5])
+... )
 >>> found[:, 0].tolist(), told.tolist()
 ([1.0, 7.0], [True, False, True])
 """
@@ -18,10 +20,10 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
-__all__ = ["differences", "interpolate"]
+__all__ = ["differentiation_matrix", "interpolate_linear"]
 
 
-def interpolate(
+def interpolate_linear(
     curve: IntArray, at: FloatArray, value: FloatArray, wanted: IntArray, place: FloatArray
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Interpolate linearly along each of many curves, to the bits of `numpy.interp`.
@@ -57,7 +59,7 @@ def interpolate(
     return np.where(between[:, None], blend, value[low]), told
 
 
-def differences(t: FloatArray) -> FloatArray:
+def differentiation_matrix(t: FloatArray) -> FloatArray:
     """Give the matrix that takes values to slopes of the polynomial through them.
 
     Parameters
@@ -74,7 +76,7 @@ def differences(t: FloatArray) -> FloatArray:
     --------
     >>> import numpy as np
     >>> t = np.array([0.0, 0.5, 1.0])
-    >>> (differences(t) @ t**2).round(12).tolist()
+    >>> (differentiation_matrix(t) @ t**2).round(12).tolist()
     [0.0, 1.0, 2.0]
     """
     apart = t[:, None] - t[None]

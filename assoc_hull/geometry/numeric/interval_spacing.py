@@ -3,8 +3,8 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.numeric.interval_spacing import spread
->>> spread(np.array([0.0, 0.0, 9.0]), np.array([2.0, 2.0, 2.0])).tolist()
+>>> from assoc_hull.geometry.numeric.interval_spacing import space_intervals
+>>> space_intervals(np.array([0.0, 0.0, 9.0]), np.array([2.0, 2.0, 2.0])).tolist()
 [-1.0, 1.0, 9.0]
 """
 
@@ -14,10 +14,10 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["spread"]
+__all__ = ["space_intervals"]
 
 
-def spread(wanted: FloatArray, size: FloatArray, gap: float = 0.0) -> FloatArray:
+def space_intervals(wanted: FloatArray, size: FloatArray, gap: float = 0.0) -> FloatArray:
     """Move intervals on a line apart, with the least sum of squared movements.
 
     Parameters

@@ -8,12 +8,83 @@ complex or carry tangents (`assoc_hull.geometry.numeric.dual.Dual`); so then do 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.numeric.dual import is_plain, real
 
-__all__ = ["differentiate", "hermite", "horner", "varied_roots"]
+__all__ = [
+    "cubic_values",
+    "differentiate",
+    "hermite",
+    "horner",
+    "stationary_fractions",
+]
+
+
+def cubic_values(
+    origin: FloatArray,
+    first: FloatArray,
+    second: FloatArray,
+    third: FloatArray,
+    fraction: FloatArray,
+) -> FloatArray:
+    """Evaluate cubics given by their powers, by Horner's rule.
+
+    Parameters
+    ----------
+    origin, first, second, third : (k,), any unit
+        Coefficients of 1, u, u**2, u**3.
+    fraction : (k,)
+        The arguments u.
+
+    Returns
+    -------
+    (k,), the unit of the coefficients
+        The values.
+
+    Examples
+    --------
+    >>> cubic_values(*np.array([[1.0], [1.0], [0.0], [2.0]]), np.array([0.5]))
+    array([1.75])
+    """
+    result = third * fraction
+    result += second
+    result *= fraction
+    result += first
+    result *= fraction
+    result += origin
+    return result
+
+
+def stationary_fractions(
+    first: FloatArray, second: FloatArray, third: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Cut cubics into three parts that are monotone.
+
+    Parameters
+    ----------
+    first, second, third : (k,), any unit
+        Coefficients of u, u**2, u**3.
+
+    Returns
+    -------
+    lower, upper : (k,)
+        Fractions ``0 <= lower <= upper <= 1`` where the derivative is nil; a fraction that
+        is not needed is 0 or 1.
+
+    Examples
+    --------
+    >>> stationary_fractions(np.array([3.0]), np.array([-8.0]), np.array([4.0]))
+    (array([0.]), array([0.2257]))
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # Sum of equal signs only, so that neither root loses digits.
+        root = np.sqrt(second * second - 3.0 * (third * first))
+        sum_ = -(second + np.copysign(root, second))
+        one, other = sum_ / (3.0 * third), first / sum_
+    one = np.where((one > 0.0) & (one < 1.0), one, 0.0)
+    other = np.where((other > 0.0) & (other < 1.0), other, 0.0)
+    lower, upper = np.minimum(one, other), np.maximum(one, other)
+    return lower, np.where(upper > 0.0, upper, 1.0)
 
 
 def differentiate(coefficients: FloatArray) -> FloatArray:
@@ -99,37 +170,3 @@ def horner(coefficients: FloatArray, u: FloatArray) -> FloatArray:
     result: FloatArray = value
     freeze(result)
     return result
-
-
-def varied_roots(coefficients: FloatArray, u: FloatArray, simple: NDArray[np.bool_]) -> FloatArray:
-    """Let roots vary with the coefficients of their polynomials, as ``p(u) = 0`` wants.
-
-    Parameters
-    ----------
-    coefficients : (s, d + 1)
-        Ascending powers along the second axis.
-    u : (s, k)
-        Roots for the plain values of the coefficients, k for each polynomial.
-    simple : (s, k) bool
-        Which of them are to vary: simple roots; other places stay.
-
-    Returns
-    -------
-    (s, k)
-        The same values; with tangents or an imaginary part if the coefficients have any.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from assoc_hull.geometry.numeric.dual import Dual
-    >>> from assoc_hull.geometry.numeric.polynomials import varied_roots
-    >>> square = Dual([[-4.0, 0.0, 1.0]], [[[-1.0, 0.0, 0.0]]])  # u^2 = 4 + e, u = 2 + e / 4
-    >>> varied_roots(square, np.array([[2.0]]), np.array([[True]])).dot.tolist()
-    [[[0.25]]]
-    """
-    if is_plain(coefficients):
-        return u
-    left = horner(coefficients, u)
-    slope = np.where(simple, horner(differentiate(real(coefficients)), u), np.inf)
-    roots: FloatArray = u - (left - real(left)) / slope
-    return roots

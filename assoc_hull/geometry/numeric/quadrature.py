@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["bunched", "gauss", "lobatto", "root_walk"]
+__all__ = ["bunched_rule", "gauss", "lobatto", "root_walk"]
 
 
 @lru_cache
@@ -89,7 +89,7 @@ def _extremes(count: int) -> FloatArray:
 
 
 @lru_cache
-def bunched(count: int) -> tuple[FloatArray, FloatArray]:
+def bunched_rule(count: int) -> tuple[FloatArray, FloatArray]:
     """Give a rule on [0, 1] for half-integer powers of the distance to either end.
 
     Parameters
@@ -104,7 +104,7 @@ def bunched(count: int) -> tuple[FloatArray, FloatArray]:
 
     Examples
     --------
-    >>> nodes, weights = bunched(12)
+    >>> nodes, weights = bunched_rule(12)
     >>> round(float((weights * np.sqrt(nodes * (1.0 - nodes))).sum() * 8.0 / np.pi), 12)
     1.0
     """

@@ -1,36 +1,78 @@
-"""Roots of many polynomials at once, each with the same bits as when found alone.
+"""Roots of many polynomials, and of any continuous functions, all at once.
 
-Two finders: `bracketed_roots` for cubics whose one root is bracketed, in steps that compiled
-code repeats bit by bit (meetings of curves and planes); `unit_roots` for all sign changes of
-polynomials of any degree in [0, 1] (lengths, integrals, closest points).
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.geometry.numeric.roots import bracketed_roots
->>> cubic = np.array([[-0.5], [1.0], [0.0], [0.0]])
->>> bracketed_roots(cubic, np.zeros(1), np.ones(1), np.array([-0.5]), np.array([0.5]))
-array([0.5])
+`bracketed_roots` finds the one root of cubics in brackets, in steps that compiled code repeats
+bit by bit; `unit_roots` finds all sign changes of polynomials of any degree in [0, 1];
+`false_position` needs values only. A root has the same bits alone and in a batch. Roots carry
+tangents on with `roots_with_tangents`: the finders themselves look at plain numbers.
 """
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Callable
 
-from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner
-from assoc_hull.geometry.splines.bernstein import value
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.numeric.dual import is_plain, real
+from assoc_hull.geometry.numeric.polynomials import cubic_values, differentiate, horner
 
 __all__ = [
     "FLOOR",
     "MOST_TRIALS",
     "RELATIVE",
     "STEPS",
+    "BracketedFunction",
     "bracketed_roots",
+    "false_position",
     "quadratic_roots",
+    "roots_with_tangents",
     "unit_roots",
 ]
+
+
+def roots_with_tangents(
+    coefficients: FloatArray, u: FloatArray, simple: NDArray[np.bool_]
+) -> FloatArray:
+    """Let roots vary with the coefficients of their polynomials, as ``p(u) = 0`` wants.
+
+    Parameters
+    ----------
+    coefficients : (s, d + 1)
+        Ascending powers along the second axis.
+    u : (s, k)
+        Roots for the plain values of the coefficients, k for each polynomial.
+    simple : (s, k) bool
+        Which of them are to vary: simple roots; other places stay.
+
+    Returns
+    -------
+    (s, k)
+        The same values; with tangents or an imaginary part if the coefficients have any.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.numeric.dual import Dual
+    >>> from assoc_hull.geometry.numeric.roots import roots_with_tangents
+    >>> square = Dual([[-4.0, 0.0, 1.0]], [[[-1.0, 0.0, 0.0]]])  # u^2 = 4 + e, u = 2 + e / 4
+    >>> roots_with_tangents(square, np.array([[2.0]]), np.array([[True]])).dot.tolist()
+    [[[0.25]]]
+    """
+    if is_plain(coefficients):
+        return u
+    left = horner(coefficients, u)
+    slope = np.where(simple, horner(differentiate(real(coefficients)), u), np.inf)
+    roots: FloatArray = u - (left - real(left)) / slope
+    return roots
+
+
+# --------------------------------------------------------------------------------------
+# Roots of many polynomials at once, each with the same bits as when found alone.
+#
+# Two finders: `bracketed_roots` for cubics whose one root is bracketed, in steps that compiled
+# code repeats bit by bit (meetings of curves and planes); `unit_roots` for all sign changes of
+# polynomials of any degree in [0, 1] (lengths, integrals, closest points).
 
 _ROUNDING = 4e-16  # a step below this changes nothing in [0, 1]
 _HALVINGS = 80  # more than bisection alone needs
@@ -92,7 +134,7 @@ def bracketed_roots(
         steep = 3.0 * third
         for _ in range(STEPS):
             root -= _halley(origin, first, second, third, steep, root)
-        residual = np.abs(value(origin, first, second, third, root))
+        residual = np.abs(cubic_values(origin, first, second, third, root))
         good = (residual <= limit) & (root >= lower) & (root <= upper)
     at_begin, at_end = at_lower == 0.0, at_upper == 0.0
     # Many meetings lie on knots: those are known, whatever the steps have made of them.
@@ -114,7 +156,7 @@ def _halley(
     root: FloatArray,
 ) -> FloatArray:
     """Give the step f f' / (f'**2 - f f'' / 2)."""
-    height = value(origin, first, second, third, root)
+    height = cubic_values(origin, first, second, third, root)
     bend = steep * root
     bend += second
     slope = bend + second
@@ -141,7 +183,7 @@ def _safe_roots(
     for trial in range(MOST_TRIALS):
         root = result[active]
         origin, first, second, third = cubic[:, active]
-        height = value(origin, first, second, third, root)
+        height = cubic_values(origin, first, second, third, root)
         above = (height >= 0.0) == rising[active]
         upper[active] = np.where(above, root, upper[active])
         lower[active] = np.where(above, lower[active], root)
@@ -304,3 +346,60 @@ def _value_one(falling: list[float], at: float) -> float:
     for each in falling[1:]:
         value = value * at + each
     return value
+
+
+# --------------------------------------------------------------------------------------
+# Roots of any continuous functions in brackets, all at once, without derivatives.
+
+BracketedFunction = Callable[[IntArray, FloatArray], FloatArray]
+"""Takes rows (k,) of the brackets and places (k,) in them, and gives the values there, (k,)."""
+
+_ROUNDS = 80
+"""Steps of a bracketed root, seldom more than ten."""
+
+
+def false_position(
+    give: BracketedFunction,
+    low: FloatArray,
+    high: FloatArray,
+    at_low: FloatArray,
+    at_high: FloatArray,
+    enough: ArrayLike = 1e-13,
+) -> FloatArray:
+    """Find one root in every bracket by the Illinois rule.
+
+    Parameters
+    ----------
+    give : callable
+        The functions.
+    low, high : (k,)
+        The brackets; `high` may be below `low`.
+    at_low, at_high : (k,)
+        Values there, of which one is negative and the other is not.
+    enough : (k,) or float
+        A root is found where the value or the bracket is as small as this.
+
+    Returns
+    -------
+    (k,)
+        The places with the smallest values that were met.
+    """
+    a, b, fa, fb = low.copy(), high.copy(), at_low.copy(), at_high.copy()
+    enough = np.broadcast_to(np.asarray(enough, np.float64), a.shape)
+    best = np.where(np.abs(fa) <= np.abs(fb), a, b)
+    least = np.minimum(np.abs(fa), np.abs(fb))
+    for _ in range(_ROUNDS):
+        open_ = np.flatnonzero((least > enough) & (np.abs(b - a) > enough))
+        if not len(open_):
+            break
+        x, y, fx, fy = a[open_], b[open_], fa[open_], fb[open_]
+        mid = x - fx * (y - x) / (fy - fx)
+        mid = np.where((mid > np.minimum(x, y)) & (mid < np.maximum(x, y)), mid, 0.5 * (x + y))
+        value = give(open_, mid)
+        good = np.abs(value) < least[open_]
+        best[open_] = np.where(good, mid, best[open_])
+        least[open_] = np.where(good, np.abs(value), least[open_])
+        same = (value >= 0.0) == (fy >= 0.0)
+        a[open_], fa[open_] = np.where(same, x, y), np.where(same, 0.5 * fx, fy)
+        b[open_], fb[open_] = mid, value
+    return best

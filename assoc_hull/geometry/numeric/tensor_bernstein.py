@@ -8,9 +8,9 @@ gives those of both halves.
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.numeric.tensor_bernstein import coefficients, nodes
->>> s = nodes((2,))
->>> coefficients((s[:, 0] ** 2)[None, :], (2,))[0].round(12) + 0.0
+>>> from assoc_hull.geometry.numeric.tensor_bernstein import bernstein_coefficients, bernstein_nodes
+>>> s = bernstein_nodes((2,))
+>>> bernstein_coefficients((s[:, 0] ** 2)[None, :], (2,))[0].round(12) + 0.0
 array([[0., 0., 1.]])
 """
 
@@ -24,14 +24,20 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["basis", "coefficients", "corners", "halves", "nodes"]
+__all__ = [
+    "bernstein_basis",
+    "bernstein_coefficients",
+    "bernstein_nodes",
+    "corner_coefficients",
+    "halve_boxes",
+]
 
 Degrees = tuple[int, ...]
 
 _ROUNDING = 64.0 * float(np.finfo(np.float64).eps)
 
 
-def basis(degree: int, t: FloatArray) -> FloatArray:
+def bernstein_basis(degree: int, t: FloatArray) -> FloatArray:
     """Give the values of the Bernstein polynomials at parameters (n,), as (n, degree + 1)."""
     i = np.arange(degree + 1)
     times = np.array([math.comb(degree, int(k)) for k in i], np.float64)
@@ -52,7 +58,7 @@ def _line(degree: int) -> FloatArray:
 @cache
 def _inverse(degree: int) -> FloatArray:
     """Give what makes values at the nodes the coefficients."""
-    found = np.asarray(np.linalg.inv(basis(degree, _line(degree))), np.float64)
+    found = np.asarray(np.linalg.inv(bernstein_basis(degree, _line(degree))), np.float64)
     freeze(found)
     return found
 
@@ -72,7 +78,7 @@ def _halving(degree: int) -> tuple[FloatArray, FloatArray]:
 
 
 @cache
-def nodes(degrees: Degrees) -> FloatArray:
+def bernstein_nodes(degrees: Degrees) -> FloatArray:
     """Give the parameters, (n, k), at which values determine a polynomial of these degrees."""
     found = np.array(list(product(*(_line(degree).tolist() for degree in degrees))))
     found = found.reshape(-1, len(degrees))
@@ -80,7 +86,7 @@ def nodes(degrees: Degrees) -> FloatArray:
     return found
 
 
-def coefficients(values: FloatArray, degrees: Degrees) -> tuple[FloatArray, FloatArray]:
+def bernstein_coefficients(values: FloatArray, degrees: Degrees) -> tuple[FloatArray, FloatArray]:
     """Give the Bernstein coefficients of polynomials known at the nodes.
 
     Parameters
@@ -123,13 +129,13 @@ def _orders(count: int, axis: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
     return (*others, axis), tuple(back)
 
 
-def halves(found: FloatArray, axis: int) -> tuple[FloatArray, FloatArray]:
+def halve_boxes(found: FloatArray, axis: int) -> tuple[FloatArray, FloatArray]:
     """Give the coefficients on the lower and the upper half of one parameter."""
     first, last = _halving(found.shape[axis + 1] - 1)
     return _along(first, found, axis), _along(last, found, axis)
 
 
-def corners(found: FloatArray) -> FloatArray:
+def corner_coefficients(found: FloatArray) -> FloatArray:
     """Give the coefficients at the corners, which are values: (m, 2, 2, ..)."""
     for axis in range(1, found.ndim):
         found = found.take([0, found.shape[axis] - 1], axis=axis)

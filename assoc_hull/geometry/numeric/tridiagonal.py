@@ -1,36 +1,150 @@
-"""Many small tridiagonal systems at once, each with the same bits as when solved alone.
+"""Many small tridiagonal systems solved at once, each with the same bits as when solved alone.
 
-Systems of different lengths lie one behind the other. Each is given a slot whose length is
-a power of two, the longest slots first, so that every slot starts at a multiple of its own
-length. Cyclic reduction then couples rows of one slot only, in an order that depends on
-nothing but the place of a row in its own system: a neighbour in the batch cannot change a
-bit. (BLAS products and padded sums do change the last bit, elementwise work does not.)
+Systems of different lengths lie one behind the other in slots of a power of two (`Slots`).
+`solve_tridiagonal` reduces them cyclically, so that a neighbour in the batch changes no bit.
+`Workspace` hands out the scratch memory of the solver and of the loft: getting large arrays from
+the operating system costs half the time of a loft. Its arrays must not outlive the with block.
 
 Examples
 --------
+>>> from assoc_hull.geometry.numeric.tridiagonal import Workspace
+>>> with Workspace() as workspace:
+...     workspace.array(3, 4).shape
+(3, 4)
+
 >>> import numpy as np
->>> from assoc_hull.geometry.numeric.tridiagonal import slots_of, solve
->>> from assoc_hull.geometry.numeric.workspace import Workspace
+>>> from assoc_hull.geometry.numeric.tridiagonal import slots_of, solve_tridiagonal
+>>> from assoc_hull.geometry.numeric.tridiagonal import Workspace
 >>> slots = slots_of(np.array([0, 3]))
 >>> rows = np.zeros((5, 4))
 >>> rows[:, :3] = [[0, -0.25, 0], [1, 2, 3], [0, 0, 0], [0, 0, 0], [0, -0.25, 0]]
 >>> with Workspace() as workspace:
-...     solve(slots, rows, workspace)[0].tolist()
+...     solve_tridiagonal(slots, rows, workspace)[0].tolist()
 [1.0, 1.0, 3.0]
 """
 
 from __future__ import annotations
 
 from functools import lru_cache
+from math import prod
+from types import TracebackType
+from typing import Self
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.numeric.workspace import Workspace
 
-__all__ = ["MOST_LEVELS", "Slots", "accumulate", "slots_of", "solve"]
+__all__ = [
+    "MOST_LEVELS",
+    "Slots",
+    "Workspace",
+    "running_sums",
+    "slots_of",
+    "solve_tridiagonal",
+]
+
+# --------------------------------------------------------------------------------------
+# Scratch memory that is kept from one call to the next.
+#
+# Large temporary arrays cost more to get from the operating system, page by page, than to
+# fill: half the time of a loft. A workspace hands out pieces of one block, and the block
+# goes back to a small pool afterwards. Taking from and returning to the pool are single
+# list operations, so threads never share a block.
+
+_FIRST_SIZE = 1 << 15
+_MOST_KEPT = 1 << 23
+_ALIGNMENT = 8
+_pool: list[FloatArray] = []
+
+_KEPT_FREE = 1 << 24
+"""Bytes. Up to twice as much freed memory stays with the process."""
+
+
+def _keep_freed_memory() -> None:
+    """Let the allocator keep what is freed between two lofts, not give it back each time.
+
+    glibc gives the top of its heap back as soon as twice the largest block is free that it
+    ever had to ask the operating system for singly. After a few arrays of half a megabyte
+    that is one re-loft's worth: each loft then paid 190 page faults, a third of its time.
+    Nothing is written to the block, so no memory is taken; elsewhere this does nothing.
+    """
+    np.empty(_KEPT_FREE, np.int8)
+
+
+_keep_freed_memory()
+
+
+class Workspace:
+    """Scratch arrays for the length of a ``with`` block; they must not outlive it.
+
+    Examples
+    --------
+    >>> with Workspace() as workspace:
+    ...     total = workspace.array(4)
+    ...     total[:] = 1.0
+    ...     float(total.sum())
+    4.0
+    """
+
+    def __enter__(self) -> Self:
+        """Take a block of memory from the pool."""
+        try:
+            self._memory = _pool.pop()
+        except IndexError:
+            self._memory = np.empty(_FIRST_SIZE)
+        self._used = 0
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Give the block back, a larger one if it was too small."""
+        if self._used > len(self._memory):
+            self._memory = np.empty(self._used + self._used // 4)
+        if len(self._memory) <= _MOST_KEPT:
+            _pool.append(self._memory)
+        del self._memory
+
+    def array(self, *shape: int) -> FloatArray:
+        """Give an array of this shape; its values are arbitrary.
+
+        Parameters
+        ----------
+        *shape : int
+            Its extent along each axis.
+
+        Returns
+        -------
+        array of float
+            Scratch memory.
+
+        Examples
+        --------
+        >>> with Workspace() as workspace:
+        ...     workspace.array(2).shape
+        (2,)
+        """
+        begin = self._used
+        size = prod(shape)
+        self._used = begin + size + -size % _ALIGNMENT
+        if self._used > len(self._memory):
+            return np.empty(shape)
+        return self._memory[begin : begin + size].reshape(shape)
+
+
+# --------------------------------------------------------------------------------------
+# Many small tridiagonal systems at once, each with the same bits as when solved alone.
+#
+# Systems of different lengths lie one behind the other. Each is given a slot whose length is
+# a power of two, the longest slots first, so that every slot starts at a multiple of its own
+# length. Cyclic reduction then couples rows of one slot only, in an order that depends on
+# nothing but the place of a row in its own system: a neighbour in the batch cannot change a
+# bit. (BLAS products and padded sums do change the last bit, elementwise work does not.)
 
 MOST_LEVELS = 6
 """After so many reductions the couplings of a spline are below 2**-64: no bit sees them."""
@@ -138,7 +252,7 @@ def _blocks(width: IntArray) -> tuple[tuple[int, int, int], ...]:
     return tuple(blocks)
 
 
-def accumulate(slots: Slots, steps: FloatArray) -> FloatArray:
+def running_sums(slots: Slots, steps: FloatArray) -> FloatArray:
     """Sum steps along each system, strictly one after the other.
 
     Parameters
@@ -160,7 +274,7 @@ def accumulate(slots: Slots, steps: FloatArray) -> FloatArray:
 
     Examples
     --------
-    >>> accumulate(slots_of(np.array([0, 2, 5])), np.array([0.0, 1, 0, 2, 3, 0]))
+    >>> running_sums(slots_of(np.array([0, 2, 5])), np.array([0.0, 1, 0, 2, 3, 0]))
     array([0., 1., 0., 2., 5.])
     """
     slotted = steps.take(slots.source, axis=-1)
@@ -170,7 +284,7 @@ def accumulate(slots: Slots, steps: FloatArray) -> FloatArray:
     return slotted.take(slots.home, axis=-1)
 
 
-def solve(slots: Slots, rows: FloatArray, workspace: Workspace) -> FloatArray:
+def solve_tridiagonal(slots: Slots, rows: FloatArray, workspace: Workspace) -> FloatArray:
     """Solve ``d[i] = right[i] + before[i] * d[i-1] + after[i] * d[i+1]`` for every system.
 
     Parameters
@@ -200,7 +314,7 @@ def solve(slots: Slots, rows: FloatArray, workspace: Workspace) -> FloatArray:
     >>> slots = slots_of(np.array([0, 2]))
     >>> rows = np.array([[0, 0.5, 0], [3, 0, 0], [0, 0, 0], [0, 0, 0], [0.5, 0, 0.0]])
     >>> with Workspace() as workspace:
-    ...     solve(slots, rows, workspace)[0].tolist()
+    ...     solve_tridiagonal(slots, rows, workspace)[0].tolist()
     [4.0, 2.0]
     """
     slotted = workspace.array(len(rows), len(slots.source))

@@ -6,11 +6,11 @@ where |S| is small.
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.area_elements import on_grid
->>> from assoc_hull.geometry.patches.patches import Patches
+>>> from assoc_hull.geometry.patches.area_elements import elements_on_grid
+>>> from assoc_hull.geometry.patches.bezier_patches import Patches
 >>> net = np.zeros((2, 2, 3))
 >>> net[1, :, 0], net[:, 1, 1] = 2.0, 3.0
->>> on_grid(Patches.single(net), np.array([0.5]), np.array([0.0, 1.0]))
+>>> elements_on_grid(Patches.single(net), np.array([0.5]), np.array([0.0, 1.0]))
 array([[[6., 6.]]])
 """
 
@@ -21,19 +21,26 @@ from collections.abc import Callable
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.algebra import (
-    across,
+from assoc_hull.geometry.patches.bernstein_polynomials import (
     binomials,
     degrees,
+    transform_coefficients,
     u_derivative,
     v_derivative,
 )  # fmt: skip
-from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.bezier_patches import Patches
 
-__all__ = ["added", "bernstein_values", "on_grid", "on_lines", "swapped", "taken"]
+__all__ = [
+    "bernstein_values",
+    "elements_on_grid",
+    "elements_on_lines",
+    "pairwise_sum",
+    "select_rows",
+    "swap_parameters",
+]
 
 
-def added(terms: FloatArray) -> FloatArray:
+def pairwise_sum(terms: FloatArray) -> FloatArray:
     """Add along the first axis, in an order that depends on nothing but its length.
 
     Parameters
@@ -48,7 +55,7 @@ def added(terms: FloatArray) -> FloatArray:
 
     Examples
     --------
-    >>> float(added(np.array([1.0, 2.0, 3.0])))
+    >>> float(pairwise_sum(np.array([1.0, 2.0, 3.0])))
     6.0
     """
     count = len(terms)
@@ -92,7 +99,7 @@ def bernstein_values(degree: int, t: FloatArray) -> FloatArray:
     return found
 
 
-def swapped(patches: Patches) -> Patches:
+def swap_parameters(patches: Patches) -> Patches:
     """Exchange the parameters of patches.
 
     Parameters
@@ -107,14 +114,14 @@ def swapped(patches: Patches) -> Patches:
 
     Examples
     --------
-    >>> swapped(Patches.single(np.zeros((2, 4, 3)))).degrees
+    >>> swap_parameters(Patches.single(np.zeros((2, 4, 3)))).degrees
     (3, 1)
     """
     weight = None if patches.weight is None else patches.weight.swapaxes(1, 2)
     return Patches(patches.net.swapaxes(1, 2), patches.box[:, ::-1], patches.surface, weight)
 
 
-def taken(patches: Patches, rows: IntArray) -> Patches:
+def select_rows(patches: Patches, rows: IntArray) -> Patches:
     """Take some patches of a batch.
 
     Parameters
@@ -131,13 +138,13 @@ def taken(patches: Patches, rows: IntArray) -> Patches:
 
     Examples
     --------
-    >>> len(taken(Patches.single(np.zeros((2, 4, 3))), np.array([0, 0])))
+    >>> len(select_rows(Patches.single(np.zeros((2, 4, 3))), np.array([0, 0])))
     2
     """
     return patches[rows]
 
 
-def on_grid(patches: Patches, u: FloatArray, v: FloatArray) -> FloatArray:
+def elements_on_grid(patches: Patches, u: FloatArray, v: FloatArray) -> FloatArray:
     """Give |r_u x r_v| of each patch on the same grid of parameters.
 
     Parameters
@@ -156,7 +163,7 @@ def on_grid(patches: Patches, u: FloatArray, v: FloatArray) -> FloatArray:
     --------
     >>> net = np.zeros((2, 2, 3))
     >>> net[1, :, 0] = net[:, 1, 1] = 1.0
-    >>> on_grid(Patches.single(net), np.array([0.5]), np.array([0.5]))
+    >>> elements_on_grid(Patches.single(net), np.array([0.5]), np.array([0.5]))
     array([[[1.]]])
     """
 
@@ -164,12 +171,14 @@ def on_grid(patches: Patches, u: FloatArray, v: FloatArray) -> FloatArray:
         in_u, in_v = (
             bernstein_values(degree, t) for degree, t in zip(degrees(a), (u, v), strict=True)
         )
-        return np.moveaxis(across(in_u.T, a, in_v.T), 1, 0)
+        return np.moveaxis(transform_coefficients(in_u.T, a, in_v.T), 1, 0)
 
     return _elements(patches, values)
 
 
-def on_lines(patches: Patches, patch: IntArray, u: FloatArray, v: FloatArray) -> FloatArray:
+def elements_on_lines(
+    patches: Patches, patch: IntArray, u: FloatArray, v: FloatArray
+) -> FloatArray:
     """Give |r_u x r_v| on lines v = constant, each with its own places.
 
     Parameters
@@ -193,7 +202,7 @@ def on_lines(patches: Patches, patch: IntArray, u: FloatArray, v: FloatArray) ->
     >>> net = np.zeros((2, 2, 3))
     >>> net[1, :, 0] = net[:, 1, 1] = 1.0
     >>> row, u, v = np.array([0]), np.array([[[0.1, 0.2]]]), np.array([[0.5]])
-    >>> on_lines(Patches.single(net), row, u, v)
+    >>> elements_on_lines(Patches.single(net), row, u, v)
     array([[[1., 1.]]])
     """
 

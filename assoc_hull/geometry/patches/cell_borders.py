@@ -7,10 +7,10 @@ walk in opposite directions cancel; what is left over bounds the region.
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.cell_borders import leftover
+>>> from assoc_hull.geometry.patches.cell_borders import cancel_opposite_walks
 >>> one = np.array([[0.0, 0.0], [1.0, 0.0]])
 >>> other = np.array([[2.0, 0.0], [0.5, 0.0]])
->>> leftover(np.array([one, other])).tolist()
+>>> cancel_opposite_walks(np.array([one, other])).tolist()
 [[[0.0, 0.0], [0.5, 0.0]], [[2.0, 0.0], [1.0, 0.0]]]
 """
 
@@ -20,10 +20,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.cells import CellKind, Cells
-from assoc_hull.geometry.patches.lattice import Lattice
+from assoc_hull.geometry.patches.adjacency import Lattice
+from assoc_hull.geometry.patches.cells import CellKind, SignCells
 
-__all__ = ["SHORT", "between", "leftover", "of_both_signs", "plain", "sides_of"]
+__all__ = [
+    "SHORT",
+    "cancel_opposite_walks",
+    "cells_of_both_signs",
+    "cells_without_arc",
+    "region_borders",
+    "shared_borders",
+]
 
 # The corners of a cell in the order of the walk: which end of the box in u and in v.
 _WALK = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
@@ -31,8 +38,8 @@ SHORT = 3e-8
 """In parameters of a patch: what is shorter is a point."""
 
 
-def sides_of(
-    cells: Cells, lattice: Lattice, kind: CellKind, arc_of: IntArray, ends: FloatArray
+def region_borders(
+    cells: SignCells, lattice: Lattice, kind: CellKind, arc_of: IntArray, ends: FloatArray
 ) -> FloatArray:
     """Give the pieces of the borders of cells that belong to a region.
 
@@ -65,22 +72,22 @@ def sides_of(
     return np.concatenate([full, _cut(corners[cut], arc)])
 
 
-def plain(cells: Cells, arc_of: IntArray) -> IntArray:
+def cells_without_arc(cells: SignCells, arc_of: IntArray) -> IntArray:
     """Give the simple cells without an arc."""
     simple = (cells.kind == CellKind.U_SIMPLE) | (cells.kind == CellKind.V_SIMPLE)
     return np.flatnonzero(simple & (arc_of < 0))
 
 
-def _whole(cells: Cells, kind: CellKind, arc_of: IntArray) -> NDArray[np.bool_]:
+def _whole(cells: SignCells, kind: CellKind, arc_of: IntArray) -> NDArray[np.bool_]:
     """Tell which cells belong to a region as a whole."""
     found = cells.kind == kind
     if kind in (CellKind.POSITIVE, CellKind.NEGATIVE):
-        rows = plain(cells, arc_of)
+        rows = cells_without_arc(cells, arc_of)
         found[rows] = _sign(cells, rows) == kind
     return np.asarray(found)
 
 
-def _corner_values(cells: Cells, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+def _corner_values(cells: SignCells, rows: IntArray) -> tuple[FloatArray, FloatArray]:
     """Give polynomials and their errors at the corners of cells, (n, 4)."""
     b, err = cells.b[cells.row[rows]], cells.err[cells.row[rows]]
     corners = [np.s_[:, i, j] for i in (0, -1) for j in (0, -1)]
@@ -89,14 +96,14 @@ def _corner_values(cells: Cells, rows: IntArray) -> tuple[FloatArray, FloatArray
     )
 
 
-def _sign(cells: Cells, rows: IntArray) -> IntArray:
+def _sign(cells: SignCells, rows: IntArray) -> IntArray:
     """Tell the sign in simple cells that no arc crosses: that of the surest corner."""
     values, err = _corner_values(cells, rows)
     sure = (np.abs(values) - err).argmax(axis=1)
     return np.asarray(np.sign(values[np.arange(len(rows)), sure]), np.intp)
 
 
-def of_both_signs(cells: Cells, rows: IntArray) -> NDArray[np.bool_]:
+def cells_of_both_signs(cells: SignCells, rows: IntArray) -> NDArray[np.bool_]:
     """Tell which simple cells have corners of both signs for certain, so that an arc is there."""
     values, err = _corner_values(cells, rows)
     return np.asarray((values > err).any(axis=1) & (values < -err).any(axis=1))
@@ -139,7 +146,7 @@ def _kept_on(point: FloatArray, begin: FloatArray, after: FloatArray) -> FloatAr
     return np.clip(point, np.minimum(begin, after), np.maximum(begin, after))
 
 
-def leftover(pieces: FloatArray) -> FloatArray:
+def cancel_opposite_walks(pieces: FloatArray) -> FloatArray:
     """Cancel what is walked in both directions.
 
     Parameters
@@ -156,7 +163,7 @@ def leftover(pieces: FloatArray) -> FloatArray:
     return _walked(spans, depth[0])
 
 
-def between(pieces: FloatArray, others: FloatArray) -> FloatArray:
+def shared_borders(pieces: FloatArray, others: FloatArray) -> FloatArray:
     """Give where two regions share a border that both are left with.
 
     Parameters

@@ -8,13 +8,13 @@ polynomial is nil there whatever the curvature.
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.cells import CellKind, Cells
->>> from assoc_hull.geometry.patches.clusters import clusters_of
->>> from assoc_hull.geometry.patches.lattice import Lattice
+>>> from assoc_hull.geometry.patches.cells import CellKind, SignCells
+>>> from assoc_hull.geometry.patches.clusters import find_clusters
+>>> from assoc_hull.geometry.patches.adjacency import Lattice
 >>> whole, none = np.array([[[0.0, 1.0]] * 2]), np.zeros((0, 2, 2))
 >>> zero = np.array([0])
->>> cells = Cells(zero, whole, zero, np.array([CellKind.ZERO]), zero - 1, none, none, zero > 0)
->>> len(clusters_of(cells, Lattice.apart(1)))
+>>> cells = SignCells(zero, whole, zero, np.array([CellKind.ZERO]), zero - 1, none, none, zero > 0)
+>>> len(find_clusters(cells, Lattice.apart(1)))
 1
 """
 
@@ -25,13 +25,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.cells import CellKind, Cells
-from assoc_hull.geometry.patches.lattice import Lattice
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.points import normals, stretch
-from assoc_hull.geometry.patches.touching import clusters, touching
+from assoc_hull.geometry.patches.adjacency import Lattice, box_clusters, touching_pairs
+from assoc_hull.geometry.patches.bezier_patches import Patches, area_stretch, patch_normals
+from assoc_hull.geometry.patches.cells import CellKind, SignCells
 
-__all__ = ["Clusters", "clusters_of", "singular"]
+__all__ = ["Clusters", "find_clusters", "singular_clusters"]
 
 TOUCHING = 1e-9
 
@@ -82,11 +80,13 @@ class Clusters:
         """Count the clusters."""
         return len(self.regular)
 
-    def touched(self, cells: Cells, lattice: Lattice, points: FloatArray, near: float) -> IntArray:
+    def touched(
+        self, cells: SignCells, lattice: Lattice, points: FloatArray, near: float
+    ) -> IntArray:
         """Give the cluster that each of some points (p, 2) of the lattice is so near to, or -1."""
         low, high = _corners(cells, lattice, self.cell)
         count = len(low)
-        pairs = touching(np.concatenate([low, points]), np.concatenate([high, points]), near)
+        pairs = touching_pairs(np.concatenate([low, points]), np.concatenate([high, points]), near)
         pairs = np.sort(pairs, axis=1)
         pairs = pairs[(pairs[:, 0] < count) & (pairs[:, 1] >= count)]
         found = np.full(len(points), -1)
@@ -117,7 +117,7 @@ class Clusters:
         )  # fmt: skip
 
 
-def clusters_of(cells: Cells, lattice: Lattice, points: FloatArray | None = None) -> Clusters:
+def find_clusters(cells: SignCells, lattice: Lattice, points: FloatArray | None = None) -> Clusters:
     """Merge undecided and nil cells that touch.
 
     Parameters
@@ -137,7 +137,7 @@ def clusters_of(cells: Cells, lattice: Lattice, points: FloatArray | None = None
     rows = np.flatnonzero((cells.kind == CellKind.ZERO) | (cells.kind == CellKind.UNRESOLVED))
     points = np.zeros((0, 2)) if points is None else points
     low, high = _corners(cells, lattice, rows)
-    found = clusters(np.concatenate([low, points]), np.concatenate([high, points]), TOUCHING)
+    found = box_clusters(np.concatenate([low, points]), np.concatenate([high, points]), TOUCHING)
     cluster, at_point = np.split(found, [len(rows)])
     count = int(cluster.max(initial=-1)) + 1
     nil = cells.kind[rows] == CellKind.ZERO
@@ -150,13 +150,13 @@ def clusters_of(cells: Cells, lattice: Lattice, points: FloatArray | None = None
     )  # fmt: skip
 
 
-def _corners(cells: Cells, lattice: Lattice, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+def _corners(cells: SignCells, lattice: Lattice, rows: IntArray) -> tuple[FloatArray, FloatArray]:
     """Give the corners of some cells in the lattice."""
     corner = lattice.corner[cells.patch[rows]]
     return corner + cells.box[rows, :, 0], corner + cells.box[rows, :, 1]
 
 
-def _regular(cells: Cells, rows: IntArray, cluster: IntArray, count: int) -> NDArray[np.bool_]:
+def _regular(cells: SignCells, rows: IntArray, cluster: IntArray, count: int) -> NDArray[np.bool_]:
     """Tell in which clusters one derivative has one sign in all cells."""
     row, found = cells.row[rows], np.zeros(count, bool)
     known, every = row >= 0, np.bincount(cluster, minlength=count)
@@ -180,7 +180,7 @@ def _sums(err: FloatArray, axis: int) -> FloatArray:
     return np.asarray(err.take(range(1, last + 1), axis) + err.take(range(last), axis))
 
 
-def singular(patches: Patches, cells: Cells, found: Clusters) -> NDArray[np.bool_]:
+def singular_clusters(patches: Patches, cells: SignCells, found: Clusters) -> NDArray[np.bool_]:
     """Tell at which clusters the surface has no tangent plane.
 
     Parameters
@@ -199,9 +199,9 @@ def singular(patches: Patches, cells: Cells, found: Clusters) -> NDArray[np.bool
         changes so much from the middle to a corner that it may be nil in between.
     """
     patch, box = cells.patch[found.cell], cells.box[found.cell]
-    middle = normals(patches, patch, box.mean(axis=2))
+    middle = patch_normals(patches, patch, box.mean(axis=2))
     corners = [
-        normals(patches, patch, np.stack([box[:, 0, i], box[:, 1, j]], axis=1))
+        patch_normals(patches, patch, np.stack([box[:, 0, i], box[:, 1, j]], axis=1))
         for i in (0, 1)
         for j in (0, 1)
     ]
@@ -219,5 +219,5 @@ def _means(patches: Patches, concerned: IntArray) -> FloatArray:
     middles = (np.arange(6) + 0.5) / 6.0
     uv = np.stack(np.meshgrid(middles, middles, indexing="ij"), axis=-1).reshape(-1, 2)
     patch = np.repeat(concerned, len(uv))
-    values = stretch(patches, patch, np.tile(uv, (len(concerned), 1)))
+    values = area_stretch(patches, patch, np.tile(uv, (len(concerned), 1)))
     return np.asarray(values.reshape(-1, len(uv)).mean(axis=1))

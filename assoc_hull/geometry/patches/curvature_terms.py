@@ -16,7 +16,7 @@ Examples
 --------
 >>> import numpy as np
 >>> from assoc_hull.geometry.patches.curvature_terms import amounts, area_squared, values
->>> from assoc_hull.geometry.patches.patches import Patches
+>>> from assoc_hull.geometry.patches.bezier_patches import Patches
 >>> net = np.zeros((2, 2, 3))
 >>> net[1, :, 0], net[:, 1, 1] = 2.0, 1.0
 >>> patch = Patches.single(net)
@@ -30,19 +30,29 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.algebra import (
-    add,
-    dot,
+from assoc_hull.geometry.patches.bernstein_polynomials import (
+    add_polynomials,
+    dot_polynomials,
     multiply,
     subtract,
     u_derivative,
     v_derivative,
 )  # fmt: skip
-from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.bezier_patches import Patches
 
 __all__ = [
-    "Delta", "Steps", "Terms", "amounts", "area_squared", "gauss_numerator", "less",
-    "mean_numerator", "reaches", "steps", "sums", "values",
+    "Delta",
+    "Steps",
+    "Terms",
+    "amounts",
+    "area_squared",
+    "difference",
+    "gauss_numerator",
+    "mean_numerator",
+    "reaches",
+    "steps",
+    "sums",
+    "values",
 ]  # fmt: skip
 
 Delta = float | FloatArray
@@ -74,15 +84,17 @@ class Terms:
     s: FloatArray
 
 
-def less(a: FloatArray, b: FloatArray, signed: bool) -> FloatArray:
+def difference(a: FloatArray, b: FloatArray, signed: bool) -> FloatArray:
     """Give a - b; of amounts a + b."""
-    return subtract(a, b) if signed else add(a, b)
+    return subtract(a, b) if signed else add_polynomials(a, b)
 
 
 def _normal(ru: FloatArray, rv: FloatArray, signed: bool) -> FloatArray:
     """Give the vector product; of amounts, the sums of sizes."""
     after, last = [1, 2, 0], [2, 0, 1]
-    return less(multiply(ru[:, after], rv[:, last]), multiply(ru[:, last], rv[:, after]), signed)
+    return difference(
+        multiply(ru[:, after], rv[:, last]), multiply(ru[:, last], rv[:, after]), signed
+    )
 
 
 def values(patches: Patches) -> Terms:
@@ -163,28 +175,28 @@ def reaches(exact: Terms, delta: Delta) -> Terms:
 
 def gauss_numerator(terms: Terms) -> FloatArray:
     """Give A = L N - M**2, (k, 6m - 3, 6n - 3), m6; K = A / |S|**4."""
-    m = dot(terms.s, terms.ruv)
+    m = dot_polynomials(terms.s, terms.ruv)
     square = multiply(m, m)
     if terms.ruu is None or terms.rvv is None:
         return 0.0 - square if terms.signed else square
-    product = multiply(dot(terms.s, terms.ruu), dot(terms.s, terms.rvv))
-    return less(product, square, terms.signed)
+    product = multiply(dot_polynomials(terms.s, terms.ruu), dot_polynomials(terms.s, terms.rvv))
+    return difference(product, square, terms.signed)
 
 
 def area_squared(terms: Terms) -> FloatArray:
     """Give |S|**2, (k, 4m - 1, 4n - 1), m4: the square of the area of a unit of parameters."""
-    return dot(terms.s, terms.s)
+    return dot_polynomials(terms.s, terms.s)
 
 
 def mean_numerator(terms: Terms) -> FloatArray:
     """Give B = E N - 2 F M + G L, (k, 5m - 2, 5n - 2), m5; H = B / (2 |S|**3)."""
     ru, rv, s = terms.ru, terms.rv, terms.s
-    cross = 2.0 * multiply(dot(ru, rv), dot(s, terms.ruv))
+    cross = 2.0 * multiply(dot_polynomials(ru, rv), dot_polynomials(s, terms.ruv))
     found = -cross if terms.signed else cross
     if terms.rvv is not None:
-        found = found + multiply(dot(ru, ru), dot(s, terms.rvv))
+        found = found + multiply(dot_polynomials(ru, ru), dot_polynomials(s, terms.rvv))
     if terms.ruu is not None:
-        found = found + multiply(dot(rv, rv), dot(s, terms.ruu))
+        found = found + multiply(dot_polynomials(rv, rv), dot_polynomials(s, terms.ruu))
     return found
 
 

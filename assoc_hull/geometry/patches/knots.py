@@ -9,8 +9,8 @@ are blossoms of a and b only, so that all factors lie between 0 and 1 and roundi
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.knots import pieces
->>> pieces(np.array([0.0, 2.0, 4.0, 4.0]), np.array([0.0, 0, 0, 1, 2, 2, 2]), 2)
+>>> from assoc_hull.geometry.patches.knots import bezier_pieces
+>>> bezier_pieces(np.array([0.0, 2.0, 4.0, 4.0]), np.array([0.0, 0, 0, 1, 2, 2, 2]), 2)
 array([[0., 2., 3.],
        [3., 4., 4.]])
 """
@@ -24,7 +24,15 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
 __all__ = [
-    "blossom", "checked_knots", "cut", "domain", "inserted", "limits", "pieces", "span_at", "spans",
+    "bezier_pieces",
+    "blossom",
+    "checked_knots",
+    "cut_spline",
+    "insert_knot",
+    "knot_domain",
+    "nonempty_spans",
+    "span_at",
+    "span_limits",
 ]  # fmt: skip
 
 _SAME = 1e-12
@@ -33,7 +41,7 @@ _SAME = 1e-12
 _LARGEST = 1e12
 
 
-def domain(knots: FloatArray, degree: int) -> tuple[float, float]:
+def knot_domain(knots: FloatArray, degree: int) -> tuple[float, float]:
     """Give the least and the greatest parameter of a spline."""
     return float(knots[degree]), float(knots[-1 - degree])
 
@@ -106,20 +114,20 @@ def _require_held(knots: FloatArray, degree: int, name: str, where: str) -> None
         )
 
 
-def spans(knots: FloatArray, degree: int) -> IntArray:
+def nonempty_spans(knots: FloatArray, degree: int) -> IntArray:
     """Give the spans of the parameter that are not empty, each by its first knot, (k,)."""
     inner = slice(degree, len(knots) - degree)
     return np.flatnonzero(np.diff(knots[inner]) > 0.0) + degree
 
 
-def limits(knots: FloatArray, degree: int) -> FloatArray:
+def span_limits(knots: FloatArray, degree: int) -> FloatArray:
     """Give the least and the greatest parameter of each span, (k, 2)."""
-    return np.asarray(knots[spans(knots, degree)[:, None] + [0, 1]])
+    return np.asarray(knots[nonempty_spans(knots, degree)[:, None] + [0, 1]])
 
 
 def span_at(knots: FloatArray, degree: int, t: FloatArray) -> IntArray:
     """Give the span that holds each parameter (k,); the last also holds its upper end."""
-    known = spans(knots, degree)
+    known = nonempty_spans(knots, degree)
     return known[np.clip(np.searchsorted(knots[known], t, "right") - 1, 0, len(known) - 1)]
 
 
@@ -163,7 +171,7 @@ def blossom(
     return np.asarray(local[:, 0])
 
 
-def pieces(points: FloatArray, knots: FloatArray, degree: int) -> FloatArray:
+def bezier_pieces(points: FloatArray, knots: FloatArray, degree: int) -> FloatArray:
     """Give a spline as Bezier polygons, one for each span.
 
     Parameters
@@ -190,12 +198,12 @@ def pieces(points: FloatArray, knots: FloatArray, degree: int) -> FloatArray:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.patches.knots import pieces
-    >>> pieces(np.array([1.0, 2.0, 4.0]), np.array([0.0, 0, 1, 2, 2]), 1)
+    >>> from assoc_hull.geometry.patches.knots import bezier_pieces
+    >>> bezier_pieces(np.array([1.0, 2.0, 4.0]), np.array([0.0, 0, 1, 2, 2]), 1)
     array([[1., 2.],
            [2., 4.]])
     """
-    known, j = spans(knots, degree), np.arange(degree + 1)
+    known, j = nonempty_spans(knots, degree), np.arange(degree + 1)
     high = np.arange(degree) >= degree - j[:, None]
     at = np.where(high, knots[known + 1][:, None, None], knots[known][:, None, None])
     rows = np.repeat(known, degree + 1)
@@ -204,7 +212,7 @@ def pieces(points: FloatArray, knots: FloatArray, degree: int) -> FloatArray:
     return found.reshape(len(known), degree + 1, *points.shape[1:])
 
 
-def inserted(
+def insert_knot(
     points: FloatArray, knots: FloatArray, degree: int, t: float
 ) -> tuple[FloatArray, FloatArray]:
     """Insert a knot once: the spline is the same, with one control point more.
@@ -212,8 +220,8 @@ def inserted(
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.patches.knots import inserted
-    >>> inserted(np.array([0.0, 1.0]), np.array([0.0, 0, 1, 1]), 1, 0.25)
+    >>> from assoc_hull.geometry.patches.knots import insert_knot
+    >>> insert_knot(np.array([0.0, 1.0]), np.array([0.0, 0, 1, 1]), 1, 0.25)
     (array([0.  , 0.25, 1.  ]), array([0.  , 0.  , 0.25, 1.  , 1.  ]))
     """
     span = int(np.searchsorted(knots, t, "right")) - 1
@@ -226,7 +234,7 @@ def inserted(
     return grown, np.insert(knots, span + 1, t)
 
 
-def cut(
+def cut_spline(
     points: FloatArray, knots: FloatArray, degree: int, low: float, high: float
 ) -> tuple[FloatArray, FloatArray]:
     """Give the part of a spline between two parameters of its domain, as a spline.
@@ -252,14 +260,16 @@ def cut(
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.patches.knots import cut
-    >>> points, knots = cut(np.array([0.0, 1.0, 1.0]), np.array([0.0, 0, 0, 1, 1, 1]), 2, 0.0, 0.5)
+    >>> from assoc_hull.geometry.patches.knots import cut_spline
+    >>> points, knots = cut_spline(
+    ...     np.array([0.0, 1.0, 1.0]), np.array([0.0, 0, 0, 1, 1, 1]), 2, 0.0, 0.5
+    ... )
     >>> points, knots
     (array([0.  , 0.5 , 0.75]), array([0. , 0. , 0. , 0.5, 0.5, 0.5]))
     """
     for t in (low, high):
         for _ in range(degree - int(np.count_nonzero(knots == t))):
-            points, knots = inserted(points, knots, degree, t)
+            points, knots = insert_knot(points, knots, degree, t)
     first = int(np.searchsorted(knots, low, "right")) - 1 - degree
     last = int(np.searchsorted(knots, high, "left")) - 1
     inner = knots[first + 1 : last + degree + 1]

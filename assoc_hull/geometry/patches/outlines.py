@@ -10,13 +10,13 @@ Examples
 >>> from assoc_hull.geometry.patches.arcs import arcs_of
 >>> from assoc_hull.geometry.patches.cells import CellKind
 >>> from assoc_hull.geometry.patches.curvature_functions import IsoFunction
->>> from assoc_hull.geometry.patches.outlines import Region, outlines
->>> from assoc_hull.geometry.patches.patches import Patches
->>> from assoc_hull.geometry.patches.solve import solve
+>>> from assoc_hull.geometry.patches.outlines import outlines_of_region, SignRegion
+>>> from assoc_hull.geometry.patches.bezier_patches import Patches
+>>> from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches
 >>> patches = Patches.single(np.zeros((2, 2, 3)))
 >>> b = np.array([[[-1.0, -1.0], [3.0, 3.0]]])  # 4 u - 1
->>> cells = solve(IsoFunction(b, 1e-15 + 0.0 * b))
->>> found = outlines(patches, Region(cells, arcs_of(cells), CellKind.POSITIVE))
+>>> cells = subdivide_patches(IsoFunction(b, 1e-15 + 0.0 * b))
+>>> found = outlines_of_region(patches, SignRegion(cells, arcs_of(cells), CellKind.POSITIVE))
 >>> found.loop(0).tolist(), found.enclosed.tolist()
 ([[0.25, 1.0], [0.25, 0.0], [1.0, 0.0], [1.0, 1.0]], [0.75])
 """
@@ -29,16 +29,20 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.cell_borders import SHORT, leftover, sides_of
-from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
-from assoc_hull.geometry.patches.chains import Chains, chained, directed, forward
-from assoc_hull.geometry.patches.gathering import rows_of
-from assoc_hull.geometry.patches.joints import joints_of
-from assoc_hull.geometry.patches.lattice import Lattice
-from assoc_hull.geometry.patches.loops import followers
-from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.adjacency import Lattice
+from assoc_hull.geometry.patches.arc_chains import (
+    ArcChains,
+    chain_arcs,
+    directed_ends,
+    find_joints,
+    next_pieces,
+    positive_on_left,
+)
+from assoc_hull.geometry.patches.bezier_patches import Patches
+from assoc_hull.geometry.patches.cell_borders import SHORT, cancel_opposite_walks, region_borders
+from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs, rows_of_groups
 
-__all__ = ["Outlines", "Region", "outlines", "rest"]
+__all__ = ["Outlines", "SignRegion", "outlines_of_region", "outlines_of_rest"]
 
 
 @attrs.frozen(eq=False)
@@ -74,7 +78,7 @@ class Outlines:
         """Give some of the loops, in another order."""
         counts = np.diff(self.start)
         start = np.concatenate([[0], np.cumsum(counts[rows])])
-        return Outlines(self.uv[rows_of(counts, rows)[0]], start, self.patch[rows])
+        return Outlines(self.uv[rows_of_groups(counts, rows)[0]], start, self.patch[rows])
 
     @property
     def enclosed(self) -> FloatArray:
@@ -89,7 +93,7 @@ class Outlines:
 
 
 @attrs.frozen(eq=False)
-class Region:
+class SignRegion:
     """Part of patches: cells of one kind, with their share of the cells that arcs cut.
 
     Attributes
@@ -103,13 +107,13 @@ class Region:
         arcs are straight.
     """
 
-    cells: Cells
-    arcs: Arcs
+    cells: SignCells
+    arcs: ZeroSetArcs
     kind: CellKind
     samples: tuple[IntArray, FloatArray] | None = None
 
 
-def outlines(patches: Patches, region: Region, across: bool = False) -> Outlines:
+def outlines_of_region(patches: Patches, region: SignRegion, across: bool = False) -> Outlines:
     """Give the outlines of a region.
 
     Parameters
@@ -128,10 +132,12 @@ def outlines(patches: Patches, region: Region, across: bool = False) -> Outlines
     """
     lattice = _lattice(patches, across)
     pieces, lines = _bounds(lattice, region)
-    return _looped(patches, lattice, _Lines.of(lattice, leftover(pieces), [lines]))
+    return _looped(patches, lattice, _Lines.of(lattice, cancel_opposite_walks(pieces), [lines]))
 
 
-def rest(patches: Patches, regions: Sequence[Region], across: bool = False) -> Outlines:
+def outlines_of_rest(
+    patches: Patches, regions: Sequence[SignRegion], across: bool = False
+) -> Outlines:
     """Give the outlines of what regions that do not overlap leave of their patches.
 
     Parameters
@@ -153,7 +159,7 @@ def rest(patches: Patches, regions: Sequence[Region], across: bool = False) -> O
     squares = lattice.squares().reshape(-1, 2, 2)
     pieces = np.concatenate([squares, *(pieces[:, ::-1] for pieces, _ in taken)])
     lines = [each.reversed() for _, each in taken]
-    return _looped(patches, lattice, _Lines.of(lattice, leftover(pieces), lines))
+    return _looped(patches, lattice, _Lines.of(lattice, cancel_opposite_walks(pieces), lines))
 
 
 def _lattice(patches: Patches, across: bool) -> Lattice:
@@ -163,7 +169,7 @@ def _lattice(patches: Patches, across: bool) -> Lattice:
 
 def _looped(patches: Patches, lattice: Lattice, lines: _Lines) -> Outlines:
     """Join lines into loops."""
-    chains = chained(followers(lines.ends, *lines.directions()))
+    chains = chain_arcs(next_pieces(lines.ends, *lines.directions()))
     corners, start = lines.along(chains)
     patch = lines.patch[chains.firsts]
     found = Outlines(lattice.on_surface(patches.box, corners), start, patch)
@@ -220,40 +226,43 @@ class _Lines:
         leave = self.points[np.minimum(first + 1, last)] - self.points[first]
         return leave, self.points[last] - self.points[np.maximum(last - 1, first)]
 
-    def along(self, chains: Chains) -> tuple[FloatArray, IntArray]:
+    def along(self, chains: ArcChains) -> tuple[FloatArray, IntArray]:
         """Give the corners of chains of lines, and where those of each begin."""
         counts = np.diff(self.start)
-        rows, line = rows_of(counts, chains.arcs)
+        rows, line = rows_of_groups(counts, chains.arcs)
         # The last point of a line is the first of the next.
         kept = rows != self.start[chains.arcs + 1][line] - 1
         ends = np.cumsum((counts - 1)[chains.arcs])
         return self.points[rows[kept]], np.concatenate([[0], ends])[chains.start]
 
 
-def _bounds(lattice: Lattice, region: Region) -> tuple[FloatArray, _Lines]:
+def _bounds(lattice: Lattice, region: SignRegion) -> tuple[FloatArray, _Lines]:
     """Give the pieces (n, 2, 2) of borders of the cells of a region, and its arcs."""
     cells, arcs, kind = region.cells, region.arcs, region.kind
     patch = cells.patch[arcs.cell]
-    ends = lattice.place(np.repeat(patch, 2), directed(arcs).reshape(-1, 2))
-    joints = joints_of(ends.reshape(-1, 2, 2))
+    ends = lattice.place(np.repeat(patch, 2), directed_ends(arcs).reshape(-1, 2))
+    joints = find_joints(ends.reshape(-1, 2, 2))
     # Both arcs that meet in a point have the same one, to the last bit.
     ends = ends[joints.first][joints.joint]
     arc_of = np.full(len(cells), -1)
     arc_of[arcs.cell] = np.arange(len(arcs))
-    pieces = sides_of(cells, lattice, kind, arc_of, ends)
+    pieces = region_borders(cells, lattice, kind, arc_of, ends)
     used = np.flatnonzero(np.abs(ends[:, 1] - ends[:, 0]).max(axis=1) > SHORT)
     if kind not in (CellKind.POSITIVE, CellKind.NEGATIVE):
         used = used[:0]
     positive = kind is CellKind.POSITIVE
     start, points = _sampled(lattice, patch, arcs, region.samples)
-    points, start = _turned(points, start, used, forward(arcs)[used] != positive)
+    points, start = _turned(points, start, used, positive_on_left(arcs)[used] != positive)
     ends = (ends if positive else ends[:, ::-1])[used]
     points[start[:-1]], points[start[1:] - 1] = ends[:, 0], ends[:, 1]
     return pieces, _Lines(points, start, patch[used])
 
 
 def _sampled(
-    lattice: Lattice, patch: IntArray, arcs: Arcs, samples: tuple[IntArray, FloatArray] | None
+    lattice: Lattice,
+    patch: IntArray,
+    arcs: ZeroSetArcs,
+    samples: tuple[IntArray, FloatArray] | None,
 ) -> tuple[IntArray, FloatArray]:
     """Give where the points of arcs begin, and the points in the lattice."""
     start, uv = samples or (2 * np.arange(len(arcs) + 1), arcs.ends.reshape(-1, 2))
@@ -265,7 +274,7 @@ def _turned(
 ) -> tuple[FloatArray, IntArray]:
     """Take the points of some arcs, some of them in reverse."""
     counts = np.diff(start)
-    rows, arc = rows_of(counts, used)
+    rows, arc = rows_of_groups(counts, used)
     ends = start[used] + start[used + 1] - 1
     rows = np.where(turned[arc], ends[arc] - rows, rows)
     return points[rows], np.concatenate([[0], np.cumsum(counts[used])])

@@ -9,12 +9,12 @@ Manufacturing, Springer 2002, chapter 5.
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.plane_intersection import meet_plane
+>>> from assoc_hull.geometry.patches.plane_intersection import intersect_plane
 >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
 >>> net = np.zeros((3, 2, 3))
 >>> net[..., 0], net[..., 1] = np.mgrid[0:3, 0:2]
 >>> net[1, :, 2] = 1.0
->>> found = meet_plane(SplineSurface.bezier(net), [[0.3, 0.5]], [2], [0.375])
+>>> found = intersect_plane(SplineSurface.bezier(net), [[0.3, 0.5]], [2], [0.375])
 >>> found.xyz.round(12), found.sine.round(6)
 (array([[0.5  , 0.5  , 0.375]]), array([0.447214]))
 """
@@ -26,11 +26,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.knots import limits, spans
-from assoc_hull.geometry.patches.pointwise import inner, jets
+from assoc_hull.geometry.patches.bezier_patches import inner, jets
+from assoc_hull.geometry.patches.knots import nonempty_spans, span_limits
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
-__all__ = ["Meeting", "meet_plane", "slopes"]
+__all__ = ["SurfacePlaneIntersection", "intersect_plane", "surface_derivatives"]
 
 _STEPS = 6
 _BORDER = 1e-9
@@ -40,7 +40,7 @@ _FLAT = 1e-12
 
 
 @attrs.frozen(eq=False)
-class Meeting:
+class SurfacePlaneIntersection:
     """Points of a surface in planes.
 
     Attributes
@@ -64,28 +64,30 @@ class Meeting:
         freeze(self.xyz, self.uv, self.off, self.sine)
 
 
-def slopes(surface: SplineSurface, uv: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def surface_derivatives(
+    surface: SplineSurface, uv: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Give points of a surface and both first derivatives at parameters (n, 2), each (n, 3)."""
     rows, local, width = [], [], []
     counts = []
     for axis, knots in enumerate((surface.knots_u, surface.knots_v)):
-        limit = limits(knots, surface.degrees[axis])
+        limit = span_limits(knots, surface.degrees[axis])
         at = np.clip(np.searchsorted(limit[:, 0], uv[:, axis], "right") - 1, 0, len(limit) - 1)
         rows.append(at)
         width.append(limit[at, 1] - limit[at, 0])
         local.append((uv[:, axis] - limit[at, 0]) / width[-1])
-        counts.append(len(spans(knots, surface.degrees[axis])))
+        counts.append(len(nonempty_spans(knots, surface.degrees[axis])))
     found = jets(surface.patches(), rows[0] * counts[1] + rows[1], np.stack(local, axis=1))
     return found.r, found.ru / width[0][:, None], found.rv / width[1][:, None]
 
 
-def meet_plane(
+def intersect_plane(
     surface: SplineSurface,
     uv: ArrayLike,
     axis: ArrayLike,
     offset: ArrayLike,
     also: tuple[ArrayLike, int, float] | None = None,
-) -> Meeting:
+) -> SurfacePlaneIntersection:
     """Bring points of a surface into planes.
 
     Parameters
@@ -116,7 +118,7 @@ def meet_plane(
     both: NDArray[np.bool_] = np.array(chosen, np.bool_) & ~held.any(axis=1) & (axes != other)
     every = np.arange(len(at))
     for _ in range(_STEPS):
-        r, ru, rv = slopes(surface, at)
+        r, ru, rv = surface_derivatives(surface, at)
         miss = wanted - r[every, axes]
         step = _steps(ru, rv, axes, miss, held)
         if both.any():
@@ -124,8 +126,8 @@ def meet_plane(
             step[both] = _two(ru[both], rv[both], axes[both], miss[both], other, away)
         limited = np.clip(step, -0.25 * (high - low), 0.25 * (high - low))
         at = np.clip(at + limited, low, high)
-    r, ru, rv = slopes(surface, at)
-    return Meeting(r, at, np.abs(wanted - r[every, axes]), _sines(ru, rv, axes))
+    r, ru, rv = surface_derivatives(surface, at)
+    return SurfacePlaneIntersection(r, at, np.abs(wanted - r[every, axes]), _sines(ru, rv, axes))
 
 
 def _steps(

@@ -18,7 +18,14 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.patches.knots import blossom, cut, domain, limits, pieces, span_at
+from assoc_hull.geometry.patches.knots import (
+    bezier_pieces,
+    blossom,
+    cut_spline,
+    knot_domain,
+    span_at,
+    span_limits,
+)
 
 __all__ = ["SplineCurve"]
 
@@ -59,7 +66,7 @@ class SplineCurve:
     @property
     def domain(self) -> tuple[float, float]:
         """The least and the greatest parameter."""
-        return domain(self.knots, self.degree)
+        return knot_domain(self.knots, self.degree)
 
     def _homogeneous(self) -> FloatArray:
         if self.weights is None:
@@ -76,7 +83,7 @@ class SplineCurve:
 
     def restricted(self, low: float, high: float) -> SplineCurve:
         """Give the part between two parameters, by knot insertion."""
-        points, knots = cut(self._homogeneous(), self.knots, self.degree, low, high)
+        points, knots = cut_spline(self._homogeneous(), self.knots, self.degree, low, high)
         if self.weights is None:
             return attrs.evolve(self, knots=knots, points=points)
         weights = points[:, 3].copy()
@@ -90,11 +97,11 @@ class SplineCurve:
         A span is cut into equal parts, as many as second differences of its control points ask
         for, and 64 at most.
         """
-        polygon = pieces(self.points, self.knots, self.degree)
+        polygon = bezier_pieces(self.points, self.knots, self.degree)
         second = np.linalg.norm(np.diff(polygon, 2, axis=1), axis=2).max(axis=1, initial=0.0)
         needed = np.sqrt(0.125 * self.degree * (self.degree - 1) * second / chord)
         many = np.clip(np.ceil(needed), 1, _MOST).astype(np.int64)
-        ends = limits(self.knots, self.degree)
+        ends = span_limits(self.knots, self.degree)
         span = np.repeat(np.arange(len(many)), many)
         part = (np.arange(len(span)) - (np.cumsum(many) - many)[span]) / many[span]
         t = ends[span, 0] * (1.0 - part) + ends[span, 1] * part

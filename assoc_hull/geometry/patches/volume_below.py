@@ -7,11 +7,11 @@ not be there. So an open half of a hull has a volume, without any mesh.
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.volume_below import below
+>>> from assoc_hull.geometry.patches.volume_below import integrate_below
 >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
 >>> net = np.zeros((2, 2, 3))  # a wall at y = 3, 10 m long, 4 m high, its normal to +y
 >>> net[1, :, 0], net[..., 1], net[:, 0, 2] = 10.0, 3.0, 4.0
->>> found = below([SplineSurface.bezier(net)], 1.0)
+>>> found = integrate_below([SplineSurface.bezier(net)], 1.0)
 >>> found.volume, found.moment.tolist(), found.area
 (30.0, [150.0, 15.0], 10.0)
 """
@@ -28,11 +28,10 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.numeric.roots import unit_roots
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.pointwise import jets
+from assoc_hull.geometry.patches.bezier_patches import Patches, jets
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
-__all__ = ["Below", "below"]
+__all__ = ["VolumeBelow", "integrate_below"]
 
 _NODES = 6
 """Gauss points each way: exact to the 11th power, which y S_y x of a bicubic has."""
@@ -45,7 +44,7 @@ _MIRRORED = np.array([-1.0, -1.0, -1.0, 1.0])
 
 
 @attrs.frozen(eq=False)
-class Below:
+class VolumeBelow:
     """What lies between surfaces and the plane y = 0, below a level.
 
     Attributes
@@ -66,7 +65,7 @@ class Below:
         freeze(self.moment)
 
 
-def below(surfaces: Iterable[SplineSurface], level: float) -> Below:
+def integrate_below(surfaces: Iterable[SplineSurface], level: float) -> VolumeBelow:
     """Integrate over the part of surfaces that lies below a level.
 
     Parameters
@@ -90,7 +89,7 @@ def below(surfaces: Iterable[SplineSurface], level: float) -> Below:
         total += _whole(patches, np.flatnonzero(high))
         total += _cut(patches, np.flatnonzero(cut & ~steep), level)
         total += _MIRRORED * _cut(_turned(patches), np.flatnonzero(cut & steep), level)
-    return Below(float(total[0]), total[1:3].copy(), float(total[3]))
+    return VolumeBelow(float(total[0]), total[1:3].copy(), float(total[3]))
 
 
 def _rises_along_u(patches: Patches) -> NDArray[np.bool_]:

@@ -22,9 +22,9 @@ from itertools import pairwise
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.polylines.operations import arc_length
+from assoc_hull.geometry.polylines.operations import cumulative_lengths
 
-__all__ = ["bends", "fit_border", "order_places"]
+__all__ = ["border_bends", "fit_border", "order_places"]
 
 
 def order_places(places: FloatArray, doubt: FloatArray, first: Sequence[int]) -> list[int]:
@@ -74,14 +74,14 @@ def _cheapest(places: FloatArray, path: list[int], i: int, ends: FloatArray) -> 
     return int(np.argmin(cost))
 
 
-def bends(places: FloatArray, doubt: FloatArray, least_deg: float) -> list[int]:
+def border_bends(places: FloatArray, doubt: FloatArray, least_deg: float) -> list[int]:
     """Give the inner places at which a border turns by more than `least_deg`, surely.
 
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.polylines.borders import bends
-    >>> bends(np.array([[0.0, 0], [5, 0], [9, 0], [9, 5]]), np.full(4, 0.01), 40.0)
+    >>> from assoc_hull.geometry.polylines.borders import border_bends
+    >>> border_bends(np.array([[0.0, 0], [5, 0], [9, 0], [9, 5]]), np.full(4, 0.01), 40.0)
     [2]
     """
     if len(places) < 3:
@@ -115,9 +115,9 @@ def fit_border(places: FloatArray, doubt: FloatArray, corners: Sequence[int] = (
 
 
 def _fit(places: FloatArray, doubt: FloatArray) -> FloatArray:
-    from assoc_hull.geometry.polylines.penalised import PenalisedFit
+    from assoc_hull.geometry.polylines.smoothing import PenalisedFit
 
-    at = arc_length(places)
+    at = cumulative_lengths(places)
     fit = PenalisedFit(at, places, doubt, at)
     control = fit.solve(fit.largest())
     out, slope = np.asarray(fit.basis @ control), np.asarray(fit.slope @ control)

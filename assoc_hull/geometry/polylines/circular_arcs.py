@@ -25,17 +25,16 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.numeric.circle_fit import (
-    Circle,
+    CircleFit,
     fit_circle,
-    off_quick_circle,
-    off_three,
-    unrolled,
+    quick_circle_residuals,
+    three_point_residuals,
+    unroll_on_circle,
 )
-from assoc_hull.geometry.polylines.onset import fit_onset
-from assoc_hull.geometry.polylines.operations import arc_length
-from assoc_hull.geometry.polylines.straight import Onset
+from assoc_hull.geometry.polylines.operations import cumulative_lengths
+from assoc_hull.geometry.polylines.straight_runs import Onset, fit_onset
 
-__all__ = ["Arc", "ArcRule", "find_arcs"]
+__all__ = ["ArcRule", "CircularArc", "find_arcs"]
 
 
 @attrs.frozen
@@ -75,7 +74,7 @@ class ArcRule:
 
 
 @attrs.frozen(eq=False)
-class Arc:
+class CircularArc:
     """A circular arc.
 
     Attributes
@@ -114,7 +113,7 @@ class Arc:
         freeze(self.centre)
 
 
-def find_arcs(points: FloatArray, noise: float, rule: ArcRule | None = None) -> list[Arc]:
+def find_arcs(points: FloatArray, noise: float, rule: ArcRule | None = None) -> list[CircularArc]:
     """Find the circular arcs of a polyline.
 
     Parameters
@@ -134,9 +133,9 @@ def find_arcs(points: FloatArray, noise: float, rule: ArcRule | None = None) -> 
     wanted = rule or ArcRule()
     if len(points) < 8:
         return []
-    at = arc_length(points)
+    at = cumulative_lengths(points)
     within = max(wanted.within, wanted.scatters * noise)
-    found: list[Arc] = []
+    found: list[CircularArc] = []
     tried: list[tuple[int, int]] = []
     for first, last in _seeds(points, at, within, wanted):
         middle = float(at[(first + last) // 2])
@@ -169,7 +168,7 @@ def _seeds(
         last = np.minimum(np.searchsorted(at, starts + window, "right") - 1, len(at) - 1)
         good = last - first >= 6
         first, last = first[good], last[good]
-        off, depth = off_three(points, first, last)
+        off, depth = three_point_residuals(points, first, last)
         # Of an arc that turns enough some window shows two fifths of the turn.
         turn = 8.0 * np.abs(depth) / np.maximum(at[last] - at[first], 1e-12)
         keep = (np.abs(depth) > 0.4 * rule.least_depth * within) & (off < 2.0 * within)
@@ -185,7 +184,7 @@ def _seeds(
 def _settle(points: FloatArray, first: int, last: int, within: float) -> tuple[int, int] | None:
     """Give the stretch around a seed that lies within a tolerance of its own circle."""
     for _ in range(12):
-        new = _grow(off_quick_circle(points, first, last), first, last, within)
+        new = _grow(quick_circle_residuals(points, first, last), first, last, within)
         if new[1] - new[0] < 6:
             return None
         if new == (first, last):
@@ -214,7 +213,7 @@ def _arc(
     within: float,
     noise: float,
     rule: ArcRule,
-) -> Arc | None:
+) -> CircularArc | None:
     """Give the arc of a stretch, None if it is none."""
     growth = _growth(points, at, stretch, within)
     core = _core(at, stretch)
@@ -224,7 +223,7 @@ def _arc(
     radius, length = circle.radius, float(at[stretch[1]] - at[stretch[0]])
     if length < 0.8 * np.deg2rad(rule.least_deg) * radius:
         return None
-    along, off = unrolled(points, circle)[:2]
+    along, off = unroll_on_circle(points, circle)[:2]
     residual = float(np.sqrt((off[core] ** 2).mean()))
     scale = max(noise, residual, 1e-7)
     doubt = circle.spread * scale
@@ -233,7 +232,7 @@ def _arc(
     before, after = _ends(points, at, circle, stretch, within, scale)
     begin, end = max(before.at, 0.0), min(after.at, float(at[-1]))
     turn = float(np.rad2deg((end - begin) / radius))
-    found = Arc(
+    found = CircularArc(
         begin, end, circle.centre.copy(), radius, doubt, turn, residual, growth, before, after
     )
     return found if _counts(found, within, rule) else None
@@ -260,13 +259,13 @@ def _core(at: FloatArray, stretch: tuple[int, int]) -> np.typing.NDArray[np.bool
 def _ends(
     points: FloatArray,
     at: FloatArray,
-    circle: Circle,
+    circle: CircleFit,
     stretch: tuple[int, int],
     within: float,
     noise: float,
 ) -> tuple[Onset, Onset]:
     """Say how an arc begins and ends."""
-    along, off, angle, sense = unrolled(points, circle)
+    along, off, angle, sense = unroll_on_circle(points, circle)
     first, radius = len(at) - 1 - stretch[0], circle.radius
     after = _onset(along, off, at, stretch[1], within, noise, radius)
     before = _onset(-along[::-1], off[::-1], -at[::-1], first, within, noise, radius)
@@ -278,7 +277,7 @@ def _ends(
     return found[0], found[1]
 
 
-def _counts(arc: Arc, within: float, rule: ArcRule) -> bool:
+def _counts(arc: CircularArc, within: float, rule: ArcRule) -> bool:
     """Tell whether an arc turns enough, is deep enough, and ends in a step of curvature."""
     depth = arc.radius * (1.0 - np.cos(min(np.deg2rad(arc.turn_deg), np.pi) / 2.0))
     whole = arc.before.kind == "end" and arc.after.kind == "end"

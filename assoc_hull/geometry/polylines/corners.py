@@ -1,17 +1,8 @@
-"""Corners of plane polylines, told from tight bends by looking at two scales.
+"""Corners of plane polylines, and the knuckle lines that corners of neighbouring lines make.
 
-Over a corner a line turns by the same angle however short the stretch looked at; over a
-bend by half of it on half the stretch.
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.geometry.polylines.corners import find_corners
->>> t = np.linspace(-5.0, 5.0, 101)
->>> bent = np.column_stack([t, np.where(t > 0.03, np.tan(np.deg2rad(12.0)) * (t - 0.03), 0.0)])
->>> [corner] = find_corners(bent, 1e-4)
->>> round(corner.turn_deg, 2), round(float(corner.place[0]), 3)
-(12.0, 0.03)
+Over a corner a line turns by the same angle however short the stretch looked at; over a bend by
+half of it on half the stretch. So corners are seen at two scales. `join_corners` follows them
+from line to line.
 """
 
 from __future__ import annotations
@@ -20,9 +11,27 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.polylines.operations import arc_length, foot_on, resample
+from assoc_hull.geometry.polylines.operations import (
+    cumulative_lengths,
+    project_on_polyline,
+    resample,
+)
 
-__all__ = ["Corner", "CornerRule", "find_corners", "marked_corners", "with_marked"]
+__all__ = [
+    "ChainRule",
+    "Corner",
+    "CornerRule",
+    "find_corners",
+    "join_corners",
+    "marked_corners",
+    "with_marked",
+]
+
+# --------------------------------------------------------------------------------------
+# Corners of plane polylines, told from tight bends by looking at two scales.
+#
+# Over a corner a line turns by the same angle however short the stretch looked at; over a
+# bend by half of it on half the stretch.
 
 
 @attrs.frozen
@@ -97,7 +106,7 @@ def find_corners(points: FloatArray, noise: float, rule: CornerRule | None = Non
         In order along the polyline.
     """
     wanted = rule or CornerRule()
-    length = arc_length(points)
+    length = cumulative_lengths(points)
     seen: list[_Scale] = []
     found: list[tuple[float, float, float]] = []
     for level in range(5):
@@ -230,7 +239,7 @@ def _refine(
             best = fitted
         if best[0] <= 1.5 * max(noise, 1e-4):
             break
-    foot, off = (at, np.inf) if best is None else foot_on(points, length, best[2])
+    foot, off = (at, np.inf) if best is None else project_on_polyline(points, length, best[2])
     if best is None or off > max(6.0 * noise, 0.02):
         place = resample(points, np.array([at]))[0]
         turn = float(
@@ -327,7 +336,7 @@ def marked_corners(points: FloatArray, marks: FloatArray) -> list[Corner]:
         return []
     away = np.linalg.norm(points[:, None] - marks, axis=2)
     at = np.unique(away.argmin(axis=0)[away.min(axis=0) < _MARKED])
-    length, step = arc_length(points), np.diff(points, axis=0)
+    length, step = cumulative_lengths(points), np.diff(points, axis=0)
     found = []
     for i in at[(at > 0) & (at < len(points) - 1)].tolist():
         (a, b), (c, d) = step[i - 1], step[i]
@@ -340,3 +349,93 @@ def with_marked(found: list[Corner], marked: list[Corner]) -> list[Corner]:
     """Put marked corners before those that were found elsewhere."""
     others = [each for each in found if all(abs(each.at - mark.at) > _ANEW for mark in marked)]
     return [*marked, *others]
+
+
+# --------------------------------------------------------------------------------------
+# Corners of neighbouring lines joined to knuckle lines.
+
+
+@attrs.frozen
+class ChainRule:
+    """What counts as a knuckle line.
+
+    Attributes
+    ----------
+    lines : int
+        Neighbouring lines that must agree.
+    drift : float
+        How far a knuckle may move from line to line, as a part of their distance ...
+    slack : float, m
+        ... plus this; beyond three lines it is measured from where the last two lead.
+    ratio : float
+        By which factor its turn may change.
+    """
+
+    lines: int = 3
+    drift: float = 0.5
+    slack: float = 0.3
+    ratio: float = 1.6
+
+
+def join_corners(
+    offsets: FloatArray, corners: list[list[Corner]], rule: ChainRule | None = None
+) -> list[tuple[tuple[int, int], ...]]:
+    """Join corners of neighbouring lines.
+
+    Parameters
+    ----------
+    offsets : (n,), m
+        Places of the lines, ascending.
+    corners : list of list of Corner
+        Of each line.
+    rule : ChainRule or None
+        Defaults if None.
+
+    Returns
+    -------
+    list of tuple of (int, int)
+        Per knuckle line the corners, as (line, number on it); each corner is in one at most.
+    """
+    wanted = rule or ChainRule()
+    chains: list[list[tuple[int, int]]] = []
+    for line in range(len(offsets)):
+        open_ends = [chain for chain in chains if chain[-1][0] == line - 1]
+        pairs = [
+            (away, i, j)
+            for i, chain in enumerate(open_ends)
+            for j, corner in enumerate(corners[line])
+            if (away := _misfit(chain, corner, line, offsets, corners, wanted)) < 1.0
+        ]
+        taken: set[int] = set()
+        grown: set[int] = set()
+        for _, i, j in sorted(pairs):
+            if i not in grown and j not in taken:
+                open_ends[i].append((line, j))
+                grown.add(i)
+                taken.add(j)
+        chains += [[(line, j)] for j in range(len(corners[line])) if j not in taken]
+    return [tuple(chain) for chain in chains if len(chain) >= wanted.lines]
+
+
+def _misfit(
+    chain: list[tuple[int, int]],
+    corner: Corner,
+    line: int,
+    offsets: FloatArray,
+    corners: list[list[Corner]],
+    rule: ChainRule,
+) -> float:
+    """Give the distance from where a chain leads, as a part of what is allowed."""
+    last = corners[chain[-1][0]][chain[-1][1]]
+    low, high = sorted((last.turn_deg, corner.turn_deg))
+    if high > rule.ratio * low + 1.0:
+        return np.inf
+    gap = float(offsets[line] - offsets[line - 1])
+    guess = last.place
+    if len(chain) > 1:
+        before = corners[chain[-2][0]][chain[-2][1]]
+        step = float(offsets[line - 1] - offsets[chain[-2][0]])
+        guess = last.place + (last.place - before.place) * min(gap / step, 2.0)
+    away = min(float(np.linalg.norm(corner.place - guess)),
+               float(np.linalg.norm(corner.place - last.place)))  # fmt: skip
+    return away / (rule.drift * gap + rule.slack)

@@ -3,10 +3,10 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.polylines.fitted_circle import circle_of
+>>> from assoc_hull.geometry.polylines.fitted_circle import fit_circle_in_plane
 >>> t = np.linspace(-1.5, 1.5, 9)
 >>> points = np.column_stack([np.full(9, 6.0), 0.725 * np.cos(t), 5.0 + 0.725 * np.sin(t)])
->>> found = circle_of(points, np.array([1.0, 0.0, 0.0]), closed=True)
+>>> found = fit_circle_in_plane(points, np.array([1.0, 0.0, 0.0]), closed=True)
 >>> found.centre.tolist(), found.radius
 ([6.0, 0.0, 5.0], 0.725)
 """
@@ -21,7 +21,7 @@ from assoc_hull.geometry.numeric.circle_fit import fit_circle
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.plane import plane_axes
 
-__all__ = ["FittedCircle", "circle_of"]
+__all__ = ["FeatureCircle", "fit_circle_in_plane"]
 
 _DIGITS = 6
 """Centre and radius are told to this digit of a metre: points that make a feature lie on it within
@@ -29,7 +29,7 @@ as much, and another machine's last bit must not show."""
 
 
 @attrs.frozen(eq=False)
-class FittedCircle:
+class FeatureCircle:
     """A circle through points, as nearly as they allow.
 
     Attributes
@@ -52,7 +52,9 @@ class FittedCircle:
         freeze(self.centre)
 
 
-def circle_of(xyz: FloatArray, normal: FloatArray, *, closed: bool = False) -> FittedCircle:
+def fit_circle_in_plane(
+    xyz: FloatArray, normal: FloatArray, *, closed: bool = False
+) -> FeatureCircle:
     """Fit a circle to points in a plane.
 
     Parameters
@@ -75,4 +77,4 @@ def circle_of(xyz: FloatArray, normal: FloatArray, *, closed: bool = False) -> F
     centre = np.round(centre, _DIGITS) + 0.0
     if closed:
         centre[1] = 0.0
-    return FittedCircle(centre, round(found.radius, _DIGITS), float(off.max()), float(turn))
+    return FeatureCircle(centre, round(found.radius, _DIGITS), float(off.max()), float(turn))

@@ -6,11 +6,11 @@ plane.
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.polylines.flats import join_runs
+>>> from assoc_hull.geometry.polylines.flats import join_straight_runs
 >>> x = np.array([0.0, 10.0, 20.0])
 >>> low = np.column_stack([x, np.full(3, 16.0), 2.0 + 0.1 * x])
 >>> high = np.column_stack([x, np.full(3, 16.0), np.full(3, 12.0)])
->>> [flat] = join_runs(np.arange(3), low, high, 1e-3)
+>>> [flat] = join_straight_runs(np.arange(3), low, high, 1e-3)
 >>> flat.runs, flat.normal.tolist(), flat.offset
 ((0, 1, 2), [0.0, 1.0, 0.0], 16.0)
 """
@@ -22,11 +22,11 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
-__all__ = ["Flat", "fit_plane", "join_runs"]
+__all__ = ["FlatRegion", "fit_plane", "join_straight_runs"]
 
 
 @attrs.frozen(eq=False)
-class Flat:
+class FlatRegion:
     """A plane part of a hull, seen on lines of one group.
 
     Attributes
@@ -47,9 +47,9 @@ class Flat:
         freeze(self.normal)
 
 
-def join_runs(
+def join_straight_runs(
     line: IntArray, begin: FloatArray, end: FloatArray, within: float, lines: int = 3
-) -> list[Flat]:
+) -> list[FlatRegion]:
     """Join straight runs of neighbouring lines that lie in one plane.
 
     Parameters
@@ -74,13 +74,13 @@ def join_runs(
         chain = _grow(seed, beside, begin, end, within)
         chain = _grow(chain[::-1], _turned(beside), begin, end, within)[::-1]
         chains.append(chain)
-    found: list[Flat] = []
+    found: list[FlatRegion] = []
     taken: set[int] = set()
     for chain in sorted(chains, key=lambda each: (-len(each), each)):
         if taken.isdisjoint(chain):
             taken |= set(chain)
             normal, offset, _ = fit_plane(_ends(chain, begin, end), within)
-            found.append(Flat(tuple(chain), normal, offset))
+            found.append(FlatRegion(tuple(chain), normal, offset))
     return found
 
 

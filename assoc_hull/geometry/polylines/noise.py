@@ -3,11 +3,11 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.polylines.noise import scatter
+>>> from assoc_hull.geometry.polylines.noise import point_scatter
 >>> t = np.linspace(0.0, 3.0, 200)
 >>> noise = np.random.default_rng(1).normal(0.0, 1e-3, (200, 2))
 >>> line = np.column_stack([10.0 * np.cos(t), 10.0 * np.sin(t)]) + noise
->>> round(1e3 * scatter(line), 1)
+>>> round(1e3 * point_scatter(line), 1)
 1.0
 """
 
@@ -16,15 +16,15 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.polylines.operations import arc_length
+from assoc_hull.geometry.polylines.operations import cumulative_lengths
 
-__all__ = ["facet_depth", "facet_depths", "scatter"]
+__all__ = ["facet_depth", "facet_depths", "point_scatter"]
 
 _GAUSS = 1.4826
 """Standard deviation over median of the absolute value, of a normal distribution."""
 
 
-def scatter(points: FloatArray) -> float:
+def point_scatter(points: FloatArray) -> float:
     """Estimate the standard deviation (m) of points across their line.
 
     Each point is compared with the cubic through the two before and the two after it; the
@@ -38,7 +38,7 @@ def scatter(points: FloatArray) -> float:
     """
     if len(points) < 7:
         return 0.0
-    at = arc_length(points)
+    at = cumulative_lengths(points)
     middle = at[2:-2]
     rows = [at[i : len(at) - 4 + i] for i in (0, 1, 3, 4)]
     values = [points[i : len(points) - 4 + i] for i in (0, 1, 3, 4)]

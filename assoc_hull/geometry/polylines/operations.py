@@ -3,9 +3,9 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.polylines.operations import arc_length, resample
+>>> from assoc_hull.geometry.polylines.operations import cumulative_lengths, resample
 >>> corner = np.array([[0.0, 0, 0], [3, 0, 0], [3, 4, 0]])
->>> arc_length(corner)
+>>> cumulative_lengths(corner)
 array([0., 3., 7.])
 >>> resample(corner, np.array([5.0]))
 array([[3., 2., 0.]])
@@ -18,12 +18,17 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
 __all__ = [
-    "arc_length", "distinct", "drop_repeats", "foot_on", "order_paths", "resample",
+    "cumulative_lengths",
+    "distinct_points",
+    "drop_repeats",
+    "order_paths",
+    "project_on_polyline",
+    "resample",
     "self_crossings",
 ]  # fmt: skip
 
 
-def arc_length(points: FloatArray) -> FloatArray:
+def cumulative_lengths(points: FloatArray) -> FloatArray:
     """Give the length from the first point to each, (n,), m.
 
     Parameters
@@ -39,11 +44,13 @@ def arc_length(points: FloatArray) -> FloatArray:
 
 def resample(points: FloatArray, at: FloatArray) -> FloatArray:
     """Give the places at lengths `at` (m) along a polyline, (len(at), k), m."""
-    length = arc_length(points)
+    length = cumulative_lengths(points)
     return np.column_stack([np.interp(at, length, column) for column in points.T])
 
 
-def foot_on(points: FloatArray, length: FloatArray, place: FloatArray) -> tuple[float, float]:
+def project_on_polyline(
+    points: FloatArray, length: FloatArray, place: FloatArray
+) -> tuple[float, float]:
     """Give the length along a polyline that is nearest to a place, and the distance, m.
 
     Parameters
@@ -56,9 +63,9 @@ def foot_on(points: FloatArray, length: FloatArray, place: FloatArray) -> tuple[
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.polylines.operations import arc_length, foot_on
+    >>> from assoc_hull.geometry.polylines.operations import cumulative_lengths, project_on_polyline
     >>> line = np.array([[0.0, 0], [3, 0], [3, 4]])
-    >>> foot_on(line, arc_length(line), np.array([2.0, 1.0]))
+    >>> project_on_polyline(line, cumulative_lengths(line), np.array([2.0, 1.0]))
     (2.0, 1.0)
     """
     start, step = points[:-1], np.diff(points, axis=0)
@@ -79,10 +86,10 @@ def drop_repeats(points: FloatArray, least: float) -> FloatArray:
     >>> drop_repeats(np.array([[0.0], [1e-9], [1.0], [1.0]]), 1e-6).tolist()
     [[0.0], [1.0]]
     """
-    return np.asarray(points[distinct(points, least)])
+    return np.asarray(points[distinct_points(points, least)])
 
 
-def distinct(points: FloatArray, least: float) -> IntArray:
+def distinct_points(points: FloatArray, least: float) -> IntArray:
     """Give the numbers of the points that `drop_repeats` keeps."""
     step = np.diff(points, axis=0)
     keep = np.flatnonzero(np.append(True, (step * step).sum(axis=1) > least * least))

@@ -8,8 +8,8 @@ Examples
 --------
 >>> import numpy as np
 >>> from assoc_hull.geometry.curves import CurveData
->>> from assoc_hull.geometry.splines.compiled import loft
->>> loft(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]]))).knot
+>>> from assoc_hull.geometry.splines.compiled import loft_compiled
+>>> loft_compiled(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]]))).knot
 array([0., 5.])
 """
 
@@ -22,20 +22,19 @@ import numpy as np
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.numeric.compiled_roots import find_roots
 from assoc_hull.geometry.numeric.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
-from assoc_hull.geometry.numeric.tridiagonal import MOST_LEVELS
-from assoc_hull.geometry.numeric.workspace import Workspace
+from assoc_hull.geometry.numeric.tridiagonal import MOST_LEVELS, Workspace
 from assoc_hull.geometry.splines.compiled_coons import set_bows, set_tiles
 from assoc_hull.geometry.splines.compiled_intersections import meet_curves, place_meetings
 from assoc_hull.geometry.splines.compiled_loft import loft_curves
 from assoc_hull.geometry.splines.loft_rules import LEAST_COSINE, NO_DIRECTION
-from assoc_hull.geometry.splines.monotone import CONTACT, Parts, Roots
 from assoc_hull.geometry.splines.paths import QUICK, SMALL, PathShapes
+from assoc_hull.geometry.splines.plane_heights import CONTACT, MonotoneParts, PlaneRoots
 from assoc_hull.tolerance import Tolerances
 
 if TYPE_CHECKING:
-    from assoc_hull.geometry.surfaces.coons import Places
+    from assoc_hull.geometry.splines.paths import StripTiles
 
-__all__ = ["loft", "meet", "tiles", "warm"]
+__all__ = ["loft_compiled", "meet", "tiles", "warm"]
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -50,7 +49,7 @@ def _plain(array: np.typing.NDArray[Scalar]) -> np.typing.NDArray[Scalar]:
     return result
 
 
-def loft(data: CurveData) -> SplineBatch | None:
+def loft_compiled(data: CurveData) -> SplineBatch | None:
     """Make the splines of a batch.
 
     Parameters
@@ -66,7 +65,7 @@ def loft(data: CurveData) -> SplineBatch | None:
 
     Examples
     --------
-    >>> loft(CurveData.single(np.array([[0.0, 0, 0]]))) is None
+    >>> loft_compiled(CurveData.single(np.array([[0.0, 0, 0]]))) is None
     True
     """
     size = len(data.xyz)
@@ -92,7 +91,7 @@ def loft(data: CurveData) -> SplineBatch | None:
     return SplineBatch(data.start, knot, block[:3].T, block[3:6].T, block[6:].T)
 
 
-def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> Roots:
+def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneRoots:
     """Find the meetings of curves with planes.
 
     Parameters
@@ -111,7 +110,7 @@ def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> Roots:
 
     Examples
     --------
-    >>> line = loft(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]])))
+    >>> line = loft_compiled(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]])))
     >>> meet(line, np.array([1.0, 0.0, 0.0]), np.array([1.5])).t
     array([2.5])
     """
@@ -130,12 +129,12 @@ def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> Roots:
     )
     segment, order, below_begin, below_end = places
     lower, upper, begin, end = numbers
-    parts = Parts(segment, order, lower, upper, begin, end, below_begin, below_end)
-    return Roots(parts, owner, plane, told[0], told[1], sign, t, points, near)
+    parts = MonotoneParts(segment, order, lower, upper, begin, end, below_begin, below_end)
+    return PlaneRoots(parts, owner, plane, told[0], told[1], sign, t, points, near)
 
 
 def tiles(
-    where: Places,
+    where: StripTiles,
     v: FloatArray,
     walked: PathShapes,
     shapes: tuple[FloatArray, FloatArray, FloatArray],
@@ -182,7 +181,7 @@ def warm() -> None:
     --------
     >>> warm()
     """
-    line = loft(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]])))
+    line = loft_compiled(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]])))
     if line is not None:
         meet(line, np.array([1.0, 0.0, 0.0]), np.array([1.5]))
     none, nil = _plain(np.zeros(0, np.int64)), _plain(np.zeros(1))

@@ -18,11 +18,11 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.splines.segments import segment_start
 
-__all__ = ["Folds", "folds", "order_kept"]
+__all__ = ["CurveFolds", "curve_folds", "order_kept"]
 
 
 @attrs.frozen(eq=False)
-class Folds:
+class CurveFolds:
     """Places where curves turn back on themselves, in the order of the curves.
 
     Attributes
@@ -47,7 +47,7 @@ class Folds:
         return len(self.curve)
 
 
-def folds(batch: SplineBatch) -> Folds:
+def curve_folds(batch: SplineBatch) -> CurveFolds:
     """Find the places where curves turn back on themselves.
 
     A curve folds at a point that is no knuckle where two consecutive chords make more than
@@ -73,11 +73,11 @@ def folds(batch: SplineBatch) -> Folds:
     --------
     >>> import numpy as np
     >>> from assoc_hull.geometry.curves import SplineBatch
-    >>> from assoc_hull.geometry.splines.curve_order import folds
+    >>> from assoc_hull.geometry.splines.curve_order import curve_folds
     >>> xyz = np.array([[0.0, 0, 0], [3, 0, 0], [2, 1, 0]])
     >>> slope = np.array([[1.0, 0, 0], [0.0, 1, 0], [0, 1, 0]])
     >>> hook = SplineBatch(np.array([0, 3]), np.array([0.0, 3, 4.4]), xyz, slope, slope.copy())
-    >>> folds(hook).knot.tolist()
+    >>> curve_folds(hook).knot.tolist()
     [1]
     """
     inside = np.zeros(max(len(batch.knot) - 1, 0), np.bool_)
@@ -94,7 +94,7 @@ def folds(batch: SplineBatch) -> Folds:
     _note(worst[1:], arrive[1:], chord, inside & ~(dot(arrive[1:], chord) > 0.0))
     row = np.flatnonzero(worst < np.inf)
     curve = np.searchsorted(batch.start, row, side="right") - 1
-    return Folds(curve, row - batch.start[curve], worst[row])
+    return CurveFolds(curve, row - batch.start[curve], worst[row])
 
 
 def order_kept(before: Iterable[int], after: Iterable[int]) -> tuple[int, ...]:

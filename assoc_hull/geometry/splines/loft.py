@@ -25,8 +25,13 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
-from assoc_hull.geometry.numeric.tridiagonal import Slots, accumulate, slots_of, solve
-from assoc_hull.geometry.numeric.workspace import Workspace
+from assoc_hull.geometry.numeric.tridiagonal import (
+    Slots,
+    Workspace,
+    running_sums,
+    slots_of,
+    solve_tridiagonal,
+)
 from assoc_hull.geometry.splines.backend import compiled
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate, sample
 from assoc_hull.geometry.splines.loft_rules import (
@@ -87,7 +92,7 @@ def loft(data: CurveData, names: Sequence[str] | None = None) -> SplineBatch:
     """
     kernels = compiled()
     if kernels is not None:
-        spline: SplineBatch | None = kernels.loft(data)
+        spline: SplineBatch | None = kernels.loft_compiled(data)
         if spline is not None:
             return spline
     return _loft(data, names)
@@ -109,13 +114,13 @@ def _loft(data: CurveData, names: Sequence[str] | None) -> SplineBatch:
         set_known(data, slots, state, chord, slope, names, leave, arrive)
         rows = _rows(data, slots, state, chord, slope, workspace)
         _detach_known(rows, state, leave, arrive, workspace)
-        solved = solve(slots, rows, workspace)
+        solved = solve_tridiagonal(slots, rows, workspace)
         # A sum, not a choice: known rows solve to nil; it also turns -0.0 into 0.0.
         leave += solved
         arrive += solved
     chord[slots.first] = 0.0
     chord[-1] = 0.0
-    return SplineBatch(data.start, accumulate(slots, chord), points.T, leave.T, arrive.T)
+    return SplineBatch(data.start, running_sums(slots, chord), points.T, leave.T, arrive.T)
 
 
 def _chords(

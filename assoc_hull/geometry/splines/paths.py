@@ -12,12 +12,53 @@ from functools import cached_property
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.dual import is_plain, real
-from assoc_hull.geometry.splines.segments import power, segment_start
+from assoc_hull.geometry.splines.segments import power_coefficients, segment_start
 
-__all__ = ["QUICK", "SMALL", "Bit", "PathShapes", "Paths", "bit_lengths", "shapes"]
+__all__ = [
+    "QUICK",
+    "SMALL",
+    "Bit",
+    "PathShapes",
+    "Paths",
+    "StripTiles",
+    "bit_lengths",
+    "shape_paths",
+]
+
+
+@attrs.frozen(eq=False)
+class StripTiles:
+    """What curves across given strips are made of, whatever the shape.
+
+    Attributes
+    ----------
+    start : (k + 1,) int
+        Where the tiles of each curve begin.
+    curve, tile : (s,) int
+        The curve of each tile, and the tile of the cells it is.
+    first : (s,) int
+        The first of the four anchors that shape it, counted through all curves.
+    deck : (s,) bool
+        It is closed deck.
+    anchors : int
+        Number of anchors of all curves.
+    plane, other : ((a,), (a,), (a,)) int
+        Anchors that are walked by x, and by their length: their numbers, paths and curves.
+    """
+
+    start: IntArray
+    curve: IntArray
+    tile: IntArray
+    first: IntArray
+    deck: NDArray[np.bool_]
+    anchors: int
+    plane: tuple[IntArray, IntArray, IntArray]
+    other: tuple[IntArray, IntArray, IntArray]
+
 
 Bit = tuple[int, float, float]
 """A segment, and the parameters (0 to 1) between which it is walked; backward if they fall."""
@@ -159,7 +200,7 @@ class PathShapes:
         return place, slope / span[:, None]
 
 
-def shapes(paths: Paths, batch: SplineBatch) -> PathShapes:
+def shape_paths(paths: Paths, batch: SplineBatch) -> PathShapes:
     """Give paths their shapes on a batch of splines.
 
     Parameters
@@ -175,7 +216,7 @@ def shapes(paths: Paths, batch: SplineBatch) -> PathShapes:
     base = total[paths.start[:-1]]
     whole = (total[paths.start[1:]] - base)[owner]
     base = base[owner]
-    cubic = stretch(power(batch)[paths.segment], paths.low, paths.high)
+    cubic = restrict_cubics(power_coefficients(batch)[paths.segment], paths.low, paths.high)
     # A path that is a point has one bit, from 0 to 1 like any other.
     point = real(whole) == 0.0
     whole = np.where(point, 1.0, whole)
@@ -192,7 +233,7 @@ def bit_lengths(paths: Paths, batch: SplineBatch) -> FloatArray:
     return length
 
 
-def stretch(cubic: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+def restrict_cubics(cubic: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
     """Give cubics (k, 4, 3) on the stretch between two parameters, as cubics from 0 to 1."""
     a = low[:, None]
     h = (high - low)[:, None]

@@ -1,20 +1,19 @@
-"""Where curves meet families of parallel planes: all meetings, their signs in alternation.
+"""Intersections of curves with planes.
 
-One sign is decided at every knot and shared by both its segments, so a meeting at a knot is
-found once and signs alternate along a curve whatever rounding does. Between knots a cubic
-is cut where its height is stationary; each part is monotone and meets a plane just where
-the signs at its two ends differ. How many planes lie below each end is one sorted search:
-the cost grows with segments plus meetings, not with segments times planes.
+`intersect_planes` finds where curves pass planes of one family, with alternating signs along each
+curve. `touch_points` and `stretches_in_plane` find what does not pass: a curve that turns back at
+a plane, or lies in it. `points_on_plane`, `points_at_coordinate` and `coordinate_turns` are the
+simple questions for measures of a form: they take curve ends in, too.
 
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.splines.plane_intersections import meet_planes
+>>> from assoc_hull.geometry.splines.plane_intersections import stretches_in_plane
 >>> from assoc_hull.geometry.curves import CurveData
 >>> from assoc_hull.geometry.splines.loft import loft
->>> line = loft(CurveData.single(np.array([[0.0, 0, 0], [0, 0, 4]])))
->>> meet_planes(line, np.array([0.0, 0.0, 1.0]), np.array([1.0, 2.0])).t
-array([1., 2.])
+>>> line = loft(CurveData.single(np.array([[0.0, 0, 2], [3, 0, 2]])))
+>>> stretches_in_plane(line, np.array([0.0, 0.0, 1.0]), 2.0)
+(array([0]), array([0.]), array([3.]))
 """
 
 from __future__ import annotations
@@ -24,25 +23,47 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.numeric.roots import bracketed_roots
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner
+from assoc_hull.geometry.numeric.roots import bracketed_roots, unit_roots
 from assoc_hull.geometry.numeric.tridiagonal import slots_of
 from assoc_hull.geometry.splines.backend import compiled
-from assoc_hull.geometry.splines.bernstein import Heights, heights
-from assoc_hull.geometry.splines.evaluation import positions
-from assoc_hull.geometry.splines.monotone import (
+from assoc_hull.geometry.splines.evaluation import derivative, positions
+from assoc_hull.geometry.splines.plane_heights import (
     CONTACT,
-    Parts,
-    Roots,
+    MonotoneParts,
+    PlaneHeights,
+    PlaneRoots,
     checked_planes,
-    find_parts,
+    find_monotone_parts,
+    heights_over_plane,
     nodes_of,
+    planes_containing,
 )
+from assoc_hull.geometry.splines.segments import power_coefficients, segment_curve, segment_start
 
-__all__ = ["Meetings", "meet_planes"]
+__all__ = [
+    "PlaneIntersections",
+    "PointsOnCurves",
+    "coordinate_turns",
+    "intersect_planes",
+    "points_at_coordinate",
+    "points_on_plane",
+    "stretches_in_plane",
+    "touch_points",
+]
+
+# --------------------------------------------------------------------------------------
+# Where curves meet families of parallel planes: all meetings, their signs in alternation.
+#
+# One sign is decided at every knot and shared by both its segments, so a meeting at a knot is
+# found once and signs alternate along a curve whatever rounding does. Between knots a cubic
+# is cut where its height is stationary; each part is monotone and meets a plane just where
+# the signs at its two ends differ. How many planes lie below each end is one sorted search:
+# the cost grows with segments plus meetings, not with segments times planes.
 
 
 @attrs.frozen(eq=False)
-class Meetings:
+class PlaneIntersections:
     """Meetings of curves with planes, sorted by curve, plane and parameter.
 
     Attributes
@@ -80,7 +101,9 @@ class Meetings:
         return len(self.t)
 
 
-def meet_planes(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> Meetings:
+def intersect_planes(
+    batch: SplineBatch, normal: FloatArray, offsets: FloatArray
+) -> PlaneIntersections:
     """Find all meetings of every curve with every plane ``normal . P = offset``.
 
     Parameters
@@ -114,7 +137,7 @@ def meet_planes(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> 
     >>> from assoc_hull.geometry.splines.loft import loft
     >>> from assoc_hull.geometry.curves import CurveData
     >>> line = loft(CurveData.single(np.array([[0.0, 0, 0], [0, 0, 4]])))
-    >>> meet_planes(line, np.array([0.0, 0.0, 1.0]), np.array([3.0])).xyz
+    >>> intersect_planes(line, np.array([0.0, 0.0, 1.0]), np.array([3.0])).xyz
     array([[0., 0., 3.]])
     """
     normal, offsets = checked_planes(normal, offsets)
@@ -125,15 +148,15 @@ def meet_planes(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> 
     if axis is not None:
         np.multiply(offsets.take(found.plane), normal[axis], out=found.points[axis])
     tangential = _tangential(batch, normal, found, offsets)
-    return Meetings(
+    return PlaneIntersections(
         found.curve, found.plane, found.segment, found.t, found.points.T, found.sign, tangential
     )
 
 
-def _find(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> Roots:
+def _find(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneRoots:
     """Find all meetings with numpy."""
-    course = heights(batch, normal)
-    parts = find_parts(batch, course, offsets)
+    course = heights_over_plane(batch, normal)
+    parts = find_monotone_parts(batch, course, offsets)
     owner, plane = _expand(batch, parts, len(offsets))
     segment = parts.segment.take(owner)
     fraction = _fractions(course, parts, owner, offsets.take(plane))
@@ -142,7 +165,7 @@ def _find(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> Roots:
     falls = parts.below_end < parts.below_begin
     sign = np.where(falls, np.int8(-1), np.int8(1)).take(owner)
     points = positions(batch, segment, fraction)
-    return Roots(parts, owner, plane, segment, curve, sign, t, points, near=True)
+    return PlaneRoots(parts, owner, plane, segment, curve, sign, t, points, near=True)
 
 
 def _coordinate_axis(normal: FloatArray) -> int | None:
@@ -159,7 +182,7 @@ def _parameters(batch: SplineBatch, segment: IntArray, fraction: FloatArray) -> 
     return np.minimum(result, end, out=result)
 
 
-def _expand(batch: SplineBatch, parts: Parts, planes: int) -> tuple[IntArray, IntArray]:
+def _expand(batch: SplineBatch, parts: MonotoneParts, planes: int) -> tuple[IntArray, IntArray]:
     """Give part and plane of every meeting, sorted by curve, plane and parameter."""
     least = np.minimum(parts.below_begin, parts.below_end)
     count = np.abs(parts.below_end - parts.below_begin)
@@ -175,7 +198,9 @@ def _expand(batch: SplineBatch, parts: Parts, planes: int) -> tuple[IntArray, In
     return owner.take(order), plane.take(order)
 
 
-def _fractions(course: Heights, parts: Parts, owner: IntArray, offset: FloatArray) -> FloatArray:
+def _fractions(
+    course: PlaneHeights, parts: MonotoneParts, owner: IntArray, offset: FloatArray
+) -> FloatArray:
     """Find where in its segment each meeting lies."""
     falling = (parts.below_end < parts.below_begin).take(owner)
     cubic = np.empty((4, len(owner)))
@@ -192,7 +217,7 @@ def _fractions(course: Heights, parts: Parts, owner: IntArray, offset: FloatArra
 
 
 def _tangential(
-    batch: SplineBatch, normal: FloatArray, found: Roots, offsets: FloatArray
+    batch: SplineBatch, normal: FloatArray, found: PlaneRoots, offsets: FloatArray
 ) -> NDArray[np.bool_]:
     """Mark neighbouring meetings between which the curve hardly leaves the plane."""
     parts, owner, curve, plane = found.parts, found.owner, found.curve, found.plane
@@ -207,14 +232,14 @@ def _tangential(
     near = np.abs(parts.end.take(owner[pairs]) - offsets.take(plane[pairs])) < CONTACT
     if not near.any():
         return result
-    course = heights(batch, normal)
+    course = heights_over_plane(batch, normal)
     for pair in pairs[near].tolist():
         if _excursion(course, parts, owner[pair : pair + 2], offsets[plane[pair]]) < CONTACT:
             result[pair : pair + 2] = True
     return result
 
 
-def _excursion(course: Heights, parts: Parts, pair: IntArray, offset: float) -> float:
+def _excursion(course: PlaneHeights, parts: MonotoneParts, pair: IntArray, offset: float) -> float:
     """Give the largest distance from the plane between two meetings; such pairs are rare."""
     one, other = pair
     segment = np.arange(parts.segment[one], parts.segment[other] + 1)
@@ -223,3 +248,280 @@ def _excursion(course: Heights, parts: Parts, pair: IntArray, offset: float) -> 
     after = 3 * segment[0] + 3 if parts.upper[one] == 1.0 else parts.order[one] + 1
     between = (order >= after) & (order <= parts.order[other])
     return float(np.abs(height[between] - offset).max())
+
+
+# --------------------------------------------------------------------------------------
+# Where curves touch planes without crossing them, and where they lie in them.
+
+
+def stretches_in_plane(
+    batch: SplineBatch, normal: FloatArray, offset: float
+) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Find the stretches of curves that lie in a plane within 1e-9 m.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    normal : (3,)
+        Unit normal of the plane.
+    offset : float, m
+        Offset of the plane.
+
+    Returns
+    -------
+    curve : (k,) int
+        Index of the curve.
+    begin, end : (k,), m
+        Chord-length parameters between which it lies in the plane: whole segments, joined
+        where they follow one another. All frozen.
+
+    Raises
+    ------
+    BadInputError
+        If the normal is not a unit vector.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.splines.loft import loft
+    >>> from assoc_hull.geometry.curves import CurveData
+    >>> line = loft(CurveData.single(np.array([[0.0, 0, 2], [3, 0, 2]])))
+    >>> stretches_in_plane(line, np.array([0.0, 0.0, 1.0]), 1.0)[0]
+    array([], dtype=int64)
+    """
+    normal, offsets = checked_planes(normal, np.array([offset]))
+    segment = segment_start(batch)
+    first, behind = planes_containing(heights_over_plane(batch, normal), offsets, segment)
+    lying = segment[first < behind]
+    curve = slots_of(batch.start).curve[lying]
+    # Segments of two curves never follow one another: the last knot of a curve starts none.
+    joined = lying[1:] == lying[:-1] + 1
+    opens, closes = np.append(True, ~joined), np.append(~joined, True)
+    if not len(lying):
+        opens = closes = np.zeros(0, np.bool_)
+    result = curve[opens], batch.knot[lying[opens]], batch.knot[lying[closes] + 1]
+    freeze(*result)
+    return result
+
+
+def touch_points(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneIntersections:
+    """Find where curves come within 1e-9 m of planes and turn back on the same side.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    normal : (3,)
+        Unit normal of all planes.
+    offsets : (p,), m
+        Offsets of the planes, ascending.
+
+    Returns
+    -------
+    Meetings
+        Places where the height over the plane is stationary, and knots (the ends of a
+        curve among them), all of sign 0; sorted by curve, plane and parameter. The points
+        are those of the curve, not moved into the plane. Where a curve lies in a plane it
+        does not touch it.
+
+    Raises
+    ------
+    BadInputError
+        If the normal is not a unit vector or the offsets descend anywhere.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.splines.loft import loft
+    >>> from assoc_hull.geometry.curves import CurveData
+    >>> line = loft(CurveData.single(np.array([[0.0, 0, 2], [0, 0, 3]])))
+    >>> touch_points(line, np.array([0.0, 0.0, 1.0]), np.array([2.0])).t
+    array([0.])
+    """
+    normal, offsets = checked_planes(normal, offsets)
+    course = heights_over_plane(batch, normal)
+    segment, fraction, height, curve = _nodes(batch, course)
+    low = np.searchsorted(offsets, height - CONTACT, side="right")
+    count = np.maximum(np.searchsorted(offsets, height + CONTACT, side="left") - low, 0)
+    node = np.repeat(np.arange(len(height)), count)
+    plane = np.arange(len(node)) + np.repeat(low - (np.cumsum(count) - count), count)
+    turns = _turns_back(height, curve, node, offsets[plane])
+    turns &= ~_lying_at(batch, course, offsets, segment[node], fraction[node], plane)
+    node, plane = node[turns], plane[turns]
+    order = np.lexsort((node, plane, curve[node]))
+    return _as_meetings(batch, segment, fraction, curve, node[order], plane[order])
+
+
+def _nodes(
+    batch: SplineBatch, course: PlaneHeights
+) -> tuple[IntArray, FloatArray, FloatArray, IntArray]:
+    """Give all knots and stationary places in order: segment, fraction, height, curve."""
+    segment = segment_start(batch)
+    fraction, height = nodes_of(course, segment)
+    slots = slots_of(batch.start)
+    keep = np.ones(fraction.shape, np.bool_)
+    keep[1] = fraction[1] > 0.0
+    keep[2] = fraction[2] < 1.0
+    keep[3] = slots.is_last[segment + 1]
+    chosen = keep.T
+    owner = np.broadcast_to(segment[:, None], chosen.shape)[chosen]
+    return owner, fraction.T[chosen], height.T[chosen], slots.curve[owner]
+
+
+def _turns_back(
+    height: FloatArray, curve: IntArray, node: IntArray, offset: FloatArray
+) -> NDArray[np.bool_]:
+    """Say whether both neighbours of a node lie farther from the plane, on its own side."""
+    result = np.ones(len(node), np.bool_)
+    here = height[node] - offset
+    for step in (-1, 1):
+        other = np.clip(node + step, 0, len(height) - 1)
+        there = height[other] - offset
+        # Of two equally near neighbours the later one is taken.
+        farther = (np.abs(there) > np.abs(here)) | ((step < 0) & (np.abs(there) == np.abs(here)))
+        alone = (other == node) | (curve[other] != curve[node])
+        result &= alone | (farther & ((there >= 0.0) == (here >= 0.0)))
+    return result
+
+
+def _lying_at(
+    batch: SplineBatch,
+    course: PlaneHeights,
+    offsets: FloatArray,
+    segment: IntArray,
+    fraction: FloatArray,
+    plane: IntArray,
+) -> NDArray[np.bool_]:
+    """Say whether a segment that holds or ends at a node lies in the plane."""
+    is_first = slots_of(batch.start).is_first
+    before = np.where((fraction == 0.0) & ~is_first[segment], segment - 1, segment)
+    result = np.zeros(len(segment), np.bool_)
+    for one in (before, segment):
+        first, behind = planes_containing(course, offsets, one)
+        result |= (first <= plane) & (plane < behind)
+    return result
+
+
+def _as_meetings(
+    batch: SplineBatch,
+    segment: IntArray,
+    fraction: FloatArray,
+    curve: IntArray,
+    node: IntArray,
+    plane: IntArray,
+) -> PlaneIntersections:
+    where, part = segment[node], fraction[node]
+    begin, end = batch.knot[where], batch.knot[where + 1]
+    t = np.where(part == 1.0, end, begin + (end - begin) * part)
+    xyz = positions(batch, where, part).T
+    count = len(node)
+    sign, tangential = np.zeros(count, np.int8), np.ones(count, np.bool_)
+    return PlaneIntersections(curve[node], plane, where, t, xyz, sign, tangential)
+
+
+# --------------------------------------------------------------------------------------
+# Places on curves that measures of a form start from: where they reach a plane, where they turn.
+
+_ON = 1e-6
+"""A knot so near to a plane (m) is on it."""
+
+
+@attrs.frozen(eq=False)
+class PointsOnCurves:
+    """Places on curves, in order along each.
+
+    Attributes
+    ----------
+    curve : (k,) int
+        The curve of each.
+    t : (k,), m
+        Chord parameter.
+    xyz : (k, 3), m
+        Where.
+    along : (k, 3)
+        Derivative with respect to chord length; after the place, where the curve has a corner.
+    """
+
+    curve: IntArray
+    t: FloatArray
+    xyz: FloatArray
+    along: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.curve, self.t, self.xyz, self.along)
+
+
+def points_on_plane(batch: SplineBatch, normal: FloatArray, offset: float) -> PointsOnCurves:
+    """Find where curves pass or touch a plane ``normal . P = offset``, their ends included.
+
+    Of a stretch that lies in the plane the knots are given.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    normal : (3,)
+        Unit normal.
+    offset : float, m
+        Of the plane.
+
+    Returns
+    -------
+    Places
+        In order.
+    """
+    found = intersect_planes(batch, normal, np.array([offset]))
+    owner = np.repeat(np.arange(batch.count), np.diff(batch.start))
+    on = np.abs(batch.xyz @ normal - offset) <= _ON
+    curve = np.concatenate([owner[on], found.curve])
+    t = np.concatenate([batch.knot[on], found.t])
+    xyz = np.concatenate([batch.xyz[on], found.xyz])
+    order = np.lexsort((t, curve))
+    curve, t, xyz = curve[order], t[order], xyz[order]
+    new = np.ones(len(t), np.bool_)
+    new[1:] = (np.diff(curve) != 0) | (np.diff(t) > _ON)
+    curve, t, xyz = curve[new], t[new], xyz[new]
+    return PointsOnCurves(curve, t, xyz, derivative(batch, curve, t))
+
+
+def points_at_coordinate(batch: SplineBatch, axis: int, value: float) -> PointsOnCurves:
+    """Find where curves pass or touch the plane on which a coordinate (0, 1, 2) has a value, m."""
+    return points_on_plane(batch, np.eye(3)[axis], value)
+
+
+def coordinate_turns(batch: SplineBatch, axis: int) -> tuple[FloatArray, ...]:
+    """Give places of each curve between which a coordinate only rises or only falls.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    axis : int
+        0, 1 or 2.
+
+    Returns
+    -------
+    tuple of (k, 3), m
+        For each curve, in order: knots, and where the derivative of the coordinate is nil.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.curves import SplineBatch
+    >>> from assoc_hull.geometry.splines.plane_intersections import coordinate_turns
+    >>> xyz = np.array([[0.0, 0, 0], [2, 0, 0]])
+    >>> leave, arrive = np.array([[1.0, 2, 0]] * 2), np.array([[1.0, -2, 0]] * 2)
+    >>> parabola = SplineBatch(np.array([0, 2]), np.array([0.0, 2]), xyz, leave, arrive)
+    >>> round(float(coordinate_turns(parabola, 1)[0][:, 1].max()), 12)
+    1.0
+    """
+    cubic = power_coefficients(batch)
+    inner = unit_roots(differentiate(cubic)[:, :, axis])
+    place = horner(cubic, np.concatenate([np.zeros((len(cubic), 1)), inner], axis=1))
+    owner = segment_curve(batch)
+    last = batch.xyz[batch.start[1:] - 1]
+    found = tuple(
+        np.concatenate([place[owner == i].reshape(-1, 3), last[i : i + 1]])
+        for i in range(batch.count)
+    )
+    freeze(*found)
+    return found

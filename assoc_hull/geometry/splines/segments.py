@@ -15,10 +15,10 @@ from assoc_hull.errors import BadInputError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 
 __all__ = [
-    "bernstein",
-    "locate",
-    "on_knots",
-    "power",
+    "bezier_points",
+    "locate_by_knots",
+    "locate_parameters",
+    "power_coefficients",
     "segment_curve",
     "segment_start",
     "sum_per_curve",
@@ -132,7 +132,7 @@ def _ends(batch: SplineBatch) -> tuple[IntArray, FloatArray, FloatArray, FloatAr
     return first, chord, batch.leave[first] * length, batch.arrive[first + 1] * length
 
 
-def power(batch: SplineBatch) -> FloatArray:
+def power_coefficients(batch: SplineBatch) -> FloatArray:
     """Give the power coefficients of each segment in its parameter u.
 
     Parameters
@@ -154,11 +154,11 @@ def power(batch: SplineBatch) -> FloatArray:
     --------
     >>> import numpy as np
     >>> from assoc_hull.geometry.curves import SplineBatch
-    >>> from assoc_hull.geometry.splines.segments import power
+    >>> from assoc_hull.geometry.splines.segments import power_coefficients
     >>> xyz = np.array([[0.0, 0, 0], [2, 0, 0]])
     >>> along = np.array([[1.0, 0, 0], [1, 0, 0]])
     >>> line = SplineBatch(np.array([0, 2]), np.array([0.0, 2]), xyz, along, along.copy())
-    >>> power(line)[0, :, 0]
+    >>> power_coefficients(line)[0, :, 0]
     array([0., 2., 0., 0.])
     """
     first, chord, leave, arrive = _ends(batch)
@@ -171,7 +171,7 @@ def power(batch: SplineBatch) -> FloatArray:
     return coefficients
 
 
-def bernstein(batch: SplineBatch) -> FloatArray:
+def bezier_points(batch: SplineBatch) -> FloatArray:
     """Give the Bezier points of each segment.
 
     Parameters
@@ -193,11 +193,11 @@ def bernstein(batch: SplineBatch) -> FloatArray:
     --------
     >>> import numpy as np
     >>> from assoc_hull.geometry.curves import SplineBatch
-    >>> from assoc_hull.geometry.splines.segments import bernstein
+    >>> from assoc_hull.geometry.splines.segments import bezier_points
     >>> xyz = np.array([[0.0, 0, 0], [3, 0, 0]])
     >>> along = np.array([[1.0, 0, 0], [1, 0, 0]])
     >>> line = SplineBatch(np.array([0, 2]), np.array([0.0, 3]), xyz, along, along.copy())
-    >>> bernstein(line)[0, :, 0]
+    >>> bezier_points(line)[0, :, 0]
     array([0., 1., 2., 3.])
     """
     first, _, leave, arrive = _ends(batch)
@@ -207,7 +207,9 @@ def bernstein(batch: SplineBatch) -> FloatArray:
     return points
 
 
-def locate(batch: SplineBatch, curve: ArrayLike, t: ArrayLike) -> tuple[IntArray, FloatArray]:
+def locate_parameters(
+    batch: SplineBatch, curve: ArrayLike, t: ArrayLike
+) -> tuple[IntArray, FloatArray]:
     """Find the segments on which parameters lie.
 
     A parameter at a knot belongs to the segment that begins there, at the last knot to the
@@ -238,22 +240,22 @@ def locate(batch: SplineBatch, curve: ArrayLike, t: ArrayLike) -> tuple[IntArray
     --------
     >>> import numpy as np
     >>> from assoc_hull.geometry.curves import SplineBatch
-    >>> from assoc_hull.geometry.splines.segments import locate
+    >>> from assoc_hull.geometry.splines.segments import locate_parameters
     >>> start = np.array([0, 3, 5])
     >>> batch = SplineBatch(start, np.array([0.0, 1, 3, 0, 4]), *np.zeros((3, 5, 3)))
-    >>> segment, u = locate(batch, [0, 0, 1], [0.25, 2.5, 1.0])
+    >>> segment, u = locate_parameters(batch, [0, 0, 1], [0.25, 2.5, 1.0])
     >>> segment.tolist(), u.tolist()
     ([0, 1, 2], [0.25, 0.75, 0.25])
     """
     segment_start(batch)
     which, at = _checked_places(curve, t)
-    first, u, _ = on_knots(batch, which, at)
+    first, u, _ = locate_by_knots(batch, which, at)
     segment = first - which
     freeze(segment, u)
     return segment, u
 
 
-def on_knots(
+def locate_by_knots(
     batch: SplineBatch, curve: IntArray, t: FloatArray, guess: NDArray[np.integer] | None = None
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Find the segments on which parameters lie; the search is exact in the knots' bits.

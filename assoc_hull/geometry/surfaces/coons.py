@@ -25,49 +25,28 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.dual import is_plain
-from assoc_hull.geometry.numeric.generic_sums import nil
+from assoc_hull.geometry.numeric.generic_sums import common_zeros
 from assoc_hull.geometry.splines.backend import compiled
-from assoc_hull.geometry.splines.paths import Paths, PathShapes, shapes, stretch
+from assoc_hull.geometry.splines.paths import (
+    Paths,
+    PathShapes,
+    StripTiles,
+    restrict_cubics,
+    shape_paths,
+)
 from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
-__all__ = ["Cells", "CoonsStrips", "Places"]
+__all__ = [
+    "CoonsCells",
+    "CoonsStrips",
+]
 
 _KEPT = 4
 """So many answers are kept: the rule along the strips asks the same after each edit."""
 
 
 @attrs.frozen(eq=False)
-class Places:
-    """What curves across given strips are made of, whatever the shape.
-
-    Attributes
-    ----------
-    start : (k + 1,) int
-        Where the tiles of each curve begin.
-    curve, tile : (s,) int
-        The curve of each tile, and the tile of the cells it is.
-    first : (s,) int
-        The first of the four anchors that shape it, counted through all curves.
-    deck : (s,) bool
-        It is closed deck.
-    anchors : int
-        Number of anchors of all curves.
-    plane, other : ((a,), (a,), (a,)) int
-        Anchors that are walked by x, and by their length: their numbers, paths and curves.
-    """
-
-    start: IntArray
-    curve: IntArray
-    tile: IntArray
-    first: IntArray
-    deck: NDArray[np.bool_]
-    anchors: int
-    plane: tuple[IntArray, IntArray, IntArray]
-    other: tuple[IntArray, IntArray, IntArray]
-
-
-@attrs.frozen(eq=False)
-class Cells:
+class CoonsCells:
     """How strips are put together from paths: all but the shape.
 
     Attributes
@@ -112,7 +91,7 @@ class Cells:
     plane: NDArray[np.bool_]
     deck: NDArray[np.bool_]
     order: IntArray
-    _known: dict[bytes, Places] = attrs.field(factory=dict, init=False, repr=False)
+    _known: dict[bytes, StripTiles] = attrs.field(factory=dict, init=False, repr=False)
 
     def __attrs_post_init__(self) -> None:
         freeze(*attrs.astuple(self, recurse=False)[1:-1])
@@ -122,7 +101,7 @@ class Cells:
         """The bits of all tiles on the rails aft, then on those forward, (2 t,)."""
         return np.concatenate([self.aft, self.fore])
 
-    def places(self, strip: IntArray) -> Places:
+    def places(self, strip: IntArray) -> StripTiles:
         """Find what curves across strips (k,) consist of; the last answers are kept."""
         key = strip.tobytes()
         if key not in self._known:
@@ -131,12 +110,12 @@ class Cells:
             self._known[key] = self._places(strip)
         return self._known[key]
 
-    def _places(self, strip: IntArray) -> Places:
+    def _places(self, strip: IntArray) -> StripTiles:
         curve, tile = _spread(self.tile_start, strip)
         whose, anchor = _spread(self.anchor_start, strip)
         path, flat = self.anchor[anchor], self.plane[strip[whose]]
         by_x, by_length = np.flatnonzero((path >= 0) & flat), np.flatnonzero((path >= 0) & ~flat)
-        return Places(
+        return StripTiles(
             _starts(self.tile_start, strip),
             curve,
             tile,
@@ -164,25 +143,25 @@ class CoonsStrips:
         As that of the cells, but in u, from 0 to 1 along each tile.
     """
 
-    cells: Cells
+    cells: CoonsCells
     walked: PathShapes
     aft: FloatArray
     span: FloatArray
     blend: FloatArray
 
     @classmethod
-    def on(cls, cells: Cells, batch: SplineBatch) -> CoonsStrips:
+    def on(cls, cells: CoonsCells, batch: SplineBatch) -> CoonsStrips:
         """Put cells on splines."""
-        walked = shapes(cells.paths, batch)
+        walked = shape_paths(cells.paths, batch)
         low = np.where(cells.low < 0, np.where(cells.low < -1, 1.0, 0.0), walked.begin[cells.low])
         high = np.where(cells.high < 0, 1.0, walked.begin[cells.high])
         bit, count = cells.rail, len(cells.aft)
         begin, finish = walked.begin[bit], walked.finish[bit]
         both = np.stack([low, low, high, high]).reshape(2, -1)
         part = (both - begin) / (finish - begin)
-        rails = stretch(walked.cubic[bit], part[0], part[1])
+        rails = restrict_cubics(walked.cubic[bit], part[0], part[1])
         aft, fore = rails[:count], rails[count:]
-        return cls(cells, walked, aft, fore - aft, stretch(cells.blend, low, high))
+        return cls(cells, walked, aft, fore - aft, restrict_cubics(cells.blend, low, high))
 
     @property
     def count(self) -> int:
@@ -208,7 +187,7 @@ class CoonsStrips:
         _lay_decks(where.deck, point, across)
         return IsoCurves(where.start, point, across, where.deck)
 
-    def _compiled(self, where: Places, v: FloatArray) -> tuple[FloatArray, FloatArray] | None:
+    def _compiled(self, where: StripTiles, v: FloatArray) -> tuple[FloatArray, FloatArray] | None:
         """Let compiled code do it, if there is any, for plain numbers; None if it cannot."""
         kernels = compiled()
         if kernels is None or len(where.other[0]) or not (is_plain(v) and is_plain(self.aft)):
@@ -220,13 +199,13 @@ class CoonsStrips:
         found: tuple[FloatArray, FloatArray] | None = done
         return found
 
-    def _bows(self, where: Places, v: FloatArray) -> FloatArray:
+    def _bows(self, where: StripTiles, v: FloatArray) -> FloatArray:
         """Give by how much each anchor of each strip leaves its chord, and the derivative by v.
 
         (b, 6), with three rows of nil behind, so that four can be taken from any.
         """
         first, last = self.walked.ends
-        bow = nil((where.anchors + 3, 6), v, first)
+        bow = common_zeros((where.anchors + 3, 6), v, first)
         for chosen, path, of, walk in (
             (*where.plane, self.walked.at_part),
             (*where.other, self.walked.at),

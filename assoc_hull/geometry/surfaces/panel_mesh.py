@@ -1,7 +1,8 @@
 """Meshes of flat or warped panels with three or four corners, as seakeeping codes take them.
 
 Axes of such codes: x forward, y to port, z up, the water surface at z = 0. Corners go round
-counter-clockwise as seen from the water, so that normals point out of the hull.
+counter-clockwise as seen from the water, so that normals point out of the hull. `below_water`
+keeps the part of a mesh that lies below the surface.
 """
 
 from __future__ import annotations
@@ -17,7 +18,19 @@ from assoc_hull.arguments import checked, flag, word
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
-__all__ = ["PanelMesh", "PanelOrigin", "joined", "welded"]
+__all__ = [
+    "PanelMesh",
+    "PanelOrigin",
+    "below_water",
+    "merge_equal_vertices",
+    "weld_vertices",
+]
+
+# --------------------------------------------------------------------------------------
+# Meshes of flat or warped panels with three or four corners, as seakeeping codes take them.
+#
+# Axes of such codes: x forward, y to port, z up, the water surface at z = 0. Corners go round
+# counter-clockwise as seen from the water, so that normals point out of the hull.
 
 _WHERE = "in a panel mesh"
 _LARGEST = 1e6
@@ -279,7 +292,9 @@ def _mirrored(mesh: PanelMesh, axis: int) -> PanelMesh:
     return attrs.evolve(mesh, xyz=xyz, panel=new[np.concatenate([mesh.panel, turned])])
 
 
-def welded(xyz: FloatArray, panel: IntArray, near: float) -> tuple[FloatArray, IntArray, IntArray]:
+def weld_vertices(
+    xyz: FloatArray, panel: IntArray, near: float
+) -> tuple[FloatArray, IntArray, IntArray]:
     """Make vertices one that lie near one another, and drop what becomes of panels without area.
 
     Parameters
@@ -303,9 +318,9 @@ def welded(xyz: FloatArray, panel: IntArray, near: float) -> tuple[FloatArray, I
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.surfaces.panel_mesh import welded
+    >>> from assoc_hull.geometry.surfaces.panel_mesh import weld_vertices
     >>> xyz = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1e-9, 0]])
-    >>> welded(xyz, np.array([[0, 1, 2, 3]]), 1e-6)[1].tolist()
+    >>> weld_vertices(xyz, np.array([[0, 1, 2, 3]]), 1e-6)[1].tolist()
     [[1, 2, 0, 0]]
     """
     from scipy.sparse import coo_array
@@ -334,7 +349,7 @@ def _proper(panel: IntArray) -> IntArray:
     return np.asarray(np.take_along_axis(panel, column, axis=1))
 
 
-def joined(xyz: FloatArray, panel: IntArray) -> tuple[FloatArray, IntArray]:
+def merge_equal_vertices(xyz: FloatArray, panel: IntArray) -> tuple[FloatArray, IntArray]:
     """Make vertices one that are equal, and drop what becomes of panels without area.
 
     Vertices stay in the order in which they were first given; those that no panel has are left
@@ -343,9 +358,9 @@ def joined(xyz: FloatArray, panel: IntArray) -> tuple[FloatArray, IntArray]:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.surfaces.panel_mesh import joined
+    >>> from assoc_hull.geometry.surfaces.panel_mesh import merge_equal_vertices
     >>> xyz = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [5, 5, 5]])
-    >>> joined(xyz, np.array([[0, 1, 2, 3]]))[1].tolist()
+    >>> merge_equal_vertices(xyz, np.array([[0, 1, 2, 3]]))[1].tolist()
     [[1, 2, 0, 0]]
     """
     first, group = np.unique(xyz, axis=0, return_index=True, return_inverse=True)[1:]
@@ -354,3 +369,78 @@ def joined(xyz: FloatArray, panel: IntArray) -> tuple[FloatArray, IntArray]:
     number = np.zeros(len(xyz), np.int64)
     number[used] = np.arange(len(used))
     return xyz[used], number[corners]
+
+
+# --------------------------------------------------------------------------------------
+# The part of a mesh of panels that lies below the water surface z = 0.
+
+
+def below_water(mesh: PanelMesh) -> PanelMesh:
+    """Cut a mesh at z = 0, along straight edges, and keep what lies below.
+
+    Panels that are cut become triangles and quadrilaterals; neighbours stay joined.
+
+    Parameters
+    ----------
+    mesh : PanelMesh
+        Any mesh, such as one of a whole ship with her upper works.
+
+    Returns
+    -------
+    PanelMesh
+        With the symmetry and title of the other; what that was made of is not kept.
+
+    Raises
+    ------
+    BadInputError
+        Nothing lies below.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.surfaces.panel_mesh import below_water
+    >>> from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
+    >>> side = np.array([[0.0, 1, -2], [5, 1, -2], [5, 1, 3], [0, 1, 3]])
+    >>> below_water(PanelMesh(side, np.array([[3, 2, 1, 0]]))).area
+    10.0
+    """
+    z = mesh.xyz[:, 2][mesh.panel]
+    kept = (z <= 0.0).all(axis=1) & (z < 0.0).any(axis=1)
+    cut = np.flatnonzero((z < 0.0).any(axis=1) & ~kept)
+    places, panels = [mesh.xyz], mesh.panel[kept].tolist()
+    count = len(mesh.xyz)
+    for each in cut.tolist():
+        corner = mesh.xyz[mesh.panel[each][: 3 if mesh.triangle[each] else 4]]
+        polygon = _below(corner)
+        first = count
+        places.append(polygon)
+        count += len(polygon)
+        panels += _split(first, len(polygon))
+    if not panels:
+        raise BadInputError("no panel lies below z = 0", "in a panel mesh", "lower the mesh")
+    xyz, panel = merge_equal_vertices(np.concatenate(places), np.array(panels, np.int64))
+    return attrs.evolve(mesh, xyz=xyz, panel=panel, origin=None)
+
+
+def _below(corner: FloatArray) -> FloatArray:
+    """Cut a polygon."""
+    found = []
+    for here, there in zip(corner, np.roll(corner, -1, axis=0), strict=True):
+        if here[2] <= 0.0:
+            found.append(here)
+        if here[2] * there[2] < 0.0:
+            # From the lower end, so that both panels of an edge get the same place.
+            low, high = (here, there) if here[2] < there[2] else (there, here)
+            place = low + (high - low) * (low[2] / (low[2] - high[2]))
+            found.append(np.array([place[0], place[1], 0.0]))
+    return np.array(found)
+
+
+def _split(first: int, size: int) -> list[list[int]]:
+    """Split a polygon of three to six corners."""
+    if size == 3:
+        return [[first, first + 1, first + 2, first + 2]]
+    found = [[first, first + i, first + i + 1, first + i + 2] for i in range(1, size - 2, 2)]
+    if size % 2:
+        found.append([first, first + size - 2, first + size - 1, first + size - 1])
+    return found

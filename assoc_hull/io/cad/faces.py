@@ -26,7 +26,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.cad.kernel import MILLIMETRES, require_opencascade
 
-__all__ = ["Sewn", "face_of", "faces_in", "sewn", "spline_of", "surface_of"]
+__all__ = ["SewnShell", "face_of", "faces_in", "sew_surfaces", "spline_of", "surface_of"]
 
 _DEGENERATE = 1e-6
 """A side of a face shorter than this (mm) is a point."""
@@ -36,7 +36,7 @@ _SEWN = 1e-2
 
 
 @attrs.frozen(eq=False)
-class Sewn:
+class SewnShell:
     """Faces that share edges.
 
     Attributes
@@ -114,7 +114,7 @@ def _filled(array: Any, values: np.typing.NDArray[Any]) -> Any:
     return array
 
 
-def sewn(surfaces: Sequence[SplineSurface]) -> Sewn:
+def sew_surfaces(surfaces: Sequence[SplineSurface]) -> SewnShell:
     """Sew surfaces to one shell.
 
     Parameters
@@ -131,7 +131,7 @@ def sewn(surfaces: Sequence[SplineSurface]) -> Sewn:
     """
     given = [face_of(each) for each in surfaces]
     if len(given) == 1:
-        return Sewn(_shell_of(given), given)
+        return SewnShell(_shell_of(given), given)
     from OCP.BRepBuilderAPI import BRepBuilderAPI_Sewing
     from OCP.TopAbs import TopAbs_ShapeEnum
 
@@ -145,7 +145,7 @@ def sewn(surfaces: Sequence[SplineSurface]) -> Sewn:
     # Sewing puts them in another order; as they stand in the shell they look to one side.
     turned, made = faces_in(shell), [sewing.ModifiedSubShape(each) for each in given]
     faces = [next(each for each in turned if each.IsSame(one)) for one in made]
-    return Sewn(_shell_of(faces), faces)
+    return SewnShell(_shell_of(faces), faces)
 
 
 def _shell_of(faces: Sequence[Any]) -> Any:

@@ -4,10 +4,10 @@ Examples
 --------
 >>> import numpy as np
 >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
->>> from assoc_hull.io.offset_report import Notebook
->>> from assoc_hull.io.cad.hull_faces import Faces, size_of
->>> faces = Faces.of([SplineSurface.bezier(2.5 * np.eye(3).reshape(3, 1, 3)[:, [0, 0]])], "m")
->>> size_of(faces, 40.0, Notebook())
+>>> from assoc_hull.io.reports import Notebook
+>>> from assoc_hull.io.cad.hull_faces import hull_size, HullFaces
+>>> faces = HullFaces.of([SplineSurface.bezier(2.5 * np.eye(3).reshape(3, 1, 3)[:, [0, 0]])], "m")
+>>> hull_size(faces, 40.0, Notebook())
 100.0
 """
 
@@ -19,13 +19,18 @@ import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.patches.facets import Facets, facets_of, kept_facets
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.patches.stitching import outward_parts, stitched
-from assoc_hull.io.offset_report import Notebook
+from assoc_hull.geometry.patches.triangulation import (
+    Facets,
+    facets_of,
+    kept_facets,
+    outward_parts,
+    stitch_facets,
+)
+from assoc_hull.io.reports import Notebook
 from assoc_hull.io.units import METRES
 
-__all__ = ["FINE", "Faces", "facets_at_scale", "size_of", "small"]
+__all__ = ["FINE", "HullFaces", "facets_at_scale", "hull_size", "model_factor"]
 
 _WELD = 2e-3
 """Borders at most so far apart (m) are one."""
@@ -46,7 +51,7 @@ _LONG = 1.0 / 150.0
 
 
 @attrs.frozen(eq=False)
-class Faces:
+class HullFaces:
     """Surfaces of a hull as a file has them.
 
     Attributes
@@ -68,24 +73,26 @@ class Faces:
     facets: Callable[[float, float], Facets]
 
     @classmethod
-    def of(cls, surfaces: Sequence[SplineSurface], unit: str, notes: tuple[str, ...] = ()) -> Faces:
+    def of(
+        cls, surfaces: Sequence[SplineSurface], unit: str, notes: tuple[str, ...] = ()
+    ) -> HullFaces:
         """Take whole surfaces."""
         return cls(tuple(surfaces), unit, notes, lambda fine, long: facets_of(surfaces, fine, long))
 
 
-def small(size: float) -> float:
+def model_factor(size: float) -> float:
     """Give what lengths that hold for ships are to be multiplied by: less than 1 for models.
 
     Examples
     --------
-    >>> from assoc_hull.io.cad.hull_faces import small
-    >>> small(120.0), small(2.5)
+    >>> from assoc_hull.io.cad.hull_faces import model_factor
+    >>> model_factor(120.0), model_factor(2.5)
     (1.0, 0.05)
     """
     return min(1.0, size / _SHIP)
 
 
-def size_of(faces: Faces, scale: float, book: Notebook) -> float:
+def hull_size(faces: HullFaces, scale: float, book: Notebook) -> float:
     """Give the longest side of the hull at full scale, m; refuse what is no ship's.
 
     Parameters
@@ -113,12 +120,12 @@ def size_of(faces: Faces, scale: float, book: Notebook) -> float:
         raise BadInputError(said, where, remedy)
     book.assume("unit", "the surfaces", f"{faces.unit}: the hull is {size:.6g} m long", size)
     if size < _SHIP:
-        what = f"all limits of gaps and features are {small(size):.3g} of those of a ship"
+        what = f"all limits of gaps and features are {model_factor(size):.3g} of those of a ship"
         book.assume("small", "the surfaces", f"{what}, since it is short", size)
     return size
 
 
-def _extent(faces: Faces) -> float:
+def _extent(faces: HullFaces) -> float:
     """Give the longest side at the scale of the file, m: of faces, not of whole surfaces."""
     nets = [each.net.reshape(-1, 3) for each in faces.surfaces if each is not None]
     box = max((float(np.ptp(net, axis=0).max()) for net in nets), default=_ROUGH)
@@ -126,7 +133,7 @@ def _extent(faces: Faces) -> float:
     return float(np.ptp(found, axis=0).max()) if len(found) else 0.0
 
 
-def facets_at_scale(faces: Faces, scale: float, size: float, book: Notebook) -> Facets:
+def facets_at_scale(faces: HullFaces, scale: float, size: float, book: Notebook) -> Facets:
     """Give triangles at full scale, each once, sewn, and each part outward.
 
     Parameters
@@ -146,7 +153,7 @@ def facets_at_scale(faces: Faces, scale: float, size: float, book: Notebook) -> 
         raise BadInputError("all surfaces are points or lines", "in the file", "export the hull")
     mesh = found.mesh.moved(found.mesh.xyz * scale)
     whole = _once(Facets(mesh, found.surface, found.uv), book)
-    return outward_parts(stitched(whole, max(small(size) * _WELD, 2.0 * deflection)))
+    return outward_parts(stitch_facets(whole, max(model_factor(size) * _WELD, 2.0 * deflection)))
 
 
 def _once(facets: Facets, book: Notebook) -> Facets:

@@ -5,9 +5,9 @@ are those of the whole process. So nobody calls it but within `quiet`. It works 
 
 Examples
 --------
->>> from assoc_hull.io.cad.kernel import quiet, require_opencascade
+>>> from assoc_hull.io.cad.kernel import quiet_kernel, require_opencascade
 >>> require_opencascade()
->>> with quiet({"write.step.unit": "M"}):
+>>> with quiet_kernel({"write.step.unit": "M"}):
 ...     from OCP.Interface import Interface_Static
 ...
 ...     print(Interface_Static.CVal_s("write.step.unit"))
@@ -24,7 +24,7 @@ from typing import Any
 
 from assoc_hull.errors import MissingExtraError
 
-__all__ = ["MILLIMETRES", "quiet", "require_opencascade", "words"]
+__all__ = ["MILLIMETRES", "ascii_words", "quiet_kernel", "require_opencascade"]
 
 MILLIMETRES = 1000.0
 """Lengths of OpenCASCADE in one of the kernel."""
@@ -54,7 +54,7 @@ def require_opencascade() -> None:
 
 
 @contextmanager
-def quiet(settings: Mapping[str, str] = _ALWAYS) -> Iterator[None]:
+def quiet_kernel(settings: Mapping[str, str] = _ALWAYS) -> Iterator[None]:
     """Let OpenCASCADE print nothing, with settings of its own; both are put back.
 
     Parameters
@@ -94,7 +94,7 @@ def quiet(settings: Mapping[str, str] = _ALWAYS) -> Iterator[None]:
                 messenger.AddPrinter(each)
 
 
-def words(text: str) -> Any:
+def ascii_words(text: str) -> Any:
     """Give text as OpenCASCADE takes it; what is no ASCII becomes ``?``."""
     from OCP.TCollection import TCollection_HAsciiString
 

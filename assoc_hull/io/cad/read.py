@@ -1,26 +1,14 @@
-"""Faces of STEP and of trimmed IGES files through OpenCASCADE, as surfaces and their triangles.
+"""Reading STEP and trimmed IGES through OpenCASCADE: surfaces and their triangles.
 
-Every face is made a spline surface first, so that its triangles tell parameters on that.
+The text of a STEP file is checked first, since OpenCASCADE ends the process on some damaged files.
+Every face is made a spline surface, so that its triangles have parameters on that.
 
-Examples
---------
->>> import tempfile
->>> from pathlib import Path
->>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
->>> from assoc_hull.io.cad.faces import sewn
->>> from assoc_hull.io.cad.read import read_faces
->>> from assoc_hull.io.cad.step_write import step_bytes
->>> side = SplineSurface.bezier([[[0, 1, 0], [0, 1, 2]], [[5, 1, 0], [5, 1, 2]]], "side")
->>> with tempfile.TemporaryDirectory() as folder:
-...     path = Path(folder) / "side.step"
-...     written = path.write_bytes(step_bytes(sewn([side]), ["side"], "mm", "hull"))
-...     faces = read_faces(path, "step", "mm", None)
->>> faces.surfaces[0].domain, len(faces.facets(0.01, 1.0).mesh.face)
-(((0.0, 1.0), (0.0, 1.0)), 2)
+Source: ISO 10303-21 (2016), sections 5 to 11.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -30,20 +18,128 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.facets import Facets, joined_facets
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.geometry.patches.triangulation import Facets, joined_facets
 from assoc_hull.io.cad.faces import faces_in, spline_of
-from assoc_hull.io.cad.hull_faces import Faces
-from assoc_hull.io.cad.kernel import MILLIMETRES, quiet
+from assoc_hull.io.cad.hull_faces import HullFaces
+from assoc_hull.io.cad.kernel import MILLIMETRES, quiet_kernel
 from assoc_hull.io.units import METRES, unit_note
 
-__all__ = ["read_faces", "read_shape"]
+__all__ = [
+    "read_faces",
+    "read_shape",
+    "require_sound_step",
+    "step_unit",
+]
+
+# --------------------------------------------------------------------------------------
+# Whether the text of a STEP file is sound, before OpenCASCADE reads it; and its unit of length.
+#
+# OpenCASCADE ends the process, or does not come to an end, on some files with a number that is none
+# or a reference to nothing. So the words of the data section are looked at first.
+#
+# Source: ISO 10303-21 (2016), sections 5 to 11: the exchange structure and its tokens.
+
+_AGAIN = "export or copy it again, whole"
+_STRING = re.compile(r"'(?:[^']|'')*'|/\*.*?\*/|\"[0-9A-F]*\"", re.S)
+_DATA = re.compile(r"\bDATA\s*(?:\([^;]*\))?\s*;(.*?)\bENDSEC\s*;", re.S)
+_PLAIN = (
+    (re.compile(r"\.[A-Za-z0-9_]+\."), "*"),
+    (re.compile(r"#[0-9]+"), "@"),
+    (re.compile(r"!?[A-Za-z_][A-Za-z0-9_]*(?=\s*\()"), "@"),
+    (re.compile(r"[-+]?[0-9]+(?:\.[0-9]*)?(?:[eE][-+]?[0-9]+)?"), "0"),
+)
+"""Words of a statement: enumerations, references, keywords, numbers; what is left is marks."""
+
+_STRANGE = re.compile(r"[^@0*$'(),=;\s]|,\s*[,)]|\(\s*,")
+"""A mark or a word that is none, or a value that is left out."""
+
+_LARGE = re.compile(r"[0-9.][eE]\+?0*(?:[2-9][0-9]{2,}|1[0-9]{3,}|10[1-9]|1[1-9][0-9])\b")
+
+_PREFIX = {"$": "m", "": "m", ".MILLI.": "mm", ".CENTI.": "cm"}
+_CONVERTED = {"INCH": "in", "IN": "in", "FOOT": "ft", "FEET": "ft", "FT": "ft"}
+
+
+def require_sound_step(text: str, source: str) -> None:
+    """Refuse a file that is cut short, or whose statements are none.
+
+    Parameters
+    ----------
+    text : str
+        The file.
+    source : str
+        Its name, for messages.
+
+    Raises
+    ------
+    BadInputError
+        It does not end as it must, has no data, a word that is none, brackets that do not
+        close, a reference to nothing, or a number over 1e100.
+    """
+    where = f"in {source}"
+    if not re.search(r"END-ISO-10303-21\s*;\s*\Z", text):
+        raise BadInputError("the file is cut short", where, _AGAIN)
+    bare = _STRING.sub(lambda found: " " if found[0].startswith("/*") else "''", text)
+    data = "".join(_DATA.findall(bare))
+    if not data.strip():
+        raise BadInputError("there is no data", where, _AGAIN)
+    large = _LARGE.search(data)
+    if large:
+        raise BadInputError(f"a number is too large ({large[0]})", where, _AGAIN)
+    known = set(re.findall(r"#([0-9]+)\s*=", data))
+    missing = set(re.findall(r"#([0-9]+)", data)) - known
+    if missing:
+        first = min(missing, key=int)
+        raise BadInputError(f"there is no entity #{first}, which others use", where, _AGAIN)
+    plain = data
+    for pattern, mark in _PLAIN:
+        plain = pattern.sub(mark, plain)
+    for statement, given in zip(plain.split(";"), data.split(";"), strict=True):
+        _require_statement(statement, given, where)
+
+
+def _require_statement(plain: str, given: str, where: str) -> None:
+    strange = _STRANGE.search(plain)
+    closed = plain.count("(") == plain.count(")")
+    whole = not plain.strip() or re.match(r"\s*@\s*=\s*[@(]", plain)
+    if strange or not closed or not whole:
+        shown = " ".join(given.split())
+        shown = shown if len(shown) < 80 else f"{shown[:77]}..."
+        raise BadInputError(f"this is no statement: {shown!r}", where, _AGAIN)
+
+
+def step_unit(text: str) -> str | None:
+    """Give the unit of length of a STEP file; None if it is none that is known.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.cad.read import step_unit
+    >>> step_unit("#7=(CONVERSION_BASED_UNIT('INCH',#8)LENGTH_UNIT()NAMED_UNIT(#9));")
+    'in'
+    """
+    for entity in re.finditer(r"=\s*\(([^;]*)\)\s*;", text):
+        body = entity[1]
+        if not re.search(r"\bLENGTH_UNIT\s*\(", body):
+            continue
+        base = re.search(r"CONVERSION_BASED_UNIT\s*\(\s*'([^']*)'", body)
+        if base:
+            return _CONVERTED.get(base[1].strip().upper())
+        metric = re.search(r"SI_UNIT\s*\(\s*([$.A-Z]*)\s*,\s*\.METRE\.", body)
+        if metric:
+            return _PREFIX.get(metric[1].strip())
+    return None
+
+
+# --------------------------------------------------------------------------------------
+# Faces of STEP and of trimmed IGES files through OpenCASCADE, as surfaces and their triangles.
+#
+# Every face is made a spline surface first, so that its triangles tell parameters on that.
 
 _TURN = 0.35
 """Triangles of a face turn by at most so much (rad) from one to the next."""
 
 
-def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> Faces:
+def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> HullFaces:
     """Read the faces of a file.
 
     Parameters
@@ -64,7 +160,7 @@ def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> Fac
     MissingExtraError
         OpenCASCADE is not installed.
     """
-    with quiet():
+    with quiet_kernel():
         shape = _splines(read_shape(path, kind))
         faces = faces_in(shape)
         if not faces:
@@ -82,10 +178,10 @@ def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> Fac
     notes = (*unit_note(path.name, told, used), *_unheld(surfaces, path.name))
 
     def facets(deflection: float, longest: float) -> Facets:
-        with quiet():
+        with quiet_kernel():
             return _meshed(shape, faces, deflection, factor)
 
-    return Faces(tuple(surfaces), used, notes, facets)
+    return HullFaces(tuple(surfaces), used, notes, facets)
 
 
 def read_shape(path: Path, kind: str) -> Any:

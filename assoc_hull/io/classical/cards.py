@@ -1,8 +1,8 @@
-r"""The text that all classical definitions are written in: cards, each with rows of numbers.
+r"""The text of classical definitions: cards with rows of numbers, and what all kinds share.
 
-The first line names the kind of definition, and the ship. Then a line that begins with a word is
-a card: the word, cells after it. A line that begins with a number is a row of the card above it.
-Blank lines do not count; nor does what follows a ``#``. A cell of several words stands in quotes.
+The first line names the kind of definition and the ship. A line that begins with a word is a card;
+one that begins with a number is a row of the card above. All kinds have the principal dimensions
+and may count x from midship, where the kernel counts from AP.
 
 Examples
 --------
@@ -21,13 +21,34 @@ from collections.abc import Collection, Mapping
 
 import attrs
 import numpy as np
+from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.io.lines.digitised_piece import read_number
+from assoc_hull.io.lines.raw_lines import read_number
+from assoc_hull.model.tables import Particulars
 
-__all__ = ["KINDS", "Card", "Cards", "Row", "kind_of", "read_cards"]
+__all__ = [
+    "DIMENSIONS",
+    "KINDS",
+    "ORIGINS",
+    "Card",
+    "CardRow",
+    "Cards",
+    "Origin",
+    "kind_of",
+    "read_cards",
+    "read_origin",
+    "read_particulars",
+]
+
+# --------------------------------------------------------------------------------------
+# The text that all classical definitions are written in: cards, each with rows of numbers.
+#
+# The first line names the kind of definition, and the ship. Then a line that begins with a word is
+# a card: the word, cells after it. A line that begins with a number is a row of the card above it.
+# Blank lines do not count; nor does what follows a ``#``. A cell of several words stands in quotes.
 
 KINDS = ("SEAKING", "SFOLDS", "PRELIKON")
 """The first words of texts that are read."""
@@ -37,7 +58,7 @@ _NUMBER = re.compile(r"[-+]?\.?[0-9]")
 
 
 @attrs.frozen
-class Row:
+class CardRow:
     """A row of a card: its cells, and the line of the text it stands on, from 1."""
 
     cells: tuple[str, ...]
@@ -64,7 +85,7 @@ class Card:
 
     word: str
     cells: tuple[str, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[CardRow, ...]
     line: int
     source: str
 
@@ -229,14 +250,115 @@ def read_cards(text: str, source: str) -> Cards:
         for number, line in enumerate(text.lstrip("\ufeff").splitlines(), start=1)
     ]
     head, *body = ((number, cells) for number, cells in lines if cells)
-    found: list[tuple[str, tuple[str, ...], list[Row], int]] = []
+    found: list[tuple[str, tuple[str, ...], list[CardRow], int]] = []
     for number, cells in body:
         if not _NUMBER.match(cells[0]):
             found.append((cells[0].lower(), tuple(cells[1:]), [], number))
         elif found:
-            found[-1][2].append(Row(tuple(cells), number))
+            found[-1][2].append(CardRow(tuple(cells), number))
         else:
             what = "a row of numbers stands before the first card"
             raise BadInputError(what, f"at line {number} of {source}", "begin with a word")
     cards = tuple(Card(word, cells, tuple(rows), k, source) for word, cells, rows, k in found)
     return Cards(kind, " ".join(head[1][1:]) or kind.title(), cards, source)
+
+
+# --------------------------------------------------------------------------------------
+# Principal dimensions in the texts of definitions: a card each.
+
+DIMENSIONS = ("length", "breadth", "depth", "draught")
+"""Cards of one number above 0, m; the length is that between perpendiculars."""
+
+
+def read_particulars(cards: Cards) -> Particulars:
+    """Read the four dimensions, and the card ``deck``, open or closed; without it open.
+
+    Parameters
+    ----------
+    cards : Cards
+        The text; its title is the name of the ship.
+
+    Raises
+    ------
+    BadInputError
+        A card that is missing, given twice, or holds something else.
+    """
+    sizes = []
+    for word in DIMENSIONS:
+        card = cards.one(word)
+        (size,) = card.numbers(1)
+        if size <= 0.0 or card.rows:
+            what = f"{word} is {size:g} m" if size <= 0.0 else f"{word} has rows of numbers"
+            raise BadInputError(what, card.where, "give one number above 0")
+        sizes.append(size)
+    length, breadth, depth, draught = sizes
+    made = Particulars(cards.title, length, breadth, depth, draught)
+    deck = cards.maybe("deck")
+    if deck is None:
+        return made
+    word = " ".join(deck.cells).lower()
+    if word not in ("open", "closed") or deck.rows:
+        raise BadInputError(f"deck is {word!r}", deck.where, "let it be open or closed")
+    return attrs.evolve(made, deck=word)
+
+
+# --------------------------------------------------------------------------------------
+# Where x is counted from: texts may count from midship, the kernel counts from AP.
+#
+# All readers of definitions use this: `read_origin` once, `Origin.moved` on every x, and
+# `Origin.notes` among the notes of the definition.
+
+ORIGINS = ("ap", "midship")
+"""What the card ``origin`` may say."""
+
+
+@attrs.frozen
+class Origin:
+    """Where x of a text begins.
+
+    Attributes
+    ----------
+    shift : float, m
+        What is added to x, so that it is counted from AP.
+    """
+
+    shift: float
+
+    def moved(self, x: ArrayLike) -> FloatArray:
+        """Give places (m) from AP, in the shape of `x`."""
+        return np.asarray(np.asarray(x, np.float64) + self.shift)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """A sentence, if x was moved."""
+        if not self.shift:
+            return ()
+        return (f"x counted from midship was moved by {self.shift:+g} m: x is now from AP",)
+
+
+def read_origin(cards: Cards, length: float, default: str = "ap") -> Origin:
+    """Read the card ``origin``.
+
+    Parameters
+    ----------
+    cards : Cards
+        The text.
+    length : float, m
+        Between perpendiculars.
+    default : str
+        One of `ORIGINS`: what a text without the card means.
+
+    Raises
+    ------
+    BadInputError
+        Another word on the card, or the card twice.
+    """
+    card = cards.maybe("origin")
+    word = default
+    if card is not None:
+        word = " ".join(card.cells).lower()
+        if word not in ORIGINS or card.rows:
+            told = shown(word) if not card.rows else "rows of numbers"
+            remedy = f"give {' or '.join(ORIGINS)}"
+            raise BadInputError(f"origin has {told}", card.where, remedy)
+    return Origin(0.5 * length if word == "midship" else 0.0)

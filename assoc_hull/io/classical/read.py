@@ -18,7 +18,7 @@ from assoc_hull.arguments import file_path, word
 from assoc_hull.creation.classical.classical_net import ClassicalDefinition
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.classical.cards import Cards, kind_of, read_cards
-from assoc_hull.io.classical.prelikon_text import read_prelikon
+from assoc_hull.io.classical.prelikon import read_prelikon
 from assoc_hull.io.classical.seaking import read_seaking
 from assoc_hull.io.classical.sfolds import read_sfolds
 

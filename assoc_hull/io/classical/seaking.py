@@ -40,19 +40,28 @@ from typing import Literal
 import numpy as np
 
 from assoc_hull.arguments import shown
-from assoc_hull.creation.classical.midship import Midship
+from assoc_hull.creation.classical.middle_body import Midship
 from assoc_hull.creation.classical.seaking import Seaking
-from assoc_hull.creation.classical.seaking_parts import Attached, DeckCamber, Knuckle, Parallel
+from assoc_hull.creation.classical.seaking_parts import (
+    AttachedAppendage,
+    DeckCamber,
+    Knuckle,
+    ParallelPart,
+)
 from assoc_hull.errors import BadInputError, GeometryError
-from assoc_hull.geometry.classical.appendage import Appendage
-from assoc_hull.geometry.classical.keel_outline import KeelOutline
-from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
+from assoc_hull.geometry.classical.appendages import LoftedAppendage
+from assoc_hull.geometry.classical.boundary_lines import CodedKnuckleLine, KeelOutline
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.classical.cards import Card, Cards
-from assoc_hull.io.classical.dimensions import DIMENSIONS, read_particulars
-from assoc_hull.io.classical.origin import Origin, read_origin
-from assoc_hull.io.lines.digitised_piece import read_number
+from assoc_hull.io.classical.cards import (
+    DIMENSIONS,
+    Card,
+    Cards,
+    Origin,
+    read_origin,
+    read_particulars,
+)
+from assoc_hull.io.lines.raw_lines import read_number
 
 __all__ = ["WORDS", "read_seaking"]
 
@@ -190,11 +199,11 @@ def _pair(cells: Mapping[str, str], name: str, card: Card) -> tuple[float, float
     return first, last
 
 
-def _line(card: Card, origin: Origin, blend: str | None = None) -> KnuckleLine:
+def _line(card: Card, origin: Origin, blend: str | None = None) -> CodedKnuckleLine:
     """Read rows x, y, z, code; the code of the last row, which begins no interval, is left out."""
     rows = _moved(card.table(4, least=2), origin)
     try:
-        return KnuckleLine.make(rows[:, 0], rows[:, 1:3], rows[:-1, 3], blend)  # type: ignore[arg-type]
+        return CodedKnuckleLine.make(rows[:, 0], rows[:, 1:3], rows[:-1, 3], blend)  # type: ignore[arg-type]
     except GeometryError as error:
         raise error.at(card.where) from None
 
@@ -205,7 +214,7 @@ def _knuckle(card: Card, origin: Origin) -> Knuckle:
     return Knuckle(card.cells[0], _line(card, origin, card.options(("blend",), 1).get("blend")))
 
 
-def _midship(cards: Cards, origin: Origin) -> Parallel | None:
+def _midship(cards: Cards, origin: Origin) -> ParallelPart | None:
     card = cards.maybe("midship")
     if card is None:
         return None
@@ -214,7 +223,7 @@ def _midship(cards: Cards, origin: Origin) -> Parallel | None:
         section = Midship(a, b, c, radius)
     except GeometryError as error:
         raise error.at(card.where) from None
-    return Parallel(section, *origin.moved([first, last]).tolist())
+    return ParallelPart(section, *origin.moved([first, last]).tolist())
 
 
 def _camber(cards: Cards, origin: Origin) -> DeckCamber:
@@ -230,7 +239,7 @@ def _camber(cards: Cards, origin: Origin) -> DeckCamber:
     return DeckCamber(rise, kind, radii)
 
 
-def _appendage(card: Card, origin: Origin) -> Attached:
+def _appendage(card: Card, origin: Origin) -> AttachedAppendage:
     """Read an appendage: rows of y and z of each section, one behind the other."""
     if not card.cells or "=" in card.cells[0]:
         raise BadInputError("an appendage has no name", card.where, "give it after the word")
@@ -249,10 +258,10 @@ def _appendage(card: Card, origin: Origin) -> Attached:
     rows = card.table(width)
     sections = [rows[:, 2 * k : 2 * k + 2] for k in range(width // 2)]
     try:
-        made = Appendage.make(sections, origin.moved(places), sign)
+        made = LoftedAppendage.make(sections, origin.moved(places), sign)
     except GeometryError as error:
         raise error.at(card.where) from None
-    return Attached(card.cells[0], made, sides == 2.0)
+    return AttachedAppendage(card.cells[0], made, sides == 2.0)
 
 
 def _places(card: Card) -> FloatArray:

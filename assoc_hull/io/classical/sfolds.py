@@ -32,10 +32,16 @@ from assoc_hull.creation.classical.sfolds import CORNER, Sfolds
 from assoc_hull.creation.classical.sfolds_portion import Portion
 from assoc_hull.errors import BadInputError, GeometryError
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
-from assoc_hull.io.classical.cards import Card, Cards, Row
-from assoc_hull.io.classical.dimensions import DIMENSIONS, read_particulars
-from assoc_hull.io.classical.origin import Origin, read_origin
-from assoc_hull.io.lines.digitised_piece import read_number
+from assoc_hull.io.classical.cards import (
+    DIMENSIONS,
+    Card,
+    CardRow,
+    Cards,
+    Origin,
+    read_origin,
+    read_particulars,
+)
+from assoc_hull.io.lines.raw_lines import read_number
 
 __all__ = ["WORDS", "read_sfolds"]
 
@@ -135,7 +141,7 @@ def _whole(cell: str, name: str, card: Card) -> int:
     return int(value)
 
 
-def _numbers(row: Row, card: Card) -> list[float]:
+def _numbers(row: CardRow, card: Card) -> list[float]:
     where = f"at line {row.line} of {card.source}"
     return [read_number(cell, where) for cell in row.cells]
 

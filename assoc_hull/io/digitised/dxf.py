@@ -3,7 +3,7 @@ r"""The polylines and splines of a DXF drawing as digitised pieces; what else it
 Examples
 --------
 >>> from assoc_hull.io.digitised.dxf import parse_dxf
->>> from assoc_hull.io.offset_report import Notebook
+>>> from assoc_hull.io.reports import Notebook
 >>> rows = "0 SECTION 2 ENTITIES 0 LINE 8 WL_1 10 0 20 2 30 1 11 9 21 0 31 1 0 EOF".split()
 >>> (piece,) = parse_dxf("\n".join(rows), "text", Notebook()).pieces
 >>> piece.line, piece.points.tolist()
@@ -17,12 +17,16 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.dxf.digitised_spline import RawCurve, RawSpline
-from assoc_hull.io.dxf.drawing_entities import DrawingEntity, drawing_entities, drawing_unit
+from assoc_hull.io.dxf.entities import (
+    DrawingEntity,
+    RawCurve,
+    RawSpline,
+    drawing_entities,
+    drawing_unit,
+)
 from assoc_hull.io.dxf.read_lines_plan import names_of, plan_curves
-from assoc_hull.io.lines.digitised_piece import BOUNDARIES, read_number
-from assoc_hull.io.lines.raw_lines import RawLines
-from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawLines, read_number
+from assoc_hull.io.reports import Notebook
 
 __all__ = ["parse_dxf"]
 

@@ -1,44 +1,208 @@
-"""Digitised lines: lists of points per line, in one or several pieces.
+"""Reading digitised lines: lists of points per line, in one or several pieces.
 
-Examples
---------
->>> from assoc_hull.io.digitised.read import read_lines
->>> text = '''line,x,y,z
-... ST 10,50,0,0
-... ST 10,50,3,1
-... ST 10,50,4,5
-... WL 1,0,0,1
-... WL 1,50,3,1
-... WL 1,99,0,1
-... '''
->>> slices = read_lines(text)
->>> [(line.group, line.name, line.offset) for line in slices.lines]
-[('sections', 'ST 10', 50.0), ('waterlines', 'WL 1', 1.0)]
->>> slices["WL 1"].pieces[0].ends
-('profile', 'profile')
+Lines come in ship axes: x forward, y to port, z up. Of lines of both sides one is kept. Units,
+families, gaps and knuckles are settled here, and all that was assumed is reported.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
+import attrs
 import numpy as np
 
 from assoc_hull.arguments import file_path, positive, shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.polylines.operations import drop_repeats
-from assoc_hull.io.digitised.sides import one_side
+from assoc_hull.geometry.polylines.operations import cumulative_lengths, drop_repeats
 from assoc_hull.io.digitised.text import parse_lines
-from assoc_hull.io.lines.digitised_piece import BOUNDARIES, RawPiece, refuse_retraced
-from assoc_hull.io.lines.raw_lines import RawLines
-from assoc_hull.io.lines.slice_chain import enough, join_pieces, nearest_ends
-from assoc_hull.io.lines.slice_order import put_in_order, tell_crossings, tell_joins
-from assoc_hull.io.lines.slices import AXES, Gaps, Join, Piece, SliceLine, Slices
-from assoc_hull.io.offset_report import Notebook
-from assoc_hull.io.tables.offset_text import read_text
+from assoc_hull.io.lines.mend_lines import (
+    join_pieces,
+    join_width_text,
+    nearest_ends,
+    put_in_order,
+    report_crossings,
+    report_joins,
+)
+from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawLines, RawPiece, refuse_retraced
+from assoc_hull.io.lines.slices import AXES, GapJoin, Gaps, HullSlices, LinePiece, SliceLine
+from assoc_hull.io.reports import Notebook
+from assoc_hull.io.tables.table_text import read_text
 
-__all__ = ["read_lines"]
+__all__ = [
+    "read_lines",
+    "to_one_side",
+]
+
+# --------------------------------------------------------------------------------------
+# Digitised lines of both sides of a hull: cut at the centre plane, one side kept.
+
+_FLIP = np.array([1.0, -1.0, 1.0])
+
+_CENTRE = 1e-3
+"""Points this close (m) to the centre plane lie in it."""
+
+_ACROSS = 0.02
+"""A piece that lies farther than this (m) on each side is drawn on both sides."""
+
+_IMAGE = 0.1
+"""A piece whose mirror image is passed by no more than this (m) is drawn twice."""
+
+_SYMMETRIC = 5e-3
+"""Sides that differ by more than this (m) are told."""
+
+_AGAIN = 0.05
+"""A side that begins this close (m) to where the other began is drawn from its beginning again."""
+
+
+@attrs.define(eq=False)
+class _Sides:
+    """The pieces of one line: to port, and to starboard brought to port."""
+
+    port: list[RawPiece] = attrs.field(factory=list)
+    starboard: list[RawPiece] = attrs.field(factory=list)
+    cut: bool = False
+
+
+def to_one_side(raw: list[RawPiece], book: Notebook) -> list[RawPiece]:
+    """Bring all pieces to port, those that lie on both sides once.
+
+    Parameters
+    ----------
+    raw : list of RawPiece
+        Points in m, y to port.
+    book : Notebook
+        Takes what was cut, left out and mirrored, and lines whose sides differ.
+
+    Returns
+    -------
+    list of RawPiece
+        Pieces of a line stand together, the lines in the order in which they come first.
+    """
+    lines: dict[str, _Sides] = {}
+    for each in raw:
+        _sort(each, lines.setdefault(each.line, _Sides()))
+    kept: list[RawPiece] = []
+    cut: list[str] = []
+    images = turned = 0
+    for name, sides in lines.items():
+        again, others = _drawn_twice(sides)
+        _tell_difference(name, sides.port, again, book)
+        cut += [name] if sides.cut else []
+        images += 0 if sides.cut else len(again)
+        turned += len(others)
+        kept += [*sides.port, *others]
+    _report_sides(cut, images, turned, book)
+    return kept
+
+
+def _report_sides(cut: list[str], images: int, turned: int, book: Notebook) -> None:
+    if cut:
+        what = f"{len(cut)} lines lie on both sides, as {cut[0]}: cut at y = 0"
+        book.repair("both sides", "the lines", f"{what} and the port side kept", len(cut))
+    if images:
+        what = f"{images} pieces at negative y are mirror images of others and left out"
+        book.repair("both sides", "the lines", what, images)
+    if turned:
+        what = f"{turned} pieces at negative y brought to port"
+        book.repair("mirrored", "the lines", what, turned)
+
+
+def _sort(piece: RawPiece, sides: _Sides) -> None:
+    """Put a piece, or its parts, on the side where it lies."""
+    y = piece.points[:, 1]
+    across = min(float(y.max()), -float(y.min())) > _ACROSS
+    sides.cut |= across
+    for points in _cut_at_centre(piece.points) if across else [piece.points]:
+        if points[:, 1].mean() < -1e-6:
+            turned = points * _FLIP + 0.0
+            sides.starboard.append(RawPiece(piece.line, turned, piece.where))
+        else:
+            sides.port.append(RawPiece(piece.line, points, piece.where))
+
+
+def _cut_at_centre(points: FloatArray) -> list[FloatArray]:
+    """Cut a piece where it goes from one side to the other."""
+    points = points.copy()
+    points[np.abs(points[:, 1]) < _CENTRE, 1] = 0.0
+    side = np.sign(points[:, 1])
+    off = np.flatnonzero(side)
+    found: list[FloatArray] = []
+    head = points[: off[0]]
+    begin = int(off[0])
+    for last, first in zip(off[:-1].tolist(), off[1:].tolist(), strict=True):
+        if side[last] != side[first]:
+            run = np.concatenate([head, points[begin : last + 1]])
+            tail, head = _between(run, points[last + 1 : first], points[first])
+            found.append(np.concatenate([run, tail]))
+            begin = first
+    found.append(np.concatenate([head, points[begin:]]))
+    return [each for each in found if len(each) > 1]
+
+
+def _between(
+    run: FloatArray, centre: FloatArray, after: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Share the points in the centre plane between the run before and the run after them."""
+    half = len(centre) // 2
+    again = any(
+        np.linalg.norm(each * _FLIP - run[0]) < _AGAIN for each in (*centre[half:][:1], after)
+    )
+    if len(centre) == 1 and again:
+        nearer = np.linalg.norm(centre[0] - run[-1]) < np.linalg.norm(centre[0] - after)
+        return (centre, centre[:0]) if nearer else (centre[:0], centre)
+    if len(centre) or again:
+        return centre[: (len(centre) + 1) // 2], centre[half:]
+    before = run[-1]
+    place = before + before[1] / (before[1] - after[1]) * (after - before)
+    place[1] = 0.0
+    return place[None], place[None]
+
+
+def _drawn_twice(sides: _Sides) -> tuple[list[RawPiece], list[RawPiece]]:
+    """Give the pieces to starboard that port has too, and the others."""
+    if not sides.port or not sides.starboard:
+        return [], sides.starboard
+    if sides.cut:
+        if 2.0 * _length(sides.port) < _length(sides.starboard):
+            sides.port, sides.starboard = sides.starboard, sides.port
+        return sides.starboard, []
+    again = [_away(each.points, sides.port) < _IMAGE for each in sides.starboard]
+    pairs = list(zip(sides.starboard, again, strict=True))
+    return [each for each, twice in pairs if twice], [each for each, twice in pairs if not twice]
+
+
+def _length(pieces: list[RawPiece]) -> float:
+    return sum(float(cumulative_lengths(each.points)[-1]) for each in pieces)
+
+
+def _away(points: FloatArray, pieces: list[RawPiece]) -> float:
+    """Give how far the farthest of some points lies off the polylines of pieces, m."""
+    nearest = np.full(len(points), np.inf)
+    for piece in pieces:
+        start, step = piece.points[:-1], np.diff(piece.points, axis=0)
+        if not len(step):
+            start, step = piece.points, np.zeros_like(piece.points)
+        square = np.maximum((step * step).sum(axis=1), 1e-12)
+        for i in range(0, len(points), 500):
+            off = points[i : i + 500, None] - start
+            part = np.clip((off * step).sum(axis=2) / square, 0.0, 1.0)
+            far = np.linalg.norm(off - part[:, :, None] * step, axis=2).min(axis=1)
+            nearest[i : i + 500] = np.minimum(nearest[i : i + 500], far)
+    return float(nearest.max())
+
+
+def _tell_difference(
+    name: str, kept: list[RawPiece], dropped: list[RawPiece], book: Notebook
+) -> None:
+    away = max((_away(each.points, kept) for each in dropped), default=0.0)
+    if away > _SYMMETRIC:
+        what = f"its sides differ by up to {1e3 * away:.0f} mm; one is left out"
+        book.suspect("both sides", name, what, away)
+
+
+# --------------------------------------------------------------------------------------
+# Digitised lines: lists of points per line, in one or several pieces.
 
 _UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
 _METRIC = ("m", "cm", "mm")
@@ -64,7 +228,7 @@ def read_lines(
     unit: str = "auto",
     gaps: Gaps | None = None,
     name: str | None = None,
-) -> Slices:
+) -> HullSlices:
     """Read digitised lines in ship axes: x forward, y to port, z up.
 
     Parameters
@@ -103,9 +267,9 @@ def read_lines(
     knuckles = _knuckles(raw, factor)
     for each in raw:
         refuse_retraced(each)
-    raw = one_side([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
+    raw = to_one_side([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
     every = np.concatenate([each.points for each in raw])
-    joins: list[Join] = []
+    joins: list[GapJoin] = []
     limits = gaps or Gaps()
     boundaries = [
         SliceLine(
@@ -121,10 +285,10 @@ def read_lines(
         for title, mine in _by_name(raw, boundary=False).items()
     ]
     _refuse_twins(lines, source)
-    tell_joins(joins, book)
+    report_joins(joins, book)
     lines.sort(key=lambda each: (_ORDER.index(each.group), each.offset))
     default = Path(source).stem if source != "text" else "lines"
-    return Slices(
+    return HullSlices(
         default if name is None else name, tuple(lines), tuple(boundaries), tuple(joins),
         book.report(), False, every.min(axis=0), every.max(axis=0), gaps=limits,
         knuckles=knuckles,
@@ -200,27 +364,31 @@ def _by_name(raw: list[RawPiece], *, boundary: bool) -> dict[str, list[RawPiece]
 
 
 def _chain(
-    name: str, raw: list[RawPiece], gaps: Gaps, joins: list[Join], borders: dict[str, FloatArray],
+    name: str,
+    raw: list[RawPiece],
+    gaps: Gaps,
+    joins: list[GapJoin],
+    borders: dict[str, FloatArray],
     book: Notebook,
-) -> list[Piece]:  # fmt: skip
+) -> list[LinePiece]:
     if len(raw) > _MOST_PIECES:
         raise BadInputError(f"{name} comes in {len(raw)} pieces, more than {_MOST_PIECES}",
                             f"in {raw[0].where}", "join them where they were drawn")  # fmt: skip
-    pieces: list[Piece] = []
+    pieces: list[LinePiece] = []
     for each in raw:
         points = drop_repeats(each.points, 1e-6)
         if len(points) < 2:
             raise BadInputError(f"{name} has a piece of one point", f"in {each.where}",
                                 "give two or more")  # fmt: skip
         points = put_in_order(name, points, book)
-        pieces.append(Piece(points, (_under(points[0], borders), _under(points[-1], borders))))
+        pieces.append(LinePiece(points, (_under(points[0], borders), _under(points[-1], borders))))
     pieces, made = join_pieces(name, pieces, Gaps(gaps.join, gaps.join))
     joins += made
     _tell_gap(name, pieces, gaps, book)
     return pieces
 
 
-def _tell_gap(name: str, pieces: list[Piece], gaps: Gaps, book: Notebook) -> None:
+def _tell_gap(name: str, pieces: list[LinePiece], gaps: Gaps, book: Notebook) -> None:
     """Tell of loose ends that face one another across a gap too wide to be closed unasked."""
     near = nearest_ends(pieces)
     if near is None or near[0] > gaps.refuse or near[1][0] == near[2][0]:
@@ -229,7 +397,7 @@ def _tell_gap(name: str, pieces: list[Piece], gaps: Gaps, book: Notebook) -> Non
     x, y, z = pieces[piece].points[-end].tolist()
     what = (
         f"two pieces end {1e3 * gap:.0f} mm apart at ({x:.4g}, {y:.4g}, {z:.4g}) m and were not "
-        f"joined; if they are one line give join= of {enough(gap)} m or more"
+        f"joined; if they are one line give join= of {join_width_text(gap)} m or more"
     )
     book.suspect("gap", name, what, gap)
 
@@ -250,9 +418,13 @@ def _distance(border: FloatArray, place: FloatArray) -> float:
 
 
 def _line(
-    name: str, raw: list[RawPiece], gaps: Gaps, joins: list[Join], borders: dict[str, FloatArray],
+    name: str,
+    raw: list[RawPiece],
+    gaps: Gaps,
+    joins: list[GapJoin],
+    borders: dict[str, FloatArray],
     book: Notebook,
-) -> SliceLine:  # fmt: skip
+) -> SliceLine:
     every = np.concatenate([each.points for each in raw])
     group = _group(name, every, raw[0].where)
     axis = AXES[group]
@@ -265,7 +437,7 @@ def _line(
         book.repair("plane", name, what, off)
     flat = [RawPiece(each.line, _flattened(each.points, axis, offset), each.where) for each in raw]
     pieces = _chain(name, flat, gaps, joins, borders, book)
-    tell_crossings(name, pieces, axis, book)
+    report_crossings(name, pieces, axis, book)
     way = 2 if group == "sections" else 0
     turned = [
         each if each.points[-1, way] >= each.points[0, way] else each.reversed() for each in pieces

@@ -1,4 +1,8 @@
-"""Digitised lines as text: points in CSV, curves of DXF or IGES, or a form of another program."""
+"""Digitised lines as text: CSV points, curves of IGES, or a form of another program.
+
+The content tells the form. `parse_lines` hands the text to the reader of the form; readers of DXF,
+BRITFAIR, DELFTship and GHS stand in modules of their own.
+"""
 
 from __future__ import annotations
 
@@ -10,18 +14,107 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.patches.spline_curve import SplineCurve
 from assoc_hull.io.digitised.dxf import parse_dxf
-from assoc_hull.io.digitised.iges import parse_iges
 from assoc_hull.io.export.britfair import is_britfair, parse_britfair
-from assoc_hull.io.export.delftship import is_delftship, parse_delftship
-from assoc_hull.io.export.delftship_offsets import is_delftship_offsets, parse_delftship_offsets
-from assoc_hull.io.export.gf_read import is_gf, parse_gf
-from assoc_hull.io.iges.text import looks_like_iges
-from assoc_hull.io.lines.digitised_piece import RawPiece, read_number
-from assoc_hull.io.lines.raw_lines import RawLines
-from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.export.delftship import (
+    is_delftship,
+    is_delftship_offsets,
+    parse_delftship,
+    parse_delftship_offsets,
+)
+from assoc_hull.io.export.ghs_geometry import is_gf, parse_gf
+from assoc_hull.io.iges.curves import curves_of_iges
+from assoc_hull.io.iges.file import IgesFile, looks_like_iges
+from assoc_hull.io.lines.raw_lines import (
+    BOUNDARIES,
+    OTHER_FAMILIES,
+    RawLines,
+    RawPiece,
+    read_number,
+)
+from assoc_hull.io.reports import Notebook
+from assoc_hull.io.units import METRES
 
-__all__ = ["is_digitised", "parse_lines"]
+__all__ = [
+    "is_digitised",
+    "parse_iges",
+    "parse_lines",
+]
+
+# --------------------------------------------------------------------------------------
+# Curves of an IGES file as digitised lines: each by the name of its entity.
+
+_CHORD = 1e-6
+"""Points leave curves by this part of the size of all: 0.3 mm on a ship of 300 m."""
+
+_FLAT = 1e-4
+"""Curves that leave a plane by more than this part of the size lie in none."""
+
+_FAMILIES = ("ST", "SECTION", "FRAME", "FR", "WL", "WATERLINE", "BTK", "BUTTOCK")
+
+
+def parse_iges(text: str, source: str, book: Notebook) -> RawLines:
+    """Read the curves of a file without surfaces as pieces of lines.
+
+    Parameters
+    ----------
+    text : str
+        IGES; the name of a curve is that of its line.
+    source : str
+        Name of the file, for messages.
+    book : Notebook
+        Takes what the file holds and lines do not.
+
+    Raises
+    ------
+    BadInputError
+        The file is damaged, or holds no curve.
+    """
+    file = IgesFile.of_text(text, source)
+    # Points are handed on in the unit of the file; where it tells none, size or the user will.
+    curves, name, notes = curves_of_iges(text, source, None if file.metres else "m")
+    unit = name if file.metres and name in METRES else None
+    length = METRES[unit] if unit else 1.0
+    for note in notes:
+        book.suspect("iges", "the file", note)
+    size = max(float(np.ptp(curve.points, axis=0).max()) for curve in curves)
+    lines = [curve for curve in curves if _is_line(curve, size)]
+    others = [curve for curve in curves if not _is_line(curve, size)]
+    _tell_others(others, book)
+    if not lines:
+        what = f"none of {len(curves)} curves lies in a plane"
+        raise BadInputError(what, f"in {source}", "export sections, waterlines or buttocks")
+    pieces = [
+        RawPiece(
+            curve.name, curve.polyline(_CHORD * size) / length, f"{curve.name!r} of {source}",
+            curve.knuckles() / length,
+        )
+        for curve in lines
+    ]  # fmt: skip
+    return RawLines(pieces, unit, told=False)
+
+
+def _is_line(curve: SplineCurve, size: float) -> bool:
+    """Tell whether a curve is a boundary, named as a line, or lies in a plane as a line does."""
+    word = curve.name.split()[0].upper() if curve.name.split() else ""
+    if word.lower().removesuffix(":") in OTHER_FAMILIES:
+        return False
+    flat = bool(np.ptp(curve.points, axis=0).min() <= _FLAT * size)
+    return curve.name.lower() in BOUNDARIES or word in _FAMILIES or flat
+
+
+def _tell_others(curves: list[SplineCurve], book: Notebook) -> None:
+    """Tell which curves are left out."""
+    names = list(dict.fromkeys(curve.name for curve in curves))
+    if names:
+        known = ", ".join(BOUNDARIES)
+        what = f"no section, waterline or buttock, and none of {known}: left out"
+        book.suspect("curve", ", ".join(names[:6]), what, len(curves))
+
+
+# --------------------------------------------------------------------------------------
+# Digitised lines as text: points in CSV, curves of DXF or IGES, or a form of another program.
 
 _COLUMNS = ("line", "x", "y", "z")
 

@@ -16,7 +16,7 @@ import attrs
 
 from assoc_hull.errors import MissingExtraError
 
-__all__ = ["DXF_UNITS", "NAMES", "DxfLayer", "DxfUnit", "drawing_text", "layer_name", "tagged"]
+__all__ = ["DXF_UNITS", "NAMES", "DxfLayer", "DxfUnit", "drawing_text", "layer_name", "tag_entity"]
 
 NAMES = "ASSOC_HULL"
 """Application name of the extended data that hold the name of the line."""
@@ -127,6 +127,6 @@ def layer_name(name: str) -> str:
     return "".join("_" if each in _FORBIDDEN else each for each in name) or "lines"
 
 
-def tagged(entity: Any, *words: str) -> None:
+def tag_entity(entity: Any, *words: str) -> None:
     """Give an entity the name of its line, and what else is to be known of it."""
     entity.set_xdata(NAMES, [(1000, word) for word in words])

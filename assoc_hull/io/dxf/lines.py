@@ -6,7 +6,7 @@ Programs that know no splines are given polylines.
 Examples
 --------
 >>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.io.export_book import ExportBook
+>>> from assoc_hull.io.reports import ExportBook
 >>> from assoc_hull.io.dxf.lines import lines_drawing
 >>> text = lines_drawing(wigley(), ExportBook(9))
 >>> text.count("AcDbSpline")
@@ -22,12 +22,12 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.control_polygon import ControlPolygon, control_polygon
-from assoc_hull.io.dxf.document import drawing_text, layer_name, tagged
-from assoc_hull.io.export_book import ExportBook
+from assoc_hull.io.dxf.document import drawing_text, layer_name, tag_entity
 from assoc_hull.io.lines.line_points import lines_as_points, splines_of
+from assoc_hull.io.reports import ExportBook
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import FAMILIES
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["SplineLine", "add_spline", "lines_drawing", "spline_lines"]
 
@@ -144,7 +144,7 @@ def _polylines(state: HullState, book: ExportBook) -> str:
         for line, piece in curves:
             points = (piece.points * book.scale + 0.0).tolist()
             added = space.add_polyline3d(points, dxfattribs={"layer": line.group})
-            tagged(added, line.name, line.group)
+            tag_entity(added, line.name, line.group)
 
     return drawing_text((line.group for line in lines), draw, book.unit)
 
@@ -156,4 +156,4 @@ def add_spline(
     spline = space.add_spline(degree=3, dxfattribs={"layer": layer})
     spline.control_points = (points + 0.0).tolist()
     spline.knots = knots.tolist()
-    tagged(spline, line.name, line.family, *more)
+    tag_entity(spline, line.name, line.family, *more)

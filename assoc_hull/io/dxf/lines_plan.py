@@ -8,7 +8,7 @@ the drawing can be read back.
 Examples
 --------
 >>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.io.export_book import ExportBook
+>>> from assoc_hull.io.reports import ExportBook
 >>> from assoc_hull.io.dxf.lines_plan import plan_drawing
 >>> plan_drawing(wigley(), ExportBook(9)).count("AcDbSpline")
 33
@@ -26,14 +26,11 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.control_polygon import ControlPolygon
 from assoc_hull.io.dxf.document import DxfLayer, drawing_text, layer_name
 from assoc_hull.io.dxf.lines import SplineLine, spline_lines
-from assoc_hull.io.dxf.plan_grid import draw_grid
-from assoc_hull.io.dxf.plan_labels import label_lines
-from assoc_hull.io.dxf.plan_layout import PlanLayout, lay_out
-from assoc_hull.io.dxf.plan_sheet import PlanSheet
-from assoc_hull.io.dxf.plan_views import PlanView, home_of
-from assoc_hull.io.export_book import ExportBook
+from assoc_hull.io.dxf.plan_layout import PlanLayout, PlanView, lay_out, views_of_line
+from assoc_hull.io.dxf.plan_sheet import PlanSheet, draw_grid, label_lines
 from assoc_hull.io.lines.line_points import lines_as_points
-from assoc_hull.model.state import HullState
+from assoc_hull.io.reports import ExportBook
+from assoc_hull.model.tables import HullState
 
 __all__ = ["plan_drawing"]
 
@@ -125,7 +122,7 @@ def _layout(state: HullState, lines: list[SplineLine], scale: float | None) -> P
 
 def _in_views(line: SplineLine, plan: PlanLayout) -> Iterator[_Drawn]:
     """Give the curves of a line in all views that show them as curves."""
-    homes = () if line.family == "diagonals" else home_of(line.axis, line.place, plan.middle)
+    homes = () if line.family == "diagonals" else views_of_line(line.axis, line.place, plan.middle)
     for name in _shown_in(line, plan):
         view = plan.view(name)
         for curve in line.curves:
@@ -138,7 +135,7 @@ def _in_views(line: SplineLine, plan: PlanLayout) -> Iterator[_Drawn]:
 
 def _shown_in(line: SplineLine, plan: PlanLayout) -> tuple[str, ...]:
     """Name the views of a line."""
-    homes = home_of(line.axis, line.place, plan.middle)
+    homes = views_of_line(line.axis, line.place, plan.middle)
     if line.family == "boundary" and line.axis != 1:
         return tuple(dict.fromkeys(("profile", "half-breadth", *homes)))
     if line.family == "diagonals":

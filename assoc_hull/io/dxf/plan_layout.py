@@ -1,30 +1,121 @@
-"""Where the views of a lines plan lie in a drawing, and how large its letters are.
+"""Views of a lines plan: which coordinates each shows, where it lies, how large letters are.
 
-A drawing has the size of the ship; the scale says only at which it is to be printed, and so how
-large letters must be. Profile and half-breadth plan lie one above the other with the bow to the
-right, the body plan above them, all on one scale.
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.io.dxf.plan_layout import lay_out
->>> plan = lay_out(np.array([[-5.0, 0, 0], [305, 25, 27]]), 150.0, 0.0, None)
->>> plan.scale, plan.letter, plan.view("half-breadth").origin
-(500.0, 1.25, (0.0, -42.5))
+A drawing has the size of the ship; the scale counts for letters only. The views serve both the
+writer (`io.dxf.lines_plan`) and the reader (`io.dxf.read_lines_plan`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
+from types import MappingProxyType
 
 import attrs
 import numpy as np
 
 from assoc_hull.arguments import positive
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.dxf.plan_views import PlanView
 
-__all__ = ["PlanLayout", "lay_out"]
+__all__ = [
+    "VIEW_AXES",
+    "PlanLayout",
+    "PlanView",
+    "ViewAxes",
+    "lay_out",
+    "views_of_line",
+]
+
+# --------------------------------------------------------------------------------------
+# The views of a lines plan in a drawing: which coordinates each shows, and where it lies.
+
+
+@attrs.frozen
+class ViewAxes:
+    """What a view shows: two coordinates, to the right and up, and which one not.
+
+    Attributes
+    ----------
+    right, up, hidden : int
+        The coordinates.
+    sign : float
+        -1 where the first one is counted to the left.
+    """
+
+    right: int
+    up: int
+    hidden: int
+    sign: float = 1.0
+
+
+VIEW_AXES: Mapping[str, ViewAxes] = MappingProxyType({
+    "profile": ViewAxes(0, 2, 1),
+    "half-breadth": ViewAxes(0, 1, 2),
+    "fore body": ViewAxes(1, 2, 0),
+    "aft body": ViewAxes(1, 2, 0, -1.0),
+})  # fmt: skip
+"""The views by name: bow to the right, fore body on the right."""
+
+
+@attrs.frozen
+class PlanView:
+    """A view in its place.
+
+    Attributes
+    ----------
+    name : str
+        One of `SHOWN`.
+    origin : (float, float)
+        Where its origin lies in the drawing: base line, centre line, after perpendicular.
+    """
+
+    name: str
+    origin: tuple[float, float]
+
+    @property
+    def shown(self) -> ViewAxes:
+        """What it shows."""
+        return VIEW_AXES[self.name]
+
+    def flat(self, points: FloatArray) -> FloatArray:
+        """Give places in the drawing, (n, 2), of places in space, (n, 3)."""
+        shown = self.shown
+        return np.column_stack([
+            self.origin[0] + shown.sign * points[:, shown.right],
+            self.origin[1] + points[:, shown.up],
+        ])  # fmt: skip
+
+    def in_space(self, flat: FloatArray, place: float | FloatArray) -> FloatArray:
+        """Give places in space, (n, 3), of places in the drawing and what it does not show."""
+        shown, found = self.shown, np.empty((len(flat), 3))
+        found[:, shown.right] = shown.sign * (flat[:, 0] - self.origin[0])
+        found[:, shown.up] = flat[:, 1] - self.origin[1]
+        found[:, shown.hidden] = place
+        return found + 0.0
+
+
+def views_of_line(axis: int | None, place: float, middle: float) -> tuple[str, ...]:
+    """Give the views from which a line can be read: the one in true shape, or two.
+
+    Parameters
+    ----------
+    axis : int or None
+        The coordinate that is constant on it; None for curves in space.
+    place : float, m
+        Its constant coordinate.
+    middle : float, m
+        Where aft and fore body meet.
+    """
+    if axis is None:
+        return ("profile", "half-breadth")
+    return ("aft body" if place < middle else "fore body", "profile", "half-breadth")[axis:][:1]
+
+
+# --------------------------------------------------------------------------------------
+# Where the views of a lines plan lie in a drawing, and how large its letters are.
+#
+# A drawing has the size of the ship; the scale says only at which it is to be printed, and so how
+# large letters must be. Profile and half-breadth plan lie one above the other with the bow to the
+# right, the body plan above them, all on one scale.
 
 _SCALES = (5, 10, 20, 25, 50, 75, 100, 150, 200, 250, 300, 400, 500, 750, 1000)
 _WIDTH = 0.82

@@ -13,12 +13,11 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.dxf.digitised_spline import RawCurve, RawSpline
 from assoc_hull.io.dxf.document import NAMES
-from assoc_hull.io.dxf.drawing_entities import DrawingEntity
+from assoc_hull.io.dxf.entities import DrawingEntity, RawCurve, RawSpline
+from assoc_hull.io.dxf.plan_layout import VIEW_AXES, PlanView
 from assoc_hull.io.dxf.plan_sheet import PLACE, VIEW_ORIGIN
-from assoc_hull.io.dxf.plan_views import SHOWN, PlanView
-from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.reports import Notebook
 
 __all__ = ["names_of", "plan_curves"]
 
@@ -101,7 +100,7 @@ def _shown(entity: DrawingEntity, curve: RawCurve) -> _Shown | None:
     """Give what an entity shows, None if it is not one to read from."""
     name, family, view = _words(entity)
     ours = entity.extended(NAMES)
-    if ours is None or view not in SHOWN:
+    if ours is None or view not in VIEW_AXES:
         return None
     x, y, _ = ours.place(VIEW_ORIGIN)
     place = next(iter(ours.numbers(PLACE)), None)

@@ -12,7 +12,7 @@ KTH's course in ship design agree on it.
 Examples
 --------
 >>> from assoc_hull.io.export.britfair import is_britfair, parse_britfair
->>> from assoc_hull.io.offset_report import Notebook
+>>> from assoc_hull.io.reports import Notebook
 >>> text = "SHIP\n1\n2 1 50.0\n0.0 0.0\n4.0 1.0\n0\n2 1 -999.0\n4.0 1.0\n4.0 6.0\n0\n0 0 0\n"
 >>> raw = parse_britfair(text, "text", Notebook())
 >>> is_britfair(text), raw.pieces[0].line, raw.pieces[0].points.tolist()
@@ -29,13 +29,18 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.export.sections import take_down
-from assoc_hull.io.export_book import ExportBook
-from assoc_hull.io.lines.digitised_piece import RawPiece, read_number
-from assoc_hull.io.lines.line_points import DrawnLine, DrawnPiece
-from assoc_hull.io.lines.raw_lines import RawLines, Rows, plane_name, whole_number
+from assoc_hull.io.export.sections import count_line
+from assoc_hull.io.lines.line_points import CurvePolyline, LinePolylines
+from assoc_hull.io.lines.raw_lines import (
+    RawLines,
+    RawPiece,
+    TextRows,
+    plane_name,
+    read_number,
+    whole_number,
+)
 from assoc_hull.io.lines.slices import AXES
-from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.reports import ExportBook, Notebook
 
 __all__ = ["dumps_britfair", "is_britfair", "parse_britfair"]
 
@@ -60,7 +65,7 @@ def is_britfair(text: str) -> bool:
     )
 
 
-def dumps_britfair(name: str, lines: Sequence[DrawnLine], book: ExportBook) -> str:
+def dumps_britfair(name: str, lines: Sequence[LinePolylines], book: ExportBook) -> str:
     """Write sections.
 
     Parameters
@@ -75,7 +80,7 @@ def dumps_britfair(name: str, lines: Sequence[DrawnLine], book: ExportBook) -> s
     rows = [book.name(name, "A-Za-z0-9", 6, "SHIP"), "1"]
     number = 0
     for line in lines:
-        take_down(line, book)
+        count_line(line, book)
         for piece in line.pieces:
             number += 1
             rows += _curve(line.offset, number, piece, book)
@@ -86,7 +91,7 @@ def dumps_britfair(name: str, lines: Sequence[DrawnLine], book: ExportBook) -> s
     return "\n".join([*rows, _END, ""])
 
 
-def _curve(offset: float, number: int, piece: DrawnPiece, book: ExportBook) -> list[str]:
+def _curve(offset: float, number: int, piece: CurvePolyline, book: ExportBook) -> list[str]:
     """Write a curve, anew behind each knuckle."""
     found: list[str] = []
     breaks = [0, *np.flatnonzero(piece.knuckle).tolist(), len(piece.points) - 1]
@@ -116,7 +121,7 @@ def parse_britfair(text: str, source: str, book: Notebook) -> RawLines:
         A line that is not as the form has it, or a file that ends before ``0 0 0``.
     """
     _, _, rest = text.lstrip("\ufeff").partition("\n")
-    rows = Rows.of(rest, source, _END)
+    rows = TextRows.of(rest, source, _END)
     rows.lines = [(k + 1, line) for k, line in rows.lines]
     group = _TYPES.get(whole_number(rows.next("the type of the file"), f"at {rows.where}"), "")
     if not group:
@@ -140,7 +145,7 @@ def parse_britfair(text: str, source: str, book: Notebook) -> RawLines:
     return RawLines(pieces)
 
 
-def _head(rows: Rows) -> tuple[int, float]:
+def _head(rows: TextRows) -> tuple[int, float]:
     """Read the number of points and the place of a curve; no points end the file."""
     cells = rows.next("a curve").split()
     if len(cells) < 3:
@@ -154,7 +159,7 @@ def _head(rows: Rows) -> tuple[int, float]:
     return count, read_number(cells[2], f"at {rows.where}")
 
 
-def _tangents(rows: Rows, book: Notebook) -> None:
+def _tangents(rows: TextRows, book: Notebook) -> None:
     """Pass over tangents at the ends of a curve."""
     kind = whole_number(rows.next("the kind of tangents").split()[0], f"at {rows.where}")
     if kind not in range(4):

@@ -1,42 +1,48 @@
-r"""Curves for DELFTship and FREE!ship: the text that their import of a surface reads.
+"""DELFTship and FREE!ship: curves that their import reads, and offsets as 3D points.
 
-The first line is the unit: 0 metres, 1 feet. Each curve is one point ``x y z`` a line, from the
-bottom up, and ends with an empty line; the curves stand from aft forward; the last line is
-``EOF``. x = 0 is the after perpendicular, y is to port, z = 0 the base. Two curves in one plane
-are an error there: a section in several curves is written as one, through the centre plane, and
-read as several again. The form knows no names and no knuckles.
-
-Reference: FREE!ship manual, section 3.5.4 "Surface"; FREE!ship source (GPL),
-``TFreeEdit.File_ImportSurface``.
-
-Examples
---------
->>> from assoc_hull.io.export.delftship import is_delftship, parse_delftship
->>> from assoc_hull.io.offset_report import Notebook
->>> text = "0\n50.0 0.0 0.0\n50.0 4.0 1.0\n\n60.0 0.0 0.5\n60.0 3.0 1.0\nEOF\n"
->>> raw = parse_delftship(text, "text", Notebook())
->>> is_delftship(text), raw.unit, [piece.line for piece in raw.pieces]
-(True, 'm', ['ST 50', 'ST 60'])
+Both forms are written and read. x = 0 is the after perpendicular, y is to port, z = 0 the base.
+Neither form knows knuckles as we do; what is lost is in the report.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from itertools import pairwise
 
+import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.export.sections import CENTRE, on_centre, take_down
-from assoc_hull.io.export_book import ExportBook
-from assoc_hull.io.lines.digitised_piece import RawPiece, read_number
-from assoc_hull.io.lines.line_points import DrawnLine
-from assoc_hull.io.lines.raw_lines import RawLines, plane_name
+from assoc_hull.geometry.polylines.operations import cumulative_lengths, project_on_polyline
+from assoc_hull.io.export.sections import CENTRE, count_line, on_centre
+from assoc_hull.io.lines.line_points import CurvePolyline, LinePolylines
+from assoc_hull.io.lines.raw_lines import RawLines, RawPiece, plane_name, read_number
 from assoc_hull.io.lines.slices import AXES
-from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.reports import ExportBook, Notebook
 
-__all__ = ["dumps_delftship", "is_delftship", "name_of", "parse_delftship"]
+__all__ = [
+    "dumps_delftship",
+    "dumps_delftship_offsets",
+    "is_delftship",
+    "is_delftship_offsets",
+    "parse_delftship",
+    "parse_delftship_offsets",
+    "plane_name_of",
+]
+
+# --------------------------------------------------------------------------------------
+# Curves for DELFTship and FREE!ship: the text that their import of a surface reads.
+#
+# The first line is the unit: 0 metres, 1 feet. Each curve is one point ``x y z`` a line, from the
+# bottom up, and ends with an empty line; the curves stand from aft forward; the last line is
+# ``EOF``. x = 0 is the after perpendicular, y is to port, z = 0 the base. Two curves in one plane
+# are an error there: a section in several curves is written as one, through the centre plane, and
+# read as several again. The form knows no names and no knuckles.
+#
+# Reference: FREE!ship manual, section 3.5.4 "Surface"; FREE!ship source (GPL),
+# ``TFreeEdit.File_ImportSurface``.
 
 _UNITS = {"0": "m", "1": "ft"}
 _FLAT = 1e-3
@@ -52,7 +58,7 @@ def is_delftship(text: str) -> bool:
     return len(cells) == 3 and all(any(c.isdigit() for c in cell) for cell in cells)
 
 
-def dumps_delftship(lines: Sequence[DrawnLine], book: ExportBook) -> str:
+def dumps_delftship(lines: Sequence[LinePolylines], book: ExportBook) -> str:
     """Write sections.
 
     Parameters
@@ -65,7 +71,7 @@ def dumps_delftship(lines: Sequence[DrawnLine], book: ExportBook) -> str:
     rows = ["0"]
     knuckles, joined, apart = 0, [], []
     for line in lines:
-        take_down(line, book)
+        count_line(line, book)
         knuckles += sum(int(piece.knuckle.sum()) for piece in line.pieces)
         curves = [piece.points for piece in line.pieces]
         if len(curves) > 1 and _on_centre(curves):
@@ -118,7 +124,7 @@ def parse_delftship(text: str, source: str, book: Notebook) -> RawLines:
     split = 0
     for first, points in _curves(rows, head + 1, source):
         where = f"line {first} of {source}"
-        name = name_of(points)
+        name = plane_name_of(points)
         parts = [points] if name == "profile" else _apart(points)
         if name is None or not parts:
             how = "in no plane" if name is None else "in the centre plane, across the ship,"
@@ -158,7 +164,7 @@ def _point(row: str, where: str) -> list[float]:
     return [read_number(cell, f"at {where}") for cell in cells]
 
 
-def name_of(points: FloatArray) -> str | None:
+def plane_name_of(points: FloatArray) -> str | None:
     """Name a curve by the plane it lies in, sections first; None if it lies in none.
 
     Parameters
@@ -180,3 +186,162 @@ def _apart(points: FloatArray) -> list[FloatArray]:
     centre = np.abs(points[:, 1]) < CENTRE
     cuts = np.flatnonzero(centre[1:] & centre[:-1]) + 1
     return [part for part in np.split(points, cuts) if len(part) > 1]
+
+
+# --------------------------------------------------------------------------------------
+# Offsets as 3D points: the list that FREE!ship and DELFTship write of all their lines.
+#
+# Each line begins with its family and place (``Station  50.000``); one in several curves tells
+# how many (``2 segments.``) and begins each with ``SEGMENT 1``; points ``x y z`` follow, indented,
+# four digits after the point, with the word ``KNUCKLE`` where there is one. Boundary curves stand
+# at the end, each under the word ``CONTROLCURVE``, without a name. The list has no unit; metres
+# are written.
+#
+# Reference: FREE!ship manual, section 3.6.9 "Offsets"; FREE!ship source (GPL),
+# ``TFreeEdit.File_ExportOffsets``.
+
+_WORDS = {"sections": "Station", "buttocks": "Buttock", "waterlines": "Waterline"}
+_HEAD = re.compile(r"(Station|Buttock|Waterline|Diagonal|Free)\s+-?[0-9.]+\s*", re.IGNORECASE)
+_SEGMENTS = re.compile(r"\s*[0-9]+ segments\.\s*", re.IGNORECASE)
+_SEGMENT = re.compile(r"\s*SEGMENT\s+[0-9]+\s*", re.IGNORECASE)
+_CURVE = "controlcurve"
+_CONTROL = re.compile(r"\s*CONTROLCURVE\s*", re.IGNORECASE)
+
+_NEAR = 1e-3
+_REACH = 0.02
+_MOST = 0.8
+"""The curve on which more than this part of the stations end is the edge of the deck."""
+
+
+@attrs.frozen(eq=False)
+class _Run:
+    """One curve: word of its head, first line in the file, points, and which are knuckles."""
+
+    head: str
+    first: int
+    points: FloatArray
+    knuckles: list[int]
+
+
+def is_delftship_offsets(text: str) -> bool:
+    """Tell by its first line whether a text is a list of offsets as 3D points."""
+    rows = text.lstrip("\ufeff").split("\n", 1)
+    return _HEAD.fullmatch(rows[0]) is not None and "," not in rows[0]
+
+
+def dumps_delftship_offsets(lines: Sequence[LinePolylines], book: ExportBook) -> str:
+    """Write lines.
+
+    Parameters
+    ----------
+    lines : sequence of DrawnLine
+        Sections, buttocks, waterlines and boundary curves.
+    book : ExportBook
+        Takes what is written and what is mended.
+    """
+    rows: list[str] = []
+    ordered = [line for group in _WORDS for line in lines if line.group == group]
+    for line in ordered:
+        count_line(line, book)
+        rows.append(f"{_WORDS[line.group]} {line.offset + 0.0:7.3f}")
+        several = len(line.pieces) > 1
+        rows += [f"{len(line.pieces)} segments."] if several else []
+        for k, piece in enumerate(line.pieces, start=1):
+            rows += [f"SEGMENT {k}"] if several else []
+            rows += _points(piece, book)
+    borders = [line for line in lines if line.group == "boundary"]
+    for line in borders:
+        count_line(line, book)
+        for piece in line.pieces:
+            rows += ["CONTROLCURVE", *_points(piece, book)]
+    if borders:
+        names = ", ".join(line.name for line in borders)
+        what = f"{names}: written as control curves, which have no names"
+        book.mend("boundary", f"{len(borders)} boundary curves", what, len(borders))
+    return "\n".join([*rows, ""])
+
+
+def _points(piece: CurvePolyline, book: ExportBook) -> list[str]:
+    rows = book.rows(piece.points)
+    marks = ["    KNUCKLE" if each else "" for each in piece.knuckle.tolist()]
+    return [
+        "        " + " ".join(f"{cell:>10}" for cell in row) + mark
+        for row, mark in zip(rows, marks, strict=True)
+    ]
+
+
+def parse_delftship_offsets(text: str, source: str, book: Notebook) -> RawLines:
+    """Read the lines.
+
+    Parameters
+    ----------
+    text : str
+        The file.
+    source : str
+        Its name, for messages.
+    book : Notebook
+        Takes the curves that are left out.
+
+    Raises
+    ------
+    BadInputError
+        A row that is neither a head nor a point.
+    """
+    runs = _runs(text, source)
+    pieces: list[RawPiece] = []
+    left: dict[str, int] = {}
+    for run in runs:
+        name = _border(run.points, runs) if run.head == _CURVE else plane_name_of(run.points)
+        if run.head in ("diagonal", "free") or name is None:
+            left[run.head] = left.get(run.head, 0) + 1
+        else:
+            where = f"line {run.first} of {source}"
+            pieces.append(RawPiece(name, run.points, where, run.points[run.knuckles]))
+    for head, count in left.items():
+        what = f"{count} curves under {head!r} are left out: nothing tells what lines they are"
+        book.suspect("curve", source, what, count)
+    return RawLines(pieces)
+
+
+def _border(points: FloatArray, runs: list[_Run]) -> str | None:
+    """Tell a boundary curve: the profile, a transom, or the deck edge; None if it is another."""
+    if np.abs(points[:, 1]).max() < _NEAR:
+        return "profile"
+    aft = min(float(run.points[:, 0].min()) for run in runs)
+    if float(points[:, 0].max()) - aft < _NEAR:
+        return "transom"
+    stations = [run.points for run in runs if run.head == "station"]
+    tops = [each[int(each[:, 2].argmax())] for each in stations]
+    length = cumulative_lengths(points)
+    away = [project_on_polyline(points, length, top)[1] for top in tops]
+    at_deck = [each < _REACH for each in away]
+    return "deck edge" if tops and sum(at_deck) > _MOST * len(tops) else None
+
+
+def _runs(text: str, source: str) -> list[_Run]:
+    """Give the curves."""
+    found: list[_Run] = []
+    head, first = "", 0
+    marks: list[int] = []
+    points: list[list[float]] = []
+    rows = text.lstrip("\ufeff").splitlines()
+    for number, row in enumerate([*rows, ""], start=1):
+        begins = _HEAD.fullmatch(row) or _CONTROL.fullmatch(row)
+        if begins or _SEGMENT.fullmatch(row) or _SEGMENTS.fullmatch(row) or not row.strip():
+            if len(points) > 1:
+                found.append(_Run(head, first, np.array(points), marks))
+            head = row.split()[0].lower() if begins else head
+            first, marks, points = number + 1, [], []
+            continue
+        cells = row.split()
+        marks += [len(points)] if len(cells) == 4 else []
+        points.append(_delftship_offsets_point(cells, f"at line {number} of {source}"))
+    return found
+
+
+def _delftship_offsets_point(cells: list[str], where: str) -> list[float]:
+    if len(cells) not in (3, 4) or (len(cells) == 4 and cells[3].upper() != "KNUCKLE"):
+        raise BadInputError(
+            f"{len(cells)} words are no point", where, "give x, y, z and maybe KNUCKLE"
+        )
+    return [read_number(cell, where) for cell in cells[:3]]

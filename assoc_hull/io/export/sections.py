@@ -3,10 +3,10 @@
 Examples
 --------
 >>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.io.export_book import ExportBook
->>> from assoc_hull.io.export.sections import sections_of
+>>> from assoc_hull.io.reports import ExportBook
+>>> from assoc_hull.io.export.sections import sections_to_export
 >>> book = ExportBook(decimals=4)
->>> [section.name for section in sections_of(wigley(), book)][:2]
+>>> [section.name for section in sections_to_export(wigley(), book)][:2]
 ['ST 1', 'ST 2']
 >>> [str(note) for note in book.left_out][0]
 'lines: waterlines: 10 lines are left out: the form holds sections'
@@ -18,11 +18,11 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import PointKind
-from assoc_hull.io.export_book import ExportBook
-from assoc_hull.io.lines.line_points import CHORD, DrawnLine, DrawnPiece, lines_as_points
-from assoc_hull.model.state import HullState
+from assoc_hull.io.lines.line_points import CHORD, CurvePolyline, LinePolylines, lines_as_points
+from assoc_hull.io.reports import ExportBook
+from assoc_hull.model.tables import HullState
 
-__all__ = ["CENTRE", "on_centre", "sections_of", "take_down"]
+__all__ = ["CENTRE", "count_line", "on_centre", "sections_to_export"]
 
 CENTRE = 1e-4
 """A point this close (m) to the centre plane lies in it."""
@@ -34,7 +34,9 @@ _AHEAD = 1e-3
 """Less of the hull (m) before the first or abaft the last section is not worth a word."""
 
 
-def sections_of(state: HullState, book: ExportBook, chord: float = CHORD) -> list[DrawnLine]:
+def sections_to_export(
+    state: HullState, book: ExportBook, chord: float = CHORD
+) -> list[LinePolylines]:
     """Give the sections of a hull from aft, and a transom in a plane across as the aftmost.
 
     Parameters
@@ -70,9 +72,9 @@ def sections_of(state: HullState, book: ExportBook, chord: float = CHORD) -> lis
     return found
 
 
-def _distinct(lines: list[DrawnLine], book: ExportBook) -> list[DrawnLine]:
+def _distinct(lines: list[LinePolylines], book: ExportBook) -> list[LinePolylines]:
     """Keep one of the sections that lie in one plane."""
-    kept: list[DrawnLine] = []
+    kept: list[LinePolylines] = []
     for line in lines:
         if kept and line.offset - kept[-1].offset < _SAME:
             what = f"it lies in the plane of {kept[-1].name}, which is written"
@@ -82,27 +84,27 @@ def _distinct(lines: list[DrawnLine], book: ExportBook) -> list[DrawnLine]:
     return kept
 
 
-def _across(line: DrawnLine) -> DrawnLine | None:
+def _across(line: LinePolylines) -> LinePolylines | None:
     """Give a boundary curve in a plane across the ship as a section."""
     every = np.concatenate([piece.points for piece in line.pieces])
     if line.group != "boundary" or np.ptp(every[:, 0]) > _SAME or not np.ptp(every[:, 2]):
         return None
     upward = [_upward(piece) for piece in line.pieces]
-    return DrawnLine("sections", line.name, float(every[0, 0]), tuple(upward))
+    return LinePolylines("sections", line.name, float(every[0, 0]), tuple(upward))
 
 
-def _upward(piece: DrawnPiece) -> DrawnPiece:
+def _upward(piece: CurvePolyline) -> CurvePolyline:
     if piece.points[-1, 2] >= piece.points[0, 2]:
         return piece
-    return DrawnPiece(piece.points[::-1].copy(), piece.knuckle[::-1].copy(), piece.chord)
+    return CurvePolyline(piece.points[::-1].copy(), piece.knuckle[::-1].copy(), piece.chord)
 
 
-def _is_outside(end: DrawnLine, sections: list[DrawnLine]) -> bool:
+def _is_outside(end: LinePolylines, sections: list[LinePolylines]) -> bool:
     """Tell whether an end lies beyond all sections: else it is not all of the hull there."""
     return not sections[0].offset - _SAME <= end.offset <= sections[-1].offset + _SAME
 
 
-def _tell_lines(others: list[DrawnLine], book: ExportBook) -> None:
+def _tell_lines(others: list[LinePolylines], book: ExportBook) -> None:
     for family in ("waterlines", "buttocks", "diagonals"):
         count = sum(each.group == family for each in others)
         if count:
@@ -114,7 +116,9 @@ def _tell_lines(others: list[DrawnLine], book: ExportBook) -> None:
         book.leave_out("boundary", f"{len(names)} boundary curves", what, len(names))
 
 
-def _tell_ends(sections: list[DrawnLine], others: list[DrawnLine], book: ExportBook) -> None:
+def _tell_ends(
+    sections: list[LinePolylines], others: list[LinePolylines], book: ExportBook
+) -> None:
     """Say how much of the hull lies beyond the first and the last section."""
     x = [piece.points[:, 0] for line in others for piece in line.pieces]
     if not x:
@@ -143,7 +147,7 @@ def on_centre(points: np.typing.NDArray[np.float64], end: int) -> bool:
     return bool(abs(points[end, 1]) < CENTRE)
 
 
-def take_down(line: DrawnLine, book: ExportBook) -> None:
+def count_line(line: LinePolylines, book: ExportBook) -> None:
     """Count a line that is written."""
     book.lines += 1
     book.curves += len(line.pieces)

@@ -5,9 +5,9 @@ Examples
 >>> import tempfile
 >>> from pathlib import Path
 >>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.io.export.write import export
+>>> from assoc_hull.io.export.write import export_hull
 >>> with tempfile.TemporaryDirectory() as folder:
-...     report = export(wigley(), Path(folder) / "wigley.bri")
+...     report = export_hull(wigley(), Path(folder) / "wigley.bri")
 >>> report.form, report.lines, report.rounding
 ('britfair', 19, 5e-06)
 """
@@ -26,20 +26,18 @@ from assoc_hull.io.dxf.document import DXF_UNITS
 from assoc_hull.io.dxf.lines import lines_drawing
 from assoc_hull.io.dxf.lines_plan import plan_drawing
 from assoc_hull.io.export.britfair import dumps_britfair
-from assoc_hull.io.export.delftship import dumps_delftship
-from assoc_hull.io.export.delftship_offsets import dumps_delftship_offsets
-from assoc_hull.io.export.gf import FOOT, dumps_gf
-from assoc_hull.io.export.offset_out import csv_text, offsets_of
-from assoc_hull.io.export.sections import sections_of
-from assoc_hull.io.export_book import ExportBook, ExportReport
+from assoc_hull.io.export.delftship import dumps_delftship, dumps_delftship_offsets
+from assoc_hull.io.export.ghs_geometry import FOOT, dumps_gf
+from assoc_hull.io.export.offset_table import offsets_csv, offsets_of, offsets_xlsx
+from assoc_hull.io.export.sections import sections_to_export
 from assoc_hull.io.hull_json import readable_text
 from assoc_hull.io.iges.lines import iges_of_lines
 from assoc_hull.io.lines.line_points import lines_as_points
-from assoc_hull.io.tables.offset_xlsx import xlsx_bytes
+from assoc_hull.io.reports import ExportBook, ExportReport
 from assoc_hull.io.write_file import form_by_ending, write_whole
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["ENDINGS", "FORMS", "Form", "export", "form_of"]
+__all__ = ["ENDINGS", "FORMS", "ExportForm", "export_form", "export_hull"]
 
 
 _EXACT = 17
@@ -51,7 +49,7 @@ _SURFACE_ENDINGS = (".step", ".stp", ".igs", ".iges", ".stl", ".obj", ".ply", ".
 
 
 @attrs.frozen
-class Form:
+class ExportForm:
     """A form a hull can be written in.
 
     Attributes
@@ -89,19 +87,21 @@ def _hull(state: HullState, book: ExportBook) -> bytes:
 
 
 def _csv(state: HullState, book: ExportBook) -> bytes:
-    return csv_text(offsets_of(state, book)).encode()
+    return offsets_csv(offsets_of(state, book)).encode()
 
 
 def _xlsx(state: HullState, book: ExportBook) -> bytes:
-    return xlsx_bytes(offsets_of(state, book))
+    return offsets_xlsx(offsets_of(state, book))
 
 
 def _britfair(state: HullState, book: ExportBook) -> bytes:
-    return dumps_britfair(state.particulars.name, sections_of(state, book), book).encode("ascii")
+    return dumps_britfair(state.particulars.name, sections_to_export(state, book), book).encode(
+        "ascii"
+    )
 
 
 def _delftship(state: HullState, book: ExportBook) -> bytes:
-    return dumps_delftship(sections_of(state, book), book).encode("ascii")
+    return dumps_delftship(sections_to_export(state, book), book).encode("ascii")
 
 
 def _delftship_offsets(state: HullState, book: ExportBook) -> bytes:
@@ -115,7 +115,7 @@ def _delftship_offsets(state: HullState, book: ExportBook) -> bytes:
 
 def _gf(state: HullState, book: ExportBook) -> bytes:
     ship = state.particulars
-    lines = sections_of(state, book)
+    lines = sections_to_export(state, book)
     return dumps_gf(ship.name, ship.length, ship.breadth, lines, book).encode("ascii")
 
 
@@ -137,27 +137,33 @@ def _iges_lines(state: HullState, book: ExportBook) -> bytes:
     return text.encode()
 
 
-FORMS: Mapping[str, Form] = MappingProxyType({
-    "hull": Form("the hull itself as canonical text", (".hull.json",), _hull, _EXACT),
-    "csv": Form("table of offsets", (".csv",), _csv, 4),
-    "xlsx": Form("table of offsets as a workbook", (".xlsx",), _xlsx, 4),
-    "britfair": Form("sections, BRITFAIR", (".bri",), _britfair, 5),
-    "delftship": Form("sections as DELFTship and FREE!ship import them", (".txt",), _delftship, 5),
-    "delftship-offsets": Form(
-        "all lines as DELFTship and FREE!ship list them", (), _delftship_offsets, 4
-    ),
-    "gf": Form("sections, GHS geometry file", (".gf",), _gf, 4, 1.0 / FOOT),
-    "dxf": Form("all lines in their places as splines, DXF", (".dxf",), _dxf, _EXACT, units=_UNITS),
-    "dxf-polylines": Form(
-        "all lines in their places as polylines, DXF", (), _dxf_polylines, _EXACT, units=_UNITS
-    ),
-    "dxf-plan": Form(
-        "lines plan in three views, DXF", (), _dxf_plan, _EXACT, units=_UNITS, on_paper=True
-    ),
-    "iges-lines": Form(
-        "all lines in their places as splines, IGES 126", (), _iges_lines, _EXACT, units=_UNITS
-    ),
-})  # fmt: skip
+FORMS: Mapping[str, ExportForm] = MappingProxyType(
+    {
+        "hull": ExportForm("the hull itself as canonical text", (".hull.json",), _hull, _EXACT),
+        "csv": ExportForm("table of offsets", (".csv",), _csv, 4),
+        "xlsx": ExportForm("table of offsets as a workbook", (".xlsx",), _xlsx, 4),
+        "britfair": ExportForm("sections, BRITFAIR", (".bri",), _britfair, 5),
+        "delftship": ExportForm(
+            "sections as DELFTship and FREE!ship import them", (".txt",), _delftship, 5
+        ),
+        "delftship-offsets": ExportForm(
+            "all lines as DELFTship and FREE!ship list them", (), _delftship_offsets, 4
+        ),
+        "gf": ExportForm("sections, GHS geometry file", (".gf",), _gf, 4, 1.0 / FOOT),
+        "dxf": ExportForm(
+            "all lines in their places as splines, DXF", (".dxf",), _dxf, _EXACT, units=_UNITS
+        ),
+        "dxf-polylines": ExportForm(
+            "all lines in their places as polylines, DXF", (), _dxf_polylines, _EXACT, units=_UNITS
+        ),
+        "dxf-plan": ExportForm(
+            "lines plan in three views, DXF", (), _dxf_plan, _EXACT, units=_UNITS, on_paper=True
+        ),
+        "iges-lines": ExportForm(
+            "all lines in their places as splines, IGES 126", (), _iges_lines, _EXACT, units=_UNITS
+        ),
+    }
+)
 """The forms by name."""
 
 ENDINGS: Mapping[str, str] = MappingProxyType(
@@ -166,7 +172,7 @@ ENDINGS: Mapping[str, str] = MappingProxyType(
 """The form that the ending of a file means."""
 
 
-def form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
+def export_form(path: str | os.PathLike[str], form: str | None = None) -> str:
     """Tell in which form a file is to be written: the one asked for, else by its ending.
 
     Raises
@@ -176,8 +182,8 @@ def form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
 
     Examples
     --------
-    >>> from assoc_hull.io.export.write import form_of
-    >>> form_of("hull.GF"), form_of("sections.dat", "britfair")
+    >>> from assoc_hull.io.export.write import export_form
+    >>> export_form("hull.GF"), export_form("sections.dat", "britfair")
     ('gf', 'britfair')
     """
     name = os.fspath(file_path(path, "in export"))
@@ -189,7 +195,7 @@ def form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
     return form_by_ending(path, form, tuple(FORMS), ENDINGS, "in export")
 
 
-def export(
+def export_hull(
     state: HullState,
     path: str | os.PathLike[str],
     form: str | None = None,
@@ -224,7 +230,7 @@ def export(
         A form that is not known or cannot hold this hull, or a file that cannot be written; a unit
         that the form does not have.
     """
-    name = form_of(path, form)
+    name = export_form(path, form)
     chosen = FORMS[name]
     book = _book(chosen, name, unit)
     if scale is not None and not chosen.on_paper:
@@ -236,7 +242,7 @@ def export(
     return attrs.evolve(report, rounding=0.0) if chosen.decimals == _EXACT else report
 
 
-def _book(form: Form, name: str, unit: str | None) -> ExportBook:
+def _book(form: ExportForm, name: str, unit: str | None) -> ExportBook:
     """Begin the notes on an export, in the unit that was asked for."""
     if unit is None:
         return ExportBook(form.decimals, form.scale)

@@ -1,13 +1,13 @@
 """Whether tables read from a file lead somewhere: what everything else takes for granted.
 
-`assoc_hull.edit.checks.hull.check` finds all of this and more, object by object; this is the
-short look that every opening can afford.
+`assoc_hull.edit.checks.hull_findings.check` finds all of this and more, object by object; this is
+the short look that every opening can afford.
 
 Examples
 --------
 >>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.io.hull_file.check import require_sound
->>> require_sound(wigley())
+>>> from assoc_hull.io.hull_file.check import require_sound_tables
+>>> require_sound_tables(wigley())
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.step_storage import Label
 from assoc_hull.geometry.curves import IntArray, PointKind
-from assoc_hull.model.definition_part import GENERATED
+from assoc_hull.model.form_definition import GENERATED
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Role, Sort, State
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["require_sound", "require_whole"]
+__all__ = ["require_sound_tables", "require_whole_history"]
 
 _REFERENCES = (
     ("rows", "curve", "curves"), ("rows", "reader", "curves"), ("rows", "driver", "curves"),
@@ -37,7 +37,7 @@ _CODES = (
 )  # fmt: skip
 
 
-def require_sound(state: HullState) -> None:
+def require_sound_tables(state: HullState) -> None:
     """Refuse tables in which a number leads nowhere, a code means nothing or a text is none.
 
     Raises
@@ -179,7 +179,7 @@ def _settings(state: HullState) -> Iterator[str]:
             yield f"{key[pair[0]]!r} and {key[pair[1]]!r} bore fewer crossings than they have"
 
 
-def require_whole(
+def require_whole_history(
     document: Document, new: Sequence[Step], labels: Sequence[Label], stand: tuple[int, int]
 ) -> None:
     """Refuse a history whose steps are not numbered on, or that is named where it is not.

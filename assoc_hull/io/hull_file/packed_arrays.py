@@ -7,8 +7,8 @@ and spends 250 bytes on each array, which is as much as many an array of an edit
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.io.hull_file.packed_arrays import pack, unpack
->>> arrays, facts = unpack(pack({"knot": np.array([0.0, 1.5])}, {"curve": "WL 1"}))
+>>> from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
+>>> arrays, facts = unpack_arrays(pack_arrays({"knot": np.array([0.0, 1.5])}, {"curve": "WL 1"}))
 >>> arrays["knot"].tolist(), facts
 ([0.0, 1.5], {'curve': 'WL 1'})
 """
@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["pack", "unpack"]
+__all__ = ["pack_arrays", "unpack_arrays"]
 
 _TYPES = ("|u1", "|i1", "<i4", "<i8", "<f8")
 _LEVEL = 6
@@ -32,7 +32,7 @@ _LARGEST = 1 << 31
 """No piece unpacks to more bytes; what claims to was not written here."""
 
 
-def pack(arrays: Mapping[str, NDArray[Any]], facts: object = None) -> bytes:
+def pack_arrays(arrays: Mapping[str, NDArray[Any]], facts: object = None) -> bytes:
     """Put arrays and facts into one piece of bytes.
 
     Parameters
@@ -56,7 +56,7 @@ def _little(array: NDArray[Any]) -> NDArray[Any]:
     return found
 
 
-def unpack(data: bytes) -> tuple[dict[str, NDArray[Any]], Any]:
+def unpack_arrays(data: bytes) -> tuple[dict[str, NDArray[Any]], Any]:
     """Take arrays and facts out again; the arrays are frozen.
 
     Raises

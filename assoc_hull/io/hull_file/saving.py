@@ -1,7 +1,7 @@
-"""Saving and opening a hull: as a hull file that keeps every edit, or as text.
+"""Saving and opening a hull: as a hull file that keeps every edit, or as canonical text.
 
-The name tells which: one that ends in ``.hull.json`` is the canonical text, one in ``.hull`` a
-hull file. Opening looks at what the file holds, not at its name.
+The name tells which: ``.hull.json`` is text, ``.hull`` a hull file. Opening looks at the content,
+not at the name. A file is written beside its target and takes its place whole or not at all.
 
 Examples
 --------
@@ -9,47 +9,276 @@ Examples
 >>> from tempfile import TemporaryDirectory
 >>> from assoc_hull.edit.document import Document
 >>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.io.hull_file.saving import close, save
+>>> from assoc_hull.io.hull_file.saving import open_hull_file
+>>> from assoc_hull.io.hull_file.saving import save_hull_file
 >>> with TemporaryDirectory() as folder:
 ...     document = Document(wigley())
-...     written = save(document, Path(folder) / "ship.hull").written
-...     again = save(document).written
-...     close(document)
->>> written, again
-(True, False)
+...     save_hull_file(document, Path(folder) / "ship.hull")
+...     again = open_hull_file(Path(folder) / "ship.hull")
+...     print(again.state.particulars.name)
+...     again.keeper.close()
+...     document.keeper.close()
+Wigley
+
+>>> from pathlib import Path
+>>> from tempfile import TemporaryDirectory
+>>> from assoc_hull.edit.document import Document
+>>> from assoc_hull.shipped.wigley import wigley
+>>> from assoc_hull.io.hull_file.saving import save_hull_file
+>>> with TemporaryDirectory() as folder:
+...     document = Document(wigley())
+...     save_hull_file(document, Path(folder) / "ship.hull")
+...     document.keeper.close()
+...     print([each.name for each in Path(folder).iterdir()])
+['ship.hull']
 """
 
 from __future__ import annotations
 
 import contextlib
+import getpass
 import os
+import sqlite3
+import tempfile
+from importlib import metadata
 from pathlib import Path
 
 import attrs
 
 from assoc_hull.arguments import file_path
 from assoc_hull.edit.document import Document
-from assoc_hull.errors import BadInputError
-from assoc_hull.io.hull_file.connect import is_hull_file
-from assoc_hull.io.hull_file.open import open_hull_file, user
+from assoc_hull.edit.explain.compare_states import walk_states
+from assoc_hull.edit.step import Rerun
+from assoc_hull.errors import BadInputError, HullFileError
+from assoc_hull.graph.journal import Journal
+from assoc_hull.io.hull_file.check import require_sound_tables
+from assoc_hull.io.hull_file.database import (
+    connect_database,
+    create_tables,
+    damage_errors,
+    database_errors,
+)
+from assoc_hull.io.hull_file.steps import write_labels, write_step
 from assoc_hull.io.hull_file.storage import HullFile
-from assoc_hull.io.hull_file.write import save_hull_file
+from assoc_hull.io.hull_file.tables import read_state, write_state
 from assoc_hull.io.hull_json import read_hull_json, write_hull_json
+from assoc_hull.io.open_databases import is_hull_file, is_open_here, log_file
+from assoc_hull.io.write_file import take_place
+from assoc_hull.model.change import TableChange, change_of
+from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.definition.verify import Difference
 
 __all__ = [
     "FILE_ENDING",
     "TEXT_ENDING",
     "Saved",
-    "close",
-    "damages",
-    "detach",
+    "close_hull_file",
+    "detach_hull",
+    "file_damages",
     "holds_hull",
     "open_document",
+    "open_hull_file",
     "path_of",
-    "refresh",
-    "save",
+    "refresh_hull",
+    "save_hull",
+    "save_hull_file",
+    "user_name",
 ]
+
+# --------------------------------------------------------------------------------------
+# Opening a hull file: its tables and its history, and whether they are what was written.
+
+
+def user_name() -> str:
+    """Give the name of who is at work, as the system knows it; empty if it does not."""
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError, ImportError):
+        return ""
+
+
+def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> Document:
+    """Open a hull file; nothing is computed but splines, and the fingerprint must agree.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    wait : float, s
+        How long to wait while another process writes, now and at each edit.
+    damaged : bool
+        Open it also if its tables contradict one another, to be looked at by a check.
+
+    Returns
+    -------
+    Document
+        With its history; each edit is in the file before it counts as committed.
+
+    Raises
+    ------
+    BadInputError, DamagedFileError, FileBusyError, HullFileError
+        See `assoc_hull.io.hull_file.database.connect_database`.
+    """
+    path = Path(os.path.realpath(path))
+    database = connect_database(path, wait)
+    try:
+        with database_errors(path, wait), damage_errors(path, "it is damaged"):
+            database.execute("BEGIN")
+            state = read_state(database)
+            file = HullFile(path, database, state, wait)
+            document = Document(state, keeper=file, author=user_name())
+            document.stand(*file.follow(document))
+            document.start = str(file.recorded(0))
+            file.require_print()
+            if not damaged:
+                require_sound_tables(state)
+            database.execute("ROLLBACK")
+    except BaseException:
+        database.close()
+        raise
+    return document
+
+
+# --------------------------------------------------------------------------------------
+# Writing a hull that lives in memory, or a copy of a file, as a hull file.
+
+
+def save_hull_file(
+    document: Document, path: Path, wait: float = 0.0, *, replace: bool = False
+) -> None:
+    """Write a hull with its history, and keep its steps in that file from then on.
+
+    Parameters
+    ----------
+    document : Document
+        The hull; no edit may be open.
+    path : Path
+        The file; its folder must exist.
+    wait : float, s
+        How long to wait for another writer, from then on.
+    replace : bool
+        Write over a file that is there.
+
+    Raises
+    ------
+    BadInputError
+        An edit is open; there is a file of this name, and it is not to be replaced.
+    HullFileError
+        The file cannot be written; nothing is left behind, and the hull is kept where it was.
+    """
+    document.require_ended("save")
+    target = Path(os.path.realpath(path))
+    _require_free(target, replace=replace)
+    changes = _write_whole(document, target)
+    database = connect_database(target, wait)
+    file, before = HullFile(target, database, document.state, wait), document.keeper
+    document.keeper = file
+    file.take_over(document, changes)
+    if isinstance(before, HullFile):
+        before.close()
+
+
+def _require_free(target: Path, *, replace: bool) -> None:
+    """Refuse to write over anything."""
+    if os.path.isdir(target):
+        raise BadInputError("this is a folder", f"at {target}", "give the name of a file")
+    if not os.path.isdir(target.parent):
+        what = f"there is no folder {target.parent}"
+        raise BadInputError(what, f"for {target.name}", "make the folder first")
+    if os.path.lexists(target) and not replace:
+        what, remedy = "there is a file of this name", "choose another name, or ask to replace it"
+        raise BadInputError(what, f"at {target}", remedy)
+    if is_open_here(target):
+        remedy = "close it first, or give another name"
+        raise BadInputError("this hull file is open in this process", f"at {target}", remedy)
+    log = log_file(target)
+    if os.path.lexists(log):
+        what = "the log of another hull file lies beside it, with edits that may be nowhere else"
+        remedy = "close the program that uses it, or move it to where its hull file is"
+        raise BadInputError(what, f"at {log}", remedy)
+
+
+def _write_whole(document: Document, target: Path) -> dict[int, TableChange]:
+    """Write beside the target, bring it to the disk, then take the target's place."""
+    try:
+        handle, name = tempfile.mkstemp(
+            prefix=f".{target.name}.", suffix=".part", dir=target.parent
+        )
+    except OSError as error:
+        what = f"the file cannot be written ({error.strerror or error})"
+        raise HullFileError(str(target), what, "give another place") from error
+    os.close(handle)
+    try:
+        with database_errors(target):
+            changes = _fill(document, name)
+        take_place(name, target)
+    except OSError as error:
+        if isinstance(error, HullFileError):
+            raise
+        what = f"the file cannot be written ({error.strerror or error})"
+        raise HullFileError(str(target), what, "give another place") from error
+    finally:
+        for left in (name, f"{name}-journal", f"{name}-wal", f"{name}-shm"):
+            with contextlib.suppress(OSError):
+                os.unlink(left)
+    return changes
+
+
+def _fill(document: Document, name: str) -> dict[int, TableChange]:
+    """Fill an empty file: with a copy of the file that keeps the hull, or from memory."""
+    database = sqlite3.connect(name, isolation_level=None)
+    try:
+        database.execute("PRAGMA synchronous = FULL")
+        if isinstance(document.keeper, HullFile):
+            document.keeper.copy_to(database)
+            return {}
+        create_tables(database)
+        database.execute("BEGIN")
+        changes = _write_all(database, document)
+        database.execute("COMMIT")
+        database.execute("PRAGMA journal_mode = WAL")
+    finally:
+        database.close()
+    return changes
+
+
+def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, TableChange]:
+    """Write every step, then the hull as it is now."""
+    state, changes = document.state, dict[int, TableChange]()
+    with walk_states(document) as walk:
+        if not document.start:
+            walk.go(0)
+            document.start = fingerprint(state)
+        for number, step in sorted(document.steps.items()):
+            journal = step.journal
+            if isinstance(journal, Journal):
+                walk.go(number)
+                changes[number] = change_of(state, journal)
+                step.fingerprint = step.fingerprint or fingerprint(state)
+                journal = Rerun(state, changes[number])
+            assert isinstance(journal, Rerun), "a step holds its journal or its change"
+            write_step(database, step, journal.change)
+    write_state(database, state, _version(), document.start)
+    write_labels(database, list(document.labels.values()))
+    database.execute(
+        "UPDATE hull SET fingerprint = ?, head = ?, tip = ?",
+        (fingerprint(state), document.head, document.tip),
+    )
+    return changes
+
+
+def _version() -> str:
+    try:
+        return metadata.version("assoc-hull")
+    except metadata.PackageNotFoundError:
+        return "unknown"
+
+
+# --------------------------------------------------------------------------------------
+# Saving and opening a hull: as a hull file that keeps every edit, or as text.
+#
+# The name tells which: one that ends in ``.hull.json`` is the canonical text, one in ``.hull`` a
+# hull file. Opening looks at what the file holds, not at its name.
 
 FILE_ENDING, TEXT_ENDING = ".hull", ".hull.json"
 
@@ -80,7 +309,7 @@ def path_of(document: Document) -> Path | None:
     return document.keeper.path if isinstance(document.keeper, HullFile) else None
 
 
-def save(
+def save_hull(
     document: Document, path: str | os.PathLike[str] | None = None, *, replace: bool = False
 ) -> Saved:
     """Write a hull; see `assoc_hull.hull.Hull.save`."""
@@ -102,7 +331,7 @@ def save(
         raise BadInputError("the form is unknown", f"at {name}", remedy)
     wait = document.keeper.wait if isinstance(document.keeper, HullFile) else 0.0
     save_hull_file(document, Path(path), wait, replace=replace)
-    document.author = document.author or user()
+    document.author = document.author or user_name()
     return Saved(Path(path), written=True)
 
 
@@ -121,7 +350,7 @@ def open_document(
         file = Path(os.path.realpath(path))
         if is_hull_file(file) or not (_is_text(file) or file.name.endswith(".json")):
             return open_hull_file(file, wait, damaged=damaged)
-    return Document(read_hull_json(path), author=user())
+    return Document(read_hull_json(path), author=user_name())
 
 
 def holds_hull(path: Path) -> bool:
@@ -136,7 +365,7 @@ def _is_text(path: Path) -> bool:
     return False
 
 
-def refresh(document: Document) -> None:
+def refresh_hull(document: Document) -> None:
     """Bring a document to the state in its hull file.
 
     Raises
@@ -155,7 +384,7 @@ def refresh(document: Document) -> None:
         document.end(keep=False)
 
 
-def detach(document: Document) -> None:
+def detach_hull(document: Document) -> None:
     """Let a hull live in memory, with all its history; the hull file stays as it is.
 
     Raises
@@ -167,14 +396,14 @@ def detach(document: Document) -> None:
     document.keeper = None
 
 
-def damages(document: Document) -> list[Difference]:
+def file_damages(document: Document) -> list[Difference]:
     """Look through the hull file, if there is one, for what is not as it was written."""
     keeper = document.keeper
     found = keeper.damages() if isinstance(keeper, HullFile) else []
     return [Difference(each, "hull file", float("inf")) for each in found]
 
 
-def close(document: Document) -> None:
+def close_hull_file(document: Document) -> None:
     """Let go of the hull file, if there is one.
 
     Raises

@@ -1,11 +1,7 @@
 """Committed steps to the rows of a hull file, and back.
 
-Examples
---------
->>> from assoc_hull.edit.report import EditReport
->>> from assoc_hull.io.hull_file.steps import report_from, report_text
->>> report_from(report_text(EditReport("fair", relofted=("WL 1",)))).relofted
-('WL 1',)
+A step holds what was asked for, the report, and the change of every row as bytes
+(`pack_change`). Its digest covers all of the row.
 """
 
 from __future__ import annotations
@@ -13,36 +9,256 @@ from __future__ import annotations
 import hashlib
 import json
 import sqlite3
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.edit.recording import Script
 from assoc_hull.edit.report import EditReport, Movement
 from assoc_hull.edit.step import Rerun, Step, StepBody
 from assoc_hull.edit.step_storage import Label
-from assoc_hull.graph.node import Readers
-from assoc_hull.io.hull_file.change import pack_change, unpack_change
-from assoc_hull.io.hull_file.packed_arrays import pack, unpack
-from assoc_hull.model.change import Change
-from assoc_hull.model.state import HullState
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.graph.network import Readers
+from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
+from assoc_hull.model.change import CrossingPositions, TableChange
+from assoc_hull.model.features import Feature
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.tables import Association, Ends, HullState, Particulars
 
 __all__ = [
     "body_of",
-    "digest",
+    "pack_change",
     "read_labels",
     "report_from",
     "report_text",
+    "step_digest",
     "steps_of",
+    "unpack_change",
     "write_labels",
     "write_step",
 ]
 
+# --------------------------------------------------------------------------------------
+# A change to bytes and back: what an edit did, as a hull file keeps it.
 
-def write_step(database: sqlite3.Connection, step: Step, change: Change) -> None:
+Arrays = dict[str, NDArray[Any]]
+
+_PLACES = ("curve", "count", "line", "sign", "row")
+_SHAPE = ("knot", "xyz", "leave", "arrive")
+
+
+def pack_change(change: TableChange) -> bytes:
+    """Put a change into bytes."""
+    arrays: Arrays = {"lofted": _short(change.lofted), "moved": _short(change.moved[0])}
+    # Bytes of equal weight lie side by side: most of them agree, which is what compresses.
+    arrays["moved.bits"] = change.moved[1].T
+    for name, (rows, bits) in change.bits.items():
+        arrays |= {f"{name}.rows": _short(rows), f"{name}.bits": bits.T}
+    arrays |= _pack_places("before", change.before, change.before.at)
+    arrays |= _pack_places("after", change.after, _against(change.before, change.after))
+    for when, shapes in enumerate(change.kept):
+        for curve, spline in shapes.items():
+            arrays |= {f"kept.{when}.{curve}.{part}": getattr(spline, part) for part in _SHAPE}
+    return pack_arrays(arrays, _facts(change))
+
+
+def _facts(change: TableChange) -> dict[str, Any]:
+    objects = {
+        name: [
+            rows.tolist(),
+            [_say(name, each) for each in old],
+            [_say(name, each) for each in new],
+        ]
+        for name, (rows, old, new) in change.objects.items()
+    }
+    return {
+        "sizes": change.sizes,
+        "bits": list(change.bits),
+        "objects": objects,
+        "births": [[*pair, *counts] for pair, counts in change.births.items()],
+        "kept": [list(shapes) for shapes in change.kept],
+    }
+
+
+def _short(numbers: IntArray) -> NDArray[np.int32]:
+    return numbers.astype(np.int32)
+
+
+def _long(numbers: NDArray[Any]) -> IntArray:
+    return numbers.astype(np.int64)
+
+
+def _against(before: CrossingPositions, after: CrossingPositions) -> FloatArray:
+    """Give places as the exclusive or with where the same crossing lay on the curve before.
+
+    A line that is added or taken away changes what many curves list, and where nothing of that
+    lies. Crossings that were not there before stand as they are. Twice, it takes itself back.
+    """
+    found = after.at.copy()
+    keys = [_keys(places) for places in (before, after)]
+    _, old, new = np.intersect1d(keys[0][:, 0], keys[1][:, 0], return_indices=True)
+    old, new = keys[0][old, 1], keys[1][new, 1]
+    found[new] = (before.at[old].view(np.int64) ^ found[new].view(np.int64)).view(np.float64)
+    return found
+
+
+def _keys(places: CrossingPositions) -> IntArray:
+    """Give a number for each crossing on a curve, and where it stands, (k, 2)."""
+    actual = np.flatnonzero(places.row >= 0)
+    curve = places.curve[places.owner[actual]]
+    return np.column_stack([(curve << 32) + places.row[actual], actual])
+
+
+def _pack_places(title: str, places: CrossingPositions, at: FloatArray) -> Arrays:
+    if not len(places.curve):
+        return {}
+    whole = {f"{title}.{name}": _short(getattr(places, name)) for name in _PLACES}
+    bits = np.frombuffer(at.tobytes(), np.uint8).reshape(len(at), 32)
+    return {**whole, f"{title}.bits": bits.T}
+
+
+def _unpack_places(title: str, arrays: Arrays) -> CrossingPositions:
+    if f"{title}.curve" not in arrays:
+        arrays = {f"{title}.{name}": np.zeros(0, np.int32) for name in _PLACES}
+        arrays[f"{title}.bits"] = np.zeros((32, 0), np.uint8)
+    curve, count, line, sign, row = (_long(arrays[f"{title}.{name}"]) for name in _PLACES)
+    if f"{title}.at" in arrays:  # as early files of versions 1 and 2 hold it
+        at = arrays[f"{title}.at"]
+    else:
+        at = np.frombuffer(arrays[f"{title}.bits"].T.tobytes(), "<f8").reshape(-1, 4)
+    return CrossingPositions(curve, count, line, sign, row, at.astype(np.float64))
+
+
+def _both_places(arrays: Arrays) -> tuple[CrossingPositions, CrossingPositions]:
+    """Give the places on curves that list other crossings, before and after."""
+    before, after = _unpack_places("before", arrays), _unpack_places("after", arrays)
+    plain = "after.at" in arrays or not len(before.curve)
+    return before, after if plain else attrs.evolve(after, at=_against(before, after))
+
+
+def unpack_change(data: bytes) -> TableChange:
+    """Take a change out of bytes.
+
+    Raises
+    ------
+    ValueError, KeyError, TypeError
+        They hold no change.
+    """
+    arrays, facts = unpack_arrays(data)
+    before, after = _both_places(arrays)
+    objects = {
+        name: (
+            np.array(rows, np.int64),
+            [_hear(name, each) for each in old],
+            [_hear(name, each) for each in new],
+        )
+        for name, (rows, old, new) in facts["objects"].items()
+    }
+    return TableChange(
+        {name: (int(old), int(new)) for name, (old, new) in facts["sizes"].items()},
+        {name: _bits(arrays, name) for name in facts["bits"]},
+        objects,
+        {(a, b): (int(old), int(new)) for a, b, old, new in facts["births"]},
+        (_long(arrays["moved"]), np.ascontiguousarray(arrays["moved.bits"].T)),
+        before,
+        after,
+        _long(arrays["lofted"]),
+        (_kept(arrays, facts, 0), _kept(arrays, facts, 1)),
+    )
+
+
+def _bits(arrays: Arrays, name: str) -> tuple[IntArray, NDArray[np.uint8]]:
+    return _long(arrays[f"{name}.rows"]), np.ascontiguousarray(arrays[f"{name}.bits"].T)
+
+
+def _kept(arrays: Arrays, facts: dict[str, Any], when: int) -> dict[int, SplineBatch]:
+    found = {}
+    for curve in facts["kept"][when]:
+        knot, xyz, leave, arrive = (arrays[f"kept.{when}.{curve}.{part}"] for part in _SHAPE)
+        start = np.array([0, len(knot)], np.int64)
+        found[int(curve)] = SplineBatch(start, knot, xyz, leave, arrive)
+    return found
+
+
+def _same(value: Any) -> Any:
+    return value
+
+
+def _numbers(value: Any) -> list[int]:
+    return [int(each) for each in value]
+
+
+def _frozen(value: Any) -> IntArray:
+    found = np.array(value, np.int64)
+    freeze(found)
+    return found
+
+
+def _ends_of(value: Any) -> Ends:
+    (first, last), (start, finish) = value
+    return Ends((int(first), int(last)), (tuple(start), tuple(finish)))
+
+
+def _plain(thing: Feature | GeneratedCurve | None) -> Any:
+    return None if thing is None else attrs.asdict(thing)
+
+
+def _feature(said: Any) -> Feature | None:
+    return None if said is None else Feature(**said)
+
+
+def _said_form(form: FormDefinition | None) -> Any:
+    return (
+        None if form is None else {**attrs.asdict(form, recurse=False), "values": {**form.values}}
+    )
+
+
+def _form(said: Any) -> FormDefinition | None:
+    return None if said is None else FormDefinition(**said)
+
+
+def _made(said: Any) -> GeneratedCurve | None:
+    if said is None:
+        return None
+    marks = tuple((int(piece), float(t)) for piece, t in said["marks"])
+    return GeneratedCurve(**{**said, "rows": tuple(_numbers(said["rows"])), "marks": marks})
+
+
+_CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
+    "curves.rows": (_numbers, _frozen),
+    "curves.side": (_numbers, _frozen),
+    "curves.ends": (lambda ends: [_numbers(ends.kind), ends.vector], _ends_of),
+    "lines.curves": (_numbers, tuple),
+    "settings.failed": (_numbers, tuple),
+    "featured.feature": (_plain, _feature),
+    "formed.definition": (_said_form, _form),
+    "produced.curve": (_plain, _made),
+    "settings.particulars": (attrs.asdict, lambda said: Particulars(**said)),
+    "settings.associations": (
+        lambda links: [[each.a, each.b, each.two_way] for each in links],
+        lambda said: tuple(Association(a, b, two_way) for a, b, two_way in said),
+    ),
+}
+"""By column: to what JSON can say, and back. All other columns of objects hold texts."""
+
+
+def _say(name: str, value: Any) -> Any:
+    return _CODES.get(name, (_same, _same))[0](value)
+
+
+def _hear(name: str, said: Any) -> Any:
+    return _CODES.get(name, (_same, _same))[1](said)
+
+
+# --------------------------------------------------------------------------------------
+# Committed steps to the rows of a hull file, and back.
+
+
+def write_step(database: sqlite3.Connection, step: Step, change: TableChange) -> None:
     """Write a step.
 
     Parameters
@@ -55,7 +271,7 @@ def write_step(database: sqlite3.Connection, step: Step, change: Change) -> None
         What it changed.
     """
     report = step.report
-    trace = pack(
+    trace = pack_arrays(
         {"reader": step.cause.reader, "source": step.cause.source, "changed": step.changed,
          "moved": step.moved, "seeds": step.seeds}
     )  # fmt: skip
@@ -65,11 +281,11 @@ def write_step(database: sqlite3.Connection, step: Step, change: Change) -> None
     )  # fmt: skip
     database.execute(
         "INSERT INTO steps VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-        (*row[:7], digest(row), *row[7:]),
+        (*row[:7], step_digest(row), *row[7:]),
     )
 
 
-def digest(row: tuple[Any, ...]) -> str:
+def step_digest(row: tuple[Any, ...]) -> str:
     """Give the SHA-256 of all that a row of steps holds, its own digest left out."""
     found = hashlib.sha256()
     for each in row:
@@ -166,9 +382,9 @@ def body_of(row: tuple[Any, ...], state: HullState) -> StepBody:
     ValueError, KeyError, TypeError
         The row is not as it was written.
     """
-    if digest((*row[:7], *row[8:])) != row[7]:
+    if step_digest((*row[:7], *row[8:])) != row[7]:
         raise ValueError("its digest is another one")
-    trace = unpack(row[10])[0]
+    trace = unpack_arrays(row[10])[0]
     reader, source, changed, seeds = (
         trace[name].astype(np.int64) for name in ("reader", "source", "changed", "seeds")
     )

@@ -11,8 +11,8 @@ Examples
 >>> from assoc_hull.edit.document import Document
 >>> from assoc_hull.edit.session import Edit
 >>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.io.hull_file.open import open_hull_file
->>> from assoc_hull.io.hull_file.write import save_hull_file
+>>> from assoc_hull.io.hull_file.saving import open_hull_file
+>>> from assoc_hull.io.hull_file.saving import save_hull_file
 >>> with TemporaryDirectory() as folder:
 ...     document = Document(wigley())
 ...     save_hull_file(document, Path(folder) / "ship.hull")
@@ -45,8 +45,8 @@ from assoc_hull.edit.step_storage import Label
 from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.io.hull_file.check import require_sound, require_whole
-from assoc_hull.io.hull_file.connect import as_written, connect, speaking_of
+from assoc_hull.io.hull_file.check import require_sound_tables, require_whole_history
+from assoc_hull.io.hull_file.database import connect_database, damage_errors, database_errors
 from assoc_hull.io.hull_file.steps import (
     body_of,
     read_labels,
@@ -63,11 +63,10 @@ from assoc_hull.io.hull_file.tables import (
     write_births,
     write_settings,
 )
-from assoc_hull.io.open_databases import Connection, Place
-from assoc_hull.model.change import Change, change_of
-from assoc_hull.model.definition.definition import fingerprint
-from assoc_hull.model.definition.fingerprint import Printer, is_shape
-from assoc_hull.model.state import HullState
+from assoc_hull.io.open_databases import FileIdentity, HullFileConnection
+from assoc_hull.model.change import TableChange, change_of
+from assoc_hull.model.definition.fingerprint import FingerprintCache, fingerprint, is_shape
+from assoc_hull.model.tables import HullState
 
 __all__ = ["HullFile"]
 
@@ -89,12 +88,14 @@ class HullFile:
         How long to wait for another writer.
     """
 
-    def __init__(self, path: Path, database: Connection, state: HullState, wait: float) -> None:
+    def __init__(
+        self, path: Path, database: HullFileConnection, state: HullState, wait: float
+    ) -> None:
         self.path, self.database, self.state, self.wait = path, database, state, wait
         self.serial = 0
         self._known = 0
-        self.place = Place(path)
-        self._known_printer: Printer | None = None
+        self.place = FileIdentity(path)
+        self._known_printer: FingerprintCache | None = None
         self._agreed = False
         self._open = True
         weakref.finalize(self, database.close)  # the last one to close tidies the log away
@@ -122,7 +123,7 @@ class HullFile:
         self._enter("BEGIN IMMEDIATE")
         self._agreed = False
         try:
-            with speaking_of(self.path):
+            with database_errors(self.path):
                 self.place.require_log()
                 self._refuse_stale()
         except BaseException:
@@ -137,7 +138,7 @@ class HullFile:
         """Begin a transaction of the database, if this still is the file that was opened."""
         self._require_open()
         self.place.require_file()
-        with speaking_of(self.path, self.wait):
+        with database_errors(self.path, self.wait):
             self.database.execute(how)
 
     def _refuse_stale(self) -> None:
@@ -159,7 +160,7 @@ class HullFile:
         journal = step.journal
         assert isinstance(journal, Journal), "a step that was just made holds its journal"
         change = change_of(self.state, journal)
-        with speaking_of(self.path):
+        with database_errors(self.path):
             self._put(change, step.rows, step.curves)
             self._look_anew(change)
             step.fingerprint = self._sign(step.number, step.number)
@@ -168,7 +169,7 @@ class HullFile:
             self.database.execute("COMMIT")
         self.keep(step, change)
 
-    def keep(self, step: Step, change: Change) -> None:
+    def keep(self, step: Step, change: TableChange) -> None:
         """Let a step hold no more of its journal than its change, and that only for a while."""
         body = step.body
         self._lend(step)
@@ -182,7 +183,10 @@ class HullFile:
 
     def move(self, head: int, tip: int, steps: Sequence[Step], branch: Label | None) -> None:
         """Write the rows that steps changed when they were run, and where the hull is now."""
-        with speaking_of(self.path), as_written(self.path, "the history does not fit the hull"):
+        with (
+            database_errors(self.path),
+            damage_errors(self.path, "the history does not fit the hull"),
+        ):
             for step in steps:
                 journal = step.journal
                 assert isinstance(journal, Rerun), "a step that is kept holds its change"
@@ -191,14 +195,14 @@ class HullFile:
             found = self._sign(head, tip)
             if found != self.recorded(head):
                 raise ValueError(f"the hull after step {head} is not as it was then")
-            require_sound(self.state)
+            require_sound_tables(self.state)
             require_counts(self.database, self.state)
             self._label(branch)
             self.database.execute("COMMIT")
 
     def label(self, label: Label) -> None:
         """Write a name."""
-        with speaking_of(self.path):
+        with database_errors(self.path):
             self._label(label)
             self.database.execute("UPDATE hull SET serial = serial + 1")
             self.database.execute("COMMIT")
@@ -217,7 +221,7 @@ class HullFile:
         if label is not None:
             write_labels(self.database, [label])
 
-    def _put(self, change: Change, rows: IntArray, curves: IntArray) -> None:
+    def _put(self, change: TableChange, rows: IntArray, curves: IntArray) -> None:
         """Write the rows of the tables that a change touched, as they are now."""
         also = {"rows": rows, "curves": np.union1d(change.curves, curves)}
         for table in WRITTEN:
@@ -237,16 +241,16 @@ class HullFile:
         )
         return found
 
-    def _look_anew(self, change: Change) -> None:
+    def _look_anew(self, change: TableChange) -> None:
         """Forget what is known of the structure of the hull, if a change has changed it."""
         if not is_shape(change):
             self._known_printer = None
 
     @property
-    def _printer(self) -> Printer:
+    def _printer(self) -> FingerprintCache:
         """Takes the fingerprint; made anew when the structure of the hull has changed."""
         if self._known_printer is None:
-            self._known_printer = Printer(self.state)
+            self._known_printer = FingerprintCache(self.state)
         return self._known_printer
 
     def recorded(self, head: int) -> object:
@@ -264,7 +268,7 @@ class HullFile:
             It is not as it was written.
         """
         row = self._read("SELECT * FROM steps WHERE number = ?", number)
-        with as_written(self.path, f"step {number} cannot be read"):
+        with damage_errors(self.path, f"step {number} cannot be read"):
             return body_of(row, self.state)
 
     def tell(self, number: int) -> EditReport:
@@ -276,7 +280,7 @@ class HullFile:
             It cannot be read.
         """
         (text,) = self._read("SELECT report FROM steps WHERE number = ?", number)
-        with as_written(self.path, f"step {number} cannot be read"):
+        with damage_errors(self.path, f"step {number} cannot be read"):
             return report_from(text)
 
     def _read(self, sql: str, number: int) -> Any:
@@ -286,8 +290,8 @@ class HullFile:
     @contextlib.contextmanager
     def _reader(self) -> Iterator[sqlite3.Connection]:
         """Give the database; where the file has been let go of, it is opened for that long."""
-        with speaking_of(self.path, self.wait):
-            database = self.database if self._open else connect(self.path, self.wait)
+        with database_errors(self.path, self.wait):
+            database = self.database if self._open else connect_database(self.path, self.wait)
             try:
                 yield database
             finally:
@@ -303,17 +307,17 @@ class HullFile:
             Numbers of the step that led to the state in the file, and of the last undone one.
         """
         database = self.database
-        with speaking_of(self.path, self.wait):
+        with database_errors(self.path, self.wait):
             head, tip, serial = map(operator.index, self._one("SELECT head, tip, serial FROM hull"))
             new = steps_of(database, len(document.steps), self.load, self.tell)
             labels = read_labels(database)
-        require_whole(document, new, labels, (head, tip))
+        require_whole_history(document, new, labels, (head, tip))
         document.steps |= {step.number: step for step in new}
         document.labels = {label.name: label for label in labels}
         self._known, self.serial = len(document.steps), serial
         return head, tip
 
-    def take_over(self, document: Document, changes: Mapping[int, Change]) -> None:
+    def take_over(self, document: Document, changes: Mapping[int, TableChange]) -> None:
         """Keep the steps of a document that was just written; `changes` are those it held."""
         self.follow(document)
         for number, step in document.steps.items():
@@ -325,7 +329,7 @@ class HullFile:
     def copy_to(self, database: sqlite3.Connection) -> None:
         """Copy the whole file into another database."""
         self._require_open()
-        with speaking_of(self.path, self.wait):
+        with database_errors(self.path, self.wait):
             self.database.execute("BEGIN")
             try:
                 self._refuse_stale()

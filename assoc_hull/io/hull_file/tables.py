@@ -1,17 +1,7 @@
-"""The tables of a hull to the rows of a hull file, and back; nothing is computed but splines.
+"""The tables of a hull to the rows of a hull file, and back.
 
-Examples
---------
->>> import sqlite3
->>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.io.hull_file.schema import create
->>> from assoc_hull.io.hull_file.tables import read_state, write_state
->>> from assoc_hull.model.definition.definition import fingerprint
->>> database, state = sqlite3.connect(":memory:", isolation_level=None), wigley()
->>> create(database)
->>> write_state(database, state, "demo", fingerprint(state))
->>> fingerprint(read_state(database)) == fingerprint(state)
-True
+Points, curves, lines, groups, features, definitions and generated curves. Nothing is computed but
+splines, which are lofted from their points.
 """
 
 from __future__ import annotations
@@ -27,23 +17,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
-from assoc_hull.io.hull_file.features import feature_rows, read_features
-from assoc_hull.io.hull_file.forms import (
-    definition_rows,
-    generated_rows,
-    read_definitions,
-    read_generated,
+from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
+from assoc_hull.model.change import (
+    CrossingPositions,
+    crossing_positions,
+    put_crossing_positions,
+    shape_curves,
 )
-from assoc_hull.io.hull_file.packed_arrays import pack, unpack
-from assoc_hull.model.change import shape_curves
+from assoc_hull.model.features import Feature
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.kinds import State
-from assoc_hull.model.places_on_curves import PlacesOn, places_of, put_places_of
-from assoc_hull.model.state import Association, Ends, HullState, Particulars
+from assoc_hull.model.tables import Association, Ends, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
     "WRITTEN",
+    "definition_of",
+    "definition_row",
+    "definition_rows",
+    "feature_of",
+    "feature_row",
+    "feature_rows",
+    "generated_of",
+    "generated_row",
+    "generated_rows",
     "put_rows",
+    "read_definitions",
+    "read_features",
+    "read_generated",
     "read_revisions",
     "read_state",
     "require_counts",
@@ -52,7 +53,174 @@ __all__ = [
     "write_state",
 ]
 
+# --------------------------------------------------------------------------------------
+# The features of a hull to the rows of a hull file, and back.
+
+
+def feature_rows(state: HullState, numbers: IntArray) -> Iterator[tuple[Any, ...]]:
+    """Give rows of the table of features as rows of the file."""
+    table = state.featured
+    for i in numbers.tolist():
+        yield feature_row(i, bool(table.alive.data[i]), table.feature.data[i])
+
+
+def read_features(state: HullState, rows: Sequence[tuple[Any, ...]]) -> None:
+    """Put rows of the file into the empty table of features.
+
+    Raises
+    ------
+    ValueError, TypeError, AssocHullError
+        A row holds none.
+    """
+    table = state.featured
+    table.resize(len(rows))
+    table.feature.data[:] = [feature_of(row) for row in rows]
+    table.alive.store[: len(rows)] = [bool(row[1]) for row in rows]
+    table.alive.writes += 1
+
+
+def feature_row(number: int, alive: bool, feature: Feature) -> tuple[Any, ...]:
+    """Give a feature as a row of the table."""
+    return (
+        number, int(alive), feature.key, feature.kind, feature.name, json.dumps(feature.lines),
+        np.array(feature.points, "<i4").tobytes(), _blob(feature.centre), _blob(feature.radius),
+        _blob(feature.normal), _blob(feature.offset), _blob(feature.direction), feature.side,
+        _blob(feature.gap),
+    )  # fmt: skip
+
+
+def feature_of(row: tuple[Any, ...]) -> Feature:
+    """Take a feature from a row of the table.
+
+    Raises
+    ------
+    ValueError, TypeError, AssocHullError
+        The row holds none.
+    """
+    _, _, key, kind, name, lines, points, centre, radius, normal, offset, direction, side, gap = row
+    return Feature(
+        key, kind, name, json.loads(lines), np.frombuffer(points, "<i4").tolist(), _vector(centre),
+        _real(radius), _vector(normal), _real(offset), _vector(direction), side, _real(gap),
+    )  # fmt: skip
+
+
+def _blob(value: object) -> bytes | None:
+    return None if value is None else np.asarray(value, "<f8").tobytes()
+
+
+def _vector(blob: bytes | None) -> Any:
+    return None if blob is None else np.frombuffer(blob, "<f8").tolist()
+
+
+def _real(blob: bytes | None) -> Any:
+    return None if blob is None else np.frombuffer(blob, "<f8").item()
+
+
+# --------------------------------------------------------------------------------------
+# The definitions of a hull and its generated curves to the rows of a hull file, and back.
+
 Row = tuple[Any, ...]
+
+_MARK = np.dtype([("piece", "<i4"), ("t", "<f8")])
+
+
+def definition_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
+    """Give rows of the table of definitions as rows of the file."""
+    table = state.formed
+    for i in numbers.tolist():
+        yield definition_row(i, bool(table.alive.data[i]), table.definition.data[i])
+
+
+def generated_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
+    """Give rows of the table of generated curves as rows of the file."""
+    table = state.produced
+    for i in numbers.tolist():
+        yield generated_row(i, bool(table.alive.data[i]), table.curve.data[i])
+
+
+def definition_row(number: int, alive: bool, form: FormDefinition) -> Row:
+    """Give a definition as a row; its values in the order of their names, nan for None."""
+    values = [np.nan if value is None else value for value in form.values.values()]
+    return (
+        number, int(alive), form.use, form.name, form.kind, form.rule, json.dumps(form.nodes),
+        np.array(values, "<f8").tobytes(),
+    )  # fmt: skip
+
+
+def generated_row(number: int, alive: bool, made: GeneratedCurve) -> Row:
+    """Give a generated curve as a row."""
+    marks = np.array(list(made.marks), _MARK)
+    return (
+        number, int(alive), made.key, made.curve, made.what, made.layout,
+        np.array(made.rows, "<i4").tobytes(), marks.tobytes(), int(made.attached),
+    )  # fmt: skip
+
+
+def definition_of(row: Row) -> FormDefinition:
+    """Take a definition from a row.
+
+    Raises
+    ------
+    ValueError, TypeError, AssocHullError
+        The row holds none.
+    """
+    _, _, use, name, kind, rule, nodes, numbers = row
+    bare = FormDefinition(name, use, kind, {}, rule, json.loads(nodes))
+    values = np.frombuffer(numbers, "<f8").tolist()
+    known = [None if np.isnan(value) else value for value in values]
+    return bare.having(dict(zip(bare.names, known, strict=True)))
+
+
+def generated_of(row: Row) -> GeneratedCurve:
+    """Take a generated curve from a row.
+
+    Raises
+    ------
+    ValueError, TypeError
+        The row holds none.
+    """
+    _, _, key, curve, what, layout, points, marks, attached = row
+    return GeneratedCurve(
+        key, curve, what, layout, tuple(np.frombuffer(points, "<i4").tolist()),
+        tuple(np.frombuffer(marks, _MARK).tolist()), bool(attached),
+    )  # fmt: skip
+
+
+def read_definitions(state: HullState, rows: Sequence[Row]) -> None:
+    """Put rows of the file into the empty table of definitions.
+
+    Raises
+    ------
+    ValueError, TypeError, AssocHullError
+        A row holds none.
+    """
+    table = state.formed
+    table.resize(len(rows))
+    table.definition.data[:] = [definition_of(row) for row in rows]
+    _revive(table, rows)
+
+
+def read_generated(state: HullState, rows: Sequence[Row]) -> None:
+    """Put rows of the file into the empty table of generated curves.
+
+    Raises
+    ------
+    ValueError, TypeError
+        A row holds none.
+    """
+    table = state.produced
+    table.resize(len(rows))
+    table.curve.data[:] = [generated_of(row) for row in rows]
+    _revive(table, rows)
+
+
+def _revive(table: Any, rows: Sequence[Row]) -> None:
+    table.alive.store[: len(rows)] = [bool(row[1]) for row in rows]
+    table.alive.writes += 1
+
+
+# --------------------------------------------------------------------------------------
+# The tables of a hull to the rows of a hull file, and back; nothing is computed but splines.
 
 _POINT = np.dtype([("row", "<i4"), ("side", "i1")])
 _PLACE = np.dtype([("line", "<i4"), ("row", "<i4"), ("sign", "i1"), ("at", "<f8", (4,))])
@@ -149,14 +317,14 @@ def _line_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     for i in numbers.tolist():
         yield (
             i, table.key.data[i], table.name.data[i], int(table.alive.data[i]),
-            int(table.group.data[i]), int(table.planar.data[i]), _blob(table.normal.data[i]),
-            _blob(table.offset.data[i]), int(table.boundary.data[i]),
+            int(table.group.data[i]), int(table.planar.data[i]), _tables_blob(table.normal.data[i]),
+            _tables_blob(table.offset.data[i]), int(table.boundary.data[i]),
             json.dumps([int(curve) for curve in table.curves.data[i]]), table.note.data[i],
         )  # fmt: skip
 
 
 def _curve_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
-    table, places = state.curves, _place_blobs(places_of(state, numbers))
+    table, places = state.curves, _place_blobs(crossing_positions(state, numbers))
     for i, place in zip(numbers.tolist(), places, strict=True):
         ends, points = table.ends.data[i], np.zeros(len(table.rows.data[i]), _POINT)
         points["row"], points["side"] = table.rows.data[i], table.side.data[i]
@@ -169,7 +337,7 @@ def _curve_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
         )  # fmt: skip
 
 
-def _place_blobs(places: PlacesOn) -> Iterator[bytes]:
+def _place_blobs(places: CrossingPositions) -> Iterator[bytes]:
     records = np.zeros(len(places.line), _PLACE)
     records["line"], records["row"] = places.line, places.row
     records["sign"], records["at"] = places.sign, places.at
@@ -179,7 +347,7 @@ def _place_blobs(places: PlacesOn) -> Iterator[bytes]:
 
 def pack_spline(spline: SplineBatch) -> bytes:
     """Put a spline into bytes."""
-    return pack({name: getattr(spline, name) for name in ("knot", "xyz", "leave", "arrive")})
+    return pack_arrays({name: getattr(spline, name) for name in ("knot", "xyz", "leave", "arrive")})
 
 
 def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
@@ -187,7 +355,7 @@ def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     whole = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _WHOLES}
     pairs = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _PAIRS}
     reals = {name: _blobs(getattr(table, name), numbers) for name in _REALS}
-    xyz = [_blob(each) for each in table.xyz.data[numbers]]
+    xyz = [_tables_blob(each) for each in table.xyz.data[numbers]]
     for place, i in enumerate(numbers.tolist()):
         yield (
             i, table.key.data[i], table.label.data[i],
@@ -199,15 +367,15 @@ def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
         )  # fmt: skip
 
 
-def _blob(values: object) -> bytes:
+def _tables_blob(values: object) -> bytes:
     return np.asarray(values, "<f8").tobytes()
 
 
 def _blobs(column: Any, numbers: IntArray) -> list[bytes | None]:
     """Give the bytes of rows of a column, None where they are what a new row holds."""
     values = column.data[numbers]
-    nothing = _blob(np.full(column.store.shape[1:], column.fill))
-    found = [_blob(each) for each in values]
+    nothing = _tables_blob(np.full(column.store.shape[1:], column.fill))
+    found = [_tables_blob(each) for each in values]
     return [None if each == nothing else each for each in found]
 
 
@@ -279,7 +447,7 @@ def _whole(column: Any, values: Sequence[Any]) -> None:
     column.writes += 1
 
 
-def _real(column: Any, blobs: Sequence[bytes | None]) -> None:
+def _tables_real(column: Any, blobs: Sequence[bytes | None]) -> None:
     """Put real numbers into a column; None leaves the fill value."""
     here = [i for i, blob in enumerate(blobs) if blob is not None]
     given = np.frombuffer(b"".join(blobs[i] for i in here), "<f8")  # type: ignore[misc]
@@ -305,8 +473,8 @@ def _read_lines(state: HullState, rows: Sequence[Row]) -> None:
         (table.boundary, boundary),
     ):  # fmt: skip
         _whole(column, values)
-    _real(table.normal, normal)
-    _real(table.offset, offset)
+    _tables_real(table.normal, normal)
+    _tables_real(table.offset, offset)
 
 
 def _read_points(state: HullState, rows: Sequence[Row]) -> None:
@@ -323,9 +491,9 @@ def _read_points(state: HullState, rows: Sequence[Row]) -> None:
     ):
         _whole(getattr(table, name), found[place])
     _whole(table.anchor, list(zip(found[19], found[20], strict=True)))
-    _real(table.xyz, found[21])
+    _tables_real(table.xyz, found[21])
     for name, place in zip(_REALS, range(22, 28), strict=True):
-        _real(getattr(table, name), found[place])
+        _tables_real(getattr(table, name), found[place])
 
 
 def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
@@ -341,7 +509,7 @@ def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
         table.rows.data[i], table.side.data[i] = chosen, side
     for column, values in ((table.alive, alive), (table.line, line), (table.state, states)):
         _whole(column, values)
-    put_places_of(state, _places(places))
+    put_crossing_positions(state, _places(places))
     splines = {i: unpack_spline(each) for i, each in enumerate(kept) if each is not None}
     shape_curves(state, np.arange(len(rows)), splines)
 
@@ -351,11 +519,11 @@ def _ends(said: list[Any]) -> Ends:
     return Ends((int(first), int(last)), (tuple(start), tuple(finish)))
 
 
-def _places(blobs: Sequence[bytes]) -> PlacesOn:
+def _places(blobs: Sequence[bytes]) -> CrossingPositions:
     record = np.frombuffer(b"".join(blobs), _PLACE)
     count = np.array([len(blob) // _PLACE.itemsize for blob in blobs], np.int64)
     whole = {name: record[name].astype(np.int64) for name in ("line", "sign", "row")}
-    return PlacesOn(
+    return CrossingPositions(
         np.arange(len(blobs)), count, whole["line"], whole["sign"], whole["row"],
         np.ascontiguousarray(record["at"], np.float64),
     )  # fmt: skip
@@ -363,7 +531,7 @@ def _places(blobs: Sequence[bytes]) -> PlacesOn:
 
 def unpack_spline(data: bytes) -> SplineBatch:
     """Take a spline out of bytes."""
-    arrays: dict[str, NDArray[Any]] = unpack(data)[0]
+    arrays: dict[str, NDArray[Any]] = unpack_arrays(data)[0]
     knot = arrays["knot"]
     return SplineBatch(
         np.array([0, len(knot)], np.int64), knot, arrays["xyz"], arrays["leave"], arrays["arrive"]

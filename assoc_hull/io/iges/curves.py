@@ -5,8 +5,8 @@ Source: IGES 5.3 (US PRO, 1996), sections 4.4, 4.6, 4.13 and 4.23.
 Examples
 --------
 >>> from assoc_hull.io.iges.curves import curves_of_iges
->>> from assoc_hull.io.iges.layout import Layout
->>> layout = Layout()
+>>> from assoc_hull.io.iges.write import IgesLayout
+>>> layout = IgesLayout()
 >>> layout.add_named(110, "0. 2. 1. 9. 0. 1.".split(), "WL 1")
 >>> (found,), unit, notes = curves_of_iges(layout.text("A line", "mm", 9.0), "lines.igs")
 >>> found.name, found.points.tolist(), unit, notes
@@ -23,12 +23,16 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.knots import checked_knots
 from assoc_hull.geometry.patches.spline_curve import SplineCurve
-from assoc_hull.io.iges.file import Entry, IgesFile
-from assoc_hull.io.iges.names import name_property, readable, scale_note, unit_of
-from assoc_hull.io.iges.record import Record
-from assoc_hull.io.iges.spline import spline_curve
+from assoc_hull.io.iges.entities import (
+    name_property,
+    readable_name,
+    scale_note,
+    spline_curve,
+    transformation_of,
+    unit_of,
+)
+from assoc_hull.io.iges.file import DirectoryEntry, IgesFile, IgesRecord
 from assoc_hull.io.iges.surface_entities import KINDS, SILENT
-from assoc_hull.io.iges.transform import motion_of
 
 __all__ = ["curves_of_iges", "holds_surfaces"]
 
@@ -100,9 +104,9 @@ def curves_of_iges(text: str, source: str, unit: str | None = None) -> Found:
     return curves, name, (*notes, *scale_note(file), *left)
 
 
-def _chains(file: IgesFile) -> dict[int, Entry]:
+def _chains(file: IgesFile) -> dict[int, DirectoryEntry]:
     """Tell of curves which chain they are a part of."""
-    found: dict[int, Entry] = {}
+    found: dict[int, DirectoryEntry] = {}
     for entry in file.entries.values():
         # A chain that depends on another is the border of a surface, or a part of a chain.
         if entry.kind == _CHAIN and not entry.dependent:
@@ -113,7 +117,7 @@ def _chains(file: IgesFile) -> dict[int, Entry]:
     return found
 
 
-def _is_curve(file: IgesFile, entry: Entry, chains: dict[int, Entry]) -> bool:
+def _is_curve(file: IgesFile, entry: DirectoryEntry, chains: dict[int, DirectoryEntry]) -> bool:
     if entry.kind not in _READ or (entry.kind == 106 and entry.form not in _POLYLINES):
         return False
     chain = chains.get(entry.number)
@@ -122,26 +126,28 @@ def _is_curve(file: IgesFile, entry: Entry, chains: dict[int, Entry]) -> bool:
     return not chain.blanked
 
 
-def _curve(file: IgesFile, entry: Entry, chains: dict[int, Entry], metres: float) -> SplineCurve:
+def _curve(
+    file: IgesFile, entry: DirectoryEntry, chains: dict[int, DirectoryEntry], metres: float
+) -> SplineCurve:
     """Read a curve and bring it to its place."""
     record = file.record(entry.number)
     degree, knots, points, weights, span, after = _shape(record, entry)
-    motion = motion_of(file, entry.transformation)
+    motion = transformation_of(file, entry.transformation)
     chain = chains.get(entry.number)
     if chain is not None:
-        motion = motion.then(motion_of(file, chain.transformation))
+        motion = motion.then(transformation_of(file, chain.transformation))
     placed = motion.of(points) * metres if metres != 1.0 else motion.of(points).copy()
     if not np.abs(placed).max() <= _FARTHEST:
         what = f"a control point lies {np.abs(placed).max():.3g} m away"
         raise BadInputError(what, record.where, "export the file again")
     told = (name_property(file, record, after), entry.label, chain.label if chain else "")
-    name = next((each for each in map(readable, told) if each), f"curve D{entry.number}")
+    name = next((each for each in map(readable_name, told) if each), f"curve D{entry.number}")
     curve = SplineCurve(name, degree, knots, placed, weights)
     return curve if span == curve.domain else curve.restricted(*span)
 
 
 def _shape(
-    record: Record, entry: Entry
+    record: IgesRecord, entry: DirectoryEntry
 ) -> tuple[int, FloatArray, FloatArray, FloatArray | None, tuple[float, float], int]:
     """Give degree, knots, control points, weights, bounds, and where properties begin."""
     if entry.kind == 126:
@@ -160,7 +166,7 @@ def _shape(
     return 1, knots, points, None, (0.0, last), after
 
 
-def _polyline(record: Record) -> tuple[FloatArray, int]:
+def _polyline(record: IgesRecord) -> tuple[FloatArray, int]:
     """Give the points (k, 3) of an entity 106, pairs at one height or triples, and what follows."""
     flat = record.count(1, "the kind of points", 2) == 1
     count = record.count(2, "the number of points", _MOST)
@@ -174,7 +180,9 @@ def _polyline(record: Record) -> tuple[FloatArray, int]:
     return np.column_stack([pairs, np.full(count, height)]), 4 + 2 * count
 
 
-def _left_out(file: IgesFile, chains: dict[int, Entry], shown: list[Entry]) -> tuple[str, ...]:
+def _left_out(
+    file: IgesFile, chains: dict[int, DirectoryEntry], shown: list[DirectoryEntry]
+) -> tuple[str, ...]:
     """Tell what of a file is not read."""
     taken = {each.number for each in shown} | {each.number for each in chains.values()}
     taken |= {number for number, chain in chains.items() if chain.blanked}

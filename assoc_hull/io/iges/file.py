@@ -1,31 +1,321 @@
-"""The entities of an IGES file: the directory, the parameters of each, units and scale.
+"""An IGES file: its sections of lines, free-format tokens, checked records, and directory.
 
-Source: IGES 5.3 (US PRO, 1996), sections 2.2.4.3 (global) and 2.2.4.4 (directory).
+`IgesFile` reads the directory and takes parameters of an entity apart when they are asked for.
+`IgesRecord` checks them one by one: whole numbers, reals, pointers, text.
 
-Examples
---------
->>> from assoc_hull.io.iges.file import IgesFile
->>> from assoc_hull.io.iges.write import iges_text
->>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
->>> plate = SplineSurface.bezier([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], "plate")
->>> file = IgesFile.of_text(iges_text([plate]), "plate.igs")
->>> file.metres, [entry.kind for entry in file.entries.values()]
-(1.0, [128, 406])
+Source: IGES 5.3 (US PRO, 1996), sections 2.2.1 to 2.2.4.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Self
 
 import attrs
+import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.iges.record import Record
-from assoc_hull.io.iges.text import Sections, sections_of, tokens
+from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["UNITS", "Entry", "IgesFile"]
+__all__ = [
+    "UNITS",
+    "DirectoryEntry",
+    "Hollerith",
+    "IgesFile",
+    "IgesRecord",
+    "IgesSections",
+    "looks_like_iges",
+    "split_sections",
+    "split_tokens",
+]
+
+# --------------------------------------------------------------------------------------
+# An IGES file as lines of five sections, and its free-format text as tokens.
+#
+# A line has 80 columns: 72 of content, the letter of its section, and its number in the section.
+# Start (S) is for people, Global (G) holds units and delimiters, Directory (D) two lines an entity,
+# Parameter (P) what each entity is made of, Terminate (T) the number of lines of all.
+#
+# Source: IGES 5.3 (US PRO, 1996), sections 2.2.2 and 2.2.4.
+
+_WIDTH, _CONTENT = 80, 72
+_LETTERS = "SGDPT"
+_COUNTED = re.compile(r" *([SGDP]) *([0-9]{1,7})")
+_TEXT = re.compile(r" *([0-9]{1,6})H")
+_NEEDED = {"G": "global", "D": "directory", "P": "parameter"}
+
+
+class Hollerith(str):
+    """Text of a file, which was written with the number of its letters: ``4Hname``."""
+
+    __slots__ = ()
+
+
+@attrs.frozen(eq=False)
+class IgesSections:
+    """The content of a file, 72 columns a line, section by section.
+
+    Attributes
+    ----------
+    source : str
+        Name of the file, for messages.
+    lines : mapping of str to list of str
+        By letter: S, G, D, P and T. Lines of P have all 80 columns.
+    """
+
+    source: str
+    lines: dict[str, list[str]]
+
+
+def looks_like_iges(text: str) -> bool:
+    """Tell whether a text begins as an IGES file does, or as one of its two rare forms.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.iges.file import looks_like_iges
+    >>> looks_like_iges(f"{'A plate':72}S      1"), looks_like_iges("patch,i_u,j_v,x,y,z")
+    (True, False)
+    """
+    head = next((line for line in text[:2000].splitlines() if line.strip()), "")
+    return len(head) > _CONTENT and re.fullmatch(r"[SCB] *[0-9]+ *", head[72:80]) is not None
+
+
+def split_sections(text: str, source: str) -> IgesSections:
+    """Part a file into its sections, and see that no line is missing.
+
+    Parameters
+    ----------
+    text : str
+        The whole file.
+    source : str
+        Its name, for messages.
+
+    Raises
+    ------
+    BadInputError
+        A line of no section, sections out of order, lines missing, a file that is cut short.
+    """
+    found: dict[str, list[str]] = {letter: [] for letter in _LETTERS}
+    last = 0
+    for number, line in _numbered(text):
+        letter = line[_CONTENT : _CONTENT + 1]
+        place = _LETTERS.find(letter) if letter.strip() else -1
+        if place < 0:
+            raise _unknown_line(number, line, source)
+        if place < last:
+            what = f"a line of section {letter} comes after section {_LETTERS[last]}"
+            raise _damaged(what, f"{source}, line {number}")
+        last = place
+        _require_next(line, letter, len(found[letter]) + 1, number, source)
+        found[letter].append(line if letter == "P" else line[:_CONTENT])
+    _require_whole(found, source)
+    return IgesSections(source, found)
+
+
+def _numbered(text: str) -> Iterator[tuple[int, str]]:
+    """Give lines that hold something, with their numbers; records without ends of line too."""
+    lines = text.split("\n") if "\n" in text else text.split("\r")
+    if len(lines) == 1 and len(text) > 2 * _WIDTH:
+        lines = [text[at : at + _WIDTH] for at in range(0, len(text), _WIDTH)]
+    for number, line in enumerate(lines, start=1):
+        if line.strip(" \r\t\x1a"):
+            yield number, line.rstrip("\r\n").ljust(_WIDTH)
+
+
+def _unknown_line(number: int, line: str, source: str) -> BadInputError:
+    where = f"{source}, line {number}"
+    if number == 1 and line[_CONTENT] in "CB":
+        kind = {"C": "compressed text", "B": "binary"}[line[_CONTENT]]
+        return BadInputError(f"this is IGES as {kind}", where, "export it as plain text (ASCII)")
+    what = f"column 73 holds {line[_CONTENT : _CONTENT + 1]!r}, no letter of a section"
+    return _damaged(what, where)
+
+
+def _damaged(what: str, where: str) -> BadInputError:
+    return BadInputError(what, where, "the file is damaged or cut short: export or copy it again")
+
+
+def _require_next(line: str, letter: str, wanted: int, number: int, source: str) -> None:
+    """See that a line is numbered as the next one of its section."""
+    if letter == "T":
+        return
+    match = _COUNTED.match(line[_CONTENT:_WIDTH])
+    if match is None or int(match[2]) != wanted:
+        shown = line[_CONTENT + 1 : _WIDTH].strip()
+        what = f"line {wanted} of section {letter} is numbered {shown!r}"
+        raise _damaged(what, f"{source}, line {number}")
+
+
+def _require_whole(found: dict[str, list[str]], source: str) -> None:
+    """See that all sections are there, with as many lines as the last one says."""
+    for letter, name in _NEEDED.items():
+        if not found[letter]:
+            raise _damaged(f"the {name} section is missing", f"in {source}")
+    if not found["T"]:
+        raise _damaged("the last line, of section T, is missing", f"in {source}")
+    if len(found["D"]) % 2:
+        what = f"the directory has {len(found['D'])} lines, and an entity two"
+        raise _damaged(what, f"in {source}")
+    for letter, count in re.findall(r"([SGDP]) *([0-9]+)", found["T"][0]):
+        if int(count) != len(found[letter]):
+            what = f"section {letter} has {len(found[letter])} lines, and section T says {count}"
+            raise _damaged(what, f"in {source}")
+
+
+def split_tokens(text: str, delimiter: str, end: str, where: str) -> list[str]:
+    """Part free-format text at its delimiters; text comes as `Hollerith`.
+
+    Parameters
+    ----------
+    text : str
+        From the first value on; what comes after the end is left.
+    delimiter, end : str
+        What stands between values, and behind the last.
+    where : str
+        For messages.
+
+    Raises
+    ------
+    BadInputError
+        There is no end, or less text than was announced.
+    """
+    if "H" not in text:
+        body, found, _ = text.partition(end)
+        if not found:
+            raise _damaged(f"no {end!r} ends the values", where)
+        return [each.strip() for each in body.split(delimiter)]
+    marks = re.compile(f"[{re.escape(delimiter)}{re.escape(end)}]")
+    values: list[str] = []
+    at = 0
+    while True:
+        value, stop = _value(text, at, marks, end, where)
+        values.append(value)
+        if text[stop] == end:
+            return values
+        at = stop + 1
+
+
+def _value(text: str, at: int, marks: re.Pattern[str], end: str, where: str) -> tuple[str, int]:
+    """Give the value that begins at a place, and the place of the mark behind it."""
+    announced = _TEXT.match(text, at)
+    after = at if announced is None else announced.end() + int(announced[1])
+    mark = marks.search(text, after)
+    if mark is None or after > len(text):
+        raise _damaged(f"no {end!r} ends the values", where)
+    rest = text[after : mark.start()].strip()
+    if announced is None:
+        return rest, mark.start()
+    if rest:
+        what = f"behind a text of {announced[1]} letters stands {rest[:20]!r}"
+        raise _damaged(what, where)
+    return Hollerith(text[announced.end() : after]), mark.start()
+
+
+# --------------------------------------------------------------------------------------
+# The parameters of one entity of an IGES file: whole numbers, reals, pointers, text, checked.
+
+_REAL = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]{1,3})?")
+_WHOLE = re.compile(r"[-+]?[0-9]{1,9}")
+_AGAIN = "export the file again"
+
+
+@attrs.frozen(eq=False)
+class IgesRecord:
+    """Values of an entity, the type first; those that are left out at the end are missing.
+
+    Attributes
+    ----------
+    values : list of str
+        As they stand in the file.
+    where : str
+        For messages.
+    """
+
+    values: list[str]
+    where: str
+
+    def __len__(self) -> int:
+        """Count the values."""
+        return len(self.values)
+
+    def whole(self, place: int, what: str, default: int | None = None) -> int:
+        """Give a whole number.
+
+        Parameters
+        ----------
+        place : int
+            Which value, from 0; the type of the entity is number 0.
+        what : str
+            Its name, for the message.
+        default : int or None
+            What it is where it is left out; None: it may not be.
+
+        Raises
+        ------
+        BadInputError
+            Something else stands there.
+        """
+        text = self.values[place] if place < len(self.values) else ""
+        if not text and default is not None:
+            return default
+        if isinstance(text, Hollerith) or not _WHOLE.fullmatch(text):
+            raise BadInputError(f"{what} is {text[:20]!r}, no whole number", self.where, _AGAIN)
+        return int(text)
+
+    def count(self, place: int, what: str, most: int) -> int:
+        """Give a whole number from 0 up to a limit; raises as `whole`."""
+        found = self.whole(place, what)
+        if not 0 <= found <= most:
+            raise BadInputError(f"{what} is {found}", self.where, f"0 to {most} can be read")
+        return found
+
+    def pointers(self, place: int, count: int, what: str) -> tuple[int, ...]:
+        """Give the numbers of other entities, 0 where there is none; raises as `whole`."""
+        self._require(place, count, what)
+        return tuple(abs(self.whole(at, what, default=0)) for at in range(place, place + count))
+
+    def reals(self, place: int, count: int, what: str, default: float = 0.0) -> FloatArray:
+        """Give real numbers, (count,); what is left out is the default.
+
+        Raises
+        ------
+        BadInputError
+            There are fewer, or something else stands there.
+        """
+        self._require(place, count, what)
+        texts = self.values[place : place + count]
+        wrong = next(
+            (text for text in texts if text and (
+                isinstance(text, Hollerith) or not _REAL.fullmatch(text))), None,
+        )  # fmt: skip
+        if wrong is not None:
+            raise BadInputError(f"{what}: {wrong[:20]!r} is no number", self.where, _AGAIN)
+        words = [text.translate(_EXPONENT) if text else repr(default) for text in texts]
+        found = np.array(words, dtype=np.float64)
+        if not np.isfinite(found).all():
+            raise BadInputError(f"{what} holds a number without limit", self.where, _AGAIN)
+        return found
+
+    def text(self, place: int) -> str:
+        """Give text, empty if there is none."""
+        found = self.values[place] if place < len(self.values) else ""
+        return found.strip() if isinstance(found, Hollerith) else ""
+
+    def _require(self, place: int, count: int, what: str) -> None:
+        if place + count > len(self.values):
+            there = max(len(self.values) - place, 0)
+            missing = f"{what}: {count} values are wanted, and {there} are there"
+            raise BadInputError(missing, self.where, _AGAIN)
+
+
+_EXPONENT = str.maketrans("dD", "ee")
+
+
+# --------------------------------------------------------------------------------------
+# The entities of an IGES file: the directory, the parameters of each, units and scale.
+#
+# Source: IGES 5.3 (US PRO, 1996), sections 2.2.4.3 (global) and 2.2.4.4 (directory).
 
 UNITS: Mapping[int, tuple[str, float]] = {
     1: ("in", 0.0254), 2: ("mm", 1e-3), 4: ("ft", 0.3048), 5: ("mi", 1609.344), 6: ("m", 1.0),
@@ -42,7 +332,7 @@ _GLOBALS = 26
 
 
 @attrs.frozen
-class Entry:
+class DirectoryEntry:
     """What the directory says of an entity.
 
     Attributes
@@ -93,7 +383,7 @@ class IgesFile:
     """
 
     source: str
-    entries: dict[int, Entry]
+    entries: dict[int, DirectoryEntry]
     unit: int
     metres: float | None
     scale: float
@@ -109,18 +399,18 @@ class IgesFile:
         BadInputError
             It is damaged, cut short, or no plain IGES.
         """
-        sections = sections_of(text, source)
+        sections = split_sections(text, source)
         where = f"{source}, global section"
         head = "".join(sections.lines["G"])
         marks = _marks(head, where)
-        values = tokens(head, *marks, where)
-        given = Record([*values, *[""] * _GLOBALS], where)
+        values = split_tokens(head, *marks, where)
+        given = IgesRecord([*values, *[""] * _GLOBALS], where)
         unit = given.whole(_UNIT, "the flag of the unit", default=0)
         metres = UNITS[unit][1] if unit in UNITS else None
         lines = sections.lines["P"]
         return cls(source, _directory(sections), unit, metres, _scale(given), lines, marks)
 
-    def record(self, number: int) -> Record:
+    def record(self, number: int) -> IgesRecord:
         """Give the parameters of an entity.
 
         Parameters
@@ -146,17 +436,17 @@ class IgesFile:
             )
             raise BadInputError(what, where, "export the file again")
         self._require_own(entry, lines, where)
-        values = tokens("".join(line[:64] for line in lines), *self._marks, where)
+        values = split_tokens("".join(line[:64] for line in lines), *self._marks, where)
         if values[0] != str(entry.kind):
             what = f"its parameters are of an entity {values[0][:8]!r}"
             raise BadInputError(what, where, "export the file again")
-        return Record(values, where)
+        return IgesRecord(values, where)
 
-    def where(self, entry: Entry) -> str:
+    def where(self, entry: DirectoryEntry) -> str:
         """Say in a message which entity is meant."""
         return f"{self.source}, entity {entry.kind} (D{entry.number})"
 
-    def _require_own(self, entry: Entry, lines: list[str], where: str) -> None:
+    def _require_own(self, entry: DirectoryEntry, lines: list[str], where: str) -> None:
         """See that the lines say whose they are; a blank says nothing."""
         for line in lines:
             owner = line[64:72].strip()
@@ -181,7 +471,7 @@ def _marks(head: str, where: str) -> tuple[str, str]:
     return delimiter, end
 
 
-def _scale(given: Record) -> float:
+def _scale(given: IgesRecord) -> float:
     """Give the scale of the model; 1 where it is left out."""
     scale = float(given.reals(_SCALE, 1, "the scale", default=1.0)[0])
     if not 1e-6 <= scale <= 1e6:
@@ -190,7 +480,7 @@ def _scale(given: Record) -> float:
     return scale
 
 
-def _directory(sections: Sections) -> dict[int, Entry]:
+def _directory(sections: IgesSections) -> dict[int, DirectoryEntry]:
     """Read all entries of the directory."""
     lines = sections.lines["D"]
     return {
@@ -199,7 +489,7 @@ def _directory(sections: Sections) -> dict[int, Entry]:
     }
 
 
-def _entry(number: int, first: str, second: str, source: str) -> Entry:
+def _entry(number: int, first: str, second: str, source: str) -> DirectoryEntry:
     fields = [line[at : at + _COLUMN] for line in (first, second) for at in range(0, 72, _COLUMN)]
     where = f"{source}, directory entry D{number}"
 
@@ -213,7 +503,7 @@ def _entry(number: int, first: str, second: str, source: str) -> Entry:
     status = f"{whole(8, 'the status'):08d}"
     subscript = fields[17].strip()
     label = fields[16].strip()
-    return Entry(
+    return DirectoryEntry(
         number, whole(0, "the type"), whole(13, "the form"), whole(1, "the parameter pointer"),
         whole(12, "the number of parameter lines"), abs(whole(6, "the transformation")),
         status[-8:-6] == "01", status[-6:-4] in ("01", "03"),

@@ -32,12 +32,12 @@ from assoc_hull.arguments import all_of, choice, file_path, flag, instance
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.control_polygon import control_polygon
-from assoc_hull.io.iges.layout import Layout, reals
-from assoc_hull.io.lines.digitised_piece import BESIDE, BOUNDARIES
+from assoc_hull.io.iges.write import IgesLayout, real_values
 from assoc_hull.io.lines.line_points import splines_of
+from assoc_hull.io.lines.raw_lines import BOUNDARIES, OTHER_FAMILIES
 from assoc_hull.io.units import METRES
 from assoc_hull.io.write_file import write_whole
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["FAMILIES", "LinesReport", "curve_values", "iges_of_lines", "write_iges_lines"]
 
@@ -122,7 +122,7 @@ def iges_of_lines(
     given = all_of(families, str, "families", _WHERE)
     wanted = [choice(each, "family", FAMILIES, _WHERE) for each in given]
     instance(state, HullState, "state", _WHERE)
-    layout, size, points, curves = Layout(), 0.0, 0, 0
+    layout, size, points, curves = IgesLayout(), 0.0, 0, 0
     lines = list(_lines(state, wanted))
     for family, line in lines:
         name, level = _name(state, family, line), FAMILIES.index(family) + 1
@@ -149,7 +149,7 @@ def _lines(state: HullState, families: Sequence[str]) -> Iterator[tuple[str, int
 def _name(state: HullState, family: str, line: int) -> str:
     """Name a line; one that no reader of lines would know goes by its family too."""
     name = str(state.lines.name.data[line])
-    plain = family not in BESIDE or name.lower() in BOUNDARIES
+    plain = family not in OTHER_FAMILIES or name.lower() in BOUNDARIES
     return name if plain else f"{family}: {name}"
 
 
@@ -181,6 +181,10 @@ def curve_values(knots: FloatArray, points: FloatArray) -> list[str]:
     closed = bool((points[0] == points[-1]).all())
     flags = (len(points) - 1, 3, int(planar), int(closed), 1, 0)
     return [
-        *(str(each) for each in flags), *reals(knots), *reals(np.ones(len(points))),
-        *reals(points), *reals([knots[0], knots[-1]]), *reals(normal.astype(np.float64)),
-    ]  # fmt: skip
+        *(str(each) for each in flags),
+        *real_values(knots),
+        *real_values(np.ones(len(points))),
+        *real_values(points),
+        *real_values([knots[0], knots[-1]]),
+        *real_values(normal.astype(np.float64)),
+    ]

@@ -4,10 +4,10 @@ Examples
 --------
 >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
 >>> from assoc_hull.io.iges.file import IgesFile
->>> from assoc_hull.io.iges.surface_entities import parts_of
+>>> from assoc_hull.io.iges.surface_entities import surface_entities
 >>> from assoc_hull.io.iges.write import iges_text
 >>> plate = SplineSurface.bezier([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], "plate")
->>> [part.surface for part in parts_of(IgesFile.of_text(iges_text([plate]), "plate.igs"))]
+>>> [part.surface for part in surface_entities(IgesFile.of_text(iges_text([plate]), "plate.igs"))]
 [1]
 """
 
@@ -19,9 +19,9 @@ from collections.abc import Iterable
 import attrs
 
 from assoc_hull.errors import BadInputError, NeedsCadError
-from assoc_hull.io.iges.file import Entry, IgesFile
+from assoc_hull.io.iges.file import DirectoryEntry, IgesFile
 
-__all__ = ["KINDS", "SILENT", "TRIMMED", "Part", "left_out", "parts_of"]
+__all__ = ["KINDS", "SILENT", "TRIMMED", "SurfaceEntity", "surface_entities", "unread_notes"]
 
 SPLINE, TRIMMED = 128, (143, 144, 510)
 _SHELLS = (514, 186)
@@ -46,7 +46,7 @@ SILENT = frozenset({0, 124, 314, 402, 404, 406, 410, 416})
 
 
 @attrs.frozen
-class Part:
+class SurfaceEntity:
     """A surface, and the face that it belongs to.
 
     Attributes
@@ -67,7 +67,7 @@ class Part:
     hidden: bool
 
 
-def parts_of(file: IgesFile) -> list[Part]:
+def surface_entities(file: IgesFile) -> list[SurfaceEntity]:
     """Find the surfaces, in the order of the file.
 
     Raises
@@ -90,7 +90,7 @@ def _owners(file: IgesFile) -> dict[int, list[int]]:
     return found
 
 
-def _children(file: IgesFile, entry: Entry) -> Iterable[int]:
+def _children(file: IgesFile, entry: DirectoryEntry) -> Iterable[int]:
     """Give the surfaces, faces or shells that an entity is made of."""
     if entry.kind not in (*TRIMMED, *_SHELLS):
         return ()
@@ -125,7 +125,7 @@ def _require_known(file: IgesFile) -> None:
             _require_no_surfaces(file, entry)
 
 
-def _require_no_surfaces(file: IgesFile, entry: Entry) -> None:
+def _require_no_surfaces(file: IgesFile, entry: DirectoryEntry) -> None:
     """Refuse a subfigure with surfaces: its copies may stand at many places."""
     record = file.record(entry.number)
     count = record.count(3, "the number of members", len(file.entries))
@@ -135,10 +135,12 @@ def _require_no_surfaces(file: IgesFile, entry: Entry) -> None:
         raise NeedsCadError(what, record.where, "explode it to single surfaces")
 
 
-def _part(file: IgesFile, entry: Entry, owners: dict[int, list[int]]) -> Part | None:
+def _part(
+    file: IgesFile, entry: DirectoryEntry, owners: dict[int, list[int]]
+) -> SurfaceEntity | None:
     """Give the surface of a face, or one that stands alone."""
     if entry.kind == SPLINE and entry.number not in owners:
-        return Part(entry.number, 0, (entry.number,), entry.blanked)
+        return SurfaceEntity(entry.number, 0, (entry.number,), entry.blanked)
     if entry.kind not in TRIMMED:
         return None
     (surface,) = _children(file, entry)
@@ -147,7 +149,7 @@ def _part(file: IgesFile, entry: Entry, owners: dict[int, list[int]]) -> Part | 
         raise NeedsCadError(what, file.where(entry), "convert it to a spline surface")
     chain = (surface, *_upward(file, entry.number, owners))
     hidden = any(file.entries[each].blanked for each in chain[1:])
-    return Part(surface, entry.number, chain, hidden)
+    return SurfaceEntity(surface, entry.number, chain, hidden)
 
 
 def _upward(file: IgesFile, number: int, owners: dict[int, list[int]]) -> tuple[int, ...]:
@@ -162,7 +164,7 @@ def _upward(file: IgesFile, number: int, owners: dict[int, list[int]]) -> tuple[
     return tuple(found)
 
 
-def left_out(file: IgesFile, parts: list[Part]) -> tuple[str, ...]:
+def unread_notes(file: IgesFile, parts: list[SurfaceEntity]) -> tuple[str, ...]:
     """Tell what of a file is not read: entities that are no surfaces, hidden surfaces."""
     taken = {number for part in parts for number in part.chain}
     count = Counter(

@@ -1,32 +1,162 @@
-"""Spline surfaces as an IGES file: entities 128, each with its name (406, form 15).
+"""IGES files as they are written: sections and entities, and spline surfaces (entity 128).
 
-The same surfaces give the same bytes: the file holds no time and no name of a user. Numbers are
-written with all digits, so that lengths in metres come back to the last bit.
+The same entities give the same bytes: no time, no name of a user. Numbers have all digits, so that
+lengths in metres come back to the last bit. Lines of a hull are in `io.iges.lines`.
 
 Source: IGES 5.3 (US PRO, 1996), sections 2.2.4 and 4.24.
-
-Examples
---------
->>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
->>> from assoc_hull.io.iges.write import iges_text
->>> plate = SplineSurface.bezier([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], "plate")
->>> print(iges_text([plate]).splitlines()[-1])
-S      1G      3D      4P      3                                        T      1
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
+import attrs
 import numpy as np
 
 from assoc_hull.arguments import all_of
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.iges.layout import Layout, reals
+from assoc_hull.io.iges.file import UNITS
 from assoc_hull.io.units import METRES, checked_unit
 
-__all__ = ["iges_text"]
+__all__ = [
+    "IgesLayout",
+    "iges_text",
+    "real_values",
+]
+
+# --------------------------------------------------------------------------------------
+# The sections of an IGES file that is written: entities with their names, and the head.
+#
+# The same entities give the same text: it holds no time and no name of a user. Numbers are written
+# with all digits, so that lengths in metres come back to the last bit.
+#
+# Source: IGES 5.3 (US PRO, 1996), sections 2.2.2 and 2.2.4.
+
+_DATE = "20000101.000000"
+"""The format wants a time; one for all makes files comparable."""
+
+_FLAGS = {name: flag for flag, (name, _) in UNITS.items()}
+_NAMES = {"m": "M", "mm": "MM", "cm": "CM", "ft": "FT", "in": "IN"}
+_VISIBLE, _PROPERTY = "00000000", "00010300"
+
+
+@attrs.define
+class IgesLayout:
+    """Lines of the directory and of the parameters, as entities are added."""
+
+    directory: list[str] = attrs.field(factory=list)
+    parameters: list[str] = attrs.field(factory=list)
+
+    def add_named(self, kind: int, values: Sequence[str], name: str, level: int = 0) -> None:
+        """Add an entity and its name, as a property (406, form 15) and in eight letters.
+
+        Parameters
+        ----------
+        kind : int
+            Type of the entity, such as 128.
+        values : sequence of str
+            What it is made of, the type left out; without pointers to properties.
+        name : str
+            Its name; what is no letter of ASCII is written as ``?``.
+        level : int
+            The level, or layer, it is drawn on; 0: none.
+        """
+        label = _ascii(name)
+        pointer = str(len(self.directory) + 3)
+        self._add(kind, 0, [*values, "0", "1", pointer], label[:8], _VISIBLE, level)
+        self._add(406, 15, ["1", _hollerith(label)], "", _PROPERTY, 0)
+
+    def _add(
+        self, kind: int, form: int, values: Sequence[str], label: str, status: str, level: int
+    ) -> None:
+        number, first = len(self.directory) + 1, len(self.parameters) + 1
+        lines = _packed([str(kind), *values], 64)
+        self.parameters += [f"{line:64}{number:8d}" for line in lines]
+        start = f"{kind:8d}{first:8d}{0:8d}{0:8d}{level:8d}{0:8d}{0:8d}{0:8d}{status}"
+        shape = f"{kind:8d}{0:8d}{0:8d}{len(lines):8d}{form:8d}{'':16}{label:>8}{0:8d}"
+        self.directory += [start, shape]
+
+    def text(self, title: str, unit: str, size: float) -> str:
+        """Give the text of the file, lines of 80 columns.
+
+        Parameters
+        ----------
+        title : str
+            What it holds, for people.
+        unit : {"m", "mm", "cm", "ft", "in"}
+            Of its lengths.
+        size : float
+            The greatest coordinate, in that unit.
+        """
+        sections = {
+            "S": [f"{title:72}"], "G": _packed(_globals(unit, size), 72), "D": self.directory,
+            "P": self.parameters,
+        }  # fmt: skip
+        lines = [
+            f"{line}{letter}{number:7d}"
+            for letter, section in sections.items()
+            for number, line in enumerate(section, start=1)
+        ]
+        counts = "".join(f"{letter}{len(section):7d}" for letter, section in sections.items())
+        return "\n".join([*lines, f"{counts:72}T{1:7d}"]) + "\n"
+
+
+def real_values(values: FloatArray | Sequence[float]) -> Iterable[str]:
+    """Give numbers with all digits, the last axis fastest, with a point and D for powers of ten.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.iges.write import real_values
+    >>> list(real_values([2.0, 0.25, 1e-20]))
+    ['2.', '0.25', '1.D-20']
+    """
+    for value in np.asarray(values, np.float64).ravel().tolist():
+        digits, power, exponent = repr(value + 0.0).partition("e")
+        whole = digits.removesuffix("0") if digits.endswith(".0") else digits
+        point = "" if "." in whole else "."
+        yield f"{whole}{point}" + (f"D{int(exponent)}" if power else "")
+
+
+def _globals(unit: str, size: float) -> list[str]:
+    """Give the values of the global section."""
+    program = _hollerith("assoc-hull")
+    words = ["1H,", "1H;", program, _hollerith("surfaces.igs"), program, program]
+    words += ["32", "38", "6", "308", "15", program]
+    words += ["1.", str(_FLAGS[unit]), _hollerith(_NAMES[unit]), "1", "0.1", _hollerith(_DATE)]
+    least, most = real_values([max(size, 1.0) * 1e-15, size])
+    return [*words, least, most, "", "", "11", "0", _hollerith(_DATE), ""]
+
+
+def _hollerith(text: str) -> str:
+    return f"{len(text)}H{text}" if text else ""
+
+
+def _ascii(text: str) -> str:
+    """Give a name in the letters that the format knows, and short enough for a line."""
+    return text.encode("ascii", "replace").decode()[:60]
+
+
+def _packed(values: Iterable[str], width: int) -> list[str]:
+    """Put values into lines, none of them parted."""
+    given = list(values)
+    lines = [""]
+    for place, value in enumerate(given, start=1):
+        word = value + (";" if place == len(given) else ",")
+        if len(lines[-1]) + len(word) > width:
+            lines.append("")
+        lines[-1] += word
+    return [f"{line:{width}}" for line in lines]
+
+
+# --------------------------------------------------------------------------------------
+# Spline surfaces as an IGES file: entities 128, each with its name (406, form 15).
+#
+# The same surfaces give the same bytes: the file holds no time and no name of a user. Numbers are
+# written with all digits, so that lengths in metres come back to the last bit.
+#
+# Source: IGES 5.3 (US PRO, 1996), sections 2.2.4 and 4.24.
 
 _TITLE = "Control nets of surfaces, written by assoc-hull"
 
@@ -57,7 +187,7 @@ def iges_text(surfaces: Sequence[SplineSurface], unit: str = "m") -> str:
     if not given:
         raise BadInputError("there are no surfaces", where, "give one or more")
     size = max(float(np.abs(each.net).max()) for each in given) * factor
-    layout = Layout()
+    layout = IgesLayout()
     for each in given:
         layout.add_named(128, _surface(each, factor), each.name)
     return layout.text(_TITLE, unit, size)
@@ -72,6 +202,6 @@ def _surface(surface: SplineSurface, factor: float) -> list[str]:
     flags = [0, 0, int(surface.weights is None), 0, 0]
     return [
         *(str(each) for each in (rows - 1, columns - 1, m, n, *flags)),
-        *reals(surface.knots_u), *reals(surface.knots_v), *reals(weights.T),
-        *reals(net.swapaxes(0, 1)), *reals(spans),
+        *real_values(surface.knots_u), *real_values(surface.knots_v), *real_values(weights.T),
+        *real_values(net.swapaxes(0, 1)), *real_values(spans),
     ]  # fmt: skip

@@ -25,9 +25,9 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.evaluation import positions
 from assoc_hull.io.lines.slices import AXES
 from assoc_hull.model.kinds import State
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["CHORD", "DrawnLine", "DrawnPiece", "lines_as_points", "splines_of"]
+__all__ = ["CHORD", "CurvePolyline", "LinePolylines", "lines_as_points", "splines_of"]
 
 CHORD = 5e-4
 """How far (m) a polyline may leave its curve unless asked otherwise."""
@@ -43,7 +43,7 @@ _TRIES = 4
 
 
 @attrs.frozen(eq=False)
-class DrawnPiece:
+class CurvePolyline:
     """One curve as points.
 
     Attributes
@@ -65,7 +65,7 @@ class DrawnPiece:
 
 
 @attrs.frozen(eq=False)
-class DrawnLine:
+class LinePolylines:
     """A line as points.
 
     Attributes
@@ -81,7 +81,7 @@ class DrawnLine:
     group: str
     name: str
     offset: float
-    pieces: tuple[DrawnPiece, ...]
+    pieces: tuple[CurvePolyline, ...]
 
 
 def splines_of(state: HullState, line: int) -> list[SplineBatch]:
@@ -106,7 +106,7 @@ def splines_of(state: HullState, line: int) -> list[SplineBatch]:
 
 def lines_as_points(
     state: HullState, families: Iterable[str], chord: float = CHORD
-) -> list[DrawnLine]:
+) -> list[LinePolylines]:
     """Give lines as points.
 
     Parameters
@@ -129,7 +129,7 @@ def lines_as_points(
     BadInputError
         A curve has failed.
     """
-    found: list[DrawnLine] = []
+    found: list[LinePolylines] = []
     live = state.live("lines").tolist()
     for family in families:
         mine = [_line(state, line, family, chord) for line in live if _is_of(state, line, family)]
@@ -141,16 +141,16 @@ def _is_of(state: HullState, line: int, family: str) -> bool:
     return state.family(line).name == family
 
 
-def _line(state: HullState, line: int, family: str, chord: float) -> DrawnLine:
+def _line(state: HullState, line: int, family: str, chord: float) -> LinePolylines:
     planar = bool(state.lines.planar.data[line]) and family in AXES
     offset = float(state.lines.offset.data[line]) if planar else float("nan")
     upward = 2 if family == "sections" else 0
     pieces = [_piece(spline, upward, chord) for spline in splines_of(state, line)]
     pieces.sort(key=lambda each: (each.points[:, 2].min(), each.points[:, 0].min()))
-    return DrawnLine(family, str(state.lines.name.data[line]), offset, tuple(pieces))
+    return LinePolylines(family, str(state.lines.name.data[line]), offset, tuple(pieces))
 
 
-def _piece(spline: SplineBatch, way: int, chord: float) -> DrawnPiece:
+def _piece(spline: SplineBatch, way: int, chord: float) -> CurvePolyline:
     count = _parts(spline, chord)
     segment = np.repeat(np.arange(len(count)), count)
     first = np.repeat(np.cumsum(count) - count, count)
@@ -161,7 +161,7 @@ def _piece(spline: SplineBatch, way: int, chord: float) -> DrawnPiece:
     off = float(_leaves(spline, segment, fraction, 1.0 / count[segment]).max())
     if points[-1, way] < points[0, way]:
         points, knuckle = points[::-1].copy(), knuckle[::-1].copy()
-    return DrawnPiece(points, knuckle, off)
+    return CurvePolyline(points, knuckle, off)
 
 
 def _turns(spline: SplineBatch) -> NDArray[np.bool_]:

@@ -9,16 +9,36 @@ import attrs
 from assoc_hull.arguments import not_negative, shown
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.io.offset_report import OffsetReport
+from assoc_hull.io.reports import OffsetReport
+from assoc_hull.model.tables import Association
 
-__all__ = ["AXES", "Gaps", "Join", "Piece", "SliceLine", "Slices"]
+__all__ = [
+    "ASSOCIATIONS",
+    "AXES",
+    "GapJoin",
+    "Gaps",
+    "HullSlices",
+    "LinePiece",
+    "SliceLine",
+]
+
+ASSOCIATIONS = (
+    Association("boundary", "sections"),
+    Association("boundary", "waterlines"),
+    Association("boundary", "buttocks"),
+    Association("sections", "waterlines"),
+    Association("sections", "buttocks"),
+    Association("waterlines", "buttocks"),
+)
+"""Every family generates points on every other, in both directions."""
+
 
 AXES = {"sections": 0, "buttocks": 1, "waterlines": 2}
 """The coordinate that is constant on a line of each group."""
 
 
 @attrs.frozen(eq=False)
-class Piece:
+class LinePiece:
     """One connected piece of a line.
 
     Attributes
@@ -50,11 +70,11 @@ class Piece:
         if self.owner is not None:
             freeze(self.owner)
 
-    def reversed(self) -> Piece:
+    def reversed(self) -> LinePiece:
         """Give the piece the other way round."""
         sine = None if self.sine is None else self.sine[::-1].copy()
         owner = None if self.owner is None else self.owner[::-1].copy()
-        return Piece(self.points[::-1].copy(), self.ends[::-1], self.closed, sine, owner)
+        return LinePiece(self.points[::-1].copy(), self.ends[::-1], self.closed, sine, owner)
 
 
 @attrs.frozen(eq=False)
@@ -74,11 +94,11 @@ class SliceLine:
     group: str
     name: str
     offset: float
-    pieces: tuple[Piece, ...]
+    pieces: tuple[LinePiece, ...]
 
 
 @attrs.frozen
-class Join:
+class GapJoin:
     """Two ends that were joined across a gap.
 
     Attributes
@@ -134,7 +154,7 @@ class Gaps:
 
 
 @attrs.frozen(eq=False)
-class Slices:
+class HullSlices:
     """Lines of a hull as points, from a mesh or digitised.
 
     Attributes
@@ -167,7 +187,7 @@ class Slices:
     name: str
     lines: tuple[SliceLine, ...]
     boundaries: tuple[SliceLine, ...]
-    joins: tuple[Join, ...]
+    joins: tuple[GapJoin, ...]
     report: OffsetReport
     facets: bool
     low: FloatArray

@@ -6,14 +6,17 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.surfaces.triangles import Triangles, boundary_edges, check_mesh, weld_edges
-from assoc_hull.geometry.surfaces.winding import (
-    against_neighbours,
+from assoc_hull.geometry.surfaces.triangles import (
+    Triangles,
+    boundary_edges,
+    check_mesh,
+    inconsistent_triangles,
     part_contents,
     part_labels,
-    turned,
+    turn_triangles,
+    weld_edges,
 )
-from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.reports import Notebook
 
 __all__ = ["boundary_edges", "check_mesh", "facet_depth", "mend_mesh"]
 
@@ -123,15 +126,15 @@ def _refuse_branches(mesh: Triangles, book: Notebook) -> None:
 
 def _wind(mesh: Triangles, book: Notebook) -> Triangles:
     """Turn neighbours the same way round, part by part, and each part outward."""
-    flip = against_neighbours(mesh)
+    flip = inconsistent_triangles(mesh)
     count = int(flip.sum())
     if count:
         what = f"{count} of {len(mesh.face)} triangles run against their neighbours; turned round"
         book.repair("winding", _WHERE, what, count)
-        mesh = turned(mesh, flip)
+        mesh = turn_triangles(mesh, flip)
     if part_contents(mesh, np.zeros(len(mesh.face), np.int64)).sum() < 0.0:
         book.repair("inside-out", _WHERE, "all normals pointed inward; turned round")
-        mesh = turned(mesh, np.ones(len(mesh.face), np.bool_))
+        mesh = turn_triangles(mesh, np.ones(len(mesh.face), np.bool_))
     return mesh
 
 

@@ -1,7 +1,7 @@
-"""The shell of a hull: half of the mesh, without deck and transom, and the edges they leave.
+"""The shell of a hull, and the lines that planes cut from it.
 
-Lines cut from the shell end by themselves on the profile, the deck edge or the edge of the
-transom.
+The shell is half of the mesh without deck and transom. Lines cut from it end on the profile, the
+deck edge or the edge of the transom, which are its open edges (`RimKind`).
 """
 
 from __future__ import annotations
@@ -11,10 +11,135 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.polylines.operations import distinct_points, order_paths
 from assoc_hull.geometry.surfaces.triangles import Triangles, boundary_edges
-from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.lines.mend_lines import SAME_POINT
+from assoc_hull.io.lines.slices import LinePiece
+from assoc_hull.io.reports import Notebook
 
-__all__ = ["Rim", "Shell", "make_shell"]
+__all__ = [
+    "MeshShell",
+    "RimKind",
+    "cut_shell",
+    "make_shell",
+    "rim_pieces",
+]
+
+
+def cut_shell(shell: MeshShell, axis: int, offset: float) -> list[LinePiece]:
+    """Cut a shell with a plane; pieces as they come, not joined yet.
+
+    Parameters
+    ----------
+    shell : Shell
+        Half a hull.
+    axis : int
+        The plane is where this coordinate equals `offset`.
+    offset : float, m
+    """
+    mesh = shell.mesh
+    height = mesh.xyz[:, axis] - offset
+    above = height >= 0.0  # a vertex in the plane counts as above, for all its triangles
+    side = above[mesh.face]
+    cut = side.any(axis=1) & ~side.all(axis=1)
+    face = mesh.face[cut]
+    if not len(face):
+        return []
+    side = above[face]
+    lone = np.argmax(side != (side.sum(axis=1) > 1)[:, None], axis=1)
+    a, b, c = (face[np.arange(len(face)), (lone + i) % 3] for i in range(3))
+    ends = np.sort(np.concatenate([np.column_stack([a, b]), np.column_stack([a, c])]), axis=1)
+    keys, number = np.unique(ends[:, 0] * len(mesh.xyz) + ends[:, 1], return_inverse=True)
+    pairs = np.column_stack(np.divmod(keys, len(mesh.xyz)))
+    places = _edge_intersections(mesh.xyz, height, pairs, axis, offset)
+    kinds = _rim_kinds(shell, pairs)
+    links = number.reshape(2, -1).T
+    sine = _plane_sines(mesh.corners_of(face), number.reshape(2, -1), len(pairs), axis)
+    owner = None if mesh.origin is None else _first_owners(mesh.origin[cut], number)
+    return _cut_pieces(order_paths(links, len(pairs)), places, kinds, sine, owner)
+
+
+def _first_owners(origin: IntArray, number: IntArray) -> IntArray:
+    """Give the origin of one of the triangles around each place: the first."""
+    every = np.tile(origin, 2)
+    return np.asarray(every[np.unique(number.ravel(), return_index=True)[1]])
+
+
+def _plane_sines(corner: FloatArray, number: IntArray, count: int, axis: int) -> FloatArray:
+    """Give the sine of the angle between the plane and the triangles around each place."""
+    vectors = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    sums = np.zeros((count, 3))
+    for side in number:
+        np.add.at(sums, side, vectors)
+    length = np.maximum(np.sqrt((sums * sums).sum(axis=1)), 1e-300)
+    cosine = np.abs(sums[:, axis]) / length
+    return np.asarray(np.sqrt(np.maximum(1.0 - cosine * cosine, 0.0)))
+
+
+def _edge_intersections(
+    xyz: FloatArray, height: FloatArray, pairs: IntArray, axis: int, offset: float
+) -> FloatArray:
+    low, high = height[pairs[:, 0]], height[pairs[:, 1]]
+    part = (low / (low - high))[:, None]
+    places: FloatArray = xyz[pairs[:, 0]] + part * (xyz[pairs[:, 1]] - xyz[pairs[:, 0]])
+    places[:, axis] = offset
+    in_centre = (xyz[pairs, 1] == 0.0).all(axis=1)
+    places[in_centre, 1] = 0.0
+    return places
+
+
+def _rim_kinds(shell: MeshShell, pairs: IntArray) -> IntArray:
+    """Say on what each cut edge lies: an open edge, or none (loose if a line ends there)."""
+    count = len(shell.mesh.xyz)
+    rim = np.sort(shell.rim, axis=1)
+    key = rim[:, 0] * count + rim[:, 1]
+    order = np.argsort(key)
+    mine = pairs[:, 0] * count + pairs[:, 1]
+    at = np.minimum(np.searchsorted(key[order], mine), max(len(key) - 1, 0))
+    if not len(key):
+        return np.full(len(pairs), RimKind.LOOSE)
+    found = key[order][at] == mine
+    return np.where(found, shell.sort[order][at], RimKind.LOOSE)
+
+
+def _cut_pieces(
+    paths: list[tuple[IntArray, bool]],
+    places: FloatArray,
+    kinds: IntArray,
+    sine: FloatArray,
+    owner: IntArray | None,
+) -> list[LinePiece]:
+    found: list[LinePiece] = []
+    for path, closed in paths:
+        ring = np.append(path, path[0]) if closed else path
+        kept = ring[distinct_points(places[ring], SAME_POINT)]
+        points = places[kept]
+        if len(points) < 2:
+            continue
+        ends = (RimKind.NAMES[kinds[path[0]]], RimKind.NAMES[kinds[path[-1]]])
+        ends = ("loose", "loose") if closed else ends
+        mine = None if owner is None else owner[kept]
+        found.append(LinePiece(points, ends, closed, sine[kept], mine))
+    return found
+
+
+def rim_pieces(shell: MeshShell, sort: int) -> list[LinePiece]:
+    """Give the open edges of one sort as polylines, the longest first."""
+    mesh = shell.mesh
+    chosen = shell.rim[shell.sort == sort]
+    paths = order_paths(chosen, len(mesh.xyz))
+    owner: IntArray | None = None
+    if mesh.origin is not None:
+        owner = np.zeros(len(mesh.xyz), np.int64)
+        owner[mesh.face] = mesh.origin[:, None]
+    found: list[LinePiece] = []
+    for path, closed in paths:
+        ring = np.append(path, path[0]) if closed else path
+        kept = ring[distinct_points(mesh.xyz[ring], SAME_POINT)]
+        found.append(LinePiece(mesh.xyz[kept], owner=None if owner is None else owner[kept]))
+    length = [float(np.linalg.norm(np.diff(each.points, axis=0), axis=1).sum()) for each in found]
+    return [found[i] for i in np.argsort(length)[::-1].tolist() if len(found[i].points) > 1]
+
 
 _BoolArray = np.typing.NDArray[np.bool_]
 _WHERE = "the mesh"
@@ -22,7 +147,7 @@ _PLANE = 1e-6
 """A vertex this part of the length off the centre plane lies in it."""
 
 
-class Rim:
+class RimKind:
     """What an open edge of the shell is."""
 
     PROFILE, DECK, TRANSOM, LOOSE = range(4)
@@ -30,7 +155,7 @@ class Rim:
 
 
 @attrs.frozen(eq=False)
-class Shell:
+class MeshShell:
     """Half a hull, y >= 0, without caps.
 
     Attributes
@@ -48,7 +173,7 @@ class Shell:
     sort: IntArray
 
 
-def make_shell(mesh: Triangles, book: Notebook) -> Shell:
+def make_shell(mesh: Triangles, book: Notebook) -> MeshShell:
     """Cut a mesh in ship axes at the centre plane and take deck and transom off.
 
     Parameters
@@ -70,12 +195,12 @@ def make_shell(mesh: Triangles, book: Notebook) -> Shell:
     shell = mesh.part(~(deck | transom))
     rim = boundary_edges(shell)
     sort = _sort(mesh, rim, mesh.face[deck], mesh.face[transom])
-    loose = int((sort == Rim.LOOSE).sum())
+    loose = int((sort == RimKind.LOOSE).sum())
     if loose:
-        low = mesh.xyz[rim[sort == Rim.LOOSE]][:, :, 2].min()
+        low = mesh.xyz[rim[sort == RimKind.LOOSE]][:, :, 2].min()
         what = f"{loose} open edges are no deck edge, transom or profile; the lowest at {low:.4g} m"
         book.suspect("hole", _WHERE, what, loose)
-    return Shell(shell, rim, sort)
+    return MeshShell(shell, rim, sort)
 
 
 def _half(mesh: Triangles) -> Triangles:
@@ -198,7 +323,7 @@ def _tell_caps(mesh: Triangles, deck: _BoolArray, transom: _BoolArray, book: Not
 
 def _sort(mesh: Triangles, rim: IntArray, deck: IntArray, transom: IntArray) -> IntArray:
     """Say what each open edge is."""
-    sort = np.full(len(rim), Rim.LOOSE)
+    sort = np.full(len(rim), RimKind.LOOSE)
     ends = mesh.xyz[rim]
     low, high = mesh.xyz.min(axis=0), mesh.xyz.max(axis=0)
     step = np.abs(ends[:, 1] - ends[:, 0])
@@ -207,15 +332,15 @@ def _sort(mesh: Triangles, rim: IntArray, deck: IntArray, transom: IntArray) -> 
     centre = (ends[:, :, 1] == 0.0).all(axis=1)
     open_end = aft & ~centre & (step[:, 0] < 0.5 * np.linalg.norm(step, axis=1))
     top = _top(mesh, middle[:, 0]) - 0.05 * (high[2] - low[2])
-    sort[middle[:, 2] > top] = Rim.DECK
+    sort[middle[:, 2] > top] = RimKind.DECK
     # An open transom reaches far below the deck edge; one that is level there is the deck.
     if open_end.any() and np.ptp(ends[open_end][:, :, 2]) > 0.02 * (high[2] - low[2]):
-        sort[open_end] = Rim.TRANSOM
+        sort[open_end] = RimKind.TRANSOM
     keys = np.sort(rim, axis=1)
-    for faces, kind in ((deck, Rim.DECK), (transom, Rim.TRANSOM)):
+    for faces, kind in ((deck, RimKind.DECK), (transom, RimKind.TRANSOM)):
         around = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), 1)
         sort[_among(keys, around, len(mesh.xyz))] = kind
-    sort[centre] = Rim.PROFILE
+    sort[centre] = RimKind.PROFILE
     return sort
 
 

@@ -1,36 +1,43 @@
-"""What looks wrong in a table of offsets: lone values, wild values, blanks, wrong units.
+"""Suspicions on a table of offsets: wild values, lone values, blanks, sizes that no ship has.
 
-A wild value is found by releasing it: the value that makes the third divided differences
-of its waterline least is compared with the printed one, likewise along its station. A
-turn of the hull, such as the bilge, sticks out along one of the two; a wrong number along
-both and to the same side. The worst is set to its released value and the search repeated,
-so that one wrong number is reported once.
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.io.offsets.doctor import wild_values
->>> x, z = np.linspace(0, 1, 11), np.linspace(0, 1, 9)
->>> y = 10 * (1 - x[:, None] ** 2) * (0.5 + z - z**2 / 2)
->>> y[4, 3] += 0.2
->>> [(i, j) for i, j, _ in wild_values(x, z, y, np.full(9, 0.0005))]
-[(4, 3)]
+Nothing is changed; every suspicion is noted with its place. A wild value is found by releasing it:
+the value that makes the third divided differences of its waterline and station least is compared
+with the printed one.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.reports import Notebook
 
-__all__ = ["lone_values", "released", "wild_values"]
+__all__ = [
+    "ExaminedTable",
+    "examine_offsets",
+    "lone_values",
+    "predicted_values",
+    "wild_values",
+]
+
+# --------------------------------------------------------------------------------------
+# What looks wrong in a table of offsets: lone values, wild values, blanks, wrong units.
+#
+# A wild value is found by releasing it: the value that makes the third divided differences
+# of its waterline least is compared with the printed one, likewise along its station. A
+# turn of the hull, such as the bilge, sticks out along one of the two; a wrong number along
+# both and to the same side. The worst is set to its released value and the search repeated,
+# so that one wrong number is reported once.
 
 _SCORE = 5.0
 _MOST = 12
 _NOISE = 3e-4
 
 
-def released(place: FloatArray, value: FloatArray) -> FloatArray:
+def predicted_values(place: FloatArray, value: FloatArray) -> FloatArray:
     """Give each value as its neighbours would have it.
 
     Parameters
@@ -65,10 +72,10 @@ def _both(x: FloatArray, z: FloatArray, y: FloatArray) -> tuple[FloatArray, Floa
     along_x, along_z = np.full(y.shape, np.nan), np.full(y.shape, np.nan)
     for j in range(len(z)):
         known = np.isfinite(y[:, j])
-        along_x[known, j] = y[known, j] - released(x[known], y[known, j])
+        along_x[known, j] = y[known, j] - predicted_values(x[known], y[known, j])
     for i in range(len(x)):
         known = np.isfinite(y[i])
-        along_z[i, known] = y[i, known] - released(z[known], y[i, known])
+        along_z[i, known] = y[i, known] - predicted_values(z[known], y[i, known])
     return along_x, along_z
 
 
@@ -136,3 +143,196 @@ def lone_values(y: FloatArray) -> tuple[tuple[int, int], ...]:
     """
     middle = (y[:, 1:-1] > 0) & (y[:, :-2] == 0) & (y[:, 2:] == 0)
     return tuple((int(i), int(j) + 1) for i, j in zip(*np.nonzero(middle), strict=True))
+
+
+# --------------------------------------------------------------------------------------
+# The doctor's round: every suspicion on a table in ship axes, noted with its place.
+
+
+@attrs.frozen(eq=False)
+class ExaminedTable:
+    """A table in ship axes with the names of its rows and columns.
+
+    Attributes
+    ----------
+    stations, waterlines : tuple of str
+        Names as printed.
+    x : (s,), m
+    z : (w,), m
+    y : (s, w), m
+        Half-breadths, nan for blanks.
+    keel, deck : (s,) or None, m
+        Local heights.
+    rounding : (w,), m
+    length, breadth : float, m
+    draught : float or None, m
+    printed : float
+        Metres to one unit of the printed half-breadths.
+    """
+
+    stations: tuple[str, ...]
+    waterlines: tuple[str, ...]
+    x: FloatArray
+    z: FloatArray
+    y: FloatArray
+    keel: FloatArray | None
+    deck: FloatArray | None
+    rounding: FloatArray
+    length: float
+    breadth: float
+    draught: float | None
+    printed: float
+
+    def where(self, i: int, j: int) -> str:
+        """Name a cell."""
+        return f"station {self.stations[i]}, waterline {self.waterlines[j]}"
+
+    def says(self, value: float) -> str:
+        """Write a half-breadth in m, and as printed where that differs."""
+        as_printed = f" (printed {value / self.printed:.6g})" if self.printed != 1.0 else ""
+        return f"{value:.6g} m{as_printed}"
+
+    def amidships(self) -> Iterator[int]:
+        """Give the stations within a tenth of the length from amidships."""
+        yield from map(int, np.flatnonzero(np.abs(self.x / self.length - 0.5) <= 0.1))
+
+
+def examine_offsets(patient: ExaminedTable, book: Notebook) -> None:
+    """Note every suspicion on a table; nothing is changed."""
+    _values(patient, book)
+    _blanks(patient, book)
+    _beyond(patient, book)
+    _per_waterline(patient, book)
+    _sizes(patient, book)
+    _narrowing(patient, book)
+    _bottom(patient, book)
+    _ends(patient, book)
+
+
+def _values(patient: ExaminedTable, book: Notebook) -> None:
+    alone = lone_values(patient.y)
+    for i, j in alone:
+        value = float(patient.y[i, j])
+        what = f"{patient.says(value)} stands between zeros; a 10 typed for 0?"
+        book.suspect("lone value", patient.where(i, j), what, value)
+    y = patient.y.copy()
+    for i, j in alone:
+        y[i, j] = 0.0
+    for i, j, better in wild_values(patient.x, patient.z, y, patient.rounding):
+        value = float(patient.y[i, j])
+        what = (
+            f"{patient.says(value)} is {value - better:+.3g} m off its neighbours, which say "
+            f"{patient.says(better)}"
+        )
+        book.suspect("outlier", patient.where(i, j), what, value - better)
+
+
+def _blanks(patient: ExaminedTable, book: Notebook) -> None:
+    for i, row in enumerate(patient.y):
+        known = np.flatnonzero(np.isfinite(row))
+        if not len(known):
+            book.suspect("blank", f"station {patient.stations[i]}", "the station has no offset")
+            continue
+        _outer_blanks(patient, i, int(known[0]), int(known[-1]), book)
+        for j in range(int(known[0]), int(known[-1])):
+            if np.isnan(row[j]):
+                book.suspect("blank", patient.where(i, j), "blank between numbers")
+
+
+def _outer_blanks(patient: ExaminedTable, i: int, first: int, last: int, book: Notebook) -> None:
+    slack = 1e-3
+    if first and patient.keel is None:
+        what = f"blanks below waterline {patient.waterlines[first]} read as below the local keel"
+        book.assume("blank", f"station {patient.stations[i]}", what, float(patient.z[first]))
+    if last + 1 < len(patient.z) and patient.deck is None:
+        what = f"blanks above waterline {patient.waterlines[last]} read as above the deck"
+        book.assume("blank", f"station {patient.stations[i]}", what, float(patient.z[last]))
+    keel = -np.inf if patient.keel is None else patient.keel[i]
+    deck = np.inf if patient.deck is None else patient.deck[i]
+    for j, z in enumerate(patient.z):
+        if (j < first and z > keel + slack and np.isfinite(keel)) or (
+            j > last and z < deck - slack and np.isfinite(deck)
+        ):
+            what = f"blank, though {z:.6g} m is between keel {keel:.6g} m and deck {deck:.6g} m"
+            book.suspect("blank", patient.where(i, j), what, float(z))
+        elif first <= j <= last and patient.y[i, j] > 0 and not keel - slack <= z <= deck + slack:
+            what = f"a number, though {z:.6g} m is outside keel {keel:.6g} m to deck {deck:.6g} m"
+            book.suspect("blank", patient.where(i, j), what, float(z))
+
+
+def _beyond(patient: ExaminedTable, book: Notebook) -> None:
+    half = patient.breadth / 2.0
+    for i, j in zip(*np.nonzero(patient.y > half * (1.0 + 1e-12)), strict=True):
+        value = float(patient.y[i, j])
+        what = f"{patient.says(value)} is above B/2 = {half:.6g} m, within rounding"
+        book.suspect("above B/2", patient.where(i, j), what, value - half)
+    largest = float(np.nanmax(patient.y, initial=0.0))
+    if largest < 0.9 * half:
+        what = f"the largest half-breadth {largest:.6g} m is far below B/2 = {half:.6g} m"
+        book.suspect("unit", "the table", what, largest - half)
+
+
+def _per_waterline(patient: ExaminedTable, book: Notebook) -> None:
+    known = np.isfinite(patient.y).any(axis=0)
+    if known.sum() < 3 or patient.z[known][0] > 0.2 * patient.z[-1]:
+        return
+    largest = np.nanmax(patient.y[:, known], axis=0)
+    if np.all(np.abs(largest - largest[0]) <= patient.rounding[known]) and largest[0] > 0:
+        what = f"each waterline, the lowest too, has the same largest value {largest[0]:.6g} m"
+        book.suspect("normalised per waterline", "the table", what, float(largest[0]))
+
+
+def _sizes(patient: ExaminedTable, book: Notebook) -> None:
+    spread = float(patient.x[-1] - patient.x[0]) / patient.length
+    ratios = [
+        ("length to breadth", patient.length / patient.breadth, 1.5, 20.0),
+        ("height of the table to breadth", float(patient.z[-1]) / patient.breadth, 0.02, 3.0),
+        ("span of the stations to length", spread, 0.3, 1.3),
+    ]
+    if patient.draught:
+        ratios.append(("breadth to draught", patient.breadth / patient.draught, 0.8, 20.0))
+        ratios.append(("height to draught", float(patient.z[-1]) / patient.draught, 0.3, 10.0))
+    for name, ratio, low, high in ratios:
+        if not low <= ratio <= high:
+            what = f"{name} is {ratio:.4g}, outside {low:g} to {high:g}: metres or mm?"
+            book.suspect("unit", "the table", what, ratio)
+
+
+def _narrowing(patient: ExaminedTable, book: Notebook) -> None:
+    limit = patient.draught if patient.draught is not None else 0.5 * float(patient.z[-1])
+    for i in patient.amidships():
+        for j in range(1, len(patient.z)):
+            drop = float(patient.y[i, j - 1] - patient.y[i, j])
+            if patient.z[j] <= limit * (1 + 1e-9) and drop > 2.5 * patient.rounding[j]:
+                what = f"{drop:.4g} m narrower than the waterline below, amidships"
+                book.suspect("decreasing with height", patient.where(i, j), what, drop)
+
+
+def _bottom(patient: ExaminedTable, book: Notebook) -> None:
+    half = patient.breadth / 2.0
+    for i in patient.amidships():
+        row = patient.y[i]
+        known = np.flatnonzero(row > 0)
+        if not len(known) or (patient.keel is not None and known[0] > 0):
+            continue
+        j = int(known[0])
+        low = patient.z[j] <= 0.6 * patient.z[-1]
+        if patient.z[j] > 1e-9 and low and row[j] > 0.5 * half:
+            what = f"the lowest offset is {patient.says(float(row[j]))} at {patient.z[j]:.4g} m"
+            where = f"station {patient.stations[i]}"
+            book.suspect("flat bottom missing", where, what, float(row[j]))
+
+
+def _ends(patient: ExaminedTable, book: Notebook) -> None:
+    top = np.nan_to_num(patient.y[:, -1])
+    if not top.any():
+        return
+    third = patient.x <= patient.x[0] + (patient.x[-1] - patient.x[0]) / 4.0
+    other = patient.x >= patient.x[-1] - (patient.x[-1] - patient.x[0]) / 4.0
+    aft, forward = float(np.mean(top[third])), float(np.mean(top[other]))
+    if forward > 1.05 * aft:
+        what = (
+            f"the highest waterline is fuller forward ({forward:.4g} m on average over the last "
+            f"quarter) than aft ({aft:.4g} m): is station 0 at the other end?"
+        )
+        book.suspect("frame", "the table", what, forward - aft)

@@ -1,37 +1,169 @@
-"""The numbers of one block as printed: rows checked, doubles dropped, digits counted.
+"""One block of an offset table: which column holds what, and its numbers as printed.
 
-Examples
---------
->>> from assoc_hull.io.offset_report import Notebook
->>> from assoc_hull.io.offsets.sheet import read_sheet
->>> from assoc_hull.io.tables.offset_text import Block
->>> rows = (("0", "0.10"), ("1", "0.25"))
->>> block = Block("text", ("station", "wl_0"), rows, (2, 3))
->>> sheet = read_sheet(block, Notebook())
->>> sheet.offsets.tolist(), sheet.half_unit.tolist()
-([[0.1], [0.25]], [0.005])
+Columns are told by the header alone. Rows are checked, doubles dropped and printed digits counted;
+unit and order stay those of the file.
 """
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
 from decimal import Decimal
+from itertools import pairwise
 
 import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.offset_report import Notebook
-from assoc_hull.io.offsets.columns import Column, Columns, classify
-from assoc_hull.io.tables.offset_text import Block, number
+from assoc_hull.io.reports import Notebook
+from assoc_hull.io.tables.table_text import TableBlock, cell_number
 
-__all__ = ["Sheet", "read_sheet"]
+__all__ = [
+    "OffsetColumn",
+    "OffsetColumns",
+    "OffsetSheet",
+    "classify_columns",
+    "read_sheet",
+]
+
+# --------------------------------------------------------------------------------------
+# Which column of an offset table holds what, from the header alone.
+#
+# Known names (any case, blanks or underscores, a unit at the end as in ``x_m`` or ``x [mm]``):
+# ``station``; ``x``; ``z_keel`` or ``keel``; ``z_sheer``, ``z_deck`` or ``deck``; ``y_deck`` or
+# ``deck_half_breadth``; ``wl_0.25`` (a waterline) and ``bt_2.0`` (a buttock).
+
+_NUMBERED = re.compile(
+    r"(?P<family>wl|waterline|bt|buttock)_?(?P<value>-?([0-9]+\.?[0-9]*|\.[0-9]+)(e-?[0-9]{1,2})?)"
+    r"(_?(?P<unit>mm|m|t))?"
+)
+_UNIT = re.compile(r"(?P<name>.+)_(?P<unit>mm|m)")
+_NAMES = {
+    "station": ("station", "stations", "stn", "sta", "st", "frame", "no"),
+    "x": ("x",),
+    "keel": ("z_keel", "keel", "z_profile", "profile"),
+    "deck height": ("z_sheer", "sheer", "z_deck", "deck", "deck_height"),
+    "deck half-breadth": ("y_deck", "y_sheer", "deck_half_breadth"),
+}
+_KIND = {name: kind for kind, names in _NAMES.items() for name in names}
+
+
+@attrs.frozen
+class OffsetColumn:
+    """One column.
+
+    Attributes
+    ----------
+    index : int
+        Its place in the row.
+    label : str
+        Its name as the file prints it.
+    unit : str or None
+        "m" or "mm" where the name says so, "t" for a waterline in draughts.
+    value : float
+        Height of a waterline or y of a buttock, in the file's unit; nan for the others.
+    """
+
+    index: int
+    label: str
+    unit: str | None
+    value: float = float("nan")
+
+
+@attrs.frozen
+class OffsetColumns:
+    """The columns of one block.
+
+    Attributes
+    ----------
+    single : mapping of str to Column
+        By kind: "station", "x", "keel", "deck height", "deck half-breadth".
+    waterlines, buttocks : tuple of Column
+        In the file's order, which is upward and outward.
+    """
+
+    single: Mapping[str, OffsetColumn]
+    waterlines: tuple[OffsetColumn, ...]
+    buttocks: tuple[OffsetColumn, ...]
+
+
+def classify_columns(block: TableBlock, book: Notebook) -> OffsetColumns:
+    """Find the columns of a block by their names; unknown ones are noted and left out.
+
+    Raises
+    ------
+    BadInputError
+        No station and no x column, a column that occurs twice, waterlines or buttocks that
+        repeat or decrease.
+    """
+    single: dict[str, OffsetColumn] = {}
+    families: dict[str, list[OffsetColumn]] = {"wl": [], "bt": []}
+    for index, label in enumerate(block.header):
+        name = re.sub(r"[\s_\[\]()=:]+", "_", label.lower()).strip("_.")
+        numbered = _NUMBERED.fullmatch(name)
+        if numbered:
+            column = OffsetColumn(index, label, numbered["unit"], float(numbered["value"]))
+            families["wl" if numbered["family"].startswith("w") else "bt"].append(column)
+        else:
+            _put(single, block, name, index, book)
+    if "station" not in single and "x" not in single:
+        raise BadInputError(
+            "there is neither a station nor an x column",
+            f"{block.source}, header {','.join(block.header)[:60]!r}",
+            "name one column 'station' or 'x_m'",
+        )
+    for family in families.values():
+        _increasing(family, block)
+    return OffsetColumns(single, tuple(families["wl"]), tuple(families["bt"]))
+
+
+def _put(
+    single: dict[str, OffsetColumn], block: TableBlock, name: str, index: int, book: Notebook
+) -> None:
+    label = block.header[index]
+    with_unit = _UNIT.fullmatch(name)
+    unit = None
+    if name not in _KIND and with_unit:
+        name, unit = with_unit["name"], with_unit["unit"]
+    kind = _KIND.get(name)
+    if kind is None:
+        book.assume("column ignored", f"column {label!r}", "it is no offset and was not read")
+    elif kind in single:
+        raise BadInputError(
+            f"columns {single[kind].label!r} and {label!r} both hold the {kind}",
+            block.source,
+            "leave one of them out",
+        )
+    else:
+        single[kind] = OffsetColumn(index, label, unit)
+
+
+def _increasing(columns: list[OffsetColumn], block: TableBlock) -> None:
+    if len({column.unit for column in columns}) > 1:
+        raise BadInputError(
+            f"columns {columns[0].label!r} to {columns[-1].label!r} are in several units",
+            block.source,
+            "give all of them in one unit",
+        )
+    for before, after in pairwise(columns):
+        if after.value <= before.value:
+            verb = "repeats" if after.value == before.value else "lies below"
+            raise BadInputError(
+                f"column {after.label!r} {verb} column {before.label!r}",
+                block.source,
+                "order the columns upward (waterlines) or outward (buttocks), each once",
+            )
+
+
+# --------------------------------------------------------------------------------------
+# The numbers of one block as printed: rows checked, doubles dropped, digits counted.
 
 _ENOUGH = 6
 
 
 @attrs.frozen(eq=False)
-class Sheet:
+class OffsetSheet:
     """One block in its own unit and order.
 
     Attributes
@@ -54,8 +186,8 @@ class Sheet:
         Half of the last printed digit of each waterline.
     """
 
-    block: Block
-    columns: Columns
+    block: TableBlock
+    columns: OffsetColumns
     labels: tuple[str, ...]
     stations: FloatArray
     x: FloatArray | None
@@ -68,7 +200,7 @@ class Sheet:
         """(s,): what orders the stations: x where the file has it, else the number."""
         return self.stations if self.x is None else self.x
 
-    def where(self, row: int, column: Column) -> str:
+    def where(self, row: int, column: OffsetColumn) -> str:
         """Say where a cell stands."""
         return self.block.where(row, column.index)
 
@@ -78,7 +210,7 @@ class Sheet:
         return None if column is None else _read(self.block, (column,))[:, 0]
 
 
-def read_sheet(block: Block, book: Notebook) -> Sheet:
+def read_sheet(block: TableBlock, book: Notebook) -> OffsetSheet:
     """Read the numbers of a block.
 
     Raises
@@ -87,13 +219,13 @@ def read_sheet(block: Block, book: Notebook) -> Sheet:
         A cell is no number, a station lacks its number or place, one station has two rows
         with different numbers, the stations are out of order.
     """
-    columns = classify(block, book)
+    columns = classify_columns(block, book)
     block = _without_doubles(block, columns, book)
     x = _places(block, columns.single.get("x"))
     stations = _stations(block, columns.single.get("station"), x is None)
     name = columns.single.get("station", columns.single.get("x"))
     labels = tuple(row[name.index] if name else "" for row in block.rows)
-    sheet = Sheet(
+    sheet = OffsetSheet(
         block,
         columns,
         labels,
@@ -107,12 +239,12 @@ def read_sheet(block: Block, book: Notebook) -> Sheet:
     return sheet
 
 
-def _read(block: Block, columns: tuple[Column, ...]) -> FloatArray:
-    cells = [[number(block, row, c.index) for c in columns] for row in range(len(block.rows))]
+def _read(block: TableBlock, columns: tuple[OffsetColumn, ...]) -> FloatArray:
+    cells = [[cell_number(block, row, c.index) for c in columns] for row in range(len(block.rows))]
     return np.array(cells, np.float64).reshape(len(block.rows), len(columns))
 
 
-def _places(block: Block, column: Column | None) -> FloatArray | None:
+def _places(block: TableBlock, column: OffsetColumn | None) -> FloatArray | None:
     if column is None:
         return None
     x = _read(block, (column,))[:, 0]
@@ -120,7 +252,7 @@ def _places(block: Block, column: Column | None) -> FloatArray | None:
     return x
 
 
-def _stations(block: Block, column: Column | None, needed: bool) -> FloatArray:
+def _stations(block: TableBlock, column: OffsetColumn | None, needed: bool) -> FloatArray:
     if column is None:
         return np.full(len(block.rows), np.nan)
     if needed:
@@ -137,14 +269,14 @@ def _loose(cell: str) -> float:
         return np.nan
 
 
-def _refuse_blank(block: Block, column: Column, values: FloatArray) -> None:
+def _refuse_blank(block: TableBlock, column: OffsetColumn, values: FloatArray) -> None:
     for row in np.flatnonzero(np.isnan(values)):
         raise BadInputError(
             "the cell is empty", block.where(int(row), column.index), "say where the station lies"
         )
 
 
-def _without_doubles(block: Block, columns: Columns, book: Notebook) -> Block:
+def _without_doubles(block: TableBlock, columns: OffsetColumns, book: Notebook) -> TableBlock:
     column = columns.single.get("station") or columns.single["x"]
     seen: dict[str, int] = {}
     keep = []
@@ -162,7 +294,7 @@ def _without_doubles(block: Block, columns: Columns, book: Notebook) -> Block:
     return attrs.evolve(block, rows=tuple(rows), lines=tuple(lines))
 
 
-def _refuse_different(block: Block, first: int, second: int) -> None:
+def _refuse_different(block: TableBlock, first: int, second: int) -> None:
     for column in range(len(block.header)):
         one, other = block.rows[first][column], block.rows[second][column]
         if one != other and not _loose(one) == _loose(other):
@@ -174,7 +306,7 @@ def _refuse_different(block: Block, first: int, second: int) -> None:
             )
 
 
-def _in_order(sheet: Sheet) -> None:
+def _in_order(sheet: OffsetSheet) -> None:
     step = np.diff(sheet.place)
     if not len(step):
         return
@@ -189,7 +321,7 @@ def _in_order(sheet: Sheet) -> None:
         )
 
 
-def _half_units(block: Block, columns: tuple[Column, ...], book: Notebook) -> FloatArray:
+def _half_units(block: TableBlock, columns: tuple[OffsetColumn, ...], book: Notebook) -> FloatArray:
     printed = [_decimals([row[c.index] for row in block.rows]) for c in columns]
     most = max((digits for digits, _ in printed), default=0)
     padded = [c.label for c, (_, zeros) in zip(columns, printed, strict=True) if zeros]

@@ -4,7 +4,7 @@ Examples
 --------
 >>> import tempfile
 >>> from pathlib import Path
->>> from assoc_hull.analysis.panels.build import panels
+>>> from assoc_hull.analysis.panels.hull_panels import panels
 >>> from assoc_hull.io.panels.files import read_panels, write_panels
 >>> from assoc_hull.sources import examples
 >>> mesh = panels(examples.wigley(), count=200)
@@ -28,10 +28,21 @@ from types import MappingProxyType
 from assoc_hull.arguments import choice, file_path, instance
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
-from assoc_hull.io.panels.hams import dumps_pnl, is_pnl, loads_pnl
-from assoc_hull.io.panels.nemoh import dumps_mar, is_mar, loads_mar
-from assoc_hull.io.panels.stl import dumps_stl, dumps_stl_text, is_stl, loads_stl
-from assoc_hull.io.panels.wamit import dumps_gdf, is_gdf, loads_gdf
+from assoc_hull.io.panels.formats import (
+    dumps_gdf,
+    dumps_mar,
+    dumps_pnl,
+    dumps_stl,
+    dumps_stl_text,
+    is_gdf,
+    is_mar,
+    is_pnl,
+    is_stl,
+    loads_gdf,
+    loads_mar,
+    loads_pnl,
+    loads_stl,
+)
 from assoc_hull.io.write_file import form_by_ending, write_whole
 
 __all__ = ["PANEL_FORMS", "panel_bytes", "panel_form_of", "read_panels", "write_panels"]

@@ -2,8 +2,8 @@
 
 Examples
 --------
->>> from assoc_hull.io.slicing.cut_planes import propose
->>> propose(0.0, 100.0, 5, dense=True).tolist()
+>>> from assoc_hull.io.slicing.cut_planes import propose_places
+>>> propose_places(0.0, 100.0, 5, dense=True).tolist()
 [4.39, 20.92, 50.0, 79.08, 95.61]
 """
 
@@ -17,7 +17,7 @@ from assoc_hull.arguments import shown
 from assoc_hull.errors import BadInputError, NoMeetingError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["Places", "places_of", "propose"]
+__all__ = ["Places", "plane_places", "propose_places"]
 
 Places = int | Sequence[float] | FloatArray
 """A number of planes to propose, or their places in m."""
@@ -31,7 +31,7 @@ _TOUCH = 1e-6
 """A plane this close (m) to the end of the hull touches it."""
 
 
-def propose(low: float, high: float, count: int, *, dense: bool) -> FloatArray:
+def propose_places(low: float, high: float, count: int, *, dense: bool) -> FloatArray:
     """Give places inside an interval, none at its ends.
 
     Parameters
@@ -57,7 +57,7 @@ def propose(low: float, high: float, count: int, *, dense: bool) -> FloatArray:
     return places
 
 
-def places_of(what: str, wanted: Places, low: float, high: float, *, dense: bool) -> FloatArray:
+def plane_places(what: str, wanted: Places, low: float, high: float, *, dense: bool) -> FloatArray:
     """Give the places of the planes of a family, ascending.
 
     Parameters
@@ -82,7 +82,7 @@ def places_of(what: str, wanted: Places, low: float, high: float, *, dense: bool
     if isinstance(wanted, int | np.integer) and not isinstance(wanted, bool):
         if not 0 <= wanted <= _MOST:
             raise BadInputError(f"{what}={wanted}", "the argument", f"give 0 to {_MOST}")
-        return propose(low, high, int(wanted), dense=dense) if wanted else np.zeros(0)
+        return propose_places(low, high, int(wanted), dense=dense) if wanted else np.zeros(0)
     places = _given(what, wanted)
     _refuse_twice(what, places)
     _refuse_outside(what, places, low, high)

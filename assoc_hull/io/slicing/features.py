@@ -1,29 +1,53 @@
-"""Features of slices: noise, knuckles, straight runs, as a table with the thresholds used."""
+"""Features of cut or digitised lines: noise, corners, straight runs and circular arcs.
+
+All thresholds are in `FeatureRules`. Corners that chain over neighbouring lines are a knuckle line;
+straight runs and arcs are found between corners.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import TypeVar
 
 import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.polylines.circular_arcs import Arc, ArcRule
+from assoc_hull.geometry.polylines.circular_arcs import ArcRule, CircularArc, find_arcs
 from assoc_hull.geometry.polylines.corners import (
+    ChainRule,
     Corner,
     CornerRule,
     find_corners,
+    join_corners,
     marked_corners,
     with_marked,
 )
-from assoc_hull.geometry.polylines.knuckle_lines import ChainRule, join_corners
-from assoc_hull.geometry.polylines.noise import facet_depth, facet_depths, scatter
-from assoc_hull.geometry.polylines.operations import distinct
-from assoc_hull.geometry.polylines.smooth import local_scatter
-from assoc_hull.geometry.polylines.straight import Run, RunRule
-from assoc_hull.io.lines.slices import AXES, Piece, SliceLine, Slices
+from assoc_hull.geometry.polylines.noise import facet_depth, facet_depths, point_scatter
+from assoc_hull.geometry.polylines.operations import cumulative_lengths, distinct_points
+from assoc_hull.geometry.polylines.smoothing import local_scatter
+from assoc_hull.geometry.polylines.straight_runs import (
+    Onset,
+    StraightRun,
+    StraightRunRule,
+    find_straight_runs,
+)
+from assoc_hull.io.lines.slices import AXES, HullSlices, LinePiece, SliceLine
 
-__all__ = ["FeatureRules", "KnuckleLine", "PieceFeatures", "find_features", "plane_columns"]
+__all__ = [
+    "FeatureRules",
+    "KnuckleTrace",
+    "PieceFeatures",
+    "find_features",
+    "is_well_known",
+    "plane_columns",
+    "runs_of",
+    "with_arcs",
+]
+
+# --------------------------------------------------------------------------------------
+# Features of slices: noise, knuckles, straight runs, as a table with the thresholds used.
 
 
 @attrs.frozen
@@ -72,7 +96,7 @@ class FeatureRules:
     corner: CornerRule = attrs.field(factory=CornerRule)
     chain: ChainRule = attrs.field(factory=ChainRule)
     alone_deg: float = 10.0
-    run: RunRule = attrs.field(factory=RunRule)
+    run: StraightRunRule = attrs.field(factory=StraightRunRule)
     arc: ArcRule = attrs.field(factory=ArcRule)
     onset: float = 0.1
     border: float = 20.0
@@ -103,7 +127,7 @@ class FeatureRules:
         )
 
 
-Rule = TypeVar("Rule", CornerRule, ChainRule, RunRule, ArcRule)
+Rule = TypeVar("Rule", CornerRule, ChainRule, StraightRunRule, ArcRule)
 
 
 def _times(rule: Rule, ratio: float, *names: str) -> Rule:
@@ -144,7 +168,7 @@ class PieceFeatures:
     """
 
     line: SliceLine
-    piece: Piece
+    piece: LinePiece
     points: FloatArray
     noise: float
     allowed: FloatArray
@@ -153,12 +177,12 @@ class PieceFeatures:
     moved: float = 0.0
     corners: tuple[Corner, ...] = ()
     suggested: tuple[Corner, ...] = ()
-    runs: tuple[Run, ...] | None = None
-    arcs: tuple[Arc, ...] = ()
+    runs: tuple[StraightRun, ...] | None = None
+    arcs: tuple[CircularArc, ...] = ()
 
 
 @attrs.frozen(eq=False)
-class KnuckleLine:
+class KnuckleTrace:
     """A knuckle line: its places on lines of one group.
 
     Attributes
@@ -188,8 +212,8 @@ def plane_columns(group: str) -> list[int]:
 
 
 def find_features(
-    slices: Slices, rules: FeatureRules | None = None
-) -> tuple[list[PieceFeatures], list[KnuckleLine]]:
+    slices: HullSlices, rules: FeatureRules | None = None
+) -> tuple[list[PieceFeatures], list[KnuckleTrace]]:
     """Find noise and knuckles of all pieces of all lines.
 
     Parameters
@@ -208,7 +232,7 @@ def find_features(
     """
     wanted = rules or FeatureRules()
     found: list[PieceFeatures] = []
-    knuckles: list[KnuckleLine] = []
+    knuckles: list[KnuckleTrace] = []
     for group in ("sections", "waterlines", "buttocks"):
         parts = [
             (line, _bare(line, piece, slices, wanted))
@@ -242,7 +266,7 @@ def find_features(
     return found, knuckles
 
 
-def _columns(line: SliceLine, piece: Piece) -> list[int]:
+def _columns(line: SliceLine, piece: LinePiece) -> list[int]:
     """Give the coordinates that vary on a piece, which of a boundary curve may be all."""
     if line.group != "boundary":
         return plane_columns(line.group)
@@ -251,10 +275,12 @@ def _columns(line: SliceLine, piece: Piece) -> list[int]:
     return [axis for axis in range(3) if axis != flat or spread[flat] > 1e-3]
 
 
-def _bare(line: SliceLine, piece: Piece, slices: Slices, rules: FeatureRules) -> PieceFeatures:
+def _bare(
+    line: SliceLine, piece: LinePiece, slices: HullSlices, rules: FeatureRules
+) -> PieceFeatures:
     """Give a piece in its plane, with its noise."""
     columns = _columns(line, piece)
-    kept = distinct(piece.points[:, columns], 1e-6)
+    kept = distinct_points(piece.points[:, columns], 1e-6)
     points = piece.points[kept][:, columns]
     sine = np.ones(len(kept)) if piece.sine is None else np.maximum(piece.sine[kept], 0.1)
     local = local_scatter(points, 6)
@@ -266,13 +292,13 @@ def _bare(line: SliceLine, piece: Piece, slices: Slices, rules: FeatureRules) ->
         allowed = np.maximum(1.5 * depths, waves)
         least = np.maximum(1.5 * noise, rules.smooth_least / sine)
     else:
-        noise = scatter(points)
+        noise = point_scatter(points)
         least = np.full(len(points), max(3.0 * noise, rules.smooth_least))
         allowed = least
     return PieceFeatures(line, piece, points, noise, np.maximum(allowed, least), sine, slices.depth)
 
 
-def _marks(part: PieceFeatures, slices: Slices) -> FloatArray:
+def _marks(part: PieceFeatures, slices: HullSlices) -> FloatArray:
     """Give the places in its plane where the file marks a knuckle of a piece, (k, 2), m."""
     places = slices.knuckles.get(part.line.name, np.zeros((0, 3)))
     return np.asarray(places[:, _columns(part.line, part.piece)])
@@ -290,7 +316,7 @@ def _choose(
     parts: list[PieceFeatures],
     seen: list[list[Corner]],
     rules: FeatureRules,
-) -> tuple[set[tuple[int, int]], list[KnuckleLine]]:
+) -> tuple[set[tuple[int, int]], list[KnuckleTrace]]:
     """Keep corners that join a knuckle line, and sharp ones."""
     number = {line.name: i for i, line in enumerate(lines)}
     merged: list[list[Corner]] = [[] for _ in lines]
@@ -303,7 +329,7 @@ def _choose(
     chains = join_corners(offsets, merged, rules.chain) if len(lines) else []
     kept = {(i, j) for i, corners in enumerate(seen) for j, corner in enumerate(corners)
             if corner.turn_deg >= rules.alone_deg}  # fmt: skip
-    found: list[KnuckleLine] = []
+    found: list[KnuckleTrace] = []
     for chain in chains:
         if np.mean([merged[i][j].turn_deg for i, j in chain]) < rules.corner.least_deg:
             continue
@@ -315,5 +341,94 @@ def _choose(
         turns = np.array([merged[i][j].turn_deg for i, j in chain])
         doubt = np.array([2.0 * merged[i][j].uncertainty for i, j in chain])
         names = tuple(lines[i].name for i, _ in chain)
-        found.append(KnuckleLine(group, names, places, turns, doubt))
+        found.append(KnuckleTrace(group, names, places, turns, doubt))
     return kept, found
+
+
+# --------------------------------------------------------------------------------------
+# Straight runs and circular arcs of pieces, found between their corners.
+
+
+def runs_of(part: PieceFeatures, rules: FeatureRules) -> tuple[StraightRun, ...]:
+    """Give the straight runs between the corners of a plane piece.
+
+    Parameters
+    ----------
+    part : PieceFeatures
+        The piece; runs it holds already are given as they are.
+    rules : FeatureRules
+        With the rule of runs.
+    """
+    if part.runs is not None:
+        return part.runs
+    if part.points.shape[1] != 2 or part.piece.closed:
+        return ()
+    found: list[StraightRun] = []
+    for first, points in _smooth_parts(part):
+        found += [_shifted(run, first) for run in find_straight_runs(points, part.noise, rules.run)]
+    return tuple(found)
+
+
+def with_arcs(part: PieceFeatures, rules: FeatureRules) -> PieceFeatures:
+    """Give a plane piece with the circular arcs between its corners.
+
+    Parameters
+    ----------
+    part : PieceFeatures
+        The piece, its points as they were given.
+    rules : FeatureRules
+        With the rule of arcs.
+    """
+    found: list[CircularArc] = []
+    for first, points in _smooth_parts(part):
+        found += [_moved(arc, first) for arc in find_arcs(points, part.noise, rules.arc)]
+    return attrs.evolve(part, arcs=tuple(found))
+
+
+def _smooth_parts(part: PieceFeatures) -> Iterator[tuple[float, FloatArray]]:
+    """Give the parts of a plane piece between its corners, each with where it begins, m."""
+    if part.points.shape[1] != 2 or part.piece.closed:
+        return
+    at = cumulative_lengths(part.points)
+    edges = [0.0, *(corner.at for corner in part.corners), float(at[-1])]
+    for low, high in pairwise(edges):
+        inside = (at >= low - 1e-9) & (at <= high + 1e-9)
+        if inside.sum() >= 6:
+            yield float(at[inside][0]), part.points[inside]
+
+
+def _shifted(run: StraightRun, by: float) -> StraightRun:
+    """Count lengths from the beginning of the whole piece."""
+    before, after = _later(run.before, by), _later(run.after, by)
+    return attrs.evolve(run, begin=run.begin + by, end=run.end + by, before=before, after=after)
+
+
+def _moved(arc: CircularArc, by: float) -> CircularArc:
+    before, after = _later(arc.before, by), _later(arc.after, by)
+    return attrs.evolve(arc, begin=arc.begin + by, end=arc.end + by, before=before, after=after)
+
+
+def _later(onset: Onset, by: float) -> Onset:
+    return attrs.evolve(onset, at=onset.at + by)
+
+
+def is_well_known(onset: Onset, noise: float, rules: FeatureRules) -> bool:
+    """Tell whether the place of a tangent point is known well enough to split a line there.
+
+    That is where it is known in metres, and where an error along the line moves the line across
+    by less than its points scatter.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.polylines.straight_runs import Onset
+    >>> from assoc_hull.io.slicing.features import FeatureRules
+    >>> from assoc_hull.io.slicing.features import is_well_known
+    >>> shoulder = Onset("arc", 60.0, np.zeros(2), 120.0, 0.4)
+    >>> is_well_known(shoulder, 1e-3, FeatureRules()), is_well_known(shoulder, 1e-4, FeatureRules())
+    (True, False)
+    """
+    if onset.kind != "arc":
+        return onset.kind == "border"
+    across = onset.uncertainty**2 / (2.0 * onset.radius)
+    return onset.uncertainty < rules.onset or across < noise

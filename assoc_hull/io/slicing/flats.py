@@ -10,18 +10,18 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.polylines.flats import Flat, fit_plane, join_runs
+from assoc_hull.geometry.polylines.flats import FlatRegion, fit_plane, join_straight_runs
 from assoc_hull.geometry.polylines.operations import resample
-from assoc_hull.geometry.polylines.straight import Run
+from assoc_hull.geometry.polylines.straight_runs import StraightRun
 from assoc_hull.io.lines.slices import AXES
 from assoc_hull.io.slicing.features import FeatureRules, PieceFeatures
-from assoc_hull.io.slicing.plan import in_space
+from assoc_hull.io.slicing.smooth_lines import in_space
 
-__all__ = ["FlatFound", "Mark", "find_flats"]
+__all__ = ["FlatFound", "RimMark", "find_flats"]
 
 
 @attrs.frozen(eq=False)
-class Mark:
+class RimMark:
     """One end of a run on the rim of a flat.
 
     Attributes
@@ -70,7 +70,7 @@ class FlatFound:
     name: str
     normal: FloatArray
     offset: float
-    marks: tuple[Mark, ...]
+    marks: tuple[RimMark, ...]
 
 
 def find_flats(parts: list[PieceFeatures], rules: FeatureRules) -> list[FlatFound]:
@@ -109,7 +109,7 @@ def find_flats(parts: list[PieceFeatures], rules: FeatureRules) -> list[FlatFoun
 class _Seen:
     """A flat as one group shows it: its runs as (line, piece, run), their ends, (2, 3) each."""
 
-    flat: Flat
+    flat: FlatRegion
     runs: tuple[tuple[int, int, int], ...]
     ends: tuple[FloatArray, ...]
     within: float
@@ -130,14 +130,14 @@ def _of_group(parts: list[PieceFeatures], group: str, rules: FeatureRules) -> li
     noise = max(part.noise for _, part in mine)
     within = max(rules.run.within, rules.run.scatters * noise)
     line = np.array([key[0] for key in keys])
-    flats = join_runs(line, both[:, 0], both[:, 1], within, rules.chain.lines)
+    flats = join_straight_runs(line, both[:, 0], both[:, 1], within, rules.chain.lines)
     return [
         _Seen(flat, tuple(keys[i] for i in flat.runs), tuple(ends[i] for i in flat.runs), within)
         for flat in flats
     ]
 
 
-def _ends_of(part: PieceFeatures, run: Run) -> FloatArray:
+def _ends_of(part: PieceFeatures, run: StraightRun) -> FloatArray:
     """Give the places on the line of a run where it begins and ends, (2, 3), m.
 
     Of a gradual onset it is the middle of what is possible.
@@ -181,11 +181,11 @@ def _title(normal: FloatArray, height: float, top: float) -> str:
 
 def _marks(
     parts: list[PieceFeatures], seen: _Seen, normal: FloatArray, offset: float, rules: FeatureRules
-) -> list[Mark]:
+) -> list[RimMark]:
     """Give both rims of a flat as one group shows it, in chains of neighbouring lines."""
-    found: list[Mark] = []
+    found: list[RimMark] = []
     for side in (0, 1):
-        chain: list[Mark] = []
+        chain: list[RimMark] = []
         chains = [chain]
         line_before = -2
         for (line, i, j), ends in zip(seen.runs, seen.ends, strict=True):
@@ -196,7 +196,7 @@ def _marks(
             place = _on_plane(ends[side], normal, offset, parts[i])
             # Of a gradual onset the middle half: its whole stretch is for the rarest shapes.
             doubt = (2.0 if onset.kind == "arc" else 0.5) * onset.uncertainty
-            mark = Mark(i, j, side, place, doubt)
+            mark = RimMark(i, j, side, place, doubt)
             if onset.uncertainty >= rules.border:
                 found.append(mark)
                 continue
@@ -210,7 +210,7 @@ def _marks(
     return found
 
 
-def _chained(chain: list[Mark]) -> list[Mark]:
+def _chained(chain: list[RimMark]) -> list[RimMark]:
     places = np.array([mark.place for mark in chain])
     step = np.sqrt((np.diff(places, axis=0) ** 2).sum(axis=1))
     spacing = np.maximum(np.append(step, 0.0), np.append(0.0, step)).tolist()

@@ -1,18 +1,7 @@
-"""From slices to a net: features, smooth lines, boundary curves, adoption.
+"""From cut or digitised lines to a net: features, smooth lines, boundary curves, adoption.
 
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.io.slicing.mesh import slice_mesh
->>> from assoc_hull.geometry.surfaces.triangles import grid_triangles
->>> from assoc_hull.io.slicing.net import net_from_slices
->>> x, z = np.meshgrid(np.linspace(0, 100, 201), np.linspace(0, 6.25, 41), indexing="ij")
->>> y = 5.0 * (1.0 - (x / 50.0 - 1.0) ** 2) * (1.0 - (1.0 - z / 6.25) ** 2)
->>> mesh = grid_triangles(np.stack([x, y, z], axis=2))
->>> slices = slice_mesh(mesh, stations=9, waterlines=5, buttocks=2)
->>> state, report = net_from_slices(slices)
->>> len(report.adoption.lines), report.adoption.inflections
-(18, (0, 0))
+`net_from_slices` does all of it; `SliceReport` holds everything that was assumed, mended, measured
+and allowed.
 """
 
 from __future__ import annotations
@@ -21,26 +10,120 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import positive
-from assoc_hull.edit.adoption.adopt import adopt, source_order
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt, source_order
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import SplineBatch
-from assoc_hull.io.lines.slices import Piece, Slices
-from assoc_hull.io.offset_report import Note, OffsetReport
-from assoc_hull.io.offsets.net import ASSOCIATIONS
-from assoc_hull.io.progress import Tell, silent
-from assoc_hull.io.slicing.borders import draw_borders
-from assoc_hull.io.slicing.curves import Border, loft_source
-from assoc_hull.io.slicing.features import FeatureRules, KnuckleLine, find_features
-from assoc_hull.io.slicing.joint import join_plans
-from assoc_hull.io.slicing.plan import plan_piece
-from assoc_hull.io.slicing.report import SliceReport
-from assoc_hull.io.slicing.runs import with_arcs
-from assoc_hull.io.slicing.sources import SmoothReport, make_source, snap_ends
+from assoc_hull.io.lines.slices import ASSOCIATIONS, GapJoin, Gaps, HullSlices, LinePiece
+from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
+from assoc_hull.io.slicing.boundary_curves import BoundaryCurve, draw_borders, loft_source
+from assoc_hull.io.slicing.features import FeatureRules, KnuckleTrace, find_features, with_arcs
+from assoc_hull.io.slicing.smooth_lines import (
+    SmoothReport,
+    join_plans,
+    make_source,
+    plan_piece,
+    snap_ends,
+)
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import Association, HullState, Particulars
+from assoc_hull.model.tables import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["SliceReport", "net_from_slices", "sources_from_slices"]
+__all__ = [
+    "SliceReport",
+    "net_from_slices",
+    "sources_from_slices",
+]
+
+# --------------------------------------------------------------------------------------
+# What became of slices: everything that was assumed, mended, measured and allowed.
+
+_COARSE = 3.0
+"""Lines adopted within more than this many times the least tolerance of a mesh are doubtful."""
+
+
+@attrs.frozen(eq=False)
+class SliceReport:
+    """What became of slices.
+
+    Attributes
+    ----------
+    slices : OffsetReport
+        What was assumed, mended and found suspicious when they were read.
+    joins : tuple of Join
+        Every join across a gap.
+    gaps : Gaps
+        Which gaps were joined.
+    rules : FeatureRules
+        The thresholds of features and smoothing.
+    tolerances : Tolerances
+        Those of the net; `tolerances.adoption` is how far, measured across the hull, an adopted
+        curve may pass its smooth line.
+    noise : float, m
+        Median over the pieces.
+    facet_depth : float, m
+        How deep facets of the mesh lie inside the hull; nil for digitised lines.
+    smoothing : tuple of SmoothReport
+        Per piece, in the order of `adoption.lines`.
+    knuckles : tuple of KnuckleLine
+        Knuckle lines found.
+    borders : tuple of Border
+        Boundary curves drawn from knuckles and from the ends of straight runs.
+    adoption : AdoptionReport
+        Per curve: deviations from the smooth lines, points, inflections.
+    """
+
+    slices: OffsetReport
+    joins: tuple[GapJoin, ...]
+    gaps: Gaps
+    rules: FeatureRules
+    tolerances: Tolerances
+    noise: float
+    facet_depth: float
+    smoothing: tuple[SmoothReport, ...]
+    knuckles: tuple[KnuckleTrace, ...]
+    borders: tuple[BoundaryCurve, ...]
+    adoption: AdoptionReport
+
+    @property
+    def tolerance(self) -> float:
+        """How far (m), measured across the hull, an adopted curve may pass its smooth line."""
+        return self.tolerances.adoption
+
+    @property
+    def bands(self) -> tuple[float, ...]:
+        """How far (m) the hull may lie off each curve, in the order of `adoption.lines`.
+
+        The band of the smooth line, and what the adopted curve passes that by.
+        """
+        pairs = zip(self.smoothing, self.adoption.lines, strict=True)
+        return tuple(piece.band + line.deviation for piece, line in pairs)
+
+    @property
+    def adopted(self) -> int:
+        """Points that no crossing holds."""
+        return self.adoption.own_points
+
+    @property
+    def inflections(self) -> tuple[int, int]:
+        """Inflections of the smooth lines in all, and what the net has more, line by line."""
+        return self.adoption.inflections
+
+    @property
+    def suspicions(self) -> tuple[str, ...]:
+        """What is doubtful about smoothing and adoption, none for a hull drawn well."""
+        most = _COARSE * self.rules.adopt_least_facets
+        if self.tolerance <= most:
+            return ()
+        near, noise = 1e3 * self.tolerance, 1e3 * self.noise
+        return (
+            f"tolerance: adopted within {near:.3g} mm only, since the lines scatter by {noise:.3g} "
+            "mm; corners that facets or points are too few to show count as scatter, and are "
+            "rounded: give a finer mesh, more points, or tolerance=",
+        )
+
+
+# --------------------------------------------------------------------------------------
+# From slices to a net: features, smooth lines, boundary curves, adoption.
 
 _CRUMB = 0.1
 """Pieces shorter than this (m) are not adopted."""
@@ -50,8 +133,8 @@ _NAMES = 5
 
 
 def sources_from_slices(
-    slices: Slices, tolerance: float | None = None, rules: FeatureRules | None = None
-) -> tuple[list[LineSource], list[SmoothReport], list[KnuckleLine], float, list[Border]]:
+    slices: HullSlices, tolerance: float | None = None, rules: FeatureRules | None = None
+) -> tuple[list[LineSource], list[SmoothReport], list[KnuckleTrace], float, list[BoundaryCurve]]:
     """Make smooth lines of all pieces, split at their features.
 
     Parameters
@@ -117,7 +200,7 @@ def _links(groups: set[str]) -> list[Association]:
     return [each for each in ASSOCIATIONS if {each.a, each.b} <= groups]
 
 
-def _checked(tolerance: object, slices: Slices) -> float:
+def _checked(tolerance: object, slices: HullSlices) -> float:
     """Take a tolerance (m) above 0 that is less than the hull itself."""
     where = "in the adoption of slices"
     found = positive(tolerance, "tolerance", where)
@@ -131,13 +214,13 @@ def _checked(tolerance: object, slices: Slices) -> float:
     return found
 
 
-def _is_useful(piece: Piece, *, facets: bool) -> bool:
+def _is_useful(piece: LinePiece, *, facets: bool) -> bool:
     """Leave out crumbs: pieces shorter than a hand, and of a mesh those of one facet."""
     long = float(np.ptp(piece.points, axis=0).max()) > _CRUMB
     return long and len(piece.points) > (2 if facets else 1)
 
 
-def _tell_crumbs(slices: Slices) -> OffsetReport:
+def _tell_crumbs(slices: HullSlices) -> OffsetReport:
     """Give the report of the slices with the pieces that are not adopted."""
     left = [
         line.name
@@ -155,11 +238,11 @@ def _tell_crumbs(slices: Slices) -> OffsetReport:
 
 
 def net_from_slices(
-    slices: Slices,
+    slices: HullSlices,
     particulars: Particulars | None = None,
     tolerance: float | None = None,
     rules: FeatureRules | None = None,
-    tell: Tell = silent,
+    tell: Tell = no_progress,
 ) -> tuple[HullState, SliceReport]:
     """Adopt slices as a net.
 
@@ -208,7 +291,7 @@ def net_from_slices(
     return state, report
 
 
-def _report_border(border: Border, source: LineSource) -> SmoothReport:
+def _report_border(border: BoundaryCurve, source: LineSource) -> SmoothReport:
     """Report a boundary curve drawn through marks as if it were a piece."""
     doubt = float(border.doubt.max())
     return SmoothReport(

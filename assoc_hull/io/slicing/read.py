@@ -7,21 +7,19 @@ from typing import Any
 
 from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.cad.hull_faces import small
+from assoc_hull.io.cad.hull_faces import model_factor
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.digitised.text import is_digitised
-from assoc_hull.io.lines.slices import Gaps, Slices
+from assoc_hull.io.lines.slices import Gaps, HullSlices
 from assoc_hull.io.mesh.read import is_mesh_name
-from assoc_hull.io.offsets.units import check_argument
-from assoc_hull.io.progress import Tell, silent
-from assoc_hull.io.slicing.bottom import refuse_bottomless
+from assoc_hull.io.reports import Tell, no_progress
 from assoc_hull.io.slicing.cut_planes import Places
 from assoc_hull.io.slicing.features import FeatureRules
-from assoc_hull.io.slicing.mesh import read_mesh
-from assoc_hull.io.slicing.net import net_from_slices
-from assoc_hull.io.slicing.report import SliceReport
-from assoc_hull.io.slicing.surface_hull import cad_kind, read_surface_lines
-from assoc_hull.model.state import DECKS, HullState, Particulars
+from assoc_hull.io.slicing.mesh_lines import read_mesh, refuse_bottomless
+from assoc_hull.io.slicing.net import SliceReport, net_from_slices
+from assoc_hull.io.slicing.surface_lines import cad_kind, read_surface_lines
+from assoc_hull.io.units import check_particular
+from assoc_hull.model.tables import DECKS, HullState, Particulars
 
 __all__ = ["holds_lines", "read_slices", "require_file"]
 
@@ -78,7 +76,7 @@ def read_slices(
     axes: str | None = None,
     tolerance: float | None = None,
     join: float | None = None,
-    tell: Tell = silent,
+    tell: Tell = no_progress,
 ) -> tuple[HullState, SliceReport]:
     """Read a mesh, surfaces or digitised lines and adopt them.
 
@@ -93,8 +91,8 @@ def read_slices(
     deck : {"open", "closed"}
         Closed: there is a deck between the deck edges, which no mesh or line tells.
     stations, waterlines, buttocks, scale, unit, axes
-        As for `assoc_hull.io.slicing.mesh.slice_mesh`, whose defaults hold for None; digitised
-        lines take scale and unit only.
+        As for `assoc_hull.io.slicing.mesh_lines.slice_mesh`, whose defaults hold for None;
+        digitised lines take scale and unit only.
     tolerance : float or None, m
         How far an adopted curve may pass its smooth line; by default 3 times the median noise
         of the pieces, but at least 5 mm, of a mesh 10 mm.
@@ -113,7 +111,7 @@ def read_slices(
         ("length", length), ("breadth", breadth), ("draught", draught), ("tolerance", tolerance),
         ("join", join),
     ):  # fmt: skip
-        check_argument(name, value)
+        check_particular(name, value)
     choice(deck, "deck", DECKS, "in the particulars")
     gaps = None if join is None else Gaps(join, max(join, Gaps().refuse))
     named: dict[str, Any] = {
@@ -125,7 +123,7 @@ def read_slices(
         slices = read_mesh(path, scale=scale, unit=unit, gaps=gaps, tell=tell, **cuts)
     elif cad_kind(path):
         slices = read_surface_lines(path, scale=scale, unit=unit, gaps=gaps, tell=tell, **cuts)
-        rules = FeatureRules().scaled(small(float((slices.high - slices.low).max())))
+        rules = FeatureRules().scaled(model_factor(float((slices.high - slices.low).max())))
     else:
         _refuse_cuts(path, list(cuts))
         slices = read_lines(path, scale=scale, unit=unit, gaps=gaps)
@@ -144,5 +142,5 @@ def read_slices(
     return state, report
 
 
-def _draught(slices: Slices, depth: float) -> float:
+def _draught(slices: HullSlices, depth: float) -> float:
     return 0.5 * depth if slices.waterline is None else slices.waterline

@@ -24,8 +24,7 @@ import numpy as np
 
 from assoc_hull.arguments import all_of, shown
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.patches.surface_checks import HIGHEST_DEGREE
+from assoc_hull.geometry.patches.spline_surface import HIGHEST_DEGREE, SplineSurface
 from assoc_hull.io.units import METRES
 
 __all__ = ["COLUMNS", "looks_like_nets", "nets_of_table", "table_of_nets"]

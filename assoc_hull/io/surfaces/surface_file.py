@@ -27,10 +27,10 @@ from typing import Self
 from assoc_hull.arguments import file_path
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.hull_file.connect import is_hull_file
-from assoc_hull.io.iges.read import surfaces_of_iges
-from assoc_hull.io.iges.text import looks_like_iges
+from assoc_hull.io.iges.file import looks_like_iges
+from assoc_hull.io.iges.surfaces import surfaces_of_iges
 from assoc_hull.io.iges.write import iges_text
+from assoc_hull.io.open_databases import is_hull_file
 from assoc_hull.io.surfaces.control_nets import looks_like_nets, nets_of_table, table_of_nets
 from assoc_hull.io.surfaces.surface_json import json_of_surfaces, surfaces_of_json
 from assoc_hull.io.units import checked_unit

@@ -24,8 +24,7 @@ import numpy as np
 from assoc_hull.arguments import all_of, once, shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.patches.surface_checks import HIGHEST_DEGREE
+from assoc_hull.geometry.patches.spline_surface import HIGHEST_DEGREE, SplineSurface
 from assoc_hull.io.hull_json import FORMAT as HULL_FORMAT
 from assoc_hull.io.units import METRES, unit_note
 from assoc_hull.model.value_schema import (
@@ -33,13 +32,13 @@ from assoc_hull.model.value_schema import (
     POSITIVE,
     REAL,
     TEXT,
-    Form,
-    WrongError,
-    listed,
+    ValueSchema,
+    WrongValueError,
+    described,
+    list_of,
     one_of,
     or_none,
     record,
-    told,
     tuple_of,
 )
 
@@ -47,27 +46,29 @@ __all__ = ["FORMAT", "json_of_surfaces", "surfaces_of_json", "surfaces_schema"]
 
 FORMAT, SCHEMA = "assoc-hull surfaces", 1
 
-_KNOTS = told(listed(REAL, 4), "in order; control points + degree + 1 of them")
+_KNOTS = described(list_of(REAL, 4), "in order; control points + degree + 1 of them")
 _SURFACE = record(
     {
-        "name": told(TEXT, "what tables and messages call it; may be empty"),
-        "degrees": told(tuple_of(COUNT, COUNT), "in u and v"),
-        "net": told(
-            listed(listed(tuple_of(REAL, REAL, REAL), 2), 2), "rows of equal u, of [x, y, z]"
+        "name": described(TEXT, "what tables and messages call it; may be empty"),
+        "degrees": described(tuple_of(COUNT, COUNT), "in u and v"),
+        "net": described(
+            list_of(list_of(tuple_of(REAL, REAL, REAL), 2), 2), "rows of equal u, of [x, y, z]"
         ),
     },
     {
-        "knots_u": told(_KNOTS, "left out: one patch, 0 to 1"),
-        "knots_v": told(_KNOTS, "left out: one patch, 0 to 1"),
-        "weights": told(or_none(listed(listed(POSITIVE, 2), 2)), "as the net; null: all are equal"),
+        "knots_u": described(_KNOTS, "left out: one patch, 0 to 1"),
+        "knots_v": described(_KNOTS, "left out: one patch, 0 to 1"),
+        "weights": described(
+            or_none(list_of(list_of(POSITIVE, 2), 2)), "as the net; null: all are equal"
+        ),
     },
 )
 _DOCUMENT = record(
     {
         "format": one_of((FORMAT,)),
-        "schema": told(one_of((SCHEMA,)), "version of this form"),
-        "unit": told(one_of(tuple(METRES)), "of all lengths"),
-        "surfaces": listed(_SURFACE, 1),
+        "schema": described(one_of((SCHEMA,)), "version of this form"),
+        "unit": described(one_of(tuple(METRES)), "of all lengths"),
+        "surfaces": list_of(_SURFACE, 1),
     }
 )
 
@@ -81,7 +82,7 @@ def surfaces_schema() -> dict[str, Any]:
     >>> surfaces_schema()["required"]
     ['format', 'schema', 'unit', 'surfaces']
     """
-    from assoc_hull.io.hull_schema import DIALECT
+    from assoc_hull.io.tables.json_schema import DIALECT
 
     about = "Spline surfaces, such as shell plates"
     return {"$schema": DIALECT, "title": FORMAT, "description": about, **_DOCUMENT.schema}
@@ -149,10 +150,10 @@ def _not_finite(text: str) -> NoReturn:
     raise ValueError(f"{text} is no finite number")
 
 
-def _require(form: Form, document: object, source: str) -> None:
+def _require(form: ValueSchema, document: object, source: str) -> None:
     try:
         form.check(document)
-    except WrongError as wrong:
+    except WrongValueError as wrong:
         place = "".join(reversed(wrong.path)).removeprefix(".")
         where = f"in {source}, {place}" if place else f"in {source}"
         remedy = "see: assoc-hull schema --of surfaces"

@@ -14,13 +14,12 @@ from pathlib import Path
 
 import numpy as np
 
-from assoc_hull.analysis.hydrostatics.hydrostatic_table import HydrostaticTable
-from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
+from assoc_hull.analysis.hydrostatics.record import FIELDS, HydrostaticTable
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.tables.column_table import Column, columns_csv, columns_xlsx
+from assoc_hull.io.tables.spreadsheets import TableColumn, columns_csv, columns_xlsx
 from assoc_hull.io.write_file import write_whole
 
-__all__ = ["TABLE_ENDINGS", "csv_text", "write_hydrostatic_table", "xlsx_bytes"]
+__all__ = ["TABLE_ENDINGS", "hydrostatic_csv", "hydrostatic_xlsx", "write_hydrostatic_table"]
 
 TABLE_ENDINGS = (".csv", ".xlsx")
 
@@ -40,20 +39,20 @@ def write_hydrostatic_table(table: HydrostaticTable, path: str | os.PathLike[str
     """
     ending = Path(path).suffix.lower()
     if ending == ".csv":
-        write_whole(path, csv_text(table).encode())
+        write_whole(path, hydrostatic_csv(table).encode())
     elif ending == ".xlsx":
-        write_whole(path, xlsx_bytes(table))
+        write_whole(path, hydrostatic_xlsx(table))
     else:
         known = " or ".join(TABLE_ENDINGS)
         raise BadInputError("the form is unknown", f"at {path}", f"end the name in {known}")
 
 
-def csv_text(table: HydrostaticTable) -> str:
+def hydrostatic_csv(table: HydrostaticTable) -> str:
     """Lay out a table as comma-separated text; what a position does not have is blank."""
     return columns_csv(_head(table), list(_columns(table)))
 
 
-def xlsx_bytes(table: HydrostaticTable) -> bytes:
+def hydrostatic_xlsx(table: HydrostaticTable) -> bytes:
     """Lay out a table as a workbook; numbers are whole, and shown with the digits of a table.
 
     Raises
@@ -74,17 +73,17 @@ def _head(table: HydrostaticTable) -> Iterator[tuple[str, str]]:
         yield "note", note
 
 
-def _columns(table: HydrostaticTable) -> Iterator[Column]:
+def _columns(table: HydrostaticTable) -> Iterator[TableColumn]:
     """Give draughts, values, freeboard, what each appendage adds, and errors."""
     for name, values in table.draughts.items():
-        yield Column(name, _UNITS.get(name, "m"), 4, values)
+        yield TableColumn(name, _UNITS.get(name, "m"), 4, values)
     for name, values in table.columns.items():
-        yield Column(name, FIELDS[name].unit, FIELDS[name].digits, values)
+        yield TableColumn(name, FIELDS[name].unit, FIELDS[name].digits, values)
     free = np.array([each.least for each in table.freeboards])
-    yield Column("freeboard", "m", 4, free)
+    yield TableColumn("freeboard", "m", 4, free)
     for share in table.shares:
         name = share.appendage.name
-        yield Column(f"volume of {name}", "m3", 3, share.volume)
-        yield Column(f"area of {name}", "m2", 3, share.area)
+        yield TableColumn(f"volume of {name}", "m3", 3, share.volume)
+        yield TableColumn(f"area of {name}", "m2", 3, share.area)
     for name, values in table.errors.items():
-        yield Column(f"error_{name}", FIELDS[name].unit, FIELDS[name].digits + 3, values)
+        yield TableColumn(f"error_{name}", FIELDS[name].unit, FIELDS[name].digits + 3, values)

@@ -14,15 +14,14 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from assoc_hull.study.run import Row, Run
-from assoc_hull.study.table import columns_of
+from assoc_hull.study.run import StudyRow, StudyRun, study_columns
 
 __all__ = ["FORMAT", "study_csv", "study_document", "study_json"]
 
 FORMAT, _VERSION = "assoc-hull study", 1
 
 
-def study_csv(run: Run, rows: Sequence[Row]) -> str:
+def study_csv(run: StudyRun, rows: Sequence[StudyRow]) -> str:
     """Lay out a study as comma-separated text.
 
     Examples
@@ -35,7 +34,7 @@ def study_csv(run: Run, rows: Sequence[Row]) -> str:
     ,m,m3
     0,10.5,2916.3...
     """
-    columns = columns_of(run.design, rows)
+    columns = study_columns(run.design, rows)
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(columns)
@@ -45,7 +44,7 @@ def study_csv(run: Run, rows: Sequence[Row]) -> str:
     return out.getvalue()
 
 
-def study_json(run: Run, rows: Sequence[Row]) -> str:
+def study_json(run: StudyRun, rows: Sequence[StudyRow]) -> str:
     """Lay out a study as JSON.
 
     Examples
@@ -59,9 +58,9 @@ def study_json(run: Run, rows: Sequence[Row]) -> str:
     return json.dumps(study_document(run, rows), indent=1, allow_nan=False) + "\n"
 
 
-def study_document(run: Run, rows: Sequence[Row]) -> Mapping[str, Any]:
+def study_document(run: StudyRun, rows: Sequence[StudyRow]) -> Mapping[str, Any]:
     """Give a study as data."""
-    design, units, columns = run.design, run.units, columns_of(run.design, rows)
+    design, units, columns = run.design, run.units, study_columns(run.design, rows)
     bounds = {
         name: [_plain(each) for each in ends]
         for name, ends in zip(design.free, design.bounds.tolist(), strict=True)

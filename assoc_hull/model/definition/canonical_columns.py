@@ -6,9 +6,9 @@ fingerprint holds is taken from these columns, and nothing else is.
 
 Examples
 --------
->>> from assoc_hull.model.definition.canonical_columns import places
->>> from assoc_hull.model.state import HullState, Particulars
->>> places(HullState(Particulars("S", 9.0, 2.0, 1.0, 1.0))).rows
+>>> from assoc_hull.model.definition.canonical_columns import canonical_order
+>>> from assoc_hull.model.tables import HullState, Particulars
+>>> canonical_order(HullState(Particulars("S", 9.0, 2.0, 1.0, 1.0))).rows
 array([], dtype=int64)
 """
 
@@ -22,21 +22,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.model.generated import unmade_rows
+from assoc_hull.model.generated_curves import unmade_rows
 from assoc_hull.model.kinds import Role, Sort, State
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = [
+    "CanonicalOrder",
     "Column",
-    "Places",
+    "canonical_order",
     "curve_columns",
     "feature_columns",
     "line_columns",
     "meet_columns",
     "meet_turn",
-    "places",
     "point_columns",
-    "retired",
+    "retired_keys",
     "spline_columns",
     "value_columns",
 ]
@@ -45,7 +45,7 @@ Column = list[str] | NDArray[Any]
 
 
 @attrs.frozen(eq=False)
-class Places:
+class CanonicalOrder:
     """The live objects in canonical order, and where each stands in it.
 
     Attributes
@@ -65,10 +65,10 @@ class Places:
     line: IntArray
 
 
-def places(state: HullState) -> Places:
+def canonical_order(state: HullState) -> CanonicalOrder:
     """Sort the live objects of a hull by key."""
     rows, curves, lines = (_sorted(state, name, "key") for name in ("rows", "curves", "lines"))
-    return Places(
+    return CanonicalOrder(
         rows,
         curves,
         lines,
@@ -94,7 +94,7 @@ def _texts(column: Any, numbers: IntArray) -> list[str]:
     return [column.data[number] for number in numbers.tolist()]
 
 
-def line_columns(state: HullState, order: Places) -> dict[str, Column]:
+def line_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give what defines the lines."""
     table, numbers = state.lines, order.lines
     planar = table.planar.data[numbers]
@@ -110,7 +110,7 @@ def line_columns(state: HullState, order: Places) -> dict[str, Column]:
     }
 
 
-def curve_columns(state: HullState, order: Places) -> dict[str, Column]:
+def curve_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give what defines the curves; their points lie one curve behind the other."""
     table, numbers = state.curves, order.curves
     ends = [table.ends.data[curve] for curve in numbers.tolist()]
@@ -126,7 +126,7 @@ def curve_columns(state: HullState, order: Places) -> dict[str, Column]:
     }
 
 
-def meet_columns(state: HullState, order: Places) -> dict[str, Column]:
+def meet_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give the meetings of the curves, by curve, then key of the line, then along the curve.
 
     ``owner`` is the place of the curve; ``line``, ``sign`` and ``row`` are definition,
@@ -145,7 +145,7 @@ def meet_columns(state: HullState, order: Places) -> dict[str, Column]:
     }
 
 
-def meet_turn(state: HullState, order: Places) -> tuple[IntArray, IntArray, IntArray]:
+def meet_turn(state: HullState, order: CanonicalOrder) -> tuple[IntArray, IntArray, IntArray]:
     """Give owner and line of the meetings as the curves list them, and the canonical order."""
     parts = [state.curves.meets.data[curve].line for curve in order.curves.tolist()]
     owner: IntArray = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
@@ -153,7 +153,7 @@ def meet_turn(state: HullState, order: Places) -> tuple[IntArray, IntArray, IntA
     return owner, line, np.lexsort((line, owner))
 
 
-def point_columns(state: HullState, order: Places) -> dict[str, Column]:
+def point_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give what defines the points; what is derived at a point is masked with nil."""
     table, rows = state.rows, order.rows
     anchor = order.row[table.anchor.data[rows]]
@@ -194,7 +194,7 @@ def _watched(state: HullState, rows: IntArray) -> NDArray[np.bool_]:
     return found
 
 
-def value_columns(state: HullState, order: Places) -> dict[str, Column]:
+def value_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give the places of all points (k, 3), m, and the watched gaps (k,), m, nil elsewhere."""
     watched = _watched(state, order.rows)
     return {
@@ -203,7 +203,7 @@ def value_columns(state: HullState, order: Places) -> dict[str, Column]:
     }
 
 
-def spline_columns(state: HullState, order: Places) -> dict[str, Column]:
+def spline_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give the published splines, one curve behind the other; ``knots`` counts each."""
     parts = [state.spline(curve) for curve in order.curves.tolist()]
     empty: FloatArray = np.zeros((0, 3))
@@ -216,7 +216,7 @@ def spline_columns(state: HullState, order: Places) -> dict[str, Column]:
     }
 
 
-def feature_columns(state: HullState, order: Places) -> dict[str, Column]:
+def feature_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give the features by key; lines and points one feature behind the other, nil for None."""
     found = state.features
     points = [np.array(each.points, np.int64) for each in found]
@@ -238,7 +238,7 @@ def feature_columns(state: HullState, order: Places) -> dict[str, Column]:
     }
 
 
-def retired(state: HullState) -> dict[str, list[str]]:
+def retired_keys(state: HullState) -> dict[str, list[str]]:
     """Give the keys of lines, curves and points that were taken out: none may come back.
 
     Dead crossings are not listed: the number of births of their pair of lines rules them out.

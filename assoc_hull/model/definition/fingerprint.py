@@ -1,39 +1,132 @@
-"""The fingerprint of a hull taken again and again, while its structure stays.
+"""The fingerprint of a hull: SHA-256 of its definition and its published values.
 
-An edit of shape changes where points lie and where curves meet, not what there is. What a
-fingerprint holds of the rest is put into bytes once.
+Every column in canonical order goes in with its name, type and shape; the bits themselves
+are hashed. History, row numbers and the order of creation play no part. `Printer` takes the
+fingerprint again and again while the structure of a hull stays, and hashes only what an edit
+of shape can have changed.
 
 Examples
 --------
 >>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.model.definition.definition import fingerprint
->>> from assoc_hull.model.definition.fingerprint import Printer
+>>> from assoc_hull.model.definition.fingerprint import fingerprint
+>>> from assoc_hull.model.definition.fingerprint import FingerprintCache
 >>> state = wigley()
->>> Printer(state).take() == fingerprint(state)
+>>> FingerprintCache(state).take() == fingerprint(state)
 True
 """
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping
+import json
+from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.change import Change
-from assoc_hull.model.definition.canonical_columns import Column, meet_turn, places, point_columns
-from assoc_hull.model.definition.definition import column_bytes, fingerprint_parts
-from assoc_hull.model.state import HullState
+from assoc_hull.model.change import TableChange
+from assoc_hull.model.definition.canonical_columns import (
+    CanonicalOrder,
+    Column,
+    canonical_order,
+    curve_columns,
+    feature_columns,
+    line_columns,
+    meet_columns,
+    meet_turn,
+    point_columns,
+    retired_keys,
+    spline_columns,
+    value_columns,
+)
+from assoc_hull.model.definition.records import (
+    association_records,
+    birth_records,
+    definition_columns,
+    generated_columns,
+    plain_fields,
+)
+from assoc_hull.model.tables import HullState
 
-__all__ = ["Printer", "is_shape"]
+__all__ = [
+    "FingerprintCache",
+    "column_bytes",
+    "fingerprint",
+    "fingerprint_parts",
+    "is_shape",
+]
+
+
+def fingerprint(state: HullState) -> str:
+    """Give the SHA-256 of definition and published values, 64 hexadecimal digits.
+
+    Every column in canonical order, with its name, type and shape; floats as 8 bytes IEEE
+    754, little end first, whole numbers as 8 bytes likewise, texts as JSON. The bits
+    themselves are hashed: -0.0 and 0.0 are two numbers here, as they are to the update.
+    Revisions, history, causes, times, row numbers and the order of creation play no part.
+    """
+    digest = hashlib.sha256()
+    for _, part in fingerprint_parts(state, canonical_order(state)):
+        digest.update(part)
+    return digest.hexdigest()
+
+
+def fingerprint_parts(
+    state: HullState, order: CanonicalOrder, leave: Collection[str] = ()
+) -> Iterator[tuple[str, bytes]]:
+    """Give what a fingerprint is taken of, part by part, each column with its name.
+
+    Columns that are to be left stand without their bytes.
+    """
+    for each in (state.particulars, state.tolerances):
+        fields = plain_fields(each)
+        texts = [value for value in fields.values() if isinstance(value, str)]
+        numbers = [value for value in fields.values() if not isinstance(value, str)]
+        head = column_bytes(",".join(fields), texts)
+        yield "", head + column_bytes("", np.array(numbers, np.float64))
+    yield "", json.dumps(_settings(state, order)).encode()
+    tables = {
+        "line": line_columns(state, order),
+        "curve": curve_columns(state, order),
+        "meet": meet_columns(state, order),
+        "point": point_columns(state, order),
+        "value": value_columns(state, order),
+        "spline": spline_columns(state, order),
+    }
+    if state.features:
+        tables["feature"] = feature_columns(state, order)
+    if state.definitions:
+        tables["definition"] = definition_columns(state)
+    if state.generated:
+        tables["generated"] = generated_columns(state, order)
+    for title, columns in tables.items():
+        for column, values in columns.items():
+            name = f"{title}.{column}"
+            yield name, b"" if name in leave else column_bytes(name, values)
+
+
+def _settings(state: HullState, order: CanonicalOrder) -> list[object]:
+    """Give the parts of a definition that hold texts and counts only."""
+    names = [
+        (state.groups.name.data[i], state.groups.family.data[i]) for i in order.groups.tolist()
+    ]
+    return [names, association_records(state), birth_records(state), retired_keys(state)]
+
+
+def column_bytes(name: str, column: Column) -> bytes:
+    """Serialise a column so that no two differ in meaning and agree in bytes."""
+    if isinstance(column, list):
+        return f"{name}:text:".encode() + json.dumps(column).encode()
+    kind = "<f8" if column.dtype.kind == "f" else "<i8"
+    return f"{name}:{kind}{column.shape}:".encode() + column.astype(kind).tobytes()
+
 
 _SHAPE = frozenset({"rows.xyz", "rows.gap"})
 """Columns that an edit of shape changes, besides places on curves and splines."""
 
 
-def is_shape(change: Change) -> bool:
+def is_shape(change: TableChange) -> bool:
     """Tell whether a change leaves alone all that a `Printer` takes for granted."""
     return not (
         change.objects or change.sizes or change.births or len(change.before.curve)
@@ -41,7 +134,7 @@ def is_shape(change: Change) -> bool:
     )  # fmt: skip
 
 
-class Printer:
+class FingerprintCache:
     """Takes the fingerprint of tables whose structure does not change meanwhile.
 
     Parameters
@@ -51,7 +144,7 @@ class Printer:
     """
 
     def __init__(self, state: HullState) -> None:
-        self.state, self.order = state, places(state)
+        self.state, self.order = state, canonical_order(state)
         columns = point_columns(state, self.order)
         self._stored = np.asarray(columns["stored"])
         self._watched = np.asarray(columns["watched"])

@@ -1,7 +1,7 @@
 """The form of a definition and of published values: which keys, which types, which numbers.
 
 Only the form is checked here; whether names refer to something is found when the tables are
-made. The same tables give the JSON Schema (`assoc_hull.io.hull_schema`).
+made. The same tables give the JSON Schema (`assoc_hull.io.hull_json`).
 
 Examples
 --------
@@ -20,11 +20,11 @@ import attrs
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, PointKind
-from assoc_hull.model.definition.definition import words
-from assoc_hull.model.definition_part import FORM_KINDS, GENERATED, RULES
+from assoc_hull.model.definition.records import code_words
 from assoc_hull.model.features import FEATURE_KINDS
+from assoc_hull.model.form_definition import FORM_KINDS, GENERATED, RULES
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Role, Sort, State
-from assoc_hull.model.state import DECKS, Particulars
+from assoc_hull.model.tables import DECKS, Particulars
 from assoc_hull.model.value_schema import (
     COUNT,
     NAME,
@@ -33,14 +33,14 @@ from assoc_hull.model.value_schema import (
     REAL,
     TEXT,
     TRUTH,
-    Form,
-    WrongError,
-    listed,
-    mapped,
+    ValueSchema,
+    WrongValueError,
+    described,
+    list_of,
+    mapping_of,
     one_of,
     or_none,
     record,
-    told,
     tuple_of,
 )
 from assoc_hull.tolerance import Tolerances
@@ -49,38 +49,38 @@ __all__ = ["DEFINITION", "PUBLISHED", "check_definition", "check_published"]
 
 _REMEDY = "take the file from where it was written, or write it anew"
 
-_VECTOR = told(listed(REAL, 3, 3), "x forward, y to port, z up; a place in m")
-_MEETS = told(
-    mapped(listed(tuple_of(REAL, REAL, REAL, REAL))),
+_VECTOR = described(list_of(REAL, 3, 3), "x forward, y to port, z up; a place in m")
+_MEETS = described(
+    mapping_of(list_of(tuple_of(REAL, REAL, REAL, REAL))),
     "by key of a line: parameter on this curve and place (t, x, y, z; m) of each meeting",
 )
 _SHAPE = {
-    "knot": told(listed(REAL, 2), "chord length from the start to each point, m"),
-    "leave": told(listed(_VECTOR, 2), "derivative with which the curve leaves each point"),
-    "arrive": told(listed(_VECTOR, 2), "derivative with which it arrives at each point"),
+    "knot": described(list_of(REAL, 2), "chord length from the start to each point, m"),
+    "leave": described(list_of(_VECTOR, 2), "derivative with which the curve leaves each point"),
+    "arrive": described(list_of(_VECTOR, 2), "derivative with which it arrives at each point"),
 }
-_END = record({"kind": one_of(words(EndKind)), "vector": _VECTOR})
-_STATE = one_of(words(State)[1:])
+_END = record({"kind": one_of(code_words(EndKind)), "vector": _VECTOR})
+_STATE = one_of(code_words(State)[1:])
 
 _LINE = record(
     {"key": NAME, "name": NAME, "group": TEXT},
-    {"normal": _VECTOR, "offset": REAL, "boundary": one_of(words(BoundaryKind)), "note": NAME},
+    {"normal": _VECTOR, "offset": REAL, "boundary": one_of(code_words(BoundaryKind)), "note": NAME},
 )
 _CURVE = record(
     {
         "key": NAME,
         "line": TEXT,
-        "points": told(listed(TEXT, 2), "keys of its points, along it"),
-        "meets": told(
-            mapped(listed(tuple_of(one_of((1, -1)), or_none(TEXT)), 1)),
+        "points": described(list_of(TEXT, 2), "keys of its points, along it"),
+        "meets": described(
+            mapping_of(list_of(tuple_of(one_of((1, -1)), or_none(TEXT)), 1)),
             "by key of a line: sense of each meeting, and the key of its crossing",
         ),
     },
     {
         "start": _END,
         "finish": _END,
-        "kept": told(
-            record({"state": _STATE, **_SHAPE, "xyz": listed(_VECTOR, 2), "meets": _MEETS}),
+        "kept": described(
+            record({"state": _STATE, **_SHAPE, "xyz": list_of(_VECTOR, 2), "meets": _MEETS}),
             "the last good shape of a curve that could not be made",
         ),
     },
@@ -94,18 +94,18 @@ _RIDING = record(
     }
 )
 _POINT = record(
-    {"key": NAME, "sort": one_of(words(Sort)), "curves": listed(TEXT, 1, 2)},
+    {"key": NAME, "sort": one_of(code_words(Sort)), "curves": list_of(TEXT, 1, 2)},
     {
-        "role": one_of(words(Role)),
-        "birth": told(COUNT, "which crossing of its pair of lines it is, ever"),
+        "role": one_of(code_words(Role)),
+        "birth": described(COUNT, "which crossing of its pair of lines it is, ever"),
         "contact": TRUTH,
         "sign": one_of((1, -1)),
         "label": NAME,
-        "override": one_of(words(Role)),
-        "kinds": listed(one_of(words(PointKind)), 1, 2),
-        "directions": listed(_VECTOR, 1, 2),
-        "limit": told(REAL, "largest gap of a watched crossing, m"),
-        "riding": told(_RIDING, "between which points an adopted point rides"),
+        "override": one_of(code_words(Role)),
+        "kinds": list_of(one_of(code_words(PointKind)), 1, 2),
+        "directions": list_of(_VECTOR, 1, 2),
+        "limit": described(REAL, "largest gap of a watched crossing, m"),
+        "riding": described(_RIDING, "between which points an adopted point rides"),
         "value": _VECTOR,
         "state": _STATE,
     },
@@ -117,88 +117,96 @@ _FEATURE = record(
         "key": NAME,
         "kind": one_of(FEATURE_KINDS),
         "name": NAME,
-        "lines": told(listed(TEXT, 1), "keys of the lines that it lies on"),
-        "points": told(listed(TEXT, 1), "keys of the points that it owns, along the line"),
+        "lines": described(list_of(TEXT, 1), "keys of the lines that it lies on"),
+        "points": described(list_of(TEXT, 1), "keys of the points that it owns, along the line"),
     },
     {
         "centre": _VECTOR,
         "radius": POSITIVE,
         "normal": _VECTOR,
-        "offset": told(REAL, "normal . place on its plane, m"),
+        "offset": described(REAL, "normal . place on its plane, m"),
         "direction": _VECTOR,
-        "side": told(one_of((1, -1)), "1: centre or region lies left of its points, -1: right"),
-        "gap": told(NOT_NEGATIVE, "how far its points lie off it at most, m"),
+        "side": described(
+            one_of((1, -1)), "1: centre or region lies left of its points, -1: right"
+        ),
+        "gap": described(NOT_NEGATIVE, "how far its points lie off it at most, m"),
     },
 )
 
 
 _FORM = record(
     {
-        "use": told(NAME, "what is taken from it; each use stands once"),
+        "use": described(NAME, "what is taken from it; each use stands once"),
         "name": NAME,
         "kind": one_of(FORM_KINDS),
-        "rule": told(one_of(RULES), "how a course runs between its nodes"),
-        "nodes": told(listed(NAME), "labels of the nodes of a course, in order"),
-        "values": told(mapped(REAL), "by name: m, m2, degrees, 1/m or parts"),
+        "rule": described(one_of(RULES), "how a course runs between its nodes"),
+        "nodes": described(list_of(NAME), "labels of the nodes of a course, in order"),
+        "values": described(mapping_of(REAL), "by name: m, m2, degrees, 1/m or parts"),
     }
 )
 _MADE = record(
     {
-        "curve": told(TEXT, "key of the curve"),
-        "what": told(one_of(GENERATED), "what is generated"),
-        "layout": told(TEXT, "of which pieces"),
-        "points": told(listed(TEXT), "keys of its generated points, along the curve"),
-        "marks": told(
-            listed(tuple_of(NOT_NEGATIVE, NOT_NEGATIVE)),
+        "curve": described(TEXT, "key of the curve"),
+        "what": described(one_of(GENERATED), "what is generated"),
+        "layout": described(TEXT, "of which pieces"),
+        "points": described(list_of(TEXT), "keys of its generated points, along the curve"),
+        "marks": described(
+            list_of(tuple_of(NOT_NEGATIVE, NOT_NEGATIVE)),
             "of each point: number of the piece, and parameter (0 to 4) on it",
         ),
     },
-    {"attached": told(TRUTH, "whether the points are those of the definitions; if not told, so")},
+    {
+        "attached": described(
+            TRUTH, "whether the points are those of the definitions; if not told, so"
+        )
+    },
 )
 
 
-def _fields(cls: type, form: Form, leave: Collection[str] = ()) -> Mapping[str, Form]:
+def _fields(cls: type, form: ValueSchema, leave: Collection[str] = ()) -> Mapping[str, ValueSchema]:
     """Give the forms of an attrs class of numbers, and perhaps a name."""
     names = [each.name for each in attrs.fields(cls) if each.name not in leave]
     return {name: TEXT if name == "name" else form for name in names}
 
 
-_DECK = told(one_of(DECKS), "between the deck edges to port and starboard; open if not told")
+_DECK = described(one_of(DECKS), "between the deck edges to port and starboard; open if not told")
 
 
 DEFINITION = record(
     {
-        "particulars": told(
+        "particulars": described(
             record(_fields(Particulars, POSITIVE, ("deck",)), {"deck": _DECK}), "m"
         ),
-        "tolerances": told(record(_fields(Tolerances, NOT_NEGATIVE)), "m, parts and degrees"),
-        "groups": listed(record({"name": NAME, "family": one_of(tuple(FAMILIES))})),
-        "associations": told(
-            listed(record({"a": TEXT, "b": TEXT, "two_way": TRUTH})),
+        "tolerances": described(record(_fields(Tolerances, NOT_NEGATIVE)), "m, parts and degrees"),
+        "groups": list_of(record({"name": NAME, "family": one_of(tuple(FAMILIES))})),
+        "associations": described(
+            list_of(record({"a": TEXT, "b": TEXT, "two_way": TRUTH})),
             "lines of group a generate points on those of b, and back if two_way",
         ),
-        "lines": listed(_LINE),
-        "curves": listed(_CURVE),
-        "points": listed(_POINT),
-        "births": told(
-            listed(tuple_of(TEXT, TEXT, COUNT)),
+        "lines": list_of(_LINE),
+        "curves": list_of(_CURVE),
+        "points": list_of(_POINT),
+        "births": described(
+            list_of(tuple_of(TEXT, TEXT, COUNT)),
             "keys of two lines, and how many crossings the pair ever had",
         ),
-        "retired": told(
-            record(dict.fromkeys(("lines", "curves", "points"), listed(NAME))),
+        "retired": described(
+            record(dict.fromkeys(("lines", "curves", "points"), list_of(NAME))),
             "keys that must not come back",
         ),
     },
     {
-        "features": told(listed(_FEATURE), "circles, arcs, flats and so on; none if not told"),
-        "definitions": told(listed(_FORM), "curves of form parameters; none if not told"),
-        "generated": told(listed(_MADE), "curves that come from these; none if not told"),
+        "features": described(
+            list_of(_FEATURE), "circles, arcs, flats and so on; none if not told"
+        ),
+        "definitions": described(list_of(_FORM), "curves of form parameters; none if not told"),
+        "generated": described(list_of(_MADE), "curves that come from these; none if not told"),
     },
 )
 PUBLISHED = record(
     {
-        "curves": mapped(record({**_SHAPE, "meets": _MEETS})),
-        "points": mapped(record({}, {"value": _VECTOR, "gap": told(REAL, "m")})),
+        "curves": mapping_of(record({**_SHAPE, "meets": _MEETS})),
+        "points": mapping_of(record({}, {"value": _VECTOR, "gap": described(REAL, "m")})),
     }
 )
 
@@ -225,10 +233,10 @@ def check_published(value: object) -> None:
     _check(PUBLISHED, value, "the published values")
 
 
-def _check(form: Form, value: object, name: str) -> None:
+def _check(form: ValueSchema, value: object, name: str) -> None:
     try:
         form.check(value)
-    except WrongError as wrong:
+    except WrongValueError as wrong:
         path = "".join(reversed(wrong.path)).lstrip(".")
         where = f"in {name}" + (f", at {path}" if path else "")
         raise BadInputError(wrong.what, where, _REMEDY) from None

@@ -2,7 +2,7 @@
 
 Examples
 --------
->>> from assoc_hull.model.state import HullState, Particulars
+>>> from assoc_hull.model.tables import HullState, Particulars
 >>> from assoc_hull.model.definition.verify import verify
 >>> verify(HullState(Particulars("S", 9.0, 2.0, 1.0, 1.0)))
 []
@@ -17,10 +17,14 @@ import numpy as np
 
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.model.definition.canonical_columns import meet_columns, places, value_columns
-from assoc_hull.model.definition.definition import definition
+from assoc_hull.model.definition.canonical_columns import (
+    canonical_order,
+    meet_columns,
+    value_columns,
+)
+from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import rebuilt
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["Difference", "verify"]
 
@@ -78,8 +82,8 @@ def verify(state: HullState, relative: float = 0.0) -> list[Difference]:
 
 def _points(state: HullState, other: HullState, relative: float) -> Iterator[Difference]:
     """Compare places of points and watched gaps."""
-    order = places(state)
-    one, two = value_columns(state, order), value_columns(other, places(other))
+    order = canonical_order(state)
+    one, two = value_columns(state, order), value_columns(other, canonical_order(other))
     for field in one:
         mine, theirs = np.asarray(one[field]), np.asarray(two[field])
         for place in np.flatnonzero(_odd(mine, theirs)).tolist():
@@ -102,7 +106,7 @@ def _bits(values: FloatArray) -> IntArray:
 
 def _links(state: HullState, other: HullState) -> Iterator[Difference]:
     """Compare which curves each point defines and which drives it with what its role says."""
-    mine, theirs = places(state), places(other)
+    mine, theirs = canonical_order(state), canonical_order(other)
     for field in ("reader", "driver"):
         one = mine.curve[getattr(state.rows, field).data[mine.rows]]
         two = theirs.curve[getattr(other.rows, field).data[theirs.rows]]
@@ -113,7 +117,7 @@ def _links(state: HullState, other: HullState) -> Iterator[Difference]:
 
 def _curves(state: HullState) -> Iterator[tuple[tuple[str, str], FloatArray]]:
     """Give spline and places of meetings of each curve, by key of the curve and field."""
-    order = places(state)
+    order = canonical_order(state)
     met = {name: np.asarray(part) for name, part in meet_columns(state, order).items()}
     first = np.searchsorted(met["owner"], np.arange(len(order.curves) + 1)).tolist()
     for place, number in enumerate(order.curves.tolist()):

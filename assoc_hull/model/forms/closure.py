@@ -1,27 +1,8 @@
 """Closure: the entrance by which a curve of two halves has a given fullness and centroid.
 
-The areas of run and entrance are those of the halves themselves, without the parallel part; in the
-frame of the ship (from -1 at AP to 1 at FP, ordinate 1 for the whole section or half-breadth)
-
-    2 C   = A_R + A_E + Y (X_E - X_R)
-    2 C m = A_R m_R + A_E m_E + Y (X_E^2 - X_R^2)/2
-
-C is the prismatic coefficient of a curve of sectional areas, the waterplane coefficient of a
-waterline; m the centroid. A centroid of the entrance that no falling curve has is refused, and so
-is an area outside its box; the errors tell the interval of what was asked for.
-
-S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2),
-1992, whose parameters reproduce these sums; the sums and the limits are our derivation.
-
-Examples
---------
->>> from assoc_hull.model.forms.closure_sums import close_sac
->>> area, centroid = close_sac(
-...     0.7536142725315, 2.9 / 90.0, run_end=-0.208, entrance_start=0.34, run_area=0.511,
-...     run_centroid=-0.488,
-... )
->>> round(area, 9), round(centroid, 9)
-(0.448228545, 0.584001746)
+The run is given; area and moment of the whole say what the entrance must have. The first part
+holds these sums alone, the second looks for the entrance and says between which values there
+is one when there is none for those that were asked for.
 """
 
 from __future__ import annotations
@@ -35,17 +16,134 @@ import attrs
 from assoc_hull.arguments import instance, number, positive
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.model.definition_part import FormDefinition
-from assoc_hull.model.forms.closure_sums import close_sac, closing_area
-from assoc_hull.model.forms.halves import half_fault, half_number, half_vertices
-from assoc_hull.model.forms.reachable import reachable
+from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.forms.two_halves import half_fault, half_number, half_vertices, reachable
 
 if TYPE_CHECKING:
-    from assoc_hull.model.state import Particulars
+    from assoc_hull.model.tables import Particulars
 
-__all__ = ["Coefficients", "close_halves", "close_sac", "coefficients"]
+__all__ = [
+    "Coefficients",
+    "close_halves",
+    "close_sac",
+    "closing_area",
+    "coefficients",
+]
+
+# --------------------------------------------------------------------------------------
+# The sums by which an entrance closes a curve of two halves.
 
 _CALL = "in a closure"
+
+
+def close_sac(
+    fullness: float,
+    centroid: float,
+    *,
+    run_end: float,
+    entrance_start: float,
+    run_area: float,
+    run_centroid: float,
+    top: float = 1.0,
+    end_ordinate: float = 0.0,
+    entrance_end: float = 1.0,
+    where: str = _CALL,
+) -> tuple[float, float]:
+    """Give area and centroid of the entrance, from fullness and centroid of the whole.
+
+    Parameters
+    ----------
+    fullness : float
+        Of the whole curve, C above: the prismatic or the waterplane coefficient.
+    centroid : float
+        Of the whole curve, in half lengths from midship, forward positive.
+    run_end, entrance_start, entrance_end : float
+        Where the run ends, the entrance begins and ends, in half lengths from midship.
+    run_area, run_centroid : float
+        Area of the run over half the length, and its centroid in half lengths.
+    top : float
+        Ordinate of the parallel part, Y above.
+    end_ordinate : float
+        Ordinate at the end of the entrance.
+    where : str
+        Named in errors.
+
+    Returns
+    -------
+    float, float
+
+    Raises
+    ------
+    OutOfRangeError
+        No falling curve has this area, or this centroid with it: fullness or centroid lie
+        outside of the interval that is told.
+    """
+    area = closing_area(
+        fullness, run_end, entrance_start, entrance_end, top, run_area, end_ordinate, where
+    )
+    length = entrance_end - entrance_start
+    moment = run_area * run_centroid + 0.5 * top * (entrance_start**2 - run_end**2)
+    entrance = 2.0 * fullness * centroid - moment
+    room = _room(area, length, end_ordinate, top)
+    limits = [(moment + area * entrance_start + each) / (2.0 * fullness) for each in room]
+    if not limits[0] <= centroid <= limits[1]:
+        why = "leaves an entrance that falls and rises"
+        raise OutOfRangeError(
+            "centroid", centroid, where, why, limits[0], limits[1], "half lengths"
+        )
+    return area, entrance / area
+
+
+def closing_area(
+    fullness: float,
+    run_end: float,
+    entrance_start: float,
+    entrance_end: float,
+    top: float,
+    run_area: float,
+    end_ordinate: float,
+    where: str,
+) -> float:
+    """Give the area of the entrance, if it fits between its ends."""
+    length = entrance_end - entrance_start
+    if length <= 0.0:
+        what = f"the entrance begins at {entrance_start:g} and ends at {entrance_end:g}"
+        raise BadInputError(what, where, "let it begin abaft its end")
+    if entrance_start < run_end:
+        what = f"the run ends at {run_end:g}, the entrance begins at {entrance_start:g}"
+        raise BadInputError(what, where, "let the run end abaft the entrance, or where it begins")
+    body = run_area + top * (entrance_start - run_end)
+    area = 2.0 * fullness - body
+    low, high = (0.5 * (body + each * length) for each in (end_ordinate, top))
+    if not low < fullness < high:
+        why = "leaves an entrance that does not fit between its ends"
+        raise OutOfRangeError("fullness", fullness, where, why, low, high, "")
+    return area
+
+
+def _room(area: float, length: float, low: float, high: float) -> tuple[float, float]:
+    """Give the least and the largest moment, about its beginning, of a falling curve."""
+    rise = high - low
+    full = (area / length - low) / rise
+    base = 0.5 * low * length * length
+    return base + 0.5 * rise * (full * length) ** 2, base + 0.5 * rise * full * length * length
+
+
+# --------------------------------------------------------------------------------------
+# Closure: the entrance by which a curve of two halves has a given fullness and centroid.
+#
+# The areas of run and entrance are those of the halves themselves, without the parallel part; in
+# the frame of the ship (from -1 at AP to 1 at FP, ordinate 1 for the whole section or half-breadth)
+#
+#     2 C   = A_R + A_E + Y (X_E - X_R)
+#     2 C m = A_R m_R + A_E m_E + Y (X_E^2 - X_R^2)/2
+#
+# C is the prismatic coefficient of a curve of sectional areas, the waterplane coefficient of a
+# waterline; m the centroid. A centroid of the entrance that no falling curve has is refused, and so
+# is an area outside its box; the errors tell the interval of what was asked for.
+#
+# S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2),
+# 1992, whose parameters reproduce these sums; the sums and the limits are our derivation.
 
 
 @attrs.frozen
@@ -141,8 +239,8 @@ def close_halves(
     Examples
     --------
     >>> from assoc_hull.model.forms.closure import close_halves, coefficients
-    >>> from assoc_hull.model.definition_part import FormDefinition
-    >>> from assoc_hull.model.state import Particulars
+    >>> from assoc_hull.model.form_definition import FormDefinition
+    >>> from assoc_hull.model.tables import Particulars
     >>> ship = Particulars("ship", 100.0, 16.0, 9.0, 6.0)
     >>> areas = FormDefinition("areas", "sectional_area", "halves", {
     ...     "full": 92.0, "run_start": -1.0, "run_start_ordinate": 0.0,

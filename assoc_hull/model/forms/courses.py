@@ -12,7 +12,7 @@ A node with a ``leave_...`` value is a corner: there a course is parted.
 Examples
 --------
 >>> from assoc_hull.model.forms.courses import course_vertices
->>> from assoc_hull.model.definition_part import FormDefinition
+>>> from assoc_hull.model.form_definition import FormDefinition
 >>> angle = FormDefinition(
 ...     "angle", "waterline_angle", "course", rule="straight", nodes=("AP", "FP"),
 ...     values={"AP_x": 0.0, "AP_y": 30.0, "FP_x": 180.0, "FP_y": 0.0},
@@ -32,7 +32,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curves.chain import cubic_vertices, straight_vertices
 from assoc_hull.geometry.form_curves.curve import FormEnd, form_vertices
-from assoc_hull.model.definition_part import NODE_FIELDS, FormDefinition
+from assoc_hull.model.form_definition import NODE_FIELDS, FormDefinition
 
 __all__ = ["corners_of", "course_vertices"]
 

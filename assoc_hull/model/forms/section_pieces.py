@@ -5,8 +5,8 @@ A shape is a batch of curves of like pieces, each piece run through from t = 0 t
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.model.forms.section_pieces import ArcPieces, SectionShape
->>> bilge = ArcPieces(np.array([[0.0, 12.0]]), np.array([2.0]))
+>>> from assoc_hull.model.forms.section_pieces import SectionArcs, SectionShape
+>>> bilge = SectionArcs(np.array([[0.0, 12.0]]), np.array([2.0]))
 >>> shape = SectionShape(np.array([90.0]), (bilge,))
 >>> shape.at(np.zeros(2, int), np.zeros(2, int), np.array([0.0, 4.0])).round(9).tolist()
 [[90.0, 12.0, 0.0], [90.0, 14.0, 2.0]]
@@ -23,10 +23,17 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.form_curves.curve import FormEnd, form_at
 
-__all__ = ["ArcPieces", "CurvePieces", "Pieces", "SectionShape", "Shape", "ends_of"]
+__all__ = [
+    "LineShape",
+    "SectionArcs",
+    "SectionCurves",
+    "SectionPieces",
+    "SectionShape",
+    "end_points_2d",
+]
 
 
-class Shape(Protocol):
+class LineShape(Protocol):
     """Curves of like pieces in space."""
 
     def at(self, row: IntArray, piece: IntArray, t: FloatArray) -> FloatArray:
@@ -38,7 +45,7 @@ class Shape(Protocol):
         ...
 
 
-class Pieces(Protocol):
+class SectionPieces(Protocol):
     """One piece of each section of a batch, in the plane (z, y)."""
 
     def at(self, row: IntArray, t: FloatArray) -> FloatArray:
@@ -51,7 +58,7 @@ class Pieces(Protocol):
 
 
 @attrs.frozen(eq=False)
-class CurvePieces:
+class SectionCurves:
     """Form-parameter curves.
 
     Attributes
@@ -78,7 +85,7 @@ class CurvePieces:
 
 
 @attrs.frozen(eq=False)
-class ArcPieces:
+class SectionArcs:
     """Quarters of circles, from level to upright: a bilge.
 
     Attributes
@@ -126,7 +133,7 @@ class SectionShape:
     """
 
     x: FloatArray
-    pieces: tuple[Pieces, ...]
+    pieces: tuple[SectionPieces, ...]
 
     def at(self, row: IntArray, piece: IntArray, t: FloatArray) -> FloatArray:
         """Give points, (k, 3), m; no half-breadth is negative."""
@@ -151,6 +158,6 @@ class SectionShape:
         return found
 
 
-def ends_of(start: FormEnd, finish: FormEnd) -> tuple[FloatArray, FloatArray]:
+def end_points_2d(start: FormEnd, finish: FormEnd) -> tuple[FloatArray, FloatArray]:
     """Give the points, (n, 2), of the two ends of curves."""
     return np.stack([start.x, start.y], axis=1), np.stack([finish.x, finish.y], axis=1)

@@ -6,15 +6,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assoc_hull.analysis.form.transform_record import CurveTransform
+from assoc_hull.analysis.form.curve_transform import CurveTransform
 from assoc_hull.arguments import instance, integer
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.lines_plan.layout import BLOCK
-from assoc_hull.plot.sheet.chart import Chart, Scale, chart_on, levels, scale_to, uprights
-from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen
-from assoc_hull.plot.sheet.pens import AXIS, GRID, TINT
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
-from assoc_hull.plot.sheet.title_block import title_block
+from assoc_hull.plot.sheet.chart import (
+    Chart,
+    ChartScale,
+    chart_on,
+    level_grid,
+    scale_to,
+    upright_grid,
+)
+from assoc_hull.plot.sheet.paper import AXIS, GRID, MARGIN, TINT, PaperName, Pen
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
+from assoc_hull.plot.sheet.title_block import BLOCK, title_block
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -94,8 +99,8 @@ def _curve(chart: Chart, found: CurveTransform, terms: int) -> None:
     title = (
         found.across if found.unit != 1.0 else found.across + (", m2" if _areas(found) else ", m")
     )
-    levels(chart, up, f"{title} / {found.unit:.5g}" if found.unit != 1.0 else title)
-    uprights(chart, along, f"{found.along}, m")
+    level_grid(chart, up, f"{title} / {found.unit:.5g}" if found.unit != 1.0 else title)
+    upright_grid(chart, along, f"{found.along}, m")
     if low < 0.0 < high:
         chart.level(float(up.at(0.0)), AXIS, "nil")
     chart.border()
@@ -122,8 +127,8 @@ def _bars(chart: Chart, found: CurveTransform, terms: int) -> None:
     top = float(np.ceil(np.log10(max(float(size.max()), 1e-300)) + 1e-9))
     least = max(float(size[size > 0.0].min(initial=size.max())), _FEWEST * float(size.max()))
     foot = min(float(np.floor(np.log10(max(least, 1e-300)))), top - 1.0)
-    along = Scale(order[0] - 1.0, order[-1] + 1.0, _step(len(order)), chart.left, chart.wide)
-    up = Scale(foot, top, 1.0, chart.low, chart.tall)
+    along = ChartScale(order[0] - 1.0, order[-1] + 1.0, _step(len(order)), chart.left, chart.wide)
+    up = ChartScale(foot, top, 1.0, chart.low, chart.tall)
     for value in up.marks.tolist():
         y = float(up.at(value))
         chart.level(y, GRID, f"decade/{value:g}")

@@ -12,12 +12,10 @@ from assoc_hull.arguments import instance
 from assoc_hull.creation.form_curve import FormCurve
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curves.chain import FormChain
-from assoc_hull.plot.lines_plan.layout import BLOCK
-from assoc_hull.plot.sheet.chart import Chart, Scale, levels, scale_to, uprights
-from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen
-from assoc_hull.plot.sheet.pens import HEAVY, TINT
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
-from assoc_hull.plot.sheet.title_block import frame, title_block
+from assoc_hull.plot.sheet.chart import Chart, ChartScale, level_grid, scale_to, upright_grid
+from assoc_hull.plot.sheet.paper import HEAVY, MARGIN, TINT, PaperName, Pen
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
+from assoc_hull.plot.sheet.title_block import BLOCK, frame, title_block
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -102,8 +100,8 @@ class _Field:
     """The field of the picture, with its scales."""
 
     chart: Chart
-    along: Scale
-    up: Scale
+    along: ChartScale
+    up: ChartScale
 
     def at(self, points: FloatArray) -> FloatArray:
         """Give places on paper, mm."""
@@ -144,8 +142,8 @@ def _field(sheet: Sheet, curve: FormCurve) -> _Field:
     along = scale_to(*ends[0], left, wide, _MARKS, whole=False)
     up = scale_to(*ends[1], low, tall, _MARKS, whole=False)
     chart = Chart(sheet, left, low, wide, tall)
-    levels(chart, up, "y")
-    uprights(chart, along, "x")
+    level_grid(chart, up, "y")
+    upright_grid(chart, along, "x")
     chart.border()
     return _Field(chart, along, up)
 

@@ -12,17 +12,14 @@ from assoc_hull.arguments import shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curves.curve import form_at
-from assoc_hull.model.definition_part import FormDefinition
+from assoc_hull.model.form_definition import USES, FormDefinition
 from assoc_hull.model.forms.closure import coefficients
-from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.state import Particulars
-from assoc_hull.model.uses import USES
-from assoc_hull.plot.lines_plan.layout import BLOCK
-from assoc_hull.plot.sheet.chart import Chart, Scale, levels, scale_to, uprights
-from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen
-from assoc_hull.plot.sheet.pens import AXIS
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
-from assoc_hull.plot.sheet.title_block import frame, title_block
+from assoc_hull.model.forms.form_values import Forms
+from assoc_hull.model.tables import Particulars
+from assoc_hull.plot.sheet.chart import Chart, ChartScale, level_grid, scale_to, upright_grid
+from assoc_hull.plot.sheet.paper import AXIS, MARGIN, PaperName, Pen
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
+from assoc_hull.plot.sheet.title_block import BLOCK, frame, title_block
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -166,8 +163,8 @@ def _panel(
     low, high = min(0.0, float(values.min())), float(values.max())
     along = scale_to(*ends, chart.left, chart.wide, 20, whole=False)
     up = scale_to(low, high + 0.08 * max(high - low, 1e-6), chart.low, chart.tall, 8)
-    levels(chart, up, title)
-    uprights(chart, along, "x, m")
+    level_grid(chart, up, title)
+    upright_grid(chart, along, "x, m")
     chart.border()
     drawn = [_on_paper(forms, use, ends, along, up) for use in uses]
     size = np.concatenate([np.hypot(*each.tooth.T) for each in drawn])
@@ -198,7 +195,9 @@ def _course(
     return place, first, second
 
 
-def _on_paper(forms: Forms, use: str, ends: tuple[float, float], along: Scale, up: Scale) -> _Drawn:
+def _on_paper(
+    forms: Forms, use: str, ends: tuple[float, float], along: ChartScale, up: ChartScale
+) -> _Drawn:
     place, first, second = _course(forms, use, ends)
     unit = np.array([along.size / (along.high - along.low), up.size / (up.high - up.low)])
     course = np.column_stack([along.at(place[:, 0]), up.at(place[:, 1])])

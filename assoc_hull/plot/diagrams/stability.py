@@ -1,4 +1,9 @@
-"""The curve of righting levers: what criteria look at, and the work it takes to heel the ship."""
+"""Stability: the curve of righting levers with what criteria look at, and cross curves.
+
+`lever_picture` draws GZ and the dynamic arm over the heel, with the areas that criteria look at.
+`cross_curve_picture` draws KN over the displacement, a curve for each heel. `plot_stability`
+draws the one that fits what it is handed.
+"""
 
 from __future__ import annotations
 
@@ -8,21 +13,112 @@ import numpy as np
 
 from assoc_hull.analysis.stability.criteria import Criterion
 from assoc_hull.analysis.stability.cross_curves import CrossCurves
-from assoc_hull.analysis.stability.result import Stability
+from assoc_hull.analysis.stability.stability_report import Stability
 from assoc_hull.arguments import instance
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.diagrams.cross_curves import cross_curve_picture
-from assoc_hull.plot.sheet.chart import Chart, Scale, block_of, chart_on, levels, scale_to, uprights
-from assoc_hull.plot.sheet.labels import Lettered, label_lines
-from assoc_hull.plot.sheet.paper import PaperName, Pen
-from assoc_hull.plot.sheet.pens import AXIS, HEAVY, TINT
-from assoc_hull.plot.sheet.rails import rail
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
+from assoc_hull.plot.sheet.chart import (
+    Chart,
+    ChartScale,
+    chart_block,
+    chart_on,
+    level_grid,
+    scale_to,
+    smooth_course,
+    upright_grid,
+)
+from assoc_hull.plot.sheet.labels import LabelledLine, label_above, label_lines, label_row
+from assoc_hull.plot.sheet.paper import AXIS, HEAVY, TINT, PaperName, Pen
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["lever_picture", "plot_stability"]
+__all__ = [
+    "cross_curve_picture",
+    "lever_picture",
+    "plot_stability",
+]
+
+# --------------------------------------------------------------------------------------
+# Cross curves of stability: KN over the displacement, a curve for each heel.
+
+_WHERE = "in a picture of cross curves"
+_COLOURS = ("#0b3c6f", "#c8102e", "#0a7d55", "#7a3b9a", "#a8570f", "#2a7f9e")
+
+
+def cross_curve_picture(
+    found: CrossCurves, path: Path_ | None = None, *, paper: PaperName = "A3"
+) -> Figure:
+    """Draw KN over the displacement, a curve for each heel.
+
+    Parameters
+    ----------
+    found : CrossCurves
+        Two displacements or more.
+    path : path, optional
+        Where to write it; the ending says whether PDF, SVG or PNG.
+    paper : "A3", "A1" or "A4"
+        Size of the sheet, landscape.
+
+    Raises
+    ------
+    BadInputError
+        A single displacement, an unknown paper or ending.
+    MissingExtraError
+        Matplotlib is not installed.
+    """
+    instance(found, CrossCurves, "found", _WHERE)
+    if len(found.conditions) < 2 or not np.isfinite(found.kn).any():
+        what = f"{len(found.conditions)} displacement(s)"
+        raise BadInputError(what, _WHERE, "give two or more at which she floats heeled")
+    sheet = Sheet(paper)
+    chart, weight = chart_on(sheet, 14.0), found.displacement
+    along = scale_to(float(weight[0]), float(weight[-1]), chart.left, chart.wide, 14, whole=False)
+    low, high = float(np.nanmin(found.kn)), float(np.nanmax(found.kn))
+    up = scale_to(min(low, 0.0), max(high, 1e-3), chart.low, chart.tall, 20)
+    level_grid(chart, up, "KN, m")
+    upright_grid(chart, along, "displacement, t")
+    chart.border()
+    lines = []
+    for k, (heel, kn) in enumerate(zip(found.heel_deg.tolist(), found.kn.T, strict=True)):
+        known = np.isfinite(kn)
+        if known.sum() < 2:
+            continue
+        course = smooth_course(weight[known], kn[known])
+        points = np.column_stack([along.at(course[:, 0]), up.at(course[:, 1])])
+        sheet.line(points, Pen(0.3, _COLOURS[k % len(_COLOURS)], over=3.0), f"curve/{heel:g}")
+        lines.append(LabelledLine(f"{heel:g}°", points, f"{heel:g}°"))
+    chart_block(sheet, found, "CROSS CURVES OF STABILITY", _rows(found))
+    edge = 4.0 * sheet.paper.factor
+    ends = chart.left + edge, chart.right - edge
+    written = label_lines(sheet, lines, *ends, axis=0, name="label/curve")
+    missing = {line.label for line in lines} - written
+    label_above(sheet, lines, missing, chart.top + 1.0 * sheet.paper.factor, "label/curve")
+    if path is not None:
+        save(sheet.figure, path)
+    return sheet.figure
+
+
+def _rows(found: CrossCurves) -> list[tuple[str, str]]:
+    draughts = found.draught
+    trim = found.conditions[0].upright.trim_by_stern + 0.0
+    kg = found.header.kg
+    rows = [
+        ("Trim as she heels", found.trim),
+        ("Trim upright, + by the stern", f"{trim:.3f} m"),
+        ("Mean draughts upright", f"{draughts[0]:.3f} to {draughts[-1]:.3f} m"),
+        ("Curves", "KN for heels in degrees"),
+        ("GZ at no trim", "KN - KG sin(heel)"),
+    ]
+    if found.trim == "free":
+        high = "that of the centre of buoyancy" if kg is None else f"{kg:g} m"
+        rows.append(("KG for the trim", high))
+    return rows
+
+
+# --------------------------------------------------------------------------------------
+# The curve of righting levers: what criteria look at, and the work it takes to heel the ship.
 
 _GZ = Pen(0.4, "#0b3c6f", over=3.0)
 _ARM = Pen(0.28, "#0a7d55", (3.0, 1.0), 2.8)
@@ -76,22 +172,22 @@ def lever_picture(
     low = max(float(gz.min()), -_BELOW * high) if gz.max() > 0.0 else float(gz.min())
     low = min(low, float(gz[: gz.argmax() + 1].min()))  # of a ship with a list all of it
     up = scale_to(min(low, 0.0), high, chart.low, chart.tall, 16)
-    levels(chart, up, "GZ, m")
-    uprights(chart, along, f"heel to {found.side}, degrees")
+    level_grid(chart, up, "GZ, m")
+    upright_grid(chart, along, f"heel to {found.side}, degrees")
     _areas(chart, found, along, up)
     chart.border()
     chart.level(float(up.at(0.0)), HEAVY, "nought")
     levers = _within(chart, np.column_stack([along.at(heel), up.at(gz)]))
     sheet.line(levers, _GZ, "curve/gz")
     named = [
-        Lettered("GZ", _shown(levers)),
-        Lettered("e", _shown(_arm(chart, found, along, up, heel))),
-        Lettered(f"GM {found.gm:.3f} m", _tangent(chart, found, along, up)),
+        LabelledLine("GZ", _shown(levers)),
+        LabelledLine("e", _shown(_arm(chart, found, along, up, heel))),
+        LabelledLine(f"GM {found.gm:.3f} m", _tangent(chart, found, along, up)),
     ]
     spots = np.column_stack([along.at(side * found.heel_deg), up.at(side * found.gz)])
     sheet.dots(_shown(_within(chart, spots)), _GZ.colour, 1.0, "heels")
     title = f"RIGHTING LEVERS   {found.trim} trim, {found.condition.upright}"
-    block_of(sheet, found, title, [*_facts(found), *map(_judged, found.criteria)])
+    chart_block(sheet, found, title, [*_facts(found), *map(_judged, found.criteria)])
     _marks(chart, found, along, up)
     edge = 4.0 * sheet.paper.factor
     label_lines(sheet, named, chart.low + edge, chart.top - edge, axis=1, name="label/curve")
@@ -120,7 +216,7 @@ def _shown(points: FloatArray) -> FloatArray:
     return found
 
 
-def _areas(chart: Chart, found: Stability, along: Scale, up: Scale) -> None:
+def _areas(chart: Chart, found: Stability, along: ChartScale, up: ChartScale) -> None:
     """Tint what counts from 0 to 30 degrees, and from there to 40 or to down-flooding."""
     flooding, side = found.angles.flooding, found.curve.side
     limit = min(40.0, found.curve.end, 40.0 if flooding is None else flooding)
@@ -137,7 +233,7 @@ def _areas(chart: Chart, found: Stability, along: Scale, up: Scale) -> None:
         )  # fmt: skip
 
 
-def _tangent(chart: Chart, found: Stability, along: Scale, up: Scale) -> FloatArray:
+def _tangent(chart: Chart, found: Stability, along: ChartScale, up: ChartScale) -> FloatArray:
     """Draw the slope upright: it reaches GM at one radian, and is cut where the field ends."""
     gm = found.gm
     end = min(_RADIAN, along.high)
@@ -153,7 +249,9 @@ def _tangent(chart: Chart, found: Stability, along: Scale, up: Scale) -> FloatAr
     return points
 
 
-def _arm(chart: Chart, found: Stability, along: Scale, up: Scale, heel: FloatArray) -> FloatArray:
+def _arm(
+    chart: Chart, found: Stability, along: ChartScale, up: ChartScale, heel: FloatArray
+) -> FloatArray:
     """Draw the dynamic arm, with its own scale to the right and the same nought."""
     sheet, factor, side = chart.sheet, chart.sheet.paper.factor, found.curve.side
     arm = found.curve.arm(side * heel)
@@ -176,7 +274,7 @@ def _arm(chart: Chart, found: Stability, along: Scale, up: Scale, heel: FloatArr
     return points
 
 
-def _marks(chart: Chart, found: Stability, along: Scale, up: Scale) -> None:
+def _marks(chart: Chart, found: Stability, along: ChartScale, up: ChartScale) -> None:
     """Draw heels at which something happens, named above the field."""
     sheet, factor, angles = chart.sheet, chart.sheet.paper.factor, found.angles
     flooding = "down-flooding"
@@ -197,7 +295,7 @@ def _marks(chart: Chart, found: Stability, along: Scale, up: Scale) -> None:
     if shown:
         ends = np.array([[float(along.at(heel)), chart.top] for heel, _ in shown])
         words = [f"{name} {heel:.1f}" for heel, name in shown]
-        rail(sheet, ends, words, "above", chart.top + 1.0 * factor, name="label/mark")
+        label_row(sheet, ends, words, "above", chart.top + 1.0 * factor, name="label/mark")
 
 
 def _facts(found: Stability) -> list[tuple[str, str]]:

@@ -7,17 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assoc_hull.edit.adoption.report import AdoptionReport, LineReport
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, LineReport
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
-from assoc_hull.plot.lines_plan.drawing import Drawing, DrawnLine, Sketchable, drawing
-from assoc_hull.plot.lines_plan.layout import BLOCK, place_body
-from assoc_hull.plot.lines_plan.views import body_halves
-from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen
-from assoc_hull.plot.sheet.pens import FAMILY_COLOURS, GRID, LINE, TINT
-from assoc_hull.plot.sheet.rails import overlaps
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
-from assoc_hull.plot.sheet.title_block import caption, frame, title_block
+from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, PlotLine, drawing
+from assoc_hull.plot.lines_plan.three_views import body_halves, scale_of_body
+from assoc_hull.plot.sheet.labels import overlaps
+from assoc_hull.plot.sheet.paper import FAMILY_COLOURS, GRID, LINE, MARGIN, TINT, PaperName, Pen
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
+from assoc_hull.plot.sheet.title_block import BLOCK, caption, frame, title_block
 from assoc_hull.plot.sheet.view import View, scale_of
 
 if TYPE_CHECKING:
@@ -38,7 +36,7 @@ _COURSE = Pen(0.07, "0.6", over=1.5)
 
 
 def adoption_deviations(
-    hull: Sketchable,
+    hull: Drawable,
     report: AdoptionReport | None = None,
     path: Path_ | None = None,
     *,
@@ -204,7 +202,7 @@ def _views(sheet: Sheet, plan: Drawing, lines: Sequence[LineReport]) -> None:
     profile = View("profile", (0, 2), scale, (x, base - unit * float(low[2])))
     base += unit * float(size[2]) + _BELOW * factor
     room = (wide - (BLOCK + 6.0) * factor, sheet.paper.height - (MARGIN + 6.0) * factor - base)
-    body = min(scale, place_body(float(high[1]), float(size[2]), room))
+    body = min(scale, scale_of_body(float(high[1]), float(size[2]), room))
     up = base - float(low[2]) * 1e3 / body
     both = View("body", (1, 2), body, (left + 0.5 * room[0], up))
     middle = 0.5 * plan.particulars.length
@@ -224,7 +222,7 @@ def _views(sheet: Sheet, plan: Drawing, lines: Sequence[LineReport]) -> None:
         _spots(sheet, view, mine, most)
 
 
-def _courses(sheet: Sheet, view: View, lines: Sequence[DrawnLine]) -> None:
+def _courses(sheet: Sheet, view: View, lines: Sequence[PlotLine]) -> None:
     for line in lines:
         pen = LINE if line.boundary is not None else _COURSE
         for points in line.polylines:

@@ -1,18 +1,13 @@
 """What is drawn of a hull: its lines as polylines, and where they cross.
 
-The one place in this package that reads a hull's tables, but for `links`. Everything given
-out is frozen, so a drawing is also a snapshot: it stays as it is while the hull is edited.
-
-Examples
---------
->>> from assoc_hull.shipped.wigley import wigley
->>> from assoc_hull.plot.lines_plan.drawing import drawing
->>> line = drawing(wigley()).line("WL 2.5")
->>> line.family, line.label, line.offset
-('waterlines', '2.5', 2.5)
+But for the graph of drivers, this is the one place here that reads the tables of a hull.
+Everything given out is frozen, so a drawing is also a snapshot: it stays as it is while the hull
+is edited. Lines that were handed in, before they became a net, make a drawing as well.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import attrs
 import numpy as np
@@ -20,29 +15,80 @@ import numpy as np
 from assoc_hull.errors import UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind
-from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.model.line_source import LineSource, line_curve_data
+from assoc_hull.model.tables import HullState, Particulars
+from assoc_hull.plot.sheet.paper import HEAVY, LINE, TINT, Pen
 
 __all__ = [
     "CHORDS",
-    "Crossings",
+    "Drawable",
     "Drawing",
-    "DrawnLine",
-    "Sketchable",
+    "PlotCrossings",
+    "PlotLine",
     "drawing",
+    "given_lines",
+    "particulars_of",
+    "pen_of",
     "short_name",
     "state_of",
 ]
+
+_BOUNDARY = {
+    BoundaryKind.END: HEAVY,
+    BoundaryKind.FLAT: Pen(0.16, "black", (2.0, 0.7, 0.4, 0.7), 2.2),
+    BoundaryKind.KNUCKLE: Pen(0.22, over=2.4),
+}
+
+
+def pen_of(line: PlotLine, tinted: bool = False) -> Pen:
+    """Give the pen of a line: heavy for the ends of the hull, dashed for borders of flats."""
+    pen = LINE if line.boundary is None else _BOUNDARY[line.boundary]
+    if tinted:
+        return Pen(max(pen.width, 0.26), TINT, pen.dash, 3.0)
+    return pen
+
+
+def particulars_of(drawing: Drawing) -> list[tuple[str, str]]:
+    """Give the principal particulars as they are printed."""
+    ship = drawing.particulars
+    counts = [
+        (len(drawing.of(family)), family) for family in ("sections", "waterlines", "buttocks")
+    ]
+    (aft, *_), (fore, *_) = drawing.bounds.tolist()
+    return [
+        ("Length between perpendiculars", f"{ship.length:.3f} m"),
+        ("Length of hull, moulded", f"{fore - aft:.3f} m"),
+        ("Breadth, moulded", f"{ship.breadth:.3f} m"),
+        ("Depth, moulded", f"{ship.depth:.3f} m"),
+        ("Design draught, moulded", f"{ship.draught:.3f} m"),
+        ("L/B,  B/T,  L/D", _ratios(drawing)),
+        ("Lines", ", ".join(f"{count} {family}" for count, family in counts if count)),
+    ]
+
+
+def _ratios(drawing: Drawing) -> str:
+    ship = drawing.particulars
+    ratios = ship.length / ship.breadth, ship.breadth / ship.draught, ship.length / ship.depth
+    return ",  ".join(f"{ratio:.3f}" for ratio in ratios)
+
+
+# --------------------------------------------------------------------------------------
+# What is drawn of a hull: its lines as polylines, and where they cross.
+#
+# The one place in this package that reads a hull's tables, but for `links`. Everything given
+# out is frozen, so a drawing is also a snapshot: it stays as it is while the hull is edited.
 
 CHORDS = 8
 """Chords that stand for one segment of a line, and four times as many for a boundary."""
 
 
 @attrs.frozen(eq=False)
-class DrawnLine:
+class PlotLine:
     """One line of a hull.
 
     Attributes
@@ -79,7 +125,7 @@ class DrawnLine:
 
 
 @attrs.frozen(eq=False)
-class Crossings:
+class PlotCrossings:
     """The crossings of a hull whose normals are known.
 
     Attributes
@@ -113,14 +159,14 @@ class Drawing:
     """
 
     particulars: Particulars
-    lines: tuple[DrawnLine, ...]
-    crossings: Crossings
+    lines: tuple[PlotLine, ...]
+    crossings: PlotCrossings
 
-    def of(self, family: str) -> tuple[DrawnLine, ...]:
+    def of(self, family: str) -> tuple[PlotLine, ...]:
         """Give the lines of a family."""
         return tuple(line for line in self.lines if line.family == family)
 
-    def line(self, name: str) -> DrawnLine:
+    def line(self, name: str) -> PlotLine:
         """Give the line of a name.
 
         Raises
@@ -134,7 +180,7 @@ class Drawing:
         raise UnknownNameError("line", name, tuple(line.name for line in self.lines))
 
     @property
-    def profile(self) -> DrawnLine | None:
+    def profile(self) -> PlotLine | None:
         """The boundary in the centre plane."""
         for line in self.of("boundary"):
             if line.boundary == BoundaryKind.END and abs(line.normal[1]) == 1.0:
@@ -148,7 +194,7 @@ class Drawing:
         return np.stack([points.min(axis=0), points.max(axis=0)])
 
 
-Sketchable = Hull | HullState | Drawing
+Drawable = Hull | HullState | Drawing
 """What can be drawn."""
 
 
@@ -157,7 +203,7 @@ def state_of(hull: Hull | HullState) -> HullState:
     return hull.document.state if isinstance(hull, Hull) else hull
 
 
-def drawing(hull: Sketchable) -> Drawing:
+def drawing(hull: Drawable) -> Drawing:
     """Take the lines of a hull as they are now; a drawing is given back as it is."""
     if isinstance(hull, Drawing):
         return hull
@@ -168,7 +214,7 @@ def drawing(hull: Sketchable) -> Drawing:
     return Drawing(state.particulars, tuple(lines), _crossings(state, book))
 
 
-def _crossings(state: HullState, book: AddressBook) -> Crossings:
+def _crossings(state: HullState, book: AddressBook) -> PlotCrossings:
     """Take the crossings where both curves pass and their tangents differ."""
     table, rows = state.rows, state.live("rows")
     rows = rows[
@@ -180,7 +226,7 @@ def _crossings(state: HullState, book: AddressBook) -> Crossings:
     rows, normal = rows[known], normal[known]
     name = {line: book.line_name(line) for line in state.live("lines").tolist()}
     lines = state.curves.line.data[table.curve.data[rows]]
-    return Crossings(
+    return PlotCrossings(
         tuple(table.key.data[row] for row in rows.tolist()),
         tuple((name[a], name[b]) for a, b in lines.tolist()),
         table.spot.data[rows].mean(axis=1),
@@ -188,14 +234,14 @@ def _crossings(state: HullState, book: AddressBook) -> Crossings:
     )
 
 
-def _drawn(state: HullState, book: AddressBook, line: int) -> DrawnLine:
+def _drawn(state: HullState, book: AddressBook, line: int) -> PlotLine:
     table, family = state.lines, state.family(line)
     boundary = int(table.boundary.data[line])
     splines = tuple(state.spline(curve) for curve in state.curves_of(line))
     chords = CHORDS if boundary < 0 else 4 * CHORDS
     normal = table.normal.data[line].copy()
     flat = bool(table.planar.data[line])
-    return DrawnLine(
+    return PlotLine(
         book.line_name(line),
         short_name(str(table.name.data[line]), family.prefix),
         family.name,
@@ -211,3 +257,47 @@ def short_name(name: str, prefix: str) -> str:
     """Give the name of a line without the prefix of its family, if that leaves anything."""
     found = name.removeprefix(prefix).strip() if prefix else name
     return found or name
+
+
+# --------------------------------------------------------------------------------------
+# Lines as they were handed in, as a drawing: what a hull was before it was adopted.
+
+
+def given_lines(sources: Sequence[LineSource], particulars: Particulars) -> Drawing:
+    """Make a drawing of lines before adoption, each lofted through all its own points.
+
+    Parameters
+    ----------
+    sources : sequence of LineSource
+        The lines; several of one name are one line.
+    particulars : Particulars
+        Principal dimensions.
+
+    Examples
+    --------
+    >>> from assoc_hull.model.line_source import line_curve_data, LineSource
+    >>> from assoc_hull.model.tables import Particulars
+    >>> from assoc_hull.plot.lines_plan.drawing import given_lines
+    >>> water = LineSource.make("waterlines", "WL 1", [[0, 0, 1], [5, 2, 1], [9, 0, 1]])
+    >>> given_lines([water], Particulars("boat", 9.0, 4.0, 2.0, 1.0)).line("WL 1").offset
+    1.0
+    """
+    pieces: dict[tuple[str, str], list[LineSource]] = {}
+    for source in sources:
+        pieces.setdefault((source.group, source.name), []).append(source)
+    lines = [_given_drawn(mine) for mine in pieces.values()]
+    lines.sort(key=lambda line: (FAMILIES[line.family].rank, line.offset, line.name))
+    none = PlotCrossings((), (), np.zeros((0, 3)), np.zeros((0, 3)))
+    return Drawing(particulars, tuple(lines), none)
+
+
+def _given_drawn(pieces: Sequence[LineSource]) -> PlotLine:
+    first = pieces[0]
+    splines = tuple(loft(line_curve_data([piece])) for piece in pieces)
+    short = short_name(first.name, FAMILIES[first.family].prefix)
+    return PlotLine(
+        first.name, short, first.family, first.boundary,
+        np.full(3, np.nan) if first.normal is None else first.normal,
+        float("nan") if first.normal is None else first.offset,
+        splines, tuple(sample(spline, CHORDS)[1] for spline in splines),
+    )  # fmt: skip

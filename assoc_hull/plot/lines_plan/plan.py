@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 
 import attrs
 
-from assoc_hull.plot.lines_plan.drawing import Drawing, Sketchable, drawing
-from assoc_hull.plot.lines_plan.layout import BLOCK, Layout, lay_out
-from assoc_hull.plot.lines_plan.views import Views
+from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, drawing, particulars_of
+from assoc_hull.plot.lines_plan.three_views import ViewLayout, Views, lay_out_views
 from assoc_hull.plot.sheet.paper import MARGIN, PaperName
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
-from assoc_hull.plot.sheet.title_block import caption, frame, particulars_of, scale_bar, title_block
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
+from assoc_hull.plot.sheet.title_block import BLOCK, caption, frame, scale_bar, title_block
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,7 +20,7 @@ __all__ = ["captions", "lines_plan"]
 
 
 def lines_plan(
-    hull: Sketchable,
+    hull: Drawable,
     path: Path_ | None = None,
     *,
     paper: PaperName = "A3",
@@ -70,7 +69,7 @@ def lines_plan(
     plan = drawing(hull)
     tinted = [plan.line(name).name for name in highlight or ()]
     sheet = Sheet(paper)
-    layout = lay_out(plan, sheet.paper)
+    layout = lay_out_views(plan, sheet.paper)
     frame(sheet, MARGIN * sheet.paper.factor)
     _block(sheet, plan, layout, title or plan.particulars.name)
     captions(sheet, plan, layout)
@@ -83,7 +82,7 @@ def lines_plan(
     return sheet.figure
 
 
-def _block(sheet: Sheet, plan: Drawing, layout: Layout, title: str) -> None:
+def _block(sheet: Sheet, plan: Drawing, layout: ViewLayout, title: str) -> None:
     factor = sheet.paper.factor
     width = BLOCK * factor
     profile, body = layout.profile, layout.body
@@ -102,7 +101,7 @@ def _block(sheet: Sheet, plan: Drawing, layout: Layout, title: str) -> None:
         scale_bar(sheet, view, place, width - 14.0 * factor, words)
 
 
-def captions(sheet: Sheet, plan: Drawing, layout: Layout) -> None:
+def captions(sheet: Sheet, plan: Drawing, layout: ViewLayout) -> None:
     """Write the names of the views below them."""
     factor = sheet.paper.factor
     middle = 0.5 * plan.particulars.length

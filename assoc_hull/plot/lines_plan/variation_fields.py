@@ -11,19 +11,18 @@ import numpy as np
 from assoc_hull.arguments import instance
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.lines_plan.drawing import Drawing, Sketchable, drawing
-from assoc_hull.plot.sheet.chart import Chart, Scale, levels, scale_to, uprights
-from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen, paper_of
-from assoc_hull.plot.sheet.pens import TINT, pen_of
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
+from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, drawing, pen_of
+from assoc_hull.plot.sheet.chart import Chart, ChartScale, level_grid, scale_to, upright_grid
+from assoc_hull.plot.sheet.paper import MARGIN, TINT, PaperName, Pen, paper_of
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import caption, frame
-from assoc_hull.variation.fields.field import Axis, Field
-from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
+from assoc_hull.variation.fields.field import Axis, StackedField
+from assoc_hull.variation.fields.layers import FieldLayer, Rake
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["field_plan"]
+__all__ = ["variation_fields"]
 
 _TALL, _APART, _HEAD = 46.0, 20.0, 7.0  # a panel, between two, above the uppermost, mm
 _SIDE, _LEGEND = 16.0, 27.0  # for letters left of a panel, and for its tints right of it, mm
@@ -38,8 +37,8 @@ _TITLES = {
 }
 
 
-def field_plan(
-    hull: Sketchable, layer: FieldLayer, path: Path_ | None = None, *, paper: PaperName = "A4"
+def variation_fields(
+    hull: Drawable, layer: FieldLayer, path: Path_ | None = None, *, paper: PaperName = "A4"
 ) -> Figure:
     """Draw the fields of a layer over the profile, a panel for each coordinate that moves.
 
@@ -85,7 +84,7 @@ def field_plan(
     return sheet.figure
 
 
-def _of(layer: FieldLayer, axis: str) -> tuple[Field | Rake, ...]:
+def _of(layer: FieldLayer, axis: str) -> tuple[StackedField | Rake, ...]:
     return tuple(field for field in layer.fields if field.axis == axis)
 
 
@@ -94,8 +93,8 @@ class _Profile:
     """A panel: a chart over x and z."""
 
     chart: Chart
-    along: Scale
-    up: Scale
+    along: ChartScale
+    up: ChartScale
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -107,7 +106,7 @@ class _Profile:
         return np.column_stack([self.along.at(x), self.up.at(z)])
 
 
-def _panel(chart: Chart, plan: Drawing, fields: Sequence[Field | Rake], axis: Axis) -> None:
+def _panel(chart: Chart, plan: Drawing, fields: Sequence[StackedField | Rake], axis: Axis) -> None:
     """Draw the fields of one coordinate."""
     low, high = plan.bounds
     room, head = 0.02 * float(high[0] - low[0]), 0.1 * float(high[2] - low[2])
@@ -117,8 +116,8 @@ def _panel(chart: Chart, plan: Drawing, fields: Sequence[Field | Rake], axis: Ax
         scale_to(low[2] - head, high[2] + head, chart.low, chart.tall, 8, whole=False),
     )
     _tints(profile, fields, axis)
-    levels(chart, profile.up, "z, m", plan.particulars.draught)
-    uprights(chart, profile.along, "x, m")
+    level_grid(chart, profile.up, "z, m", plan.particulars.draught)
+    upright_grid(chart, profile.along, "x, m")
     place = (chart.left + 0.5 * chart.wide, chart.top + 5.2 * chart.sheet.paper.factor)
     caption(chart.sheet, place, _TITLES[axis])
     for line in plan.of("boundary"):
@@ -134,7 +133,7 @@ def _panel(chart: Chart, plan: Drawing, fields: Sequence[Field | Rake], axis: Ax
     chart.border()
 
 
-def _tints(profile: _Profile, fields: Sequence[Field | Rake], axis: Axis) -> None:
+def _tints(profile: _Profile, fields: Sequence[StackedField | Rake], axis: Axis) -> None:
     """Fill what moves: red forward, out or up, blue the other way; what stays is white."""
     x0, x1, z0, z1 = profile.box
     x, z = np.linspace(x0, x1, _GRID[0]), np.linspace(z0, z1, _GRID[1])
@@ -171,7 +170,7 @@ def _legend(
     sheet, unit = chart.sheet, chart.sheet.paper.factor
     shown = np.flatnonzero((steps[1:] > least + 1e-9) & (steps[:-1] < most - 1e-9))
     tall, left = min(4.0 * unit, chart.tall / max(len(shown), 1)), chart.right + 10.0 * unit
-    scale = Scale(0.0, 1.0, float(steps[1] - steps[0]), 0.0, 1.0)
+    scale = ChartScale(0.0, 1.0, float(steps[1] - steps[0]), 0.0, 1.0)
     for k, step in enumerate(shown.tolist()):
         low = chart.low + k * tall
         sheet.axes.fill(
@@ -186,14 +185,14 @@ def _legend(
         sheet.take(words)
 
 
-def _ends(profile: _Profile, field: Field | Rake) -> tuple[float, float, float, float]:
+def _ends(profile: _Profile, field: StackedField | Rake) -> tuple[float, float, float, float]:
     """Give the box of a field's region within the panel."""
     region, (x0, x1, z0, z1) = field.region(), profile.box
     ends = (max(region.x[0], x0), min(region.x[1], x1), max(region.z[0], z0), min(region.z[1], z1))
     return ends
 
 
-def _region(profile: _Profile, field: Field | Rake) -> None:
+def _region(profile: _Profile, field: StackedField | Rake) -> None:
     """Draw the box outside which a field moves nothing."""
     x0, x1, z0, z1 = _ends(profile, field)
     corners = np.array([[x0, z0], [x1, z0], [x1, z1], [x0, z1], [x0, z0]])
@@ -202,7 +201,7 @@ def _region(profile: _Profile, field: Field | Rake) -> None:
     )
 
 
-def _boundaries(profile: _Profile, field: Field | Rake) -> list[tuple[float, float, str]]:
+def _boundaries(profile: _Profile, field: StackedField | Rake) -> list[tuple[float, float, str]]:
     """Draw a field's boundary curves; give x, z and words of their names."""
     x0, x1, _, _ = _ends(profile, field)
     x = np.linspace(x0, x1, 200)

@@ -9,14 +9,13 @@ import numpy as np
 
 from assoc_hull.arguments import instance
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.plates.colour_bar import STRAIN, colour_bar, shades
-from assoc_hull.plot.plates.curvature_words import BLOCK
-from assoc_hull.plot.plates.plate_entries import area_words
-from assoc_hull.plot.plates.plate_grid import Field
-from assoc_hull.plot.plates.plate_paint import fill
-from assoc_hull.plot.sheet.form_flow import wrapped
+from assoc_hull.plot.plates.colour_legend import BLOCK, STRAIN, colour_bar, shades
+from assoc_hull.plot.plates.paint_tiles import fill_outline
+from assoc_hull.plot.plates.plate_layout import SheetArea
+from assoc_hull.plot.plates.plate_picture import area_words
+from assoc_hull.plot.sheet.labels import wrap_words
 from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import frame, scale_bar, title_block
 from assoc_hull.plot.sheet.view import View, scale_of
 from assoc_hull.surface.plates.development import LABEL, Development
@@ -85,7 +84,7 @@ def development_sheet(flat: Development, *, paper: PaperName = "A4") -> Sheet:
     _block(sheet, flat)
     edge = (MARGIN + 6.0) * factor
     right = size.width - (MARGIN + BLOCK + 6.0) * factor
-    field = Field(edge, edge + _BAR * factor, right, size.height - edge)
+    field = SheetArea(edge, edge + _BAR * factor, right, size.height - edge)
     most = _reach(flat)
     long, broad = flat.size.tolist()
     room = 0.5 * (field.top - field.low) - _CAPTION * factor
@@ -123,7 +122,7 @@ def _tiles(node: FloatArray) -> FloatArray:
 
 def _map(
     sheet: Sheet,
-    field: Field,
+    field: SheetArea,
     flat: Development,
     drawn: tuple[str, FloatArray, FloatArray],
     scale: tuple[float, float],
@@ -135,7 +134,7 @@ def _map(
     origin = centre - unit * box.mean(axis=0)
     place = origin + unit * corner
     colour = shades(value / most, STRAIN)
-    fill(sheet, place.reshape(-1, 4, 2), colour.reshape(-1, 3), f"{name}/tiles")
+    fill_outline(sheet, place.reshape(-1, 4, 2), colour.reshape(-1, 3), f"{name}/tiles")
     outline = origin + unit * flat.outline
     sheet.line(np.concatenate([outline, outline[:1]]), _OUTLINE, f"{name}/outline")
     if np.ptp(value) > _LEAST:
@@ -157,13 +156,13 @@ def _signed(strain: float) -> str:
     return f"{1e3 * strain:+.2f}‰".replace("-", "−")
 
 
-def _foot(sheet: Sheet, field: Field, denominator: float, most: float) -> None:
+def _foot(sheet: Sheet, field: SheetArea, denominator: float, most: float) -> None:
     """Draw the scale and the colours below both maps."""
     factor = sheet.paper.factor
     edge = (MARGIN + 6.0) * factor
     view = View("plan", (0, 1), denominator, (0.0, 0.0))
     scale_bar(sheet, view, (edge, edge), 60.0 * factor, f"1:{denominator:g}")
-    bar = Field(field.right - 80.0 * factor, edge, field.right, edge + 3.5 * factor)
+    bar = SheetArea(field.right - 80.0 * factor, edge, field.right, edge + 3.5 * factor)
     marks = [(side, _signed(side * most) if side else "0") for side in (-1.0, 0.0, 1.0)]
     title = "strain to be put in: − shrinking, + stretching"
     colour_bar(sheet, bar, STRAIN, marks, title)
@@ -185,6 +184,6 @@ def _block(sheet: Sheet, flat: Development) -> None:
     ]
     room = (BLOCK - 7.0) * factor
     notes = [f"A {LABEL}.", *flat.notes]
-    lines = [line for words in notes for line in wrapped(sheet, words, room, 1.0)]
+    lines = [line for words in notes for line in wrap_words(sheet, words, room, 1.0)]
     corner = (paper.width - MARGIN * factor, paper.height - MARGIN * factor)
     title_block(sheet, corner, BLOCK * factor, flat.name or "Development", rows, lines)

@@ -1,9 +1,14 @@
-"""The curvature map of a hull with its plates: shell expansion, both ends, profile, bottom."""
+"""The curvature map of a hull with its plates, and the sheets that go with it.
+
+The map has the shell expansion, both ends, profile and bottom, with seams and names of plates.
+The sheets are one PDF: the map, then the table of plates, then notes.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, TypeVar
 
 import attrs
 import numpy as np
@@ -11,21 +16,39 @@ from numpy.typing import NDArray
 
 from assoc_hull.arguments import instance, text
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.plates.hull_paint import CONTESTED, MARGIN_TINT, hatch, segments, tiles_in
+from assoc_hull.io.write_file import form_by_ending, write_whole
 from assoc_hull.plot.plates.hull_tiles import HullTiles, hull_tiles
-from assoc_hull.plot.plates.plate_paint import SIGNS, TINTS
-from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen
-from assoc_hull.plot.sheet.pens import LINE
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
+from assoc_hull.plot.plates.paint_tiles import (
+    CONTESTED,
+    MARGIN_TINT,
+    SIGNS,
+    TINTS,
+    hatch_in_view,
+    paint_in_view,
+    segments_in_view,
+)
+from assoc_hull.plot.sheet.labels import wrap_words
+from assoc_hull.plot.sheet.paper import LINE, MARGIN, PaperName, Pen
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, pdf_of, save
 from assoc_hull.plot.sheet.title_block import caption, frame, scale_bar, title_block
 from assoc_hull.plot.sheet.view import View, scale_of
-from assoc_hull.surface.plates.hull_plate_table import HullPlates
+from assoc_hull.surface.plates.hull_plates import COLUMNS, HullPlateTable
 from assoc_hull.surface.plates.hull_seams import AXES
+from assoc_hull.surface.plates.plate_class import CAVEAT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["hull_map", "map_sheet"]
+    from assoc_hull.surface.plates.hull_plate import HullPlate
+
+__all__ = [
+    "hull_map",
+    "hull_sheet",
+    "map_sheet",
+]
+
+# --------------------------------------------------------------------------------------
+# The curvature map of a hull with its plates: shell expansion, both ends, profile, bottom.
 
 _BLOCK, _SIDE = 96.0, 14.0
 """Width of the block, and room beside the long views, mm at A3."""
@@ -45,7 +68,7 @@ _COLUMN = {"x": 0, "z": 2, "girth": 3}
 
 
 def hull_map(
-    found: HullPlates,
+    found: HullPlateTable,
     path: Path_ | None = None,
     *,
     title: str = "Curvature of the shell",
@@ -93,14 +116,14 @@ def hull_map(
     >>> side = SplineSurface.bezier(np.stack([x, 8.0 + 0.5 * z, z], axis=-1), "body")
     >>> figure = hull_map(hull_plates((side,), HullSeams(x=12.0)))
     """
-    instance(found, HullPlates, "found", "in hull_map")
+    instance(found, HullPlateTable, "found", "in hull_map")
     sheet = map_sheet(found, text(title, "title", "in hull_map"), paper)
     if path is not None:
         save(sheet.figure, path)
     return sheet.figure
 
 
-def map_sheet(found: HullPlates, title: str, paper: PaperName) -> Sheet:
+def map_sheet(found: HullPlateTable, title: str, paper: PaperName) -> Sheet:
     """Draw the map as a page."""
     sheet = Sheet(paper)
     scene = _Scene.of(found)
@@ -114,14 +137,14 @@ def map_sheet(found: HullPlates, title: str, paper: PaperName) -> Sheet:
 class _Scene:
     """What is drawn: tiles with their colours, which are contested, lines."""
 
-    found: HullPlates
+    found: HullPlateTable
     tiles: HullTiles
     colour: FloatArray
     contested: NDArray[np.bool_]
     stretch: float = 1.0
 
     @classmethod
-    def of(cls, found: HullPlates) -> _Scene:
+    def of(cls, found: HullPlateTable) -> _Scene:
         """Colour the tiles."""
         from matplotlib.colors import to_rgb
 
@@ -141,9 +164,9 @@ class _Scene:
         rows = np.flatnonzero(shown)
         rows = rows[np.argsort(near[rows], kind="stable")]
         corner = self.tiles.corner
-        tiles_in(sheet, view, corner[rows], self.colour[rows])
+        paint_in_view(sheet, view, corner[rows], self.colour[rows])
         rows = np.flatnonzero(shown & self.contested)
-        hatch(sheet, view, corner[rows])
+        hatch_in_view(sheet, view, corner[rows])
         for level in (self.found.regions.k0, -self.found.regions.k0):
             self._line(sheet, view, toward, self.tiles.gauss, level, _LEVEL)
         for axis in AXES:
@@ -158,7 +181,7 @@ class _Scene:
     ) -> None:  # fmt: skip
         piece, normal = self.tiles.contour(values, level)
         seen = normal @ toward > -1e-9 if toward.any() else np.ones(len(piece), np.bool_)
-        segments(sheet, view, piece[seen], pen)
+        segments_in_view(sheet, view, piece[seen], pen)
 
     def names(self, sheet: Sheet, view: View) -> None:
         """Write the names of plates in their middles."""
@@ -249,7 +272,7 @@ def _body(sheet: Sheet, scene: _Scene, low: float, block: float) -> None:
     caption(sheet, (middle, low + 4.0 * factor), f"AFT BODY, FORE BODY  1:{scale:g}")
 
 
-def _block(sheet: Sheet, found: HullPlates, title: str) -> float:
+def _block(sheet: Sheet, found: HullPlateTable, title: str) -> float:
     """Write what holds for all plates into the right upper corner; give the lower edge, mm."""
     paper = sheet.paper
     kinds = Counter(
@@ -294,3 +317,114 @@ def _legend(sheet: Sheet, top: float) -> float:
         sheet.text((left + 9.0 * factor, y), told, size=1.1, across="left", name="label/legend")
         y -= 4.4 * factor
     return y
+
+
+# --------------------------------------------------------------------------------------
+# Plates of a hull on sheets: the map, then the table, then notes; one PDF.
+
+_ROWS, _STEP = 62, 3.9
+"""Plates on a page, and the height of a row, mm at A3."""
+
+_LINES = 64
+"""Of notes on a page."""
+
+Item = TypeVar("Item")
+
+
+def hull_sheet(
+    found: HullPlateTable,
+    path: Path_,
+    *,
+    title: str = "Curvature of the shell",
+    paper: PaperName = "A3",
+) -> None:
+    """Write plates of a hull as a PDF: the map, the table with advice, notes.
+
+    Parameters
+    ----------
+    found : HullPlates
+        Of `plates` with `HullSeams`.
+    path : path
+        A ``.pdf`` file; what was there is replaced by the whole of it, or stays.
+    title : str
+        Stands on every page.
+    paper : "A3", "A1" or "A4"
+        Size of the sheets, landscape.
+
+    Raises
+    ------
+    BadInputError, WrongTypeError
+        No plates of a hull, another ending, a file that cannot be written.
+    MissingExtraError
+        Matplotlib is not installed.
+    """
+    where = "in hull_sheet"
+    instance(found, HullPlateTable, "found", where)
+    named = text(title, "title", where)
+    form_by_ending(path, None, ("pdf",), {".pdf": "pdf"}, where)
+    sheets = [map_sheet(found, named, paper)]
+    sheets += [_table(rows, named, paper) for rows in _parts(found.rows, _ROWS)]
+    sheets += [
+        _notes(lines, named, paper)
+        for lines in _parts(_wrapped((*found.notes, CAVEAT), paper), _LINES)
+    ]
+    write_whole(path, pdf_of(sheets, named))
+
+
+def _parts(items: Sequence[Item], size: int) -> Iterator[Sequence[Item]]:
+    for first in range(0, len(items), size):
+        yield items[first : first + size]
+
+
+def _page(title: str, paper: PaperName) -> tuple[Sheet, float]:
+    """Begin a page; give the height below its title, mm."""
+    sheet = Sheet(paper)
+    factor = sheet.paper.factor
+    frame(sheet, MARGIN * factor)
+    top = sheet.paper.height - (MARGIN + 8.0) * factor
+    left = (MARGIN + 5.0) * factor
+    sheet.text((left, top), title, size=2.2, bold=True, across="left", name="label/title")
+    return sheet, top - 9.0 * factor
+
+
+def _table(rows: Sequence[HullPlate], title: str, paper: PaperName) -> Sheet:
+    """Write some rows of the table."""
+    sheet, top = _page(title, paper)
+    factor = sheet.paper.factor
+    x = (MARGIN + 5.0) * factor
+    advice = ("advice", "", [plate.suggestion.partition(":")[0] for plate in rows])
+    seen = [
+        (each.head, each.unit, [each.printed(plate) for plate in rows])
+        for each in COLUMNS
+        if each.head
+    ]
+    for number, (head, unit, body) in enumerate([*seen, advice]):
+        wide = max(sheet.width(words) for words in (head, unit, *body))
+        first = number in (0, len(seen))
+        place = x if first else x + wide
+        for row, words in enumerate((head, unit, *body)):
+            y = top - (row + (0.4 if row > 1 else 0.0)) * _STEP * factor
+            if words:
+                sheet.text((place, y), words, across="left" if first else "right", bold=row == 0,
+                           name=f"table/{head}")  # fmt: skip
+        x += wide + 4.0 * factor
+    rule = top - 1.7 * _STEP * factor
+    sheet.rule((MARGIN * factor, rule), (sheet.paper.width - MARGIN * factor, rule), LINE, "table")
+    return sheet
+
+
+def _wrapped(words: Sequence[str], paper: PaperName) -> list[str]:
+    """Break notes into lines of a page."""
+    sheet = Sheet(paper)
+    room = sheet.paper.width - 2.0 * (MARGIN + 5.0) * sheet.paper.factor
+    return [line for each in words for line in wrap_words(sheet, each, room, 1.15)]
+
+
+def _notes(lines: Sequence[str], title: str, paper: PaperName) -> Sheet:
+    """Write lines of notes."""
+    sheet, top = _page(title, paper)
+    factor = sheet.paper.factor
+    for number, line in enumerate(lines):
+        place = ((MARGIN + 5.0) * factor, top - number * _STEP * factor)
+        sheet.text(place, line, size=1.15, across="left", name="label/note")
+    return sheet

@@ -3,7 +3,7 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.patches import Patches
+>>> from assoc_hull.geometry.patches.bezier_patches import Patches
 >>> from assoc_hull.plot.plates.hull_tiles import hull_tiles
 >>> x, z = np.mgrid[0:30:4j, 0:3:4j]
 >>> tiles = hull_tiles(Patches.single(np.stack([x, 1.0 + 0.0 * x, z], axis=-1)), aim=4)
@@ -17,10 +17,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.numeric.tensor_bernstein import basis
-from assoc_hull.geometry.patches.curvatures import curvatures
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.surface.plates.girth import girth_of
+from assoc_hull.geometry.numeric.tensor_bernstein import bernstein_basis
+from assoc_hull.geometry.patches.bezier_patches import Patches, curvatures
+from assoc_hull.surface.plates.hull_shell import girth_of
 
 __all__ = ["AIM", "HullTiles", "hull_tiles"]
 
@@ -131,7 +130,7 @@ def hull_tiles(patches: Patches, aim: int = AIM) -> HullTiles:
     rows = np.repeat(np.arange(len(patches)), len(uv))
     found = curvatures(patches, rows, np.tile(uv, (len(patches), 1)))
     shape = (len(patches), steps + 1, steps + 1)
-    along = basis(3, at)
+    along = bernstein_basis(3, at)
     girth = along @ girth_of(patches).b @ along.T
     place = found.position.reshape(*shape, 3)
     return HullTiles(

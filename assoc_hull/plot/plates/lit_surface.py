@@ -11,12 +11,12 @@ import numpy as np
 from assoc_hull.arguments import all_of, text
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.plot.plates.hull_paint import painted
 from assoc_hull.plot.plates.hull_tiles import HullTiles, hull_tiles
+from assoc_hull.plot.plates.paint_tiles import paint_quads
 from assoc_hull.plot.sheet.paper import MARGIN, POINT, PaperName, Pen
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import caption, frame
 from assoc_hull.surface.blocks.net_surface import NetSurface
 from assoc_hull.surface.regions.surface_batches import batches_of
@@ -152,7 +152,7 @@ class _Scene:
         seen = np.flatnonzero(self.normal @ turn[2] > 0.0)
         seen = seen[np.argsort(flat[seen, :, 2].mean(axis=1), kind="stable")]
         colour = _lit(self.normal[seen] @ turn.T, float(np.sign(turn[0, 1])))
-        painted(sheet, origin + unit * flat[seen, :, :2], colour, f"{words}/tiles")
+        paint_quads(sheet, origin + unit * flat[seen, :, :2], colour, f"{words}/tiles")
         shown = self.line_normal @ turn[2] > 0.02
         _strokes(sheet, origin + unit * (self.lines[shown] @ turn.T)[..., :2], _LINE)
         for border in self.borders:

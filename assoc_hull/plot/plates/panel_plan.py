@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.panels.mesh_quality import PanelReport, panel_report
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
-from assoc_hull.plot.sheet.paper import MARGIN, POINT, PaperName
-from assoc_hull.plot.sheet.pens import AXIS, WATER
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
+from assoc_hull.plot.sheet.paper import AXIS, MARGIN, POINT, WATER, PaperName
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import caption, frame, scale_bar, title_block
 from assoc_hull.plot.sheet.view import View, scale_of
 
@@ -64,7 +63,7 @@ def panel_plan(mesh: PanelMesh, path: Path_ | None = None, *, paper: PaperName =
 
     Examples
     --------
-    >>> from assoc_hull.analysis.panels.build import panels
+    >>> from assoc_hull.analysis.panels.hull_panels import panels
     >>> from assoc_hull.plot.plates.panel_plan import panel_plan
     >>> from assoc_hull.sources import examples
     >>> figure = panel_plan(panels(examples.wigley(), count=200))

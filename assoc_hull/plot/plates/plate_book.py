@@ -10,21 +10,19 @@ import attrs
 from assoc_hull.arguments import file_path, flag, instance, text
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.write_file import write_whole
-from assoc_hull.plot.plates.curvature_words import strip
+from assoc_hull.plot.plates.colour_legend import legend_strip
 from assoc_hull.plot.plates.development import development_sheet
-from assoc_hull.plot.plates.plate_entries import picture_of
-from assoc_hull.plot.plates.plate_grid import Field
+from assoc_hull.plot.plates.plate_layout import SheetArea
 from assoc_hull.plot.plates.plate_panels import draw_plates, regions
-from assoc_hull.plot.sheet.form_flow import wrapped
-from assoc_hull.plot.sheet.page_ends import GREY
-from assoc_hull.plot.sheet.pages import pdf_of
-from assoc_hull.plot.sheet.paper import Pen
-from assoc_hull.plot.sheet.pens import FRAME, LINE
-from assoc_hull.plot.sheet.sheet import Path_, Sheet, require_matplotlib
-from assoc_hull.surface.plates.columns import Column
+from assoc_hull.plot.plates.plate_picture import picture_of
+from assoc_hull.plot.sheet.labels import wrap_words
+from assoc_hull.plot.sheet.paper import FRAME, LINE, Pen
+from assoc_hull.plot.sheet.report_pages import GREY
+from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, pdf_of, require_matplotlib
+from assoc_hull.surface.plates.columns import PlateColumn
 from assoc_hull.surface.plates.plate import Plate
-from assoc_hull.surface.plates.plate_table import COLUMNS, Plates
-from assoc_hull.surface.plates.suggestions import CAVEAT
+from assoc_hull.surface.plates.plate_class import CAVEAT
+from assoc_hull.surface.plates.surface_plates import COLUMNS, PlateTable
 
 __all__ = ["plate_pdf", "plate_sheet", "plate_sheets"]
 
@@ -36,7 +34,7 @@ _WHERE = "in plate_sheet"
 
 
 def plate_sheet(
-    plates: Plates, path: Path_, *, title: str = "Shell plates", developments: bool = False
+    plates: PlateTable, path: Path_, *, title: str = "Shell plates", developments: bool = False
 ) -> None:
     """Write a book of plates as a PDF; the file is written whole or not at all.
 
@@ -70,23 +68,25 @@ def plate_sheet(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     plate_sheet(found, Path(folder) / "plates.pdf")
     """
-    instance(plates, Plates, "plates", _WHERE)
+    instance(plates, PlateTable, "plates", _WHERE)
     name = file_path(path, _WHERE)
     if Path(name).suffix.lower() != ".pdf":
         raise BadInputError("a book of plates is a PDF", f"at {path}", "end the name in .pdf")
     write_whole(name, plate_pdf(plates, title=title, developments=developments))
 
 
-def plate_pdf(plates: Plates, *, title: str = "Shell plates", developments: bool = False) -> bytes:
+def plate_pdf(
+    plates: PlateTable, *, title: str = "Shell plates", developments: bool = False
+) -> bytes:
     """Give the book as bytes, the same each time; arguments and errors as of `plate_sheet`."""
     return pdf_of(plate_sheets(plates, title=title, developments=developments), title)
 
 
 def plate_sheets(
-    plates: Plates, *, title: str = "Shell plates", developments: bool = False
+    plates: PlateTable, *, title: str = "Shell plates", developments: bool = False
 ) -> list[Sheet]:
     """Give the pages of the book; arguments and errors as of `plate_sheet`."""
-    instance(plates, Plates, "plates", _WHERE)
+    instance(plates, PlateTable, "plates", _WHERE)
     text(title, "title", _WHERE)
     require_matplotlib()
     book = _Book(title)
@@ -132,7 +132,7 @@ class _Book:
         return full
 
 
-def _table(book: _Book, plates: Plates) -> None:
+def _table(book: _Book, plates: PlateTable) -> None:
     """Write the table; its head stands on each page that it reaches."""
     columns = [each for each in COLUMNS if each.head]
     rows = [[_cell(each, plate) for each in columns] for plate in plates]
@@ -152,7 +152,7 @@ def _table(book: _Book, plates: Plates) -> None:
     book.y -= 3.0
 
 
-def _cell(column: Column, plate: Plate) -> str:
+def _cell(column: PlateColumn, plate: Plate) -> str:
     """Write a value as in the table of text, with signs of print: a minus, a dash for none."""
     words = column.printed(plate)
     if column.style == "s":
@@ -186,7 +186,7 @@ def _line(book: _Book, words: Sequence[str], ends: Sequence[float], name: str, f
     book.y -= _ROW
 
 
-def _conditions(plates: Plates) -> Iterator[str]:
+def _conditions(plates: PlateTable) -> Iterator[str]:
     """Say what the numbers are, and what was noted."""
     yield CAVEAT
     for band in dict.fromkeys(str(each.band) for each in plates.results):
@@ -206,7 +206,7 @@ def _words(book: _Book, title: str, sentences: Sequence[str]) -> None:
                     name="label/part")  # fmt: skip
     book.y -= 1.5 * _WORDS
     for words in sentences:
-        for line in wrapped(book.sheet, words, _RIGHT - _LEFT - 4.0, 1.0):
+        for line in wrap_words(book.sheet, words, _RIGHT - _LEFT - 4.0, 1.0):
             book.room(_WORDS)
             book.sheet.text((_LEFT, book.y), line, across="left", up="top", name="label/words")
             book.y -= _WORDS
@@ -214,12 +214,12 @@ def _words(book: _Book, title: str, sentences: Sequence[str]) -> None:
     book.y -= 3.0
 
 
-def _maps(book: _Book, plates: Plates) -> None:
+def _maps(book: _Book, plates: PlateTable) -> None:
     """Draw the plates, some on a page, with the colours explained at its foot."""
     picture = picture_of(plates)
     for first in range(0, len(picture.entries), _PLATES):
         book.turn()
         entries = picture.entries[first : first + _PLATES]
-        field = Field(_LEFT, _LOW, _RIGHT, _TOP - 4.0)
+        field = SheetArea(_LEFT, _LOW, _RIGHT, _TOP - 4.0)
         draw_plates(book.sheet, entries, field, ("plan", "space"), regions)
-        strip(book.sheet, picture, (_LEFT, 7.0), GREY)
+        legend_strip(book.sheet, picture, (_LEFT, 7.0), GREY)

@@ -10,30 +10,36 @@ import numpy as np
 from assoc_hull.arguments import all_of, choice
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.plates.plate_entries import Entry
-from assoc_hull.plot.plates.plate_grid import Cell, Field, Sight, lay_plates
-from assoc_hull.plot.plates.plate_paint import colours, paint, signs
-from assoc_hull.plot.plates.plate_scene import Scene
-from assoc_hull.plot.plates.plate_view import Place, plate_frame, relief_of, upright
-from assoc_hull.plot.sheet.form_flow import wrapped
-from assoc_hull.plot.sheet.labels import Lettered, label_lines
+from assoc_hull.plot.plates.paint_tiles import colours, draw_signs, paint_plate
+from assoc_hull.plot.plates.plate_layout import (
+    PlateCell,
+    PlatePlacement,
+    PlateSight,
+    SheetArea,
+    lay_plates,
+    plate_frame,
+    relief_of,
+    upright,
+)
+from assoc_hull.plot.plates.plate_picture import PlateEntry, PlateScene
+from assoc_hull.plot.sheet.labels import LabelledLine, label_lines, wrap_words
 from assoc_hull.plot.sheet.paper import MARGIN, Pen
-from assoc_hull.plot.sheet.sheet import Sheet
+from assoc_hull.plot.sheet.sheet_figure import Sheet
 from assoc_hull.plot.sheet.title_block import scale_bar
 from assoc_hull.plot.sheet.view import View
 
-__all__ = ["VIEWS", "Look", "draw_plates", "field_beside", "regions", "views_of"]
+__all__ = ["VIEWS", "PlateLook", "draw_plates", "field_beside", "regions", "views_of"]
 
 VIEWS = ("plan", "space", "parameters")
 
-Look = Callable[[Entry], tuple[Scene, FloatArray]]
+PlateLook = Callable[[PlateEntry], tuple[PlateScene, FloatArray]]
 """Gives the tiles that a plate is drawn with, and the colours (k, 3) they have."""
 
 _AXIS = Pen(0.3, "0.1", (6.0, 1.0, 0.8, 1.0), 2.8)
 _WORD = 3.0  # mm at A3, a line of words
 
 
-def regions(entry: Entry) -> tuple[Scene, FloatArray]:
+def regions(entry: PlateEntry) -> tuple[PlateScene, FloatArray]:
     """Draw a plate by its regions."""
     return entry.scene, colours(entry.scene.tint)
 
@@ -54,7 +60,11 @@ def views_of(views: object, where: str) -> list[str]:
 
 
 def draw_plates(
-    sheet: Sheet, entries: Sequence[Entry], field: Field, views: Sequence[str], look: Look
+    sheet: Sheet,
+    entries: Sequence[PlateEntry],
+    field: SheetArea,
+    views: Sequence[str],
+    look: PlateLook,
 ) -> None:
     """Draw plates as large as they can be, all to one scale.
 
@@ -78,7 +88,7 @@ def draw_plates(
     ]
     single = len(entries) == 1 and entries[0].axis is None
     below = 0.0 if single else (3.0 * _WORD + 1.5) * factor
-    room = Field(field.left, field.low + 8.0 * factor, field.right, field.top)
+    room = SheetArea(field.left, field.low + 8.0 * factor, field.right, field.top)
     cells = lay_plates(plates, room, factor, below)
     for entry, cell, plate, (_, colour) in zip(entries, cells, plates, looks, strict=True):
         _plate(sheet, cell, plate, entry, colour)
@@ -87,7 +97,7 @@ def draw_plates(
     _scale(sheet, field, cells[0].denominator)
 
 
-def _sights(scene: Scene, frame: FloatArray | None, views: Sequence[str]) -> list[Sight]:
+def _sights(scene: PlateScene, frame: FloatArray | None, views: Sequence[str]) -> list[PlateSight]:
     """Give the views of a plate, in a frame of its own if there is one."""
     shape = scene.drawn()
     normal, middle = shape.normal, shape.corner.mean(axis=1)
@@ -95,14 +105,14 @@ def _sights(scene: Scene, frame: FloatArray | None, views: Sequence[str]) -> lis
     if frame is not None:
         plan = attrs.evolve(plan, frame=frame)
     found = {
-        "plan": lambda: Sight("plan", shape, plan),
-        "space": lambda: Sight("space", shape, plan.in_space(relief_of(plan, middle))),
+        "plan": lambda: PlateSight("plan", shape, plan),
+        "space": lambda: PlateSight("space", shape, plan.in_space(relief_of(plan, middle))),
         "parameters": lambda: _over_parameters(scene),
     }
     return [found[view]() for view in views]
 
 
-def _over_parameters(scene: Scene) -> Sight:
+def _over_parameters(scene: PlateScene) -> PlateSight:
     """Give a plate over its parameters, about as long and broad as it is."""
     (u0, u1), (v0, v1) = scene.surface.domain
     corner = scene.surface.at([[u0, u0], [u1, u1]], [[v0, v1], [v0, v1]])
@@ -115,32 +125,36 @@ def _over_parameters(scene: Scene) -> Sight:
         return np.concatenate([flat, np.zeros_like(flat[..., :1])], axis=-1)
 
     shape = scene.drawn(chart)
-    return Sight("parameters", shape, upright(shape.corner.mean(axis=(0, 1))))
+    return PlateSight("parameters", shape, upright(shape.corner.mean(axis=(0, 1))))
 
 
 def _plate(
-    sheet: Sheet, cell: Cell, plate: Sequence[Sight], entry: Entry, colour: FloatArray
+    sheet: Sheet,
+    cell: PlateCell,
+    plate: Sequence[PlateSight],
+    entry: PlateEntry,
+    colour: FloatArray,
 ) -> None:
     """Draw the views of a plate with their captions."""
     for place, sight in zip(cell.places, plate, strict=True):
         name = f"{entry.name}/{sight.kind}"
-        paint(sheet, place, sight.shape, colour, name, shaded=sight.kind == "space")
+        paint_plate(sheet, place, sight.shape, colour, name, shaded=sight.kind == "space")
         clear = []
         if entry.axis is not None and sight.kind != "parameters":
             clear = [_axis(sheet, place, sight, entry.axis, name)]
         if entry.scene.tint.shape == sight.shape.tint.shape:
-            signs(sheet, place, sight.shape, name, clear)
+            draw_signs(sheet, place, sight.shape, name, clear)
         _levels(sheet, place, sight, name)
     field, factor = cell.field, sheet.paper.factor
     words = [entry.name] if entry.name else []
     words += [_told(sight, cell.denominator) for sight in plate]
-    lines = wrapped(sheet, " · ".join(words), field.right - field.left, 1.15)[:2]
+    lines = wrap_words(sheet, " · ".join(words), field.right - field.left, 1.15)[:2]
     for k, line in enumerate(lines):
         top = (field.left, field.top - (1.0 + k * _WORD) * factor)
         sheet.text(top, line, size=1.1, bold=True, across="left", up="top", name="label/plate")
 
 
-def _told(sight: Sight, denominator: float) -> str:
+def _told(sight: PlateSight, denominator: float) -> str:
     """Say how a view shows the plate."""
     if sight.kind == "plan":
         return f"plan 1:{denominator:g}"
@@ -150,7 +164,9 @@ def _told(sight: Sight, denominator: float) -> str:
     return "in space" if relief == 1.0 else f"in space, heights × {relief:g}"
 
 
-def _axis(sheet: Sheet, place: Place, sight: Sight, direction: FloatArray, name: str) -> FloatArray:
+def _axis(
+    sheet: Sheet, place: PlatePlacement, sight: PlateSight, direction: FloatArray, name: str
+) -> FloatArray:
     """Draw the axis a plate is rolled about through its middle, as far as the plate reaches."""
     from matplotlib.path import Path
 
@@ -166,10 +182,10 @@ def _axis(sheet: Sheet, place: Place, sight: Sight, direction: FloatArray, name:
     return place.on_paper(ends)
 
 
-def _levels(sheet: Sheet, place: Place, sight: Sight, name: str) -> None:
+def _levels(sheet: Sheet, place: PlatePlacement, sight: PlateSight, name: str) -> None:
     """Write the curvature on lines that part no regions."""
     lines = [
-        Lettered(f"K = {line.level:g}".replace("-", "−"), place.on_paper(line.points))
+        LabelledLine(f"K = {line.level:g}".replace("-", "−"), place.on_paper(line.points))
         for line in sight.shape.lines
         if not line.parting and len(line.points) > 1
     ]
@@ -177,16 +193,16 @@ def _levels(sheet: Sheet, place: Place, sight: Sight, name: str) -> None:
         label_lines(sheet, lines, 0.0, sheet.paper.width, name=f"label/{name}/level")
 
 
-def _below(sheet: Sheet, cell: Cell, words: str) -> None:
+def _below(sheet: Sheet, cell: PlateCell, words: str) -> None:
     """Write what the regions of a plate take of it."""
     field, factor = cell.field, sheet.paper.factor
-    lines = wrapped(sheet, words, field.right - field.left, 1.0)[:3]
+    lines = wrap_words(sheet, words, field.right - field.left, 1.0)[:3]
     for k, line in enumerate(lines):
         place = (field.left, field.low + ((3 - k) * _WORD - 0.5) * factor)
         sheet.text(place, line, across="left", up="top", name="label/shares")
 
 
-def _scale(sheet: Sheet, field: Field, denominator: float) -> None:
+def _scale(sheet: Sheet, field: SheetArea, denominator: float) -> None:
     """Draw the scale of the plans; of plates too small for a bar it is written."""
     if not denominator:
         return
@@ -199,9 +215,9 @@ def _scale(sheet: Sheet, field: Field, denominator: float) -> None:
         sheet.text(place, words, across="left", up="bottom", name="label/bar")
 
 
-def field_beside(sheet: Sheet, block: float) -> Field:
+def field_beside(sheet: Sheet, block: float) -> SheetArea:
     """Give the part of a sheet left of a block so wide, mm at A3."""
     factor, paper = sheet.paper.factor, sheet.paper
     edge = (MARGIN + 5.0) * factor
     right = paper.width - (MARGIN + block + 5.0) * factor
-    return Field(edge, MARGIN * factor + 2.0, right, paper.height - edge + 1.0 * factor)
+    return SheetArea(edge, MARGIN * factor + 2.0, right, paper.height - edge + 1.0 * factor)

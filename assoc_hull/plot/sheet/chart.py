@@ -8,22 +8,29 @@ from typing import Protocol
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.hydrostatics.hydrostatic_header import HydrostaticHeader
+from assoc_hull.analysis.hydrostatics.record import HydrostaticHeader
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.lines_plan.layout import BLOCK
-from assoc_hull.plot.sheet.paper import MARGIN, Pen
-from assoc_hull.plot.sheet.pens import GRID, LINE, WATER
-from assoc_hull.plot.sheet.sheet import Sheet
-from assoc_hull.plot.sheet.title_block import frame, title_block
+from assoc_hull.plot.sheet.paper import GRID, LINE, MARGIN, WATER, Pen
+from assoc_hull.plot.sheet.sheet_figure import Sheet
+from assoc_hull.plot.sheet.title_block import BLOCK, frame, title_block
 
-__all__ = ["Chart", "Scale", "block_of", "chart_on", "levels", "scale_to", "smooth", "uprights"]
+__all__ = [
+    "Chart",
+    "ChartScale",
+    "chart_block",
+    "chart_on",
+    "level_grid",
+    "scale_to",
+    "smooth_course",
+    "upright_grid",
+]
 
 _LEFT, _RIGHT, _ABOVE = 16.0, 9.0, 14.0  # of the field, for labels, mm at A3
 _STEPS = (1.0, 2.0, 2.5, 5.0)
 
 
 @attrs.frozen
-class Scale:
+class ChartScale:
     """From values to millimetres along one side of a field.
 
     Attributes
@@ -63,7 +70,7 @@ class Scale:
 
 def scale_to(
     low: float, high: float, start: float, size: float, marks: int, *, whole: bool = True
-) -> Scale:
+) -> ChartScale:
     """Choose a scale that holds two values, with about so many marks at round numbers.
 
     Parameters
@@ -89,7 +96,7 @@ def scale_to(
     if whole:
         low = step * float(np.floor(low / step + 1e-9))
         high = max(step * float(np.ceil(high / step - 1e-9)), low + step)
-    return Scale(low, high, step, start, size)
+    return ChartScale(low, high, step, start, size)
 
 
 @attrs.frozen
@@ -132,7 +139,7 @@ def chart_on(sheet: Sheet, below: float) -> Chart:
     return Chart(sheet, left, low, wide, sheet.paper.height - margin - _ABOVE * factor - low)
 
 
-def levels(chart: Chart, scale: Scale, title: str, draught: float | None = None) -> None:
+def level_grid(chart: Chart, scale: ChartScale, title: str, draught: float | None = None) -> None:
     """Draw level lines at the marks of a scale, its title above, and the design draught."""
     sheet, factor = chart.sheet, chart.sheet.paper.factor
     for value in scale.marks.tolist():
@@ -150,7 +157,7 @@ def levels(chart: Chart, scale: Scale, title: str, draught: float | None = None)
         sheet.take(sheet.text(place, words, size=0.9, across="left", name="label/design"))
 
 
-def uprights(chart: Chart, along: Scale, title: str) -> None:
+def upright_grid(chart: Chart, along: ChartScale, title: str) -> None:
     """Draw upright lines at the marks of the abscissa, with their values below."""
     sheet, factor = chart.sheet, chart.sheet.paper.factor
     for value in along.marks.tolist():
@@ -163,7 +170,7 @@ def uprights(chart: Chart, along: Scale, title: str) -> None:
     sheet.take(words)
 
 
-def smooth(x: FloatArray, y: FloatArray, count: int = 400) -> FloatArray:
+def smooth_course(x: FloatArray, y: FloatArray, count: int = 400) -> FloatArray:
     """Give a smooth curve through points, (count + n, 2), straight where they lie level.
 
     Parameters
@@ -176,8 +183,8 @@ def smooth(x: FloatArray, y: FloatArray, count: int = 400) -> FloatArray:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.plot.sheet.chart import smooth
-    >>> course = smooth(np.array([0.0, 1, 2, 3]), np.array([0.0, 5, 5, 0]), 7)
+    >>> from assoc_hull.plot.sheet.chart import smooth_course
+    >>> course = smooth_course(np.array([0.0, 1, 2, 3]), np.array([0.0, 5, 5, 0]), 7)
     >>> course[3:5, 1].tolist()  # between the two that are level
     [5.0, 5.0]
     """
@@ -198,7 +205,7 @@ def smooth(x: FloatArray, y: FloatArray, count: int = 400) -> FloatArray:
     return np.column_stack([at, CubicHermiteSpline(x, y, slope)(at)])
 
 
-class Headed(Protocol):
+class HasHeader(Protocol):
     """What has a head that says what its numbers hold good for."""
 
     @property
@@ -207,7 +214,9 @@ class Headed(Protocol):
         ...
 
 
-def block_of(sheet: Sheet, table: Headed, title: str, rows: Sequence[tuple[str, str]]) -> float:
+def chart_block(
+    sheet: Sheet, table: HasHeader, title: str, rows: Sequence[tuple[str, str]]
+) -> float:
     """Draw the block of a chart: ship, rows, and what the numbers hold good for."""
     head, factor = table.header, sheet.paper.factor
     margin = MARGIN * factor

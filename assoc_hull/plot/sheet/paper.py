@@ -1,14 +1,41 @@
-"""Sizes of paper, and the pens that are used on them."""
+"""Sizes of paper, and the pens of the drawing office: line weights, dashes and tints.
+
+Lengths are millimetres. A `Pen` has a width at A3, a colour, a dash, and how far it lies above
+others; `Paper.factor` scales widths and letters to another size. The named pens (`LINE`,
+`HEAVY`, `GRID`, `WATER`, ...) are those that several pictures share.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Literal
 
 import attrs
 
 from assoc_hull.errors import BadInputError
 
-__all__ = ["MARGIN", "PAPERS", "POINT", "Paper", "PaperName", "Pen", "paper_of"]
+__all__ = [
+    "AXIS",
+    "BEFORE",
+    "FAMILY_COLOURS",
+    "FRAME",
+    "GRID",
+    "HEAVY",
+    "LINE",
+    "MARGIN",
+    "PAPERS",
+    "POINT",
+    "TINT",
+    "WATER",
+    "Paper",
+    "PaperName",
+    "Pen",
+    "paper_of",
+]
+
+# --------------------------------------------------------------------------------------
+# Sizes of paper, and the pens that are used on them.
 
 POINT = 25.4 / 72.0
 """Millimetres in a typographic point."""
@@ -91,3 +118,29 @@ def paper_of(name: str) -> Paper:
         known = ", ".join(PAPERS)
         raise BadInputError(f"the paper {name!r} was asked", "in a picture", f"use one of {known}")
     return PAPERS[name]
+
+
+# --------------------------------------------------------------------------------------
+# The pens of the drawing office: line weights, dashes and tints.
+
+TINT = "#c8102e"
+"""Colour of lines that are to be noticed."""
+
+LINE = Pen(0.13)
+HEAVY = Pen(0.25, over=2.5)
+FRAME = Pen(0.35)
+GRID = Pen(0.08, "0.62", over=1.0)
+AXIS = Pen(0.14, "0.15", (4.0, 0.8, 0.8, 0.8), 1.2)
+WATER = Pen(0.16, "0.15", (3.0, 1.0), 1.2)
+BEFORE = Pen(0.13, "0.6", over=1.8)
+
+FAMILY_COLOURS: Mapping[str, str] = MappingProxyType(
+    {
+        "boundary": "#444444",
+        "sections": "#0b5fa5",
+        "waterlines": "#0a7d55",
+        "buttocks": "#a8570f",
+        "diagonals": "#7a3b9a",
+        "frames": "#5b7fa0",
+    }
+)

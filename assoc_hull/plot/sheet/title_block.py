@@ -7,15 +7,26 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from assoc_hull.plot.lines_plan.drawing import Drawing
-from assoc_hull.plot.sheet.pens import FRAME, LINE
-from assoc_hull.plot.sheet.sheet import Sheet
+from assoc_hull.plot.sheet.paper import FRAME, LINE
+from assoc_hull.plot.sheet.sheet_figure import Sheet
 from assoc_hull.plot.sheet.view import View
 
 if TYPE_CHECKING:
     from matplotlib.text import Text
 
-__all__ = ["ROW", "block_height", "caption", "frame", "particulars_of", "scale_bar", "title_block"]
+__all__ = [
+    "BLOCK",
+    "ROW",
+    "block_height",
+    "caption",
+    "frame",
+    "scale_bar",
+    "title_block",
+]
+
+BLOCK = 92.0
+"""Width of the block of particulars, mm at A3; so are the other lengths."""
+
 
 ROW = 4.4
 """Height of a row of a block, mm at A3."""
@@ -36,30 +47,6 @@ def caption(sheet: Sheet, place: tuple[float, float], words: str) -> None:
     sheet.take(
         sheet.text(place, words, size=1.3, bold=True, up="top", name=f"label/caption/{words}")
     )
-
-
-def particulars_of(drawing: Drawing) -> list[tuple[str, str]]:
-    """Give the principal particulars as they are printed."""
-    ship = drawing.particulars
-    counts = [
-        (len(drawing.of(family)), family) for family in ("sections", "waterlines", "buttocks")
-    ]
-    (aft, *_), (fore, *_) = drawing.bounds.tolist()
-    return [
-        ("Length between perpendiculars", f"{ship.length:.3f} m"),
-        ("Length of hull, moulded", f"{fore - aft:.3f} m"),
-        ("Breadth, moulded", f"{ship.breadth:.3f} m"),
-        ("Depth, moulded", f"{ship.depth:.3f} m"),
-        ("Design draught, moulded", f"{ship.draught:.3f} m"),
-        ("L/B,  B/T,  L/D", _ratios(drawing)),
-        ("Lines", ", ".join(f"{count} {family}" for count, family in counts if count)),
-    ]
-
-
-def _ratios(drawing: Drawing) -> str:
-    ship = drawing.particulars
-    ratios = ship.length / ship.breadth, ship.breadth / ship.draught, ship.length / ship.depth
-    return ",  ".join(f"{ratio:.3f}" for ratio in ratios)
 
 
 def block_height(rows: int, notes: int) -> float:

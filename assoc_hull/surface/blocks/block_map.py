@@ -1,8 +1,8 @@
-"""A block laid out on its rectangle, bays beyond its sides on rectangles beside it.
+"""A block laid out on its rectangle, with its bays beside it: parameters for every node.
 
-Parameters of nodes are rounded to a grid of about a centimetre: the fit corrects them anyway, and
-where a line has moved by less, far from an edit, they stay as they are to the bit. Along a border
-that follows another block they are those of that block, in proportion.
+Inner nodes lie at the weighted mean of their neighbours (Tutte 1963), so nothing folds.
+Parameters are rounded to about a centimetre, so far from an edit they stay the same to the bit.
+Along a border that follows another block they are those of that block, in proportion.
 """
 
 from __future__ import annotations
@@ -16,15 +16,127 @@ import numpy as np
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.numeric.vectors import dot
-from assoc_hull.surface.blocks.harmonic import laid_out
-from assoc_hull.surface.blocks.plan import BlockPlan
-from assoc_hull.surface.blocks.quad import SIDES, Quad
-from assoc_hull.surface.blocks.region import Chord
+from assoc_hull.surface.blocks.block_plan import BlockPlan
+from assoc_hull.surface.blocks.cell_regions import SIDES, CellRegion, Quad, RegionChord
 
-__all__ = ["GRID", "BlockMap", "Laid", "block_map"]
+__all__ = [
+    "GRID",
+    "BlockMap",
+    "LaidQuad",
+    "block_map",
+    "edge_weights",
+    "harmonic_map",
+]
+
+# --------------------------------------------------------------------------------------
+# A part of a net laid out flat: nodes at the mean of their neighbours, the border given.
+#
+#     Tutte, W.T.: How to draw a graph. Proceedings of the London Mathematical Society 13 (1963):
+#     with positive weights and a convex border nothing folds.
+#
+# The weight of an edge is the width of the strips on both sides of it over its length: that of
+# finite volumes, so that a net of any density is laid out as the smooth (harmonic) map would be.
+# Weights are rounded to powers of two: a line that moves a little changes none.
+
+_LEAST = 1e-3
+"""Of the mean weight: no edge counts for less."""
+
+
+def edge_weights(region: CellRegion) -> FloatArray:
+    """Give the weights of all edges for what a region holds, (e,); nil outside it.
+
+    Parameters
+    ----------
+    region : Region
+        The part of the net.
+    """
+    graph, cells = region.graph, region.cells
+    edge = cells.half >> 1
+    area = _areas(region)
+    owner = np.repeat(np.arange(cells.count), cells.sides)
+    length = np.maximum(graph.length, 1e-9)
+    share = 0.5 * area[owner] / (length[edge] * length[edge]) * (4.0 / cells.sides[owner])
+    found = np.zeros(len(graph.edge))
+    np.add.at(found, edge, np.where(region.inside[owner], share, 0.0))
+    used = found > 0.0
+    middle = float(np.exp2(np.round(np.log2(np.median(found[used]))))) if used.any() else 1.0
+    even = np.exp2(np.round(np.log2(np.clip(found, _LEAST * middle, middle / _LEAST))))
+    return np.where(region.edges, even, 0.0)
+
+
+def _areas(region: CellRegion) -> FloatArray:
+    """Give the area of each cell, as that of the polygon of its nodes, (c,), m2."""
+    cells, graph = region.cells, region.graph
+    node = graph.edge.ravel()[cells.half]
+    after = graph.edge.ravel()[cells.half ^ 1]
+    owner = np.repeat(np.arange(cells.count), cells.sides)
+    origin = graph.place[node[cells.start[:-1]]][owner]
+    twice = np.cross(graph.place[node] - origin, graph.place[after] - origin)
+    total = np.zeros((cells.count, 3))
+    np.add.at(total, owner, twice)
+    return np.asarray(0.5 * np.sqrt(dot(total, total)))
+
+
+def harmonic_map(region: CellRegion, uv: FloatArray) -> FloatArray:
+    """Give all nodes of a region parameters, (n, 2), m; nan outside it.
+
+    Parameters
+    ----------
+    region : Region
+        The part of the net.
+    uv : (n, 2), m
+        Where given nodes lie, those of its border among them; nan elsewhere.
+    """
+    from scipy.sparse import csc_matrix  # costs a start of the program
+    from scipy.sparse.linalg import splu
+
+    graph = region.graph
+    own = np.flatnonzero(region.edges)
+    pair = graph.edge[own]
+    weight = edge_weights(region)[own]
+    nodes = np.unique(pair)
+    given = np.isfinite(uv[nodes, 0])
+    number = np.full(len(graph.place), -1, np.int64)
+    free = nodes[~given]
+    number[free] = np.arange(len(free))
+    found = np.full_like(uv, np.nan)
+    found[nodes[given]] = uv[nodes[given]]
+    if not len(free):
+        return found
+    row, column, value, right = _equations(pair, weight, number, np.nan_to_num(uv))
+    matrix = csc_matrix((value, (row, column)), shape=(len(free), len(free)))
+    found[free] = splu(matrix).solve(right)
+    return found
+
+
+def _equations(
+    pair: IntArray, weight: FloatArray, number: IntArray, uv: FloatArray
+) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
+    """Give the entries of the matrix of free nodes, and the right sides."""
+    both = np.concatenate([pair, pair[:, ::-1]])
+    weight = np.concatenate([weight, weight])
+    here, there = number[both[:, 0]], number[both[:, 1]]
+    mine = here >= 0
+    inner = mine & (there >= 0)
+    count = int(number.max(initial=-1)) + 1
+    right = np.zeros((count, 2))
+    fixed = mine & (there < 0)
+    np.add.at(right, here[fixed], weight[fixed, None] * uv[both[fixed, 1]])
+    row = np.concatenate([here[mine], here[inner]])
+    column = np.concatenate([here[mine], there[inner]])
+    return row, column, np.concatenate([weight[mine], -weight[inner]]), right
+
+
+# --------------------------------------------------------------------------------------
+# A block laid out on its rectangle, bays beyond its sides on rectangles beside it.
+#
+# Parameters of nodes are rounded to a grid of about a centimetre: the fit corrects them anyway, and
+# where a line has moved by less, far from an edit, they stay as they are to the bit. Along a border
+# that follows another block they are those of that block, in proportion.
 
 _GIRTH = 40
 """Parts of a girth at which the distance of neighbouring sections is taken."""
+
 GRID, _COARSE = 2.0**-15, 2.0**-11
 """Parts of the ship's length to which nodes and the sides of rectangles are rounded."""
 
@@ -32,7 +144,7 @@ _TOUCHING = {"u0": "u1", "u1": "u0", "v0": "v1", "v1": "v0"}
 
 
 @attrs.frozen(eq=False)
-class Laid:
+class LaidQuad:
     """A quad on a rectangle.
 
     Attributes
@@ -68,8 +180,8 @@ class BlockMap:
     """
 
     plan: BlockPlan
-    core: Laid
-    bays: dict[str, Laid]
+    core: LaidQuad
+    bays: dict[str, LaidQuad]
 
     @property
     def reach(self) -> FloatArray:
@@ -109,7 +221,7 @@ def block_map(plan: BlockPlan, length: float, masters: Mapping[str, BlockMap]) -
     core = _laid(plan.core, box, sheet)
     if plan.rails:
         core = _paced(core, plan.rails, sheet)
-    bays = dict[str, Laid]()
+    bays = dict[str, LaidQuad]()
     for name in sorted(plan.bays, key=len):
         if " " not in name:
             bays[name] = _laid(plan.bays[name], _beside(core, name, plan.bays[name], sheet), sheet)
@@ -127,7 +239,7 @@ def _box(quad: Quad, sheet: _Sheet) -> FloatArray:
     return np.array([[0.0, size[0]], [0.0, size[1]]])
 
 
-def _follow(quad: Quad, side: str, master: Laid, box: FloatArray, sheet: _Sheet) -> None:
+def _follow(quad: Quad, side: str, master: LaidQuad, box: FloatArray, sheet: _Sheet) -> None:
     """Give the nodes of a side the parameters of its master, in proportion."""
     nodes, axis = quad.nodes(side), _axis(side)
     others = [each for each in SIDES if np.isin(nodes, master.quad.nodes(each)).all()]
@@ -148,7 +260,7 @@ def _axis(side: str) -> int:
     return 0 if side[0] == "v" else 1
 
 
-def _laid(quad: Quad, box: FloatArray, sheet: _Sheet) -> Laid:
+def _laid(quad: Quad, box: FloatArray, sheet: _Sheet) -> LaidQuad:
     """Lay a quad out: sides by their length, but for nodes that lie somewhere already."""
     uv = np.full_like(sheet.uv, np.nan)
     inner = np.unique(quad.region.graph.edge[quad.region.edges])
@@ -161,11 +273,11 @@ def _laid(quad: Quad, box: FloatArray, sheet: _Sheet) -> Laid:
         known = np.isfinite(uv[nodes, axis])
         uv[nodes, axis] = np.where(known, uv[nodes, axis], even)
         uv[nodes, 1 - axis] = box[1 - axis, int(side[1])]
-    found = laid_out(quad.region, uv)
+    found = harmonic_map(quad.region, uv)
     free = inner[~np.isfinite(uv[inner]).all(axis=1)]
     found[free] = sheet.rounded(found[free])
     sheet.uv[inner] = found[inner]
-    return Laid(quad, box, found)
+    return LaidQuad(quad, box, found)
 
 
 def _railed(plan: BlockPlan, sheet: _Sheet) -> FloatArray:
@@ -191,7 +303,7 @@ def _railed(plan: BlockPlan, sheet: _Sheet) -> FloatArray:
     return np.array([[0.0, u[-1]], [0.0, v]])
 
 
-def _paced(found: Laid, rails: Sequence[Chord], sheet: _Sheet) -> Laid:
+def _paced(found: LaidQuad, rails: Sequence[RegionChord], sheet: _Sheet) -> LaidQuad:
     """Let u run in proportion to x between sections: lines along the ship keep an even pace."""
     graph = found.quad.region.graph
     nodes = [found.quad.nodes("u0"), found.quad.nodes("u1")]
@@ -206,7 +318,7 @@ def _paced(found: Laid, rails: Sequence[Chord], sheet: _Sheet) -> Laid:
     at = np.interp(x[on], pairs[:, 0], pairs[:, 1])
     uv[on, 0] = np.where(np.isin(x[on], pairs[:, 0]), at, sheet.rounded(at))
     sheet.uv[on] = uv[on]
-    return Laid(found.quad, found.box, uv)
+    return LaidQuad(found.quad, found.box, uv)
 
 
 def _between(quad: Quad, side: str, sheet: _Sheet) -> None:
@@ -226,7 +338,7 @@ def _even(quad: Quad, half: IntArray) -> FloatArray:
     return np.stack([np.interp(wanted, along, c) for c in place.T], axis=-1)
 
 
-def _beside(core: Laid, side: str, quad: Quad, sheet: _Sheet) -> FloatArray:
+def _beside(core: LaidQuad, side: str, quad: Quad, sheet: _Sheet) -> FloatArray:
     """Give the rectangle of a bay, as wide as the block's own lines would go on."""
     axis = 1 - _axis(side)
     other = ("v0", "v1") if axis == 0 else ("u0", "u1")
@@ -240,7 +352,7 @@ def _beside(core: Laid, side: str, quad: Quad, sheet: _Sheet) -> FloatArray:
     return box
 
 
-def _pace(core: Laid, side: str, axis: int) -> float:
+def _pace(core: LaidQuad, side: str, axis: int) -> float:
     """Give by how much a parameter rises along a metre of the lines that leave a side."""
     graph, region = core.quad.region.graph, core.quad.region
     on = np.zeros(len(graph.place), np.bool_)

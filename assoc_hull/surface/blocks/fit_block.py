@@ -1,27 +1,233 @@
-"""One block: its points become a surface, which is cut at its borders and joined to its masters."""
+"""One block fitted: spans of its knots, the surface through its points, its borders.
+
+Along a border a block takes the breaks of its master, so both have the same border to the bit.
+The surface is fitted with its overlap, cut at its borders and joined to its masters.
+A surface that is folded is made stiffer until it is not, and the result says so.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
 
 import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.fitting.fit import Fit
-from assoc_hull.geometry.fitting.folds import Elements, elements
+from assoc_hull.geometry.fitting.fit_input import HeldControls, Samples
+from assoc_hull.geometry.fitting.fit_surface import SurfaceFit, fit_refined, subdivide_bays
+from assoc_hull.geometry.fitting.folds import SurfaceElements, surface_elements
 from assoc_hull.geometry.fitting.foot_points import foot_points
-from assoc_hull.geometry.fitting.held_controls import HeldControls
-from assoc_hull.geometry.fitting.joints import joined, joint_at
-from assoc_hull.geometry.fitting.refining import fit_refined
-from assoc_hull.geometry.fitting.samples import Samples
-from assoc_hull.geometry.fitting.strips import Strip, strip_of
-from assoc_hull.surface.blocks.block import Block, Stretch
+from assoc_hull.geometry.fitting.surface_joints import (
+    Strip,
+    join_to_masters,
+    measure_joint,
+    strip_of,
+)
+from assoc_hull.surface.blocks.block_layout import HullBlock, SideStretch
 from assoc_hull.surface.blocks.fit_options import FitOptions, angle_limit
-from assoc_hull.surface.blocks.net_records import Border
-from assoc_hull.surface.blocks.spans import Breaks, breaks_of
+from assoc_hull.surface.blocks.fit_quality import BlockBorder
 
-__all__ = ["Made", "folded_places", "made_without_folds"]
+__all__ = [
+    "Breaks",
+    "MadeBlock",
+    "block_breaks",
+    "border_ends",
+    "folded_places",
+    "make_without_folds",
+    "master_part",
+]
+
+# --------------------------------------------------------------------------------------
+# Where the spans of a block meet: between stations, along the girth, and as its masters have them.
+#
+# Along a border a block takes the breaks of its master, so that both have the same border to the
+# bit.
+
+Breaks = tuple[FloatArray, FloatArray]
+
+_EACH_BAY = 2
+"""Spans between two stations, or other places worth a knot, along the ship."""
+
+_LONGEST = 0.05
+"""The longest span along the ship, as a part of its length."""
+
+_NEAR = 0.2
+"""Places so near to a neighbour, as a part of the spans that are wanted, are not worth a knot."""
+
+_FEWEST = 20
+"""Spans along a side that has no stations, at least."""
+
+_END_SPAN = 0.6
+"""How much shorter spans of bow and stern are."""
+
+_CLEAR = 0.4
+"""Breaks nearer than this part of a span give way."""
+
+_FINER = np.array([0.25, 0.5])
+"""Breaks beside the place where a side leaves the centre plane, as parts of the span there.
+Shorter ones hold no points of their own: beside a singular corner of the DTC they folded."""
+
+_GRID = 2.0**-15
+"""Breaks are rounded to about this part of the length of the ship."""
+
+_SAME = 1e-9
+_ALONG = {"u0": 1, "u1": 1, "v0": 0, "v1": 0}
+"""The parameter that runs along each side: 0 for u, 1 for v."""
+
+
+def block_breaks(
+    block: HullBlock,
+    girth_span: float,
+    length: float,
+    known: Mapping[str, Breaks],
+    ends: tuple[FloatArray, FloatArray],
+) -> Breaks:
+    """Give where spans of a block meet, over all of its reach.
+
+    Parameters
+    ----------
+    block : Block
+        The block.
+    girth_span : float, m
+        How long spans along the girth are.
+    length : float, m
+        Of the ship.
+    known : mapping of str to (breaks in u, breaks in v)
+        Those of its masters.
+    ends : (n,), (n,), m
+        Where borders of other blocks end on its sides, in u and in v.
+    """
+    (u0, u1), (v0, v1) = block.reach.tolist()
+    if block.kind == "body":
+        inner = block.stations[(block.stations > u0) & (block.stations < u1)]
+        places = np.unique(np.concatenate([[u0], inner, block.extent[0], [u1]]))
+        along = _along_ship(places, length, girth_span)
+    else:
+        along = _evenly(u0, u1, _END_SPAN * girth_span)
+        girth_span *= _END_SPAN
+    own = along, _evenly(v0, v1, girth_span)
+    grid = 2.0 ** round(math.log2(_GRID * length))
+    first, second = (
+        _leaving_centre(block, axis, _with_places(_on_grid(own[axis], grid), ends[axis]))
+        for axis in (0, 1)
+    )
+    return _with_masters(block, 0, first, known), _with_masters(block, 1, second, known)
+
+
+def border_ends(block: HullBlock, others: Iterable[HullBlock]) -> tuple[FloatArray, FloatArray]:
+    """Give where borders of other blocks end within the sides of a block, in u and in v, m."""
+    found: tuple[set[float], set[float]] = set(), set()
+    for other in others:
+        for stretches in other.sides.values():
+            for each in stretches:
+                if each.master == block.name:
+                    found[_ALONG[each.master_side]].update((each.master_low, each.master_high))
+    inner = [
+        sorted(at for at in places if low + _SAME < at < high - _SAME)
+        for places, (low, high) in zip(found, block.extent.tolist(), strict=True)
+    ]
+    return np.array(inner[0]), np.array(inner[1])
+
+
+def _on_grid(places: FloatArray, grid: float) -> FloatArray:
+    """Round places within to a grid: small changes of lengths shall not move all knots."""
+    found = np.round(places[1:-1] / grid) * grid
+    return np.concatenate([places[:1], found, places[-1:]])
+
+
+def _with_places(places: FloatArray, wanted: FloatArray) -> FloatArray:
+    """Put breaks in at wanted places; others near there give way."""
+    for place in wanted.tolist():
+        span = float(np.diff(places)[np.clip(np.searchsorted(places, place) - 1, 0, None)])
+        kept = places[1:-1][np.abs(places[1:-1] - place) > _CLEAR * span]
+        places = np.unique(np.concatenate([places[:1], kept, [place], places[-1:]]))
+    return places
+
+
+def _leaving_centre(block: HullBlock, axis: int, places: FloatArray) -> FloatArray:
+    """Put finer spans where a side leaves the centre plane: it stays in it smoothly, and turns."""
+    for side, stretches in block.sides.items():
+        if _ALONG[side] != axis:
+            continue
+        low, high = block.extent[axis].tolist()
+        for each in stretches:
+            if not each.centre:
+                continue
+            for end, way in ((each.low, -1.0), (each.high, 1.0)):
+                if low + _SAME < end < high - _SAME:
+                    near = int(np.searchsorted(places, end - _SAME))
+                    span = float(np.diff(places)[near if way > 0.0 else near - 1])
+                    places = _merged(np.concatenate([places, end + way * span * _FINER]))
+    return places
+
+
+def _along_ship(places: FloatArray, length: float, least: float) -> FloatArray:
+    """Part the bays between stations."""
+    kept = _thinned(places, _NEAR * least)
+    parts = np.maximum(np.ceil(np.diff(kept) / (_LONGEST * length)).astype(np.int64), _EACH_BAY)
+    short = np.diff(kept) < least
+    return subdivide_bays(kept, np.where(short, 1, parts))
+
+
+def _evenly(low: float, high: float, span: float) -> FloatArray:
+    """Part a side evenly."""
+    return np.linspace(low, high, max(round((high - low) / span), _FEWEST) + 1)
+
+
+def _thinned(places: FloatArray, least: float) -> FloatArray:
+    """Leave out places within that are too near to the one before, or to the end."""
+    kept = [float(places[0])]
+    for place in places[1:-1].tolist():
+        if place - kept[-1] > least and places[-1] - place > least:
+            kept.append(place)
+    return np.array([*kept, float(places[-1])])
+
+
+def master_part(breaks: FloatArray, stretch: SideStretch) -> FloatArray:
+    """Give the breaks of a master between the ends of a stretch, in parameters of the slave.
+
+    Parameters
+    ----------
+    breaks : (b,), m
+        Of the master, along its side.
+    stretch : Stretch
+        What of the side of the slave lies there.
+    """
+    low, high = stretch.master_low, stretch.master_high
+    inner = breaks[(breaks > low + _SAME) & (breaks < high - _SAME)]
+    ratio = (stretch.high - stretch.low) / (high - low)
+    moved = stretch.low + (inner - low) * ratio
+    return np.concatenate([[stretch.low], moved, [stretch.high]])
+
+
+def _with_masters(
+    block: HullBlock, axis: int, own: FloatArray, known: Mapping[str, Breaks]
+) -> FloatArray:
+    """Let breaks of masters take the place of the block's own where the block meets these."""
+    forced = []
+    for side, stretches in block.sides.items():
+        if _ALONG[side] != axis:
+            continue
+        for stretch in stretches:
+            if stretch.master:
+                breaks = known[stretch.master][_ALONG[stretch.master_side]]
+                forced.append(master_part(breaks, stretch))
+    for each in forced:
+        inside = (own > each[0] - _SAME) & (own < each[-1] + _SAME)
+        keep = own[~inside] if each is forced[0] else own
+        own = _merged(np.concatenate([keep, each]))
+    return own
+
+
+def _merged(places: FloatArray) -> FloatArray:
+    """Sort places, each once."""
+    found = np.sort(places)
+    return np.asarray(found[np.concatenate([[True], np.diff(found) > _SAME])])
+
+
+# --------------------------------------------------------------------------------------
+# One block: its points become a surface, which is cut at its borders and joined to its masters.
 
 _PASSES = 4
 _STEPS = 8
@@ -40,7 +246,7 @@ _Y = 1
 
 
 @attrs.frozen(eq=False)
-class Made:
+class MadeBlock:
     """A block and its surface.
 
     Attributes
@@ -58,10 +264,10 @@ class Made:
         Control points of `part` were left where an earlier surface had them.
     """
 
-    block: Block
-    fit: Fit
-    part: Fit
-    borders: tuple[Border, ...]
+    block: HullBlock
+    fit: SurfaceFit
+    part: SurfaceFit
+    borders: tuple[BlockBorder, ...]
     settled: bool = False
 
     @property
@@ -71,12 +277,12 @@ class Made:
         return surface.knots_u[3:-3], surface.knots_v[3:-3]
 
 
-def made_without_folds(
-    block: Block,
+def make_without_folds(
+    block: HullBlock,
     options: FitOptions,
-    made: Mapping[str, Made],
+    made: Mapping[str, MadeBlock],
     ends: tuple[FloatArray, FloatArray],
-) -> Made:
+) -> MadeBlock:
     """Fit and join a block; one that is folded is made stiffer until it is not.
 
     Parameters
@@ -98,16 +304,16 @@ def made_without_folds(
     known = {name: made[name].breaks for name in block.masters}
     first = None
     for stiffer in _STIFFER:
-        fit = fitted(block, options, known, ends, stiffer)
-        found = joined_to_masters(block, fit, made)
-        if not len(folded_places(elements(found.part.surface))):
+        fit = fit_with_overlap(block, options, known, ends, stiffer)
+        found = join_block_to_masters(block, fit, made)
+        if not len(folded_places(surface_elements(found.part.surface))):
             return found
         first = first or found
     assert first is not None
     return first
 
 
-def folded_places(shape: Elements) -> FloatArray:
+def folded_places(shape: SurfaceElements) -> FloatArray:
     """Give the places at which a surface is folded, those beside singular corners left out.
 
     There the normal itself goes to nil, and its direction on a grid tells nothing.
@@ -122,13 +328,13 @@ def folded_places(shape: Elements) -> FloatArray:
     return found
 
 
-def fitted(
-    block: Block,
+def fit_with_overlap(
+    block: HullBlock,
     options: FitOptions,
     known: Mapping[str, Breaks],
     ends: tuple[FloatArray, FloatArray],
     stiffer: float = 1.0,
-) -> Fit:
+) -> SurfaceFit:
     """Fit a surface to the points of a block, with its overlap.
 
     Parameters
@@ -144,7 +350,7 @@ def fitted(
     stiffer : float
         How many times the penalty is that of the options.
     """
-    breaks = breaks_of(block, options.girth_span, options.length, known, ends)
+    breaks = block_breaks(block, options.girth_span, options.length, known, ends)
     limit = options.limit(block.kind)
     share = _TO_BE_JOINED if block.masters else _ENOUGH
     return fit_refined(
@@ -153,13 +359,15 @@ def fitted(
         *breaks,
         stiffer * options.smoothing_of(block.kind, block.area),
         limit,
-        held=lambda u, v: held_on_centre(block, u, v),
+        held=lambda u, v: hold_centre_controls(block, u, v),
         passes=_PASSES,
         enough=lambda fit: bool(np.percentile(fit.residual, 95.0) <= share * limit),
     )
 
 
-def held_on_centre(block: Block, breaks_u: FloatArray, breaks_v: FloatArray) -> HeldControls:
+def hold_centre_controls(
+    block: HullBlock, breaks_u: FloatArray, breaks_v: FloatArray
+) -> HeldControls:
     """Hold control points of borders on the centre plane at y = 0.
 
     A border that is on the centre plane for a part only has all control points held that have a
@@ -191,7 +399,9 @@ def _on_part(
     return HeldControls(mask, held.value)
 
 
-def joined_to_masters(block: Block, fit: Fit, made: Mapping[str, Made]) -> Made:
+def join_block_to_masters(
+    block: HullBlock, fit: SurfaceFit, made: Mapping[str, MadeBlock]
+) -> MadeBlock:
     """Cut a fit at its borders, and let it follow its masters there.
 
     Parameters
@@ -205,38 +415,42 @@ def joined_to_masters(block: Block, fit: Fit, made: Mapping[str, Made]) -> Made:
     """
     strips = dict(_strips(block, made))
     (u0, u1), (v0, v1) = block.extent.tolist()
-    part = joined(fit, ((u0, u1), (v0, v1)), strips, lambda u, v: held_on_centre(block, u, v))
+    part = join_to_masters(
+        fit, ((u0, u1), (v0, v1)), strips, lambda u, v: hold_centre_controls(block, u, v)
+    )
     part = _measured(block, fit, part)
     borders = []
-    for stretch, side in _with_masters(block):
+    for stretch, side in _fit_block_with_masters(block):
         master = made[stretch.master].block
-        joint = joint_at(side, strips[side], fit.surface, part.surface)
+        joint = measure_joint(side, strips[side], fit.surface, part.surface)
         names, kinds = (master.name, block.name), (master.kind, block.kind)
         borders.append(
-            Border(names, joint.gap, joint.joined_gap, joint.angle, joint.place, angle_limit(kinds))
+            BlockBorder(
+                names, joint.gap, joint.joined_gap, joint.angle, joint.place, angle_limit(kinds)
+            )
         )
-    return Made(block, fit, part, tuple(borders))
+    return MadeBlock(block, fit, part, tuple(borders))
 
 
-def _measured(block: Block, fit: Fit, part: Fit) -> Fit:
+def _measured(block: HullBlock, fit: SurfaceFit, part: SurfaceFit) -> SurfaceFit:
     """Give the published surface with the points of the block itself, and their distances from it.
 
     Parameters that the fit has held are free here: a distance is that to the nearest place.
     """
     own = Samples(*(each[block.inside] for each in attrs.astuple(fit.samples, recurse=False)))
     uv, away = foot_points(part.surface, own.point, own.uv, steps=_STEPS)
-    return Fit(part.surface, attrs.evolve(own, uv=uv), away, part.smoothing)
+    return SurfaceFit(part.surface, attrs.evolve(own, uv=uv), away, part.smoothing)
 
 
-def _with_masters(block: Block) -> Iterator[tuple[Stretch, str]]:
+def _fit_block_with_masters(block: HullBlock) -> Iterator[tuple[SideStretch, str]]:
     """Give the parts of the border that follow another block, and their sides."""
     for side, stretches in block.sides.items():
         yield from ((stretch, side) for stretch in stretches if stretch.master)
 
 
-def _strips(block: Block, made: Mapping[str, Made]) -> Iterator[tuple[str, Strip]]:
+def _strips(block: HullBlock, made: Mapping[str, MadeBlock]) -> Iterator[tuple[str, Strip]]:
     """Give what the masters of a block hand over to it, side by side."""
-    for stretch, side in _with_masters(block):
+    for stretch, side in _fit_block_with_masters(block):
         surface = made[stretch.master].part.surface
         whole = surface.domain[stretch.master_side[0] == "u"]
         part = stretch.master_low, stretch.master_high

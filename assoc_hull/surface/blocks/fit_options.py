@@ -16,7 +16,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import not_negative, positive
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = ["CUTOFF", "FitOptions", "angle_limit", "fit_options", "length_of"]
 

@@ -1,28 +1,328 @@
-"""The closed mesh of a hull: cells between its lines, filled, covered and mirrored.
+"""The closed mesh of a hull: filled cells, covered where the half is open, mirrored and checked.
 
-What encloses a volume is checked before it is given out. The mesh comes from the lines alone, so
-it is independent of surfaces fitted to them, and of the strips that hydrostatics is integrated on.
+`closed_mesh` takes a hull, `mesh_of_net` the lines of one; both give a `ClosedMesh` or raise.
+The mesh comes from the lines alone, so it is independent of any surface fitted to them.
+Deck and transom are covered whatever the particulars say of the deck.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.net.gather import Net
-from assoc_hull.arguments import flag, integer, positive
-from assoc_hull.errors import BadInputError, OpenMeshError, OpenNetError
+from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
+from assoc_hull.arguments import all_of, flag, integer, positive
+from assoc_hull.errors import BadInputError, OpenMeshError, OpenNetError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.floating.immersed import Planes
 from assoc_hull.geometry.floating.immersed_triangles import immersed_triangles, make_body
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.surfaces.triangles import Triangles
-from assoc_hull.surface.cells.closing import cover, mirrored
+from assoc_hull.model.tables import HasState, state_of
 from assoc_hull.surface.cells.filling import FilledCells, fill_cells
-from assoc_hull.surface.cells.mesh_report import MeshReport, examined
-from assoc_hull.surface.cells.sound_cells import sound_cells
+from assoc_hull.surface.cells.net_faces import sound_cells
+from assoc_hull.surface.cells.net_nodes import merge_linked
 
-__all__ = ["BelowDraught", "ClosedMesh", "mesh_of_net", "require_closed"]
+__all__ = [
+    "SHELL",
+    "BelowDraught",
+    "ClosedMesh",
+    "MeshReport",
+    "TriangleGroups",
+    "closed_mesh",
+    "cover_openings",
+    "curves_named",
+    "examine_mesh",
+    "mesh_of_net",
+    "mirror_half",
+    "require_closed",
+]
+
+# --------------------------------------------------------------------------------------
+# A filled half hull is covered where it is open, as far as the centre plane, and mirrored.
+
+SHELL = "shell"
+"""The name of the group of the hull itself."""
+
+_ON_CENTRE = 1e-6
+"""Places on the border so near to the centre plane (lengths of the hull) lie in it."""
+
+_COINCIDE = 1e-8
+"""Vertices on one edge so near to one another (lengths of the hull) are one."""
+
+_CAPS = {"deck edge": "deck"}
+"""What is closed by a line other than by its own name."""
+
+
+@attrs.frozen(eq=False)
+class TriangleGroups:
+    """Triangles of a hull in groups.
+
+    Attributes
+    ----------
+    xyz : (v, 3), m
+        Vertices.
+    triangle : (f, 3) int
+        Counter-clockwise from outside.
+    group : (f,) int
+        The group of each, in `names`.
+    cell : (f,) int
+        The cell of the net that each lies in; -1 in what closes the hull.
+    central : (v,) bool
+        Vertices in the centre plane at which the halves meet.
+    names : tuple of str
+        The groups: the shell, and what closes it, by the lines at its border.
+    collapsed : int
+        Triangles that vanished because two of their corners coincide.
+    """
+
+    xyz: FloatArray
+    triangle: IntArray
+    group: IntArray
+    cell: IntArray
+    central: NDArray[np.bool_]
+    names: tuple[str, ...]
+    collapsed: int
+
+
+def cover_openings(filled: FilledCells) -> TriangleGroups:
+    """Close a half hull but for the centre plane: deck, transom and other ends.
+
+    What the border encloses is ruled across the ship, from each place on it to the centre plane:
+    a plane where deck or transom is one. The camber of a deck is not there.
+    """
+    graph, outline = filled.cells.graph, filled.cells.outline
+    curve = graph.curve[outline >> 1]
+    rim = filled.along(outline)
+    xyz, central = _on_centre(filled.xyz, rim, graph.net.centre[curve])
+    aside = np.flatnonzero(~central[rim].all(axis=1))
+    named = [_CAPS.get(graph.net.name[c], graph.net.name[c]) for c in curve[aside].tolist()]
+    names = (SHELL, *dict.fromkeys(named))
+    group = np.array([names.index(each) for each in named], np.int64)
+    xyz, central, quad = _across(xyz, central, rim[aside])
+    shell, cell = filled.triangles()
+    caps = np.concatenate([quad[:, [0, 1, 2]], quad[:, [0, 2, 3]]])
+    triangle = np.concatenate([shell, caps])
+    of_caps = np.tile(np.repeat(group, filled.steps), 2)
+    found = TriangleGroups(
+        xyz, triangle,
+        np.concatenate([np.zeros(len(shell), np.int64), of_caps]),
+        np.concatenate([cell, np.full(len(caps), -1)]),
+        central, names, 0,
+    )  # fmt: skip
+    return _collapsed(found)
+
+
+def _on_centre(
+    xyz: FloatArray, rim: IntArray, centre: NDArray[np.bool_]
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Lay the border into the centre plane where its lines lie there."""
+    near = _ON_CENTRE * float(np.ptp(xyz[:, 0]))
+    central = np.zeros(len(xyz), bool)
+    central[rim[centre]] = True
+    central[rim[np.abs(xyz[rim, 1]) <= near]] = True
+    placed = xyz.copy()
+    placed[central, 1] = 0.0
+    return placed, central
+
+
+def _across(
+    xyz: FloatArray, central: NDArray[np.bool_], rim: IntArray
+) -> tuple[FloatArray, NDArray[np.bool_], IntArray]:
+    """Give elements from the border to the centre plane, with the vertices that they add there."""
+    outer = np.unique(rim[~central[rim]])
+    foot = np.arange(len(xyz))
+    foot[outer] = len(xyz) + np.arange(len(outer))
+    added = xyz[outer] * [1.0, 0.0, 1.0]
+    begin, finish = rim[:, :-1].ravel(), rim[:, 1:].ravel()
+    quad = np.column_stack([begin, finish, foot[finish], foot[begin]])
+    return (
+        np.concatenate([xyz, added]),
+        np.concatenate([central, np.ones(len(outer), bool)]),
+        quad,
+    )
+
+
+def _collapsed(sheets: TriangleGroups) -> TriangleGroups:
+    """Make vertices one that coincide, and take away triangles that have lost a corner by it."""
+    triangle = sheets.triangle
+    edge = np.concatenate([triangle[:, [0, 1]], triangle[:, [1, 2]], triangle[:, [2, 0]]])
+    step = sheets.xyz[edge[:, 0]] - sheets.xyz[edge[:, 1]]
+    near = (_COINCIDE * float(np.ptp(sheets.xyz[:, 0]))) ** 2
+    pair = edge[(dot(step, step) <= near) & (edge[:, 0] != edge[:, 1])]
+    one = np.arange(len(sheets.xyz))
+    if len(pair):
+        one = merge_linked(len(sheets.xyz), pair)
+    central = sheets.central.copy()
+    central[one[sheets.central]] = True
+    xyz = sheets.xyz.copy()
+    xyz[central, 1] = 0.0
+    triangle = one[triangle]
+    # Elements with two equal corners were triangles from the start.
+    stays = (triangle != np.roll(triangle, 1, axis=1)).all(axis=1)
+    whole = (sheets.triangle != np.roll(sheets.triangle, 1, axis=1)).all(axis=1)
+    return _used(
+        attrs.evolve(
+            sheets, xyz=xyz, triangle=triangle[stays], group=sheets.group[stays],
+            cell=sheets.cell[stays], central=central, collapsed=int((whole & ~stays).sum()),
+        )
+    )  # fmt: skip
+
+
+def _used(sheets: TriangleGroups) -> TriangleGroups:
+    """Leave out vertices of no triangle."""
+    used = np.unique(sheets.triangle)
+    number = np.full(len(sheets.xyz), -1, np.int64)
+    number[used] = np.arange(len(used))
+    return attrs.evolve(
+        sheets, xyz=sheets.xyz[used], triangle=number[sheets.triangle], central=sheets.central[used]
+    )
+
+
+def mirror_half(sheets: TriangleGroups) -> TriangleGroups:
+    """Give both sides of the hull: port first, then starboard."""
+    across = np.flatnonzero(~sheets.central)
+    twin = np.arange(len(sheets.xyz))
+    twin[across] = len(sheets.xyz) + np.arange(len(across))
+    return TriangleGroups(
+        np.concatenate([sheets.xyz, sheets.xyz[across] * [1.0, -1.0, 1.0]]),
+        np.concatenate([sheets.triangle, twin[sheets.triangle][:, ::-1]]),
+        np.tile(sheets.group, 2),
+        np.tile(sheets.cell, 2),
+        np.concatenate([sheets.central, np.zeros(len(across), bool)]),
+        sheets.names,
+        2 * sheets.collapsed,
+    )
+
+
+# --------------------------------------------------------------------------------------
+# Whether a mesh is closed, found edge by edge; and how good its triangles are.
+
+_NIL = 1e-14
+"""Triangles of an area this part of the square of the length of the mesh are nil."""
+
+_ALIKE = 1e-9
+"""Volumes by x, by y and by z of a closed mesh agree to this part."""
+
+
+@attrs.frozen(eq=False)
+class MeshReport:
+    """What was found of a mesh.
+
+    Attributes
+    ----------
+    vertices, edges, triangles : int
+        Of the mesh.
+    open_edges : int
+        Edges that are not those of two triangles, once in each sense.
+    off_centre : int
+        How many of these do not lie in the centre plane.
+    first_open : (3,), m
+        The middle of the first of them; nan where there is none.
+    euler : int
+        Vertices - edges + triangles: 2 for one closed surface without a hole through it.
+    fluxes : (3,), m3
+        The volume by x, by y and by z: alike if, and only if, the mesh is closed.
+    area : float, m2
+        Of all triangles.
+    nil : int
+        Triangles without area.
+    collapsed : int
+        Triangles taken away because two of their corners coincide.
+    slenderness : (3,)
+        Longest side by the height over it, of half, of 95 % and of 99 % of the triangles no more.
+    """
+
+    vertices: int
+    edges: int
+    triangles: int
+    open_edges: int
+    off_centre: int
+    first_open: FloatArray
+    euler: int
+    fluxes: FloatArray
+    area: float
+    nil: int
+    collapsed: int
+    slenderness: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.first_open, self.fluxes, self.slenderness)
+
+    @property
+    def closed(self) -> bool:
+        """Whether every edge is that of two triangles, once in each sense."""
+        return self.open_edges == 0
+
+    @property
+    def sound(self) -> bool:
+        """Whether it is closed, one body without a hole through it, and faces outward."""
+        least, most = float(self.fluxes.min()), float(self.fluxes.max())
+        return self.closed and self.euler == 2 and least > 0.0 and most - least <= _ALIKE * most
+
+
+def examine_mesh(xyz: FloatArray, triangle: IntArray, collapsed: int = 0) -> MeshReport:
+    """Examine a mesh.
+
+    Parameters
+    ----------
+    xyz : (v, 3), m
+        Vertices, each of a triangle.
+    triangle : (f, 3) int
+        Triangles.
+    collapsed : int
+        How many were taken away before.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.surface.cells.closed_mesh import examine_mesh
+    >>> corner = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> face = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    >>> examine_mesh(corner, face).sound, examine_mesh(corner, face[:3]).open_edges
+    (True, 3)
+    """
+    mesh = Triangles(xyz, triangle)
+    ends, key = mesh.edges(), mesh.edge_keys()
+    order = np.argsort(key, kind="stable")
+    first = np.flatnonzero(np.append(True, np.diff(key[order]) != 0))
+    sense = np.where(ends[:, 0] < ends[:, 1], 1, -1)[order]
+    count = np.diff(np.append(first, len(order)))
+    lost = ends[order[first[(count != 2) | (np.add.reduceat(sense, first) != 0)]]]
+    vector = mesh.area_vectors()
+    area = np.sqrt(dot(vector, vector))
+    centroid = mesh.corners.mean(axis=1)
+    return MeshReport(
+        len(xyz), len(first), len(triangle), len(lost),
+        int((xyz[lost, 1] != 0.0).any(axis=1).sum()),
+        xyz[lost[0]].mean(axis=0) if len(lost) else np.full(3, np.nan),
+        len(xyz) - len(first) + len(triangle),
+        np.asarray((vector * centroid).sum(axis=0)),
+        float(area.sum()),
+        int((area <= _NIL * float(np.ptp(xyz[:, 0])) ** 2).sum()),
+        collapsed,
+        _slenderness(mesh, area),
+    )  # fmt: skip
+
+
+def _slenderness(mesh: Triangles, area: FloatArray) -> FloatArray:
+    """Give quantiles of the longest side by the height over it."""
+    corner = mesh.corners
+    side = corner - np.roll(corner, 1, axis=1)
+    longest = dot(side, side).max(axis=1)
+    ratio = np.divide(longest, 2.0 * area, out=np.full(len(area), np.inf), where=area > 0.0)
+    return np.asarray(np.quantile(ratio, [0.5, 0.95, 0.99], method="higher"))
+
+
+# --------------------------------------------------------------------------------------
+# The closed mesh of a hull: cells between its lines, filled, covered and mirrored.
+#
+# What encloses a volume is checked before it is given out. The mesh comes from the lines alone, so
+# it is independent of surfaces fitted to them, and of the strips that hydrostatics is integrated
+# on.
 
 _WHERE = "in a closed mesh"
 _MOST_POINTS = 64
@@ -132,7 +432,7 @@ class ClosedMesh:
             raise BadInputError(
                 f"a draught of {height:g} m, below which nothing lies", _WHERE, "give a larger one"
             )
-        level = Planes(np.array([height]), np.zeros(1), np.zeros(1))
+        level = FloatingPlanes(np.array([height]), np.zeros(1), np.zeros(1))
         found = immersed_triangles(make_body(self.triangles), level)
         volume = float(found.volume[0])
         return BelowDraught(
@@ -194,7 +494,7 @@ def require_closed(report: MeshReport, asked: str, half: bool) -> None:
 
 
 def mesh_of_net(
-    net: Net,
+    net: CurveNet,
     *,
     half: bool = False,
     points: int = 4,
@@ -230,9 +530,9 @@ def mesh_of_net(
     Examples
     --------
     >>> import assoc_hull as ah
-    >>> from assoc_hull.analysis.net.gather import gather
+    >>> from assoc_hull.analysis.net.curve_net import gather_net
     >>> from assoc_hull.surface.cells.closed_mesh import mesh_of_net
-    >>> found = mesh_of_net(gather(ah.examples.wigley().state), points=2)
+    >>> found = mesh_of_net(gather_net(ah.examples.wigley().state), points=2)
     >>> found.names, found.report.euler, round(found.volume, 1)
     (('shell', 'deck'), 2, 4854.7)
     """
@@ -243,10 +543,10 @@ def mesh_of_net(
             f"{points} points to an edge", _WHERE, "give an even number: cells meet at middles"
         )
     filled = fill_cells(sound_cells(net, leave_out), points)
-    sheets = cover(filled)
+    sheets = cover_openings(filled)
     if not half:
-        sheets = mirrored(sheets)
-    report = examined(sheets.xyz, sheets.triangle, sheets.collapsed)
+        sheets = mirror_half(sheets)
+    report = examine_mesh(sheets.xyz, sheets.triangle, sheets.collapsed)
     if not half and report.closed and not report.sound:
         fluxes = ", ".join(f"{each:.6g}" for each in report.fluxes.tolist())
         raise OpenNetError(
@@ -282,3 +582,76 @@ def _sagitta(filled: FilledCells) -> FloatArray:
     away = on_line - 0.5 * (end[:, 1:] + end[:, :-1])
     size = np.sqrt((away * away).sum(axis=2)).ravel()
     return np.asarray(np.quantile(size, [0.5, 0.95, 1.0], method="higher"))
+
+
+# --------------------------------------------------------------------------------------
+# A closed mesh of a hull, of a plain call: what is asked for is checked here.
+
+
+def closed_mesh(
+    hull: HasState, *, half: bool = False, points: int = 4, leave_out: Sequence[str] = ()
+) -> ClosedMesh:
+    """Make a closed mesh on the lines of a hull: for panels, printing, a check of volumes.
+
+    The lines part the hull into cells; these are filled with elements that fit together along
+    every edge. Deck and transom are covered, whatever the particulars say of the deck, and the
+    half is mirrored. The mesh comes from the lines alone: it shares nothing with
+    `assoc_hull.hydrostatics` but these.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    half : bool
+        The port half only, open in the centre plane.
+    points : int
+        Into how many parts each piece of a line between two crossings is cut: even, 2 to 64.
+    leave_out : sequence of str
+        Names of lines to do without.
+
+    Returns
+    -------
+    ClosedMesh
+        Checked: every edge is that of two triangles, once in each sense.
+
+    Raises
+    ------
+    BadInputError
+        A curve of the hull has failed, or an option is out of its range.
+    UnknownNameError
+        A line to leave out does not exist.
+    OpenNetError
+        The lines do not part the hull into cells; those at fault are named.
+    OpenMeshError
+        The mesh does not close all the same.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> hull = ah.examples.wigley()
+    >>> mesh = ah.closed_mesh(hull)
+    >>> mesh.names, mesh.report.euler, mesh.report.open_edges
+    (('shell', 'deck'), 2, 0)
+    >>> round(mesh.below(6.25).volume, 1), round(ah.hydrostatics(hull, draught=6.25).volume, 1)
+    (2776.3, 2777.4)
+    """
+    state = state_of(hull, _WHERE)
+    if state.failed:
+        raise BadInputError("a curve has failed", _WHERE, "mend it, or take back the edit")
+    net = gather_net(state)
+    return mesh_of_net(net, half=half, points=points, leave_out=curves_named(net, leave_out))
+
+
+def curves_named(net: CurveNet, names: Sequence[str], where: str = _WHERE) -> NDArray[np.bool_]:
+    """Tell which curves of a net are those of some lines, (m,).
+
+    Raises
+    ------
+    WrongTypeError, UnknownNameError
+        Something else than names was given, or a name is that of no line.
+    """
+    wanted = all_of(names, str, "leave_out", where)
+    for name in wanted:
+        if name not in net.name:
+            raise UnknownNameError("line", name, tuple(dict.fromkeys(net.name)))
+    return np.isin(np.array(net.name), wanted)

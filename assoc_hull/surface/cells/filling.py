@@ -1,10 +1,8 @@
 """Cells filled with small four-sided elements that fit together along every edge.
 
-Both cells at an edge share its points. A cell of four sides is a Coons patch; one of k sides is
-divided into k such patches by lines from the middles of its sides to its own; one of two sides
-is a ladder.
-
-Coons, S.A.: Surfaces for computer-aided design of space forms. MIT, MAC-TR-41, 1967.
+A cell of four sides is a Coons patch, one of k sides is divided into k of them, one of two is a
+ladder. What is filled in is the height over a cubic polynomial in a frame at the mean normal.
+Source: S. A. Coons, Surfaces for computer-aided design of space forms, MIT, MAC-TR-41, 1967.
 """
 
 from __future__ import annotations
@@ -15,10 +13,150 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.numeric.vectors import dot
-from assoc_hull.surface.cells.faces import Cells, origins
-from assoc_hull.surface.cells.local_frames import LocalFrames, local_frames
+from assoc_hull.surface.cells.net_faces import NetCells, half_edge_origins
 
-__all__ = ["FilledCells", "fill_cells"]
+__all__ = [
+    "FilledCells",
+    "LocalFrames",
+    "fill_cells",
+    "local_frames",
+]
+
+# --------------------------------------------------------------------------------------
+# Cells seen along their mean normals: places in a tangent plane, and a height over it.
+#
+# The height of a smooth surface over a cell of its net is close to a cubic polynomial. What is
+# filled in between the edges is what they differ from it by, which is next to nothing.
+
+_RIDGE = 1e-4
+_NORMALS = 0.5
+"""Weight of the slopes at the nodes, beside points on the edges."""
+
+_STEEP = 0.3
+"""With a smaller cosine between the normal of a node and the mean no heights are fitted."""
+
+_POWERS = np.array([(i, j) for i in range(4) for j in range(4 - i)])
+
+
+@attrs.frozen(eq=False)
+class LocalFrames:
+    """A frame for each of some cells.
+
+    Attributes
+    ----------
+    origin : (c, 3), m
+        In the midst of each cell.
+    axes : (c, 3, 3), 1/m
+        Rows: two across the mean normal, and that normal, by the size of the cell.
+    height : (c, 10)
+        The cubic polynomial of the height; nil where the cell is bent too much.
+    """
+
+    origin: FloatArray
+    axes: FloatArray
+    height: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.origin, self.axes, self.height)
+
+    def flattened(self, place: FloatArray) -> FloatArray:
+        """Give two places across and what is left of the height, (c, k, 3), of points (c, k, 3)."""
+        found = _seen(self.origin, self.axes, place)
+        found[..., 2] -= _value(self.height, found[..., :2])
+        return found
+
+    def restored(self, flat: FloatArray) -> FloatArray:
+        """Give the points, (c, k, 3), m, from what `flattened` gives."""
+        flat = flat.copy()
+        flat[..., 2] += _value(self.height, flat[..., :2])
+        # The rows of the axes are at right angles and of one length.
+        size = dot(self.axes[:, 0], self.axes[:, 0])[:, None, None]
+        found = self.origin[:, None] + np.einsum("ckj,cji->cki", flat, self.axes) / size
+        return np.asarray(found)
+
+
+def local_frames(rim: FloatArray, corner: FloatArray, normal: FloatArray) -> LocalFrames:
+    """Lay a frame over each of some cells with equally many corners.
+
+    Parameters
+    ----------
+    rim : (c, r, 3), m
+        Points on the edges.
+    corner : (c, k, 3), m
+        The corners.
+    normal : (c, k, 3)
+        Unit normals of the hull there.
+
+    Returns
+    -------
+    LocalFrames
+        With heights fitted to the points, and to the slopes that the normals have.
+    """
+    mean = normal.sum(axis=1)
+    size = np.sqrt(dot(mean, mean))
+    up = np.where(size[:, None] > 1e-6, mean / np.maximum(size, 1e-6)[:, None], [0.0, 0.0, 1.0])
+    least = np.abs(up).argmin(axis=1)
+    across = np.cross(np.eye(3)[least], up)
+    across /= np.sqrt(dot(across, across))[:, None]
+    origin = rim.mean(axis=1)
+    away = rim - origin[:, None]
+    reach = np.maximum(np.sqrt(dot(away, away)).max(axis=1), 1e-12)
+    unit = np.stack([across, np.cross(up, across), up], axis=1)
+    axes = unit / reach[:, None, None]
+    tilted = np.einsum("cki,cji->ckj", normal, unit)
+    good = (size > 1e-6) & (tilted[..., 2] >= _STEEP).all(axis=1)
+    height = np.zeros((len(rim), len(_POWERS)))
+    height[good] = _fitted(
+        _seen(origin, axes, rim)[good], _seen(origin, axes, corner)[good], tilted[good]
+    )
+    return LocalFrames(origin, axes, height)
+
+
+def _seen(origin: FloatArray, axes: FloatArray, place: FloatArray) -> FloatArray:
+    return np.asarray(np.einsum("cki,cji->ckj", place - origin[:, None], axes))
+
+
+def _terms(ab: FloatArray) -> FloatArray:
+    """Give the ten terms, (c, k, 10), at places (c, k, 2)."""
+    power = ab[..., None, :] ** np.arange(4)[:, None]
+    return np.asarray(power[..., _POWERS[:, 0], 0] * power[..., _POWERS[:, 1], 1])
+
+
+def _value(height: FloatArray, ab: FloatArray) -> FloatArray:
+    return np.asarray(np.einsum("ckt,ct->ck", _terms(ab), height))
+
+
+def _slopes(ab: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give the derivatives of the terms in both directions, (c, k, 10) each."""
+    power = ab[..., None, :] ** np.arange(4)[:, None]
+    rate = np.zeros_like(power)
+    rate[..., 1:, :] = power[..., :-1, :] * np.arange(1, 4)[:, None]
+    i, j = _POWERS.T
+    return rate[..., i, 0] * power[..., j, 1], power[..., i, 0] * rate[..., j, 1]
+
+
+def _fitted(rim: FloatArray, corner: FloatArray, normal: FloatArray) -> FloatArray:
+    """Fit heights, (c, 10)."""
+    along, up = _slopes(corner[..., :2])
+    row = np.concatenate([_terms(rim[..., :2]), _NORMALS * along, _NORMALS * up], axis=1)
+    slope = -normal[..., :2] / normal[..., 2:]
+    wanted = np.concatenate(
+        [rim[..., 2], _NORMALS * slope[..., 0], _NORMALS * slope[..., 1]], axis=1
+    )
+    normal_matrix = np.einsum("crs,crt->cst", row, row) + _RIDGE * np.eye(row.shape[2])
+    return np.asarray(
+        np.linalg.solve(normal_matrix, np.einsum("crs,cr->cs", row, wanted)[..., None])[..., 0]
+    )
+
+
+# --------------------------------------------------------------------------------------
+# Cells filled with small four-sided elements that fit together along every edge.
+#
+# Both cells at an edge share its points. A cell of four sides is a Coons patch; one of k sides is
+# divided into k such patches by lines from the middles of its sides to its own; one of two sides
+# is a ladder.
+#
+# Coons, S.A.: Surfaces for computer-aided design of space forms. MIT, MAC-TR-41, 1967.
 
 
 @attrs.frozen(eq=False)
@@ -40,7 +178,7 @@ class FilledCells:
         The cell of each.
     """
 
-    cells: Cells
+    cells: NetCells
     steps: int
     xyz: FloatArray
     quad: IntArray
@@ -82,14 +220,14 @@ def _cut(quad: IntArray, first: NDArray[np.bool_], cell: IntArray) -> tuple[IntA
     return cut[real], cell.repeat(2)[real]
 
 
-def edge_vertices(cells: Cells, steps: int) -> IntArray:
+def edge_vertices(cells: NetCells, steps: int) -> IntArray:
     """Give the vertices along every edge, (e, steps + 1)."""
     edge, nodes = cells.graph.edge, len(cells.graph.place)
     inner = nodes + np.arange(len(edge) * (steps - 1)).reshape(len(edge), steps - 1)
     return np.concatenate([edge[:, :1], inner, edge[:, 1:]], axis=1)
 
 
-def fill_cells(cells: Cells, steps: int) -> FilledCells:
+def fill_cells(cells: NetCells, steps: int) -> FilledCells:
     """Fill the cells of a net.
 
     Parameters
@@ -102,11 +240,11 @@ def fill_cells(cells: Cells, steps: int) -> FilledCells:
     Examples
     --------
     >>> import assoc_hull as ah
-    >>> from assoc_hull.analysis.net.gather import gather
-    >>> from assoc_hull.surface.cells.faces import cells
+    >>> from assoc_hull.analysis.net.curve_net import gather_net
+    >>> from assoc_hull.surface.cells.net_faces import find_cells
     >>> from assoc_hull.surface.cells.filling import fill_cells
     >>> from assoc_hull.surface.cells.net_graph import net_graph
-    >>> found = fill_cells(cells(net_graph(gather(ah.examples.wigley().state))), 2)
+    >>> found = fill_cells(find_cells(net_graph(gather_net(ah.examples.wigley().state))), 2)
     >>> found.quad.shape, found.triangles()[0].shape  # 220 cells of 2 x 2 elements
     ((880, 4), (1760, 3))
     """
@@ -148,7 +286,7 @@ def _filled(
 
 def _frames(start: FilledCells, half: IntArray, rim: IntArray) -> LocalFrames:
     graph = start.cells.graph
-    node = origins(graph)[half]
+    node = half_edge_origins(graph)[half]
     round_it = start.xyz[rim[:, :, :-1].reshape(len(rim), -1)]
     return local_frames(round_it, graph.place[node], graph.normal[node])
 

@@ -1,27 +1,383 @@
-"""The lines of a hull as a graph: nodes where they cross, edges between neighbouring nodes."""
+"""The lines of a hull as a graph: nodes where they cross, edges between neighbouring nodes.
+
+Edges are pieces of curves with points at equal steps; two that are one line are merged first.
+Each node has a unit normal, outward, from the directions of the lines that meet there.
+Half-edge 2 e runs along edge e, half-edge 2 e + 1 against it.
+"""
 
 from __future__ import annotations
 
+import heapq
 from functools import cached_property
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.net.gather import Net
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.analysis.net.curve_net import CurveNet
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.vectors import dot
-from assoc_hull.surface.cells.edge_points import Pieces, measured_pieces
-from assoc_hull.surface.cells.lenses import find_lenses
-from assoc_hull.surface.cells.normals import node_normals
-from assoc_hull.surface.cells.stops import RANK, Stops, find_stops, united_stops
+from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.surface.cells.net_nodes import RANK, Stops, find_stops, merge_stops
 
-__all__ = ["NetGraph", "net_graph"]
+__all__ = [
+    "EdgePieces",
+    "Lenses",
+    "NetGraph",
+    "edge_angles",
+    "find_lenses",
+    "measure_pieces",
+    "net_graph",
+    "node_normals",
+]
+
+# --------------------------------------------------------------------------------------
+# Points at equal steps along pieces of curves, from node to node.
+
+_CHORDS = 24
+"""Chords by which the length along a piece of a curve is measured."""
+
+
+@attrs.frozen(eq=False)
+class EdgePieces:
+    """Pieces of curves between nodes, measured along their chords.
+
+    Curves that pass one another by a gap have their node on one of them only; pieces of the
+    others are moved there, by less and less towards their other end.
+
+    Attributes
+    ----------
+    batch : SplineBatch
+        The curves.
+    curve : (e,) int
+        The curve of each piece.
+    at : (e, s), m
+        Parameters on it, at even steps from one end to the other.
+    along : (e, s), m
+        How far along the piece they lie.
+    shift : (e, 2, 3), m
+        From the ends of the pieces to their nodes.
+    """
+
+    batch: SplineBatch
+    curve: IntArray
+    at: FloatArray
+    along: FloatArray
+    shift: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.curve, self.at, self.along, self.shift)
+
+    @property
+    def length(self) -> FloatArray:
+        """The length of each piece, (e,), m."""
+        return self.along[:, -1]
+
+    def chosen(self, which: IntArray) -> EdgePieces:
+        """Give some of the pieces."""
+        curve, at, along, shift = self.curve, self.at, self.along, self.shift
+        return EdgePieces(self.batch, curve[which], at[which], along[which], shift[which])
+
+    def points(self, part: FloatArray) -> FloatArray:
+        """Give points on the pieces.
+
+        Parameters
+        ----------
+        part : (k,) or (e, k)
+            How far along each of them, from 0 to 1 of its length.
+
+        Returns
+        -------
+        (e, k, 3), m
+            The points; the ends are the nodes but for rounding.
+        """
+        part = np.broadcast_to(part, (len(self.curve), np.shape(part)[-1]))
+        t = self._parameters(part)
+        place = evaluate(self.batch, self.curve.repeat(t.shape[1]), t.ravel())
+        first, last = (1.0 - part)[..., None], part[..., None]
+        moved = first * self.shift[:, None, 0] + last * self.shift[:, None, 1]
+        return np.asarray(place.reshape(*t.shape, 3) + moved)
+
+    def _parameters(self, part: FloatArray) -> FloatArray:
+        """Give the parameters at parts of the length of each piece, (e, k), m."""
+        wanted = part * self.along[:, -1:]
+        after = (self.along[:, None, :] <= wanted[:, :, None]).sum(axis=2)
+        after = np.clip(after, 1, self.along.shape[1] - 1)
+        row = np.arange(len(part))[:, None]
+        low, high = self.along[row, after - 1], self.along[row, after]
+        share = np.divide(wanted - low, high - low, out=np.zeros_like(low), where=high > low)
+        begin, finish = self.at[row, after - 1], self.at[row, after]
+        return np.asarray(np.where(share >= 1.0, finish, begin + (finish - begin) * share))
+
+
+def measure_pieces(
+    batch: SplineBatch, curve: IntArray, t: FloatArray, ends: FloatArray
+) -> EdgePieces:
+    """Measure pieces of curves.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    curve : (e,) int
+        The curve of each piece.
+    t : (e, 2), m
+        Where it begins and ends on it.
+    ends : (e, 2, 3), m
+        The nodes that it runs between.
+
+    Returns
+    -------
+    Pieces
+        Lengths are those of 24 chords.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.curves import SplineBatch
+    >>> from assoc_hull.surface.cells.net_graph import measure_pieces
+    >>> xyz = np.array([[0.0, 0, 0], [4, 0, 0]])
+    >>> along = np.array([[1.0, 0, 0], [1, 0, 0]])
+    >>> line = SplineBatch(np.array([0, 2]), np.array([0.0, 4]), xyz, along, along.copy())
+    >>> end = np.array([[[1.0, 0, 0], [3, 0, 0]]])
+    >>> piece = measure_pieces(line, np.array([0]), np.array([[1.0, 3.0]]), end)
+    >>> piece.length.tolist(), piece.points(np.array([0.5])).tolist()
+    ([2.0], [[[2.0, 0.0, 0.0]]])
+    """
+    at = t[:, :1] + (t[:, 1:] - t[:, :1]) * np.linspace(0.0, 1.0, _CHORDS + 1)
+    at[:, -1] = t[:, 1]
+    place = evaluate(batch, curve.repeat(at.shape[1]), at.ravel()).reshape(*at.shape, 3)
+    step = np.diff(place, axis=1)
+    along = np.zeros(at.shape)
+    np.cumsum(np.sqrt(dot(step, step)), axis=1, out=along[:, 1:])
+    return EdgePieces(batch, curve.copy(), at, along, ends - place[:, [0, -1]])
+
+
+# --------------------------------------------------------------------------------------
+# Two edges between the same two nodes: lines that lie on one another, or nearly meet.
+
+_SHORT = 2e-4
+"""Nodes so near (lengths of the hull) that two lines connect are one: three lines pass there."""
+
+_THIN = 1e-5
+"""Pieces of lines nowhere farther apart (lengths of the hull) lie on one another."""
+
+_PARTS = np.linspace(0.0, 1.0, 9)
+
+
+@attrs.frozen(eq=False)
+class Lenses:
+    """What is to be done about pairs of edges.
+
+    Attributes
+    ----------
+    unite : (k, 2) int
+        Nodes that are one.
+    drop : (d,) int
+        Edges that lie on another, and on themselves.
+    """
+
+    unite: IntArray
+    drop: IntArray
+
+
+def find_lenses(edge: IntArray, rank: IntArray, pieces: EdgePieces, length: float) -> Lenses:
+    """Find pairs of edges that are one.
+
+    Parameters
+    ----------
+    edge : (e, 2) int
+        The nodes at the ends of the edges.
+    rank : (e,) int
+        Of two edges that lie on one another that of the lower rank stays.
+    pieces : Pieces
+        The edges as pieces of curves.
+    length : float, m
+        Of the hull.
+    """
+    first, second = _pairs(edge, rank)
+    short = np.maximum(pieces.length[first], pieces.length[second]) <= _SHORT * length
+    rings = np.flatnonzero(edge[:, 0] == edge[:, 1])
+    rest = np.flatnonzero(~short)
+    own, other = _same_way(edge, pieces, first[rest], second[rest])
+    away = np.sqrt(dot(own - other, own - other)).max(axis=1, initial=0.0)
+    thin = second[rest][away <= _THIN * length]
+    return Lenses(edge[first[short]], np.union1d(rings, thin))
+
+
+def _pairs(edge: IntArray, rank: IntArray) -> tuple[IntArray, IntArray]:
+    """Give pairs of edges between the same nodes, that of the lower rank first."""
+    low, high = np.sort(edge, axis=1).T
+    order = np.lexsort((rank, high, low))
+    ends = np.column_stack([low, high])[order]
+    at = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1) & (ends[1:, 0] != ends[1:, 1]))
+    return order[at], order[at + 1]
+
+
+def _same_way(
+    edge: IntArray, pieces: EdgePieces, first: IntArray, second: IntArray
+) -> tuple[FloatArray, FloatArray]:
+    """Give points along both of each pair, from the same node on."""
+    own, other = (pieces.chosen(each).points(_PARTS) for each in (first, second))
+    turned = edge[first, 0] != edge[second, 0]
+    other[turned] = other[turned, ::-1]
+    return own, other
+
+
+# --------------------------------------------------------------------------------------
+# Normals of a hull at the nodes of its net, from the directions of the lines that meet there.
+
+_TANGENT = 0.02
+"""Lines whose directions have a smaller cross product do not tell a normal."""
+
+_CROWDED = 0.02
+"""Edges that leave a node with so small an angle between them (radians) lie on one another, seen
+along its normal: at the foot of a stem the keel does, and the border of a flat bottom."""
+
+
+def node_normals(place: FloatArray, edge: IntArray, leave: FloatArray) -> FloatArray:
+    """Give unit normals at the nodes, all to one side of the surface, outward.
+
+    Parameters
+    ----------
+    place : (n, 3), m
+        The nodes.
+    edge : (e, 2) int
+        The nodes at the ends of each edge.
+    leave : (e, 2, 3)
+        Unit directions in which it leaves them.
+
+    Returns
+    -------
+    (n, 3)
+        The mean of the neighbours where all lines are tangent to one another, and where some lie
+        on one another as seen along the normal of the others: at corners of the hull.
+    """
+    if not len(place):
+        return np.empty((0, 3))
+    normal, size = _widest(len(place), edge, leave)
+    good = size >= _TANGENT
+    sign = _one_side(normal, good, edge, leave)
+    normal = normal * sign[:, None]
+    normal = _from_neighbours(normal, good, edge)
+    corner = _crowded(edge_angles(normal, edge, leave), edge.ravel(), len(place))
+    normal = _from_neighbours(normal, ~corner, edge)
+    return normal if _outward(place, normal) else -normal
+
+
+def edge_angles(normal: FloatArray, edge: IntArray, leave: FloatArray) -> FloatArray:
+    """Give angles of edges in the tangent planes of their nodes, (2 e,), radians.
+
+    Both ends of an edge one after the other; counter-clockwise as seen against the normal.
+    """
+    node, away = edge.ravel(), leave.reshape(-1, 3)
+    least = np.abs(normal).argmin(axis=1)
+    first = np.cross(np.eye(3)[least], normal)
+    first /= np.sqrt(dot(first, first))[:, None]
+    second = np.cross(normal, first)
+    return np.arctan2(dot(away, second[node]), dot(away, first[node]))
+
+
+def _crowded(angle: FloatArray, node: IntArray, count: int) -> NDArray[np.bool_]:
+    """Tell at which nodes two edges lie on one another, (n,)."""
+    order = np.lexsort((angle, node))
+    first = np.append(True, np.diff(node[order]) != 0)
+    after = np.append(angle[order][1:], 0.0)
+    start = np.flatnonzero(first)
+    last = np.append(start[1:], len(order)) - 1
+    after[last] = angle[order][start] + 2.0 * np.pi
+    found = np.zeros(count, bool)
+    found[node[order][after - angle[order] < _CROWDED]] = True
+    return found
+
+
+def _widest(count: int, edge: IntArray, leave: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give at each node the normal of the two edges that stand most squarely, and their sine."""
+    node, away = edge.ravel(), leave.reshape(-1, 3)
+    order = np.argsort(node, kind="stable")
+    degree = np.bincount(node, minlength=count)
+    start = np.concatenate([[0], np.cumsum(degree)])
+    best, size = np.zeros((count, 3)), np.zeros(count)
+    for i in range(int(degree.max(initial=0))):
+        for j in range(i):
+            own = np.flatnonzero(degree > i)
+            cross = np.cross(away[order[start[own] + j]], away[order[start[own] + i]])
+            sine = np.sqrt(dot(cross, cross))
+            better = sine > size[own]
+            size[own[better]] = sine[better]
+            best[own[better]] = cross[better] / sine[better, None]
+    return best, size
+
+
+def _one_side(
+    normal: FloatArray, good: NDArray[np.bool_], edge: IntArray, leave: FloatArray
+) -> FloatArray:
+    """Give signs that turn all normals to one side: along edges, the surest first."""
+    # From one end of an edge to the other the normal turns as the edge does.
+    carried = _turned(normal[edge[:, 0]], leave[:, 0], -leave[:, 1])
+    alike = dot(carried, normal[edge[:, 1]])
+    alike[~good[edge].all(axis=1)] = 0.0
+    beside: list[list[tuple[float, int, float]]] = [[] for _ in range(len(normal))]
+    for (a, b), each in zip(edge.tolist(), alike.tolist(), strict=True):
+        beside[a].append((-abs(each), b, each))
+        beside[b].append((-abs(each), a, each))
+    sign = np.zeros(len(normal))
+    for seed in np.flatnonzero(good).tolist():
+        if sign[seed]:
+            continue
+        waiting = [(-2.0, seed, 1.0)]
+        while waiting:
+            _, node, own = heapq.heappop(waiting)
+            if sign[node]:
+                continue
+            sign[node] = own
+            for rank, other, each in beside[node]:
+                if not sign[other] and good[other]:
+                    heapq.heappush(waiting, (rank, other, own if each >= 0.0 else -own))
+    return sign
+
+
+def _turned(vector: FloatArray, before: FloatArray, after: FloatArray) -> FloatArray:
+    """Turn vectors as `before` is turned to `after` by the shortest way."""
+    axis = np.cross(before, after)
+    cosine = dot(before, after)[:, None]
+    once = np.cross(axis, vector)
+    share = 1.0 / np.maximum(1.0 + cosine, 1e-9)
+    found: FloatArray = vector + once + np.cross(axis, once) * share
+    return found
+
+
+def _from_neighbours(normal: FloatArray, good: NDArray[np.bool_], edge: IntArray) -> FloatArray:
+    """Give nodes without a normal the mean of those beside them, ring after ring."""
+    normal, known = normal.copy(), good.copy()
+    while not known.all():
+        total = np.zeros_like(normal)
+        for a, b in ((0, 1), (1, 0)):
+            own = known[edge[:, b]] & ~known[edge[:, a]]
+            np.add.at(total, edge[own, a], normal[edge[own, b]])
+        size = np.sqrt(dot(total, total))
+        new = (size > 1e-9) & ~known
+        if not new.any():
+            break
+        normal[new] = total[new] / size[new, None]
+        known |= new
+    return normal
+
+
+def _outward(place: FloatArray, normal: FloatArray) -> bool:
+    """Tell whether normals point away from the middle of the ship on the whole."""
+    return float((normal[:, 1] * place[:, 1]).sum()) >= 0.0
+
+
+# --------------------------------------------------------------------------------------
+# The lines of a hull as a graph: nodes where they cross, edges between neighbouring nodes.
 
 _NEAR = 0.05
 """So far from a node (m, on a hull of 300 m) the direction of an edge is taken ..."""
+
 _PART = 0.3
 """... but no farther than this part of the edge."""
+
 _SHIP = 300.0
 
 
@@ -54,7 +410,7 @@ class NetGraph:
         and knuckles may end anywhere.
     """
 
-    net: Net
+    net: CurveNet
     place: FloatArray
     normal: FloatArray
     edge: IntArray
@@ -62,7 +418,7 @@ class NetGraph:
     t: FloatArray
     leave: FloatArray
     row_node: IntArray
-    pieces: Pieces
+    pieces: EdgePieces
     loose: IntArray
 
     def __attrs_post_init__(self) -> None:
@@ -95,7 +451,7 @@ class NetGraph:
 
 
 def net_graph(
-    net: Net, *, leave_out: NDArray[np.bool_] | None = None, search: bool = False
+    net: CurveNet, *, leave_out: NDArray[np.bool_] | None = None, search: bool = False
 ) -> NetGraph:
     """Make the graph of a net.
 
@@ -117,9 +473,9 @@ def net_graph(
     Examples
     --------
     >>> import assoc_hull as ah
-    >>> from assoc_hull.analysis.net.gather import gather
+    >>> from assoc_hull.analysis.net.curve_net import gather_net
     >>> from assoc_hull.surface.cells.net_graph import net_graph
-    >>> found = net_graph(gather(ah.examples.wigley().state))
+    >>> found = net_graph(gather_net(ah.examples.wigley().state))
     >>> found.place.shape, found.edge.shape, found.points(4).shape
     ((252, 3), (471, 2), (471, 5, 3))
     """
@@ -146,23 +502,23 @@ class _Edges:
     edge: IntArray
     curve: IntArray
     t: FloatArray
-    pieces: Pieces
+    pieces: EdgePieces
 
 
-def _size(net: Net) -> float:
+def _size(net: CurveNet) -> float:
     return float(np.ptp(net.batch.xyz[:, 0]))
 
 
-def _settled(net: Net, stops: Stops) -> _Edges:
+def _settled(net: CurveNet, stops: Stops) -> _Edges:
     """Give the edges, after nodes and edges that are one have been made so."""
     rank = np.array([RANK.get(each, len(RANK)) for each in net.family], np.int64)
     while True:
         edge, curve, t = _pieces(stops)
-        pieces = measured_pieces(net.batch, curve, t, stops.place[edge])
+        pieces = measure_pieces(net.batch, curve, t, stops.place[edge])
         found = find_lenses(edge, rank[curve], pieces, _size(net))
         if not len(found.unite):
             break
-        stops = united_stops(net, stops, found.unite)
+        stops = merge_stops(net, stops, found.unite)
     stay = np.setdiff1d(np.arange(len(edge)), found.drop)
     kept = stay[_lasting(edge[stay], len(stops.place))]
     return _Edges(stops, edge[kept], curve[kept], t[kept], pieces.chosen(kept))
@@ -194,7 +550,7 @@ def _numbered(edge: IntArray, count: int) -> tuple[IntArray, IntArray]:
     return node[edge], node
 
 
-def _directions(pieces: Pieces, ends: FloatArray, scale: float) -> FloatArray:
+def _directions(pieces: EdgePieces, ends: FloatArray, scale: float) -> FloatArray:
     """Give the directions in which edges leave their nodes, (e, 2, 3)."""
     length = np.where(pieces.length > 0.0, pieces.length, 1.0)
     part = np.minimum(_NEAR * scale / length, _PART)

@@ -3,8 +3,10 @@
 Examples
 --------
 >>> from types import SimpleNamespace
->>> from assoc_hull.surface.plates.columns import Column, own
->>> Column("area", "m2", "area", ".3f", own("area")).printed(SimpleNamespace(area=1e-14))
+>>> from assoc_hull.surface.plates.columns import attribute_getter, PlateColumn
+>>> PlateColumn("area", "m2", "area", ".3f", attribute_getter("area")).printed(
+...     SimpleNamespace(area=1e-14)
+... )
 '0.000'
 """
 
@@ -19,7 +21,14 @@ import numpy as np
 from assoc_hull.arguments import shown, shown_name
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 
-__all__ = ["Column", "column_of", "own", "plate_at", "printed_rows", "share"]
+__all__ = [
+    "PlateColumn",
+    "attribute_getter",
+    "column_of",
+    "plate_at",
+    "printed_rows",
+    "share_getter",
+]
 
 _NIL = 1e-12
 """Below this a number is printed as 0."""
@@ -34,7 +43,7 @@ Row = TypeVar("Row", bound=_Named)
 
 
 @attrs.frozen
-class Column:
+class PlateColumn:
     """A column of a table of plates.
 
     Attributes
@@ -65,17 +74,17 @@ class Column:
         return "-" if value is None else format(value, self.style)
 
 
-def share(name: str) -> Callable[[Any], float]:
+def share_getter(name: str) -> Callable[[Any], float]:
     """Give what takes a share of a plate, in per cent."""
     return lambda plate: 100.0 * float(getattr(plate.shares, name))
 
 
-def own(name: str) -> Callable[[Any], Any]:
+def attribute_getter(name: str) -> Callable[[Any], Any]:
     """Give what takes an attribute of a plate."""
     return lambda plate: getattr(plate, name)
 
 
-def column_of(columns: Sequence[Column], rows: Sequence[Any], name: str) -> list[Any]:
+def column_of(columns: Sequence[PlateColumn], rows: Sequence[Any], name: str) -> list[Any]:
     """Give what all plates have in a column.
 
     Raises
@@ -114,7 +123,7 @@ def plate_at(rows: Sequence[Row], which: int | str, where: str) -> Row:
     return rows[which]
 
 
-def printed_rows(columns: Sequence[Column], rows: Sequence[Any]) -> Iterator[str]:
+def printed_rows(columns: Sequence[PlateColumn], rows: Sequence[Any]) -> Iterator[str]:
     """Write the columns that have a head: heads, units, a row a plate."""
     seen = [each for each in columns if each.head]
     body = [[each.printed(plate) for each in seen] for plate in rows]

@@ -6,7 +6,7 @@ a node without a normal (a pole) the curvature is not evaluated; its area is nil
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.patches import Patches
+>>> from assoc_hull.geometry.patches.bezier_patches import Patches
 >>> from assoc_hull.surface.plates.curvature_nodes import curvature_nodes
 >>> x, y = np.mgrid[-1:1:3j, -1:1:3j]
 >>> nodes = curvature_nodes(Patches.single(np.stack([x, y, 0.2 * x * y], axis=-1)))
@@ -21,8 +21,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.numeric.quadrature import lobatto
-from assoc_hull.geometry.patches.curvatures import curvatures
-from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.bezier_patches import Patches, curvatures
 
 __all__ = ["CurvatureNodes", "curvature_nodes", "map_value"]
 

@@ -1,24 +1,7 @@
 """The approximate development of a plate: its outline laid flat, and the strain that forming needs.
 
-A grid of springs on the surface is laid into the plane with the least change of lengths. This is a
-geometric estimate: no thickness, no springback, no plasticity, no order of work. A strip of breadth
-b and constant curvature K shows strains along it that range over |K| b**2 / 8, from -K b**2 / 12 at
-its edges to K b**2 / 24 in its middle.
-
-Source: the idea of strain maps for the forming of plates is that of "Curvature Region Analysis for
-Application of Plates Forming", J. SNAK; springs, lengths and search are our own.
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
->>> from assoc_hull.surface.plates.development import development
->>> net = np.zeros((4, 2, 3))
->>> net[:, 0], net[:, 1] = np.array([[0, 0, 0], [1, 1, 0], [2, 1, 0], [3, 0, 0]]), 1.0
->>> net[:, 1, :2] = net[:, 0, :2]
->>> flat = development(SplineSurface.bezier(net, "trough"))
->>> flat.size.round(3).tolist(), bool(flat.largest_strain < 1e-8)
-([3.443, 1.0], True)
+The surface is covered by a grid of nearly equal steps, the longer way first.
+This is a geometric estimate: no thickness, no springback, no plasticity, no order of work.
 """
 
 from __future__ import annotations
@@ -30,17 +13,142 @@ from assoc_hull.arguments import instance, integer, shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.plates.equal_grid import EqualGrid, equal_grid
-from assoc_hull.surface.plates.flattening import Flat, flattened
-from assoc_hull.surface.plates.springs import Springs, springs_of
+from assoc_hull.surface.plates.grid_flattening import FlatGrid, Springs, flatten_grid, springs_of
 
-__all__ = ["LABEL", "Development", "development"]
+__all__ = [
+    "LABEL",
+    "Development",
+    "EqualGrid",
+    "development",
+    "equal_grid",
+]
+
+# --------------------------------------------------------------------------------------
+# Grids on a surface with nearly equal steps: along its longer way and across.
+#
+# Parameters are chosen so that the mean lengths of the pieces of the lines between them are the
+# same. The longer way comes first; the normal r_u x r_v points to who sees the second axis lie to
+# the left of the first.
+
+_ACROSS = 17
+"""Nodes across by default."""
+
+_LEAST, _MOST = 17, 145
+"""Nodes along by default: as many as make square cells, within these."""
+
+_LOOKS = 129
+"""Places each way at which lengths are measured."""
+
+
+@attrs.frozen(eq=False)
+class EqualGrid:
+    """A grid of r by c nodes on a surface, and the points half-way between them.
+
+    Attributes
+    ----------
+    u, v : (2r - 1, 2c - 1)
+        Parameters; nodes are every other one.
+    fine : (2r - 1, 2c - 1, 3), m
+        Points of the surface there.
+    sides : (2,), m
+        Mean lengths of the surface along and across.
+    """
+
+    u: FloatArray
+    v: FloatArray
+    fine: FloatArray
+    sides: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.u, self.v, self.fine, self.sides)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """The numbers r and c of nodes along and across."""
+        return self.place.shape[0], self.place.shape[1]
+
+    @property
+    def place(self) -> FloatArray:
+        """The nodes, (r, c, 3), m."""
+        return self.fine[::2, ::2]
+
+
+def equal_grid(surface: SplineSurface, count: tuple[int, int] | None = None) -> EqualGrid:
+    """Lay a grid on a surface.
+
+    Parameters
+    ----------
+    surface : SplineSurface
+        The surface.
+    count : (r, c), optional
+        Nodes along and across; 17 across and square cells by default.
+
+    Returns
+    -------
+    EqualGrid
+        The grid.
+
+    Raises
+    ------
+    BadInputError
+        A surface without length one way.
+    """
+    (u0, u1), (v0, v1) = surface.domain
+    u, v = np.linspace(u0, u1, _LOOKS), np.linspace(v0, v1, _LOOKS)
+    point = surface.at(u[:, None], v)
+    along_u = _travelled(point)
+    along_v = _travelled(np.swapaxes(point, 0, 1))
+    turned = bool(along_v[-1] > along_u[-1])
+    sides = np.array([along_u[-1], along_v[-1]])[:: -1 if turned else 1]
+    if not sides[1] > 1e-9 * sides[0]:
+        raise BadInputError(
+            f"it is {sides[0]:.3g} m long and {sides[1]:.3g} m broad", surface.where,
+            "give a surface, not a line",
+        )  # fmt: skip
+    r, c = count if count is not None else _counts(sides)
+    counts = (c, r) if turned else (r, c)
+    u = np.interp(_even(counts[0], along_u[-1]), along_u, u)
+    v = np.interp(_even(counts[1], along_v[-1]), along_v, v)
+    uu, vv = np.meshgrid(u, v, indexing="ij")
+    if turned:  # (v, -u) is as right-handed as (u, v)
+        uu, vv = uu.T[:, ::-1], vv.T[:, ::-1]
+    return EqualGrid(uu, vv, surface.at(uu, vv), sides)
+
+
+def _travelled(point: FloatArray) -> FloatArray:
+    """Give the mean way along the first axis from its start, (n,), m."""
+    steps = np.linalg.norm(np.diff(point, axis=0), axis=-1).mean(axis=1)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def _even(count: int, length: float) -> FloatArray:
+    """Give even steps of a way, with those half-way."""
+    return np.linspace(0.0, length, 2 * count - 1)
+
+
+def _counts(sides: FloatArray) -> tuple[int, int]:
+    """Give the numbers of nodes that make square cells."""
+    along = round(float(sides[0] / sides[1]) * (_ACROSS - 1)) + 1
+    return min(max(along, _LEAST), _MOST), _ACROSS
+
+
+# --------------------------------------------------------------------------------------
+# The approximate development of a plate: its outline laid flat, and the strain that forming needs.
+#
+# A grid of springs on the surface is laid into the plane with the least change of lengths. This is
+# a geometric estimate: no thickness, no springback, no plasticity, no order of work. A strip of
+# breadth
+# b and constant curvature K shows strains along it that range over |K| b**2 / 8, from -K b**2 / 12
+# at its edges to K b**2 / 24 in its middle.
+#
+# Source: the idea of strain maps for the forming of plates is that of "Curvature Region Analysis
+# for Application of Plates Forming", J. SNAK; springs, lengths and search are our own.
 
 LABEL = "geometric estimate, no springback, no plasticity"
 """What every picture and table of a development has to say."""
 
 _WHERE = "in development"
-_MOST = 257
+_DEVELOPMENT_MOST = 257
 
 
 @attrs.frozen(eq=False)
@@ -156,9 +264,9 @@ def development(surface: SplineSurface, grid: tuple[int, int] | None = None) -> 
     True
     """
     instance(surface, SplineSurface, "surface", _WHERE)
-    points = equal_grid(surface, _counts(grid))
+    points = equal_grid(surface, _development_counts(grid))
     springs = springs_of(points.fine)
-    flat = flattened(springs)
+    flat = flatten_grid(springs)
     along, across, falling, rising = springs.parted(flat.strain)
     cells = _cells(flat.place)
     return Development(
@@ -168,7 +276,7 @@ def development(surface: SplineSurface, grid: tuple[int, int] | None = None) -> 
     )  # fmt: skip
 
 
-def _counts(grid: object) -> tuple[int, int] | None:
+def _development_counts(grid: object) -> tuple[int, int] | None:
     """Take the numbers of nodes."""
     if grid is None:
         return None
@@ -176,7 +284,7 @@ def _counts(grid: object) -> tuple[int, int] | None:
         remedy = "give the numbers of nodes along and across, or None"
         raise BadInputError(f"grid is {shown(grid)}", _WHERE, remedy)
     along, across = (
-        integer(each, "a number of grid", _WHERE, least=3, most=_MOST) for each in grid
+        integer(each, "a number of grid", _WHERE, least=3, most=_DEVELOPMENT_MOST) for each in grid
     )
     return along, across
 
@@ -195,7 +303,7 @@ def _border(values: FloatArray) -> FloatArray:
 
 
 def _notes(
-    surface: SplineSurface, grid: EqualGrid, springs: Springs, flat: Flat, cells: FloatArray
+    surface: SplineSurface, grid: EqualGrid, springs: Springs, flat: FlatGrid, cells: FloatArray
 ) -> tuple[str, ...]:
     """Say what is to be known of the figure."""
     found, who = [], surface.name or "the plate"

@@ -1,21 +1,13 @@
-"""Plates of a hull: cut at planes and lines of girth, judged one by one.
+"""Plates of a hull: cut at butts and seams, judged one by one, and kept as a table.
 
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
->>> from assoc_hull.surface.plates.hull_plates import hull_plates
->>> from assoc_hull.surface.plates.hull_seams import HullSeams
->>> x, z = np.mgrid[0:30:3j, 0:9:3j]
->>> side = SplineSurface.bezier(np.stack([x, 8.0 + 0.5 * z - 0.03 * z * z, z], axis=-1), "body")
->>> found = hull_plates((side,), HullSeams(x=(10.0, 20.0), z=3.0))
->>> [plate.name for plate in found], found["2.1"].kind
-(['1.1', '1.2', '2.1', '2.2', '3.1', '3.2'], 'cylinder')
+`hull_plates` is what is called, with the surface of a half hull and the seams.
+Areas are those of the surface itself, as butts, seams and level lines are zero sets of polynomials.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 import attrs
 import numpy as np
@@ -25,22 +17,185 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.blocks.net_surface import NetSurface
-from assoc_hull.surface.plates.doubt import Doubt
-from assoc_hull.surface.plates.hull_plate import HullPlate
-from assoc_hull.surface.plates.hull_plate_table import HullPlates
+from assoc_hull.surface.plates.columns import (
+    PlateColumn,
+    attribute_getter,
+    column_of,
+    plate_at,
+    printed_rows,
+    share_getter,
+)
+from assoc_hull.surface.plates.hull_plate import (
+    CurvatureDoubt,
+    HullPlate,
+    PlateNodes,
+    doubled_band,
+    judge_plate,
+    nodes_in,
+)
 from assoc_hull.surface.plates.hull_seams import HullSeams, PlateRange
-from assoc_hull.surface.plates.judging import judged, rung
-from assoc_hull.surface.plates.level_table import LevelTable, level_table, levels_about
+from assoc_hull.surface.plates.hull_shell import HullShell
 from assoc_hull.surface.plates.options import SAGITTA_TOL, SHARE, PlateOptions, plate_options
-from assoc_hull.surface.plates.plate_nodes import PlateNodes, nodes_in
-from assoc_hull.surface.plates.rivals import rival_gauss
-from assoc_hull.surface.plates.shell import Shell
-from assoc_hull.surface.plates.tally import Tally, tallies
+from assoc_hull.surface.plates.plate_areas import (
+    LevelTable,
+    Tally,
+    level_table,
+    levels_about,
+    tallies,
+)
+from assoc_hull.surface.plates.plate_class import CAVEAT
+from assoc_hull.surface.plates.rival_fits import rival_curvature
 from assoc_hull.surface.regions.curvature_regions import curvature_regions
-from assoc_hull.surface.regions.region_result import RegionResult
-from assoc_hull.surface.regions.zero_band import BREADTH, STRAIN_TOL, zero_band
+from assoc_hull.surface.regions.options import BREADTH, STRAIN_TOL, zero_band
+from assoc_hull.surface.regions.result import RegionResult
 
-__all__ = ["hull_plates"]
+__all__ = [
+    "COLUMNS",
+    "HullPlateTable",
+    "hull_plates",
+]
+
+# --------------------------------------------------------------------------------------
+# Plates of a hull as a table: names, units, text.
+
+_SEEN = 1e-3
+"""m2: slivers below this are not told."""
+
+COLUMNS: tuple[PlateColumn, ...] = (
+    PlateColumn("name", "", "plate", "s", attribute_getter("name")),
+    PlateColumn("range", "", "", "s", lambda plate: str(plate.range)),
+    PlateColumn("area", "m2", "area", ".3f", attribute_getter("area")),
+    PlateColumn("length", "m", "a", ".2f", attribute_getter("length")),
+    PlateColumn("breadth", "m", "b", ".2f", attribute_getter("breadth")),
+    PlateColumn("k0", "1/m2", "K0", ".3g", attribute_getter("k0")),
+    PlateColumn("dk", "1/m2", "dK", ".1e", attribute_getter("dk")),
+    PlateColumn("convex", "%", "convex", ".1f", share_getter("convex")),
+    PlateColumn("saddle", "%", "saddle", ".1f", share_getter("saddle")),
+    PlateColumn("cylinder", "%", "cyl.", ".1f", share_getter("cylinder")),
+    PlateColumn("flat", "%", "flat", ".1f", share_getter("flat")),
+    PlateColumn("unresolved", "%", "unres.", ".1f", share_getter("unresolved")),
+    PlateColumn("contested", "%", "contested", ".1f", lambda plate: 100.0 * plate.contested),
+    PlateColumn("changed", "%", "changed", ".1f", lambda plate: 100.0 * plate.changed),
+    PlateColumn("kind", "", "class", "s", attribute_getter("kind")),
+    PlateColumn("roll_axis", "deg", "axis", ".1f", attribute_getter("roll_axis")),
+    PlateColumn("coherence", "", "coh.", ".2f", attribute_getter("coherence")),
+    PlateColumn("least_radius", "m", "R least", ".2f", attribute_getter("least_radius")),
+    PlateColumn("mean_strain", "", "strain", ".1e", attribute_getter("mean_strain")),
+    PlateColumn("order", "", "", "", attribute_getter("order")),
+    PlateColumn("rollable", "", "", "", attribute_getter("rollable")),
+    PlateColumn("largest_radius", "m", "", "", attribute_getter("largest_radius")),
+    PlateColumn("total_curvature", "", "", "", attribute_getter("total_curvature")),
+    PlateColumn("largest_strain", "", "", "", attribute_getter("largest_strain")),
+    PlateColumn("area_error", "m2", "", "", attribute_getter("area_error")),
+    PlateColumn("suggestion", "", "", "", attribute_getter("suggestion")),
+)
+"""The columns, in the order of files; those with a head are printed."""
+
+
+@attrs.frozen(eq=False)
+class HullPlateTable:
+    """Plates of a hull, one row each, from aft forward and from below upward.
+
+    Attributes
+    ----------
+    rows : tuple of HullPlate
+        The plates.
+    seams : HullSeams
+        What cuts them.
+    options : PlateOptions
+        By what they were told apart.
+    regions : RegionResult
+        The regions of the whole surface, with lines at K0/2 and 2 K0, too.
+    fits : int
+        With how many other fits of the net curvature was compared.
+    shell : Shell
+        The surface as it was cut.
+    slivers : float, m2
+        What is too narrow for a plate, and in none of the rows.
+    """
+
+    rows: tuple[HullPlate, ...]
+    seams: HullSeams
+    options: PlateOptions
+    regions: RegionResult = attrs.field(repr=False)
+    fits: int
+    shell: HullShell = attrs.field(repr=False)
+    slivers: float = 0.0
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[HullPlate]:
+        return iter(self.rows)
+
+    def __getitem__(self, which: int | str) -> HullPlate:
+        """Give a plate by its number from 0, or by its name.
+
+        Raises
+        ------
+        BadInputError, UnknownNameError, WrongTypeError
+            No such number or name.
+        """
+        return plate_at(self.rows, which, "in HullPlates")
+
+    @property
+    def area(self) -> float:
+        """The area of all plates, m2; of half the hull."""
+        return float(sum(plate.area for plate in self.rows))
+
+    @property
+    def computed(self) -> int:
+        """How many Bezier patches were computed; the others were taken from earlier plates."""
+        return self.regions.computed
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is to be known of the plates, each a sentence."""
+        found = [note for plate in self.rows for note in plate.notes]
+        if self.slivers > _SEEN:
+            found.append(
+                f"Slivers of together {self.slivers:.2g} m2 between seams are no plates: they are "
+                "narrower than a few centimetres."
+            )
+        if not self.fits:
+            found.append(
+                "Curvature was compared with no other fit of the net: dK is not known, and what "
+                "is contested is told by the factor of 2 alone."
+            )
+        return tuple(found)
+
+    def column(self, name: str) -> list[Any]:
+        """Give what all plates have in a column.
+
+        Raises
+        ------
+        UnknownNameError
+            No such column.
+        """
+        return column_of(COLUMNS, self.rows, name)
+
+    def table(self) -> list[dict[str, Any]]:
+        """Give all as plain values, a dictionary for each plate; units are those of `COLUMNS`."""
+        return [{each.name: each.value(plate) for each in COLUMNS} for plate in self.rows]
+
+    def __str__(self) -> str:
+        """Write the table, and what is to be known."""
+        advice = (f"{plate.name}, {plate.range}: {plate.suggestion}." for plate in self.rows)
+        return "\n".join(
+            [*printed_rows(COLUMNS, self.rows), "", *advice, CAVEAT, *self._facts(), *self.notes]
+        )
+
+    def _facts(self) -> Iterator[str]:
+        """Say what counted as no curvature, and of what the areas are."""
+        yield f"{self.regions.band}; doubled where dK is larger."
+        yield (
+            f"{len(self.rows)} plates of {self.area:.6g} m2 of half the hull, on "
+            f"{self.regions.count} Bezier patches, of which {self.computed} were computed."
+        )
+
+
+# --------------------------------------------------------------------------------------
+# Plates of a hull: cut at planes and lines of girth, judged one by one.
 
 _WHERE = "in plates of a hull"
 
@@ -63,8 +218,8 @@ def hull_plates(
     share: float = SHARE,
     suggestions: Mapping[str, str] | None = None,
     others: Sequence[NetSurface] = (),
-    previous: HullPlates | None = None,
-) -> HullPlates:
+    previous: HullPlateTable | None = None,
+) -> HullPlateTable:
     """Tell of each plate of a hull how it is curved, and how sure that is.
 
     A butt x = constant, a seam z = constant is a plane: its trace on a Bezier patch is the zero set
@@ -120,14 +275,14 @@ def hull_plates(
         what = "breadth is None, and plates of a hull share one band"
         raise BadInputError(what, _WHERE, "give a breadth, m")
     if previous is not None:
-        instance(previous, HullPlates, "previous", _WHERE)
+        instance(previous, HullPlateTable, "previous", _WHERE)
     fits = all_of(others, NetSurface, "others", _WHERE)
     level = zero_band(zero, strain_tol, breadth, k0, None, _WHERE).k0
     regions = curvature_regions(
         surfaces, zero, strain_tol, breadth, k0, levels=levels_about(level)[2:],
         previous=None if previous is None else previous.regions,
     )  # fmt: skip
-    shell = Shell.of(surfaces, singular, bool(seams.girth))
+    shell = HullShell.of(surfaces, singular, bool(seams.girth))
     work = _Work(shell, names, regions, level, options, _rivals(shell, names, fits))
     found, slivers = work.plates(seams.ranges())
     if not found:
@@ -135,7 +290,7 @@ def hull_plates(
             "no plate lies between these seams", _WHERE,
             "give places within the hull: x forward from AP, z upward from the base line, m",
         )  # fmt: skip
-    return HullPlates(found, seams, options, regions, len(fits), shell, slivers)
+    return HullPlateTable(found, seams, options, regions, len(fits), shell, slivers)
 
 
 Blocks = tuple[
@@ -159,11 +314,12 @@ def _blocks(surface: object) -> Blocks:
 
 
 def _rivals(
-    shell: Shell, names: Sequence[str], fits: Sequence[NetSurface]
+    shell: HullShell, names: Sequence[str], fits: Sequence[NetSurface]
 ) -> tuple[FloatArray, ...]:
     """Give the curvature of other fits at the nodes of a hull."""
     return tuple(
-        rival_gauss(shell, names, fit.patches, [block.name for block in fit.blocks]) for fit in fits
+        rival_curvature(shell, names, fit.patches, [block.name for block in fit.blocks])
+        for fit in fits
     )
 
 
@@ -171,7 +327,7 @@ def _rivals(
 class _Work:
     """What the plates of one hull have in common."""
 
-    shell: Shell
+    shell: HullShell
     names: Sequence[str]
     regions: RegionResult
     level: float
@@ -209,15 +365,15 @@ class _Work:
         margin = self.shell.margin[measured.rows][:, None, None]
         sound = np.where(margin, 0.0, measured.nodes.area)
         rivals = [each[measured.rows] for each in rivals]
-        doubt = Doubt.of(measured.nodes.gauss, rivals, sound)
-        return _Draft(wanted, measured, doubt, rung(self.level, doubt.dk))
+        doubt = CurvatureDoubt.of(measured.nodes.gauss, rivals, sound)
+        return _Draft(wanted, measured, doubt, doubled_band(self.level, doubt.dk))
 
     def _plate(self, draft: _Draft, tallied: Tally) -> HullPlate:
         """Judge a plate."""
         blocks = np.unique(self.shell.patches.surface[draft.measured.rows]).tolist()
         names = [self.names[number] for number in blocks]
         band = (draft.k0, float(self.options.breadth or BREADTH))
-        return judged(
+        return judge_plate(
             draft.wanted,
             names,
             draft.measured,
@@ -235,5 +391,5 @@ class _Draft:
 
     wanted: PlateRange
     measured: PlateNodes
-    doubt: Doubt
+    doubt: CurvatureDoubt
     k0: float

@@ -15,8 +15,8 @@ import attrs
 
 from assoc_hull.arguments import positive
 from assoc_hull.errors import BadInputError
-from assoc_hull.surface.plates.suggestions import suggestions_with
-from assoc_hull.surface.regions.zero_band import BREADTH
+from assoc_hull.surface.plates.plate_class import suggestions_with
+from assoc_hull.surface.regions.options import BREADTH
 
 __all__ = ["SAGITTA_TOL", "SHARE", "PlateOptions", "plate_options"]
 

@@ -1,29 +1,178 @@
-"""One plate: what it measures, which class it is, how it may be formed.
+"""One plate of a surface: its length and breadth, class, roll axis, strains and notes.
 
-Examples
---------
->>> import assoc_hull as ah
->>> import numpy as np
->>> x, y = np.mgrid[0:6:3j, 0:2:3j]
->>> (plate,) = ah.plates(np.stack([x, y, 0.1 * x * y], axis=-1))
->>> plate.kind, plate.order, round(plate.roll_axis, 1)
-('saddle', 3, 135.7)
+`plate_of` makes a `Plate` of a surface, the regions found on it and curvature at nodes.
+What is found of a plate does not depend on the others that are asked for with it.
+The axis e1 runs along the plate, e2 across, by the second moments of area.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import attrs
+import numpy as np
 
 from assoc_hull.arguments import integer
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.plates.curvature_nodes import curvature_nodes
+from assoc_hull.surface.plates.curvature_nodes import CurvatureNodes, curvature_nodes
 from assoc_hull.surface.plates.development import Development, development
-from assoc_hull.surface.plates.plate_class import Shares
-from assoc_hull.surface.plates.roll_axis import Rulings, rulings
-from assoc_hull.surface.regions.region_areas import RegionAreas
+from assoc_hull.surface.plates.options import PlateOptions
+from assoc_hull.surface.plates.plate_class import PlateShares, shares_of, suggestion_key
+from assoc_hull.surface.plates.roll_axis import COHERENT, Rulings, roll_axis, rulings
+from assoc_hull.surface.regions.options import ZeroBand
+from assoc_hull.surface.regions.region_parts import RegionAreas
+from assoc_hull.surface.regions.result import RegionResult
 
-__all__ = ["Plate"]
+__all__ = [
+    "SLIVER",
+    "Plate",
+    "PlateDraft",
+    "draft_plate",
+    "plate_axes",
+    "plate_extents",
+    "plate_notes",
+    "plate_of",
+    "radius_of",
+    "seam_lengths",
+]
+
+# --------------------------------------------------------------------------------------
+# How long and how broad a plate is, and the axes that directions on it are told by.
+#
+# The axes are those of the second moments of area: e1 along the plate, e2 across, to the right of
+# e1
+# for who looks at the side that r_u x r_v points to, e3 = e1 x e2 away from him. Length and breadth
+# are what the control points extend along e1 and e2, so never less than what the plate itself does;
+# or the lengths of its seams where these are known.
+
+_LOOKS = 257
+"""Places along a seam; its length is off by a few millionths."""
+
+
+def plate_axes(nodes: CurvatureNodes) -> FloatArray:
+    """Give the axes of a plate.
+
+    Parameters
+    ----------
+    nodes : CurvatureNodes
+        Those of all its patches.
+
+    Returns
+    -------
+    (3, 3)
+        e1, e2, e3 as rows, right-handed. Of e1 the component with the largest amount is positive.
+    """
+    weight = nodes.area.ravel() / nodes.area.sum()
+    place = nodes.place.reshape(-1, 3)
+    off = place - weight @ place
+    _, vectors = np.linalg.eigh((off * weight[:, None]).T @ off)
+    e1 = vectors[:, 2] * np.sign(vectors[np.abs(vectors[:, 2]).argmax(), 2])
+    e2 = vectors[:, 1]
+    e3 = np.cross(e1, e2)
+    if e3 @ nodes.normal.sum(axis=(0, 1, 2)) > 0.0:
+        e2, e3 = -e2, -e3
+    return np.stack([e1, e2, e3])
+
+
+def plate_extents(net: FloatArray, axes: FloatArray) -> FloatArray:
+    """Give what control points (..., 3), m, extend along e1 and e2, (2,), m."""
+    return np.asarray(np.ptp(net.reshape(-1, 3) @ axes[:2].T, axis=0))
+
+
+def seam_lengths(surface: SplineSurface) -> FloatArray:
+    """Give the mean lengths of opposite borders of a surface: along u and along v, (2,), m."""
+    (u0, u1), (v0, v1) = surface.domain
+    u, v = np.linspace(u0, u1, _LOOKS), np.linspace(v0, v1, _LOOKS)
+    along_u = surface.at(u[:, None], np.array([v0, v1]))
+    along_v = np.swapaxes(surface.at(np.array([[u0], [u1]]), v), 0, 1)
+    steps = np.diff(np.stack([along_u, along_v]), axis=1)
+    return np.asarray(np.linalg.norm(steps, axis=-1).sum(axis=1).mean(axis=1))
+
+
+# --------------------------------------------------------------------------------------
+# What is to be known of a plate: slivers, poles, squares, regions side by side.
+
+SLIVER = 0.05
+"""m: a plate that is less broad is none that is formed."""
+
+_SQUARE = 1.02
+"""Sides whose ratio is below this do not tell which is the longer."""
+
+_WIDE = 1.5
+"""Times the strain tolerance that a plate may show within the band before it is told."""
+
+_SEEN = 0.01
+"""A region below this part of the plate is not told."""
+
+
+def plate_notes(
+    name: str,
+    nodes: CurvatureNodes,
+    extents: FloatArray,
+    areas: RegionAreas,
+    band: ZeroBand,
+    shares: PlateShares,
+    kind: str,
+) -> tuple[str, ...]:
+    """Give what is to be known of a plate, a sentence each."""
+    return (
+        *_size(name, extents),
+        *_poles(name, nodes),
+        *_breadth(name, float(extents[1]), band),
+        *_regions(name, areas, shares, kind),
+    )
+
+
+def _size(name: str, extents: FloatArray) -> Iterator[str]:
+    """Tell slivers and squares."""
+    length, breadth = extents.tolist()
+    if breadth < SLIVER:
+        yield (
+            f"{name} is {length:.3g} m long and {breadth:.3g} m broad: a sliver, of which a class "
+            "tells little."
+        )
+    if length < _SQUARE * breadth:
+        yield (
+            f"{name} is as long as it is broad ({length:.4g} and {breadth:.4g} m): its axis e1 may "
+            "lie either way; take the roll direction in space."
+        )
+
+
+def _poles(name: str, nodes: CurvatureNodes) -> Iterator[str]:
+    """Tell nodes without a normal."""
+    count = int((nodes.area == 0.0).sum())
+    if count:
+        yield (
+            f"{name} has {count} nodes without a normal, at a border or spot of no length: its "
+            "curvature is not evaluated there, and may be larger than is told."
+        )
+
+
+def _breadth(name: str, breadth: float, band: ZeroBand) -> Iterator[str]:
+    """Tell plates that are much broader than the band is meant for."""
+    if band.strain_tol is None:
+        return
+    strain = band.k0 * breadth**2 / 8.0
+    if strain > _WIDE * band.strain_tol:
+        yield (
+            f"{name} is {breadth:.3g} m broad, the band is made for {band.breadth:g} m: what "
+            f"counts as developable may take a strain of {strain:.2g}; give breadth=None for the "
+            "breadth of each plate."
+        )
+
+
+def _regions(name: str, areas: RegionAreas, shares: PlateShares, kind: str) -> Iterator[str]:
+    """Tell convex and saddle regions side by side."""
+    if kind == "mixed" and min(shares.convex, shares.saddle) > _SEEN:
+        yield (
+            f"{name} has {areas.positive:.3g} m2 of convex beside {areas.negative:.3g} m2 of "
+            "saddle regions: heating patterns deviate where they meet."
+        )
+
+
+# --------------------------------------------------------------------------------------
+# One plate: what it measures, which class it is, how it may be formed.
 
 
 @attrs.frozen(eq=False)
@@ -91,7 +240,7 @@ class Plate:
     axes: FloatArray
     k0: float
     band_breadth: float
-    shares: Shares
+    shares: PlateShares
     kind: str
     order: int
     rollable: bool
@@ -186,3 +335,120 @@ class Plate:
             f"{self.name}: {self.length:.2f} x {self.breadth:.2f} m, {self.area:.3f} m2, "
             f"{self.kind}, order {self.order}, {axis}, mean strain {strain:.1e}"
         )
+
+
+# --------------------------------------------------------------------------------------
+# A plate made of a surface, the regions that were found on it, and curvature at nodes.
+#
+# Each plate by itself: what is found does not depend on the others that are asked for with it.
+
+_STRAIGHT = 1e6
+"""m: a radius above this is none."""
+
+_POINT = 1e-9
+"""m: a line that is no longer lies at a pole, and is none of the shape."""
+
+_LINES = ("closed", "open", "junction", "edge_line")
+"""Components that are lines."""
+
+
+@attrs.frozen(eq=False)
+class PlateDraft:
+    """What a plate measures before its regions are known.
+
+    Attributes
+    ----------
+    name : str
+        Its name.
+    surface : SplineSurface
+        Its shape.
+    nodes : CurvatureNodes
+        Curvature at nodes of all its patches.
+    axes : (3, 3)
+        e1, e2, e3 as rows.
+    extents : (2,), m
+        Length and breadth.
+    """
+
+    name: str
+    surface: SplineSurface
+    nodes: CurvatureNodes
+    axes: FloatArray
+    extents: FloatArray
+
+    @property
+    def breadth(self) -> float:
+        """The smaller extent, m."""
+        return float(self.extents[1])
+
+
+def draft_plate(surface: SplineSurface, name: str, cut: bool) -> PlateDraft:
+    """Measure a plate.
+
+    Parameters
+    ----------
+    surface : SplineSurface
+        The plate.
+    name : str
+        Its name.
+    cut : bool
+        Whether it lies between seams, whose lengths then are its extents.
+    """
+    nodes = curvature_nodes(surface.patches())
+    axes = plate_axes(nodes)
+    extents = seam_lengths(surface) if cut else plate_extents(surface.net, axes)
+    return PlateDraft(name, surface, nodes, axes, np.sort(extents)[::-1])
+
+
+def radius_of(bent: float) -> float | None:
+    """Give the radius of a curvature, m; None above 1,000 km."""
+    return 1.0 / bent if bent * _STRAIGHT > 1.0 else None
+
+
+def plate_of(
+    measured: PlateDraft, regions: RegionResult, number: int, breadth: float, options: PlateOptions
+) -> Plate:
+    """Put a plate together.
+
+    Parameters
+    ----------
+    measured : Draft
+        What was measured of it.
+    regions : RegionResult
+        The regions of some surfaces.
+    number : int
+        Which of them is the plate.
+    breadth : float, m
+        What the band was made for.
+    options : PlateOptions
+        By what plates are told apart.
+    """
+    areas, nodes = regions.of_surface(number), measured.nodes
+    shares = shares_of(areas, nodes, regions.k0, options.flat_bend(breadth))
+    kind, rollable = shares.kind(options.share), shares.rollable(options.share)
+    axis = roll_axis(nodes, measured.axes)
+    single = kind != "flat" and axis.coherence >= COHERENT
+    strain, amount = measured.breadth**2 / 8.0, np.abs(nodes.gauss)
+    whole = float((nodes.area * amount).sum())
+    there = nodes.bent[nodes.area > 0.0]
+    return Plate(
+        name=measured.name, surface=measured.surface, number=number, areas=areas,
+        length=float(measured.extents[0]), breadth=measured.breadth, axes=measured.axes,
+        k0=regions.k0, band_breadth=breadth, shares=shares, kind=kind,
+        order=shares.order(options.share), rollable=rollable,
+        roll_axis=axis.angle_deg if single else None,
+        roll_direction=axis.direction if single else None, coherence=axis.coherence,
+        least_radius=radius_of(float(there.max())),
+        largest_radius=radius_of(0.0 if shares.flat > 0.0 else float(there.min())),
+        total_curvature=whole, mean_strain=strain * whole / float(nodes.area.sum()),
+        largest_strain=strain * float(amount.max()),
+        heating=areas.positive + areas.negative > regions.options.area_tol * areas.total,
+        lines=sum(
+            each.surface == number and each.kind in _LINES and each.length > _POINT
+            for each in regions.components
+        ),
+        suggestion=options.suggestions[suggestion_key(kind, rollable, single)],
+        notes=plate_notes(
+            measured.name, nodes, measured.extents, areas, regions.band, shares, kind
+        ),
+    )  # fmt: skip

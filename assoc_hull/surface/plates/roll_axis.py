@@ -11,7 +11,7 @@ and the coherence is |z| over the sum of the weights: 1 where all directions agr
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.patches import Patches
+>>> from assoc_hull.geometry.patches.bezier_patches import Patches
 >>> from assoc_hull.surface.plates.curvature_nodes import curvature_nodes
 >>> from assoc_hull.surface.plates.roll_axis import roll_axis
 >>> x, y = np.mgrid[-3:3:3j, -1:1:3j]

@@ -1,35 +1,179 @@
-"""What is kept of each patch: cells and arcs by level, areas; chosen and put in another order.
+"""What is kept of each patch: cells and arcs by level, points along arcs, areas by sign.
 
-All of it depends on the control net of the patch and the options only, to the last bit. So it may
-be taken from an earlier result wherever a patch has the same net.
-
-Examples
---------
->>> from assoc_hull.surface.regions.region_parts import AREAS
->>> AREAS[:3]
-('positive', 'negative', 'zero')
+All of it depends on the control net of the patch and the options only, to the last bit.
+So a patch with the same net may be taken from an earlier result.
 """
 
 from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import Self
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.cells import Arcs, Cells
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.surface.regions.arc_points import ArcPoints
-from assoc_hull.surface.regions.region_areas import RegionAreas
+from assoc_hull.geometry.patches.arc_chains import positive_on_left
+from assoc_hull.geometry.patches.arcs import sample_arcs
+from assoc_hull.geometry.patches.bezier_patches import Patches, patch_points
+from assoc_hull.geometry.patches.cells import SignCells, ZeroSetArcs, rows_of_groups
 
-__all__ = ["AREAS", "RegionPart", "Solution"]
+__all__ = [
+    "AREAS",
+    "ArcPoints",
+    "LevelSolution",
+    "RegionAreas",
+    "RegionPart",
+]
+
+# --------------------------------------------------------------------------------------
+# Areas of regions, of one surface or of many.
+
+
+@attrs.frozen
+class RegionAreas:
+    """Areas of regions, m2; the first four add up to the total, within the tolerance.
+
+    Attributes
+    ----------
+    positive : float, m2
+        Where K > K0 for certain.
+    negative : float, m2
+        Where K < -K0 for certain.
+    zero : float, m2
+        Where |K| <= K0; without a band, where K is nil to what the control points are known to.
+    unresolved : float, m2
+        Where the search ended; it may belong to any region.
+    positive_estimate, negative_estimate : float, m2
+        The areas with what samples give of the unresolved part; they need not lie within the
+        error estimate.
+    error_estimate : float, m2
+        What quadrature may be off by, in any of the areas.
+    total : float, m2
+        The whole area, found by itself.
+    """
+
+    positive: float
+    negative: float
+    zero: float
+    unresolved: float
+    positive_estimate: float
+    negative_estimate: float
+    error_estimate: float
+    total: float
+
+    @classmethod
+    def added(cls, rows: Iterable[Iterable[float]]) -> Self:
+        """Add up rows of these eight numbers, exactly rounded: the order does not matter."""
+        return cls(*(math.fsum(column) for column in zip(*rows, strict=True)))
+
+    @property
+    def positive_share(self) -> float:
+        """The part of the total where K > K0, nan of no area."""
+        return self._share(self.positive)
+
+    @property
+    def negative_share(self) -> float:
+        """The part of the total where K < -K0, nan of no area."""
+        return self._share(self.negative)
+
+    @property
+    def zero_share(self) -> float:
+        """The part of the total where |K| <= K0, nan of no area."""
+        return self._share(self.zero)
+
+    @property
+    def unresolved_share(self) -> float:
+        """The part of the total that is not resolved, nan of no area."""
+        return self._share(self.unresolved)
+
+    def _share(self, area: float) -> float:
+        return area / self.total if self.total > 0.0 else np.nan
+
+    def __str__(self) -> str:
+        """Give shares and the total in a line."""
+        return (
+            f"{self.total:.6g} m2: {100 * self.positive_share:.4g} % convex, "
+            f"{100 * self.negative_share:.4g} % saddle, {100 * self.zero_share:.4g} % developable, "
+            f"{100 * self.unresolved_share:.2g} % unresolved"
+        )
+
+
+# --------------------------------------------------------------------------------------
+# Points along the arcs of patches, kept with what else is known of each patch.
+
+_MIDDLE = 0.8
+"""Of the tolerance: chords are judged by a point near their middle, not by the farthest one."""
+
+
+@attrs.frozen(eq=False)
+class ArcPoints:
+    """Points of arcs, those of each in the direction of a walk with the greater K on the left.
+
+    Attributes
+    ----------
+    count : (a,) int
+        How many points each arc has; they lie one behind the other.
+    place : (p, 2)
+        Parameters of the patch, 0 to 1.
+    xyz : (p, 3), m
+        The points in space.
+    """
+
+    count: IntArray
+    place: FloatArray
+    xyz: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.count, self.place, self.xyz)
+
+    @classmethod
+    def of(cls, patches: Patches, cells: SignCells, arcs: ZeroSetArcs, chord_tol: float) -> Self:
+        """Sample arcs as finely as a chord tolerance (m) wants."""
+        start, place = sample_arcs(patches, cells, arcs, _MIDDLE * chord_tol)
+        count = np.diff(start)
+        rows, arc = rows_of_groups(count, np.arange(len(arcs)))
+        last = start[arc] + start[arc + 1] - 1
+        place = place[np.where(positive_on_left(arcs)[arc], rows, last - rows)]
+        return cls(count, place, patch_points(patches, cells.patch[arcs.cell][arc], place))
+
+    @classmethod
+    def gathered(cls, tables: Sequence[Self], patch: IntArray, chosen: IntArray) -> Self:
+        """Give the points of chosen patches.
+
+        Parameters
+        ----------
+        tables : sequence of ArcPoints
+            Batches.
+        patch : (a,) int
+            The patch of each arc, numbered through all batches, rising.
+        chosen : (k,) int
+            Patches, numbered likewise, in the order they are wanted.
+        """
+        count = np.concatenate([each.count for each in tables])
+        most = int(max(patch.max(initial=-1), chosen.max(initial=-1))) + 1
+        arcs, _ = rows_of_groups(np.bincount(patch, minlength=most), chosen)
+        rows, _ = rows_of_groups(count, arcs)
+        place, xyz = (
+            np.concatenate([getattr(t, name) for t in tables]) for name in ("place", "xyz")
+        )
+        return cls(count[arcs], place[rows], xyz[rows])
+
+
+# --------------------------------------------------------------------------------------
+# What is kept of each patch: cells and arcs by level, areas; chosen and put in another order.
+#
+# All of it depends on the control net of the patch and the options only, to the last bit. So it may
+# be taken from an earlier result wherever a patch has the same net.
 
 AREAS = tuple(field.name for field in attrs.fields(RegionAreas))
 """Names of the columns of areas."""
 
 
 @attrs.frozen(eq=False)
-class Solution:
+class LevelSolution:
     """Cells and arcs of all patches of a part, for one level.
 
     Attributes
@@ -47,8 +191,8 @@ class Solution:
     """
 
     level: float
-    cells: Cells
-    arcs: Arcs
+    cells: SignCells
+    arcs: ZeroSetArcs
     points: ArcPoints
     edges: NDArray[np.bool_]
 
@@ -76,7 +220,7 @@ class RegionPart:
 
     patches: Patches
     number: IntArray
-    solutions: tuple[Solution, ...]
+    solutions: tuple[LevelSolution, ...]
     areas: FloatArray
     delta: FloatArray
 

@@ -20,12 +20,22 @@ import numpy as np
 from assoc_hull.arguments import shown
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.geometry.patches.algebra import cross, u_derivative, v_derivative
-from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.bernstein_polynomials import (
+    cross_polynomials,
+    u_derivative,
+    v_derivative,
+)
+from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
 __all__ = [
-    "Batch", "Kind", "batches_of", "diagonals", "given_surfaces", "kind_of", "name_of",
+    "Kind",
+    "PatchBatch",
+    "batches_of",
+    "diagonals",
+    "given_surfaces",
+    "kind_of",
+    "name_of",
     "require_area",
 ]  # fmt: skip
 
@@ -39,7 +49,7 @@ _SMALLEST = 1e-6
 
 
 @attrs.frozen(eq=False)
-class Batch:
+class PatchBatch:
     """Patches of one bidegree, all rational or none, and their numbers through all surfaces."""
 
     patches: Patches
@@ -83,7 +93,7 @@ def name_of(surfaces: Sequence[SplineSurface], number: int) -> str:
     return f"surface {name!r}" if name else f"surface {number + 1}"
 
 
-def batches_of(surfaces: Sequence[SplineSurface]) -> tuple[Batch, ...]:
+def batches_of(surfaces: Sequence[SplineSurface]) -> tuple[PatchBatch, ...]:
     """Cut surfaces into Bezier patches, those of one bidegree together."""
     cut = [surface.patches(number) for number, surface in enumerate(surfaces)]
     first = np.cumsum([0, *(len(patches) for patches in cut)])
@@ -92,7 +102,7 @@ def batches_of(surfaces: Sequence[SplineSurface]) -> tuple[Batch, ...]:
     for kind in sorted({kind_of(patches) for patches in cut}):
         own = [i for i, patches in enumerate(cut) if kind_of(patches) == kind]
         patches = Patches.joined([cut[i] for i in own])
-        found.append(Batch(patches, np.concatenate([numbers[i] for i in own])))
+        found.append(PatchBatch(patches, np.concatenate([numbers[i] for i in own])))
     return tuple(found)
 
 
@@ -107,7 +117,7 @@ def diagonals(patches: Patches) -> np.typing.NDArray[np.float64]:
     return np.asarray(np.linalg.norm(np.ptp(flat, axis=1), axis=1))
 
 
-def require_area(surfaces: Sequence[SplineSurface], batches: Sequence[Batch]) -> None:
+def require_area(surfaces: Sequence[SplineSurface], batches: Sequence[PatchBatch]) -> None:
     """Refuse patches without an area: a point, a line; curvature has no meaning on them.
 
     Raises
@@ -123,7 +133,7 @@ def require_area(surfaces: Sequence[SplineSurface], batches: Sequence[Batch]) ->
             raise BadInputError(what, which, f"give metres; {_SMALLEST:g} m is the least")
     for batch in batches:
         r = batch.patches.components
-        normal = np.abs(cross(u_derivative(r), v_derivative(r))).max(axis=(1, 2, 3))
+        normal = np.abs(cross_polynomials(u_derivative(r), v_derivative(r))).max(axis=(1, 2, 3))
         for row in np.flatnonzero(normal <= _FLAT * diagonals(batch.patches) ** 2)[:1]:
             which = name_of(surfaces, int(batch.patches.surface[row]))
             raise BadInputError(

@@ -13,7 +13,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["learnt", "no_curvature"]
+__all__ = ["no_curvature", "updated_curvature"]
 
 _SHORT = 1e-7
 """A shorter scaled step tells nothing: the change of gradients is rounding."""
@@ -24,7 +24,7 @@ def no_curvature(targets: int, free: int) -> FloatArray:
     return np.zeros((targets, free, free))
 
 
-def learnt(curvature: FloatArray, step: FloatArray, change: FloatArray) -> FloatArray:
+def updated_curvature(curvature: FloatArray, step: FloatArray, change: FloatArray) -> FloatArray:
     """Give the matrices after a step.
 
     Parameters
@@ -39,9 +39,9 @@ def learnt(curvature: FloatArray, step: FloatArray, change: FloatArray) -> Float
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.variation.aiming.broyden_update import learnt, no_curvature
+    >>> from assoc_hull.variation.aiming.broyden_update import no_curvature, updated_curvature
     >>> step = np.array([0.5, 0.0])
-    >>> learnt(no_curvature(1, 2), step, np.array([[1.0, 0.25]])).tolist()
+    >>> updated_curvature(no_curvature(1, 2), step, np.array([[1.0, 0.25]])).tolist()
     [[[2.0, 0.5], [0.5, 0.0]]]
     """
     square = float(step @ step)

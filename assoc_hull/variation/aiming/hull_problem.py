@@ -20,10 +20,9 @@ from assoc_hull.edit.nudge import Nudge, nudge
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.model.copy import copy_of
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.variation.aiming.outputs import Outputs
-from assoc_hull.variation.carrying.carry_out import carry_out
+from assoc_hull.variation.carrying.carry_hull import carry_out
 from assoc_hull.variation.carrying.hull_maps import HullMaps
 from assoc_hull.variation.carrying.velocities import Velocities, velocities
 
@@ -212,7 +211,7 @@ class HullProblem:
     def _carried(self, at: FloatArray) -> Base:
         """Carry the parent in full."""
         maps, room = self.maps, self.maps.room
-        document = Document(copy_of(maps.state))
+        document = Document(copy_state(maps.state))
         applied, _ = carry_out(
             document, maps.map(at), room.parent, maps.ask, room.present, maps.values(at)
         )
@@ -222,7 +221,7 @@ class HullProblem:
 
     def _nudged(self, base: Base, at: FloatArray) -> Reached | None:
         """Nudge a hull; None if its structure would not stay."""
-        document, by = Document(copy_of(base.state)), base.nudge_to(at)
+        document, by = Document(copy_state(base.state)), base.nudge_to(at)
         if by is None:
             return Reached(base.state, at, base, self.measured)
         try:

@@ -6,12 +6,12 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.aiming.quadratic_program import split
-from assoc_hull.variation.aiming.scaled_problem import Place
+from assoc_hull.variation.aiming.scaled_problem import Iterate
 
-__all__ = ["multipliers", "steep", "unbalanced"]
+__all__ = ["multipliers", "release_slope", "unbalanced"]
 
 
-def unbalanced(place: Place) -> float:
+def unbalanced(place: Iterate) -> float:
     """Tell by how much a change is not the least one with these misses.
 
     It is the size of what is left of mu beside the gradients of misses and of bounds that hold it:
@@ -21,13 +21,13 @@ def unbalanced(place: Place) -> float:
     return float(np.linalg.norm(null.T @ _pull(place)))
 
 
-def steep(place: Place) -> float:
+def release_slope(place: Iterate) -> float:
     """Give the slope of half the squared misses along which bounds let go."""
     slope = place.jacobian.T @ place.misses
     return float(np.linalg.norm(np.where(place.shut, 0.0, slope)))
 
 
-def _pull(place: Place) -> FloatArray:
+def _pull(place: Iterate) -> FloatArray:
     """Give mu without what bounds take up of it best: they push inward only, (k,)."""
     from scipy.optimize import nnls
 
@@ -41,7 +41,7 @@ def _pull(place: Place) -> FloatArray:
     return found
 
 
-def multipliers(place: Place) -> FloatArray:
+def multipliers(place: Iterate) -> FloatArray:
     """Give the multipliers of the equations that balance mu best, (m,)."""
     inverse, _ = split(place.jacobian)
     found: FloatArray = -inverse.T @ _pull(place)

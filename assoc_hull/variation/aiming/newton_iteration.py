@@ -17,13 +17,13 @@ from typing import Literal
 
 import attrs
 
-from assoc_hull.variation.aiming.broyden_update import learnt, no_curvature
-from assoc_hull.variation.aiming.kkt_conditions import steep, unbalanced
-from assoc_hull.variation.aiming.newton_step import Way, taken, wished
-from assoc_hull.variation.aiming.scaled_problem import Place
-from assoc_hull.variation.aiming.stopping_rule import Rule
+from assoc_hull.variation.aiming.broyden_update import no_curvature, updated_curvature
+from assoc_hull.variation.aiming.kkt_conditions import release_slope, unbalanced
+from assoc_hull.variation.aiming.newton_step import Way, choose_step, damp_step
+from assoc_hull.variation.aiming.scaled_problem import Iterate
+from assoc_hull.variation.aiming.stopping_rule import StoppingRule
 
-__all__ = ["AimStep", "End", "Walk", "walk"]
+__all__ = ["AimStep", "End", "NewtonIteration", "iterate"]
 
 End = Literal["met", "nearest", "blocked", "spent"]
 
@@ -58,7 +58,7 @@ class AimStep:
 
 
 @attrs.frozen(eq=False)
-class Walk:
+class NewtonIteration:
     """A walk that has ended.
 
     Attributes
@@ -74,12 +74,12 @@ class Walk:
     """
 
     steps: tuple[AimStep, ...]
-    place: Place
+    place: Iterate
     end: End
     why: str = ""
 
 
-def walk(place: Place, rule: Rule) -> Walk:
+def iterate(place: Iterate, rule: StoppingRule) -> NewtonIteration:
     """Go from a place until a rule says that it is enough, or nothing is nearer."""
     curvature = no_curvature(*place.jacobian.shape)
     steps, cuts = [_step("start", place, 0.0)], 0
@@ -88,20 +88,20 @@ def walk(place: Place, rule: Rule) -> Walk:
             break  # rounding is all that is left
         if len(steps) > rule.steps:
             return _ended(steps, place, rule, "spent")
-        wish = wished(place, curvature, rule)
+        wish = choose_step(place, curvature, rule)
         if wish is None:
             return _ended(steps, place, rule, "nearest")
-        after = taken(place, wish, rule)
+        after = damp_step(place, wish, rule)
         if isinstance(after, str):
             return _ended(steps, place, rule, "blocked", after)
         moved = after.place.changes - place.changes
-        curvature = learnt(curvature, moved, after.place.jacobian - place.jacobian)
+        curvature = updated_curvature(curvature, moved, after.place.jacobian - place.jacobian)
         place = after.place
         steps.append(_step(wish.way, place, after.part))
         cuts = cuts + 1 if after.why else 0
         if cuts == _CUTS:
             return _ended(steps, place, rule, "blocked", after.why)
-    return Walk(tuple(steps), place, "met")
+    return NewtonIteration(tuple(steps), place, "met")
 
 
 def _stands(steps: list[AimStep], far: bool, uneven: bool) -> bool:
@@ -113,12 +113,14 @@ def _stands(steps: list[AimStep], far: bool, uneven: bool) -> bool:
     return not closer and not (uneven and now.kkt < 0.5 * before.kkt)
 
 
-def _step(way: Way, place: Place, part: float) -> AimStep:
+def _step(way: Way, place: Iterate, part: float) -> AimStep:
     """Note a step."""
-    kkt = steep(place) if way == "nearest" else unbalanced(place)
+    kkt = release_slope(place) if way == "nearest" else unbalanced(place)
     return AimStep(way, place.worst, kkt, place.change, part)
 
 
-def _ended(steps: list[AimStep], place: Place, rule: Rule, end: End, why: str = "") -> Walk:
+def _ended(
+    steps: list[AimStep], place: Iterate, rule: StoppingRule, end: End, why: str = ""
+) -> NewtonIteration:
     """End a walk; where targets are met, a change that might be a little smaller is none."""
-    return Walk(tuple(steps), place, "met" if rule.met(place) else end, why)
+    return NewtonIteration(tuple(steps), place, "met" if rule.met(place) else end, why)

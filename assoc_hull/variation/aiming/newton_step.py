@@ -11,10 +11,10 @@ from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.aiming.kkt_conditions import multipliers
 from assoc_hull.variation.aiming.quadratic_program import Quadratic, least_squares_step, split
-from assoc_hull.variation.aiming.scaled_problem import Place
-from assoc_hull.variation.aiming.stopping_rule import Rule
+from assoc_hull.variation.aiming.scaled_problem import Iterate
+from assoc_hull.variation.aiming.stopping_rule import StoppingRule
 
-__all__ = ["Taken", "Way", "Wish", "taken", "wished"]
+__all__ = ["TakenStep", "Way", "WholeStep", "choose_step", "damp_step"]
 
 Way = Literal["start", "exact", "nearest"]
 
@@ -36,7 +36,7 @@ _STAYS = 0.1
 
 
 @attrs.frozen(eq=False)
-class Wish:
+class WholeStep:
     """A whole step, which way it goes, and how much a miss weighs against a change."""
 
     step: FloatArray
@@ -45,15 +45,15 @@ class Wish:
 
 
 @attrs.frozen(eq=False)
-class Taken:
+class TakenStep:
     """A step that was taken: where it led, how much of it, what cut it short."""
 
-    place: Place
+    place: Iterate
     part: float
     why: str
 
 
-def wished(place: Place, curvature: FloatArray, rule: Rule) -> Wish | None:
+def choose_step(place: Iterate, curvature: FloatArray, rule: StoppingRule) -> WholeStep | None:
     """Give the whole step from a place; None where no step brings targets nearer."""
     weights = multipliers(place) if rule.least else np.zeros_like(place.misses)
     unit, (_, null) = np.eye(len(place.changes)), split(place.jacobian)
@@ -66,11 +66,13 @@ def wished(place: Place, curvature: FloatArray, rule: Rule) -> Wish | None:
     low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
     step = Quadratic(H, g, place.jacobian, -place.misses, low, high).step()
     if step is not None:
-        return Wish(step, "exact", _PENALTY * float(np.linalg.norm(weights)))
+        return WholeStep(step, "exact", _PENALTY * float(np.linalg.norm(weights)))
     return _nearer(place, curvature, low, high)
 
 
-def _nearer(place: Place, curvature: FloatArray, low: FloatArray, high: FloatArray) -> Wish | None:
+def _nearer(
+    place: Iterate, curvature: FloatArray, low: FloatArray, high: FloatArray
+) -> WholeStep | None:
     """Give the step that makes misses least within bounds; None where they are."""
     J, misses = place.jacobian, place.misses
     H = J.T @ J + np.einsum("i,ijk->jk", misses, curvature)
@@ -79,9 +81,9 @@ def _nearer(place: Place, curvature: FloatArray, low: FloatArray, high: FloatArr
     if _firm(H, _FIRM):
         step = Quadratic(H, g, np.zeros((0, len(g))), np.zeros(0), low, high).step()
         if step is not None and g @ step < enough:
-            return Wish(step, "nearest")
+            return WholeStep(step, "nearest")
     step = least_squares_step(J, -misses, low, high)
-    return Wish(step, "nearest") if g @ step < enough else None
+    return WholeStep(step, "nearest") if g @ step < enough else None
 
 
 def _firm(H: FloatArray, least: float) -> bool:
@@ -90,21 +92,23 @@ def _firm(H: FloatArray, least: float) -> bool:
     return bool(values[0] > least * values[-1])
 
 
-def taken(place: Place, wish: Wish, rule: Rule) -> Taken | str:
+def damp_step(place: Iterate, wish: WholeStep, rule: StoppingRule) -> TakenStep | str:
     """Take the whole step, or halves of it until it serves; else say why none did."""
     part, why = 1.0, ""
     for _ in range(_HALVINGS):
         try:
             after = place.scaled.at(place.changes + part * wish.step)
             if _serves(place, after, wish, part, rule):
-                return Taken(after, part, why)
+                return TakenStep(after, part, why)
         except AssocHullError as error:
             why = str(error)
         part *= 0.5
     return why
 
 
-def _serves(place: Place, after: Place, wish: Wish, part: float, rule: Rule) -> bool:
+def _serves(
+    place: Iterate, after: Iterate, wish: WholeStep, part: float, rule: StoppingRule
+) -> bool:
     """Tell whether a step has brought what it should."""
     if wish.way == "nearest":
         promised = _LESS * part * 2.0 * float(place.jacobian.T @ place.misses @ wish.step)

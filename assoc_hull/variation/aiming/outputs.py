@@ -1,36 +1,187 @@
-"""What can be aimed at: names of outputs, their values, and their derivatives.
+"""The outputs of a hull that can be aimed at: names, values, derivatives.
 
-Outputs are taken of a hull as it floats upright at its design draught, on the kernel's own
-hydrostatics. Where the draught changes with a parameter, the hull floats at the new one.
+Outputs are fields of the hydrostatic record, sectional areas by station or place, and form
+parameters, taken of a hull as it floats upright at its design draught. Each kind works on all its
+keys together, as they share what is measured; `Outputs` understands the names and joins the kinds.
+Where the draught changes with a parameter, the hull floats at the new one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Protocol
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.analysis.derivatives.hydrostatic_derivatives import (
+    TangentHull,
+    tangents_by,
+    tangents_of,
+)
 from assoc_hull.analysis.derivatives.parameters import Parameter, Position
-from assoc_hull.analysis.derivatives.reused_layout import flotation_like
-from assoc_hull.analysis.derivatives.tangents import tangents_by
+from assoc_hull.analysis.derivatives.reused_layout import flotation_with_layout_of
 from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
-from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
-from assoc_hull.analysis.hydrostatics.hydrostatic_header import SALT
-from assoc_hull.analysis.hydrostatics.measured_hull import header_of
-from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
+from assoc_hull.analysis.form.floating_shape import FloatingShape
+from assoc_hull.analysis.form.form_rates import form_rates
+from assoc_hull.analysis.form.longitudinal_parts import ship_slices
+from assoc_hull.analysis.form.parameter import evaluate
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation, header_of
+from assoc_hull.analysis.hydrostatics.record import FIELDS, SALT
 from assoc_hull.arguments import all_of, number, shown, shown_name
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.model.state import HullState, Particulars
-from assoc_hull.variation.aiming.output_kinds import KINDS
+from assoc_hull.geometry.floating.slices import area_with_tangents
+from assoc_hull.model.tables import HullState, Particulars
 
-__all__ = ["OutputRates", "Outputs"]
+__all__ = [
+    "KINDS",
+    "OutputKind",
+    "OutputRates",
+    "Outputs",
+    "Rates",
+]
+
+# --------------------------------------------------------------------------------------
+# What can be aimed at, kind by kind: values of a hull, and their derivatives.
+#
+# A `Kind` takes keys of its own (the field, the station, ...) and works on all of them together,
+# as they share what is measured.
 
 _WHERE = "among the outputs"
+
+Rates = tuple[FloatArray, NDArray[np.bool_]]
+"""Derivatives (n, k), and (n,) which of the n outputs hang on no differences."""
+
+
+class OutputKind(Protocol):
+    """Outputs of one kind; a key is text."""
+
+    def unit(self, key: str) -> str:
+        """Give the unit of an output."""
+        ...
+
+    def values(self, keys: Sequence[str], shape: FloatingShape) -> FloatArray:
+        """Give the outputs of a hull, (n,).
+
+        Raises
+        ------
+        BadInputError, UnknownNameError
+            The hull has no such value.
+        """
+        ...
+
+    def rates(self, keys: Sequence[str], shape: FloatingShape, some: TangentHull) -> Rates:
+        """Give their derivatives by k parameters of the shape."""
+        ...
+
+
+def _lacks(name: str, why: str) -> BadInputError:
+    return BadInputError(f"the hull has no {name!r}: {why}", _WHERE, "aim at something else")
+
+
+def _exact(rows: Sequence[FloatArray]) -> Rates:
+    return np.stack(rows), np.ones(len(rows), np.bool_)
+
+
+@attrs.frozen
+class _Fields:
+    """Values of the record of hydrostatics."""
+
+    def unit(self, key: str) -> str:
+        return FIELDS[key].unit
+
+    def values(self, keys: Sequence[str], shape: FloatingShape) -> FloatArray:
+        given = [getattr(shape.record, key) for key in keys]
+        for key, value in zip(keys, given, strict=True):
+            if value is None:
+                raise _lacks(key, "no centre of gravity is given")
+            if np.isnan(value):
+                raise _lacks(key, "no waterplane")
+        return np.array(given, np.float64)
+
+    def rates(self, keys: Sequence[str], shape: FloatingShape, some: TangentHull) -> Rates:
+        count = some.count
+        return _exact([tangents_of(some.values[key], count) for key in keys])
+
+
+@attrs.frozen
+class _Stations:
+    """Immersed areas of sections as drawn, by name; a section that moves takes its name along."""
+
+    def unit(self, key: str) -> str:
+        return "m2"
+
+    def values(self, keys: Sequence[str], shape: FloatingShape) -> FloatArray:
+        found = shape.body.stations(shape.planes)
+        for key in keys:
+            if key not in found.names:
+                raise UnknownNameError("station", key, found.names)
+        return np.array([found.area[0, found.names.index(key)] for key in keys])
+
+    def rates(self, keys: Sequence[str], shape: FloatingShape, some: TangentHull) -> Rates:
+        found = some.body.stations(some.planes)
+        places = [found.names.index(key) for key in keys]
+        return _exact([tangents_of(found.area[0, i], some.count) for i in places])
+
+
+@attrs.frozen
+class _Places:
+    """Immersed areas of the surface at fixed places along the ship, m from AP."""
+
+    def unit(self, key: str) -> str:
+        return "m2"
+
+    def values(self, keys: Sequence[str], shape: FloatingShape) -> FloatArray:
+        found = np.array([shape.take(ship_slices).area(float(key)) for key in keys])
+        for key, area in zip(keys, found.tolist(), strict=True):
+            if not area > 0.0:
+                raise _lacks(f"A x={key}", "nothing is immersed there")
+        return found
+
+    def rates(self, keys: Sequence[str], shape: FloatingShape, some: TangentHull) -> Rates:
+        strips, body = some.body.prepared.strips, shape.body.spans
+        rows = [area_with_tangents(body, strips, float(key), some.planes) for key in keys]
+        for key, row in zip(keys, rows, strict=True):
+            if row is None:
+                raise _lacks(f"A x={key}", "a raked end of the hull is there")
+        return _exact([tangents_of(row, some.count) for row in rows])
+
+
+@attrs.frozen
+class _Forms:
+    """Form parameters of the catalogue."""
+
+    def unit(self, key: str) -> str:
+        return CATALOGUE[key].unit
+
+    def values(self, keys: Sequence[str], shape: FloatingShape) -> FloatArray:
+        found = evaluate(CATALOGUE, keys, shape, {})
+        for key, value in found.items():
+            if value.number is None:
+                raise _lacks(key, value.reason or "it cannot be told")
+        return np.array([found[key].number for key in keys], np.float64)
+
+    def rates(self, keys: Sequence[str], shape: FloatingShape, some: TangentHull) -> Rates:
+        found = form_rates(keys, shape, some)
+        exact = np.array([key in found.exact for key in keys], np.bool_)
+        return np.stack([found.rates[key] for key in keys]), exact
+
+
+KINDS: Mapping[str, OutputKind] = {
+    "field": _Fields(), "station": _Stations(), "place": _Places(), "form": _Forms()
+}  # fmt: skip
+"""All kinds by name."""
+
+
+# --------------------------------------------------------------------------------------
+# What can be aimed at: names of outputs, their values, and their derivatives.
+#
+# Outputs are taken of a hull as it floats upright at its design draught, on the kernel's own
+# hydrostatics. Where the draught changes with a parameter, the hull floats at the new one.
+
 _AREA, _AT = "A ", "x="
 
 
@@ -70,7 +221,7 @@ class Outputs:
     Attributes
     ----------
     names : tuple of m str
-        As given: a field of `assoc_hull.analysis.hydrostatics.record_fields.FIELDS` ("volume",
+        As given: a field of `assoc_hull.analysis.hydrostatics.record.FIELDS` ("volume",
         "lcb"); the
         symbol of a form parameter of the catalogue ("Cp", "Cpa"); "A ST 5" for the immersed
         area of the station of that name, "A x=42.5" for that of the surface at a place, m
@@ -196,17 +347,17 @@ class Outputs:
                 exact[rows] &= sure
         return OutputRates(values, jacobian, exact)
 
-    def afloat(self, state: HullState, like: HullState | None = None) -> Shape:
+    def afloat(self, state: HullState, like: HullState | None = None) -> FloatingShape:
         """Give a hull as its outputs are taken of it, or say what makes it doubtful."""
         looked_at = flotation(state if like is None else like)
-        body = looked_at if like is None else flotation_like(like, state)
+        body = looked_at if like is None else flotation_with_layout_of(like, state)
         shape = self._shape(body, None)
         doubts = looked_at.doubts(shape.planes, numbers=False)
         if doubts:
             raise BadInputError(doubts[0], _WHERE, "mend the hull")
         return shape
 
-    def _shape(self, body: Flotation, particulars: Particulars | None) -> Shape:
+    def _shape(self, body: Flotation, particulars: Particulars | None) -> FloatingShape:
         ship = body.state.particulars if particulars is None else particulars
         terms: dict[str, object] = {
             "rho": SALT, "shell_factor": 1.0, "kg": self.kg, "appendages": (), "fingerprint": "",
@@ -215,9 +366,9 @@ class Outputs:
             header_of(_Tables(body.state), body, terms),
             length=ship.length, breadth=ship.breadth, draught=ship.draught,
         )  # fmt: skip
-        return Shape(body, header, FloatingPosition(ship.draught, ship.draught), ship.depth)
+        return FloatingShape(body, header, FloatingPosition(ship.draught, ship.draught), ship.depth)
 
-    def _values(self, shape: Shape) -> FloatArray:
+    def _values(self, shape: FloatingShape) -> FloatArray:
         found = np.zeros(len(self.names))
         for kind, rows, keys in self._by_kind():
             found[rows] = KINDS[kind].values(keys, shape)

@@ -6,19 +6,19 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.variation.aiming.newton_iteration import AimStep, Walk
+from assoc_hull.variation.aiming.newton_iteration import AimStep, NewtonIteration
 from assoc_hull.variation.aiming.problem import Evaluated
 from assoc_hull.variation.aiming.quadratic_program import RANK
-from assoc_hull.variation.aiming.scaled_problem import Place
+from assoc_hull.variation.aiming.scaled_problem import Iterate
 
-__all__ = ["Aimed", "aimed"]
+__all__ = ["AimReport", "make_report"]
 
 _WORTH = 0.1
 """Targets that have less than this part in a combination are not named with it."""
 
 
 @attrs.frozen(eq=False)
-class Aimed:
+class AimReport:
     """What aiming at targets found.
 
     Attributes
@@ -136,7 +136,7 @@ class Aimed:
         ]
 
 
-def aimed(found: Walk, before: FloatArray, units: tuple[str, ...]) -> Aimed:
+def make_report(found: NewtonIteration, before: FloatArray, units: tuple[str, ...]) -> AimReport:
     """Give the report of a walk.
 
     Parameters
@@ -156,13 +156,13 @@ def aimed(found: Walk, before: FloatArray, units: tuple[str, ...]) -> Aimed:
     )  # fmt: skip
     freeze(*arrays)
     amplitudes, was, targets, values, singular, least = arrays
-    return Aimed(
+    return AimReport(
         problem.free, problem.outputs, units, amplitudes, was, targets, values,
         _active(found), singular, least, found.steps, found.end == "met", found.why, place.hull,
     )  # fmt: skip
 
 
-def _singular(place: Place) -> tuple[FloatArray, FloatArray]:
+def _singular(place: Iterate) -> tuple[FloatArray, FloatArray]:
     """Give singular values, and the combination of targets that moves least, (m,).
 
     Where some do not move at all it is the one of these that is missed.
@@ -175,7 +175,7 @@ def _singular(place: Place) -> tuple[FloatArray, FloatArray]:
     return singular, least * np.sign(least[np.abs(least).argmax()])
 
 
-def _active(found: Walk) -> tuple[str, ...]:
+def _active(found: NewtonIteration) -> tuple[str, ...]:
     """Name the free parameters at bounds; of a compromise, those that would go on beyond."""
     place = found.place
     at = place.at_low | place.at_high if found.end == "met" else place.shut

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.aiming.problem import Evaluated, Problem
 
-__all__ = ["Place", "Scaled"]
+__all__ = ["Iterate", "ScaledProblem"]
 
 _AT = 1e-12
 """A change so near to a bound (times 1 + |bound|) lies at it."""
@@ -21,7 +21,7 @@ _NIL = 1e-9
 
 
 @attrs.frozen(eq=False)
-class Scaled:
+class ScaledProblem:
     """Misses of targets as a function of scaled changes.
 
     Attributes
@@ -54,11 +54,11 @@ class Scaled:
         """The greatest scaled changes, (k,)."""
         return (self.high - self.origin) / self.usual
 
-    def start(self) -> Place:
+    def start(self) -> Iterate:
         """Give the place that is nearest to the origin within the bounds."""
         return self.at(np.clip(np.zeros(len(self.origin)), self.least, self.most))
 
-    def at(self, changes: FloatArray) -> Place:
+    def at(self, changes: FloatArray) -> Iterate:
         """Give the hull at scaled changes, (k,).
 
         Raises
@@ -70,7 +70,7 @@ class Scaled:
         # where a bound is touched it is met to the bit
         amplitudes = np.where(self.near(changes, self.least), self.low, amplitudes)
         amplitudes = np.where(self.near(changes, self.most), self.high, amplitudes)
-        return Place(self, changes, amplitudes, self.problem.at(amplitudes))
+        return Iterate(self, changes, amplitudes, self.problem.at(amplitudes))
 
     @staticmethod
     def near(changes: FloatArray, bounds: FloatArray) -> NDArray[np.bool_]:
@@ -82,7 +82,7 @@ class Scaled:
 
 
 @attrs.frozen(eq=False, slots=False)
-class Place:
+class Iterate:
     """A hull on the way.
 
     Attributes
@@ -95,7 +95,7 @@ class Place:
         What the problem gave.
     """
 
-    scaled: Scaled
+    scaled: ScaledProblem
     changes: FloatArray
     amplitudes: FloatArray
     hull: Evaluated

@@ -5,16 +5,16 @@ from __future__ import annotations
 import attrs
 
 from assoc_hull.variation.aiming.kkt_conditions import unbalanced
-from assoc_hull.variation.aiming.scaled_problem import Place
+from assoc_hull.variation.aiming.scaled_problem import Iterate
 
-__all__ = ["Rule"]
+__all__ = ["StoppingRule"]
 
 _SPARE = 0.1
 """Rules are kept with this part of what they allow, unless rounding is in the way."""
 
 
 @attrs.frozen
-class Rule:
+class StoppingRule:
     """When a walk ends.
 
     Attributes
@@ -35,11 +35,11 @@ class Rule:
     steps: int = 40
     least: bool = True
 
-    def met(self, place: Place) -> bool:
+    def met(self, place: Iterate) -> bool:
         """Tell whether targets are met."""
         return place.worst <= self.residual
 
-    def left(self, place: Place) -> tuple[bool, bool]:
+    def left(self, place: Iterate) -> tuple[bool, bool]:
         """Tell what is left to do: targets, which are met with something to spare; the change."""
         limit = max(self.kkt * min(1.0, place.change), _SPARE * self.kkt)
         far = place.worst > _SPARE * self.residual

@@ -17,14 +17,14 @@ from assoc_hull.errors import (
     UnreachableError,
 )
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.aiming.newton_iteration import Walk, walk
+from assoc_hull.variation.aiming.newton_iteration import NewtonIteration, iterate
 from assoc_hull.variation.aiming.problem import Problem
 from assoc_hull.variation.aiming.quadratic_program import RANK
-from assoc_hull.variation.aiming.report import Aimed, aimed
-from assoc_hull.variation.aiming.scaled_problem import Scaled
-from assoc_hull.variation.aiming.stopping_rule import Rule
+from assoc_hull.variation.aiming.report import AimReport, make_report
+from assoc_hull.variation.aiming.scaled_problem import ScaledProblem
+from assoc_hull.variation.aiming.stopping_rule import StoppingRule
 
-__all__ = ["solve"]
+__all__ = ["solve_targets"]
 
 _WHERE = "in aiming"
 
@@ -36,7 +36,7 @@ _UNMOVED = 1e-5
 moved by the loft only."""
 
 
-def solve(
+def solve_targets(
     problem: Problem,
     targets: ArrayLike,
     *,
@@ -47,8 +47,8 @@ def solve(
     exact: bool = True,
     units: tuple[str, ...] = (),
     before: ArrayLike | None = None,
-    rule: Rule | None = None,
-) -> Aimed:
+    rule: StoppingRule | None = None,
+) -> AimReport:
     """Find amplitudes at which outputs have their targets, by Newton's method.
 
     With as many free parameters as targets the answer is the solution; with more, the one with the
@@ -99,7 +99,7 @@ def solve(
     A box hull of 100 m x 20 m x 6 m is to have 1 % more volume and the same waterplane:
 
     >>> import attrs, numpy as np
-    >>> from assoc_hull.variation.aiming.target_solver import solve
+    >>> from assoc_hull.variation.aiming.target_solver import solve_targets
     >>> @attrs.frozen
     ... class Box:
     ...     free, outputs = ("breadth", "draught"), ("volume", "waterplane_area")
@@ -111,7 +111,7 @@ def solve(
     ... class Hull:
     ...     values: object
     ...     jacobian: object
-    >>> found = solve(
+    >>> found = solve_targets(
     ...     Box(), [12120, 2000], start=[0, 0], scales_free=[1, 1], scales_out=[12000, 2000]
     ... )
     >>> found.amplitudes.round(9).tolist(), len(found.steps) - 1
@@ -125,9 +125,9 @@ def solve(
     was = np.array(first.hull.values) if before is None else _row(before, counts[0], "before")
     spoken = units or ("",) * counts[0]
     if exact and _torn(first.jacobian, first.misses):
-        raise _dependent(aimed(Walk((), first, "nearest"), was, spoken))
-    end = walk(first, rule or Rule())
-    found = aimed(end, was, spoken)
+        raise _dependent(make_report(NewtonIteration((), first, "nearest"), was, spoken))
+    end = iterate(first, rule or StoppingRule())
+    found = make_report(end, was, spoken)
     if exact and not found.reached:
         raise _refusal(found, scaled, end)
     return found
@@ -136,7 +136,7 @@ def solve(
 def _scaled(
     problem: Problem, targets: ArrayLike, start: ArrayLike, scales_free: ArrayLike,
     scales_out: ArrayLike, bounds: ArrayLike | None,
-) -> Scaled:  # fmt: skip
+) -> ScaledProblem:  # fmt: skip
     """Check what is given, and take it together."""
     free, outputs = len(problem.free), len(problem.outputs)
     if not free or not outputs:
@@ -146,7 +146,7 @@ def _scaled(
     sizes = _row(scales_out, outputs, "scales_out", above_nil=True)
     usual = _row(scales_free, free, "scales_free", above_nil=True)
     wanted, origin = _row(targets, outputs, "targets"), _row(start, free, "start")
-    return Scaled(problem, wanted, sizes, origin, usual, *_bounds(bounds, free))
+    return ScaledProblem(problem, wanted, sizes, origin, usual, *_bounds(bounds, free))
 
 
 def _row(given: ArrayLike, count: int, name: str, *, above_nil: bool = False) -> FloatArray:
@@ -185,11 +185,11 @@ def _torn(jacobian: FloatArray, misses: FloatArray) -> bool:
     return bool(len(stuck)) and float(np.abs(stuck).max()) > 1e-9 * float(np.abs(misses).max())
 
 
-def _dependent(found: Aimed) -> DependentTargetsError:
+def _dependent(found: AimReport) -> DependentTargetsError:
     return DependentTargetsError(found.together, found.condition)
 
 
-def _refusal(found: Aimed, scaled: Scaled, end: Walk) -> AssocHullError:
+def _refusal(found: AimReport, scaled: ScaledProblem, end: NewtonIteration) -> AssocHullError:
     """Say why not all targets are met."""
     worst = int(np.abs(found.misses / scaled.sizes).argmax())
     if not found.active and np.abs(end.place.jacobian[worst]).max() < _UNMOVED:
@@ -202,7 +202,7 @@ def _refusal(found: Aimed, scaled: Scaled, end: Walk) -> AssocHullError:
     )  # fmt: skip
 
 
-def _why(end: Walk) -> str:
+def _why(end: NewtonIteration) -> str:
     """Say what is in the way where no bound is."""
     if end.why:
         return f"no certified hull beyond: {end.why}"

@@ -7,30 +7,29 @@ from collections.abc import Mapping, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.given import Given
+from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.mapped_features import carry_features
-from assoc_hull.edit.mapped_planes import Planes, carry_planes
+from assoc_hull.edit.mapped_planes import TransformedPlanes, carry_planes
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.features import Feature
-from assoc_hull.model.state import HullState, Particulars
-from assoc_hull.variation.ask import Ask
-from assoc_hull.variation.carrying.carry_out import resized
-from assoc_hull.variation.carrying.drivers import driving
-from assoc_hull.variation.carrying.room import Room, asked_radii
-from assoc_hull.variation.carrying.stations import section_planes
-from assoc_hull.variation.certificate.record import Certificate
-from assoc_hull.variation.features.map import FeatureMap
-from assoc_hull.variation.features.redrawn_features import regenerated
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.space_map import VMap
-from assoc_hull.variation.parameters.freedom import Freedom
+from assoc_hull.model.tables import HullState, Particulars
+from assoc_hull.variation.carrying.admissible_values import AdmissibleValues, requested_radii
+from assoc_hull.variation.carrying.carry_hull import resized_particulars
+from assoc_hull.variation.carrying.driving_lines import choose_drivers, section_planes
+from assoc_hull.variation.certificate.fold_check import Certificate
+from assoc_hull.variation.features.redrawn_circles import FeatureMap
+from assoc_hull.variation.features.redrawn_features import redraw_features
+from assoc_hull.variation.fields.layers import Layer
+from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.parameters.catalogue import Freedom
+from assoc_hull.variation.request import VariationRequest
 
-__all__ = ["HullMaps", "Laid"]
+__all__ = ["HullMaps", "LaidMap"]
 
 
 @attrs.frozen(eq=False)
-class Laid:
+class LaidMap:
     """A map at some amplitudes, and what becomes of lines, features and dimensions.
 
     Attributes
@@ -46,9 +45,9 @@ class Laid:
     particulars : Particulars
     """
 
-    vmap: VMap
+    vmap: VariationMap
     map: FeatureMap
-    planes: Planes
+    planes: TransformedPlanes
     features: tuple[Feature, ...]
     particulars: Particulars
 
@@ -69,8 +68,8 @@ class HullMaps:
     free : tuple of k Freedom
     """
 
-    room: Room
-    ask: Ask
+    room: AdmissibleValues
+    ask: VariationRequest
     aim: Mapping[str, float]
     free: tuple[Freedom, ...]
 
@@ -103,7 +102,7 @@ class HullMaps:
         named = [(each, by) for each, by in self._named(amplitudes) if by != 0.0]
         return dict(self.aim) | {each.name: each.present + by for each, by in named}
 
-    def map(self, amplitudes: FloatArray) -> VMap:
+    def map(self, amplitudes: FloatArray) -> VariationMap:
         """Lay out the map, uncertified.
 
         Raises
@@ -112,16 +111,16 @@ class HullMaps:
             A value cannot be laid out.
         """
         if self.still(amplitudes):
-            return VMap(())
+            return VariationMap(())
         named = self.room.map(self._asked(amplitudes)).layers
-        return VMap((*named, *self.ask.layers, *self._raw(amplitudes)))
+        return VariationMap((*named, *self.ask.layers, *self._raw(amplitudes)))
 
     def _raw(self, amplitudes: FloatArray) -> list[Layer]:
         pairs = zip(self.free, amplitudes.tolist(), strict=True)
         found = [each.scaled(amplitude) for each, amplitude in pairs]
         return [layer for layer in found if layer is not None]
 
-    def certified(self, amplitudes: FloatArray) -> tuple[VMap, Certificate]:
+    def certified(self, amplitudes: FloatArray) -> tuple[VariationMap, Certificate]:
         """Lay out the map, and certify that it folds nothing.
 
         Raises
@@ -143,9 +142,9 @@ class HullMaps:
     def driving(self, amplitudes: FloatArray) -> tuple[IntArray, bool]:
         """Give the lines that drive under a map, and whether planes of followers go along."""
         state, ask, vmap = self.state, self.ask, self.map(amplitudes)
-        anew = regenerated(state, vmap, self._radii(amplitudes))
-        given = None if ask.drivers is None else Given(state).driving(ask.drivers)
-        kept = driving(
+        anew = redraw_features(state, vmap, self._radii(amplitudes))
+        given = None if ask.drivers is None else GivenObjects(state).driving(ask.drivers)
+        kept = choose_drivers(
             state, SpaceMap(anew.map, anew.map.jacobian), given, ask.stations,
             follow=ask.planes == "follow",
         )  # fmt: skip
@@ -153,14 +152,16 @@ class HullMaps:
 
     def _radii(self, amplitudes: FloatArray) -> dict[str, float]:
         asked = self.values(amplitudes)
-        return asked_radii(self.state, self.room.parent, asked, self.room.present)
+        return requested_radii(self.state, self.room.parent, asked, self.room.present)
 
     def places(self, amplitudes: FloatArray, source: FloatArray) -> FloatArray:
         """Give where a map sends places (n, 3) of the parent, m, circles drawn anew."""
-        found = regenerated(self.state, self.map(amplitudes), self._radii(amplitudes)).map(source)
+        found = redraw_features(self.state, self.map(amplitudes), self._radii(amplitudes)).map(
+            source
+        )
         return np.asarray(found)
 
-    def laid(self, amplitudes: FloatArray, lines: IntArray, *, follow: bool) -> Laid:
+    def laid(self, amplitudes: FloatArray, lines: IntArray, *, follow: bool) -> LaidMap:
         """Give a map, and what it does with lines, features and dimensions of the parent.
 
         Parameters
@@ -172,10 +173,10 @@ class HullMaps:
             Whether planes of followers go along.
         """
         state, vmap, asked = self.state, self.map(amplitudes), self.values(amplitudes)
-        anew = regenerated(state, vmap, self._radii(amplitudes))
+        anew = redraw_features(state, vmap, self._radii(amplitudes))
         space = SpaceMap(anew.map, anew.map.jacobian)
         levels = section_planes(state, vmap.layers) if self.ask.stations == "number" else None
         planes = carry_planes(state, space, lines, follow=follow, levels=levels)
         features = anew.features(carry_features(state, space, np.inf)).features
-        size = resized(state, vmap, self.room.parent, asked)
-        return Laid(vmap, anew.map, planes, features, size)
+        size = resized_particulars(state, vmap, self.room.parent, asked)
+        return LaidMap(vmap, anew.map, planes, features, size)

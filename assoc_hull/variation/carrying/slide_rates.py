@@ -11,12 +11,12 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.edit.normals import curve_tangents, hull_normals
+from assoc_hull.edit.hull_normals import curve_tangents, hull_normals
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.splines.curvature import curvature
-from assoc_hull.model.state import HullState
+from assoc_hull.geometry.splines.evaluation import curvature
+from assoc_hull.model.tables import HullState
 
-__all__ = ["Ground", "bending"]
+__all__ = ["SlideSurface", "curve_bending"]
 
 _STEEP = 0.02
 """A line as level as this to a plane (sine of the angle) is no way into it."""
@@ -28,7 +28,7 @@ _KEPT = 1e-9
 """A point leaves its plane by no more than this part of the largest movement."""
 
 
-def bending(state: HullState) -> FloatArray:
+def curve_bending(state: HullState) -> FloatArray:
     """Give the larger curvature of the curves through every point, (rows,), 1/m."""
     found, curves = np.zeros(state.rows.count), state.live("curves").tolist()
     batch = SplineBatch.join([state.spline(curve) for curve in curves])
@@ -39,7 +39,7 @@ def bending(state: HullState) -> FloatArray:
 
 
 @attrs.frozen(eq=False)
-class Ground:
+class SlideSurface:
     """What points of a hull slide over.
 
     Attributes
@@ -66,7 +66,7 @@ class Ground:
     normal: FloatArray
 
     @classmethod
-    def of(cls, state: HullState, lines: IntArray) -> Ground:
+    def of(cls, state: HullState, lines: IntArray) -> SlideSurface:
         """Take it from the tables of a hull; `lines` (d,) are carried exactly."""
         curve = state.rows.curve.data
         line = np.where(curve >= 0, state.curves.line.data[curve], -1)

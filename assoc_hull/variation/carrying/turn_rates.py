@@ -8,20 +8,24 @@ import numpy as np
 
 from assoc_hull.edit.mapped_planes import flat_borders
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray
-from assoc_hull.model.state import Ends, HullState
-from assoc_hull.variation.carrying.hull_maps import Laid
-from assoc_hull.variation.carrying.slide_rates import Ground
+from assoc_hull.model.tables import Ends, HullState
+from assoc_hull.variation.carrying.hull_maps import LaidMap
+from assoc_hull.variation.carrying.slide_rates import SlideSurface
 
-__all__ = ["turns"]
+__all__ = ["turn_rates"]
 
 _ALIKE = 1e-3
 """Directions at one point that differ by no more (of their size) turn alike."""
 
 
-def turns(
-    state: HullState, ground: Ground, here: Laid, pair: Sequence[Laid], source: FloatArray,
+def turn_rates(
+    state: HullState,
+    ground: SlideSurface,
+    here: LaidMap,
+    pair: Sequence[LaidMap],
+    source: FloatArray,
     span: float,
-) -> FloatArray:  # fmt: skip
+) -> FloatArray:
     """Give how given directions turn with one amplitude.
 
     Parameters
@@ -61,7 +65,7 @@ def turns(
 
 
 def _turned(
-    ground: Ground, flats: IntArray, row: int, given: tuple[int, FloatArray], rate: FloatArray
+    ground: SlideSurface, flats: IntArray, row: int, given: tuple[int, FloatArray], rate: FloatArray
 ) -> FloatArray:
     """Give how one direction changes: across itself, in its plane and in the flat it borders."""
     side, vector = given

@@ -18,10 +18,10 @@ import numpy as np
 from assoc_hull.edit.nudge import Nudge, nudged
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.model.state import HullState, Particulars
-from assoc_hull.variation.carrying.hull_maps import HullMaps, Laid
-from assoc_hull.variation.carrying.slide_rates import Ground, bending
-from assoc_hull.variation.carrying.turn_rates import turns
+from assoc_hull.model.tables import HullState, Particulars
+from assoc_hull.variation.carrying.hull_maps import HullMaps, LaidMap
+from assoc_hull.variation.carrying.slide_rates import SlideSurface, curve_bending
+from assoc_hull.variation.carrying.turn_rates import turn_rates
 
 __all__ = ["SIZES", "Velocities", "velocities"]
 
@@ -167,10 +167,10 @@ def velocities(
     """
     here = maps.laid(amplitudes, lines, follow=follow)
     source = _sources(state, maps.state, here)
-    ground, found = Ground.of(state, lines), list[tuple[FloatArray, ...]]()
+    ground, found = SlideSurface.of(state, lines), list[tuple[FloatArray, ...]]()
     features = list[dict[str, dict[str, FloatArray]]]()
     for j, each in enumerate(maps.free):
-        beside = list[Laid | AssocHullError]()
+        beside = list[LaidMap | AssocHullError]()
         for by in (_STEP * each.usual, -_STEP * each.usual):
             there = amplitudes.copy()
             there[j] += by
@@ -181,14 +181,14 @@ def velocities(
     move, carried, turn, level, sizes = (np.stack(part) for part in zip(*found, strict=True))
     rows = nudged(state)
     return Velocities(
-        move, carried, turn, level, sizes, tuple(features), rows, bending(state)[rows],
+        move, carried, turn, level, sizes, tuple(features), rows, curve_bending(state)[rows],
         source[rows], state.rows.xyz.data[rows].copy(),
     )  # fmt: skip
 
 
 def _laid(
     maps: HullMaps, amplitudes: FloatArray, lines: IntArray, *, follow: bool
-) -> Laid | AssocHullError:
+) -> LaidMap | AssocHullError:
     """Lay out a map beside, or give why there is none."""
     try:
         return maps.laid(amplitudes, lines, follow=follow)
@@ -197,20 +197,24 @@ def _laid(
 
 
 def _spanned(
-    beside: Sequence[Laid | AssocHullError], here: Laid, step: float
-) -> tuple[list[Laid], float]:
+    beside: Sequence[LaidMap | AssocHullError], here: LaidMap, step: float
+) -> tuple[list[LaidMap], float]:
     """Give the maps of a difference, and its span: at the end of a range it is to one side."""
-    pair = [each if isinstance(each, Laid) else here for each in beside]
-    missing = [each for each in beside if not isinstance(each, Laid)]
+    pair = [each if isinstance(each, LaidMap) else here for each in beside]
+    missing = [each for each in beside if not isinstance(each, LaidMap)]
     if len(missing) == len(beside):
         raise missing[0]
     return pair, step * (len(beside) - len(missing))
 
 
 def _rates(
-    state: HullState, ground: Ground, here: Laid, pair: Sequence[Laid], source: FloatArray,
+    state: HullState,
+    ground: SlideSurface,
+    here: LaidMap,
+    pair: Sequence[LaidMap],
+    source: FloatArray,
     span: float,
-) -> tuple[FloatArray, ...]:  # fmt: skip
+) -> tuple[FloatArray, ...]:
     """Give displacements, those of the map, turns, levels and sizes by one amplitude."""
     live = state.live("rows")
     carried = np.zeros((state.rows.count, 3))
@@ -218,12 +222,12 @@ def _rates(
     level = _levels(state, pair, carried, ground, span)
     move = ground.kept(carried, level)
     move[~state.rows.alive.data] = 0.0
-    turn = turns(state, ground, here, pair, source, span)
+    turn = turn_rates(state, ground, here, pair, source, span)
     size = [np.array([getattr(each.particulars, name) for name in SIZES]) for each in pair]
     return move, carried, turn, level, (size[0] - size[1]) / span
 
 
-def _sources(state: HullState, parent: HullState, here: Laid) -> FloatArray:
+def _sources(state: HullState, parent: HullState, here: LaidMap) -> FloatArray:
     """Give where the points of a carried hull come from, (rows, 3), m.
 
     Points of the parent that went where the map sends them come from where they were, to the bit.
@@ -240,7 +244,7 @@ def _sources(state: HullState, parent: HullState, here: Laid) -> FloatArray:
     return found
 
 
-def _undone(here: Laid, places: FloatArray) -> FloatArray:
+def _undone(here: LaidMap, places: FloatArray) -> FloatArray:
     """Undo a map at places, by Newton's rule: to rounding, but beside circles drawn anew."""
     guess, mapped = np.array(here.vmap.inverse(places)), here.map
     found, best, left = guess.copy(), np.full(len(places), np.inf), np.arange(len(places))
@@ -265,7 +269,11 @@ def _undone(here: Laid, places: FloatArray) -> FloatArray:
 
 
 def _levels(
-    state: HullState, pair: Sequence[Laid], carried: FloatArray, ground: Ground, span: float
+    state: HullState,
+    pair: Sequence[LaidMap],
+    carried: FloatArray,
+    ground: SlideSurface,
+    span: float,
 ) -> FloatArray:
     """Give how fast the planes of lines move along their normals, (l,), m per unit.
 
@@ -281,7 +289,7 @@ def _levels(
     return found
 
 
-def _feature_rates(pair: Sequence[Laid], span: float) -> dict[str, dict[str, FloatArray]]:
+def _feature_rates(pair: Sequence[LaidMap], span: float) -> dict[str, dict[str, FloatArray]]:
     """Give how fast the numbers of features change, by key."""
     other = {each.key: each for each in pair[1].features}
     found = dict[str, dict[str, FloatArray]]()

@@ -9,11 +9,11 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import number, positive
 from assoc_hull.errors import BadInputError
-from assoc_hull.variation.certificate.certify import MARGIN, certify
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.certificate.fold_check import MARGIN, certify
+from assoc_hull.variation.fields.layers import Layer
+from assoc_hull.variation.fields.space_map import VariationMap
 
-__all__ = ["admissible"]
+__all__ = ["admissible_amplitudes"]
 
 _ROUNDS = 60
 _NEAR = 1e-9
@@ -31,8 +31,8 @@ _FARTHEST = _LARGE**6
 _FLAT = 1e-9
 
 
-def admissible(
-    layer_of: Callable[[float], VMap | Layer], box: ArrayLike, *, present: float = 0.0,
+def admissible_amplitudes(
+    layer_of: Callable[[float], VariationMap | Layer], box: ArrayLike, *, present: float = 0.0,
     first: float = 1.0, least: float = MARGIN,
 ) -> tuple[float, float]:  # fmt: skip
     """Give the least and the greatest amplitude that are certified.
@@ -58,15 +58,15 @@ def admissible(
 
     Examples
     --------
-    >>> from assoc_hull.variation.certificate.admissible_amplitudes import admissible
-    >>> from assoc_hull.variation.fields.piecewise_linear import Chain
-    >>> from assoc_hull.variation.fields.fields_layer import FieldLayer
-    >>> from assoc_hull.variation.fields.hat import hat
-    >>> fade = Chain.through([6, 66], [1, 0])
+    >>> from assoc_hull.variation.certificate.admissible_amplitudes import admissible_amplitudes
+    >>> from assoc_hull.variation.fields.bounded_functions import BlendChain
+    >>> from assoc_hull.variation.fields.layers import FieldLayer
+    >>> from assoc_hull.variation.fields.anchor_fields import hat_field
+    >>> fade = BlendChain.through([6, 66], [1, 0])
     >>> def shaft(rise):
     ...     anchors = [("base", 0, 0), ("shaft", 5, rise), ("T", 18, 0)]
-    ...     return FieldLayer("local", (hat("shaft", anchors, fade),))
-    >>> low, high = admissible(shaft, [[0, -25, -1], [300, 25, 27]])
+    ...     return FieldLayer("local", (hat_field("shaft", anchors, fade),))
+    >>> low, high = admissible_amplitudes(shaft, [[0, -25, -1], [300, 25, 27]])
     >>> round(low, 3), round(high, 3)
     (-3.83, 7.601)
     """

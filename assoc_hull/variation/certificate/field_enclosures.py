@@ -13,22 +13,28 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.numeric.intervals import Interval, minus, plus, times, union
-from assoc_hull.variation.fields.field import Field, Piece
-from assoc_hull.variation.fields.fields_layer import Rake
-from assoc_hull.variation.fields.piecewise_linear import Chain, Course
+from assoc_hull.geometry.numeric.intervals import (
+    Interval,
+    interval_difference,
+    interval_product,
+    interval_sum,
+    interval_union,
+)
+from assoc_hull.variation.fields.bounded_functions import BlendChain, BoundedFunction
+from assoc_hull.variation.fields.field import AffinePiece, StackedField
+from assoc_hull.variation.fields.layers import Rake
 
-__all__ = ["Enclosure", "enclose"]
+__all__ = ["FieldEnclosure", "enclose_field"]
 
 _Indices = np.typing.NDArray[np.int64]
-_Sum = tuple[Course, ...]
+_Sum = tuple[BoundedFunction, ...]
 
 _SLACK = 1e-13
 """For rounding of the place between two boundaries, as a part of their gap."""
 
 
 @attrs.frozen(eq=False)
-class Enclosure:
+class FieldEnclosure:
     """Of a field on m boxes.
 
     Attributes
@@ -48,7 +54,9 @@ class Enclosure:
     up: Interval
 
 
-def enclose(field: Field | Rake, lower: FloatArray, upper: FloatArray) -> Enclosure:
+def enclose_field(
+    field: StackedField | Rake, lower: FloatArray, upper: FloatArray
+) -> FieldEnclosure:
     """Enclose a field on boxes.
 
     Parameters
@@ -72,12 +80,12 @@ def enclose(field: Field | Rake, lower: FloatArray, upper: FloatArray) -> Enclos
         if len(some):
             found = _in_strip(field, k, ends, lower[some], upper[some], some)
             for part, one in zip(parts, found, strict=True):
-                part[0][some], part[1][some] = union((part[0][some], part[1][some]), one)
-    return Enclosure(*parts)
+                part[0][some], part[1][some] = interval_union((part[0][some], part[1][some]), one)
+    return FieldEnclosure(*parts)
 
 
 def _in_strip(
-    field: Field, k: int, ends: Sequence[Interval], lower: FloatArray, upper: FloatArray,
+    field: StackedField, k: int, ends: Sequence[Interval], lower: FloatArray, upper: FloatArray,
     some: _Indices,
 ) -> tuple[Interval, Interval, Interval, Interval]:  # fmt: skip
     """Enclose u, own, along and up where boxes reach into strip k; -1 is below the stack."""
@@ -97,27 +105,27 @@ def _in_strip(
     s = _within(z, *((ends[each][0][some], ends[each][1][some]) for each in (k, last)))
     b, rise = field.blend.value_range(*s), field.blend.slope_range(*s)
     f, f_x, a_above = _piece(field.pieces[last], pivot, x, c, field.axis)
-    turn = times(rise, _step(field.pieces[k], field.pieces[last], x, c))
+    turn = interval_product(rise, _step(field.pieces[k], field.pieces[last], x, c))
     gap = _gap(field, k, x)
     with np.errstate(divide="ignore", invalid="ignore"):
         known = gap[0] > 0.0
         inverse = np.where(known, 1.0 / gap[1], -np.inf), np.where(known, 1.0 / gap[0], np.inf)
-        up = _known(times(turn, inverse), known)
+        up = _known(interval_product(turn, inverse), known)
         leans = [field.boundaries[each].height.slope_bounds(*x) for each in (k, last)]
         lean = _mix(leans[0], leans[1], s)
-        along = minus(_mix(e_x, f_x, b), _known(times(up, lean), known))
+        along = interval_difference(_mix(e_x, f_x, b), _known(interval_product(up, lean), known))
     return _whole(field, (_mix(e, f, b), _mix(a, a_above, b), along, up))
 
 
 def _whole(
-    field: Field, parts: tuple[Interval, Interval, Interval, Interval]
+    field: StackedField, parts: tuple[Interval, Interval, Interval, Interval]
 ) -> tuple[Interval, Interval, Interval, Interval]:
     """Add what comes of the field's own coordinate to the derivatives by x and z."""
     u, own, along, up = parts
     if field.axis == "x":
-        along = plus(along, own)
+        along = interval_sum(along, own)
     if field.axis == "z":
-        up = plus(up, own)
+        up = interval_sum(up, own)
     return u, own, along, up
 
 
@@ -141,42 +149,42 @@ def _mix(one: Interval, other: Interval, b: Interval) -> Interval:
     """Enclose one (1 - b) + other b: linear in each, so ends of b are enough."""
     low = np.minimum(*(one[0] + (other[0] - one[0]) * end for end in b))
     high = np.maximum(*(one[1] + (other[1] - one[1]) * end for end in b))
-    return plus((low, high), (np.zeros_like(low), np.zeros_like(low)))
+    return interval_sum((low, high), (np.zeros_like(low), np.zeros_like(low)))
 
 
 def _piece(
-    piece: Piece, pivot: float, x: Interval, c: Interval, axis: str
+    piece: AffinePiece, pivot: float, x: Interval, c: Interval, axis: str
 ) -> tuple[Interval, Interval, Interval]:
     """Enclose e, its derivative by x with c held, and a; about a pivot shared by two pieces."""
     shift = _sum([(piece.d, 1.0), (piece.a, pivot - piece.pivot)])
     lever = c[0] - pivot, c[1] - pivot
     a = piece.a.bounds(*x)
-    e = plus(times(a, lever), _bounds(shift, x))
-    along = plus(times(piece.a.slope_bounds(*x), lever), _slopes(shift, x))
+    e = interval_sum(interval_product(a, lever), _bounds(shift, x))
+    along = interval_sum(interval_product(piece.a.slope_bounds(*x), lever), _slopes(shift, x))
     return e, along, a
 
 
-def _step(one: Piece, other: Piece, x: Interval, c: Interval) -> Interval:
+def _step(one: AffinePiece, other: AffinePiece, x: Interval, c: Interval) -> Interval:
     """Enclose the difference of two pieces, with what they share taken together."""
     rise = _sum([(other.a, 1.0), (one.a, -1.0)])
     shift = _sum([(other.d, 1.0), (one.d, -1.0), (other.a, one.pivot - other.pivot)])
     lever = c[0] - one.pivot, c[1] - one.pivot
-    return plus(times(_bounds(rise, x), lever), _bounds(shift, x))
+    return interval_sum(interval_product(_bounds(rise, x), lever), _bounds(shift, x))
 
 
-def _gap(field: Field, k: int, x: Interval) -> Interval:
+def _gap(field: StackedField, k: int, x: Interval) -> Interval:
     low, high = (field.boundaries[each].height for each in (k, k + 1))
     return _bounds(_sum([(high, 1.0), (low, -1.0)]), x)
 
 
-def _sum(terms: Sequence[tuple[Course, float]]) -> _Sum:
+def _sum(terms: Sequence[tuple[BoundedFunction, float]]) -> _Sum:
     """Add functions: chains of the same nodes and blend become one, whose bounds are exact."""
-    found, constant = dict[tuple[object, ...], Course](), 0.0
-    rest = list[Course]()
+    found, constant = dict[tuple[object, ...], BoundedFunction](), 0.0
+    rest = list[BoundedFunction]()
     for course, factor in terms:
         if factor == 0.0:
             continue
-        if not isinstance(course, Chain):
+        if not isinstance(course, BlendChain):
             rest.append(course.scaled(factor))
         elif course.level:
             constant += factor * float(course.v[0])
@@ -184,27 +192,27 @@ def _sum(terms: Sequence[tuple[Course, float]]) -> _Sum:
             key = (course.blend.name, course.x.tobytes())
             part = course.scaled(factor)
             last = found.get(key)
-            if isinstance(last, Chain):
-                part = Chain(part.x, part.v + last.v, part.blend)
+            if isinstance(last, BlendChain):
+                part = BlendChain(part.x, part.v + last.v, part.blend)
             found[key] = part
-    return *found.values(), *rest, Chain.constant(constant)
+    return *found.values(), *rest, BlendChain.constant(constant)
 
 
 def _bounds(terms: _Sum, x: Interval) -> Interval:
     total = terms[0].bounds(*x)
     for course in terms[1:]:
-        total = plus(total, course.bounds(*x))
+        total = interval_sum(total, course.bounds(*x))
     return total
 
 
 def _slopes(terms: _Sum, x: Interval) -> Interval:
     total = terms[0].slope_bounds(*x)
     for course in terms[1:]:
-        total = plus(total, course.slope_bounds(*x))
+        total = interval_sum(total, course.slope_bounds(*x))
     return total
 
 
-def _rake(field: Rake, lower: FloatArray, upper: FloatArray) -> Enclosure:
+def _rake(field: Rake, lower: FloatArray, upper: FloatArray) -> FieldEnclosure:
     x = lower[:, 0], upper[:, 0]
     t = (lower[:, 1] - field.z0) / field.w, (upper[:, 1] - field.z0) / field.w
     ramp = field.blend.ramp(t[0]), field.blend.ramp(t[1])
@@ -212,5 +220,5 @@ def _rake(field: Rake, lower: FloatArray, upper: FloatArray) -> Enclosure:
     fade, slope = field.course.scaled(size).bounds(*x), field.course.scaled(size).slope_bounds(*x)
     turn = field.course.scaled(field.q).bounds(*x)
     nil = np.zeros(len(lower)), np.zeros(len(lower))
-    up = times(turn, field.blend.value_range(*t))
-    return Enclosure(times(fade, ramp), nil, times(slope, ramp), up)
+    up = interval_product(turn, field.blend.value_range(*t))
+    return FieldEnclosure(interval_product(fade, ramp), nil, interval_product(slope, ramp), up)

@@ -13,9 +13,14 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.numeric.tensor_bernstein import coefficients, corners, halves, nodes
+from assoc_hull.geometry.numeric.tensor_bernstein import (
+    bernstein_coefficients,
+    bernstein_nodes,
+    corner_coefficients,
+    halve_boxes,
+)
 
-__all__ = ["Found", "Minor", "search"]
+__all__ = ["LeastMinor", "Minor", "find_least_minor"]
 
 _Values = Callable[[FloatArray], FloatArray]
 _Mask = np.typing.NDArray[np.bool_]
@@ -81,7 +86,7 @@ class Minor:
 
 
 @attrs.frozen
-class Found:
+class LeastMinor:
     """The least value of a minor.
 
     Attributes
@@ -135,7 +140,7 @@ class _Boxes:
         return np.asarray(ratios.min(axis=inner) - self.slack / np.maximum(size, 1e-12))
 
 
-def search(minor: Minor, enough: float) -> Found:
+def find_least_minor(minor: Minor, enough: float) -> LeastMinor:
     """Find the least value of a minor.
 
     Parameters
@@ -178,14 +183,14 @@ def search(minor: Minor, enough: float) -> Found:
 
 
 def _begin(minor: Minor) -> _Boxes:
-    unit = nodes(minor.degrees)
+    unit = bernstein_nodes(minor.degrees)
     width = (minor.upper - minor.lower)[:, None, :]
     parameters = (minor.lower[:, None, :] + unit[None, :, :] * width).reshape(-1, unit.shape[1])
-    top, slack = coefficients(minor.at(parameters).reshape(-1, len(unit)), minor.degrees)
+    top, slack = bernstein_coefficients(minor.at(parameters).reshape(-1, len(unit)), minor.degrees)
     foot = None
     if minor.over is not None:
         values = minor.over(parameters).reshape(-1, len(unit))
-        foot, further = coefficients(values, minor.degrees)
+        foot, further = bernstein_coefficients(values, minor.degrees)
         slack = slack + further * np.abs(top).reshape(len(top), -1).max(axis=1)
     home = np.arange(len(minor.lower))
     return _Boxes(minor.lower.copy(), minor.upper.copy(), top, foot, slack, home)
@@ -196,7 +201,7 @@ def _lowest_corner(
 ) -> tuple[float, FloatArray, int]:
     """Give the least value at corners that count, its parameters, and its box."""
     count, k = boxes.lower.shape
-    values = corners(ratios).reshape(count, -1)
+    values = corner_coefficients(ratios).reshape(count, -1)
     bits = np.array(list(np.ndindex(*(2,) * k)))
     ends = np.stack([boxes.lower, boxes.upper])
     places = ends[bits[None, :, :], np.arange(count)[:, None, None], np.arange(k)]
@@ -235,10 +240,10 @@ def _halved(boxes: _Boxes, axis: int) -> _Boxes:
     middle = 0.5 * (boxes.lower[:, axis] + boxes.upper[:, axis])
     lower, upper = boxes.lower.copy(), boxes.upper.copy()
     lower[:, axis], upper[:, axis] = middle, middle
-    foot = None if boxes.foot is None else np.concatenate(halves(boxes.foot, axis))
+    foot = None if boxes.foot is None else np.concatenate(halve_boxes(boxes.foot, axis))
     return _Boxes(
         np.concatenate([boxes.lower, lower]), np.concatenate([upper, boxes.upper]),
-        np.concatenate(halves(boxes.top, axis)), foot,
+        np.concatenate(halve_boxes(boxes.top, axis)), foot,
         np.tile(boxes.slack, 2), np.tile(boxes.home, 2),
     )  # fmt: skip
 
@@ -246,15 +251,15 @@ def _halved(boxes: _Boxes, axis: int) -> _Boxes:
 def _found(
     minor: Minor, where: FloatArray, home: int, values: tuple[float, float],
     counts: tuple[int, int],
-) -> Found:  # fmt: skip
+) -> LeastMinor:  # fmt: skip
     """Take the witness just inside its box, and the minor's own value there."""
     bound, least = values
     if not np.isfinite(least):
         x, y, z = minor.place(where[None, :])[0].tolist()
-        return Found(minor.name, least, bound, (x, y, z), *counts)
+        return LeastMinor(minor.name, least, bound, (x, y, z), *counts)
     width = minor.upper[home] - minor.lower[home]
     inside = minor.lower[home] + _INWARD * width, minor.upper[home] - _INWARD * width
     where = np.clip(where, *inside)
     least = float(minor.value(where[None, :])[0])
     x, y, z = minor.place(where[None, :])[0].tolist()
-    return Found(minor.name, least, min(bound, least), (x, y, z), *counts)
+    return LeastMinor(minor.name, least, min(bound, least), (x, y, z), *counts)

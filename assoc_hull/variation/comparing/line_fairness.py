@@ -26,17 +26,17 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.fairness.comb_integrals import (
+from assoc_hull.geometry.fairness.combs import (
     DEAD_BAND,
     comb_integrals,
     curvature_sign_changes,
     greatest_curvatures,
 )
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 __all__ = [
     "FairnessChange",
-    "FairnessTable",
+    "FairnessComparison",
     "LineFairness",
     "compare_fairness",
     "measure_fairness",
@@ -110,7 +110,7 @@ class FairnessChange:
 
 
 @attrs.frozen(eq=False)
-class FairnessTable:
+class FairnessComparison:
     """The lines that both hulls have, in the order of the parent's.
 
     Attributes
@@ -245,7 +245,7 @@ def _views(state: HullState, line: int, like: Mapping[str, LineFairness]) -> Flo
 
 def compare_fairness(
     parent: Mapping[str, LineFairness], varied: Mapping[str, LineFairness]
-) -> FairnessTable:
+) -> FairnessComparison:
     """Put the lines of a parent and of a varied hull side by side.
 
     Parameters
@@ -258,6 +258,6 @@ def compare_fairness(
     FairnessTable
         The lines that both have.
     """
-    return FairnessTable(
+    return FairnessComparison(
         tuple(FairnessChange(line, varied[key]) for key, line in parent.items() if key in varied)
     )

@@ -6,16 +6,14 @@ from collections.abc import Mapping
 
 import attrs
 
-from assoc_hull.analysis.form.catalogue import CATALOGUE
+from assoc_hull.analysis.form.catalogue import CATALOGUE, by_table
+from assoc_hull.analysis.form.floating_shape import Screw
 from assoc_hull.analysis.form.form_parameters import form_parameters
-from assoc_hull.analysis.form.screw import Screw
-from assoc_hull.analysis.form.tables import by_table
-from assoc_hull.analysis.form.value import Value
-from assoc_hull.analysis.hydrostatics.hydrostatics import hydrostatics
-from assoc_hull.analysis.hydrostatics.measured_hull import HasState
-from assoc_hull.analysis.hydrostatics.record import Hydrostatics
-from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
+from assoc_hull.analysis.form.parameter import FormValue
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
+from assoc_hull.analysis.hydrostatics.record import FIELDS, Hydrostatics
 from assoc_hull.errors import BadInputError, OutOfRangeError
+from assoc_hull.model.tables import HasState
 
 __all__ = ["NumberComparison", "Numbers", "compare_numbers", "numbers_of"]
 
@@ -91,7 +89,7 @@ class Numbers:
     """
 
     record: Hydrostatics | None
-    parameters: Mapping[str, Value]
+    parameters: Mapping[str, FormValue]
     trouble: str | None = None
 
     @property
@@ -169,9 +167,9 @@ def _field(side: Numbers, name: str) -> float | None:
     return found
 
 
-def _parameter(side: Numbers, symbol: str, unit: str) -> Value:
+def _parameter(side: Numbers, symbol: str, unit: str) -> FormValue:
     if side.trouble is not None:
-        return Value(None, unit, symbol, reason=side.trouble)
+        return FormValue(None, unit, symbol, reason=side.trouble)
     return side.parameters[symbol]
 
 

@@ -8,10 +8,10 @@ from types import MappingProxyType
 import attrs
 
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.feature_handle import FeatureHandle, features_by_name
 from assoc_hull.model.features import Place
 from assoc_hull.model.kinds import Sort
-from assoc_hull.model.state import HullState
+from assoc_hull.model.objects import FeatureHandle, features_by_name
+from assoc_hull.model.tables import HullState
 
 __all__ = ["FeatureComparison", "PointsComparison", "compare_features", "compare_points"]
 

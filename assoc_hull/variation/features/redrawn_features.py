@@ -12,21 +12,28 @@ from collections.abc import Mapping, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.tangencies import Touch
+from assoc_hull.edit.followup.tangencies import PlaneTangency
 from assoc_hull.edit.mapped_features import CarriedFeatures
-from assoc_hull.edit.recut.carried_points import Carried
+from assoc_hull.edit.recut.carried_points import TransformationState
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.feature_geometry import host_curve
 from assoc_hull.model.features import Feature
-from assoc_hull.model.state import HullState
-from assoc_hull.variation.features.bilge_arc import BilgeMap
-from assoc_hull.variation.features.bilge_arcs_of_net import bilge_map
-from assoc_hull.variation.features.circle import GAP, Circle, Redrawn, redraw, touch
-from assoc_hull.variation.features.map import JOIN, FeatureMap, acting
-from assoc_hull.variation.fields.field import Region
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.features.redrawn_bilges import BilgeMap, bilge_map
+from assoc_hull.variation.features.redrawn_circles import (
+    GAP,
+    JOIN,
+    FeatureMap,
+    RedrawnCircle,
+    SpaceCircle,
+    changed_circles,
+    redraw_circle,
+    tangent_point,
+)
+from assoc_hull.variation.fields.field import FieldRegion
+from assoc_hull.variation.fields.space_map import VariationMap
 
-__all__ = ["Regenerated", "regenerated"]
+__all__ = ["RedrawnFeatures", "redraw_features"]
 
 _ROUND = 1e-6
 """A curve that is a circle leaves it by no more (m)."""
@@ -39,7 +46,7 @@ _END = 1e-3
 
 
 @attrs.frozen(eq=False)
-class Regenerated:
+class RedrawnFeatures:
     """A map that makes the circles of a hull anew.
 
     Attributes
@@ -58,11 +65,11 @@ class Regenerated:
     hosts: tuple[int, ...]
     bilges: BilgeMap
 
-    def regions(self) -> tuple[Region, ...]:
+    def regions(self) -> tuple[FieldRegion, ...]:
         """Give the boxes of the profile plane in which features change the map."""
         return self.map.regions() + self.bilges.regions()
 
-    def settle(self, work: Carried) -> None:
+    def settle(self, work: TransformationState) -> None:
         """Tell a transformation which curves are circles, and which planes touch them."""
         for curve, circle in zip(self.hosts, self.map.circles, strict=True):
             work.fine[curve] = _ROUND
@@ -84,9 +91,9 @@ class Regenerated:
         return attrs.evolve(carried, features=found, bent=carried.bent - drawn.keys())
 
 
-def regenerated(
-    state: HullState, vmap: VMap, radii: Mapping[str, float] | None = None
-) -> Regenerated:
+def redraw_features(
+    state: HullState, vmap: VariationMap, radii: Mapping[str, float] | None = None
+) -> RedrawnFeatures:
     """Draw the circles and the bilge arcs of a hull anew for a map.
 
     Parameters
@@ -110,10 +117,10 @@ def regenerated(
         for each in features
         if each.key in wanted or not _stretched(each, vmap)
     }
-    some = [each for each in acting(list(drawn.values())) if not _even(each, vmap)]
+    some = [each for each in changed_circles(list(drawn.values())) if not _even(each, vmap)]
     chosen = [each for each in features if drawn.get(each.key) in some]
     bilges = bilge_map(state, vmap)
-    return Regenerated(
+    return RedrawnFeatures(
         FeatureMap(bilges, bilges.jacobian, tuple(drawn[each.key] for each in chosen)),
         tuple(each.key for each in chosen),
         tuple(host_curve(state, each) for each in chosen),
@@ -122,7 +129,7 @@ def regenerated(
 
 
 def _of_cylinders(
-    features: Sequence[Feature], radii: Mapping[str, float], vmap: VMap
+    features: Sequence[Feature], radii: Mapping[str, float], vmap: VariationMap
 ) -> dict[str, float]:
     """Let a cylinder stay one: circles that are one with an asked one get its radius to the bit.
 
@@ -148,7 +155,7 @@ def _one_cylinder(one: Feature, other: Feature) -> bool:
     return not (away - float((away * normal).sum()) * normal).any()
 
 
-def _even(circle: Redrawn, vmap: VMap) -> bool:
+def _even(circle: RedrawnCircle, vmap: VariationMap) -> bool:
     """Tell whether a circle is carried by a map that is affine in all its neighbourhood.
 
     Its curve is then the curve of before, scaled, as are those that meet it: put onto the circle
@@ -162,7 +169,7 @@ def _even(circle: Redrawn, vmap: VMap) -> bool:
     return bool((slope == slope[0]).all())
 
 
-def _stretched(feature: Feature, vmap: VMap) -> bool:
+def _stretched(feature: Feature, vmap: VariationMap) -> bool:
     """Tell whether a map stretches a circle so much, and evenly, that it is meant to be none."""
     normal = np.array(feature.parameters["normal"])
     slope = vmap.jacobian(np.array([feature.parameters["centre"]]))[0]
@@ -171,32 +178,32 @@ def _stretched(feature: Feature, vmap: VMap) -> bool:
     return bool(size[0] > _OBLATE * size[1])
 
 
-def _redrawn(feature: Feature, vmap: VMap, radius: float | None) -> Redrawn:
+def _redrawn(feature: Feature, vmap: VariationMap, radius: float | None) -> RedrawnCircle:
     places = feature.parameters
-    before = Circle.of(places["centre"], float(feature.radius or 0.0), places["normal"])
+    before = SpaceCircle.of(places["centre"], float(feature.radius or 0.0), places["normal"])
     gap = max(GAP, 2.0 * feature.gap)
-    return redraw(feature.name, before, vmap, vmap.jacobian, radius=radius, gap=gap)
+    return redraw_circle(feature.name, before, vmap, vmap.jacobian, radius=radius, gap=gap)
 
 
 def _as_drawn(feature: Feature, centre: Sequence[float], radius: float) -> Feature:
     return attrs.evolve(feature, centre=centre, radius=radius)
 
 
-def _touches(work: Carried, curve: int, circle: Circle) -> list[Touch]:
+def _touches(work: TransformationState, curve: int, circle: SpaceCircle) -> list[PlaneTangency]:
     """Give the touches of a circle with the planes of lines that are cut again."""
     state, planes = work.state, work.planes
     line = state.lines
     lines = state.live("lines")
     lines = lines[~work.driver[lines] & planes.planar[lines] & (line.boundary.data[lines] < 0)]
-    found: list[Touch] = []
+    found: list[PlaneTangency] = []
     for each in sorted(lines.tolist(), key=lambda number: str(line.key.data[number])):
-        place = touch(circle, planes.normal[each], float(planes.offset[each]))
+        place = tangent_point(circle, planes.normal[each], float(planes.offset[each]))
         if place is not None and _within(work, curve, place):
-            found.append(Touch(curve, each, place))
+            found.append(PlaneTangency(curve, each, place))
     return found
 
 
-def _within(work: Carried, curve: int, place: FloatArray) -> bool:
+def _within(work: TransformationState, curve: int, place: FloatArray) -> bool:
     """Tell whether a place of a circle is one of the curve, and none of its ends."""
     rows = work.state.curves.rows.data[curve]
     image = work.image[rows]

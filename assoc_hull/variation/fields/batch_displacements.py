@@ -17,16 +17,16 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import places
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.layers import Layer
 
-__all__ = ["FieldPlan", "Moving"]
+__all__ = ["FieldPlan", "MovingCoordinate"]
 
 _BLOCK = 30
 """So many variants are worked on at once: they stay in the fast memory, on one core."""
 
 
 @attrs.frozen(eq=False)
-class Moving:
+class MovingCoordinate:
     """One coordinate of the places that move along it.
 
     Attributes
@@ -85,12 +85,12 @@ class FieldPlan:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.variation.fields.piecewise_linear import Chain
-    >>> from assoc_hull.variation.fields.fields_layer import FieldLayer
-    >>> from assoc_hull.variation.fields.hat import hat
+    >>> from assoc_hull.variation.fields.bounded_functions import BlendChain
+    >>> from assoc_hull.variation.fields.layers import FieldLayer
+    >>> from assoc_hull.variation.fields.anchor_fields import hat_field
     >>> from assoc_hull.variation.fields.batch_displacements import FieldPlan
-    >>> fade = Chain.through([6, 66], [1, 0])
-    >>> shaft = hat("shaft", [("base", 0, 0), ("shaft", 5, 1), ("T", 18, 0)], fade)
+    >>> fade = BlendChain.through([6, 66], [1, 0])
+    >>> shaft = hat_field("shaft", [("base", 0, 0), ("shaft", 5, 1), ("T", 18, 0)], fade)
     >>> parent = np.array([[6.0, 0.7, 5.0], [200.0, 20.0, 5.0]])
     >>> plan = FieldPlan.of([FieldLayer("shaft", (shaft,))], parent)
     >>> plan.places([0.5]).tolist()
@@ -99,7 +99,7 @@ class FieldPlan:
 
     xyz: FloatArray
     count: int
-    moving: tuple[Moving, ...]
+    moving: tuple[MovingCoordinate, ...]
 
     @classmethod
     def of(cls, units: Sequence[Layer], xyz: ArrayLike) -> FieldPlan:
@@ -127,7 +127,7 @@ class FieldPlan:
             rows = np.flatnonzero((moved[:, :, axis] != 0.0).any(axis=0))
             if len(rows):
                 weights = np.ascontiguousarray(moved[:, rows, axis])
-                found.append(Moving(axis, rows, given[rows, axis], weights))
+                found.append(MovingCoordinate(axis, rows, given[rows, axis], weights))
         return cls(given, len(units), tuple(found))
 
     def moved(self, amplitudes: Sequence[float] | FloatArray) -> tuple[FloatArray, ...]:

@@ -1,23 +1,15 @@
 """Fields: displacements of one coordinate, laid out in the profile plane.
 
-A field moves one coordinate c by ``u``, evaluated at the place before the map. A stack of
-boundary curves ``h_0(x) < h_1(x) < ..`` parts the profile plane; each carries an affine piece
-
-    e_k(x, c) = a_k(x) (c - p_k) + d_k(x)
-
-and between two of them u goes over from one piece to the next by the blend of
-``s = (z - h_k) / (h_{k+1} - h_k)``. Below the stack u = e_0, above it u = e_m.
-
-With p = 0 and d = 0 this is the variation-ratio field of Choi & Lee, "A Study on the Hull Form
-Design System on the Basis of the Associative Geometry Objects", J. SNAK 36(4), 1999, section 3.4:
-a = ratio - 1. Pivot and shift let a field carry a place at coordinate nil, and make a circle a
-circle.
+A field is a stack of boundary curves with an affine piece on each, blended from one to the next
+in between. Its boundary curves must not touch: the least gap of two of them is found by bounds
+that cannot miss it, and a field that has none left is refused when it is made.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from itertools import pairwise
 from typing import Literal
 
 import attrs
@@ -25,11 +17,120 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.fields.blend import QUINTIC, Blend
-from assoc_hull.variation.fields.gaps import check_gaps
-from assoc_hull.variation.fields.piecewise_linear import Chain, Course
+from assoc_hull.variation.fields.bounded_functions import (
+    QUINTIC,
+    Blend,
+    BlendChain,
+    BoundedFunction,
+)
 
-__all__ = ["Axis", "Boundary", "Field", "Piece", "Region", "Tube", "span", "stack"]
+__all__ = [
+    "AffinePiece",
+    "Axis",
+    "Boundary",
+    "FieldRegion",
+    "StackedField",
+    "Tube",
+    "check_gaps",
+    "least_gap",
+    "level_boundaries",
+    "nonzero_span",
+]
+
+# --------------------------------------------------------------------------------------
+# The least gap between two boundary curves, by bounds that cannot miss it.
+#
+# Both curves give exact bounds of value and slope on any interval. An interval whose lower bound
+# lies above the least gap met so far is put aside, every other one is halved.
+
+_NEAR = 1e-9
+"""The least gap is known to so many m."""
+
+_ROUNDS = 60
+
+
+def least_gap(lower: BoundedFunction, upper: BoundedFunction) -> tuple[float, float]:
+    """Give where one curve comes nearest to the one above it, and how near.
+
+    Parameters
+    ----------
+    lower, upper : Course
+        Heights, m, over x.
+
+    Returns
+    -------
+    x, gap : float, m
+        The least gap to 1e-9 m; negative where the curves cross.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.fields.bounded_functions import BlendChain
+    >>> from assoc_hull.variation.fields.field import least_gap
+    >>> x, gap = least_gap(BlendChain.constant(4.0), BlendChain.through([0, 10, 20], [6, 4.5, 7]))
+    >>> round(x, 6), round(gap, 9)
+    (10.0, 0.5)
+    """
+    nodes = np.unique(np.concatenate([lower.nodes, upper.nodes]))
+    gaps = upper.at(nodes) - lower.at(nodes)
+    first = int(np.argmin(gaps))
+    place, least = float(nodes[first]), float(gaps[first])
+    begin, end = nodes[:-1], nodes[1:]
+    for _ in range(_ROUNDS):
+        bound, middle, value = _bound(lower, upper, begin, end)
+        if len(value) and value.min() < least:
+            place, least = float(middle[value.argmin()]), float(value.min())
+        left = bound < least - _NEAR
+        if not left.any():
+            break
+        begin, middle, end = begin[left], middle[left], end[left]
+        begin, end = np.concatenate([begin, middle]), np.concatenate([middle, end])
+    return place, least
+
+
+def _bound(
+    lower: BoundedFunction, upper: BoundedFunction, begin: FloatArray, end: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Give the lower bound of the gap on intervals, their middles, and the gap there."""
+    middle = 0.5 * (begin + end)
+    value = upper.at(middle) - lower.at(middle)
+    plain = upper.bounds(begin, end)[0] - lower.bounds(begin, end)[1]
+    rise, fall = upper.slope_bounds(begin, end), lower.slope_bounds(begin, end)
+    steepest = np.maximum(rise[1] - fall[0], fall[1] - rise[0])
+    return np.maximum(plain, value - 0.5 * (end - begin) * steepest), middle, value
+
+
+def check_gaps(field: str, stack: Sequence[tuple[str, BoundedFunction]]) -> None:
+    """Refuse boundary curves of a field that touch or cross anywhere.
+
+    Raises
+    ------
+    BadInputError
+        With both names, the place and the gap there.
+    """
+    for (below, lower), (above, upper) in pairwise(stack):
+        x, gap = least_gap(lower, upper)
+        if not gap > _NEAR:
+            raise BadInputError(
+                f"boundary curves '{below}' and '{above}' of field '{field}' touch at x={x:.3f} "
+                f"(gap {gap:.3g} m)", "in vary", "move one or reduce the range",
+            )  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------
+# Fields: displacements of one coordinate, laid out in the profile plane.
+#
+# A field moves one coordinate c by ``u``, evaluated at the place before the map. A stack of
+# boundary curves ``h_0(x) < h_1(x) < ..`` parts the profile plane; each carries an affine piece
+#
+#     e_k(x, c) = a_k(x) (c - p_k) + d_k(x)
+#
+# and between two of them u goes over from one piece to the next by the blend of
+# ``s = (z - h_k) / (h_{k+1} - h_k)``. Below the stack u = e_0, above it u = e_m.
+#
+# With p = 0 and d = 0 this is the variation-ratio field of Choi & Lee, "A Study on the Hull Form
+# Design System on the Basis of the Associative Geometry Objects", J. SNAK 36(4), 1999, section 3.4:
+# a = ratio - 1. Pivot and shift let a field carry a place at coordinate nil, and make a circle a
+# circle.
 
 Axis = Literal["x", "y", "z"]
 
@@ -47,11 +148,11 @@ class Boundary:
     """
 
     name: str
-    height: Course
+    height: BoundedFunction
 
 
 @attrs.frozen(eq=False)
-class Piece:
+class AffinePiece:
     """An affine piece ``a(x) (c - pivot) + d(x)``.
 
     Attributes
@@ -63,18 +164,18 @@ class Piece:
         Shift, m.
     """
 
-    a: Course
+    a: BoundedFunction
     pivot: float
-    d: Course
+    d: BoundedFunction
 
     @classmethod
-    def along(cls, course: Course, a: float, d: float, pivot: float = 0.0) -> Piece:
+    def along(cls, course: BoundedFunction, a: float, d: float, pivot: float = 0.0) -> AffinePiece:
         """Give a piece whose departure and shift fade by one course."""
         return cls(course.scaled(a), pivot, course.scaled(d))
 
-    def scaled(self, factor: float) -> Piece:
+    def scaled(self, factor: float) -> AffinePiece:
         """Give the piece times a factor."""
-        return Piece(self.a.scaled(factor), self.pivot, self.d.scaled(factor))
+        return AffinePiece(self.a.scaled(factor), self.pivot, self.d.scaled(factor))
 
 
 @attrs.frozen
@@ -110,7 +211,7 @@ class Tube:
 
 
 @attrs.frozen
-class Region:
+class FieldRegion:
     """Where a layer may move anything: a box of the profile plane, m.
 
     Attributes
@@ -126,7 +227,7 @@ class Region:
 
 
 @attrs.frozen(eq=False)
-class Field:
+class StackedField:
     """A field with a stack of boundaries.
 
     Attributes
@@ -146,7 +247,7 @@ class Field:
     name: str
     axis: Axis
     boundaries: tuple[Boundary, ...]
-    pieces: tuple[Piece, ...]
+    pieces: tuple[AffinePiece, ...]
     blend: Blend = QUINTIC
     tube: Tube | None = None
 
@@ -168,11 +269,11 @@ class Field:
         name: str,
         axis: Axis,
         boundaries: Sequence[Boundary],
-        pieces: Sequence[Piece],
+        pieces: Sequence[AffinePiece],
         *,
         blend: Blend = QUINTIC,
         tube: Tube | None = None,
-    ) -> Field:
+    ) -> StackedField:
         """Take a field as a designer lays it out.
 
         Raises
@@ -184,7 +285,7 @@ class Field:
         check_gaps(name, [(each.name, each.height) for each in boundaries])
         return cls(name, axis, tuple(boundaries), tuple(pieces), blend, tube)
 
-    def scaled(self, factor: float) -> Field:
+    def scaled(self, factor: float) -> StackedField:
         """Give the field with its displacement times a factor."""
         return attrs.evolve(self, pieces=tuple(each.scaled(factor) for each in self.pieces))
 
@@ -266,18 +367,18 @@ class Field:
         gap = np.where(top > foot, top - foot, 1.0)
         return low, np.where(top > foot, np.clip((z - foot) / gap, 0.0, 1.0), 0.0)
 
-    def region(self) -> Region:
+    def region(self) -> FieldRegion:
         """Give the box of the profile plane outside which u is exactly nil."""
         return self._region
 
     @cached_property
-    def _region(self) -> Region:
+    def _region(self) -> FieldRegion:
         acts = [_acts(each.a) or _acts(each.d) for each in self.pieces]
         spans = [
-            span(part) for each in self.pieces for part in (each.a, each.d) if _acts(part)
+            nonzero_span(part) for each in self.pieces for part in (each.a, each.d) if _acts(part)
         ]  # fmt: skip
         if not spans:
-            return Region(self.name, (np.inf, -np.inf), (np.inf, -np.inf))
+            return FieldRegion(self.name, (np.inf, -np.inf), (np.inf, -np.inf))
         x = min(each[0] for each in spans), max(each[1] for each in spans)
         first, last = acts.index(True), len(acts) - 1 - acts[::-1].index(True)
         everywhere = np.array(-np.inf), np.array(np.inf)
@@ -286,7 +387,7 @@ class Field:
             low = float(self.boundaries[first - 1].height.bounds(*everywhere)[0])
         if last < len(acts) - 1:
             high = float(self.boundaries[last + 1].height.bounds(*everywhere)[1])
-        return Region(self.name, x, (low, high))
+        return FieldRegion(self.name, x, (low, high))
 
     def _own(self, xyz: FloatArray) -> FloatArray:
         """Give the coordinate that the pieces act on."""
@@ -322,7 +423,7 @@ class Field:
         return h, h_x
 
 
-def stack(names: Sequence[str], heights: Sequence[float]) -> tuple[Boundary, ...]:
+def level_boundaries(names: Sequence[str], heights: Sequence[float]) -> tuple[Boundary, ...]:
     """Give level boundary curves.
 
     Raises
@@ -338,23 +439,24 @@ def stack(names: Sequence[str], heights: Sequence[float]) -> tuple[Boundary, ...
                 "move one or reduce the range",
             )  # fmt: skip
     return tuple(
-        Boundary(name, Chain.constant(height)) for name, height in zip(names, heights, strict=True)
+        Boundary(name, BlendChain.constant(height))
+        for name, height in zip(names, heights, strict=True)
     )
 
 
-def _acts(course: Course) -> bool:
+def _acts(course: BoundedFunction) -> bool:
     """Tell whether a course is anywhere other than nil."""
     low, high = course.bounds(np.array(-np.inf), np.array(np.inf))
     return bool(low != 0.0) or bool(high != 0.0)
 
 
-def span(course: Course) -> tuple[float, float]:
+def nonzero_span(course: BoundedFunction) -> tuple[float, float]:
     """Give between which x a course is other than nil."""
     nodes = course.nodes
     value = course.at(nodes)
     first = -np.inf if value[0] != 0.0 else float(nodes[0])
     last = np.inf if value[-1] != 0.0 else float(nodes[-1])
-    if isinstance(course, Chain):
+    if isinstance(course, BlendChain):
         acts = np.flatnonzero(value != 0.0)
         if len(acts) and value[0] == 0.0:
             first = float(nodes[acts[0] - 1])

@@ -20,23 +20,26 @@ import attrs
 
 from assoc_hull.arguments import choice, flag, number, positive, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
-from assoc_hull.variation.fields.blend import BLENDS, Blend
-from assoc_hull.variation.fields.bump import Bump
-from assoc_hull.variation.fields.bump import Shape as BumpShape
-from assoc_hull.variation.fields.field import Axis, Boundary, Field, Piece, Tube
-from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
-from assoc_hull.variation.fields.hat import hat
-from assoc_hull.variation.fields.piecewise_linear import Chain, Contour, Course
-from assoc_hull.variation.fields.polyline import Polyline
+from assoc_hull.variation.fields.anchor_fields import hat_field
+from assoc_hull.variation.fields.bounded_functions import (
+    BLENDS,
+    Blend,
+    BlendChain,
+    BoundedFunction,
+    Contour,
+)
+from assoc_hull.variation.fields.field import AffinePiece, Axis, Boundary, StackedField, Tube
+from assoc_hull.variation.fields.layers import FieldLayer, Rake
+from assoc_hull.variation.fields.shift_shapes import Bump, BumpShape, Polyline
 
-__all__ = ["course_data", "fields_from", "layers_from"]
+__all__ = ["course_data", "fields_from_data", "layers_from_data"]
 
 _WHERE = "in a field of vary"
 
 _SHAPES: tuple[BumpShape, ...] = get_args(BumpShape)
 
 
-def layers_from(given: object) -> tuple[FieldLayer, ...]:
+def layers_from_data(given: object) -> tuple[FieldLayer, ...]:
     """Take layers of raw fields: a list of lists of fields, each list one layer.
 
     Raises
@@ -46,25 +49,25 @@ def layers_from(given: object) -> tuple[FieldLayer, ...]:
 
     Examples
     --------
-    >>> from assoc_hull.variation.fields.field_data import layers_from
+    >>> from assoc_hull.variation.fields.field_data import layers_from_data
     >>> skeg = {"name": "skeg", "along": {"x": [6, 66], "v": [1, 0]},
     ...         "anchors": [["base", 0, 0], ["skeg", 4, 0.5], ["T", 18, 0]]}
-    >>> [layer.name for layer in layers_from([[{"hat": skeg}]])]
+    >>> [layer.name for layer in layers_from_data([[{"hat": skeg}]])]
     ['raw fields 1']
     """
     layers = _items(given, "layers")
     return tuple(
-        FieldLayer(f"raw fields {i + 1}", fields_from(each)) for i, each in enumerate(layers)
+        FieldLayer(f"raw fields {i + 1}", fields_from_data(each)) for i, each in enumerate(layers)
     )
 
 
-def fields_from(given: object) -> tuple[Field | Rake, ...]:
+def fields_from_data(given: object) -> tuple[StackedField | Rake, ...]:
     """Take the fields of one layer."""
     return tuple(_field(each) for each in _items(given, "fields"))
 
 
-def _field(given: object) -> Field | Rake:
-    if isinstance(given, Field | Rake):
+def _field(given: object) -> StackedField | Rake:
+    if isinstance(given, StackedField | Rake):
         return given
     data = _table(given, "a field", (), tuple(_KINDS))
     if len(data) != 1:
@@ -75,7 +78,7 @@ def _field(given: object) -> Field | Rake:
     return _KINDS[kind](inner)
 
 
-def _hat(given: object) -> Field:
+def _hat(given: object) -> StackedField:
     data = _table(given, "hat", ("name", "anchors", "along"), ("axis", "blend", "outward"))
     anchors = []
     for each in _items(data["anchors"], "anchors"):
@@ -88,13 +91,13 @@ def _hat(given: object) -> Field:
         if each not in names:
             raise UnknownNameError("anchor of the hat", each, tuple(names))
     axis = choice(data.get("axis", "z"), "axis", ("x", "z"), _WHERE)
-    return hat(
+    return hat_field(
         text(data["name"], "name", _WHERE), anchors, _course(data["along"], blend, "along"),
         axis=_axis(axis), blend=blend, outward=outward,
     )  # fmt: skip
 
 
-def _stack(given: object) -> Field:
+def _stack(given: object) -> StackedField:
     data = _table(given, "stack", ("name", "axis", "boundaries", "pieces"), ("blend", "tube"))
     blend, name = _blend(data), text(data["name"], "name", _WHERE)
     walls = []
@@ -106,7 +109,7 @@ def _stack(given: object) -> Field:
     tube = None
     if "tube" in data:
         tube = _tube(data["tube"], blend)
-    return Field.checked(name, axis, walls, pieces, blend=blend, tube=tube)
+    return StackedField.checked(name, axis, walls, pieces, blend=blend, tube=tube)
 
 
 def _rake(given: object) -> Rake:
@@ -118,14 +121,14 @@ def _rake(given: object) -> Rake:
     )  # fmt: skip
 
 
-_KINDS: Mapping[str, Callable[[object], Field | Rake]] = {
+_KINDS: Mapping[str, Callable[[object], StackedField | Rake]] = {
     "hat": _hat, "stack": _stack, "rake": _rake,
 }  # fmt: skip
 
 
-def _piece(given: object, blend: Blend) -> Piece:
+def _piece(given: object, blend: Blend) -> AffinePiece:
     data = _table(given, "a piece", (), ("a", "pivot", "d"))
-    return Piece(
+    return AffinePiece(
         _course(data.get("a", 0.0), blend, "a"), _number(data.get("pivot", 0.0)),
         _course(data.get("d", 0.0), blend, "d"),
     )  # fmt: skip
@@ -139,14 +142,14 @@ def _tube(given: object, blend: Blend) -> Tube:
     return Tube(positive(data["radius"], "radius", _WHERE), n, blend)
 
 
-def _course(given: object, blend: Blend, name: str) -> Course:
+def _course(given: object, blend: Blend, name: str) -> BoundedFunction:
     """Take a number, or a course in one of the forms that `course_data` gives."""
     if not isinstance(given, Mapping):
-        return Chain.constant(number(given, name, _WHERE))
+        return BlendChain.constant(number(given, name, _WHERE))
     if "shape" in given:
         return _bump(given, name)
     data = _table(given, name, ("x", "v"), ("smooth", "straight"))
-    chain = Chain.through(data["x"], data["v"], blend, name)
+    chain = BlendChain.through(data["x"], data["v"], blend, name)
     smooth, straight = (flag(data.get(key, False), key, _WHERE) for key in ("smooth", "straight"))
     if not smooth and not straight:
         return chain
@@ -167,24 +170,24 @@ def _bump(given: Mapping[str, Any], name: str) -> Bump:
     )  # fmt: skip
 
 
-def course_data(course: Course) -> dict[str, Any]:
+def course_data(course: BoundedFunction) -> dict[str, Any]:
     """Give a course as data: a chain by its nodes and values, a bump by its terminals.
 
     Examples
     --------
-    >>> from assoc_hull.variation.fields.bump import Bump
+    >>> from assoc_hull.variation.fields.shift_shapes import Bump
     >>> from assoc_hull.variation.fields.field_data import course_data
     >>> course_data(Bump(60.0, 120.0, 0.5))
     {'begin': 60.0, 'end': 120.0, 'size': 0.5, 'shape': 'c2'}
     """
     if isinstance(course, Bump):
         return attrs.asdict(course)
-    if not isinstance(course, Chain | Contour | Polyline):
+    if not isinstance(course, BlendChain | Contour | Polyline):
         raise BadInputError(
             f"a {type(course).__name__} has no form as data", _WHERE, "give it as a layer"
         )
     nodes: dict[str, Any] = {"x": course.x.tolist(), "v": course.v.tolist()}
-    if isinstance(course, Chain):
+    if isinstance(course, BlendChain):
         return nodes
     return {**nodes, "smooth" if isinstance(course, Contour) else "straight": True}
 

@@ -1,4 +1,9 @@
-"""The named parameters: what they are, and what lays out their fields."""
+"""The catalogue of named parameters, and what a solver may change of them.
+
+An entry tells name, unit, meaning, and what lays out the fields. `Freedom` is a parameter of the
+catalogue, or the strength of a raw layer, whose value is sought; it knows a usual change, by which
+changes of different kinds are compared.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +11,20 @@ from collections.abc import Callable
 
 import attrs
 
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.parameters import layouts_bilge, layouts_body, layouts_bow, layouts_stern
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.parameters.parent_places import Parent
-from assoc_hull.variation.parameters.share import Share
+from assoc_hull.variation.fields.layers import Layer, scaled_layer
+from assoc_hull.variation.parameters import parameter_fields as layouts_body
+from assoc_hull.variation.parameters.field_layout import Layout, Share
+from assoc_hull.variation.parameters.parent import Parent
 
-__all__ = ["CATALOGUE", "NAMES", "NamedParameter"]
+__all__ = [
+    "CATALOGUE",
+    "NAMES",
+    "Freedom",
+    "NamedParameter",
+]
+
+# --------------------------------------------------------------------------------------
+# The named parameters: what they are, and what lays out their fields.
 
 _SIGNED = frozenset(
     {"deadrise_deg", "stem_rake_deg", "parallel_body_start", "parallel_body_end", "transom_height"}
@@ -61,51 +73,207 @@ class NamedParameter:
 def _entries() -> tuple[NamedParameter, ...]:
     entry = NamedParameter
     return (
-        entry("length", "Lpp", "m", "length between perpendiculars", None,
-              "ratio of x about the AP, everywhere"),
-        entry("breadth", "B", "m", "greatest breadth of the net", None,
-              "ratio of y, everywhere"),
-        entry("draught", "T", "m", "design draught", None,
-              "ratio of z up to T, shift at its top"),
-        entry("depth", "D", "m", "height of the deck edge amidships", layouts_body.depth,
-              "ratio of z from the deck up, nothing below T"),
-        entry("deck_height", "z_deck", "m", "height of the deck edge amidships",
-              layouts_body.deck_height, "ratio of z from the deck up, nothing below T"),
-        entry("shaft_height", "h", "m", "height of the centre of the bossing end",
-              layouts_stern.shaft_height, "dome of z over base, shaft and 1.25 T"),
-        entry("bossing_radius", "r_b", "m", "radius of the circle of the bossing end",
-              layouts_stern.bossing_radius, "ratio of y in a tube, of z about the centre"),
-        entry("transom_height", "z_t", "m", "lowest point of the transom",
-              layouts_stern.transom_height, "hat of z; what lies above moves along"),
-        entry("transom_half_breadth", "y_t", "m", "greatest half-breadth of the transom",
-              layouts_stern.transom_half_breadth, "ratio of y from the transom's foot up"),
-        entry("bulb_height", "z_b", "m", "height of the foremost point of the bulb",
-              layouts_bow.bulb_height, "hat of z over base, tip and 1.25 T"),
-        entry("bulb_half_breadth", "y_b", "m", "greatest half-breadth at the FP below T",
-              layouts_bow.bulb_half_breadth, "ratio of y from the tip down"),
-        entry("bulb_length", "l_b", "m", "from the FP to the foremost point of the bulb",
-              layouts_bow.bulb_length, "shift of x, full from the tip down, nothing above 1.25 T"),
-        entry("bilge_radius", "r", "m", "radius of the bilge amidships", layouts_bilge.bilge_radius,
-              "stretch about the corner of side and bottom"),
-        entry("deadrise_deg", "beta", "deg", "rise of the bottom at the side of the keel",
-              layouts_bilge.deadrise_deg, "shear of z outward from the keel"),
-        entry("flat_of_bottom", "y_f", "m", "half-breadth of the flat bottom amidships",
-              layouts_bilge.flat_of_bottom,
-              "stretch about the corner of side and bottom; of y alone where the bilge is no arc"),
-        entry("parallel_body_start", "x_s", "m", "x of the after end of the parallel body",
-              layouts_body.parallel_body_start, "shift of x, nothing at AP and at the fore end"),
-        entry("parallel_body_end", "x_e", "m", "x of the fore end of the parallel body",
-              layouts_body.parallel_body_end, "shift of x, nothing at the after end and at FP"),
-        entry("stem_rake_deg", "rake", "deg", "rake of the stem from T to its top",
-              layouts_bow.stem_rake_deg, "ramp of x above T"),
-        entry("fore_shift", "c_f", "m", "largest movement of the fore stations, + forward",
-              layouts_body.fore_shift, "bump of x between parallel body and rising profile"),
-        entry("aft_shift", "c_a", "m", "largest movement of the after stations, + forward",
-              layouts_body.aft_shift, "bump of x between rising profile and parallel body"),
-    )  # fmt: skip
+        entry(
+            "length",
+            "Lpp",
+            "m",
+            "length between perpendiculars",
+            None,
+            "ratio of x about the AP, everywhere",
+        ),
+        entry("breadth", "B", "m", "greatest breadth of the net", None, "ratio of y, everywhere"),
+        entry("draught", "T", "m", "design draught", None, "ratio of z up to T, shift at its top"),
+        entry(
+            "depth",
+            "D",
+            "m",
+            "height of the deck edge amidships",
+            layouts_body.depth_field,
+            "ratio of z from the deck up, nothing below T",
+        ),
+        entry(
+            "deck_height",
+            "z_deck",
+            "m",
+            "height of the deck edge amidships",
+            layouts_body.deck_height_field,
+            "ratio of z from the deck up, nothing below T",
+        ),
+        entry(
+            "shaft_height",
+            "h",
+            "m",
+            "height of the centre of the bossing end",
+            layouts_body.shaft_height_field,
+            "dome of z over base, shaft and 1.25 T",
+        ),
+        entry(
+            "bossing_radius",
+            "r_b",
+            "m",
+            "radius of the circle of the bossing end",
+            layouts_body.bossing_radius_field,
+            "ratio of y in a tube, of z about the centre",
+        ),
+        entry(
+            "transom_height",
+            "z_t",
+            "m",
+            "lowest point of the transom",
+            layouts_body.transom_height_field,
+            "hat of z; what lies above moves along",
+        ),
+        entry(
+            "transom_half_breadth",
+            "y_t",
+            "m",
+            "greatest half-breadth of the transom",
+            layouts_body.transom_half_breadth_field,
+            "ratio of y from the transom's foot up",
+        ),
+        entry(
+            "bulb_height",
+            "z_b",
+            "m",
+            "height of the foremost point of the bulb",
+            layouts_body.bulb_height_field,
+            "hat of z over base, tip and 1.25 T",
+        ),
+        entry(
+            "bulb_half_breadth",
+            "y_b",
+            "m",
+            "greatest half-breadth at the FP below T",
+            layouts_body.bulb_half_breadth_field,
+            "ratio of y from the tip down",
+        ),
+        entry(
+            "bulb_length",
+            "l_b",
+            "m",
+            "from the FP to the foremost point of the bulb",
+            layouts_body.bulb_length_field,
+            "shift of x, full from the tip down, nothing above 1.25 T",
+        ),
+        entry(
+            "bilge_radius",
+            "r",
+            "m",
+            "radius of the bilge amidships",
+            layouts_body.bilge_radius_layer,
+            "stretch about the corner of side and bottom",
+        ),
+        entry(
+            "deadrise_deg",
+            "beta",
+            "deg",
+            "rise of the bottom at the side of the keel",
+            layouts_body.deadrise_layer,
+            "shear of z outward from the keel",
+        ),
+        entry(
+            "flat_of_bottom",
+            "y_f",
+            "m",
+            "half-breadth of the flat bottom amidships",
+            layouts_body.flat_of_bottom_layer,
+            "stretch about the corner of side and bottom; of y alone where the bilge is no arc",
+        ),
+        entry(
+            "parallel_body_start",
+            "x_s",
+            "m",
+            "x of the after end of the parallel body",
+            layouts_body.parallel_body_start_field,
+            "shift of x, nothing at AP and at the fore end",
+        ),
+        entry(
+            "parallel_body_end",
+            "x_e",
+            "m",
+            "x of the fore end of the parallel body",
+            layouts_body.parallel_body_end_field,
+            "shift of x, nothing at the after end and at FP",
+        ),
+        entry(
+            "stem_rake_deg",
+            "rake",
+            "deg",
+            "rake of the stem from T to its top",
+            layouts_body.stem_rake_field,
+            "ramp of x above T",
+        ),
+        entry(
+            "fore_shift",
+            "c_f",
+            "m",
+            "largest movement of the fore stations, + forward",
+            layouts_body.fore_shift_field,
+            "bump of x between parallel body and rising profile",
+        ),
+        entry(
+            "aft_shift",
+            "c_a",
+            "m",
+            "largest movement of the after stations, + forward",
+            layouts_body.aft_shift_field,
+            "bump of x between rising profile and parallel body",
+        ),
+    )
 
 
 CATALOGUE = {each.name: each for each in _entries()}
 """All named parameters, in the order in which they are listed."""
 
 NAMES = tuple(CATALOGUE)
+
+
+# --------------------------------------------------------------------------------------
+# What a solver may change: a named parameter, or how much there is of a layer of raw fields.
+
+_SHIFT, _SIZE, _ANGLE = 0.01, 0.05, 2.0
+"""Usual changes: of shifts in parts of Lpp, of lengths in parts of themselves, of angles."""
+
+
+@attrs.frozen(eq=False)
+class Freedom:
+    """A free parameter.
+
+    Attributes
+    ----------
+    name : str
+    unit : str
+        Of the amplitude: m, deg, or nothing for a layer.
+    present : float
+        The value of amplitude nil; 0 for shifts and layers.
+    usual : float
+        A usual change, by which amplitudes are compared.
+    layer : Layer or None
+        What is scaled by the amplitude; None for a named parameter.
+    """
+
+    name: str
+    unit: str
+    present: float
+    usual: float
+    layer: Layer | None = None
+
+    @classmethod
+    def named(cls, name: str, present: float, length: float) -> Freedom:
+        """Take a parameter of the catalogue, with its present value and Lpp, m."""
+        entry = CATALOGUE[name]
+        usual = _SHIFT * length if entry.amplitude else _SIZE * abs(present)
+        if entry.unit == "deg" or usual == 0.0:
+            usual = _ANGLE if entry.unit == "deg" else 1.0
+        return cls(name, entry.unit, present, usual)
+
+    @classmethod
+    def raw(cls, layer: Layer) -> Freedom:
+        """Take a layer: at amplitude 1 it acts as it was given."""
+        return cls(layer.name, "", 0.0, 1.0, layer)
+
+    def scaled(self, amplitude: float) -> Layer | None:
+        """Give the layer times the amplitude; None for nothing."""
+        if self.layer is None or amplitude == 0.0:
+            return None
+        return scaled_layer(self.layer, amplitude)

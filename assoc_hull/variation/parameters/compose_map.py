@@ -12,17 +12,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.variation.fields.field import Field
-from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.fields.field import StackedField
+from assoc_hull.variation.fields.layers import FieldLayer, Layer, Rake
+from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.parameters.main_layer import main_layer
-from assoc_hull.variation.parameters.parent_places import Parent
-from assoc_hull.variation.parameters.share import Share
+from assoc_hull.variation.parameters.field_layout import Layout, Share
+from assoc_hull.variation.parameters.parameter_fields import main_layer
+from assoc_hull.variation.parameters.parent import Parent
 
-__all__ = ["STEEPEST", "compose", "conflicts", "refuse_clashes", "solve"]
+__all__ = ["STEEPEST", "compose_map", "conflicts", "refuse_clashes", "solve_field_sizes"]
 
 _CONDITION = 50.0
 """Above this, two parameters ask for the movement of one place."""
@@ -46,7 +44,7 @@ _DECKS = ("depth", "deck_height", "both set the deck edge amidships")
 """No contradiction where the height is asked for at a perpendicular."""
 
 
-def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
+def compose_map(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VariationMap:
     """Lay out the map of a variation.
 
     Parameters
@@ -67,11 +65,11 @@ def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.variation.parameters.compose_map import compose
-    >>> from assoc_hull.variation.parameters.layout import Layout
-    >>> from assoc_hull.variation.parameters.parent_places import Parent
+    >>> from assoc_hull.variation.parameters.compose_map import compose_map
+    >>> from assoc_hull.variation.parameters.field_layout import Layout
+    >>> from assoc_hull.variation.parameters.parent import Parent
     >>> ship = Parent(300, 50, 27, 18, 27, {"boss": np.array([6.0, 0.0, 5.0])})
-    >>> vmap = compose(ship, {"shaft_height": 6.0, "breadth": 51.0}, Layout())
+    >>> vmap = compose_map(ship, {"shaft_height": 6.0, "breadth": 51.0}, Layout())
     >>> vmap(np.array([[6.0, 5.0, 5.0]])).round(12).tolist()
     [[6.0, 5.1, 6.0]]
     """
@@ -86,16 +84,16 @@ def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
     for title, names in (("local fields", local), ("rake", _RAKE)):
         shares = _shares(parent, {name: asked[name] for name in names if name in asked}, layout)
         if shares:
-            layer = FieldLayer(title, solve(shares))
+            layer = FieldLayer(title, solve_field_sizes(shares))
             layers.append(layer)
-            parent = parent.mapped(VMap((layer,)))
+            parent = parent.mapped(VariationMap((layer,)))
     for name in _BILGE:
         lays = CATALOGUE[name].lays
         if name in asked and lays is not None:
             own = lays(parent, asked[name], layout)
             if not isinstance(own, Share):
                 layers.append(own)
-    return VMap(tuple(layers))
+    return VariationMap(tuple(layers))
 
 
 def _shares(parent: Parent, asked: Mapping[str, float], layout: Layout) -> list[Share]:
@@ -112,8 +110,8 @@ def _shares(parent: Parent, asked: Mapping[str, float], layout: Layout) -> list[
 def _scaled(parent: Parent, main: FieldLayer, asked: Mapping[str, float]) -> Parent:
     """Give the parent after the scaling of the whole, with what was asked for exactly."""
     sizes = {name: asked[name] for name in ("length", "breadth", "draught") if name in asked}
-    depth = float(VMap((main,))(np.array([[0.0, 0.0, parent.depth]]))[0, 2])
-    return parent.mapped(VMap((main,)), depth=depth, **sizes)
+    depth = float(VariationMap((main,))(np.array([[0.0, 0.0, parent.depth]]))[0, 2])
+    return parent.mapped(VariationMap((main,)), depth=depth, **sizes)
 
 
 def _refuse_angles(asked: Mapping[str, float]) -> None:
@@ -158,7 +156,7 @@ def refuse_clashes(asked: Mapping[str, float], layout: Layout) -> None:
             )  # fmt: skip
 
 
-def solve(shares: Sequence[Share]) -> tuple[Field | Rake, ...]:
+def solve_field_sizes(shares: Sequence[Share]) -> tuple[StackedField | Rake, ...]:
     """Size fields so that every share's anchor changes by what it asks, all acting together.
 
     Raises

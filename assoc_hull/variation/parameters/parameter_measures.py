@@ -17,31 +17,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 
-from assoc_hull.analysis.hydrostatics.measured_hull import HasState, state_of
 from assoc_hull.arguments import shown
 from assoc_hull.errors import UnknownNameError, WrongTypeError
-from assoc_hull.model.state import HullState
-from assoc_hull.variation.parameters import (
-    measure_bow as anchors_bow,
-)
-from assoc_hull.variation.parameters import (
-    measure_hull as anchors_hull,
-)
-from assoc_hull.variation.parameters import (
-    measure_midship as anchors_midship,
-)
-from assoc_hull.variation.parameters import (
-    measure_parallel_body as anchors_parallel,
-)
-from assoc_hull.variation.parameters import (
-    measure_stern as anchors_stern,
-)
-from assoc_hull.variation.parameters.anchor import Anchor, Measures
-from assoc_hull.variation.parameters.drawn_curves import Drawn
+from assoc_hull.model.tables import HasState, HullState, state_of
+from assoc_hull.variation.parameters import hull_and_end_measures as anchors_bow
+from assoc_hull.variation.parameters import hull_and_end_measures as anchors_hull
+from assoc_hull.variation.parameters import hull_and_end_measures as anchors_stern
+from assoc_hull.variation.parameters import midship_measures as anchors_midship
+from assoc_hull.variation.parameters import midship_measures as anchors_parallel
+from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter, Measures
 
 __all__ = ["AMPLITUDES", "MEASURES", "measure", "measure_all"]
 
-MEASURES: Mapping[str, Callable[[Drawn], Anchor]] = MappingProxyType(
+MEASURES: Mapping[str, Callable[[DrawnCurves], MeasuredParameter]] = MappingProxyType(
     {
         each.__name__: each
         for each in (
@@ -72,8 +60,10 @@ AMPLITUDES = ("fore_shift", "aft_shift")
 """Parameters that are no property of a hull: they are nil until they are asked for."""
 
 
-def _amplitude(name: str) -> Anchor:
-    return Anchor(name, "m", 0.0, "largest movement of a section; nil for a hull as it is")
+def _amplitude(name: str) -> MeasuredParameter:
+    return MeasuredParameter(
+        name, "m", 0.0, "largest movement of a section; nil for a hull as it is"
+    )
 
 
 def measure_all(state: HullState, only: Iterable[str] | None = None) -> Measures:
@@ -92,7 +82,7 @@ def measure_all(state: HullState, only: Iterable[str] | None = None) -> Measures
         A name that is none of a parameter.
     """
     known = (*MEASURES, *AMPLITUDES)
-    hull, found = Drawn(state), []
+    hull, found = DrawnCurves(state), []
     for name in known if only is None else _names(only):
         if name not in known:
             raise UnknownNameError("named parameter", name, known)

@@ -1,24 +1,156 @@
-"""The closed form of a shift: sizes from sums, a certificate that no sections cross, or the limits.
+"""The closed form of a shift: sizes from volume and moment, certified, or the limits.
 
-What is asked for and cannot be had is refused with the largest change that can.
+A task is two changes that are asked for: of the whole hull (volume and centre), or of fore and
+after body each on its own. A shift whose sections would cross is refused, with the largest
+change that can be had.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Protocol
 
 import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.variation.certificate.certify import certify
-from assoc_hull.variation.certificate.record import Certificate
+from assoc_hull.variation.certificate.fold_check import Certificate, certify
 from assoc_hull.variation.shifts.shift_terms import ShiftTerms
-from assoc_hull.variation.shifts.tasks import Task
+from assoc_hull.variation.shifts.shifted_areas import ShiftSums, VolumeElements
 
-__all__ = ["Shift", "certified", "closed_form"]
+__all__ = [
+    "CertifiedShift",
+    "HalfBodyTask",
+    "ShiftTask",
+    "WholeHullTask",
+    "certify_shift",
+    "closed_form",
+]
+
+# --------------------------------------------------------------------------------------
+# What a shift is to do: two changes that are asked for, and the sizes that give them.
+
+
+class ShiftTask(Protocol):
+    """Two changes that are to be had together.
+
+    `changes` are what is asked for, `words` says of each what it is a change of, with its unit.
+    """
+
+    @property
+    def changes(self) -> tuple[float, float]:
+        """What is asked for."""
+        ...
+
+    @property
+    def words(self) -> tuple[str, str]:
+        """Unit and quantity of each, as in "a change of 0.02 in CB"."""
+        ...
+
+    def sizes(self, changes: tuple[float, float]) -> FloatArray | None:
+        """Give c_f and c_a, (2,), m, for changes; None where there are none."""
+        ...
+
+
+@attrs.frozen(eq=False)
+class WholeHullTask:
+    """A change of the volume of the whole hull, and of its centre.
+
+    Attributes
+    ----------
+    elements, sums
+        Of the curve of areas.
+    block : float, m3
+        L B T.
+    length : float, m
+        L.
+    cb : float
+        By how much the block coefficient is to change.
+    lcb : float, % of L
+        By how much the centre is to move, + forward.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.shifts.shifted_areas import VolumeElements
+    >>> from assoc_hull.variation.shifts.shifted_areas import ShiftSums
+    >>> from assoc_hull.variation.shifts.closed_form import WholeHullTask
+    >>> from assoc_hull.variation.shifts.shift_terms import ShiftTerms, Terminals
+    >>> terms = ShiftTerms(Terminals(0.0, 5.0, 5.0, 10.0), "lackenby")
+    >>> curve = VolumeElements.of(lambda x: x * (10.0 - x), terms.nodes, 5.0)
+    >>> task = WholeHullTask(curve, ShiftSums.of(curve, terms), 250.0, 10.0, cb=0.02, lcb=0.0)
+    >>> task.sizes(task.changes).round(9).tolist()
+    [0.6, -0.6]
+    """
+
+    elements: VolumeElements
+    sums: ShiftSums
+    block: float
+    length: float
+    cb: float
+    lcb: float
+
+    @property
+    def changes(self) -> tuple[float, float]:
+        """Of CB, and of LCB in % of L."""
+        return self.cb, self.lcb
+
+    @property
+    def words(self) -> tuple[str, str]:
+        """What they change."""
+        return "in CB", "% Lpp in LCB"
+
+    def sizes(self, changes: tuple[float, float]) -> FloatArray | None:
+        """Give c_f and c_a, (2,), m."""
+        volume = self.elements.total + changes[0] * self.block
+        centre = self.elements.moment / self.elements.total + 0.01 * changes[1] * self.length
+        return self.sums.whole(volume, centre * volume)
+
+
+@attrs.frozen(eq=False)
+class HalfBodyTask:
+    """Changes of the volumes of fore and after body, each on its own.
+
+    Attributes
+    ----------
+    elements, sums
+        Of the curve of areas.
+    prism : float, m3
+        Area of the largest section times L / 2.
+    fore, aft : float
+        By how much the prismatic coefficients of the bodies are to change.
+    """
+
+    elements: VolumeElements
+    sums: ShiftSums
+    prism: float
+    fore: float
+    aft: float
+
+    @property
+    def changes(self) -> tuple[float, float]:
+        """Of the prismatic coefficients of fore and after body."""
+        return self.fore, self.aft
+
+    @property
+    def words(self) -> tuple[str, str]:
+        """What they change."""
+        return "in CP of the fore body", "in CP of the after body"
+
+    def sizes(self, changes: tuple[float, float]) -> FloatArray | None:
+        """Give c_f and c_a, (2,), m."""
+        fore, aft = changes
+        bodies = self.elements.bodies.copy()
+        bodies[0] += fore * self.prism
+        bodies[1] += aft * self.prism
+        return self.sums.each(bodies)
+
+
+# --------------------------------------------------------------------------------------
+# The closed form of a shift: sizes from sums, a certificate that no sections cross, or the limits.
+#
+# What is asked for and cannot be had is refused with the largest change that can.
 
 _WHERE = "in shift_sections"
 
@@ -33,7 +165,7 @@ _FARTHEST = 8
 
 
 @attrs.frozen(eq=False)
-class Shift:
+class CertifiedShift:
     """A shift that is certified.
 
     Attributes
@@ -73,7 +205,7 @@ class Shift:
         return moved
 
 
-def certified(terms: ShiftTerms, sizes: FloatArray, margin: float) -> Certificate:
+def certify_shift(terms: ShiftTerms, sizes: FloatArray, margin: float) -> Certificate:
     """Check that 1 + delta' reaches a margin everywhere.
 
     It is a polynomial between the nodes: its Bernstein coefficients enclose it.
@@ -91,7 +223,7 @@ def certified(terms: ShiftTerms, sizes: FloatArray, margin: float) -> Certificat
     return certify(terms.layer(*sizes.tolist()), box, margin)
 
 
-def closed_form(task: Task, terms: ShiftTerms, margin: float = 0.0) -> Shift:
+def closed_form(task: ShiftTask, terms: ShiftTerms, margin: float = 0.0) -> CertifiedShift:
     """Solve for the sizes of a shift.
 
     Parameters
@@ -110,40 +242,42 @@ def closed_form(task: Task, terms: ShiftTerms, margin: float = 0.0) -> Shift:
 
     Examples
     --------
-    >>> from assoc_hull.variation.shifts.elements import Elements
+    >>> from assoc_hull.variation.shifts.shifted_areas import VolumeElements
     >>> from assoc_hull.variation.shifts.closed_form import closed_form
-    >>> from assoc_hull.variation.shifts.sums import Sums
-    >>> from assoc_hull.variation.shifts.tasks import Whole
+    >>> from assoc_hull.variation.shifts.shifted_areas import ShiftSums
+    >>> from assoc_hull.variation.shifts.closed_form import WholeHullTask
     >>> from assoc_hull.variation.shifts.shift_terms import ShiftTerms, Terminals
     >>> terms = ShiftTerms(Terminals(0.0, 5.0, 5.0, 10.0), "lackenby")
-    >>> curve = Elements.of(lambda x: x * (10.0 - x), terms.nodes, 5.0)
-    >>> found = closed_form(Whole(curve, Sums.of(curve, terms), 250.0, 10.0, 0.02, 0.0), terms)
+    >>> curve = VolumeElements.of(lambda x: x * (10.0 - x), terms.nodes, 5.0)
+    >>> found = closed_form(
+    ...     WholeHullTask(curve, ShiftSums.of(curve, terms), 250.0, 10.0, 0.02, 0.0), terms
+    ... )
     >>> found.sizes.round(9).tolist(), round(found.least, 9)
     ([0.6, -0.6], 0.88)
     """
     found = _tried(task.sizes(task.changes), terms, margin)
-    if isinstance(found, Shift):
+    if isinstance(found, CertifiedShift):
         return found
     raise _refusal(task, terms, margin, found)
 
 
 def _tried(
     sizes: FloatArray | None, terms: ShiftTerms, margin: float
-) -> Shift | Certificate | None:
+) -> CertifiedShift | Certificate | None:
     """Give the shift of sizes; the certificate that it lacks; None if there are no sizes."""
     if sizes is None or not np.isfinite(sizes).all():
         return None
-    found = certified(terms, sizes, margin)
-    return Shift(terms, sizes, found) if found.certified else found
+    found = certify_shift(terms, sizes, margin)
+    return CertifiedShift(terms, sizes, found) if found.certified else found
 
 
 def _refusal(
-    task: Task, terms: ShiftTerms, margin: float, found: Certificate | None
+    task: ShiftTask, terms: ShiftTerms, margin: float, found: Certificate | None
 ) -> OutOfRangeError | BadInputError:
     """Say which of two changes is too large, and how large it may be."""
 
     def works(changes: tuple[float, float]) -> bool:
-        return isinstance(_tried(task.sizes(changes), terms, margin), Shift)
+        return isinstance(_tried(task.sizes(changes), terms, margin), CertifiedShift)
 
     first, second = task.changes
     ways = _Way(0, (0.0, second)), _Way(1, (first, 0.0)), _Way(1, (0.0, 0.0))
@@ -176,7 +310,7 @@ class _Way:
         return (t, self.foot[1]) if self.blamed == 0 else (self.foot[0], t)
 
 
-def _why(task: Task, way: _Way, found: Certificate | None, margin: float) -> str:
+def _why(task: ShiftTask, way: _Way, found: Certificate | None, margin: float) -> str:
     other = 1 - way.blamed
     asked = task.changes[other]
     beside = f" beside {asked:+.6g} {task.words[other]}" if asked else ""
@@ -191,7 +325,7 @@ def _why(task: Task, way: _Way, found: Certificate | None, margin: float) -> str
 
 def _given_folds(terms: ShiftTerms, margin: float) -> BadInputError:
     """Refuse what moves the ends of the parallel body too far."""
-    found = certified(terms, np.zeros(2), margin)
+    found = certify_shift(terms, np.zeros(2), margin)
     if not found.certified:
         what = f"moving the ends of the parallel body by {terms.start:+g} and {terms.end:+g} m"
         at = f"makes sections cross at x={found.witness[0]:.2f} m (1+delta'={found.least:.3f})"

@@ -11,7 +11,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.shifts.elements import Elements
+from assoc_hull.variation.shifts.shifted_areas import VolumeElements
 
 __all__ = ["HalfBody", "half_bodies", "lackenby_changes"]
 
@@ -69,7 +69,9 @@ class HalfBody:
         return self.phi * (inner - self.parallel * (1.0 - 2.0 * self.centroid)) / self.area
 
 
-def half_bodies(elements: Elements, length: float, ends: tuple[float, float]) -> list[HalfBody]:
+def half_bodies(
+    elements: VolumeElements, length: float, ends: tuple[float, float]
+) -> list[HalfBody]:
     """Give fore and after body of a curve of areas between the perpendiculars.
 
     Parameters

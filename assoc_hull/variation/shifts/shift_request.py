@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import choice, number, positive, shown_name, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
-from assoc_hull.variation.ask import TOLERANCE
+from assoc_hull.variation.request import TOLERANCE
 from assoc_hull.variation.shifts.shift_terms import SHIFT_SHAPES, Fade, ShiftShape, Terminals
 
-__all__ = ["BODIES", "CENTRES", "ENDS", "SHIFTED", "SIZES", "ShiftAsk"]
+__all__ = ["BODIES", "CENTRES", "ENDS", "SHIFTED", "SIZES", "ShiftRequest"]
 
 _WHERE = "in shift_sections"
 
@@ -34,7 +34,7 @@ SHIFTED = (*SIZES, *CENTRES, *BODIES, *ENDS)
 
 
 @attrs.frozen(eq=False)
-class ShiftAsk:
+class ShiftRequest:
     """What a shift is asked for.
 
     Attributes
@@ -72,7 +72,7 @@ class ShiftAsk:
         fade: str = "b5",
         tolerance: float = TOLERANCE,
         name: str | None = None,
-    ) -> ShiftAsk:
+    ) -> ShiftRequest:
         """Take what a designer gives.
 
         Raises

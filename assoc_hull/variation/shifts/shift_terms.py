@@ -18,13 +18,11 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import numbers
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.fields.bump import Bump
-from assoc_hull.variation.fields.bump import Shape as BumpShape
-from assoc_hull.variation.fields.field import Field, Piece, stack
+from assoc_hull.variation.fields.bounded_functions import BlendChain, BoundedFunction
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
 from assoc_hull.variation.fields.field_data import course_data
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.piecewise_linear import Chain, Course
-from assoc_hull.variation.fields.polyline import Polyline
+from assoc_hull.variation.fields.layers import FieldLayer
+from assoc_hull.variation.fields.shift_shapes import Bump, BumpShape, Polyline
 
 __all__ = ["SHIFT_SHAPES", "Fade", "ShiftShape", "ShiftTerms", "Terminals"]
 
@@ -92,8 +90,8 @@ class ShiftTerms:
     ----------
     terminals : Terminals
     shape : str
-        Of e_f and e_a: one of `assoc_hull.variation.fields.bump.SHAPES`, or ``"1-cp"``, a straight
-        line
+        Of e_f and e_a: one of `assoc_hull.variation.fields.shift_shapes.BUMP_SHAPES`, or
+        ``"1-cp"``, a straight line
         from the parallel body to the terminal, which moves the ends of the parallel body along.
     start, end : float, m
         By how much g moves the ends of the parallel body.
@@ -123,7 +121,7 @@ class ShiftTerms:
             )  # fmt: skip
 
     @property
-    def fore(self) -> Course:
+    def fore(self) -> BoundedFunction:
         """e_f: largest value 1, but for ``lackenby``."""
         at = self.terminals
         if self.shape == "1-cp":
@@ -131,7 +129,7 @@ class ShiftTerms:
         return Bump(at.end, at.fore, 1.0, self.shape)
 
     @property
-    def aft(self) -> Course:
+    def aft(self) -> BoundedFunction:
         """e_a: likewise."""
         at = self.terminals
         if self.shape == "1-cp":
@@ -139,12 +137,12 @@ class ShiftTerms:
         return Bump(at.start, at.aft, 1.0, self.shape)
 
     @property
-    def given(self) -> Course:
+    def given(self) -> BoundedFunction:
         """g, m."""
         places, moves = self._ends()
         if self.fade == "linear":
             return Polyline(places, moves)
-        return Chain(places, moves)
+        return BlendChain(places, moves)
 
     def _ends(self) -> tuple[FloatArray, FloatArray]:
         """Give the nodes of g and its values; one where both ends are one place."""
@@ -159,7 +157,7 @@ class ShiftTerms:
         return np.delete(places, 1), np.delete(moves, 1)
 
     @property
-    def courses(self) -> tuple[Course, Course, Course]:
+    def courses(self) -> tuple[BoundedFunction, BoundedFunction, BoundedFunction]:
         """g, e_f and e_a."""
         return self.given, self.fore, self.aft
 
@@ -176,9 +174,9 @@ class ShiftTerms:
             return np.array([fore.top, aft.top])
         return np.array([self.terminals.end, self.terminals.start])
 
-    def sized(self, fore: float, aft: float) -> tuple[Course, ...]:
+    def sized(self, fore: float, aft: float) -> tuple[BoundedFunction, ...]:
         """Give the parts of delta that act, for sizes c_f and c_a (m)."""
-        parts = list[Course]()
+        parts = list[BoundedFunction]()
         if self.start != 0.0 or self.end != 0.0:
             parts.append(self.given)
         for course, size in ((self.fore, fore), (self.aft, aft)):
@@ -188,11 +186,12 @@ class ShiftTerms:
 
     def layer(self, fore: float, aft: float, name: str = "section shifts") -> FieldLayer:
         """Give delta as a layer of x-fields, for sizes c_f and c_a (m)."""
-        none, base = Chain.constant(0.0), stack(["base"], [0.0])
+        none, base = BlendChain.constant(0.0), level_boundaries(["base"], [0.0])
         return FieldLayer(
             name,
             tuple(
-                Field(name, "x", base, (Piece(none, 0.0, part),)) for part in self.sized(fore, aft)
+                StackedField(name, "x", base, (AffinePiece(none, 0.0, part),))
+                for part in self.sized(fore, aft)
             ),
         )
 

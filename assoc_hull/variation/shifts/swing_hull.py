@@ -15,14 +15,13 @@ from collections.abc import Mapping
 from assoc_hull.arguments import positive, text
 from assoc_hull.edit.document import Document
 from assoc_hull.errors import BadInputError
-from assoc_hull.model.state import HullState
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.parameter_measures import measure_all
-from assoc_hull.variation.shifts.hull import ShiftReport, shift_document
-from assoc_hull.variation.shifts.parent import values_of
-from assoc_hull.variation.shifts.shift_request import ShiftAsk
+from assoc_hull.variation.shifts.shift_hull import ShiftReport, shift_document, values_of
+from assoc_hull.variation.shifts.shift_request import ShiftRequest
 
-__all__ = ["SWUNG", "swing_document", "swung"]
+__all__ = ["SWUNG", "swing_document", "swung_dimensions"]
 
 SWUNG = ("length", "breadth", "draught")
 """The dimensions whose product is held."""
@@ -30,7 +29,9 @@ SWUNG = ("length", "breadth", "draught")
 _WHERE = "in swing"
 
 
-def swung(now: Mapping[str, float], asked: Mapping[str, float | None]) -> dict[str, float]:
+def swung_dimensions(
+    now: Mapping[str, float], asked: Mapping[str, float | None]
+) -> dict[str, float]:
     """Give all dimensions of a hull that is swung.
 
     Parameters
@@ -53,9 +54,9 @@ def swung(now: Mapping[str, float], asked: Mapping[str, float | None]) -> dict[s
 
     Examples
     --------
-    >>> from assoc_hull.variation.shifts.swing_hull import swung
+    >>> from assoc_hull.variation.shifts.swing_hull import swung_dimensions
     >>> now = {"length": 100.0, "breadth": 10.0, "draught": 6.0, "depth": 9.0}
-    >>> swung(now, {"breadth": 12.0})
+    >>> swung_dimensions(now, {"breadth": 12.0})
     {'breadth': 12.0, 'draught': 5.0, 'depth': 7.5}
     """
     given = {
@@ -92,7 +93,7 @@ _HELD = ("volume", "lcb_percent")
 
 def swing_document(
     document: Document, asked: Mapping[str, float | None], name: str | None = None
-) -> tuple[VMap, ShiftReport]:
+) -> tuple[VariationMap, ShiftReport]:
     """Swing a hull in place, as one step that can be undone.
 
     Parameters
@@ -109,11 +110,11 @@ def swing_document(
     BadInputError, OutOfRangeError, FoldError, RefusedEditError
         What is asked for cannot be had; the hull is unchanged.
     """
-    values = swung(_dimensions(document.state), asked)
+    values = swung_dimensions(_dimensions(document.state), asked)
     words = ", ".join(f"{key}={values[key]:g}" for key in SWUNG if key in values)
     title = f"swing {words}" if name is None else text(name, "the name", _WHERE)
     held = dict(zip(_HELD, values_of(document.state, _HELD).tolist(), strict=True))
-    return shift_document(document, ShiftAsk.of(held, name=title), values)
+    return shift_document(document, ShiftRequest.of(held, name=title), values)
 
 
 def _dimensions(state: HullState) -> dict[str, float]:

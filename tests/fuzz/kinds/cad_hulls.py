@@ -30,11 +30,13 @@ def _iges() -> str:
 
 @functools.cache
 def _step() -> str:
-    from assoc_hull.io.cad.faces import sewn
-    from assoc_hull.io.cad.step_write import step_bytes
+    from assoc_hull.io.cad.faces import sew_surfaces
+    from assoc_hull.io.cad.write import step_bytes
 
     surfaces = cad_hulls.port()
-    return step_bytes(sewn(surfaces), [each.name for each in surfaces], "mm", "hull").decode()
+    return step_bytes(
+        sew_surfaces(surfaces), [each.name for each in surfaces], "mm", "hull"
+    ).decode()
 
 
 def _odd(rng: Random) -> str:

@@ -10,7 +10,7 @@ import zlib
 from pathlib import Path
 from random import Random
 
-from assoc_hull.io.export.write import export
+from assoc_hull.io.export.write import export_hull
 from assoc_hull.io.hull_json import read_hull_json
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.kinds.hulls import plain_text
@@ -27,7 +27,7 @@ def exported(name: str, form: str) -> bytes:
     """A small hull in a form."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / name
-        export(read_hull_json(plain_text()), path, form)
+        export_hull(read_hull_json(plain_text()), path, form)
         return path.read_bytes()
 
 

@@ -15,10 +15,10 @@ from random import Random
 import numpy as np
 
 from assoc_hull.hull import Hull
-from assoc_hull.io.hull_file.packed_arrays import pack, unpack
-from assoc_hull.io.hull_file.steps import digest
+from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
+from assoc_hull.io.hull_file.steps import step_digest
 from assoc_hull.io.hull_file.tables import read_state
-from assoc_hull.model.definition.definition import fingerprint
+from assoc_hull.model.definition.fingerprint import fingerprint
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.text import change_bytes
 from tests.fuzz.values import change_value
@@ -84,7 +84,7 @@ def _forget_when(path: Path) -> None:
     for row in list(_steps(database)):
         report = json.loads(str(row[9])) | {"seconds": {}, "author": "", "time": ""}
         plain = (*row[:3], "", "", *row[5:9], json.dumps(report), *row[10:])
-        signed = (*plain[:7], digest((*plain[:7], *plain[8:])), *plain[8:])
+        signed = (*plain[:7], step_digest((*plain[:7], *plain[8:])), *plain[8:])
         database.execute(
             "INSERT OR REPLACE INTO steps VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", signed
         )
@@ -143,7 +143,7 @@ def _change_blob(rng: Random, database: sqlite3.Connection) -> None:
     row = database.execute(f"SELECT {column} FROM steps WHERE number = {number}").fetchone()
     data = row[0] if row else b""
     try:
-        arrays, facts = unpack(data)
+        arrays, facts = unpack_arrays(data)
     except (ValueError, TypeError):  # it was changed already
         return
     if rng.random() < 0.5 and facts is not None:
@@ -158,7 +158,7 @@ def _change_blob(rng: Random, database: sqlite3.Connection) -> None:
         arrays = {**arrays, name: array}
     with contextlib.suppress(TypeError, ValueError, RecursionError):
         database.execute(
-            f"UPDATE steps SET {column} = ? WHERE number = {number}", (pack(arrays, facts),)
+            f"UPDATE steps SET {column} = ? WHERE number = {number}", (pack_arrays(arrays, facts),)
         )
 
 
@@ -166,7 +166,7 @@ def _sign(database: sqlite3.Connection) -> None:
     """Make fingerprint and digests agree, where there is anything to sign."""
     with contextlib.suppress(Exception):  # the trial meets it again, and judges it
         for row in list(_steps(database)):
-            made = digest((*row[:7], *row[8:]))
+            made = step_digest((*row[:7], *row[8:]))
             database.execute("UPDATE steps SET digest = ? WHERE number = ?", (made, row[0]))
         with np.errstate(all="ignore"):
             found = fingerprint(read_state(database))

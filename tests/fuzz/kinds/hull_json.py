@@ -7,7 +7,7 @@ import zlib
 from random import Random
 from typing import Any
 
-from assoc_hull.model.definition.definition import fingerprint
+from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.definition.restore import from_definition
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.kinds.hulls import edited_text, plain_text

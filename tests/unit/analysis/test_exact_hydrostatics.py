@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.hydrostatics.compute import table_of
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
-from assoc_hull.analysis.hydrostatics.loading import Load, immersion
-from assoc_hull.geometry.floating.prepared_strips import prepare
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import table_of
+from assoc_hull.analysis.hydrostatics.immersion import Load, position_under_load
+from assoc_hull.geometry.floating.prepared_strips import prepare_strips
 from tests.exact_hulls import ellipsoid, wigley
 from tests.floating_bodies import StripBody, head
 
@@ -17,8 +17,8 @@ from tests.floating_bodies import StripBody, head
 def hulls() -> dict[str, StripBody]:
     """Wigley's hull and the ellipsoid."""
     return {
-        "W": StripBody.of(prepare(wigley()), 5.0, 12.5),
-        "E": StripBody.of(prepare(ellipsoid()), 0.0, 12.0),
+        "W": StripBody.of(prepare_strips(wigley()), 5.0, 12.5),
+        "E": StripBody.of(prepare_strips(ellipsoid()), 0.0, 12.0),
     }
 
 
@@ -84,7 +84,7 @@ def test_a_weight_keeps_its_volume_under_heel(
     name: str, volume: float, heel: float, height: float, hulls: dict[str, StripBody]
 ) -> None:
     """The draughts at constant volume of the reference righting levers."""
-    found = immersion(hulls[name], Load(volume, 1.0, heel_deg=heel), 100.0)
+    found = position_under_load(hulls[name], Load(volume, 1.0, heel_deg=heel), 100.0)
     assert found.draught_mean == pytest.approx(height, abs=2e-9)
 
 
@@ -102,7 +102,7 @@ def test_the_wigley_hull_finds_its_trim(
 ) -> None:
     """V = 2777.777778 m3, LCG 51 m, KG 4 m: buoyancy stands below gravity at right angles."""
     load = Load(2777.777777777778, 1.0, lcg=51.0, kg=4.0, heel_deg=heel)
-    found = immersion(hulls["W"], load, 100.0)
+    found = position_under_load(hulls["W"], load, 100.0)
     digits = 2e-10 if heel == 0.0 else 1e-8
     assert_allclose([found.draught_aft, found.draught_fore], [aft, fore], atol=digits)
 
@@ -110,7 +110,7 @@ def test_the_wigley_hull_finds_its_trim(
 def test_the_trim_of_a_weight_is_reached_from_any_side(hulls: dict[str, StripBody]) -> None:
     """Mirrored about amidships, the load gives mirrored draughts."""
     load = Load(2777.777777777778, 1.0, lcg=51.0, kg=4.0)
-    one = immersion(hulls["W"], load, 100.0)
-    other = immersion(hulls["W"], attrs.evolve(load, lcg=49.0), 100.0)
+    one = position_under_load(hulls["W"], load, 100.0)
+    other = position_under_load(hulls["W"], attrs.evolve(load, lcg=49.0), 100.0)
     assert other.draught_aft == pytest.approx(one.draught_fore, abs=1e-10)
     assert other.draught_fore == pytest.approx(one.draught_aft, abs=1e-10)

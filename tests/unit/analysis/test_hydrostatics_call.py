@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.hydrostatics.equilibrium import deck_edge_angle, freeboard
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
+from assoc_hull.analysis.hydrostatics.immersion import deck_edge_angle, freeboard
 from tests.floating_bodies import Box
 
 TROUBLE = ("ST 7 is open by 0.31 m at (45.000, 2.100, 8.200) m", "ST 8 crosses itself")

@@ -12,7 +12,9 @@ from typing import Any
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.cli import look, main, plot
+from assoc_hull.cli import inspection as look
+from assoc_hull.cli import inspection as plot
+from assoc_hull.cli import main
 
 Edits = Callable[[object], Path]
 

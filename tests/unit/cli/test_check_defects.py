@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.cli import look, main
+from assoc_hull.cli import inspection as look
+from assoc_hull.cli import main
 from assoc_hull.io.hull_json import dumps_hull_json
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from tests.unit.cli.conftest import Json
 from tests.unit.edit.planted_defects import every_defect, planted, sound
 

@@ -8,8 +8,8 @@ from jsonschema import Draft202012Validator
 import assoc_hull as ah
 from assoc_hull.cli import main
 from assoc_hull.io.tables.comparison import comparison_schema
-from assoc_hull.plot.lines_plan import comparison_sheet
-from assoc_hull.variation.comparing.compare import HullComparison
+from assoc_hull.plot.lines_plan import comparison as comparison_sheet
+from assoc_hull.variation.comparing.comparison import HullComparison
 from tests.unit.cli.conftest import Json
 
 

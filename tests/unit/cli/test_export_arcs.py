@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from assoc_hull.cli import main
-from assoc_hull.cli.lengths import length
+from assoc_hull.cli.arguments import parse_length
 from tests.unit.cli.conftest import Json
 
 
@@ -19,7 +19,7 @@ from tests.unit.cli.conftest import Json
 )  # fmt: skip
 def test_lengths_are_the_numbers_that_were_typed(text: str, metres: float) -> None:
     """To the last bit, with and without a unit."""
-    assert length(text) == metres
+    assert parse_length(text) == metres
 
 
 @pytest.mark.parametrize(
@@ -42,7 +42,7 @@ def test_lengths_are_the_numbers_that_were_typed(text: str, metres: float) -> No
 def test_no_lengths_are_refused(text: str) -> None:
     """By a message that shows one."""
     with pytest.raises(argparse.ArgumentTypeError, match=r"is no length|lies not between"):
-        length(text)
+        parse_length(text)
 
 
 def test_the_command_reports_arcs_and_deviation(hull: Path, facts: Json, tmp_path: Path) -> None:

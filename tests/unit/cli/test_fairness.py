@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.fairness.fairness_table import FairnessTable
+from assoc_hull.analysis.fairness.line_fairness import FairnessTable
 from assoc_hull.cli import main
 from tests.unit.cli.conftest import Json
 

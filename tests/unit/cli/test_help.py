@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.cli.parser import make_parser
+from assoc_hull.cli.commands import make_parser
 
 _ACROSS = re.MULTILINE | re.DOTALL
 

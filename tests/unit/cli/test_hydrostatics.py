@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
+from assoc_hull.analysis.hydrostatics.record import FIELDS
 from assoc_hull.cli import main
 from tests.floating_bodies import Box
 from tests.unit.cli.conftest import Json

@@ -8,11 +8,11 @@ import pytest
 from jsonschema import Draft202012Validator
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.tables import TABLES
-from assoc_hull.cli import main, parameters
-from assoc_hull.io.tables.form_schema import catalogue_schema, form_schema
-from assoc_hull.plot.diagrams.form_files import ENDINGS
+from assoc_hull.analysis.form.catalogue import CATALOGUE, TABLES
+from assoc_hull.cli import form_parameters as parameters
+from assoc_hull.cli import main
+from assoc_hull.io.tables.form_parameters import catalogue_schema, form_schema
+from assoc_hull.plot.diagrams.form_report import ENDINGS
 from tests.unit.cli.conftest import Json
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from assoc_hull.cli import main
-from assoc_hull.io import hull_schema
+from assoc_hull.io import hull_json as hull_schema
 
 BASH = shutil.which("bash")
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.curve_transforms import curve_transform
+from assoc_hull.analysis.form.curve_transform import curve_transform
 from assoc_hull.cli import main
 from tests.unit.cli.conftest import Json
 

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.cli import main, why
+from assoc_hull.cli import inspection as why
+from assoc_hull.cli import main
 from tests.unit.cli.conftest import Json
 
 POINT = "WL 2.5 x ST 7"

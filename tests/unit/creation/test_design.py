@@ -6,8 +6,7 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-from assoc_hull.creation.design import Design
-from assoc_hull.creation.design_json import design_document, design_schema
+from assoc_hull.creation.design import Design, design_document, design_schema
 from assoc_hull.creation.form_definitions import course, design_waterline, sectional_area
 from assoc_hull.errors import (
     AssocHullError,
@@ -17,7 +16,7 @@ from assoc_hull.errors import (
     UnknownNameError,
 )
 from assoc_hull.model.forms.closure import coefficients
-from assoc_hull.model.state import Particulars
+from assoc_hull.model.tables import Particulars
 from assoc_hull.tolerance import Tolerances
 
 SHIP = Particulars("ship", 180.0, 28.0, 15.8, 10.5)

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.creation.net import LINKS
+from assoc_hull.creation.design_net import LINKS
 from assoc_hull.errors import BadInputError, OutOfRangeError
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.hull import Hull
 from assoc_hull.model.forms.closure import coefficients
 from assoc_hull.model.kinds import Role, Sort
@@ -111,7 +111,7 @@ def test_waterlines_run_straight_along_the_flat(plain_ship: Hull) -> None:
         number = next(i for i in made if state.curves.key.data[i] == curve.id)
         aft, fore = state.rows.xyz.data[list(made[number].rows)]
         assert aft[1] == fore[1] == 9.0
-        met = meet_planes(
+        met = intersect_planes(
             state.spline(number), np.array([1.0, 0.0, 0.0]), np.linspace(aft[0], fore[0], 40)[1:-1]
         )
         assert np.abs(met.xyz[:, 1] - 9.0).max() < 1e-12

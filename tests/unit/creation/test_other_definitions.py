@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.geometry.splines.curve_order import folds
+from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.hull import Hull
 from assoc_hull.shipped.plain_ship import plain_ship_design
 from tests.conftest import Shipped
@@ -30,7 +30,7 @@ def test_a_finer_ship(ship: Hull) -> None:
     assert ship.verify() == ()
     state = ship.state
     live = state.live("curves").tolist()
-    assert sum(len(folds(state.spline(curve))) for curve in live) == 0
+    assert sum(len(curve_folds(state.spline(curve))) for curve in live) == 0
     assert ship.creation.figure("CB").net == pytest.approx(0.676, rel=5e-4)
     assert ship.creation.figure("LCB").net == pytest.approx(-0.6, abs=0.02)
     now = ship.fingerprint

@@ -15,16 +15,16 @@ import pytest
 from numpy.typing import ArrayLike
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.followup.births_and_deaths import unmeet
+from assoc_hull.edit.followup.crossings import make_latent
 from assoc_hull.edit.session import Edit
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.address import resolve
+from assoc_hull.model.address import resolve_address
 from assoc_hull.model.change import shape_curves
-from assoc_hull.model.definition.definition import definition, published
+from assoc_hull.model.definition.records import definition, published
 from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.kinds import Role, Sort, State
 from assoc_hull.model.make_objects import Maker, PointSpec
-from assoc_hull.model.state import Association, HullState
+from assoc_hull.model.tables import Association, HullState
 from assoc_hull.shipped.wigley import wigley
 
 __all__ = ["DEFECTS", "POINT", "Defect", "every_defect", "planted", "sound"]
@@ -36,17 +36,17 @@ FAR = 10_000
 
 def row_of(state: HullState, address: str = POINT) -> int:
     """The row of a point."""
-    return resolve(state, address).row
+    return resolve_address(state, address).row
 
 
 def curve_of(state: HullState, name: str = "WL 2.5") -> int:
     """The first curve of a line."""
-    return resolve(state, f"{name} [1]").curve
+    return resolve_address(state, f"{name} [1]").curve
 
 
 def line_of(state: HullState, name: str = "WL 2.5") -> int:
     """A line."""
-    return resolve(state, name).line
+    return resolve_address(state, name).line
 
 
 def put(state: HullState, table: str, column: str, row: int, value: ArrayLike) -> None:
@@ -196,7 +196,7 @@ def disown_curve(state: HullState) -> None:
 
 def disown_line(state: HullState) -> None:
     """Lines of a group that has gone."""
-    put(state, "groups", "alive", resolve(state, "waterlines").group, False)
+    put(state, "groups", "alive", resolve_address(state, "waterlines").group, False)
 
 
 def ungroup(state: HullState) -> None:
@@ -217,7 +217,7 @@ def ride_away(state: HullState) -> None:
 
 def untwin(state: HullState) -> None:
     """A crossing that one of its curves does not list among its meetings."""
-    unmeet(Maker(state, Journal()), curve_of(state), row_of(state))
+    make_latent(Maker(state, Journal()), curve_of(state), row_of(state))
 
 
 def cut_off(state: HullState) -> None:
@@ -238,7 +238,7 @@ def forget(state: HullState) -> None:
     """A crossing that neither table nor curve knows any more, of groups that are associated."""
     row = row_of(state)
     for curve in state.rows.curve.data[row].tolist():
-        unmeet(Maker(state, Journal()), curve, row)
+        make_latent(Maker(state, Journal()), curve, row)
         rows = state.curves.rows.data[curve]
         point = PointSpec(curve, state.rows.xyz.data[row].copy(), Sort.ADOPTED)
         made = Maker(state, Journal()).points([point])[0]
@@ -335,7 +335,7 @@ def unknown_state(state: HullState) -> None:
 
 def unknown_family(state: HullState) -> None:
     """A group of a family that there is not."""
-    put_object(state, "groups", "family", resolve(state, "waterlines").group, "cant frames")
+    put_object(state, "groups", "family", resolve_address(state, "waterlines").group, "cant frames")
 
 
 def share_key(state: HullState) -> None:

@@ -12,21 +12,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
-from assoc_hull.edit.followup.feature_points import followed
-from assoc_hull.edit.followup.find_features import find_features
+from assoc_hull.edit.followup.features import find_features, followed_feature
 from assoc_hull.edit.mapped_features import carry_features
 from assoc_hull.edit.recut.transform import transform
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.space_map import space_map
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.copy import copy_of
-from assoc_hull.model.definition.definition import definition, fingerprint, published
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.records import definition, published
 from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.feature_geometry import ROUNDING, host_curve, line_numbers, places_off
 from assoc_hull.model.kinds import BoundaryKind, Sort
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.make_objects import Maker, PointSpec
+from assoc_hull.model.tables import copy_state
 from tests.cases.test_box_with_bilges import round_box
 from tests.taken_back import taken_back
 
@@ -300,7 +300,7 @@ def test_a_point_off_its_feature_is_a_finding() -> None:
 
 def test_a_point_that_took_the_place_of_an_end_is_the_end_now(box: ah.Hull) -> None:
     """Where the end was, or where a mapping sent it; anywhere else the end is lost."""
-    state = copy_of(box.state)
+    state = copy_state(box.state)
     arc = next(each for each in state.features if each.name == "ST 2 arc")
     end, numbers = arc.points[0], line_numbers(state)
     curve = host_curve(state, arc)
@@ -310,7 +310,7 @@ def test_a_point_that_took_the_place_of_an_end_is_the_end_now(box: ah.Hull) -> N
     new = int(maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
     maker.define(curve, np.where(rows == end, new, rows))
     maker.remove_rows([end])
-    assert followed(state, arc, numbers) is None
-    found = followed(state, arc, numbers, {end: place})
+    assert followed_feature(state, arc, numbers) is None
+    found = followed_feature(state, arc, numbers, {end: place})
     assert found is not None
     assert found.points == (new, *arc.points[1:])

@@ -11,9 +11,9 @@ from assoc_hull.edit.nudge import Nudge, nudge, nudged
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.splines.evaluation import sample
-from assoc_hull.model.copy import copy_of
+from assoc_hull.model.tables import copy_state
 from assoc_hull.variation.aiming.hull_problem import HullProblem
-from assoc_hull.variation.carrying.carry_out import carry_out
+from assoc_hull.variation.carrying.carry_hull import carry_out
 from tests.aims import FULLER, SHIFTED, problem, small
 
 
@@ -96,7 +96,7 @@ def test_a_carry_with_a_nudge_is_both_after_one_another_to_the_bit(carried: Hull
     assert by is not None
     assert found is not None
     maps, room = carried.maps, carried.maps.room
-    once = ah.Hull(copy_of(maps.state))
+    once = ah.Hull(copy_state(maps.state))
     carry_out(once.document, maps.map(AT), room.parent, maps.ask, room.present, maps.values(AT), by)
     assert once.fingerprint == ah.Hull(found.state).fingerprint
     once.undo()

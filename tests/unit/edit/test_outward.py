@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.normals import hull_normals
+from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.shipped.wigley import wigley

@@ -10,14 +10,19 @@ import pytest
 from numpy.polynomial import Polynomial
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
-from assoc_hull.geometry.floating.immersion import immersed
-from assoc_hull.geometry.floating.prepared_strips import prepare
+from assoc_hull.geometry.floating.immersion import (
+    FloatingPlanes,
+    ImmersedIntegrals,
+    integrate_immersed,
+)
+from assoc_hull.geometry.floating.prepared_strips import prepare_strips
 from assoc_hull.geometry.numeric.dual import Dual, as_array
 from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 from tests.exact_hulls import FormStrips
 
-SUMS = [field.name for field in attrs.fields(Immersed) if field.name[:2] not in ("x_", "y_")]
+SUMS = [
+    field.name for field in attrs.fields(ImmersedIntegrals) if field.name[:2] not in ("x_", "y_")
+]
 STEP = 1e-5
 
 FORM = FormStrips(
@@ -58,8 +63,8 @@ class Changed:
 
 def below(change: Any, trim: float, heel: float, height: float = 5.3) -> Any:
     """The integrals of the changed form as one row."""
-    planes = Planes(np.array([height]), np.array([trim]), np.array([heel]))
-    found = immersed(prepare(Changed(change)), planes)
+    planes = FloatingPlanes(np.array([height]), np.array([trim]), np.array([heel]))
+    found = integrate_immersed(prepare_strips(Changed(change)), planes)
     return np.stack([getattr(found, name) for name in [*SUMS, "y_most", "x_least", "x_most"]])[:, 0]
 
 

@@ -5,19 +5,30 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
-from assoc_hull.geometry.floating.immersion import immersed
-from assoc_hull.geometry.floating.prepared_strips import Prepared, prepare
+from assoc_hull.geometry.floating.immersion import (
+    FloatingPlanes,
+    ImmersedIntegrals,
+    integrate_immersed,
+)
+from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
 from tests.analytic_hulls import CASES, Case
 from tests.exact_hulls import box, ellipsoid, wigley
 
-HULLS = {"wigley": prepare(wigley()), "ellipsoid": prepare(ellipsoid()), "box": prepare(box())}
+HULLS = {
+    "wigley": prepare_strips(wigley()),
+    "ellipsoid": prepare_strips(ellipsoid()),
+    "box": prepare_strips(box()),
+}
 SIZES = {"wigley": (100.0, 10.0, 6.25), "ellipsoid": (100.0, 16.0, 6.0), "box": (100.0, 20.0, 6.0)}
 
 
-def below(hull: Prepared, height: float, trim: float = 0.0, heel: float = 0.0) -> Immersed:
+def below(
+    hull: PreparedStrips, height: float, trim: float = 0.0, heel: float = 0.0
+) -> ImmersedIntegrals:
     """What lies below one plane."""
-    return immersed(hull, Planes(np.array([height]), np.array([trim]), np.array([heel])))
+    return integrate_immersed(
+        hull, FloatingPlanes(np.array([height]), np.array([trim]), np.array([heel]))
+    )
 
 
 def wet_ends(case: Case) -> float:

@@ -8,7 +8,7 @@ import networkx
 import pytest
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.graph.graph_text import FORMATS, export
+from assoc_hull.graph.graph_text import FORMATS, graph_text
 
 NAMES = {
     "quotes": "a \"b\" 'c'",
@@ -65,7 +65,7 @@ def unescaped(text: str) -> str:
 @pytest.mark.parametrize("name", NAMES.values(), ids=NAMES)
 def test_any_name_comes_back_from_json(name: str) -> None:
     """Nodes and edges with their attributes, by networkx."""
-    data = json.loads(export(graph_of(name), "json"))
+    data = json.loads(graph_text(graph_of(name), "json"))
     back = networkx.node_link_graph(data, edges="edges")
     assert networkx.utils.graphs_equal(back, graph_of(name))
 
@@ -74,7 +74,7 @@ def test_any_name_comes_back_from_json(name: str) -> None:
 def test_any_name_comes_back_from_graphml(name: str) -> None:
     """By networkx, and the text is XML; but control characters, which XML cannot hold."""
     name = name.replace("\x0b", "")
-    text = export(graph_of(name), "graphml")
+    text = graph_text(graph_of(name), "graphml")
     ElementTree.fromstring(text.encode())
     back = networkx.parse_graphml(text, force_multigraph=True)
     assert back.nodes[name] == {"kind": "point", "name": name, "role": "defining", "revision": 3}
@@ -85,7 +85,7 @@ def test_any_name_comes_back_from_graphml(name: str) -> None:
 @pytest.mark.parametrize("name", NAMES.values(), ids=NAMES)
 def test_any_name_comes_back_from_dot(name: str) -> None:
     """Each statement on a line, everything quoted, attributes after the label."""
-    found = dot_statements(export(graph_of(name), "dot"))
+    found = dot_statements(graph_text(graph_of(name), "dot"))
     assert [nodes for nodes, _ in found] == [[name], ["other"], [name, "other"], ["other", name]]
     assert (found[0][1]["label"], found[0][1]["role"], found[0][1]["revision"]) == (
         name, "defining", "3",
@@ -96,7 +96,7 @@ def test_any_name_comes_back_from_dot(name: str) -> None:
 @pytest.mark.parametrize("name", NAMES.values(), ids=NAMES)
 def test_any_name_comes_back_from_mermaid(name: str) -> None:
     """Nothing that Mermaid or a browser would read as a mark stands in a label."""
-    lines = export(graph_of(name), "mermaid").split("\n")
+    lines = graph_text(graph_of(name), "mermaid").split("\n")
     label = re.fullmatch(r'  n0\["([^"]*)<br/>defining"\]', lines[1])
     assert label is not None, lines
     assert unescaped(label[1]) == name
@@ -108,7 +108,7 @@ def test_any_name_comes_back_from_mermaid(name: str) -> None:
 @pytest.mark.parametrize("name", FORBIDDEN.values(), ids=FORBIDDEN)
 def test_what_a_form_cannot_hold_breaks_nothing(form: str, name: str) -> None:
     """The text can be written as UTF-8 and read again."""
-    text = export(graph_of(name), form)
+    text = graph_text(graph_of(name), form)
     assert text.encode().decode() == text
     if form == "graphml":
         assert len(networkx.parse_graphml(text)) == 2
@@ -121,7 +121,7 @@ def test_what_a_form_cannot_hold_breaks_nothing(form: str, name: str) -> None:
 @pytest.mark.parametrize("form", FORMATS)
 def test_an_empty_graph_is_written(form: str) -> None:
     """As a graph without nodes."""
-    text = export(networkx.MultiDiGraph(), form)
+    text = graph_text(networkx.MultiDiGraph(), form)
     assert text.endswith("\n")
     if form == "graphml":
         assert len(networkx.parse_graphml(text)) == 0
@@ -130,4 +130,4 @@ def test_an_empty_graph_is_written(form: str) -> None:
 def test_an_unknown_form_is_refused() -> None:
     """The known ones are named."""
     with pytest.raises(BadInputError, match="mermaid"):
-        export(networkx.MultiDiGraph(), "png")
+        graph_text(networkx.MultiDiGraph(), "png")

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.graph.journal import Journal, Picked
+from assoc_hull.graph.journal import Journal, PickedRows
 from assoc_hull.graph.table import Table
 
 Picture = tuple[int, bytes, bytes, tuple[object, ...]]
@@ -177,7 +177,7 @@ def test_writes_to_parts_are_counted() -> None:
     of, journal = table(), Journal()
     journal.grow(of, 2)
     counts = [of.place.writes]
-    journal.put_parts(of.place, np.array([0, 3]), Picked(np.array([1.0, 2.0])), None)
+    journal.put_parts(of.place, np.array([0, 3]), PickedRows(np.array([1.0, 2.0])), None)
     counts.append(of.place.writes)
     journal.back()
     counts.append(of.place.writes)

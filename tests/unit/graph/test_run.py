@@ -15,8 +15,8 @@ from assoc_hull.errors import AssocHullError, TooFewPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.levels import levels
-from assoc_hull.graph.node import Evaluation, Readers
-from assoc_hull.graph.run_update import Pass, Policy, run
+from assoc_hull.graph.network import Evaluation, Readers
+from assoc_hull.graph.run_update import FailurePolicy, UpdatePass, run_update
 from assoc_hull.graph.table import Table
 
 Formulas = dict[int, tuple[int, ...]]
@@ -127,7 +127,7 @@ def test_everything_that_reads_a_change_is_brought_up_to_date(sheet: Sheet) -> N
     """Each cell at most once, after all it reads; cells that nothing reaches are left alone."""
     for (cell, value), _ in zip(changes(), range(5), strict=False):
         before, journal = sheet.values(), Journal()
-        found = run(sheet, sheet.set(journal, cell, value), journal)
+        found = run_update(sheet, sheet.set(journal, cell, value), journal)
         order = found.evaluated.tolist()
         assert len(order) == len(set(order))
         assert (np.diff(sheet.rank[order]) >= 0).all()
@@ -145,7 +145,7 @@ def test_a_value_that_comes_out_as_it_was_stops_there(sheet: Sheet) -> None:
     """Early cut-off: a cell is evaluated exactly if something it reads changed."""
     journal = Journal()
     before = sheet.values()
-    found = run(sheet, sheet.set(journal, 0, 1.0), journal)
+    found = run_update(sheet, sheet.set(journal, 0, 1.0), journal)
     moved = {i for i, (a, b) in enumerate(zip(before, sheet.values(), strict=True)) if a != b}
     wanted = {cell for cell, read in sheet.formulas.items() if set(read) & moved}
     assert set(found.evaluated.tolist()) == wanted
@@ -157,7 +157,7 @@ def test_a_value_that_comes_out_as_it_was_stops_there(sheet: Sheet) -> None:
 def test_every_evaluation_has_its_causes(sheet: Sheet) -> None:
     """Pushes are pairs of a cell that changed and one that reads it, and all of them."""
     journal = Journal()
-    found = run(sheet, sheet.set(journal, 1, 5.0), journal)
+    found = run_update(sheet, sheet.set(journal, 1, 5.0), journal)
     pairs = set(zip(found.cause.source.tolist(), found.cause.reader.tolist(), strict=True))
     changed = set(found.changed.tolist())
     assert pairs == {(a, b) for b, read in sheet.formulas.items() for a in read if a in changed}
@@ -177,7 +177,7 @@ def test_a_failure_is_let_out_and_the_journal_takes_all_back() -> None:
     sheet, journal = chain_of(6), Journal()
     sheet.broken = {4}
     with pytest.raises(AssocHullError, match="cell 4"):
-        run(sheet, sheet.set(journal, 0, 3.0), journal)
+        run_update(sheet, sheet.set(journal, 0, 3.0), journal)
     assert sheet.values()[3] == 3.0
     journal.undo()
     assert sheet.values() == [0.0] * 6
@@ -188,7 +188,7 @@ def test_going_on_blocks_readers_only(sheet: Sheet, broken: set[int]) -> None:
     """Failed cells and all made from them keep their values; everything else is up to date."""
     before, journal = sheet.values(), Journal()
     sheet.broken = {cell for cell in broken if cell < sheet.count}
-    found = run(sheet, sheet.set(journal, 0, 1.0), journal, Policy.KEEP_GOING)
+    found = run_update(sheet, sheet.set(journal, 0, 1.0), journal, FailurePolicy.KEEP_GOING)
     failed = set(found.failed)
     assert failed <= sheet.broken
     assert set(found.blocked.tolist()) == downstream(sheet, failed)
@@ -211,7 +211,7 @@ def test_a_failing_batch_is_halved_until_the_guilty_are_alone() -> None:
     """All others of the batch are evaluated; few batches are tried."""
     sheet, journal = fan(16), Journal()
     sheet.broken = {3, 12}
-    found = run(sheet, sheet.set(journal, 0, 2.0), journal, Policy.KEEP_GOING)
+    found = run_update(sheet, sheet.set(journal, 0, 2.0), journal, FailurePolicy.KEEP_GOING)
     assert set(found.failed) == {3, 12}
     assert set(found.blocked.tolist()) == {19, 28}
     kept = {3, 12, 19, 28}
@@ -229,10 +229,10 @@ def test_arithmetic_errors_count_as_failures_and_defects_do_not() -> None:
         seed = sheet.set(journal, 0, 1.0)
         bad = Failing(sheet, error)
         if goes_on:
-            assert run(bad, seed, journal, Policy.KEEP_GOING).failed == {1: "zero"}
+            assert run_update(bad, seed, journal, FailurePolicy.KEEP_GOING).failed == {1: "zero"}
         else:
             with pytest.raises(RuntimeError, match="defect"):
-                run(bad, seed, journal, Policy.KEEP_GOING)
+                run_update(bad, seed, journal, FailurePolicy.KEEP_GOING)
         journal.undo()
 
 
@@ -260,7 +260,7 @@ class Failing:
         return self.sheet.name(node)
 
 
-def outcome(found: Pass) -> tuple[list[int], list[int], list[int]]:
+def outcome(found: UpdatePass) -> tuple[list[int], list[int], list[int]]:
     """What was evaluated, what changed, what was cut off."""
     return found.evaluated.tolist(), found.changed.tolist(), found.cut_off.tolist()
 
@@ -270,7 +270,7 @@ def test_nodes_whose_recipe_changed_are_evaluated_without_a_cause() -> None:
     sheet, journal = chain_of(4), Journal()
     sheet.table.value.store[:4] = [5.0, 0.0, 0.0, 0.0]
     nothing = np.zeros(0, np.int64)
-    found = run(sheet, nothing, journal, also=np.array([1, 1]))
+    found = run_update(sheet, nothing, journal, also=np.array([1, 1]))
     assert outcome(found) == ([1, 2, 3], [1, 2, 3], [])
     assert found.cause.reader.tolist() == [2, 3]
 
@@ -278,7 +278,7 @@ def test_nodes_whose_recipe_changed_are_evaluated_without_a_cause() -> None:
 def test_held_nodes_are_left_alone_whatever_they_read() -> None:
     """And what reads them through them."""
     sheet, journal = chain_of(4), Journal()
-    found = run(sheet, sheet.set(journal, 0, 7.0), journal, held=np.array([2]))
+    found = run_update(sheet, sheet.set(journal, 0, 7.0), journal, held=np.array([2]))
     assert outcome(found) == ([1], [0, 1], [])
     assert sheet.values() == [7.0, 7.0, 0.0, 0.0]
 
@@ -287,8 +287,8 @@ def test_nothing_to_do_is_done() -> None:
     """No seeds, or seeds that nothing reads."""
     sheet, journal = chain_of(3), Journal()
     nothing = np.zeros(0, np.int64)
-    assert outcome(run(sheet, nothing, journal)) == ([], [], [])
-    assert outcome(run(sheet, np.array([2]), journal)) == ([], [2], [])
+    assert outcome(run_update(sheet, nothing, journal)) == ([], [], [])
+    assert outcome(run_update(sheet, np.array([2]), journal)) == ([], [2], [])
 
 
 @given(sheets(), st.randoms(use_true_random=False))
@@ -301,6 +301,6 @@ def test_the_order_of_the_seeds_says_nothing(sheet: Sheet, rng: random.Random) -
             sheet.set(journal, cell, 1.0 + cell)
         seeds = [0, 1, 2]
         rng.shuffle(seeds)
-        found.append(run(sheet, np.array(seeds), journal).evaluated.tolist())
+        found.append(run_update(sheet, np.array(seeds), journal).evaluated.tolist())
         journal.undo()
     assert found[0] == found[1]

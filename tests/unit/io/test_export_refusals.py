@@ -13,14 +13,14 @@ import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, BadInputError, MissingExtraError
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.digitised.read import read_lines
-from assoc_hull.io.export.gf import MOST, dumps_gf
-from assoc_hull.io.export_book import ExportBook
-from assoc_hull.io.lines.line_points import DrawnLine, lines_as_points
-from assoc_hull.io.offsets.completion import net_from_table
+from assoc_hull.io.export.ghs_geometry import MOST, dumps_gf
+from assoc_hull.io.lines.line_points import LinePolylines, lines_as_points
+from assoc_hull.io.offsets.complete_table import net_from_table
 from assoc_hull.io.offsets.read import read_offsets
-from assoc_hull.io.tables import offset_xlsx
+from assoc_hull.io.reports import ExportBook
+from assoc_hull.io.tables import table_text as offset_xlsx
 from assoc_hull.model.kinds import State
-from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.model.tables import HullState, Particulars
 from assoc_hull.sources import examples
 
 TEXTS = ("britfair", "delftship", "delftship-offsets", "gf")
@@ -252,7 +252,7 @@ def test_a_hull_a_form_cannot_hold_is_refused_and_nothing_is_written(tmp_path: P
         with pytest.raises(BadInputError, match="section"):
             ah.Hull(empty).export(tmp_path / name)
     [line, *_] = lines_as_points(examples.wigley(stations=5).state, ("sections",))
-    many = [DrawnLine(line.group, line.name, float(k), line.pieces) for k in range(MOST + 1)]
+    many = [LinePolylines(line.group, line.name, float(k), line.pieces) for k in range(MOST + 1)]
     with pytest.raises(BadInputError, match="256 sections"):
         dumps_gf("S", 9.0, 2.0, many, ExportBook(decimals=4))
     assert [path.read_text() for path in tmp_path.iterdir()] == ["old"]

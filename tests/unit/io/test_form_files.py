@@ -10,9 +10,14 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.report import FormReport, Row, form_report, number_text
-from assoc_hull.io.tables.form_table import COLUMNS, csv_text, xlsx_bytes
-from assoc_hull.io.tables.form_text import catalogue_text, form_text
+from assoc_hull.analysis.form.form_parameters import FormReport, ReportRow, form_report, number_text
+from assoc_hull.io.tables.form_parameters import (
+    COLUMNS,
+    catalogue_text,
+    form_csv,
+    form_text,
+    form_xlsx,
+)
 from tests.form_entries import bare, doubted, passed_on
 
 
@@ -24,7 +29,7 @@ def report() -> FormReport:
     return form_report(hull, draughts=(6.0, 5.0), date="2026-01-31", further=own)
 
 
-def rows_of(report: FormReport) -> list[Row]:
+def rows_of(report: FormReport) -> list[ReportRow]:
     """All lines of a report."""
     return [row for part in report.parts for row in part.rows]
 
@@ -81,7 +86,7 @@ def check(names: Any, rows: list[list[Any]], report: FormReport, accuracy: float
 
 def test_a_csv_reads_back(report: FormReport) -> None:
     """To twelve digits; the head stands above."""
-    text = csv_text(report)
+    text = form_csv(report)
     above = [line for line in text.splitlines() if line.startswith("# ")]
     names, *rows = csv.reader(io.StringIO("\n".join(text.splitlines()[len(above) :])))
     check(names, rows, report, 1e-11)
@@ -93,8 +98,8 @@ def test_a_csv_reads_back(report: FormReport) -> None:
 def test_a_workbook_reads_back(report: FormReport) -> None:
     """Words are words, also those that begin like a formula; the same bytes each time."""
     openpyxl = pytest.importorskip("openpyxl")
-    data = xlsx_bytes(report)
-    assert data == xlsx_bytes(report)
+    data = form_xlsx(report)
+    assert data == form_xlsx(report)
     sheet = openpyxl.load_workbook(io.BytesIO(data)).active
     cells = [list(row) for row in sheet.iter_rows(max_col=len(COLUMNS), values_only=True)]
     top = next(k for k, row in enumerate(cells) if not str(row[0]).startswith("#"))

@@ -18,7 +18,7 @@ from assoc_hull.errors import (
     HullFileError,
     StaleHullError,
 )
-from assoc_hull.io.open_databases import is_open_here, log_of
+from assoc_hull.io.open_databases import is_open_here, log_file
 
 POINT = "WL 4.6875 x ST 3"
 
@@ -219,7 +219,7 @@ def test_a_file_that_is_open_here_is_not_written_over(file: Path) -> None:
 def test_nothing_is_written_to_a_log_that_has_gone(file: Path) -> None:
     """An edit that nobody would ever see is refused, and all others are in the file."""
     hull = ah.open(file)
-    os.replace(log_of(file), log_of(file).with_name("away"))
+    os.replace(log_file(file), log_file(file).with_name("away"))
     before = hull.fingerprint
     acts: list[Callable[[], None]] = [lambda: shift(hull, "two"), hull.undo, hull.refresh]
     for act in acts:

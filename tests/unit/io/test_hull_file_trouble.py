@@ -15,7 +15,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.cli import main
 from assoc_hull.errors import DamagedFileError, HullFileError
-from assoc_hull.io.hull_file.steps import digest
+from assoc_hull.io.hull_file.steps import step_digest
 
 POINT = "WL 4.6875 x ST 3"
 
@@ -292,7 +292,7 @@ def test_an_undo_that_leads_elsewhere_is_taken_back(file: Path) -> None:
     database = sqlite3.connect(file, isolation_level=None)
     row = list(database.execute("SELECT * FROM steps WHERE number = 1").fetchone())
     row[6] = "0" * 64
-    row[7] = digest((*row[:7], *row[8:]))
+    row[7] = step_digest((*row[:7], *row[8:]))
     database.execute("DELETE FROM steps WHERE number = 1")
     database.execute(f"INSERT INTO steps VALUES ({', '.join('?' * len(row))})", row)
     database.close()

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.io.hull_file.schema import MIGRATIONS, SCHEMA, migrate
+from assoc_hull.io.hull_file.database import MIGRATIONS, SCHEMA, migrate_tables
 
 OLD = Path(__file__).parent / "old_files"
 PRINT = "0e275868597c38061acf0b780531a5e89c848937aa4fbe74c37ae6cea4b779c1"
@@ -68,7 +68,7 @@ def test_two_processes_bring_a_file_up_to_date_once(tmp_path: Path) -> None:
     shutil.copy(OLD / "version_1.hull", path)
     one, two = (sqlite3.connect(path, isolation_level=None) for _ in range(2))
     for database in (one, two):
-        migrate(database)
+        migrate_tables(database)
         assert database.execute("PRAGMA user_version").fetchone() == (SCHEMA,)
         database.close()
     assert ah.open(path).verify() == ()

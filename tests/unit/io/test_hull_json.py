@@ -16,9 +16,9 @@ from hypothesis import given, settings
 from assoc_hull.edit.document import Document
 from assoc_hull.errors import BadInputError, RingError
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json, write_hull_json
-from assoc_hull.model.definition.definition import fingerprint
+from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.model.tables import HullState, Particulars
 from tests.strategies import (
     Move,
     PinnedEdit,

@@ -17,8 +17,12 @@ from jsonschema import Draft202012Validator
 
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
-from assoc_hull.io.hull_schema import dumps_hull_schema, hull_json_schema
+from assoc_hull.io.hull_json import (
+    dumps_hull_json,
+    dumps_hull_schema,
+    hull_json_schema,
+    read_hull_json,
+)
 from assoc_hull.model.definition.schema import check_definition, check_published
 from tests.fuzz.kinds.hulls import edited_text, plain_text
 from tests.fuzz.values import change_value

@@ -10,7 +10,7 @@ import assoc_hull
 from assoc_hull.errors import BadInputError, NoMeetingError
 from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.io.lines.slices import Gaps
-from assoc_hull.io.slicing.mesh import read_mesh, slice_mesh
+from assoc_hull.io.slicing.mesh_lines import read_mesh, slice_mesh
 from tests import meshes
 
 FEW: dict[str, Any] = {"stations": 3, "waterlines": 2, "buttocks": 1}

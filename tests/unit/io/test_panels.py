@@ -12,11 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.panels.build import panels
+from assoc_hull.analysis.panels.hull_panels import panels
 from assoc_hull.analysis.panels.mesh_quality import panel_report
 from assoc_hull.errors import AssocHullError, BadInputError
-from assoc_hull.geometry.surfaces.panel_clip import below_water
-from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
+from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh, below_water
 from assoc_hull.hull import Hull
 from assoc_hull.io.panels.files import PANEL_FORMS, panel_bytes, read_panels, write_panels
 from assoc_hull.sources import examples

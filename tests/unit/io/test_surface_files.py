@@ -15,10 +15,10 @@ from jsonschema import Draft202012Validator
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.hull_schema import dumps_schema
 from assoc_hull.io.surfaces.control_nets import nets_of_table, table_of_nets
 from assoc_hull.io.surfaces.surface_file import ReadSurfaces, read_surface_file, write_surfaces
 from assoc_hull.io.surfaces.surface_json import json_of_surfaces, surfaces_of_json, surfaces_schema
+from assoc_hull.io.tables.json_schema import dumps_schema
 from tests.curved_patches import nets
 from tests.iges_files import Entity, iges, surface
 

@@ -5,10 +5,10 @@ import pytest
 
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.address import AddressBook, address, resolve
+from assoc_hull.model.address import AddressBook, address, resolve_address
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.make_objects import CrossingSpec, Maker, PointSpec
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from assoc_hull.shipped.wigley import wigley
 
 
@@ -31,7 +31,7 @@ def rename(state: HullState, name: str, new: str) -> None:
 
 def add_second_birth(state: HullState) -> int:
     """A second crossing of WL 2.5 and ST 7."""
-    row = resolve(state, "WL 2.5 x ST 7").row
+    row = resolve_address(state, "WL 2.5 x ST 7").row
     a, b = state.rows.curve.data[row].tolist()
     spec = CrossingSpec(a, b, state.rows.xyz.data[row], Role.WATCHED, -1)
     return int(Maker(state, Journal()).crossings([spec])[0])
@@ -59,7 +59,7 @@ def test_every_point_has_an_address_that_leads_back(state: HullState) -> None:
 
 def test_either_order_of_the_lines_leads_to_the_crossing(state: HullState) -> None:
     """The line named first is the one the point lies on; the other is its friend."""
-    one, other = resolve(state, "WL 2.5 x ST 7"), resolve(state, "ST 7 x WL 2.5")
+    one, other = resolve_address(state, "WL 2.5 x ST 7"), resolve_address(state, "ST 7 x WL 2.5")
     assert one.row == other.row
     assert (one.side, other.side) == (1, 0)
     assert state.lines.name.data[one.line] == "WL 2.5"
@@ -69,16 +69,16 @@ def test_a_second_birth_is_told_apart(state: HullState) -> None:
     """The first keeps its plain name; the second has a number."""
     row = add_second_birth(state)
     assert address(state, row) == "WL 2.5 x ST 7 #2"
-    assert resolve(state, "ST 7 x WL 2.5 #2").row == row
-    assert resolve(state, "WL 2.5 x ST 7").row != row
+    assert resolve_address(state, "ST 7 x WL 2.5 #2").row == row
+    assert resolve_address(state, "WL 2.5 x ST 7").row != row
     assert_round_trip(state)
 
 
 def test_the_only_crossing_left_needs_no_number(state: HullState) -> None:
     """When the first has gone, the plain name leads to the second."""
-    first, second = resolve(state, "WL 2.5 x ST 7").row, add_second_birth(state)
+    first, second = resolve_address(state, "WL 2.5 x ST 7").row, add_second_birth(state)
     Journal().put(state.rows.alive, [first], [False])
-    assert resolve(state, "WL 2.5 x ST 7").row == second
+    assert resolve_address(state, "WL 2.5 x ST 7").row == second
 
 
 @pytest.mark.parametrize("sort", [Sort.PLACED, Sort.ADOPTED])
@@ -92,7 +92,7 @@ def test_own_points_are_counted_along_the_line(state: HullState, sort: Sort) -> 
     maker.define(curve, np.concatenate([rows[:2], [near], rows[2:-1], [far], rows[-1:]]))
     name = sort.name.lower()
     assert address(state, near) == f"WL 2.5 @ {name} 1"
-    assert resolve(state, f"WL 2.5 @ {name} 2").row == far
+    assert resolve_address(state, f"WL 2.5 @ {name} 2").row == far
     assert_round_trip(state)
 
 
@@ -101,8 +101,8 @@ def test_equal_names_in_two_groups_need_the_group(state: HullState) -> None:
     rename(state, "WL 2.5", "A")
     rename(state, "ST 7", "A")
     with pytest.raises(BadInputError, match="waterlines/A"):
-        resolve(state, "A x ST 8")
-    row = resolve(state, "waterlines/A x ST 8").row
+        resolve_address(state, "A x ST 8")
+    row = resolve_address(state, "waterlines/A x ST 8").row
     assert address(state, row) == "waterlines/A x ST 8"
     assert_round_trip(state)
 
@@ -123,16 +123,18 @@ def test_an_unknown_name_is_answered_with_near_ones(
 ) -> None:
     """The message helps."""
     with pytest.raises(UnknownNameError) as caught:
-        resolve(state, wrong)
+        resolve_address(state, wrong)
     assert repr(near) in str(caught.value)
 
 
 def test_keys_lines_curves_and_groups_are_addresses_too(state: HullState) -> None:
     """The deepest object that is named is given."""
-    row = resolve(state, "WL 2.5 x ST 7").row
-    assert resolve(state, state.rows.key.data[row]).row == row
-    assert resolve(state, "waterlines").group >= 0
-    assert resolve(state, "waterlines/WL 2.5").line == line_number(state, "WL 2.5")
-    assert resolve(state, "WL 2.5 [1]").curve == resolve(state, "WL 2.5 x ST 7").curve
+    row = resolve_address(state, "WL 2.5 x ST 7").row
+    assert resolve_address(state, state.rows.key.data[row]).row == row
+    assert resolve_address(state, "waterlines").group >= 0
+    assert resolve_address(state, "waterlines/WL 2.5").line == line_number(state, "WL 2.5")
+    assert (
+        resolve_address(state, "WL 2.5 [1]").curve == resolve_address(state, "WL 2.5 x ST 7").curve
+    )
     state.rows.label.data[row] = "shoulder"
-    assert resolve(state, "shoulder").row == row
+    assert resolve_address(state, "shoulder").row == row

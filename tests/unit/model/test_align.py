@@ -8,8 +8,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.model.align_intersections import align_curve, align_roots
-from assoc_hull.model.state import Meets
+from assoc_hull.model.align_intersections import align_curve, align_plane_roots
+from assoc_hull.model.tables import CurveIntersections
 
 Roots = tuple[np.typing.NDArray[np.int8], np.typing.NDArray[np.float64]]
 
@@ -42,7 +42,7 @@ def moved(pairs: list[tuple[int, int]], old: Roots, new: Roots) -> float:
 @given(roots(), roots())
 def test_most_pairs_then_the_least_movement(old: Roots, new: Roots) -> None:
     """The fewest births and deaths; among these the least total displacement."""
-    found = align_roots(*old, *new)
+    found = align_plane_roots(*old, *new)
     every = pairings(old, new)
     assert found in every
     most = max(len(pairs) for pairs in every)
@@ -62,7 +62,7 @@ def line_of(places: list[float], first: int = 1) -> Roots:
 
 def test_a_pair_born_between_two_roots_is_told_from_them() -> None:
     """The outer ones stay what they were."""
-    assert align_roots(*line_of([10.0, 60.0]), *line_of([9.0, 30.0, 40.0, 61.0])) == [
+    assert align_plane_roots(*line_of([10.0, 60.0]), *line_of([9.0, 30.0, 40.0, 61.0])) == [
         (0, 0),
         (1, 3),
     ]
@@ -70,18 +70,21 @@ def test_a_pair_born_between_two_roots_is_told_from_them() -> None:
 
 def test_a_pair_that_dies_at_one_end_leaves_the_others() -> None:
     """Ordinals would shift."""
-    assert align_roots(*line_of([1.0, 2.0, 30.0, 50.0]), *line_of([31.0, 50.0])) == [(2, 0), (3, 1)]
+    assert align_plane_roots(*line_of([1.0, 2.0, 30.0, 50.0]), *line_of([31.0, 50.0])) == [
+        (2, 0),
+        (3, 1),
+    ]
 
 
 def test_a_root_lost_over_the_end_of_a_curve() -> None:
     """Alone, without its like."""
-    assert align_roots(*line_of([1.0, 20.0]), *line_of([20.5], -1)) == [(1, 0)]
+    assert align_plane_roots(*line_of([1.0, 20.0]), *line_of([20.5], -1)) == [(1, 0)]
 
 
-def meets(line: list[int], sign: list[int], row: list[int], x: list[float]) -> Meets:
+def meets(line: list[int], sign: list[int], row: list[int], x: list[float]) -> CurveIntersections:
     """Meetings of a curve."""
     at = np.array(x)
-    return Meets(
+    return CurveIntersections(
         np.array(line), np.array(sign, np.int8), np.array(row), at,
         np.column_stack([at, 0.0 * at, 0.0 * at]),
     )  # fmt: skip

@@ -10,12 +10,12 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.copy import copy_of
-from assoc_hull.model.definition.definition import definition, fingerprint
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.features import Feature
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.shipped.wigley import wigley
 
 
@@ -83,7 +83,7 @@ def test_a_hull_without_features_has_the_fingerprint_it_always_had() -> None:
     assert "features" not in definition(state)
     give(state, circle(state))
     assert fingerprint(state) != before
-    assert fingerprint(copy_of(state)) == fingerprint(state)
+    assert fingerprint(copy_state(state)) == fingerprint(state)
     give(state)
     assert fingerprint(state) == before
 

@@ -9,16 +9,20 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.io.hull_file.check import require_sound
+from assoc_hull.io.hull_file.check import require_sound_tables
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
 from assoc_hull.model import index
-from assoc_hull.model.copy import copy_of
-from assoc_hull.model.definition.definition import definition, fingerprint, published
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.records import definition, published
 from assoc_hull.model.definition.restore import from_definition
-from assoc_hull.model.definition_part import FormDefinition
-from assoc_hull.model.generated import attached, attached_rows, generated_on
-from assoc_hull.model.regenerate import points_given
-from assoc_hull.model.state import HullState, form_node, form_of
+from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.generated_curves import (
+    attached_curves,
+    attached_rows,
+    generated_on,
+    points_given,
+)
+from assoc_hull.model.tables import HullState, copy_state, form_node, form_of
 from tests.formed import STATIONS, formed, formed_definitions
 
 
@@ -31,7 +35,7 @@ def made() -> HullState:
 @pytest.fixture
 def hull(made: HullState) -> ah.Hull:
     """Give a hull of its own for each test."""
-    return ah.Hull(copy_of(made))
+    return ah.Hull(copy_state(made))
 
 
 def test_a_hull_tells_its_definitions(hull: ah.Hull) -> None:
@@ -57,7 +61,7 @@ def test_generated_points_hold_no_values_in_a_definition(made: HullState) -> Non
 
 def test_the_table_of_attached_curves(made: HullState) -> None:
     """By number of the curve; others are not known."""
-    known = attached(made)
+    known = attached_curves(made)
     assert len(known) == len(STATIONS) + 1
     section = next(curve for curve, each in known.items() if each.what == "section")
     assert generated_on(made, section) is known[section]
@@ -105,7 +109,7 @@ def test_edits_are_made_again_on_another_hull(hull: ah.Hull, made: HullState) ->
         edit.delete("ST 35 @ adopted 5")
     with hull.edit("back") as edit:
         edit.reattach("ST 35")
-    other = ah.Hull(copy_of(made))
+    other = ah.Hull(copy_state(made))
     assert all(each.report for each in other.replay(hull))
     assert other.fingerprint == hull.fingerprint
 
@@ -191,4 +195,4 @@ def test_a_generated_curve_that_is_not_there_is_found(hull: ah.Hull) -> None:
     table.curve.data[1] = table.curve.data[1].evolve(curve=10**6, attached=False)
     assert "tables" in {each.kind for each in hull.check()}
     with pytest.raises(ValueError, match="does not exist"):
-        require_sound(hull.state)
+        require_sound_tables(hull.state)

@@ -6,13 +6,10 @@ import pytest
 from assoc_hull.errors import ForeignPointError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.curve import Curve
-from assoc_hull.model.handles import handle
 from assoc_hull.model.kinds import Role
-from assoc_hull.model.line import Group, Line
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.point import Crossing, Point
-from assoc_hull.model.state import Association, HullState
+from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, handle
+from assoc_hull.model.tables import Association, HullState
 from assoc_hull.shipped.wigley import wigley
 
 

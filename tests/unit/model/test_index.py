@@ -7,7 +7,7 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.model.index import Index, Objects, build_index
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.state import row_node
+from assoc_hull.model.tables import row_node
 
 
 def index() -> Index:

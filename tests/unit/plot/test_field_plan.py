@@ -10,12 +10,12 @@ from numpy.testing import assert_allclose
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.plot.lines_plan.variation_fields import field_plan
+from assoc_hull.plot.lines_plan.variation_fields import variation_fields
 from assoc_hull.plot.sheet.paper import PAPERS
-from assoc_hull.variation.fields.field import Field, Piece, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
-from assoc_hull.variation.fields.hat import hat
-from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.fields.anchor_fields import hat_field
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
+from assoc_hull.variation.fields.layers import FieldLayer, Rake
 
 Lines = Callable[[Figure, str], list[FloatArray]]
 Boxes = Callable[[Figure], dict[str, FloatArray]]
@@ -23,17 +23,20 @@ Boxes = Callable[[Figure], dict[str, FloatArray]]
 
 def layer() -> FieldLayer:
     """A hat at the stern, a wider stern, and a raked stem."""
-    aft, fore = Chain.through([5.0, 40.0], [1.0, 0.0]), Chain.through([80.0, 100.0], [0.0, 1.0])
-    shaft = hat("shaft", [("base", 0, 0), ("shaft", 3, 0.4), ("T", 6.25, 0)], aft)
-    pieces = Piece.along(aft, 0.0, 0.0), Piece.along(aft, 0.05, 0.0)
-    wide = Field("transom", "y", stack(["foot", "deck"], [3.0, 6.0]), pieces)
+    aft, fore = (
+        BlendChain.through([5.0, 40.0], [1.0, 0.0]),
+        BlendChain.through([80.0, 100.0], [0.0, 1.0]),
+    )
+    shaft = hat_field("shaft", [("base", 0, 0), ("shaft", 3, 0.4), ("T", 6.25, 0)], aft)
+    pieces = AffinePiece.along(aft, 0.0, 0.0), AffinePiece.along(aft, 0.05, 0.0)
+    wide = StackedField("transom", "y", level_boundaries(["foot", "deck"], [3.0, 6.0]), pieces)
     return FieldLayer("local", (shaft, wide, Rake("stem", fore, 0.05, 6.25, 1.5)))
 
 
 def test_all_that_is_drawn_lies_on_the_sheet(wigley: Hull, boxes_of: Boxes) -> None:
     """Words inside the sheet, none over another, on every paper."""
     for paper in PAPERS.values():
-        figure = field_plan(wigley, layer(), paper=paper.name)  # type: ignore[arg-type]
+        figure = variation_fields(wigley, layer(), paper=paper.name)  # type: ignore[arg-type]
         boxes = np.array(list(boxes_of(figure).values()))
         assert boxes[:, :2].min() > 0.0
         assert (boxes[:, 2] < paper.width).all()
@@ -47,7 +50,7 @@ def test_all_that_is_drawn_lies_on_the_sheet(wigley: Hull, boxes_of: Boxes) -> N
 
 def test_boundaries_and_regions_are_to_scale(wigley: Hull, lines_of: Lines) -> None:
     """Measured against the profile of the hull in the same panel."""
-    figure = field_plan(wigley, layer())
+    figure = variation_fields(wigley, layer())
     (region,) = lines_of(figure, "region/transom")
     (foot,) = lines_of(figure, "boundary/transom/foot")
     (deck,) = lines_of(figure, "boundary/transom/deck")
@@ -64,7 +67,7 @@ def test_a_panel_for_each_coordinate_that_moves(wigley: Hull) -> None:
     """One, two or three; their captions tell the unit."""
     whole = layer()
     for count in (1, 2, 3):
-        figure = field_plan(wigley, FieldLayer("some", whole.fields[:count]))
+        figure = variation_fields(wigley, FieldLayer("some", whole.fields[:count]))
         captions = [each for each in figure.axes[0].texts if "caption" in str(each.get_gid())]
         assert len(captions) == count
 
@@ -72,4 +75,4 @@ def test_a_panel_for_each_coordinate_that_moves(wigley: Hull) -> None:
 def test_a_layer_without_fields_is_refused(wigley: Hull) -> None:
     """There is nothing to draw."""
     with pytest.raises(BadInputError, match="layer 'none' has no fields"):
-        field_plan(wigley, FieldLayer("none", ()))
+        variation_fields(wigley, FieldLayer("none", ()))

@@ -10,7 +10,7 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.offsets.read import read_offsets
-from assoc_hull.shipped.series60_table import todd_table
+from assoc_hull.shipped.series60 import todd_table
 
 HULLS = [(0.60, "s60_cb060_offsets.csv", 7.5), (0.70, "s60_cb070_offsets.csv", 7.0)]
 

@@ -6,23 +6,25 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.study.design import OUTPUTS, Design
-from assoc_hull.variation.fields.field import Field, Piece, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.study.design import OUTPUTS, StudyDesign
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
+from assoc_hull.variation.fields.layers import FieldLayer
 
 
 def fuller() -> FieldLayer:
     """Broaden the fore body by 2 %."""
-    piece = Piece.along(Chain.through([60.0, 90.0], [0.0, 1.0]), 0.02, 0.0)
-    return FieldLayer("fuller", (Field("fuller", "y", stack(["base"], [0.0]), (piece,)),))
+    piece = AffinePiece.along(BlendChain.through([60.0, 90.0], [0.0, 1.0]), 0.02, 0.0)
+    return FieldLayer(
+        "fuller", (StackedField("fuller", "y", level_boundaries(["base"], [0.0]), (piece,)),)
+    )
 
 
 def test_a_value_holds_for_all_variants_and_a_row_for_each() -> None:
     """Single values are repeated; rows by variant and columns by name are one and the same."""
-    by_name = Design.of(set={"draught": 6.0}, reach={"volume": [1.0, 2.0]}, free=["breadth"])
+    by_name = StudyDesign.of(set={"draught": 6.0}, reach={"volume": [1.0, 2.0]}, free=["breadth"])
     rows = [{"volume": 1.0}, {"volume": 2.0}]
-    by_row = Design.of(set={"draught": 6.0}, reach=rows, free=["breadth"])
+    by_row = StudyDesign.of(set={"draught": 6.0}, reach=rows, free=["breadth"])
     for design in (by_name, by_row):
         assert design.names == ("draught", "breadth")
         assert design.values.tolist() == [[6.0], [6.0]]
@@ -33,15 +35,15 @@ def test_a_value_holds_for_all_variants_and_a_row_for_each() -> None:
 def test_a_layer_is_set_free_or_acts_as_it_is() -> None:
     """By its name, or itself among what is free."""
     layer, aim = fuller(), {"volume": 2700.0}
-    held = Design.of(layers=[layer], set={"fuller": [0.5, 1.5]})
+    held = StudyDesign.of(layers=[layer], set={"fuller": [0.5, 1.5]})
     assert held.given == ("fuller",)
     assert held.values.ravel().tolist() == [0.5, 1.5]
-    for free in (Design.of(layers=[layer], reach=aim, free=["fuller"]),
-                 Design.of(reach=aim, free=[layer], bounds={"fuller": (-1, 3)})):  # fmt: skip
+    for free in (StudyDesign.of(layers=[layer], reach=aim, free=["fuller"]),
+                 StudyDesign.of(reach=aim, free=[layer], bounds={"fuller": (-1, 3)})):  # fmt: skip
         assert free.free == ("fuller",)
         assert free.layers == (layer,)
     assert free.bounds.tolist() == [[-1.0, 3.0]]
-    beside = Design.of(layers=[layer], set={"breadth": [10.0, 11.0]})
+    beside = StudyDesign.of(layers=[layer], set={"breadth": [10.0, 11.0]})
     assert beside.given == ("breadth", "fuller")
     assert beside.values[:, 1].tolist() == [1.0, 1.0]
 
@@ -75,7 +77,7 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
 def test_what_makes_no_study_is_refused(asked: dict[str, Any], words: str) -> None:
     """In one line that says what, before the hull is looked at."""
     with pytest.raises(ah.AssocHullError, match=words) as caught:
-        Design.of(**asked)
+        StudyDesign.of(**asked)
     assert "\n" not in str(caught.value)
 
 

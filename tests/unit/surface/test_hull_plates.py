@@ -12,14 +12,11 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.plating import HullPlates as WritablePlates
-from assoc_hull.surface.plates.doubt import Doubt
-from assoc_hull.surface.plates.hull_plate import TOO_COARSE
-from assoc_hull.surface.plates.hull_plate_table import HullPlates
-from assoc_hull.surface.plates.hull_plates import hull_plates
+from assoc_hull.surface.plates.hull_plate import TOO_COARSE, CurvatureDoubt, doubled_band
+from assoc_hull.surface.plates.hull_plates import HullPlateTable, hull_plates
 from assoc_hull.surface.plates.hull_seams import HullSeams
-from assoc_hull.surface.plates.judging import rung
-from assoc_hull.surface.plates.other_fits import every_second_waterline
-from assoc_hull.surface.plates.shell import Shell
+from assoc_hull.surface.plates.hull_shell import HullShell
+from assoc_hull.surface.plates.rival_fits import every_second_waterline
 from tests.formula_sides import BOWL, HYPAR, Side
 
 X, Z = (-12.0, 12.0), (-5.0, 5.0)
@@ -31,14 +28,14 @@ def level_of(side: Side) -> float:
     return 0.7 * abs(float(side.gauss(np.zeros(1), np.zeros(1))[0]))
 
 
-def plates_of(side: Side, seams: HullSeams = SEAMS, k0: float | None = None) -> HullPlates:
+def plates_of(side: Side, seams: HullSeams = SEAMS, k0: float | None = None) -> HullPlateTable:
     """The plates of a side."""
     surface = side.surface(X, Z, (3, 2), "body")
     return hull_plates((surface,), seams, zero="absolute", k0=k0 or level_of(side))
 
 
 @pytest.fixture(scope="module")
-def bowl() -> HullPlates:
+def bowl() -> HullPlateTable:
     """The plates of a convex side."""
     return plates_of(BOWL)
 
@@ -47,7 +44,7 @@ def bowl() -> HullPlates:
 def test_the_sides_are_those_of_the_formula(side: Side) -> None:
     """The surfaces that tests rely on: points, and normals to y > 0."""
     surface = side.surface(X, Z, (5, 3), "body")
-    shell = Shell.of((surface,))
+    shell = HullShell.of((surface,))
     x, y, z = np.moveaxis(shell.nodes.place, -1, 0)
     assert np.abs(y - side.y(x, z)).max() < 1e-12
     assert shell.nodes.normal[..., 1].min() > 0.0
@@ -72,14 +69,14 @@ def test_areas_of_plates_and_their_regions_are_those_of_the_formula(side: Side) 
     assert sum(0.01 < plate.shares.developable < 0.99 for plate in found) > 5
 
 
-def test_plates_make_up_the_hull(bowl: HullPlates) -> None:
+def test_plates_make_up_the_hull(bowl: HullPlateTable) -> None:
     """Their areas, and those of their regions, add up to those of the whole surface."""
     assert bowl.area == pytest.approx(bowl.regions.total, rel=1e-9)
     convex = sum(plate.area * plate.shares.convex for plate in bowl)
     assert convex == pytest.approx(bowl.regions.positive, rel=1e-6)
 
 
-def test_plates_are_named_from_aft_and_from_below(bowl: HullPlates) -> None:
+def test_plates_are_named_from_aft_and_from_below(bowl: HullPlateTable) -> None:
     """The place along the ship, then up the girth; with what ends them."""
     assert [plate.name for plate in bowl][:4] == ["1.1", "1.2", "1.3", "2.1"]
     assert str(bowl["2.2"].range) == "x -7.3 to 1.1 m, z -1.7 to 2.9 m"
@@ -131,7 +128,7 @@ def test_girth_goes_on_from_a_block_below() -> None:
     side = Side(5.0, 0.0, 0.0, 0.0)
     bulb = side.surface((0.0, 6.0), (0.0, 3.0), (2, 2), "bow bulb")
     stem = side.surface((0.0, 6.0), (4.0, 9.0), (2, 2), "bow stem")
-    shell = Shell.of((bulb, stem), girth=True)
+    shell = HullShell.of((bulb, stem), girth=True)
     z, girth = shell.nodes.place[..., 2], shell.at("girth", np.arange(8))
     assert np.where(z < 3.5, z, z - 1.0) == pytest.approx(girth, abs=1e-9)
 
@@ -154,7 +151,7 @@ def test_what_lies_beside_a_border_of_blocks_is_unresolved() -> None:
 def test_corners_with_tangent_sides_are_unresolved() -> None:
     """The span in such a corner, which the fit names."""
     surface = Side(8.0, 0.0, -1e-2, 0.0).surface((0.0, 12.0), Z, (6, 2), "body")
-    shell = Shell.of((surface,), (((0.0, -5.0),),))
+    shell = HullShell.of((surface,), (((0.0, -5.0),),))
     assert np.flatnonzero(shell.margin).tolist() == [0]
 
 
@@ -173,13 +170,13 @@ def test_fits_that_disagree_widen_the_band() -> None:
     """K0 doubles until 95 % of the change is no more; without other fits it stays."""
     gauss, area = np.zeros(100), np.ones(100)
     change = np.linspace(0.0, 9.9e-3, 100)
-    doubt = Doubt.of(gauss, (gauss + change, gauss - 0.5 * change), area)
+    doubt = CurvatureDoubt.of(gauss, (gauss + change, gauss - 0.5 * change), area)
     assert doubt.dk == pytest.approx(9.4e-3)
-    assert rung(1e-3, doubt.dk) == 16e-3
-    assert rung(1e-3, 1e-3) == rung(1e-3, None) == 1e-3
+    assert doubled_band(1e-3, doubt.dk) == 16e-3
+    assert doubled_band(1e-3, 1e-3) == doubled_band(1e-3, None) == 1e-3
     assert doubt.changed(gauss, area, 5e-3, 2.0, 1.0) == pytest.approx(0.49)
     assert doubt.changed(gauss, area, 1.0, 2.0, 5e-3) == pytest.approx(0.49)
-    lost = Doubt.of(gauss, (np.where(change < 5e-3, np.nan, change),), area)
+    lost = CurvatureDoubt.of(gauss, (np.where(change < 5e-3, np.nan, change),), area)
     assert lost.part == pytest.approx(0.5)
 
 
@@ -233,7 +230,7 @@ def test_what_is_no_hull_with_seams_is_refused(options: dict[str, object], told:
         hull_plates(**given)  # type: ignore[arg-type]
 
 
-def test_a_plate_that_is_not_there_is_told(bowl: HullPlates) -> None:
+def test_a_plate_that_is_not_there_is_told(bowl: HullPlateTable) -> None:
     """By name, number or column."""
     for bad, error in (("9.9", UnknownNameError), (99, BadInputError), (None, WrongTypeError)):
         with pytest.raises(error):

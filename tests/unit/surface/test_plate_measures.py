@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.plates.curvature_nodes import CurvatureNodes, curvature_nodes
-from assoc_hull.surface.plates.flat_share import flat_share
-from assoc_hull.surface.plates.plate_extents import plate_axes, plate_extents, seam_lengths
+from assoc_hull.surface.plates.plate import plate_axes, plate_extents, seam_lengths
+from assoc_hull.surface.plates.plate_class import flat_share
 from assoc_hull.surface.plates.roll_axis import RollAxis, roll_axis, rulings
 from tests import bent_plates
 from tests.curved_patches import nets, patch

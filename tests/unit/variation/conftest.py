@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.parameters.parent_places import Parent
+from assoc_hull.variation.parameters.parent import Parent
 
 
 def at(x: float, y: float, z: float) -> FloatArray:

@@ -22,8 +22,8 @@ from assoc_hull.errors import (
     WrongTypeError,
 )
 from assoc_hull.variants import Variation
-from assoc_hull.variation.fields.field_data import fields_from
-from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.field_data import fields_from_data
+from assoc_hull.variation.fields.layers import FieldLayer
 from tests.aims import FULLER, SHIFTED, problem, small
 
 HERE = np.array([0.2, 0.4, 0.3])
@@ -136,7 +136,7 @@ def test_bounds_and_compromise_are_in_the_script(parent: ah.Hull) -> None:
     assert (script["free"], script["exact"]) == (["breadth"], False)
     assert script["bounds"] == {"breadth": [None, 10.05]}
     assert found.hull.particulars.breadth == 10.05
-    layer = FieldLayer("fuller", fields_from(FULLER["fields"]))
+    layer = FieldLayer("fuller", fields_from_data(FULLER["fields"]))
     again = ah.vary(parent, reach={"volume": 1.001 * volume}, free=[layer])
     assert again.report.script is None
 
@@ -180,7 +180,7 @@ def test_an_unreachable_target_leaves_the_hull_as_it_was() -> None:
 
 
 def _half_of(layer: dict[str, Any]) -> FieldLayer:
-    return FieldLayer("half", tuple(each.scaled(0.5) for each in fields_from(layer["fields"])))
+    return FieldLayer("half", tuple(each.scaled(0.5) for each in fields_from_data(layer["fields"])))
 
 
 WRONG: list[tuple[str, dict[str, Any], type[AssocHullError], str]] = [

@@ -15,15 +15,15 @@ from assoc_hull.errors import (
     UnknownNameError,
     WrongTypeError,
 )
-from assoc_hull.variation.ask import TOLERANCE
-from assoc_hull.variation.carrying.room import Room
-from assoc_hull.variation.certificate.certify import certify
-from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
+from assoc_hull.variation.certificate.fold_check import certify
+from assoc_hull.variation.fields.layers import FieldLayer
 from assoc_hull.variation.parameters.catalogue import NAMES
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.parameters.limits import hull_box, present
+from assoc_hull.variation.parameters.field_layout import Layout
 from assoc_hull.variation.parameters.parameter_measures import measure_all
-from assoc_hull.variation.parameters.read_parent import parent_of
+from assoc_hull.variation.parameters.parent import parent_of
+from assoc_hull.variation.parameters.value_limits import hull_box, present_values
+from assoc_hull.variation.request import TOLERANCE
 
 Given = dict[str, Any]
 
@@ -148,12 +148,12 @@ def test_a_request_that_has_no_meaning(wigley: ah.Hull, case: str) -> None:
 
 
 @pytest.fixture(scope="module")
-def room(bulk_carrier: ah.Hull) -> Room:
+def room(bulk_carrier: ah.Hull) -> AdmissibleValues:
     """What the carrier's parameters may be asked for."""
     state, usual = bulk_carrier.state, Layout()
     measures = measure_all(state)
-    now, box = present(measures, usual), hull_box(state, TOLERANCE)
-    return Room(state, parent_of(state, measures), now, usual, box)
+    now, box = present_values(measures, usual), hull_box(state, TOLERANCE)
+    return AdmissibleValues(state, parent_of(state, measures), now, usual, box)
 
 
 FOLDS = {
@@ -172,7 +172,7 @@ FOLDS = {
 
 @pytest.mark.parametrize("case", FOLDS)
 def test_a_value_that_folds_is_told_with_its_interval(
-    bulk_carrier: ah.Hull, room: Room, case: str
+    bulk_carrier: ah.Hull, room: AdmissibleValues, case: str
 ) -> None:
     """What folds, where, and between which values one may ask."""
     name, value, says = FOLDS[case]
@@ -198,7 +198,7 @@ OUTSIDE = {
 
 @pytest.mark.parametrize("case", OUTSIDE)
 def test_a_value_that_makes_no_ship_is_told_with_its_interval(
-    bulk_carrier: ah.Hull, room: Room, case: str
+    bulk_carrier: ah.Hull, room: AdmissibleValues, case: str
 ) -> None:
     """The map would be one to one; the interval is the same as that of folds."""
     name, value, says = OUTSIDE[case]
@@ -210,7 +210,7 @@ def test_a_value_that_makes_no_ship_is_told_with_its_interval(
 
 
 def test_values_that_fold_together_are_told_how_much_of_them_does_not(
-    bulk_carrier: ah.Hull, room: Room
+    bulk_carrier: ah.Hull, room: AdmissibleValues
 ) -> None:
     """Each is within its interval; so much of both changes that is told is certified."""
     given = {"parallel_body_start": 150.0, "parallel_body_end": 165.0}
@@ -281,7 +281,7 @@ def test_a_hull_that_is_being_edited_is_not_varied(wigley: ah.Hull) -> None:
     assert wigley.history == ()
 
 
-def certify_alone(room: Room, name: str, value: float) -> bool:
+def certify_alone(room: AdmissibleValues, name: str, value: float) -> bool:
     """Check a value, lay it out, certify the map."""
     asked_for = {name: value}
     room.check(asked_for)
@@ -289,7 +289,7 @@ def certify_alone(room: Room, name: str, value: float) -> bool:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_intervals_are_true(room: Room, name: str) -> None:
+def test_intervals_are_true(room: AdmissibleValues, name: str) -> None:
     """Within, the map is certified; beyond, the value is refused, and the error says how far."""
     now, ends = room.present[name], room.interval(name)
     assert ends[0] < now < ends[1]

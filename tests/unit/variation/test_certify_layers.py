@@ -9,20 +9,24 @@ from hypothesis import given, settings
 
 from assoc_hull.errors import WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.certificate.admissible_amplitudes import admissible
-from assoc_hull.variation.certificate.certify import certify
-from assoc_hull.variation.certificate.fold_outside import fold_outside
-from assoc_hull.variation.certificate.image_box import image_box
-from assoc_hull.variation.fields.additive import AdditiveLayer
-from assoc_hull.variation.fields.blend import BLENDS
-from assoc_hull.variation.fields.corner import CornerLayer
-from assoc_hull.variation.fields.field import Field, Piece, Region, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.hat import hat
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.fields.shear import DeadriseLayer
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.certificate.admissible_amplitudes import admissible_amplitudes
+from assoc_hull.variation.certificate.fold_check import certify, fold_outside, image_box
+from assoc_hull.variation.fields.anchor_fields import hat_field
+from assoc_hull.variation.fields.bounded_functions import BLENDS, BlendChain
+from assoc_hull.variation.fields.field import (
+    AffinePiece,
+    FieldRegion,
+    StackedField,
+    level_boundaries,
+)
+from assoc_hull.variation.fields.layers import (
+    AdditiveLayer,
+    CornerLayer,
+    DeadriseLayer,
+    FieldLayer,
+    Layer,
+)
+from assoc_hull.variation.fields.space_map import VariationMap
 from tests.variation_strategies import BEAM, DEPTH, LENGTH, layers, places
 
 BOX = np.array([[-8.0, -0.5 * BEAM, -2.0], [LENGTH + 8.0, 0.5 * BEAM, DEPTH]])
@@ -30,8 +34,8 @@ BOX = np.array([[-8.0, -0.5 * BEAM, -2.0], [LENGTH + 8.0, 0.5 * BEAM, DEPTH]])
 
 def bilge(ratio: float, reach: float, blend: str = "quintic") -> CornerLayer:
     """The corner of the printed values: r = 2.4 m, half-breadth 29 m, faded at some radii."""
-    fade = Chain.through([2.4, 2.4 * reach], [1.0, 0.0], BLENDS[blend])
-    return CornerLayer("bilge", Chain.constant(1.0), 29.0, 0.0, 0.0, ratio, ratio, fade)
+    fade = BlendChain.through([2.4, 2.4 * reach], [1.0, 0.0], BLENDS[blend])
+    return CornerLayer("bilge", BlendChain.constant(1.0), 29.0, 0.0, 0.0, ratio, ratio, fade)
 
 
 CORNER_BOX = [[0.0, -29.0, 0.0], [300.0, 29.0, 30.0]]
@@ -40,7 +44,7 @@ CORNER_BOX = [[0.0, -29.0, 0.0], [300.0, 29.0, 30.0]]
 @pytest.mark.parametrize(("reach", "largest"), [(8.0, 4.8), (5.0, 4.45), (3.0, 3.8)])
 def test_largest_bilge_radius_is_near_the_printed_one(reach: float, largest: float) -> None:
     """A quintic corner about r = 2.4 m folds near the radius that is stated for its reach."""
-    high = admissible(
+    high = admissible_amplitudes(
         lambda ratio: bilge(ratio, reach), CORNER_BOX, present=1.0, first=0.1, least=0.0
     )[1]
     assert 2.4 * high == pytest.approx(largest, rel=0.05)
@@ -76,12 +80,12 @@ def test_corner_that_reaches_the_centre_plane_is_refused() -> None:
 def test_deadrise_folds_at_the_closed_form(blend: str) -> None:
     """Z_z = 1 - tan change x half-breadth x max b' / fade height."""
     curve = BLENDS[blend]
-    fade = Chain.through([2.4, 14.4], [1.0, 0.0], curve)
+    fade = BlendChain.through([2.4, 14.4], [1.0, 0.0], curve)
 
     def deadrise(q: float) -> DeadriseLayer:
-        return DeadriseLayer("deadrise", Chain.constant(1.0), q, 1.0, 0.0, fade, curve)
+        return DeadriseLayer("deadrise", BlendChain.constant(1.0), q, 1.0, 0.0, fade, curve)
 
-    high = admissible(deadrise, CORNER_BOX, first=0.01, least=0.05)[1]
+    high = admissible_amplitudes(deadrise, CORNER_BOX, first=0.01, least=0.05)[1]
     assert high == pytest.approx(0.95 * 12.0 / (28.0 * curve.steepest), rel=1e-6)
     refused = certify(deadrise(1.1 * high / 0.95), CORNER_BOX)
     assert (refused.reason, refused.minor) == ("folds", "Z_z")
@@ -90,28 +94,36 @@ def test_deadrise_folds_at_the_closed_form(blend: str) -> None:
 
 def test_layer_is_checked_where_the_layers_before_it_put_the_hull() -> None:
     """A fold just beyond the parent's stem counts once the hull is lengthened into it."""
-    longer = Field(
-        "length", "x", stack(["base"], [0.0]), (Piece.along(Chain.constant(1.0), 0.05, 0.0),)
+    longer = StackedField(
+        "length",
+        "x",
+        level_boundaries(["base"], [0.0]),
+        (AffinePiece.along(BlendChain.constant(1.0), 0.05, 0.0),),
     )
-    back = Chain.through([249.0, 252.0], [0.0, -9.0])
-    fold = Field("fold", "x", stack(["base"], [0.0]), (Piece(Chain.constant(0.0), 0.0, back),))
+    back = BlendChain.through([249.0, 252.0], [0.0, -9.0])
+    fold = StackedField(
+        "fold",
+        "x",
+        level_boundaries(["base"], [0.0]),
+        (AffinePiece(BlendChain.constant(0.0), 0.0, back),),
+    )
     first, second = FieldLayer("length", (longer,)), FieldLayer("fold", (fold,))
     assert certify(second, BOX).certified
-    found = certify(VMap((first, second)), BOX)
+    found = certify(VariationMap((first, second)), BOX)
     assert (found.reason, found.layer) == ("folds", "fold")
-    outside = fold_outside(VMap((second,)), BOX)
+    outside = fold_outside(VariationMap((second,)), BOX)
     assert outside is not None
     assert outside.witness[0] > BOX[1, 0]
-    assert fold_outside(VMap((first,)), BOX) is None
+    assert fold_outside(VariationMap((first,)), BOX) is None
 
 
 def test_additive_functions_are_certified_as_other_layers_are() -> None:
     """Their own check answers in the same terms."""
-    fade = Chain.through([6.0, 66.0], [1.0, 0.0])
+    fade = BlendChain.through([6.0, 66.0], [1.0, 0.0])
 
     def shaft(rise: float) -> AdditiveLayer:
-        hump = Chain.through([0.0, 5.0, 18.0], [0.0, 1.0, 0.0])
-        return AdditiveLayer("shaft", z=(fade.scaled(rise), Chain.constant(1.0), hump))
+        hump = BlendChain.through([0.0, 5.0, 18.0], [0.0, 1.0, 0.0])
+        return AdditiveLayer("shaft", z=(fade.scaled(rise), BlendChain.constant(1.0), hump))
 
     assert certify(shaft(1.0), BOX).certified
     found = certify(shaft(8.0), BOX)
@@ -130,7 +142,7 @@ class Mystery:
     def jacobian(self, xyz: FloatArray) -> FloatArray:
         return np.tile(np.eye(3), (len(xyz), 1, 1))
 
-    def regions(self) -> tuple[Region, ...]:
+    def regions(self) -> tuple[FieldRegion, ...]:
         return ()
 
 
@@ -154,16 +166,16 @@ def test_image_of_a_box_holds_the_images_of_its_places(layer: Layer, xyz: FloatA
 
 def test_admissible_interval_of_a_plateau_has_the_closed_form() -> None:
     """-1 / max phi and -1 / min phi of the unit field: gaps below and above over max b'."""
-    fade = Chain.through([4.37, 62.0], [1.0, 0.0], BLENDS["cubic"])
-    walls = stack(["base", "shaft-r", "shaft+r", "T"], [0.0, 3.27, 4.73, 10.8])
+    fade = BlendChain.through([4.37, 62.0], [1.0, 0.0], BLENDS["cubic"])
+    walls = level_boundaries(["base", "shaft-r", "shaft+r", "T"], [0.0, 3.27, 4.73, 10.8])
 
     def shaft(amount: float) -> FieldLayer:
-        pieces = tuple(Piece.along(fade, 0.0, amount * d) for d in (0.0, 1.0, 1.0, 0.0))
-        return FieldLayer("local", (Field("shaft", "z", walls, pieces, BLENDS["cubic"]),))
+        pieces = tuple(AffinePiece.along(fade, 0.0, amount * d) for d in (0.0, 1.0, 1.0, 0.0))
+        return FieldLayer("local", (StackedField("shaft", "z", walls, pieces, BLENDS["cubic"]),))
 
-    low, high = admissible(shaft, BOX, least=0.0)
+    low, high = admissible_amplitudes(shaft, BOX, least=0.0)
     assert [low, high] == pytest.approx([-3.27 / 1.5, 6.07 / 1.5])
-    low, high = admissible(shaft, BOX)
+    low, high = admissible_amplitudes(shaft, BOX)
     assert [low, high] == pytest.approx([-0.95 * 3.27 / 1.5, 0.95 * 6.07 / 1.5])
     assert certify(shaft(low), BOX).certified
     assert certify(shaft(high), BOX).certified
@@ -171,24 +183,26 @@ def test_admissible_interval_of_a_plateau_has_the_closed_form() -> None:
 
 def test_admissible_interval_ends_where_the_layout_refuses() -> None:
     """An amplitude that cannot be laid out counts as one that folds; without a fold, infinity."""
-    fade = Chain.through([6.0, 66.0], [1.0, 0.0])
+    fade = BlendChain.through([6.0, 66.0], [1.0, 0.0])
 
     def anchored(rise: float) -> FieldLayer:
         anchors = [("base", 0.0, 0.0), ("shaft", 5.0 + rise, 0.0), ("T", 18.0, 0.0)]
-        return FieldLayer("anchored", (hat("shaft", anchors, fade),))
+        return FieldLayer("anchored", (hat_field("shaft", anchors, fade),))
 
-    low, high = admissible(anchored, BOX)
+    low, high = admissible_amplitudes(anchored, BOX)
     assert [low, high] == pytest.approx([-5.0, 13.0], abs=1e-6)
-    assert admissible(lambda _: FieldLayer("none", ()), BOX) == (-np.inf, np.inf)
+    assert admissible_amplitudes(lambda _: FieldLayer("none", ()), BOX) == (-np.inf, np.inf)
 
 
 @pytest.mark.parametrize("first", [0.1, 3.0])
 def test_admissible_interval_does_not_depend_on_the_first_change(first: float) -> None:
     """The usual change is a start, no more."""
-    fade = Chain.through([6.0, 66.0], [1.0, 0.0])
+    fade = BlendChain.through([6.0, 66.0], [1.0, 0.0])
 
     def shaft(rise: float) -> FieldLayer:
         anchors = [("base", 0.0, 0.0), ("shaft", 5.0, rise), ("T", 18.0, 0.0)]
-        return FieldLayer("local", (hat("shaft", anchors, fade),))
+        return FieldLayer("local", (hat_field("shaft", anchors, fade),))
 
-    assert admissible(shaft, BOX, first=first) == pytest.approx(admissible(shaft, BOX), rel=1e-7)
+    assert admissible_amplitudes(shaft, BOX, first=first) == pytest.approx(
+        admissible_amplitudes(shaft, BOX), rel=1e-7
+    )

@@ -6,8 +6,8 @@ import numpy as np
 from hypothesis import given, settings
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.certificate.certify import certify
-from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.certificate.fold_check import certify
+from assoc_hull.variation.fields.layers import FieldLayer
 from tests.variation_strategies import BEAM, DEPTH, LENGTH, field_layers
 
 BOX = np.array([[0.0, -0.5 * BEAM, 0.0], [LENGTH, 0.5 * BEAM, DEPTH]])

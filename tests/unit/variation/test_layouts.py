@@ -10,14 +10,13 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.fields.field import Field, Piece, stack
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.parameters.bounds import bounds
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
-from assoc_hull.variation.parameters.compose_map import compose, solve
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.parameters.parent_places import Parent
-from assoc_hull.variation.parameters.share import Share
+from assoc_hull.variation.parameters.compose_map import compose_map, solve_field_sizes
+from assoc_hull.variation.parameters.field_layout import Layout, Share
+from assoc_hull.variation.parameters.parent import Parent
+from assoc_hull.variation.parameters.value_limits import value_bounds
 from tests.unit.variation.conftest import at
 
 LOCAL = {
@@ -32,7 +31,7 @@ def moved(
     parent: Parent, asked: dict[str, float], place: FloatArray, **layout: object
 ) -> list[float]:
     """Where a place comes to."""
-    found: list[float] = compose(parent, asked, Layout.of(layout))(place[None])[0].tolist()
+    found: list[float] = compose_map(parent, asked, Layout.of(layout))(place[None])[0].tolist()
     return found
 
 
@@ -53,16 +52,16 @@ def test_a_share_alone_gives_its_change(ship: Parent, name: str, above: float) -
 def share(name: str, change: float, at_own: float, others: dict[float, float]) -> Share:
     """A share whose field lifts heights by chosen parts of its change, at stations 10 m apart."""
     x = sorted({at_own: 1.0, **others})
-    part = Chain.through(x, [{**others, at_own: 1.0}[each] for each in x])
-    piece = Piece.along(part, 0.0, change)
-    field = Field(name, "z", stack(["base"], [0.0]), (piece,))
+    part = BlendChain.through(x, [{**others, at_own: 1.0}[each] for each in x])
+    piece = AffinePiece.along(part, 0.0, change)
+    field = StackedField(name, "z", level_boundaries(["base"], [0.0]), (piece,))
     return Share.at(name, "z", change, at(at_own, 0.0, 1.0), field)
 
 
 def test_shares_that_see_each_other_are_met_together() -> None:
     """The sizes are those of the linear equations."""
     one, two = share("one", 1.0, 10.0, {20.0: 0.4}), share("two", -0.5, 20.0, {10.0: 0.3})
-    fields = solve([one, two])
+    fields = solve_field_sizes([one, two])
     places = np.concatenate([one.places, two.places])
     lift = sum(field.displacement(places) for field in fields)
     assert lift == pytest.approx([1.0, -0.5], abs=1e-14)
@@ -82,12 +81,12 @@ def test_what_asks_for_one_place_is_refused_with_both_names(near: float, change:
         share("one", 1.0, 20.0, {10.0: 0.0, 30.0: near}),
         share("two", change, 30.0, {10.0: 0.0, 20.0: near}),
     ]
-    alone = solve(shares[:2])
+    alone = solve_field_sizes(shares[:2])
     assert len(alone) == 2
     with pytest.raises(BadInputError, match="'one' and 'two' ask different changes"):
-        solve(shares[1:])
+        solve_field_sizes(shares[1:])
     with pytest.raises(BadInputError, match="'one' and 'two' ask different changes"):
-        solve(shares)
+        solve_field_sizes(shares)
 
 
 def test_what_is_asked_of_depth_in_nearly_the_ratio_of_the_draught_is_no_similarity(
@@ -97,7 +96,7 @@ def test_what_is_asked_of_depth_in_nearly_the_ratio_of_the_draught_is_no_similar
     even = moved(ship, {"draught": 18.9, "depth": 1.05 * 27.0}, at(150, 20, 40.0))
     near = moved(ship, {"draught": 18.9, "depth": 1.049 * 27.0}, at(150, 20, 40.0))
     assert even == pytest.approx([150.0, 20.0, 42.0], abs=1e-12)
-    deck = compose(ship, {"draught": 18.9}, Layout())(ship.places["deck"][None])[0, 2]
+    deck = compose_map(ship, {"draught": 18.9}, Layout())(ship.places["deck"][None])[0, 2]
     assert near != pytest.approx([150.0, 20.0, 1.049 * 40.0], abs=0.02)
     assert deck == pytest.approx(27.9, abs=1e-12)
 
@@ -137,13 +136,13 @@ def test_a_transom_stays_within_the_breadth_unless_it_makes_it(
     ship: Parent, now: float, most: float
 ) -> None:
     """One as broad as the ship widens her."""
-    assert bounds("transom_half_breadth", ship, now, Layout()).high == most
+    assert value_bounds("transom_half_breadth", ship, now, Layout()).high == most
 
 
 def test_a_slender_transom_is_widened_and_the_ship_is_not(ship: Parent) -> None:
     """What lies at the ship's side keeps its bits: the breadth and the flat of side stay."""
     places = {**ship.places, "transom side": at(-5, 12, 27)}
-    vmap = compose(attrs.evolve(ship, places=places), {"transom_half_breadth": 15.0}, Layout())
+    vmap = compose_map(attrs.evolve(ship, places=places), {"transom_half_breadth": 15.0}, Layout())
     here = vmap(np.array([[-5.0, 12.0, 27.0], [30.0, 25.0, 20.0], [-5.0, 6.0, 20.0]]))
     assert here[0].tolist() == [-5.0, 15.0, 27.0]
     assert here[1].tolist() == [30.0, 25.0, 20.0]
@@ -154,7 +153,7 @@ def test_a_rake_is_straight_above_the_middle_of_the_stem(ship: Parent) -> None:
     """It bends from the draught up to half the height over it, and goes on straight."""
     z = np.array([18.0, 22.5, 24.75, 27.0])
     stem = np.column_stack([np.full(4, 303.0), np.zeros(4), z])
-    shift = (compose(ship, {"stem_rake_deg": 25.0}, Layout())(stem) - stem)[:, 0]
+    shift = (compose_map(ship, {"stem_rake_deg": 25.0}, Layout())(stem) - stem)[:, 0]
     slope = np.diff(shift) / np.diff(z)
     assert slope[2] == pytest.approx(slope[1], rel=1e-12)
     assert shift[1] == pytest.approx(0.5 * 4.5 * slope[2], rel=1e-12)
@@ -183,7 +182,7 @@ def test_a_bilge_with_rise_of_floor_gets_its_radius(ship: Parent) -> None:
     low = at(150, 25 - now * math.cos(rise), 2.0 - now * math.sin(rise))
     places = {**ship.places, "corner": at(150, 25, 2), "bilge low": low,
               "bilge high": at(150, 25, 2 + now)}  # fmt: skip
-    vmap = compose(attrs.evolve(ship, places=places), {"bilge_radius": radius}, Layout())
+    vmap = compose_map(attrs.evolve(ship, places=places), {"bilge_radius": radius}, Layout())
     corner, down, up = vmap(
         np.array([places[key] for key in ("corner", "bilge low", "bilge high")])
     )

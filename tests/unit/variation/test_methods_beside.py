@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from assoc_hull.hull import Hull
-from assoc_hull.variation.fields.additive import AdditiveLayer
 from assoc_hull.variation.fields.batch_displacements import FieldPlan
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.fields.layers import AdditiveLayer
+from assoc_hull.variation.fields.space_map import VariationMap
 from benchmarks.ffd import SIDE, Lattice, LatticeLayer, LatticePlan
 from benchmarks.variation_methods import fared
 from benchmarks.variation_tasks import METHODS, Task, tasks
@@ -56,7 +56,7 @@ def test_a_planned_lattice_gives_what_the_lattice_gives() -> None:
     three = np.zeros((SIDE, SIDE, SIDE, 3))
     for one, row in zip(moves, whole.batch(moves), strict=True):
         three[..., 2] = one.reshape(SIDE, SIDE, SIDE)
-        expected = VMap((LatticeLayer(LATTICE, three),))(XYZ)[whole.rows, 2]
+        expected = VariationMap((LatticeLayer(LATTICE, three),))(XYZ)[whole.rows, 2]
         for given in (row, whole.moved(one), part.moved(one[active])):
             assert given == pytest.approx(expected, abs=1e-12)
 
@@ -102,4 +102,7 @@ def test_a_plan_is_made_of_any_method(found: dict[str, Task]) -> None:
     task = found["shaft +1.0 m"]
     for lay, blend in METHODS.values():
         layer = lay(task, blend)
-        assert FieldPlan.of([layer], XYZ).places([1.0]).tobytes() == VMap((layer,))(XYZ).tobytes()
+        assert (
+            FieldPlan.of([layer], XYZ).places([1.0]).tobytes()
+            == VariationMap((layer,))(XYZ).tobytes()
+        )

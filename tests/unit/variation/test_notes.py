@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import assoc_hull as ah
-from assoc_hull.variation.notes import also_changed
+from assoc_hull.variation.vary import also_changed
 
 
 def test_lines_that_went_along_under_their_names_are_told() -> None:

@@ -7,52 +7,60 @@ import pytest
 from numpy.testing import assert_allclose
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.fields.blend import CUBIC, QUINTIC, Blend
-from assoc_hull.variation.fields.corner import CornerLayer
-from assoc_hull.variation.fields.field import Axis, Field, Piece, Tube, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.fields.bounded_functions import CUBIC, QUINTIC, Blend, BlendChain
+from assoc_hull.variation.fields.field import (
+    AffinePiece,
+    Axis,
+    StackedField,
+    Tube,
+    level_boundaries,
+)
+from assoc_hull.variation.fields.layers import CornerLayer, FieldLayer
+from assoc_hull.variation.fields.space_map import VariationMap
 
 BOTH = [pytest.param(CUBIC, 0, id="cubic"), pytest.param(QUINTIC, 1, id="quintic")]
-PLATEAU = stack(["base", "h-r", "h+r", "T"], [0.0, 3.27, 4.73, 10.8])
+PLATEAU = level_boundaries(["base", "h-r", "h+r", "T"], [0.0, 3.27, 4.73, 10.8])
 
 
-def at(course: Chain, x: float) -> tuple[float, float, float]:
+def at(course: BlendChain, x: float) -> tuple[float, float, float]:
     """Value, slope and second derivative at one place."""
     one = np.array([x])
     return tuple(float(give(one)[0]) for give in (course.at, course.slope, course.second))  # type: ignore[return-value]
 
 
-def plateau(blend: Blend, size: float = 1.0) -> VMap:
+def plateau(blend: Blend, size: float = 1.0) -> VariationMap:
     """A shift of a plateau about a shaft, full at the stern, fading forward."""
-    fade = Chain.through([4.37, 62.0], [1.0, 0.0], blend)
-    pieces = tuple(Piece.along(fade, 0.0, d * size) for d in (0.0, 1.0, 1.0, 0.0))
-    return VMap((FieldLayer("S", (Field("S", "z", PLATEAU, pieces, blend),)),))
+    fade = BlendChain.through([4.37, 62.0], [1.0, 0.0], blend)
+    pieces = tuple(AffinePiece.along(fade, 0.0, d * size) for d in (0.0, 1.0, 1.0, 0.0))
+    return VariationMap((FieldLayer("S", (StackedField("S", "z", PLATEAU, pieces, blend),)),))
 
 
-def ratios(axis: Axis, z: list[float], ratio: list[float], blend: Blend) -> Field:
+def ratios(axis: Axis, z: list[float], ratio: list[float], blend: Blend) -> StackedField:
     """A field of the paper: ratios of the coordinate itself, the same all along the ship."""
-    pieces = tuple(Piece.along(Chain.constant(1.0), r - 1.0, 0.0) for r in ratio)
-    return Field(axis, axis, stack([f"{each:g}" for each in z], z), pieces, blend)
+    pieces = tuple(AffinePiece.along(BlendChain.constant(1.0), r - 1.0, 0.0) for r in ratio)
+    return StackedField(axis, axis, level_boundaries([f"{each:g}" for each in z], z), pieces, blend)
 
 
-def paper(blend: Blend) -> VMap:
+def paper(blend: Blend) -> VariationMap:
     """A boss end of 0.725 m at z = 5 m to 1 m at 6 m, by ratios of y and z."""
     z = [0.0, 4.275, 5.0, 5.725, 18.0]
     upward = ratios("z", z, [1.0, 5.0 / 4.275, 6.0 / 5.0, 7.0 / 5.725, 1.0], blend)
     across = ratios("y", [2.825, 5.0, 7.175], [1.0, 1.0 / 0.725, 1.0], blend)
-    return VMap((FieldLayer("paper", (upward, across)),))
+    return VariationMap((FieldLayer("paper", (upward, across)),))
 
 
-def similarity(blend: Blend = QUINTIC) -> VMap:
+def similarity(blend: Blend = QUINTIC) -> VariationMap:
     """The same by one affine piece about the centre, in y and z."""
-    a, full, none = 1.0 / 0.725 - 1.0, Chain.constant(1.0), Piece.along(Chain.constant(1.0), 0, 0)
-    levels = stack(["base", "h-r", "h+r", "T"], [0.0, 4.275, 5.725, 18.0])
-    up, out = Piece.along(full, a, 1.0, 5.0), Piece.along(full, a, 0.0)
-    upward = Field("z", "z", levels, (none, up, up, none), blend)
-    across = Field("y", "y", levels, (none, out, out, none), blend, Tube(0.725))
-    return VMap((FieldLayer("boss", (upward, across)),))
+    a, full, none = (
+        1.0 / 0.725 - 1.0,
+        BlendChain.constant(1.0),
+        AffinePiece.along(BlendChain.constant(1.0), 0, 0),
+    )
+    levels = level_boundaries(["base", "h-r", "h+r", "T"], [0.0, 4.275, 5.725, 18.0])
+    up, out = AffinePiece.along(full, a, 1.0, 5.0), AffinePiece.along(full, a, 0.0)
+    upward = StackedField("z", "z", levels, (none, up, up, none), blend)
+    across = StackedField("y", "y", levels, (none, out, out, none), blend, Tube(0.725))
+    return VariationMap((FieldLayer("boss", (upward, across)),))
 
 
 def circle() -> FloatArray:
@@ -61,7 +69,7 @@ def circle() -> FloatArray:
     return np.column_stack([0.0 * turn, 0.725 * np.sin(turn), 5.0 + 0.725 * np.cos(turn)])
 
 
-def least_slope(vmap: VMap, row: int = 2, x: float = 4.37) -> float:
+def least_slope(vmap: VariationMap, row: int = 2, x: float = 4.37) -> float:
     """Least derivative of a coordinate by itself, over heights at one x, polished."""
     low, high = -1.0, 19.0
     for _ in range(12):
@@ -111,7 +119,7 @@ def test_a_chain_has_its_values(
     blend: Blend, first: tuple[float, float, float], last: tuple[float, float]
 ) -> None:
     """Value, slope and second derivative between the nodes, to ten digits."""
-    chain = Chain.through([0, 10, 40], [1, 1.3, 0.9], blend)
+    chain = BlendChain.through([0, 10, 40], [1, 1.3, 0.9], blend)
     assert_allclose(at(chain, 3.0), first, rtol=0, atol=5e-11)
     assert_allclose(at(chain, 25.0)[:2], last, rtol=0, atol=5e-11)
 
@@ -210,13 +218,13 @@ def test_a_tube_has_its_least_slope() -> None:
 
 def test_a_corner_has_its_values() -> None:
     """A bilge of 2.4 to 3.0 m: on the arc, on the bottom, and above the arc."""
-    fade = Chain.through([2.4, 12.0], [1.0, 0.0])
-    bilge = CornerLayer("bilge", Chain.constant(1.0), 29.0, 0.0, 0.0, 1.25, 1.25, fade)
+    fade = BlendChain.through([2.4, 12.0], [1.0, 0.0])
+    bilge = CornerLayer("bilge", BlendChain.constant(1.0), 29.0, 0.0, 0.0, 1.25, 1.25, fade)
     y, z = 26.6 + 2.4 * np.sin(0.6), 2.4 - 2.4 * np.cos(0.6)
     assert_allclose([y, z], [27.9551419361, 0.4191945242], rtol=0, atol=5e-11)
     given = [[0.0, y, z], [0.0, 24.0, 0.0], [0.0, 27.0, 5.0]]
     asked = [[27.6939274202, 0.5239931553], [22.9083703653, 0.0], [26.5633481461, 6.0916296347]]
-    found = VMap((bilge,))(np.array(given))
+    found = VariationMap((bilge,))(np.array(given))
     assert_allclose(found[:, 1:], asked, rtol=0, atol=5.1e-11)
 
 
@@ -227,18 +235,18 @@ def test_a_corner_makes_an_arc_an_arc(before: float, after: float) -> None:
     arc = np.column_stack(
         [0.0 * turn, 29.0 - before * (1.0 - np.sin(turn)), before * (1.0 - np.cos(turn))]
     )
-    ratio, fade = after / before, Chain.through([2.4, 19.2], [1.0, 0.0])
-    bilge = CornerLayer("bilge", Chain.constant(1.0), 29.0, 0.0, 0.0, ratio, ratio, fade)
-    found = VMap((bilge,))(arc)
+    ratio, fade = after / before, BlendChain.through([2.4, 19.2], [1.0, 0.0])
+    bilge = CornerLayer("bilge", BlendChain.constant(1.0), 29.0, 0.0, 0.0, ratio, ratio, fade)
+    found = VariationMap((bilge,))(arc)
     radius = np.hypot(found[:, 1] - (29.0 - after), found[:, 2] - after)
     assert np.abs(radius - after).max() <= 6e-15
 
 
 def test_a_draught_has_its_values() -> None:
     """10.8 to 11.4 m: a ratio up to T, and a shift from 17.2 m up."""
-    full = Chain.constant(1.0)
-    pieces = (Piece.along(full, 11.4 / 10.8 - 1.0, 0.0), Piece.along(full, 0.0, 0.6))
-    field = Field("T", "z", stack(["T", "1.6 T"], [10.8, 17.2]), pieces, QUINTIC)
+    full = BlendChain.constant(1.0)
+    pieces = (AffinePiece.along(full, 11.4 / 10.8 - 1.0, 0.0), AffinePiece.along(full, 0.0, 0.6))
+    field = StackedField("T", "z", level_boundaries(["T", "1.6 T"], [10.8, 17.2]), pieces, QUINTIC)
     given = np.array([[0.0, 0, 5], [0, 0, 10.8], [0, 0, 14], [0, 0, 18]])
     found = given[:, 2] + field.displacement(given)
     assert_allclose(found, [5.2777777778, 11.4, 14.6888888889, 18.6], rtol=0, atol=5.1e-11)
@@ -246,10 +254,12 @@ def test_a_draught_has_its_values() -> None:
 
 def test_a_bulb_length_has_its_values() -> None:
     """One metre more: within the chain, on the rigid bulb, and above its top."""
-    fade = Chain.through([207.0, 230.0], [0.0, 1.0])
-    pieces = (Piece.along(fade, 0.0, 1.0), Piece.along(fade, 0.0, 0.0))
-    field = Field("bulb", "x", stack(["top", "T+2"], [9.08, 12.8]), pieces, QUINTIC)
+    fade = BlendChain.through([207.0, 230.0], [0.0, 1.0])
+    pieces = (AffinePiece.along(fade, 0.0, 1.0), AffinePiece.along(fade, 0.0, 0.0))
+    field = StackedField(
+        "bulb", "x", level_boundaries(["top", "T+2"], [9.08, 12.8]), pieces, QUINTIC
+    )
     given = np.array([[220.0, 0, 5], [233, 0, 5], [225, 0, 10.5]])
-    found = VMap((FieldLayer("bulb", (field,)),))(given)
+    found = VariationMap((FieldLayer("bulb", (field,)),))(given)
     assert_allclose(found[:, 0], [220.6209027393, 234.0, 225.6621511129], rtol=0, atol=5.1e-11)
     assert (found[:, 1:] == given[:, 1:]).all()

@@ -13,10 +13,10 @@ import assoc_hull as ah
 from assoc_hull.analysis.derivatives.parameters import DRAUGHT, PointMove
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.hull import Hull
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.hat import hat
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.sensitivity_table import Sensitivities
+from assoc_hull.variation.fields.anchor_fields import hat_field
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.layers import FieldLayer
+from assoc_hull.variation.sensitivities import Sensitivities
 
 
 @pytest.fixture(scope="module")
@@ -69,9 +69,9 @@ def test_the_table_tells_what_a_variation_does(series: Hull) -> None:
 
 def test_layers_points_and_the_draught_stand_beside_names(wigley: Hull) -> None:
     """A layer by its strength: one twice as strong does twice as much; the draught adds A_W."""
-    along = Chain.through([20.0, 40.0], [1.0, 0.0])
+    along = BlendChain.through([20.0, 40.0], [1.0, 0.0])
     deeper, twice = (
-        FieldLayer(name, (hat("keel", [("keel", 0.0, size), ("T", 6.0, 0.0)], along),))
+        FieldLayer(name, (hat_field("keel", [("keel", 0.0, size), ("T", 6.0, 0.0)], along),))
         for name, size in (("deeper", -0.05), ("twice", -0.1))
     )
     point = PointMove("WL 2.5 x ST 7", follow=True)

@@ -13,10 +13,14 @@ from scipy.interpolate import PchipInterpolator
 
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.shipped.series60_table import todd_table
-from assoc_hull.variation.fields.polyline import Polyline
-from assoc_hull.variation.shifts.closed_form import Shift, closed_form
-from assoc_hull.variation.shifts.elements import Elements
+from assoc_hull.shipped.series60 import todd_table
+from assoc_hull.variation.fields.shift_shapes import Polyline
+from assoc_hull.variation.shifts.closed_form import (
+    CertifiedShift,
+    HalfBodyTask,
+    WholeHullTask,
+    closed_form,
+)
 from assoc_hull.variation.shifts.lackenby import half_bodies, lackenby_changes
 from assoc_hull.variation.shifts.shift_terms import (
     SHIFT_SHAPES,
@@ -25,8 +29,7 @@ from assoc_hull.variation.shifts.shift_terms import (
     ShiftTerms,
     Terminals,
 )
-from assoc_hull.variation.shifts.sums import Sums
-from assoc_hull.variation.shifts.tasks import Bodies, Whole
+from assoc_hull.variation.shifts.shifted_areas import ShiftSums, VolumeElements
 
 TABLE = todd_table(0.70)[0]
 L, T = TABLE.length, TABLE.draught or 0.0
@@ -44,14 +47,14 @@ PLACES = Terminals(0.0, 0.50 * L, 0.55 * L, L)
 
 def whole(
     cb: float, lcb: float, shape: ShiftShape = "c2", **moves: float
-) -> tuple[Whole, ShiftTerms]:
+) -> tuple[WholeHullTask, ShiftTerms]:
     """Give a task on Series 60: changes of CB, and of LCB in % Lpp."""
     terms = ShiftTerms(PLACES, shape, moves.get("start", 0.0), moves.get("end", 0.0))
-    elements = Elements.of(CURVE, np.append(TABLE.x, terms.nodes), 0.5 * L)
-    return Whole(elements, Sums.of(elements, terms), BLOCK, L, cb, lcb), terms
+    elements = VolumeElements.of(CURVE, np.append(TABLE.x, terms.nodes), 0.5 * L)
+    return WholeHullTask(elements, ShiftSums.of(elements, terms), BLOCK, L, cb, lcb), terms
 
 
-def carried(shift: Shift) -> tuple[float, float]:
+def carried(shift: CertifiedShift) -> tuple[float, float]:
     """Integrate the carried curve on its own: CB, and LCB in % Lpp, of A at x + delta(x).
 
     By the trapezoidal rule on moved places, with one step of Richardson: no derivative is used.
@@ -122,7 +125,7 @@ def test_volume_and_moment_are_exact_for_any_curve(
     x = np.array([-2.0, 15.0, 38.0, 60.0, 80.0, 103.0])
     area = PchipInterpolator(x, 100.0 * np.array([heights[0], heights[1], 1, 1, *heights[2:]]))
     terms = ShiftTerms(Terminals(0.0, 38.0, 60.0, 100.0), shape, sizes[0], sizes[1], fade)
-    sums = Sums.of(Elements.of(area, np.append(x, terms.nodes), 50.0), terms)
+    sums = ShiftSums.of(VolumeElements.of(area, np.append(x, terms.nodes), 50.0), terms)
     found = np.array(sizes[2:])
 
     def carried_by(parts: int) -> tuple[float, float]:
@@ -180,7 +183,7 @@ def test_the_largest_change_of_cb_is_told(lcb: float, cb: float, end: float) -> 
     error = e.value
     assert (error.value, error.unit) == (cb, "in CB")
     assert (error.most if cb > 0.0 else error.least) == pytest.approx(end, abs=1e-6)
-    assert isinstance(closed_form(*whole(0.9999 * end, lcb, "lackenby")), Shift)
+    assert isinstance(closed_form(*whole(0.9999 * end, lcb, "lackenby")), CertifiedShift)
 
 
 def test_a_centre_that_cannot_be_had_is_told() -> None:
@@ -189,7 +192,7 @@ def test_a_centre_that_cannot_be_had_is_told() -> None:
         closed_form(*whole(0.02, 12.0, "lackenby"))
     assert "a change of 12 % Lpp in LCB makes sections cross" in str(e.value)
     assert "beside +0.02 in CB" in str(e.value)
-    assert isinstance(closed_form(*whole(0.02, 0.9999 * e.value.most, "lackenby")), Shift)
+    assert isinstance(closed_form(*whole(0.02, 0.9999 * e.value.most, "lackenby")), CertifiedShift)
     with pytest.raises(OutOfRangeError):
         closed_form(*whole(0.02, 1.0001 * e.value.most, "lackenby"))
 
@@ -224,11 +227,13 @@ def test_ends_of_the_parallel_body_move_alone() -> None:
 def test_bodies_are_shifted_on_their_own() -> None:
     """CP of the fore body alone: the after body does not move."""
     terms = ShiftTerms(PLACES)
-    elements = Elements.of(CURVE, np.append(TABLE.x, terms.nodes), 0.5 * L)
+    elements = VolumeElements.of(CURVE, np.append(TABLE.x, terms.nodes), 0.5 * L)
     prism = 0.5 * L * elements.area
-    found = closed_form(Bodies(elements, Sums.of(elements, terms), prism, 0.01, 0.0), terms)
+    found = closed_form(
+        HalfBodyTask(elements, ShiftSums.of(elements, terms), prism, 0.01, 0.0), terms
+    )
     assert found.sizes[1] == 0.0
-    gained = Sums.of(elements, terms).by_body @ found.sizes
+    gained = ShiftSums.of(elements, terms).by_body @ found.sizes
     assert gained == pytest.approx([0.01 * prism, 0.0], abs=1e-9)
     assert carried(found)[0] == pytest.approx(
         (elements.total + 0.01 * prism) / BLOCK, abs=1e-12
@@ -242,7 +247,7 @@ def test_a_curve_that_jumps_is_summed_with_its_jump() -> None:
     def area(x: FloatArray) -> FloatArray:
         return np.where(x >= 0.0, 40.0 + 0.02 * x * (100.0 - x), 0.0)
 
-    sums = Sums.of(Elements.of(area, [-5.0, 0.0, *terms.nodes], 50.0), terms)
+    sums = ShiftSums.of(VolumeElements.of(area, [-5.0, 0.0, *terms.nodes], 50.0), terms)
 
     def product(f: Callable[[float], float], low: float, high: float) -> float:
         return float(quad(lambda x: -0.02 * (100.0 - 2.0 * x) * f(x), low, high)[0])

@@ -8,8 +8,8 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.ask import Planes, Stations
-from assoc_hull.variation.carrying.drivers import keeps
+from assoc_hull.variation.carrying.driving_lines import find_kept_planes
+from assoc_hull.variation.request import Planes, Stations
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +45,7 @@ def test_a_line_that_is_bent_where_no_slope_tells_keeps_no_plane(wigley: ah.Hull
         return np.tile(np.eye(3), (len(xyz), 1, 1))
 
     state = wigley.state
-    kept = keeps(state, SpaceMap(lifted, slope))
+    kept = find_kept_planes(state, SpaceMap(lifted, slope))
     lines = {str(state.lines.name.data[line]): line for line in state.live("lines").tolist()}
     section, low = lines["ST 10"], lines["WL 2.5"]
     assert not kept.plane[section, 0]

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from assoc_hull.analysis.form.literature import HOLTROP, KRACHT, TABLE_3, TABLE_4
-from assoc_hull.analysis.form.parameter import SHAPE, entries_in, parameter
+from assoc_hull.analysis.form.floating_shape import FloatingShape
+from assoc_hull.analysis.form.half_section import section_at
+from assoc_hull.analysis.form.longitudinal_parts import ship_slices
+from assoc_hull.analysis.form.parameter import (
+    HOLTROP,
+    KRACHT,
+    SHAPE,
+    TABLE_3,
+    TABLE_4,
+    Absent,
+    MeasuredValue,
+    entries_in,
+    parameter,
+)
 from assoc_hull.analysis.form.profile import area_before_fp, bulb_tip
-from assoc_hull.analysis.form.section_shape import section_at
-from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.slices import slices
-from assoc_hull.analysis.form.value import Absent, Found
-from assoc_hull.analysis.net.sections import CENTRE
+from assoc_hull.analysis.net.curve_net import ON_CENTRE
 
-__all__ = ["PARAMETERS"]
+__all__ = ["BOW"]
 
 _TIP = (
     "foremost place of the profile before FP and below the design draught, from which it runs "
@@ -24,7 +32,7 @@ _TIP = (
     definition=f"x - Lpp at the bulb's tip: the {_TIP}", datum="from FP, + forward",
     source=TABLE_4,
 )  # fmt: skip
-def bulb_length(shape: Shape) -> Found:
+def bulb_length(shape: FloatingShape) -> MeasuredValue:
     tip = shape.take(bulb_tip)
     return tip if isinstance(tip, Absent) else float(tip[0]) - shape.length
 
@@ -34,7 +42,7 @@ def bulb_length(shape: Shape) -> Found:
     definition=f"z of the bulb's tip: the {_TIP}", datum="from the base line, up",
     source=TABLE_4,
 )  # fmt: skip
-def bulb_height(shape: Shape) -> Found:
+def bulb_height(shape: FloatingShape) -> MeasuredValue:
     tip = shape.take(bulb_tip)
     return tip if isinstance(tip, Absent) else float(tip[2])
 
@@ -44,10 +52,10 @@ def bulb_height(shape: Shape) -> Found:
     definition="greatest full breadth of the section at FP below the design draught",
     datum="both sides", source=TABLE_4,
 )  # fmt: skip
-def bulb_breadth(shape: Shape) -> Found:
+def bulb_breadth(shape: FloatingShape) -> MeasuredValue:
     section = section_at(shape, shape.length)
     half = None if section is None else section.greatest_below(shape.header.draught)
-    if half is None or half <= CENTRE:
+    if half is None or half <= ON_CENTRE:
         return Absent("no section at FP below the design draught")
     return 2.0 * half
 
@@ -66,7 +74,7 @@ def bulb_area(bulb: float, area: float) -> float:
     definition="area of the profile before FP and below the design draught",
     datum="in the centre plane", source=TABLE_4, needs=(SHAPE, "BL"),
 )  # fmt: skip
-def lateral_area(shape: Shape, bulb: float) -> float:
+def lateral_area(shape: FloatingShape, bulb: float) -> float:
     return area_before_fp(shape, shape.header.draught, 0.0)
 
 
@@ -75,7 +83,7 @@ def lateral_area(shape: Shape, bulb: float) -> float:
     definition="area of the profile before FP and below the floating plane",
     datum="in the centre plane", source=TABLE_3, needs=(SHAPE, "BL"),
 )  # fmt: skip
-def immersed_lateral_area(shape: Shape, bulb: float) -> float:
+def immersed_lateral_area(shape: FloatingShape, bulb: float) -> float:
     rise = -shape.position.trim_by_stern / shape.length
     return area_before_fp(shape, shape.position.draught_aft, rise)
 
@@ -129,8 +137,8 @@ def kracht_along(area: float) -> float:
     definition="V forward of FP, of a ship with a bulb", datum="both sides", source=KRACHT,
     needs=(SHAPE, "BL"), digits=2,
 )  # fmt: skip
-def kracht_volume(shape: Shape, length: float) -> float:
-    return shape.take(slices).forward_of(shape.length).volume
+def kracht_volume(shape: FloatingShape, length: float) -> float:
+    return shape.take(ship_slices).forward_of(shape.length).volume
 
 
 @parameter(
@@ -138,9 +146,9 @@ def kracht_volume(shape: Shape, length: float) -> float:
     definition="z of the centre of A_BT", datum="from the base line, up", source=HOLTROP,
     needs=(SHAPE, "A_BT"),
 )  # fmt: skip
-def holtrop_height(shape: Shape, area: float) -> float:
-    return shape.take(slices).centre(shape.length)
+def holtrop_height(shape: FloatingShape, area: float) -> float:
+    return shape.take(ship_slices).centre(shape.length)
 
 
-PARAMETERS = entries_in(vars())
+BOW = entries_in(vars())
 """The entries of this module, in order."""

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from assoc_hull.analysis.form.literature import HOLTROP, ITTC, KRACHT, TABLE_3
-from assoc_hull.analysis.form.parameter import entries_in, parameter
-from assoc_hull.analysis.form.value import Absent, Found
+from assoc_hull.analysis.form.parameter import (
+    HOLTROP,
+    ITTC,
+    KRACHT,
+    TABLE_3,
+    Absent,
+    MeasuredValue,
+    entries_in,
+    parameter,
+)
 
-__all__ = ["PARAMETERS"]
+__all__ = ["RESISTANCE"]
 
 
 @parameter(
     "C_LPR", name="Kracht's length of the bulb", unit="-", table="bulb and resistance",
     definition="L_PR / Lpp", source=KRACHT, needs=("L_PR", "Lpp"),
 )  # fmt: skip
-def bulb_length(protruding: float, length: float) -> float:
+def bulb_length_ratio(protruding: float, length: float) -> float:
     return protruding / length
 
 
@@ -21,7 +28,7 @@ def bulb_length(protruding: float, length: float) -> float:
     "C_BB", name="Kracht's breadth of the bulb", unit="-", table="bulb and resistance",
     definition="B_B / B", datum="at FP", source=KRACHT, needs=("B_B", "B"),
 )  # fmt: skip
-def bulb_breadth(bulb: float, breadth: float) -> float:
+def bulb_breadth_ratio(bulb: float, breadth: float) -> float:
     return bulb / breadth
 
 
@@ -30,7 +37,7 @@ def bulb_breadth(bulb: float, breadth: float) -> float:
     definition="Z_B / T_F", datum="foremost point of the bulb, from the base line", source=KRACHT,
     needs=("Z_B", "T_F"),
 )  # fmt: skip
-def bulb_height(height: float, draught: float) -> float:
+def bulb_height_ratio(height: float, draught: float) -> float:
     return height / draught
 
 
@@ -71,7 +78,7 @@ def bulb_along_plane(area: float, length: float, draught: float) -> float:
     "TRAR", name="transom against the largest section", unit="-", table="hydrostatic", ittc="f_T",
     definition="ATT / Amax", source=TABLE_3, needs=("ATT", "Amax"),
 )  # fmt: skip
-def transom_area(area: float, greatest: float) -> float:
+def transom_area_ratio(area: float, greatest: float) -> float:
     return area / greatest
 
 
@@ -90,7 +97,7 @@ def transom_area_as_printed(area: float, greatest: float, draught: float) -> flo
     ittc="A_T", definition="ATT", datum="immersed, the ship at rest", source=HOLTROP,
     needs=("ATT",),
 )  # fmt: skip
-def transom(area: float) -> float:
+def holtrop_transom(area: float) -> float:
     return area
 
 
@@ -99,7 +106,7 @@ def transom(area: float) -> float:
     ittc="i_E", definition="Eangle", datum="from the centre line", source=HOLTROP,
     needs=("Eangle",),
 )  # fmt: skip
-def entrance(angle: float) -> float:
+def holtrop_entrance(angle: float) -> float:
     return angle
 
 
@@ -119,9 +126,9 @@ def estimated_run(volume: float, area: float, length: float, percent: float) -> 
     definition="-25 pram with gondola, -10 V-shaped, 0 normal, 10 U-shaped sections",
     datum="the after body, looked at", source=HOLTROP, needs=(), digits=0,
 )  # fmt: skip
-def stern() -> Found:
+def holtrop_stern() -> MeasuredValue:
     return Absent("chosen by eye from the shape of the stern's sections")
 
 
-PARAMETERS = entries_in(vars())
+RESISTANCE = entries_in(vars())
 """The entries of this module, in order."""

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from assoc_hull.analysis.form.largest_section import (
+from assoc_hull.analysis.form.floating_shape import FloatingShape
+from assoc_hull.analysis.form.longitudinal_parts import (
     LargestSection,
+    ShipSlices,
     largest_section,
     parallel_body,
+    ship_slices,
 )
-from assoc_hull.analysis.form.literature import TABLE_3, TABLE_4
-from assoc_hull.analysis.form.parameter import entries_in, parameter
-from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.slices import Slices, slices
-from assoc_hull.analysis.form.value import Absent, Found, Warned
-from assoc_hull.geometry.floating.between_planes import Between
+from assoc_hull.analysis.form.parameter import (
+    TABLE_3,
+    TABLE_4,
+    Absent,
+    MeasuredValue,
+    Warned,
+    entries_in,
+    parameter,
+)
+from assoc_hull.geometry.floating.slices import SliceIntegrals
 
-__all__ = ["PARAMETERS"]
+__all__ = ["SHIP_PARTS"]
 
 _AP = "from AP, + forward"
 
@@ -29,7 +36,7 @@ _NO_BODY = "no parallel middle body"
     definition="greatest A(x) of all sections of the surface, also between stations",
     source=TABLE_3,
 )  # fmt: skip
-def largest(shape: Shape) -> float:
+def largest(shape: FloatingShape) -> float:
     return shape.take(largest_section).largest
 
 
@@ -38,7 +45,7 @@ def largest(shape: Shape) -> float:
     definition="where A(x) is greatest; of several places that nearest to midship",
     datum=_AP, source=TABLE_3,
 )  # fmt: skip
-def place_of_largest(shape: Shape) -> float:
+def place_of_largest(shape: FloatingShape) -> float:
     return shape.take(largest_section).x_largest
 
 
@@ -46,7 +53,7 @@ def place_of_largest(shape: Shape) -> float:
     "V_a", name="volume of the after half", unit="m3", table="measures",
     definition="V aft of Lpp/2, with the overhang", source=TABLE_3, digits=2,
 )  # fmt: skip
-def volume_aft(shape: Shape) -> float:
+def volume_aft(shape: FloatingShape) -> float:
     return _aft(shape, 10.0).volume
 
 
@@ -54,7 +61,7 @@ def volume_aft(shape: Shape) -> float:
     "V_f", name="volume of the forward half", unit="m3", table="measures",
     definition="V forward of Lpp/2, with the bulb", source=TABLE_3, digits=2,
 )  # fmt: skip
-def volume_forward(shape: Shape) -> float:
+def volume_forward(shape: FloatingShape) -> float:
     return _forward(shape).volume
 
 
@@ -62,7 +69,7 @@ def volume_forward(shape: Shape) -> float:
     "LCBa", name="centre of the after half of the volume", unit="m", table="hydrostatic",
     definition="integral of x dV / V_a aft of Lpp/2", datum=_AP, source=TABLE_3,
 )  # fmt: skip
-def buoyancy_aft(shape: Shape) -> Found:
+def buoyancy_aft(shape: FloatingShape) -> MeasuredValue:
     part = _aft(shape, 10.0)
     return _mean(part.moment_x, part.volume, "nothing is immersed aft of midship")
 
@@ -71,7 +78,7 @@ def buoyancy_aft(shape: Shape) -> Found:
     "LCBf", name="centre of the forward half of the volume", unit="m", table="hydrostatic",
     definition="integral of x dV / V_f forward of Lpp/2", datum=_AP, source=TABLE_3,
 )  # fmt: skip
-def buoyancy_forward(shape: Shape) -> Found:
+def buoyancy_forward(shape: FloatingShape) -> MeasuredValue:
     part = _forward(shape)
     return _mean(part.moment_x, part.volume, "nothing is immersed forward of midship")
 
@@ -80,7 +87,7 @@ def buoyancy_forward(shape: Shape) -> Found:
     "V_st4", name="volume aft of station 4", unit="m3", table="measures",
     definition="V aft of 0.2 Lpp, with the overhang", source=TABLE_3, digits=2,
 )  # fmt: skip
-def volume_to_4(shape: Shape) -> float:
+def volume_to_4(shape: FloatingShape) -> float:
     return _aft(shape, 4.0).volume
 
 
@@ -88,7 +95,7 @@ def volume_to_4(shape: Shape) -> float:
     "V_st5", name="volume aft of station 5", unit="m3", table="measures",
     definition="V aft of 0.25 Lpp, with the overhang", source=TABLE_3, digits=2,
 )  # fmt: skip
-def volume_to_5(shape: Shape) -> float:
+def volume_to_5(shape: FloatingShape) -> float:
     return _aft(shape, 5.0).volume
 
 
@@ -96,7 +103,7 @@ def volume_to_5(shape: Shape) -> float:
     "A_st3", name="area of the section at station 3", unit="m2", table="measures",
     definition="immersed section of the surface at 0.15 Lpp", source=TABLE_3,
 )  # fmt: skip
-def section_at_3(shape: Shape) -> Found:
+def section_at_3(shape: FloatingShape) -> MeasuredValue:
     return _section(shape, shape.x_of(3.0), "station 3")
 
 
@@ -104,7 +111,7 @@ def section_at_3(shape: Shape) -> Found:
     "A_st5", name="area of the section at station 5", unit="m2", table="measures",
     definition="immersed section of the surface at 0.25 Lpp", source=TABLE_3,
 )  # fmt: skip
-def section_at_5(shape: Shape) -> Found:
+def section_at_5(shape: FloatingShape) -> MeasuredValue:
     return _section(shape, shape.x_of(5.0), "station 5")
 
 
@@ -114,7 +121,7 @@ def section_at_5(shape: Shape) -> Found:
     "through the raked strips there to 1e-7 of their breadth",
     source=TABLE_3,
 )  # fmt: skip
-def section_at_fore_perpendicular(shape: Shape) -> Found:
+def section_at_fore_perpendicular(shape: FloatingShape) -> MeasuredValue:
     return _section(shape, shape.length, "FP")
 
 
@@ -125,7 +132,7 @@ def section_at_fore_perpendicular(shape: Shape) -> Found:
     "or more of the places with A(x) >= 0.99 Amax (a rounded top has a tenth)",
     datum="stations: 0 at AP, 20 at FP", source=TABLE_4,
 )  # fmt: skip
-def parallel_from(shape: Shape) -> Found:
+def parallel_from(shape: FloatingShape) -> MeasuredValue:
     level = shape.take(parallel_body).level
     return Absent(_NO_BODY) if level is None else shape.station_of(level[0])
 
@@ -136,7 +143,7 @@ def parallel_from(shape: Shape) -> Found:
     "see PMBs",
     datum="stations: 0 at AP, 20 at FP", source=TABLE_4,
 )  # fmt: skip
-def parallel_to(shape: Shape) -> Found:
+def parallel_to(shape: FloatingShape) -> MeasuredValue:
     level = shape.take(parallel_body).level
     return Absent(_NO_BODY) if level is None else shape.station_of(level[1])
 
@@ -146,7 +153,7 @@ def parallel_to(shape: Shape) -> Found:
     definition="from AP to PMBs; without a parallel middle body, to the largest section",
     source=TABLE_3, digits=3,
 )  # fmt: skip
-def run(shape: Shape) -> Found:
+def run(shape: FloatingShape) -> MeasuredValue:
     curve = shape.take(parallel_body)
     return _parted(curve, curve.run, _part_of(curve.run, "run"))
 
@@ -156,7 +163,7 @@ def run(shape: Shape) -> Found:
     definition="from PMBe to FP; without a parallel middle body, from the largest section",
     source=TABLE_3, digits=3,
 )  # fmt: skip
-def entrance(shape: Shape) -> Found:
+def entrance(shape: FloatingShape) -> MeasuredValue:
     curve = shape.take(parallel_body)
     length = shape.length - curve.entrance
     return _parted(curve, length, _part_of(length, "entrance"))
@@ -166,27 +173,27 @@ def entrance(shape: Shape) -> Found:
     "V_R", name="volume of the run", unit="m3", table="measures",
     definition="V aft of where L_R ends, with the overhang", source=TABLE_3, digits=2,
 )  # fmt: skip
-def volume_of_run(shape: Shape) -> Found:
+def volume_of_run(shape: FloatingShape) -> MeasuredValue:
     curve = shape.take(parallel_body)
     missing = _part_of(curve.run, "run")
-    return missing or _parted(curve, shape.take(slices).aft_of(curve.run).volume)
+    return missing or _parted(curve, shape.take(ship_slices).aft_of(curve.run).volume)
 
 
 @parameter(
     "V_E", name="volume of the entrance", unit="m3", table="measures",
     definition="V forward of where L_E begins, with the bulb", source=TABLE_3, digits=2,
 )  # fmt: skip
-def volume_of_entrance(shape: Shape) -> Found:
+def volume_of_entrance(shape: FloatingShape) -> MeasuredValue:
     curve = shape.take(parallel_body)
     missing = _part_of(shape.length - curve.entrance, "entrance")
-    return missing or _parted(curve, shape.take(slices).forward_of(curve.entrance).volume)
+    return missing or _parted(curve, shape.take(ship_slices).forward_of(curve.entrance).volume)
 
 
 @parameter(
     "Aw_a", name="waterplane of the after half", unit="m2", table="measures",
     definition="area in plan aft of Lpp/2", source=TABLE_3, digits=2,
 )  # fmt: skip
-def waterplane_aft(shape: Shape) -> float:
+def waterplane_aft(shape: FloatingShape) -> float:
     return _aft(shape, 10.0).area
 
 
@@ -194,7 +201,7 @@ def waterplane_aft(shape: Shape) -> float:
     "Aw_f", name="waterplane of the forward half", unit="m2", table="measures",
     definition="area in plan forward of Lpp/2", source=TABLE_3, digits=2,
 )  # fmt: skip
-def waterplane_forward(shape: Shape) -> float:
+def waterplane_forward(shape: FloatingShape) -> float:
     return _forward(shape).area
 
 
@@ -202,7 +209,7 @@ def waterplane_forward(shape: Shape) -> float:
     "LCFa", name="centroid of the after half of the waterplane", unit="m", table="hydrostatic",
     definition="integral of x dA / Aw_a aft of Lpp/2", datum=_AP, source=TABLE_3,
 )  # fmt: skip
-def flotation_aft(shape: Shape) -> Found:
+def flotation_aft(shape: FloatingShape) -> MeasuredValue:
     part = _aft(shape, 10.0)
     return _mean(part.area_x, part.area, "no waterplane aft of midship")
 
@@ -212,7 +219,7 @@ def flotation_aft(shape: Shape) -> Found:
     table="hydrostatic", definition="integral of x dA / Aw_f forward of Lpp/2",
     datum=_AP, source=TABLE_3,
 )  # fmt: skip
-def flotation_forward(shape: Shape) -> Found:
+def flotation_forward(shape: FloatingShape) -> MeasuredValue:
     part = _forward(shape)
     return _mean(part.area_x, part.area, "no waterplane forward of midship")
 
@@ -221,25 +228,25 @@ def flotation_forward(shape: Shape) -> Found:
     "Aw_st5", name="waterplane aft of station 5", unit="m2", table="measures",
     definition="area in plan aft of 0.25 Lpp", source=TABLE_3, digits=2,
 )  # fmt: skip
-def waterplane_to_5(shape: Shape) -> float:
+def waterplane_to_5(shape: FloatingShape) -> float:
     return _aft(shape, 5.0).area
 
 
-def _aft(shape: Shape, station: float) -> Between:
-    return shape.take(slices).aft_of(shape.x_of(station))
+def _aft(shape: FloatingShape, station: float) -> SliceIntegrals:
+    return shape.take(ship_slices).aft_of(shape.x_of(station))
 
 
-def _forward(shape: Shape) -> Between:
-    return shape.take(slices).forward_of(shape.x_of(10.0))
+def _forward(shape: FloatingShape) -> SliceIntegrals:
+    return shape.take(ship_slices).forward_of(shape.x_of(10.0))
 
 
-def _mean(moment: float, amount: float, missing: str) -> Found:
+def _mean(moment: float, amount: float, missing: str) -> MeasuredValue:
     return moment / amount if amount > 0.0 else Absent(missing)
 
 
-def _section(shape: Shape, x: float, where: str) -> Found:
+def _section(shape: FloatingShape, x: float, where: str) -> MeasuredValue:
     """Give the area of a section; a reason where there is none or it cannot be told."""
-    parts: Slices = shape.take(slices)
+    parts: ShipSlices = shape.take(ship_slices)
     if parts.runs_back(x):
         return Absent(f"the surface runs back at {where}")
     area = parts.area(x)
@@ -253,7 +260,7 @@ def _part_of(length: float, name: str) -> Absent | None:
     return None if length > 0.0 else Absent(f"no {name}")
 
 
-def _parted(curve: LargestSection, number: float, missing: Absent | None = None) -> Found:
+def _parted(curve: LargestSection, number: float, missing: Absent | None = None) -> MeasuredValue:
     """Give a number of a part that the parallel middle body ends, or the largest section."""
     if missing is not None:
         return missing
@@ -262,5 +269,5 @@ def _parted(curve: LargestSection, number: float, missing: Absent | None = None)
     return number
 
 
-PARAMETERS = entries_in(vars())
+SHIP_PARTS = entries_in(vars())
 """The entries of this module, in order."""

@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
-from assoc_hull.analysis.form.entries.skeg_shape import edge_reaches, twin_skeg
-from assoc_hull.analysis.form.literature import TABLE_3, TABLE_4
-from assoc_hull.analysis.form.parameter import SHAPE, entries_in, parameter
-from assoc_hull.analysis.form.profile import profile_at, slope_deg
-from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.stern_profile import (
+from assoc_hull.analysis.form.entries.skeg import edge_reaches, twin_skeg
+from assoc_hull.analysis.form.floating_shape import FloatingShape
+from assoc_hull.analysis.form.parameter import (
+    SHAPE,
+    TABLE_3,
+    TABLE_4,
+    Absent,
+    MeasuredValue,
+    Warned,
+    entries_in,
+    parameter,
+)
+from assoc_hull.analysis.form.profile import (
     aft_end,
     boss,
     bottom_at,
     height_above,
     leaves_boss,
+    profile_at,
+    slope_deg,
     transom,
 )
-from assoc_hull.analysis.form.value import Absent, Found, Warned
-from assoc_hull.analysis.net.sections import CENTRE, areas_of_ends
-from assoc_hull.geometry.splines.plane_places import across
+from assoc_hull.analysis.net.curve_net import ON_CENTRE, areas_of_flat_ends
+from assoc_hull.geometry.splines.plane_intersections import points_at_coordinate
 
-__all__ = ["PARAMETERS"]
+__all__ = ["STERN"]
 
 _NO_SCREW = Absent("no screw given")
 _UPRIGHT = 1e-9
@@ -34,11 +42,11 @@ _BASE = 1e-6
     definition="area of the transom below the floating plane; nil if the transom is dry",
     datum="both sides", source=TABLE_3,
 )  # fmt: skip
-def transom_area(shape: Shape) -> Found:
+def transom_area(shape: FloatingShape) -> MeasuredValue:
     edge = shape.take(transom)
     if isinstance(edge, Absent):
         return edge
-    return float(areas_of_ends(edge, shape.body.closed, shape.planes)[0])
+    return float(areas_of_flat_ends(edge, shape.body.closed, shape.planes)[0])
 
 
 @parameter(
@@ -46,16 +54,16 @@ def transom_area(shape: Shape) -> Found:
     definition="greatest full breadth of the transom in the floating plane", datum="both sides",
     source=TABLE_3,
 )  # fmt: skip
-def transom_breadth(shape: Shape) -> Found:
+def transom_breadth(shape: FloatingShape) -> MeasuredValue:
     edge = shape.take(transom)
     if isinstance(edge, Absent):
         return edge
     rise = -shape.position.trim_by_stern / shape.length
     level = shape.position.draught_aft + rise * float(edge.xyz[0, 0])
-    half = across(edge, 2, level).xyz[:, 1]
-    if len(half) and half.max() > CENTRE:
+    half = points_at_coordinate(edge, 2, level).xyz[:, 1]
+    if len(half) and half.max() > ON_CENTRE:
         return 2.0 * float(half.max())
-    dry = level <= edge.xyz[:, 2].min() + CENTRE
+    dry = level <= edge.xyz[:, 2].min() + ON_CENTRE
     return Absent("transom is dry" if dry else "transom is under water")
 
 
@@ -64,11 +72,11 @@ def transom_breadth(shape: Shape) -> Found:
     definition="lowest z of the transom on the centre line", datum="from the base line, up",
     source=TABLE_4,
 )  # fmt: skip
-def transom_height(shape: Shape) -> Found:
+def transom_height(shape: FloatingShape) -> MeasuredValue:
     edge = shape.take(transom)
     if isinstance(edge, Absent):
         return edge
-    centre = edge.xyz[abs(edge.xyz[:, 1]) <= CENTRE]
+    centre = edge.xyz[abs(edge.xyz[:, 1]) <= ON_CENTRE]
     if not len(centre):
         return Absent("the transom does not reach the centre plane")
     return float(centre[:, 2].min())
@@ -87,7 +95,7 @@ def transom_immersion(draught: float, height: float) -> float:
     "SO", name="stern overhang", unit="m", table="hull form",
     definition="from AP to the aft end of the profile", datum="from AP, + aft", source=TABLE_4,
 )  # fmt: skip
-def overhang(shape: Shape) -> Found:
+def overhang(shape: FloatingShape) -> MeasuredValue:
     x = shape.take(aft_end)
     return x if isinstance(x, Absent) else 0.0 - x
 
@@ -96,7 +104,7 @@ def overhang(shape: Shape) -> Found:
     "Hap", name="height of the bottom at AP", unit="m", table="hull form",
     definition="lowest z of the profile at AP", datum="from the base line, up", source=TABLE_4,
 )  # fmt: skip
-def bottom_height(shape: Shape) -> Found:
+def bottom_height(shape: FloatingShape) -> MeasuredValue:
     found = bottom_at(shape, 0.0)
     return found if isinstance(found, Absent) else found[0]
 
@@ -106,7 +114,7 @@ def bottom_height(shape: Shape) -> Found:
     definition="of the profile at AP, where the bottom's rise ends at the height Hap",
     datum="to the base line", source=TABLE_4,
 )  # fmt: skip
-def stern_slope(shape: Shape) -> Found:
+def stern_slope(shape: FloatingShape) -> MeasuredValue:
     found = bottom_at(shape, 0.0)
     if isinstance(found, Absent):
         return found
@@ -125,7 +133,7 @@ def stern_slope(shape: Shape) -> Found:
     definition="at the screw, as given; else of the circle through the boss end that is drawn",
     datum="from the base line, up", source=TABLE_4,
 )  # fmt: skip
-def shaft_height(shape: Shape) -> Found:
+def shaft_height(shape: FloatingShape) -> MeasuredValue:
     if shape.screw is not None:
         return shape.screw.height
     end = shape.take(boss)
@@ -136,7 +144,7 @@ def shaft_height(shape: Shape) -> Found:
     "D_p", name="diameter of the screw", unit="m", table="measures", definition="as given",
     source=TABLE_3, ittc="D",
 )  # fmt: skip
-def screw_diameter(shape: Shape) -> Found:
+def screw_diameter(shape: FloatingShape) -> MeasuredValue:
     return _NO_SCREW if shape.screw is None else shape.screw.diameter
 
 
@@ -155,7 +163,7 @@ def tip_immersion(draught: float, height: float, diameter: float) -> float:
     "plane of the screw", datum="from the tip, up", source=TABLE_4,
     needs=(SHAPE, "SCH", "D_p"),
 )  # fmt: skip
-def tip_clearance(shape: Shape, height: float, diameter: float) -> Found:
+def tip_clearance(shape: FloatingShape, height: float, diameter: float) -> MeasuredValue:
     if shape.screw is None or shape.screw.x is None:
         return Absent("the plane of the screw is not given")
     above = height_above(shape, shape.screw.x, 0.5 * shape.screw.spacing, height)
@@ -173,7 +181,7 @@ def tip_clearance(shape: Shape, height: float, diameter: float) -> Found:
     "where the profile above leaves the boss; of twin skegs, where their lower edge reaches SCH",
     datum="from AP, + forward", source=TABLE_4, needs=(SHAPE, "SCH"),
 )  # fmt: skip
-def aperture(shape: Shape, height: float) -> Found:
+def aperture(shape: FloatingShape, height: float) -> MeasuredValue:
     if shape.take(twin_skeg):
         return edge_reaches(shape, height)
     end = shape.take(boss)
@@ -189,7 +197,7 @@ def aperture(shape: Shape, height: float) -> Found:
     definition="x of the boss end that is drawn, else as given with the screw",
     datum="from AP, + forward", source=TABLE_4,
 )  # fmt: skip
-def boss_face(shape: Shape) -> Found:
+def boss_face(shape: FloatingShape) -> MeasuredValue:
     end = shape.take(boss)
     if end is not None:
         return end.x
@@ -203,7 +211,7 @@ def boss_face(shape: Shape) -> Found:
     definition="of the circle through the boss end that is drawn, else as given with the screw",
     source=TABLE_4,
 )  # fmt: skip
-def boss_diameter(shape: Shape) -> Found:
+def boss_diameter(shape: FloatingShape) -> MeasuredValue:
     end = shape.take(boss)
     if end is not None:
         return end.diameter
@@ -212,5 +220,5 @@ def boss_diameter(shape: Shape) -> Found:
     return shape.screw.boss_diameter
 
 
-PARAMETERS = entries_in(vars())
+STERN = entries_in(vars())
 """The entries of this module, in order."""

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.analysis.form.entries.floating import of_waterplane
-from assoc_hull.analysis.form.largest_section import parallel_body
-from assoc_hull.analysis.form.literature import ITTC, TABLE_3, TABLE_4
-from assoc_hull.analysis.form.parameter import entries_in, parameter
-from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.slices import slices
-from assoc_hull.analysis.form.value import Absent, Found, Warned
-from assoc_hull.geometry.floating.immersed import Planes
-from assoc_hull.geometry.floating.outer_line import OuterLine, outer_line
-from assoc_hull.geometry.floating.waterlines import waterline_arcs
+from assoc_hull.analysis.form.entries.particulars import of_waterplane
+from assoc_hull.analysis.form.floating_shape import FloatingShape
+from assoc_hull.analysis.form.longitudinal_parts import parallel_body, ship_slices
+from assoc_hull.analysis.form.parameter import (
+    ITTC,
+    TABLE_3,
+    TABLE_4,
+    Absent,
+    MeasuredValue,
+    Warned,
+    entries_in,
+    parameter,
+)
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.geometry.floating.waterlines import OuterLine, outer_line, waterline_arcs
 
-__all__ = ["PARAMETERS"]
+__all__ = ["WATERLINE"]
 
 _NOSE = 0.1
 """Of B: a stem is round if its radius is less, within so much of the centre plane."""
@@ -37,8 +42,8 @@ _NONE = "no waterline"
     "b_st5", name="half breadth of the waterline at station 5", unit="m", table="measures",
     definition="outermost place of the waterline at 0.25 Lpp", source=TABLE_3,
 )  # fmt: skip
-def half_breadth_at_5(shape: Shape) -> Found:
-    found = shape.take(slices).half_breadth(shape.x_of(5.0), shape.planes)
+def half_breadth_at_5(shape: FloatingShape) -> MeasuredValue:
+    found = shape.take(ship_slices).half_breadth(shape.x_of(5.0), shape.planes)
     return Absent(f"{_NONE} at station 5") if found is None else found
 
 
@@ -50,7 +55,7 @@ def half_breadth_at_5(shape: Shape) -> Found:
     "the tangent where it leaves the radius",
     source=TABLE_3,
 )  # fmt: skip
-def angle_of_entrance(shape: Shape) -> Found:
+def angle_of_entrance(shape: FloatingShape) -> MeasuredValue:
     line = shape.take(_bow_line)
     if line is None:
         return Absent(_NONE)
@@ -73,7 +78,7 @@ def angle_of_entrance(shape: Shape) -> Found:
     "breadth to the stem, beta from the centre plane: 1 for a flat face, 0 for a needle",
     source=f"{TABLE_3}; Fujii and Takahashi, added resistance in head seas",
 )  # fmt: skip
-def bluntness(shape: Shape) -> Found:
+def bluntness(shape: FloatingShape) -> MeasuredValue:
     line = shape.take(_bow_line)
     return Absent(_NONE) if line is None else 2.0 / shape.breadth * line.bluntness()
 
@@ -85,12 +90,12 @@ def bluntness(shape: Shape) -> Found:
     "largest section",
     source=TABLE_4,
 )  # fmt: skip
-def angle_of_run(shape: Shape) -> Found:
+def angle_of_run(shape: FloatingShape) -> MeasuredValue:
     planes = shape.planes
-    half = Planes(0.5 * planes.height, 0.5 * planes.tan_trim, planes.tan_heel.copy())
+    half = FloatingPlanes(0.5 * planes.height, 0.5 * planes.tan_trim, planes.tan_heel.copy())
     line = outer_line(waterline_arcs(shape.body.spans, half), forward=False)
     curve = shape.take(parallel_body)
-    broad = shape.take(slices).half_breadth(curve.run, half)
+    broad = shape.take(ship_slices).half_breadth(curve.run, half)
     if line is None or broad is None:
         return Absent(f"{_NONE} at half the draught")
     x, y = line.aftmost
@@ -107,7 +112,7 @@ def angle_of_run(shape: Shape) -> Found:
     ittc="I_T", definition="integral of y^2 dA in the floating plane, about its centroid",
     source=ITTC, digits=1,
 )  # fmt: skip
-def transverse_moment(shape: Shape) -> Found:
+def transverse_moment(shape: FloatingShape) -> MeasuredValue:
     return of_waterplane(shape.record.i_t)
 
 
@@ -116,13 +121,13 @@ def transverse_moment(shape: Shape) -> Found:
     ittc="I_L", definition="integral of x^2 dA in the floating plane, about its centroid",
     source=ITTC, digits=1,
 )  # fmt: skip
-def longitudinal_moment(shape: Shape) -> Found:
+def longitudinal_moment(shape: FloatingShape) -> MeasuredValue:
     return of_waterplane(shape.record.i_l)
 
 
-def _bow_line(shape: Shape) -> OuterLine | None:
+def _bow_line(shape: FloatingShape) -> OuterLine | None:
     return outer_line(waterline_arcs(shape.body.spans, shape.planes), forward=True)
 
 
-PARAMETERS = entries_in(vars())
+WATERLINE = entries_in(vars())
 """The entries of this module, in order."""

@@ -8,7 +8,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.derivatives.derivatives import Derivatives, hydrostatic_derivatives
+from assoc_hull.analysis.derivatives.hydrostatic_derivatives import (
+    Derivatives,
+    hydrostatic_derivatives,
+)
 from assoc_hull.analysis.derivatives.parameters import (
     DRAUGHT,
     DRAUGHT_AFT,
@@ -20,11 +23,10 @@ from assoc_hull.analysis.derivatives.parameters import (
     PointMove,
     Position,
 )
-from assoc_hull.analysis.hydrostatics.appendage import Appendage
-from assoc_hull.analysis.hydrostatics.compute import values_at
-from assoc_hull.analysis.hydrostatics.floating import planes_of
+from assoc_hull.analysis.hydrostatics.floating_body import Appendage, planes_of
 from assoc_hull.analysis.hydrostatics.flotation import flotation
-from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import values_at
+from assoc_hull.analysis.hydrostatics.record import FIELDS
 from assoc_hull.errors import (
     AssocHullError,
     BadInputError,

@@ -8,15 +8,17 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.derivatives.curve_tangents import moving
+from assoc_hull.analysis.derivatives.curve_tangents import curve_tangents
 from assoc_hull.analysis.derivatives.parameters import PointMove
-from assoc_hull.analysis.derivatives.reused_layout import flotation_like, moved, moved_to
-from assoc_hull.analysis.hydrostatics.compute import values_at
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition, planes_of
-from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
-from assoc_hull.analysis.hydrostatics.hydrostatic_header import HydrostaticHeader
-from assoc_hull.analysis.hydrostatics.measured_hull import header_of
-from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
+from assoc_hull.analysis.derivatives.reused_layout import (
+    flotation_at_points,
+    flotation_with_layout,
+    flotation_with_layout_of,
+)
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, planes_of
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation, header_of
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import values_at
+from assoc_hull.analysis.hydrostatics.record import FIELDS, HydrostaticHeader
 from assoc_hull.hull import Hull
 from assoc_hull.model.lofting import curve_data
 
@@ -53,7 +55,7 @@ def test_the_old_layout_gives_the_numbers_of_a_new_one(
     before = flotation(hull.state)
     with hull.edit("a move") as edit:
         edit.move(POINT, y=hull.points[POINT].y + 1e-2)
-    found, anew = moved_to(before, hull.state), flotation(hull.state)
+    found, anew = flotation_with_layout(before, hull.state), flotation(hull.state)
     hull.undo()
     assert found is not None
     assert not np.array_equal(anew.net.batch.xyz, before.net.batch.xyz)
@@ -69,8 +71,8 @@ def test_points_alone_say_as_much_as_tables(hull: Hull, header: HydrostaticHeade
     with hull.edit("a move") as edit:
         edit.move(POINT, y=hull.points[POINT].y + 1e-3)
     lines = curve_data(hull.state, before.net.curve)
-    found = moved(before, lines, hull.state.rows.xyz.data.copy())
-    wanted = moved_to(before, hull.state)
+    found = flotation_at_points(before, lines, hull.state.rows.xyz.data.copy())
+    wanted = flotation_with_layout(before, hull.state)
     hull.undo()
     assert wanted is not None
     assert_allclose(values(found, header), values(wanted, header), rtol=1e-13, atol=1e-13)
@@ -79,8 +81,8 @@ def test_points_alone_say_as_much_as_tables(hull: Hull, header: HydrostaticHeade
 def test_no_step_changes_nothing(hull: Hull, header: HydrostaticHeader) -> None:
     """The cells are put on the same lines: the numbers are those of the hull as it was."""
     before = flotation(hull.state)
-    way, _ = moving(before, [PointMove(POINT)])
-    still = moved(before, *way.stepped(0, 0.0))
+    way, _ = curve_tangents(before, [PointMove(POINT)])
+    still = flotation_at_points(before, *way.stepped(0, 0.0))
     assert_allclose(values(still, header), values(before, header), rtol=1e-13, atol=1e-13)
 
 
@@ -92,6 +94,6 @@ def test_another_structure_is_laid_out_anew(
     other = shipped("series60_60")
     with other.edit("a line less") as edit:
         edit.remove_line("ST 14")
-    assert moved_to(flotation(hull.state), other.state) is None
-    found = flotation_like(hull.state, other.state)
+    assert flotation_with_layout(flotation(hull.state), other.state) is None
+    found = flotation_with_layout_of(hull.state, other.state)
     assert np.array_equal(values(found, header), values(flotation(other.state), header))

@@ -9,13 +9,13 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import assoc_hull as ah
-from assoc_hull.analysis.fairness.fairness_table import FairnessTable
+from assoc_hull.analysis.fairness.line_fairness import FairnessTable
 from assoc_hull.errors import BadInputError, GeometryError, UnknownNameError, WrongTypeError
-from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.chord_spline import ChordSpline
-from assoc_hull.geometry.classical.elastica_fit import fit_elastica
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
+from assoc_hull.geometry.classical.elastica import fit_elastica
 from assoc_hull.geometry.classical.truncated_power_spline import TruncatedPower
-from assoc_hull.geometry.fairness.comb_integrals import comb_integrals
+from assoc_hull.geometry.fairness.combs import comb_integrals
 
 
 @pytest.fixture(scope="module")
@@ -120,7 +120,7 @@ def test_an_edit_is_judged_before_and_after() -> None:
 CURVES: dict[str, Any] = {
     "chord spline": ChordSpline.through([(0, 0), (1, 0.2), (2, 0)]),
     "elastica": fit_elastica([0, 0], [1, 0], 0.3, -0.3),
-    "arcs": Arcs.make([(0, 0)], [0.0], [0.1], [3.0]),
+    "arcs": PlaneArcs.make([(0, 0)], [0.0], [0.1], [3.0]),
     "truncated powers": TruncatedPower.through([0, 1, 2], [0, 0.2, 0]),
     "graph": CubicSpline([0, 1, 2], [0, 0.2, 0]),
 }
@@ -165,7 +165,7 @@ def test_what_is_no_curve_is_refused() -> None:
     """A number, a chain of no arcs, and offsets of another count."""
     with pytest.raises(WrongTypeError, match="no curve that can be looked at"):
         ah.fairness(3.0)  # type: ignore[arg-type]
-    none = Arcs(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros(0))
+    none = PlaneArcs(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros(0))
     with pytest.raises(GeometryError, match="fairness: curve has no length"):
         ah.fairness(none)
     with pytest.raises(GeometryError, match="offsets and tolerances differ in length"):

@@ -10,16 +10,19 @@ import pytest
 from numpy.polynomial import chebyshev as powers
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.form.curve_transforms import curve_transform
-from assoc_hull.analysis.hydrostatics.area_curve import area_curve, wet_reach
-from assoc_hull.analysis.hydrostatics.bonjean import sectional_areas
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition, planes_of
+from assoc_hull.analysis.form.curve_transform import curve_transform
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, planes_of
 from assoc_hull.analysis.hydrostatics.flotation import flotation
-from assoc_hull.analysis.hydrostatics.hydrostatics import hydrostatics
-from assoc_hull.analysis.hydrostatics.section_areas import between_stations
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
+from assoc_hull.analysis.hydrostatics.section_areas import (
+    area_curve,
+    between_stations,
+    sectional_areas,
+    wet_extent,
+)
 from assoc_hull.errors import AssocHullError, BadInputError, ForeignPointError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.integrals.transforms import composite, spread
+from assoc_hull.geometry.integrals.series import composite_rule, rule_on_pieces
 from assoc_hull.hull import Hull
 from assoc_hull.sources import examples
 from tests.unit.test_bad_arguments import BAD
@@ -118,11 +121,11 @@ def test_wet_reach_follows_the_plane(wigley: Hull) -> None:
     """The upright stem of the Wigley hull is wet at any draught; trimmed dry, it is not."""
     body, length = flotation(wigley.state), wigley.particulars.length
     level = planes_of([FloatingPosition(3.0, 3.0)], length)
-    assert wet_reach(body, level) == pytest.approx((0.0, 100.0))
+    assert wet_extent(body, level) == pytest.approx((0.0, 100.0))
     with pytest.raises(BadInputError, match="nothing is under water"):
-        wet_reach(body, planes_of([FloatingPosition(-1.0, -1.0)], length))
+        wet_extent(body, planes_of([FloatingPosition(-1.0, -1.0)], length))
     out = planes_of([FloatingPosition(4.0, -1.0)], length)
-    assert wet_reach(body, out) == pytest.approx((0.0, 80.0))
+    assert wet_extent(body, out) == pytest.approx((0.0, 80.0))
 
 
 def test_a_curve_is_nil_beyond_its_ends(wigley: Hull) -> None:
@@ -250,7 +253,7 @@ def test_a_heeled_ship_is_wet_as_far_to_either_side(bulk_carrier: Hull) -> None:
     """At 35 degrees a corner of the transom, at x = -5, is wet, which upright is dry."""
     body, length = flotation(bulk_carrier.state), bulk_carrier.particulars.length
     reach = [
-        wet_reach(body, planes_of([FloatingPosition(18.2, 18.2, heel)], length))
+        wet_extent(body, planes_of([FloatingPosition(18.2, 18.2, heel)], length))
         for heel in (0.0, 35.0, -35.0)
     ]
     assert reach[1] == reach[2]
@@ -269,7 +272,7 @@ def test_a_part_that_begins_between_stations_does_so(bulk_carrier: Hull) -> None
     curve = area_curve(body, planes)
     edges = np.array([4.2, 6.0, 6.75])
     assert np.abs(curve.breaks[:, None] - edges).min(axis=0) == pytest.approx([0, 0, 0], abs=1e-9)
-    x, weights = spread(edges, *composite(1))
+    x, weights = rule_on_pieces(edges, *composite_rule(1))
     found = (weights * curve.at(x)).sum()
     whole = between_stations(body, 4.2, 6.75, planes).volume[0]
     assert found == pytest.approx(float(whole), rel=1e-6)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.analysis.form.form_parameters import form_report
 from assoc_hull.analysis.form.parameter import parameter
-from assoc_hull.analysis.form.report import form_report
-from assoc_hull.io.tables.form_json import form_json
+from assoc_hull.io.tables.form_parameters import form_json
 
 
 @pytest.mark.parametrize("given", [None, "1", 1j, True, [1.0]], ids=repr)

@@ -9,8 +9,8 @@ import pytest
 from numpy.polynomial import Polynomial
 
 from assoc_hull.analysis.form.form_parameters import form_parameters
-from assoc_hull.analysis.form.value import Value
-from assoc_hull.model.state import HullState
+from assoc_hull.analysis.form.parameter import FormValue
+from assoc_hull.model.tables import HullState
 from tests.cases.test_hydrostatics_of_a_box import box_net
 from tests.nets import ellipsoid_net, wigley_net
 
@@ -38,7 +38,7 @@ def egg() -> Hull:
 
 
 @pytest.fixture(scope="module")
-def block() -> dict[str, Value]:
+def block() -> dict[str, FormValue]:
     """Of a box of 100 x 20 m with a draught of 6 m."""
     return dict(form_parameters(box_net(), draught=6.0))
 
@@ -112,7 +112,7 @@ def test_a_rounded_top_of_the_area_curve_is_no_parallel_body(wigley: Hull, egg: 
             assert NO_BODY in (found[symbol].warning or "")
 
 
-def test_a_box_is_parallel_body_from_end_to_end(block: dict[str, Value]) -> None:
+def test_a_box_is_parallel_body_from_end_to_end(block: dict[str, FormValue]) -> None:
     """From AP to FP; it has neither run nor entrance, and a bow as blunt as can be."""
     numbers = {
         "PMBs": 0.0, "PMBe": 20.0, "Amax": 120.0, "x_Amax": 50.0, "A_FP": 120.0, "V_a": 6000.0,

@@ -8,10 +8,9 @@ from typing import Any
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.parameter import Parameter
-from assoc_hull.analysis.form.report import FormReport, form_report, number_text
-from assoc_hull.analysis.form.tables import TABLES, TITLES, by_table
+from assoc_hull.analysis.form.catalogue import CATALOGUE, TABLES, TITLES, by_table
+from assoc_hull.analysis.form.form_parameters import FormReport, form_report, number_text
+from assoc_hull.analysis.form.parameter import FormParameter
 from assoc_hull.analysis.hydrostatics.flotation import Flotation
 from assoc_hull.errors import BadInputError, UnknownNameError
 from tests.form_entries import bare, doubted, passed_on
@@ -23,7 +22,7 @@ def hull() -> ah.Hull:
     return ah.examples.wigley()
 
 
-def report_of(hull: ah.Hull, only: Iterable[str] | None, *further: Parameter) -> FormReport:
+def report_of(hull: ah.Hull, only: Iterable[str] | None, *further: FormParameter) -> FormReport:
     """Report with entries of one's own."""
     return form_report(hull, draught=6.25, only=only, further=further)
 

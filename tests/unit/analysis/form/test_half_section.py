@@ -5,8 +5,8 @@ import pytest
 
 from assoc_hull.analysis.form.half_section import half_section
 from assoc_hull.analysis.hydrostatics.flotation import flotation
-from assoc_hull.geometry.floating.cross_sections import areas_at
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.geometry.floating.sections import areas_at
 from assoc_hull.geometry.integrals.area_moments import section_area
 from assoc_hull.hull import Hull
 from assoc_hull.sources import examples
@@ -37,6 +37,6 @@ def test_a_section_has_the_area_of_the_surface_there(bulk_carrier: Hull, x: floa
     body, height = flotation(bulk_carrier.state), 12.0
     section = half_section(body, x)
     assert section is not None
-    plane = Planes(np.array([height]), np.zeros(1), np.zeros(1))
+    plane = FloatingPlanes(np.array([height]), np.zeros(1), np.zeros(1))
     area = 2.0 * float(section_area(section, height).sum())
     assert area == pytest.approx(float(areas_at(body.spans, np.array([x]), plane)[0]), rel=1e-9)

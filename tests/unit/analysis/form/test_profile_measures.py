@@ -9,9 +9,9 @@ import attrs
 import numpy as np
 import pytest
 
+from assoc_hull.analysis.form.floating_shape import FloatingShape
+from assoc_hull.analysis.form.parameter import Absent
 from assoc_hull.analysis.form.profile import area_before_fp, bulb_tip
-from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.value import Absent
 from assoc_hull.geometry.curves import CurveData, PointKind, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
 from tests.floating_bodies import head
@@ -39,14 +39,14 @@ class Drawn:
     def header(self) -> object:
         return head(LENGTH, 20.0, self.draught)
 
-    def take(self, measure: Callable[[Shape], object]) -> object:
+    def take(self, measure: Callable[[FloatingShape], object]) -> object:
         return self.curves
 
 
-def shape(*curves: tuple[tuple[float, float], ...], draught: float = 8.0) -> Shape:
+def shape(*curves: tuple[tuple[float, float], ...], draught: float = 8.0) -> FloatingShape:
     """Of a profile in curves."""
     batch = SplineBatch.join([line(each) for each in curves]) if curves else None
-    return cast(Shape, Drawn(batch, draught))
+    return cast(FloatingShape, Drawn(batch, draught))
 
 
 @pytest.mark.parametrize(

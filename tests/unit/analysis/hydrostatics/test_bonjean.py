@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.hydrostatics.bonjean import bonjean
 from assoc_hull.analysis.hydrostatics.flotation import flotation
-from assoc_hull.analysis.hydrostatics.section_areas import section_areas
-from assoc_hull.geometry.floating.immersed import Planes
-from assoc_hull.geometry.floating.immersed_sections import sections_and_moments_below
+from assoc_hull.analysis.hydrostatics.section_areas import bonjean, section_areas
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.geometry.floating.sections import sections_and_moments_below
 from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 
@@ -36,7 +35,7 @@ def test_moments_of_a_parabola_are_those_of_its_formula() -> None:
     cubic[0, 2] = [0.0, -half, 0.0]
     curve = IsoCurves(np.array([0, 1]), cubic, np.zeros((1, 4, 3)), np.array([False]))
     z = np.linspace(0.0, draught, 14)
-    area, moment = sections_and_moments_below(curve, Planes(z, 0.0 * z, 0.0 * z))
+    area, moment = sections_and_moments_below(curve, FloatingPlanes(z, 0.0 * z, 0.0 * z))
     s = z / draught
     assert area[:, 0] == pytest.approx(2.0 * half * draught * (s**2 - s**3 / 3.0), abs=1e-12)
     exact = 2.0 * half * draught**2 * (2.0 * s**3 / 3.0 - s**4 / 4.0)
@@ -51,7 +50,7 @@ def test_moments_of_a_heeled_rectangle_are_those_of_its_corners() -> None:
     cubic[1, 0] = [0.0, half, 0.0]
     cubic[1, 1] = [0.0, 0.0, 12.0]
     curve = IsoCurves(np.array([0, 2]), cubic, np.zeros((2, 4, 3)), np.zeros(2, np.bool_))
-    planes = Planes(np.array([height]), np.zeros(1), np.array([slope]))
+    planes = FloatingPlanes(np.array([height]), np.zeros(1), np.array([slope]))
     area, moment = sections_and_moments_below(curve, planes)
     assert area[0, 0] == pytest.approx(2.0 * half * height, rel=1e-14)
     exact = half * height**2 + half**3 * slope**2 / 3.0
@@ -63,8 +62,8 @@ def test_moments_under_heel_are_those_of_slices(series60_70: ah.Hull) -> None:
     body = flotation(series60_70.state)
     slope = np.tan(np.radians(12.0))
 
-    def planes(height: np.ndarray) -> Planes:
-        return Planes(height, np.full_like(height, 0.01), np.full_like(height, slope))
+    def planes(height: np.ndarray) -> FloatingPlanes:
+        return FloatingPlanes(height, np.full_like(height, 0.01), np.full_like(height, slope))
 
     edge = np.linspace(-8.0, 6.0, 1201)
     area, moment = body.stations_and_moments(planes(edge))

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.hydrostatics.floating import (
+from assoc_hull.analysis.hydrostatics.floating_body import (
     FloatingPosition,
-    Limits,
+    WaterplaneLimits,
     planes_of,
     require_afloat,
-    rising,
+    rising_numbers,
 )
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from tests.floating_bodies import Box
@@ -66,7 +66,7 @@ def test_a_plane_that_misses_the_ship_is_refused_with_the_range(
 def test_an_open_deck_that_is_drowned_at_any_draught_is_refused() -> None:
     """There is no range to tell, so the remedy is another."""
     edge = np.array([[0.0, 5.0, 8.0], [100.0, 5.0, 8.0]])
-    limits = Limits(edge * [1, 0, 0.0], edge, closed=False)
+    limits = WaterplaneLimits(edge * [1, 0, 0.0], edge, closed=False)
     with pytest.raises(BadInputError, match="less trim or heel"):
         require_afloat([FloatingPosition(4.0, 4.0, 60.0)], limits, 100.0)
 
@@ -79,4 +79,4 @@ def test_an_open_deck_that_is_drowned_at_any_draught_is_refused() -> None:
 def test_draughts_of_a_table_rise(values: list[float], words: str) -> None:
     """None, unsorted, double and odd ones are refused by name."""
     with pytest.raises(BadInputError, match=words):
-        rising(values, "draughts", "in a table")
+        rising_numbers(values, "draughts", "in a table")

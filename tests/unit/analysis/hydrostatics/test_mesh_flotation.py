@@ -10,7 +10,7 @@ import pytest
 from assoc_hull.analysis.hydrostatics.mesh_flotation import MeshFlotation, mesh_flotation
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 from assoc_hull.geometry.surfaces.triangles import Triangles
 from tests import meshes
 
@@ -53,12 +53,12 @@ ELLIPSOID_BOTH = (
 )  # fmt: skip
 
 
-def planes(*rows: tuple[float, float, float]) -> Planes:
+def planes(*rows: tuple[float, float, float]) -> FloatingPlanes:
     """Planes of (height, tangent of trim, tangent of heel)."""
-    return Planes(*(np.array(column, np.float64) for column in zip(*rows, strict=True)))
+    return FloatingPlanes(*(np.array(column, np.float64) for column in zip(*rows, strict=True)))
 
 
-def values(found: Immersed) -> FloatArray:
+def values(found: ImmersedIntegrals) -> FloatArray:
     """What the reference table holds, (d, 11)."""
     lcf, tcf = found.area_x / found.area, found.area_y / found.area
     columns = [
@@ -100,7 +100,7 @@ def test_a_row_of_vertices_in_the_plane_counts_once() -> None:
     """A box with rows of vertices at every draught asked for has the volume of a box at each."""
     rows = np.array([0.0, 0.5, 1.0, 1.7, 2.0, 2.5, 3.3])
     body = prepared(meshes.box(np.linspace(0.0, 10.0, 8), np.linspace(-2.5, 2.5, 6), rows))
-    found = body.measure(Planes(rows[1:].copy(), np.zeros(6), np.zeros(6)))
+    found = body.measure(FloatingPlanes(rows[1:].copy(), np.zeros(6), np.zeros(6)))
     np.testing.assert_allclose(found.volume, 50.0 * rows[1:], rtol=1e-12)
     np.testing.assert_allclose(found.area, 50.0, rtol=1e-12)
     np.testing.assert_allclose(found.area_yy, 10.0 * 5.0**3 / 12.0, rtol=1e-12)
@@ -127,8 +127,8 @@ def test_volume_does_not_jump_at_a_row_of_vertices(part: float) -> None:
     """Rounding of the draught changes no volume by more than rounding, nor the waterplane."""
     body = prepared(meshes.wigley_half(21, 11))
     rows = np.linspace(0.0, meshes.T, 11)[1:]
-    whole = body.measure(Planes(rows.copy(), np.zeros(10), np.zeros(10)))
-    near = body.measure(Planes(rows * part, np.zeros(10), np.zeros(10)))
+    whole = body.measure(FloatingPlanes(rows.copy(), np.zeros(10), np.zeros(10)))
+    near = body.measure(FloatingPlanes(rows * part, np.zeros(10), np.zeros(10)))
     np.testing.assert_allclose(near.volume, whole.volume, rtol=1e-12)
     np.testing.assert_allclose(near.area, whole.area, rtol=1e-12)
     np.testing.assert_allclose(near.x_most, whole.x_most, rtol=1e-12)
@@ -282,7 +282,7 @@ def test_shells_that_are_not_sewn_are_told_by_their_openings() -> None:
 
 def test_no_plane_gives_no_value() -> None:
     """An empty batch is an empty result."""
-    found = prepared(box(1, 1, 1)).measure(Planes(np.zeros(0), np.zeros(0), np.zeros(0)))
+    found = prepared(box(1, 1, 1)).measure(FloatingPlanes(np.zeros(0), np.zeros(0), np.zeros(0)))
     assert found.volume.shape == found.x_least.shape == (0,)
 
 

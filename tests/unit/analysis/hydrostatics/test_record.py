@@ -7,13 +7,18 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.hydrostatics.algebra import Setting, propagate, values_of
-from assoc_hull.analysis.hydrostatics.appendage import Appendage
-from assoc_hull.analysis.hydrostatics.compute import table_of
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition, planes_of
-from assoc_hull.analysis.hydrostatics.record import Hydrostatics
-from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
-from assoc_hull.analysis.hydrostatics.sums import Layout, Sums, change_of, sums_of
+from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingPosition, planes_of
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import (
+    CountingRule,
+    HydrostaticIntegrals,
+    RecordSetting,
+    integral_changes,
+    integrals_of,
+    propagate,
+    table_of,
+    values_of,
+)
+from assoc_hull.analysis.hydrostatics.record import FIELDS, Hydrostatics
 from assoc_hull.errors import BadInputError
 from tests.floating_bodies import Box, Wigley, head
 
@@ -180,17 +185,17 @@ def test_an_appendage_of_odd_numbers_is_refused(values: tuple[object, ...], word
 @pytest.mark.parametrize("heel", [0.0, 12.0])
 def test_changes_of_the_integrals_pass_through_the_algebra(kg: float | None, heel: float) -> None:
     """Every value's error is its central difference along the change, where it has a value."""
-    setting = Setting(100.0, 20.0, 1.025, 1.006, kg)
+    setting = RecordSetting(100.0, 20.0, 1.025, 1.006, kg)
     planes = planes_of([FloatingPosition(5.5, 6.5, heel), FloatingPosition(6.0, 5.0, heel)], 100.0)
     stations = BOX.stations(planes)
-    sums = sums_of(BOX.measure(planes), stations, BOX.transom(planes), Layout(50.0))
-    names = [each.name for each in attrs.fields(Sums)]
+    sums = integrals_of(BOX.measure(planes), stations, BOX.transom(planes), CountingRule(50.0))
+    names = [each.name for each in attrs.fields(HydrostaticIntegrals)]
     push = {name: 0.1 + 0.03 * k * np.ones(2) for k, name in enumerate(names)}
-    found = propagate(sums, [Sums(**push)], planes, setting)
+    found = propagate(sums, [HydrostaticIntegrals(**push)], planes, setting)
 
     def values(step: float) -> dict[str, np.ndarray]:
         moved = {name: getattr(sums, name) + step * push[name] for name in names}
-        return values_of(Sums(**moved), planes, setting)
+        return values_of(HydrostaticIntegrals(**moved), planes, setting)
 
     up, down = values(1e-4), values(-1e-4)
     for name in FIELDS:
@@ -212,10 +217,10 @@ def test_integrals_that_are_off_together_leave_quotients_alone() -> None:
 def test_changes_of_several_kinds_add_up() -> None:
     """They might all have the same sign."""
     planes = planes_of([FloatingPosition(6.0, 6.0)], 100.0)
-    setting, stations = Setting(100.0, 20.0, 1.025, 1.0, None), BOX.stations(planes)
-    sums = sums_of(BOX.measure(planes), stations, BOX.transom(planes), Layout(50.0))
-    one = change_of(Box(off=1e-3).changes(planes)[0], stations, Layout(50.0))
-    other = change_of(Box(off=-2e-3).changes(planes)[0], stations, Layout(50.0))
+    setting, stations = RecordSetting(100.0, 20.0, 1.025, 1.0, None), BOX.stations(planes)
+    sums = integrals_of(BOX.measure(planes), stations, BOX.transom(planes), CountingRule(50.0))
+    one = integral_changes(Box(off=1e-3).changes(planes)[0], stations, CountingRule(50.0))
+    other = integral_changes(Box(off=-2e-3).changes(planes)[0], stations, CountingRule(50.0))
     found = propagate(sums, [one, other], planes, setting)
     assert found["volume"][0] == pytest.approx(36.0, rel=1e-12)
 

@@ -5,15 +5,19 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.flotation import flotation
-from assoc_hull.analysis.net.cells import lay_out
-from assoc_hull.analysis.net.gather import Net, gather
-from assoc_hull.analysis.net.loops import Frame, frames
-from assoc_hull.analysis.net.parallel import parallel_slabs
-from assoc_hull.analysis.net.slabs import arcs, planes
-from assoc_hull.analysis.net.strip_anchors import anchors, spans
-from assoc_hull.analysis.net.thin import every_other_line, every_other_section, thinned
+from assoc_hull.analysis.net.curve_net import (
+    CurveNet,
+    every_other_line,
+    every_other_section,
+    gather_net,
+    station_planes,
+    thinned_net,
+)
+from assoc_hull.analysis.net.strip_anchors import line_spans, strip_anchors
+from assoc_hull.analysis.net.strip_boundaries import StripBoundary, boundary_arcs, strip_boundaries
+from assoc_hull.analysis.net.surface_layout import lay_out_surface, parallel_slabs
 from assoc_hull.geometry.curves import PointKind
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.shipped.series60 import series60_adopted
@@ -21,20 +25,22 @@ from assoc_hull.shipped.wigley import wigley
 from tests.nets import ellipsoid_net
 
 
-def _rail(net: Net, frame: Frame, which: str) -> list[str]:
+def _rail(net: CurveNet, frame: StripBoundary, which: str) -> list[str]:
     names = [net.name[part[0]] for part in getattr(frame, which)]
     return list(dict.fromkeys(names))
 
 
 def _volume(hull: ah.Hull, draught: float) -> float:
-    below = flotation(hull.state).measure(Planes(np.array([draught]), np.zeros(1), np.zeros(1)))
+    below = flotation(hull.state).measure(
+        FloatingPlanes(np.array([draught]), np.zeros(1), np.zeros(1))
+    )
     return float(below.volume[0])
 
 
 def test_a_wigley_hull_has_a_strip_between_all_neighbours() -> None:
     """Stem and stern post are rails, keel and deck edge the sides."""
-    net = gather(wigley())
-    layout = lay_out(net, 100.0, closed=True)
+    net = gather_net(wigley())
+    layout = lay_out_surface(net, 100.0, closed=True)
     assert layout.lost == ()
     assert len(layout.frames) == 20
     assert layout.cells.plane.all()
@@ -48,15 +54,15 @@ def test_a_wigley_hull_has_a_strip_between_all_neighbours() -> None:
 
 def test_every_anchor_of_a_wigley_hull_is_found() -> None:
     """Ten waterlines, keel and deck edge in each of 20 strips."""
-    layout = lay_out(gather(wigley()), 100.0, closed=True)
+    layout = lay_out_surface(gather_net(wigley()), 100.0, closed=True)
     assert np.diff(layout.cells.anchor_start).tolist() == [12] * 20
     assert (layout.cells.anchor >= 0).all()
 
 
 def test_the_carrier_comes_apart_at_bulb_and_bossing(bulk_carrier: ah.Hull) -> None:
     """Rails there are made of the pieces and the profile between them; flat ends are rails."""
-    net = gather(bulk_carrier.state)
-    layout = lay_out(net, 300.0, closed=True)
+    net = gather_net(bulk_carrier.state)
+    layout = lay_out_surface(net, 300.0, closed=True)
     assert layout.lost == ()
     rails = [(_rail(net, f, "aft"), _rail(net, f, "fore")) for f in layout.frames]
     assert (["ST 19.8"], ["ST 20.04", "profile"]) in rails
@@ -69,7 +75,7 @@ def test_the_carrier_comes_apart_at_bulb_and_bossing(bulk_carrier: ah.Hull) -> N
 
 def test_lines_that_run_to_a_point_make_a_rail_of_it() -> None:
     """The tip of the ellipsoid; all diagonals arrive there."""
-    layout = lay_out(gather(ellipsoid_net(11, 6)), 100.0, closed=False)
+    layout = lay_out_surface(gather_net(ellipsoid_net(11, 6)), 100.0, closed=False)
     _curve, begin, finish = layout.frames[0].aft[0]
     assert begin == finish
     assert len(layout.frames[0].aft) == 1
@@ -79,23 +85,23 @@ def test_lines_that_run_to_a_point_make_a_rail_of_it() -> None:
 def test_a_thinned_net_lacks_every_other_section() -> None:
     """What is left out differs between the two choices, the outermost included; lines follow."""
     state = wigley()
-    net = gather(state)
+    net = gather_net(state)
     even, odd = (every_other_section(net, first) for first in (0, 1))
     assert not (even & odd).any()
     assert int((even | odd).sum()) == 19
-    fewer = thinned(state, net, even)
-    assert len(planes(fewer)) == 19 - int(even.sum())
+    fewer = thinned_net(state, net, even)
+    assert len(station_planes(fewer)) == 19 - int(even.sum())
     level = fewer.name.index("WL 2.5")
     size = np.diff(fewer.batch.start)[level]
     assert size == np.diff(net.batch.start)[net.name.index("WL 2.5")] - int(even.sum())
-    assert lay_out(fewer, 100.0, closed=True).lost == ()
+    assert lay_out_surface(fewer, 100.0, closed=True).lost == ()
 
 
 def test_places_on_a_thinned_net_are_on_both_lines() -> None:
     """Crossings carried over to the coarser splines meet to within what the splines differ by."""
     state = wigley()
-    net = gather(state)
-    fewer = thinned(state, net, every_other_line(net))
+    net = gather_net(state)
+    fewer = thinned_net(state, net, every_other_line(net))
     one, other = (evaluate(fewer.batch, fewer.meets[:, i], fewer.place[:, i]) for i in (0, 1))
     assert np.abs(one - other).max() < 2e-3
 
@@ -183,7 +189,7 @@ def test_only_the_uppermost_strip_has_a_deck_edge(bulk_carrier: ah.Hull) -> None
         bulk_carrier.undo()
 
 
-def _height(net: Net, frame: Frame) -> float:
+def _height(net: CurveNet, frame: StripBoundary) -> float:
     """Give the height of the upper ends of the rails, m."""
     ends = [rail[-1] for rail in (frame.aft, frame.fore)]
     place = evaluate(net.batch, np.array([e[0] for e in ends]), np.array([e[2] for e in ends]))
@@ -194,31 +200,33 @@ def test_between_equal_largest_sections_a_hull_with_flats_runs_straight(
     series60_70: ah.Hull, series60_60: ah.Hull
 ) -> None:
     """The parallel body of CB .70 is that from ST 10 to ST 12; CB .60 has none, nor has Wigley."""
-    net = gather(series60_70.state)
-    x = planes(net)
+    net = gather_net(series60_70.state)
+    x = station_planes(net)
     slabs = sorted(parallel_slabs(net, x))
     stations = np.round(20.0 * x / series60_70.particulars.length, 9).tolist()
     assert [(stations[i - 1], stations[i]) for i in slabs] == [(10.0, 11.0), (11.0, 12.0)]
-    layout = lay_out(net, series60_70.particulars.length, closed=True)
+    layout = lay_out_surface(net, series60_70.particulars.length, closed=True)
     for i, frame in enumerate(layout.frames):
         begin, end = layout.cells.anchor_start[i : i + 2]
         straight = (layout.cells.anchor[begin:end] == -1).all()
         assert straight == (frame.slab in slabs)
     for state in (series60_60.state, wigley(stations=22)):
-        net = gather(state)
-        assert parallel_slabs(net, planes(net)) == frozenset()
+        net = gather_net(state)
+        assert parallel_slabs(net, station_planes(net)) == frozenset()
 
 
 def test_a_border_that_dips_below_a_waterline_between_sections_holds_no_surface() -> None:
     """Two lines that change places would fold it: the waterline stays, the border goes."""
     state = series60_adopted(0.70)[0]
-    net = gather(state)
-    every = spans(net)
-    found, _ = frames(net, arcs(net, planes(net)), len(planes(net)), 121.92)
+    net = gather_net(state)
+    every = line_spans(net)
+    found, _ = strip_boundaries(
+        net, boundary_arcs(net, station_planes(net)), len(station_planes(net)), 121.92
+    )
     [frame] = [each for each in found if each.slab == 14]
-    held = {net.name[part[0]] for anchor in anchors(frame, every)[1] for part in anchor.parts}
+    held = {net.name[part[0]] for anchor in strip_anchors(frame, every)[1] for part in anchor.parts}
     assert "WL 0.25" in held
     assert "flat of side" not in held
     [frame] = [each for each in found if each.slab == 12]
-    held = {net.name[part[0]] for anchor in anchors(frame, every)[1] for part in anchor.parts}
+    held = {net.name[part[0]] for anchor in strip_anchors(frame, every)[1] for part in anchor.parts}
     assert {"WL 0.25", "flat of side"} <= held

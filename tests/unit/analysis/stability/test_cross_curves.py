@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.stability.condition import Asked
+from assoc_hull.analysis.stability.condition import ConditionRequest
 from assoc_hull.analysis.stability.cross_curves import cross_curves, cross_curves_of
-from assoc_hull.analysis.stability.levers import TrimRule
+from assoc_hull.analysis.stability.righting_lever import TrimRule
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from tests.floating_bodies import box_body, head, wigley_body
 
@@ -17,7 +17,7 @@ HEELS = np.array([5.0, 10.0, 20.0, 30.0])
 
 def test_the_reference_stands_in_a_table_of_many() -> None:
     """The row of 2777.777778 m3 has the printed digits; the others are their own ships'."""
-    asked = [Asked(weight=each) for each in (2000.0, 25000.0 / 9.0, 3000.0)]
+    asked = [ConditionRequest(weight=each) for each in (2000.0, 25000.0 / 9.0, 3000.0)]
     header = head(100.0, 10.0, 6.25, rho=1.0)
     found = cross_curves_of(wigley_body(), header, asked, "fixed", HEELS)
     want = [0.4602009129, 0.9182480482, 1.8200848130, 2.6937178386]
@@ -31,7 +31,7 @@ def test_the_reference_stands_in_a_table_of_many() -> None:
 @pytest.mark.parametrize("trim", ["fixed", "free"])
 def test_kn_of_a_box_is_that_of_a_wall_sided_ship(trim: TrimRule) -> None:
     """KN = sin(heel) (KB + BM (1 + tan^2 / 2)) at any draught whose deck stays dry."""
-    asked = [Asked(draughts=(t, t)) for t in (5.0, 6.0, 7.0)]
+    asked = [ConditionRequest(draughts=(t, t)) for t in (5.0, 6.0, 7.0)]
     found = cross_curves_of(box_body(), head(100.0, 20.0, 6.0), asked, trim, HEELS[:3])
     phi, t = np.radians(HEELS[:3]), np.array([[5.0], [6.0], [7.0]])
     want = np.sin(phi) * (t / 2.0 + 400.0 / 12.0 / t * (1.0 + np.tan(phi) ** 2 / 2.0))
@@ -40,7 +40,7 @@ def test_kn_of_a_box_is_that_of_a_wall_sided_ship(trim: TrimRule) -> None:
 
 def test_where_an_open_deck_would_be_drowned_there_is_no_kn() -> None:
     """And the notes say so."""
-    asked = [Asked(draughts=(t, t)) for t in (6.0, 8.0)]
+    asked = [ConditionRequest(draughts=(t, t)) for t in (6.0, 8.0)]
     heels = np.array([10.0, 20.0, 25.0, 35.0])
     found = cross_curves_of(box_body(False), head(100.0, 20.0, 6.0), asked, "fixed", heels)
     dry = [[True, True, True, False], [True, True, False, False]]
@@ -50,7 +50,7 @@ def test_where_an_open_deck_would_be_drowned_there_is_no_kn() -> None:
 
 def test_free_trim_changes_kn_of_a_ship_that_trims_as_it_heels() -> None:
     """With KG given or not; upright both rules agree."""
-    asked = [Asked(draughts=(5.8, 6.6), kg=kg) for kg in (None, 4.0)]
+    asked = [ConditionRequest(draughts=(5.8, 6.6), kg=kg) for kg in (None, 4.0)]
     header = head(100.0, 10.0, 6.25)
     heels = np.array([-30.0, 0.0, 30.0])
     fixed = cross_curves_of(wigley_body(), header, asked[:1], "fixed", heels)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assoc_hull.analysis.stability.condition import Asked
+from assoc_hull.analysis.stability.condition import ConditionRequest
 from assoc_hull.analysis.stability.equilibrium import Equilibrium, equilibrium_of
 from assoc_hull.errors import BadInputError, OutOfRangeError
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from tests.floating_bodies import StripBody, box_body, head, wigley_body
 
 WIGLEY_VOLUME = 25000.0 / 9.0
@@ -18,7 +18,7 @@ def rest(body: StripBody, weight: float, lcg: float, tcg: float, kg: float) -> E
     """In fresh water."""
     deck = "closed" if body.limits.closed else "open"
     header = head(100.0, 20.0, 6.0, rho=1.0, kg=kg, deck=deck)
-    return equilibrium_of(body, header, Asked(weight=weight, lcg=lcg, tcg=tcg, kg=kg))
+    return equilibrium_of(body, header, ConditionRequest(weight=weight, lcg=lcg, tcg=tcg, kg=kg))
 
 
 def test_the_wigley_hull_rests_upright_at_the_reference_draughts() -> None:
@@ -41,7 +41,7 @@ def test_at_rest_both_equations_hold(tcg: float, kg: float) -> None:
     assert np.sign(at.heel_deg) == -np.sign(tcg)
     slope = (at.draught_fore - at.draught_aft) / 100.0
     th = float(np.tan(np.radians(at.heel_deg)))
-    f = wigley_body().measure(Planes(*np.array([[at.draught_aft], [slope], [th]])))
+    f = wigley_body().measure(FloatingPlanes(*np.array([[at.draught_aft], [slope], [th]])))
     assert f.volume[0] == pytest.approx(WIGLEY_VOLUME, rel=1e-10)
     b = np.array([f.moment_x[0], f.moment_y[0], f.moment_z[0]]) / f.volume[0]
     normal = np.array([-slope, th, 1.0])

@@ -8,15 +8,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.hydrostatics.appendage import Appendage
-from assoc_hull.analysis.stability.condition import Asked, case_of, condition_of
+from assoc_hull.analysis.hydrostatics.floating_body import Appendage
+from assoc_hull.analysis.stability.condition import ConditionRequest, case_of, condition_of
 from assoc_hull.analysis.stability.cross_curves import cross_curves_of
-from assoc_hull.analysis.stability.heeled import Heeled, heeled
-from assoc_hull.analysis.stability.levers import TrimRule
-from assoc_hull.analysis.stability.result import Stability
-from assoc_hull.analysis.stability.stability import stability_of
+from assoc_hull.analysis.stability.righting_lever import HeeledShip, TrimRule, float_at_heels
+from assoc_hull.analysis.stability.stability_report import Stability, stability_of
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from tests.floating_bodies import StripBody, box_body, ellipsoid_body, head, wigley_body
 
 Made = Callable[[], StripBody]
@@ -25,25 +23,33 @@ WIGLEY_VOLUME = 25000.0 / 9.0
 ELLIPSOID_VOLUME = 3781.5467126543804
 
 
-def found(body: StripBody, asked: Asked, heels: list[float], trim: TrimRule = "fixed") -> Stability:
+def found(
+    body: StripBody, asked: ConditionRequest, heels: list[float], trim: TrimRule = "fixed"
+) -> Stability:
     """Stability in fresh water, so that tonnes are cubic metres."""
     header = head(100.0, 10.0, 6.25, rho=1.0, kg=asked.kg)
     return stability_of(body, header, asked, trim, np.array(heels))
 
 
 def floated(
-    body: StripBody, asked: Asked, heels: list[float], trim: TrimRule = "fixed", **given: object
-) -> Heeled:
+    body: StripBody,
+    asked: ConditionRequest,
+    heels: list[float],
+    trim: TrimRule = "fixed",
+    **given: object,
+) -> HeeledShip:
     """The heels alone, without curve and criteria."""
     terms: dict[str, object] = {"rho": 1.0, "kg": asked.kg, **given}
     header = head(100.0, 10.0, 6.25, **terms)
     case = case_of(body, header, [condition_of(body, header, asked)], trim)
-    return heeled(case, np.array(heels))
+    return float_at_heels(case, np.array(heels))
 
 
-def wigley(heels: list[float], trim: TrimRule = "free", lcg: float = 51.0) -> Heeled:
+def wigley(heels: list[float], trim: TrimRule = "free", lcg: float = 51.0) -> HeeledShip:
     """The Wigley hull of the reference table."""
-    return floated(wigley_body(), Asked(weight=WIGLEY_VOLUME, lcg=lcg, kg=4.0), heels, trim)
+    return floated(
+        wigley_body(), ConditionRequest(weight=WIGLEY_VOLUME, lcg=lcg, kg=4.0), heels, trim
+    )
 
 
 @pytest.mark.parametrize("trim", ["fixed", "free"])
@@ -57,7 +63,7 @@ def test_kn_of_the_wigley_hull_has_the_reference_values(trim: TrimRule) -> None:
 
 def test_kn_of_the_ellipsoid_has_the_reference_values() -> None:
     """To the printed digits; the strips follow the ellipsoid to 1e-10."""
-    asked = Asked(weight=ELLIPSOID_VOLUME, kg=4.0)
+    asked = ConditionRequest(weight=ELLIPSOID_VOLUME, kg=4.0)
     at = floated(ellipsoid_body(), asked, [10.0, 30.0, 60.0])
     assert_allclose(at.kn, [1.4135588768, 3.8711384448, 5.9527831604], atol=6e-11)
     assert_allclose(at.mean, [4.9727350625, 4.7380203676, 3.4833885216], atol=3e-10)
@@ -66,7 +72,7 @@ def test_kn_of_the_ellipsoid_has_the_reference_values() -> None:
 @pytest.mark.parametrize("trim", ["fixed", "free"])
 def test_kn_of_the_box_has_the_reference_values(trim: TrimRule) -> None:
     """To all printed digits, with deck and bilge crossing the water at 40 degrees."""
-    asked = Asked(weight=12000.0, kg=4.0)
+    asked = ConditionRequest(weight=12000.0, kg=4.0)
     at = floated(box_body(), asked, [10.0, 20.0, 30.0, 40.0], trim)
     assert_allclose(at.kn, [1.5006536615, 3.0520303646, 4.7407407407, 6.1148975320], atol=5e-11)
 
@@ -99,12 +105,12 @@ def ellipsoid_kn(heel_deg: FloatArray) -> FloatArray:
 def test_a_ship_on_her_side_has_the_lever_of_the_closed_form() -> None:
     """At 85 and 89.75 degrees to 2e-10, at 89.9 and 90, which are read from a cubic, to 1e-8 m."""
     heels = [-90.0, 85.0, 89.75, 89.9, 90.0]
-    at = floated(ellipsoid_body(), Asked(weight=ELLIPSOID_VOLUME, kg=4.0), heels)
+    at = floated(ellipsoid_body(), ConditionRequest(weight=ELLIPSOID_VOLUME, kg=4.0), heels)
     off = np.abs(at.kn - ellipsoid_kn(np.array(heels)))
     assert (off[1:3] <= 2e-10).all()
     assert (off[[0, 3, 4]] <= 1e-8).all()
     assert np.isnan(at.mean[[0, 4]]).all()
-    box = floated(box_body(), Asked(weight=12000.0, kg=4.0), [90.0])
+    box = floated(box_body(), ConditionRequest(weight=12000.0, kg=4.0), [90.0])
     assert box.kn[0] == pytest.approx(6.0, abs=1e-8)  # the middle of its depth
 
 
@@ -121,8 +127,8 @@ def test_levers_to_port_are_those_to_starboard(trim: TrimRule, lcg: float) -> No
 def test_kn_does_not_depend_on_kg(kg: float) -> None:
     """And GZ = KN - KG sin(heel), at a trim that stays nil."""
     heels = [10.0, 25.0, 40.0, 70.0]
-    at = floated(box_body(), Asked(weight=12000.0, kg=kg), heels)
-    asked = [Asked(weight=12000.0)]
+    at = floated(box_body(), ConditionRequest(weight=12000.0, kg=kg), heels)
+    asked = [ConditionRequest(weight=12000.0)]
     head_ = head(100.0, 20.0, 6.0, rho=1.0)
     cross = cross_curves_of(box_body(), head_, asked, "fixed", np.array(heels))
     assert_allclose(at.kn, cross.kn[0], atol=1e-11)
@@ -133,7 +139,8 @@ def test_a_centre_of_gravity_off_the_centre_plane_adds_its_cosine() -> None:
     """GZ grows by y_G cos(heel): it heels the ship to its side."""
     heels = [-20.0, 0.0, 20.0, 60.0]
     plain, off = (
-        found(box_body(), Asked(weight=12000.0, kg=4.0, tcg=y), heels) for y in (0.0, 0.3)
+        found(box_body(), ConditionRequest(weight=12000.0, kg=4.0, tcg=y), heels)
+        for y in (0.0, 0.3)
     )
     assert_allclose(off.gz - plain.gz, 0.3 * np.cos(np.radians(heels)), atol=1e-11)
     assert (plain.side, off.side) == ("starboard", "port")
@@ -142,7 +149,7 @@ def test_a_centre_of_gravity_off_the_centre_plane_adds_its_cosine() -> None:
 @pytest.mark.parametrize("trim", ["fixed", "free"])
 def test_the_curve_begins_with_the_slope_gm(trim: TrimRule) -> None:
     """GM = KB + I_T / V - KG of the Wigley hull: 3.90625 + 3809.5238 / 2777.7778 - 4."""
-    whole = found(wigley_body(), Asked(weight=WIGLEY_VOLUME, kg=4.0), [0.0, 1e-3], trim)
+    whole = found(wigley_body(), ConditionRequest(weight=WIGLEY_VOLUME, kg=4.0), [0.0, 1e-3], trim)
     gm = 3.90625 + 80000.0 / 21.0 / WIGLEY_VOLUME - 4.0
     assert whole.gm == pytest.approx(gm, abs=1e-9)
     assert whole.gz[1] / np.radians(1e-3) == pytest.approx(gm, abs=1e-6)
@@ -151,15 +158,15 @@ def test_the_curve_begins_with_the_slope_gm(trim: TrimRule) -> None:
 @pytest.mark.parametrize(
     ("body", "asked", "trim"),
     [
-        (wigley_body, Asked(weight=WIGLEY_VOLUME, lcg=51.0, kg=4.0), "free"),
-        (wigley_body, Asked(weight=WIGLEY_VOLUME, lcg=48.0, kg=3.0, tcg=0.2), "free"),
-        (wigley_body, Asked(draughts=(5.5, 6.5), kg=4.0), "fixed"),
-        (ellipsoid_body, Asked(draughts=(5.0, 6.0), kg=5.0), "fixed"),
-        (box_body, Asked(draughts=(5.0, 7.0), kg=5.0), "free"),
+        (wigley_body, ConditionRequest(weight=WIGLEY_VOLUME, lcg=51.0, kg=4.0), "free"),
+        (wigley_body, ConditionRequest(weight=WIGLEY_VOLUME, lcg=48.0, kg=3.0, tcg=0.2), "free"),
+        (wigley_body, ConditionRequest(draughts=(5.5, 6.5), kg=4.0), "fixed"),
+        (ellipsoid_body, ConditionRequest(draughts=(5.0, 6.0), kg=5.0), "fixed"),
+        (box_body, ConditionRequest(draughts=(5.0, 7.0), kg=5.0), "free"),
     ],
 )
 def test_slopes_are_those_of_the_levers(
-    body: Callable[[], StripBody], asked: Asked, trim: TrimRule
+    body: Callable[[], StripBody], asked: ConditionRequest, trim: TrimRule
 ) -> None:
     """dGZ/dphi against central differences, with trim and G off the centre plane."""
     step = 1e-3
@@ -176,7 +183,7 @@ def test_the_work_of_heeling_is_the_rise_of_gravity_over_buoyancy(
 ) -> None:
     """Integral of GZ = (G - B).n less the same upright; to 3e-6 m rad with the refined curve."""
     heels = [20.0, 40.0, 55.0]
-    whole = found(body(), Asked(weight=3781.0, kg=7.0), [0.0, *heels])
+    whole = found(body(), ConditionRequest(weight=3781.0, kg=7.0), [0.0, *heels])
     work = whole.heels.energy[1:] - whole.heels.energy[0]
     assert_allclose(whole.columns["arm"][1:], work, atol=3e-6)
 
@@ -185,9 +192,9 @@ def test_the_work_of_heeling_is_the_rise_of_gravity_over_buoyancy(
 def test_free_trim_is_an_equilibrium_lengthwise(heel: float) -> None:
     """The volume is that of the weight, and (B - G).e1 = 0, measured anew; with an appendage."""
     fin = Appendage("fin", 20.0, (20.0, 0.0, 1.0))
-    asked = Asked(weight=WIGLEY_VOLUME, lcg=51.0, kg=4.0)
+    asked = ConditionRequest(weight=WIGLEY_VOLUME, lcg=51.0, kg=4.0)
     at = floated(wigley_body(), asked, [heel], "free", appendages=(fin,))
-    planes = Planes(at.mean - 50.0 * at.slope, at.slope, np.tan(np.radians([heel])))
+    planes = FloatingPlanes(at.mean - 50.0 * at.slope, at.slope, np.tan(np.radians([heel])))
     bare = wigley_body().measure(planes)
     volume = bare.volume[0] + 20.0
     assert volume == pytest.approx(WIGLEY_VOLUME, rel=1e-11)

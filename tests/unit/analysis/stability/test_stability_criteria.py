@@ -6,12 +6,11 @@ import attrs
 import numpy as np
 import pytest
 
-from assoc_hull.analysis.stability.condition import Asked
+from assoc_hull.analysis.stability.condition import ConditionRequest
 from assoc_hull.analysis.stability.criteria import Criterion
 from assoc_hull.analysis.stability.flooding import FloodingPoint
-from assoc_hull.analysis.stability.levers import TrimRule
-from assoc_hull.analysis.stability.result import Stability
-from assoc_hull.analysis.stability.stability import stability_of
+from assoc_hull.analysis.stability.righting_lever import TrimRule
+from assoc_hull.analysis.stability.stability_report import Stability, stability_of
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from tests.floating_bodies import box_body, head
 
@@ -34,7 +33,7 @@ def box(
     """The box of 100 x 20 x 12 m, 12,000 m3."""
     header = head(100.0, BREADTH, DRAUGHT, kg=kg, deck="closed" if closed else "open")
     heels = np.arange(0.0, most + 1.0, 10.0)
-    asked = Asked(draught=draught, kg=kg, tcg=tcg)
+    asked = ConditionRequest(draught=draught, kg=kg, tcg=tcg)
     return stability_of(box_body(closed), header, asked, trim, heels, points)
 
 
@@ -189,7 +188,7 @@ def test_a_ship_is_judged_to_the_side_to_which_gravity_heels_her() -> None:
 def test_draughts_tell_where_gravity_is() -> None:
     """Trimmed by given draughts, a ship that is free to trim keeps them upright, however high G."""
     header = head(100.0, BREADTH, DRAUGHT, kg=4.0, deck="closed")
-    asked = Asked(draughts=(6.5, 5.5), kg=4.0)
+    asked = ConditionRequest(draughts=(6.5, 5.5), kg=4.0)
     found = stability_of(box_body(True), header, asked, "free", np.array([0.0, 10.0]))
     at = [found.columns[name][0] for name in ("draught_aft", "draught_fore")]
     assert at == pytest.approx([6.5, 5.5], abs=1e-6)
@@ -228,20 +227,32 @@ def test_free_trim_says_where_it_ends() -> None:
 @pytest.mark.parametrize(
     ("asked", "error", "words"),
     [
-        (Asked(weight=0.0, kg=5.0), OutOfRangeError, "is none"),
-        (Asked(weight=-3.0, kg=5.0), OutOfRangeError, "is none"),
-        (Asked(weight=float("nan"), kg=5.0), OutOfRangeError, "a weight"),
-        (Asked(weight=1e5, kg=5.0), OutOfRangeError, "more than the hull carries.*24600"),
-        (Asked(draught=13.0, kg=5.0), OutOfRangeError, "above the deck"),
-        (Asked(draught=-1.0, kg=5.0), OutOfRangeError, "below the keel"),
-        (Asked(draughts=(6.0, float("nan")), kg=5.0), OutOfRangeError, "no finite number"),
-        (Asked(weight=9e3, draught=6.0, kg=5.0), BadInputError, "more than one"),
-        (Asked(draught=6.0, lcg=50.0, kg=5.0), BadInputError, "lcg is given without a weight"),
-        (Asked(weight=12300.0, lcg=99.0, kg=5.0), BadInputError, "no trim"),
+        (ConditionRequest(weight=0.0, kg=5.0), OutOfRangeError, "is none"),
+        (ConditionRequest(weight=-3.0, kg=5.0), OutOfRangeError, "is none"),
+        (ConditionRequest(weight=float("nan"), kg=5.0), OutOfRangeError, "a weight"),
+        (
+            ConditionRequest(weight=1e5, kg=5.0),
+            OutOfRangeError,
+            "more than the hull carries.*24600",
+        ),
+        (ConditionRequest(draught=13.0, kg=5.0), OutOfRangeError, "above the deck"),
+        (ConditionRequest(draught=-1.0, kg=5.0), OutOfRangeError, "below the keel"),
+        (
+            ConditionRequest(draughts=(6.0, float("nan")), kg=5.0),
+            OutOfRangeError,
+            "no finite number",
+        ),
+        (ConditionRequest(weight=9e3, draught=6.0, kg=5.0), BadInputError, "more than one"),
+        (
+            ConditionRequest(draught=6.0, lcg=50.0, kg=5.0),
+            BadInputError,
+            "lcg is given without a weight",
+        ),
+        (ConditionRequest(weight=12300.0, lcg=99.0, kg=5.0), BadInputError, "no trim"),
     ],
 )
 def test_a_condition_that_cannot_be_is_refused(
-    asked: Asked, error: type[Exception], words: str
+    asked: ConditionRequest, error: type[Exception], words: str
 ) -> None:
     """With what is wrong, and the range."""
     with pytest.raises(error, match=words):

@@ -10,13 +10,13 @@ import pytest
 from numpy.polynomial.polynomial import polyval
 
 import assoc_hull as ah
-from assoc_hull.analysis.hydrostatics.area_curve import area_curve
 from assoc_hull.analysis.hydrostatics.flotation import flotation
+from assoc_hull.analysis.hydrostatics.section_areas import area_curve
 from assoc_hull.creation.classical.classical_net import classical_net
 from assoc_hull.creation.classical.lewis_hull import LewisHull
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.form_polynomials import taylor_quintic
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.classical.polynomial_hulls import taylor_quintic
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 
 X = np.linspace(0.0, 120.0, 21)
 ALONG = 1.0 - np.abs(X / 60.0 - 1.0)
@@ -45,7 +45,9 @@ def test_the_net_is_whole_and_has_the_areas(hull: ah.Hull) -> None:
     """No findings; areas of sections within 1e-4 of sigma B T, volume within 1e-4 of theirs."""
     assert hull.check() == ()
     made = ship()
-    curve = area_curve(flotation(hull.state), Planes(np.array([7.0]), np.zeros(1), np.zeros(1)))
+    curve = area_curve(
+        flotation(hull.state), FloatingPlanes(np.array([7.0]), np.zeros(1), np.zeros(1))
+    )
     np.testing.assert_allclose(curve.at(X[1:-1]), made.areas[1:-1], rtol=1e-4)
     report = made.report(hull.state)
     volume = report.figure("volume")

@@ -9,15 +9,19 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.creation.classical.classical_net import classical_net
-from assoc_hull.creation.classical.middle_body import MiddleBody, midship_outline
-from assoc_hull.creation.classical.midship import Midship
-from assoc_hull.creation.classical.outline import Outline, circular, smooth, straight
-from assoc_hull.creation.classical.report import Section, departures
-from assoc_hull.geometry.classical.arcs import Arcs
+from assoc_hull.creation.classical.line_outline import (
+    PlaneOutline,
+    circular_piece,
+    smooth_piece,
+    straight_piece,
+)
+from assoc_hull.creation.classical.middle_body import MiddleBody, Midship, midship_outline
+from assoc_hull.creation.classical.report import DefinedSection, departures
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.geometry.curves import PointKind
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.model.line_source import curve_data
+from assoc_hull.model.line_source import line_curve_data
 
 MIDSHIP = Midship(16.0, 2.0, 0.3, 2.5)
 VOLUME = 11249.94226
@@ -67,7 +71,7 @@ def test_sections_of_the_net_stay_on_the_definition(body: MiddleBody, hull: ah.H
     half = 0.5 * MIDSHIP.area(14.0)
     name = next(each for each in hull.lines if each.startswith("FR"))
     x = float(hull.state.lines.offset.data[hull.lines[name].row])
-    found = departures(hull.state, [Section(name, np.insert(uv, 0, x, axis=1), half)])
+    found = departures(hull.state, [DefinedSection(name, np.insert(uv, 0, x, axis=1), half)])
     assert found[0].distance < 1e-5
     assert found[0].net == pytest.approx(half, rel=1e-7)
 
@@ -76,21 +80,21 @@ def test_sections_of_the_net_stay_on_the_definition(body: MiddleBody, hull: ah.H
 @pytest.mark.parametrize("turn", [0.1, 1.0, 1.5, 3.0])
 def test_an_arc_of_points_stays_within_what_is_asked(radius: float, turn: float) -> None:
     """The kernel's curve through them leaves the circle by less than a hundredth of a mm."""
-    arc = Arcs.make([[3.0, 1.0]], [0.3], [1.0 / radius], [radius * turn])
-    line = Outline.of([circular(arc, within=1e-5)]).section("FR", 0.0)
-    places = sample(loft(curve_data([line])), 16)[1][:, 1:]
+    arc = PlaneArcs.make([[3.0, 1.0]], [0.3], [1.0 / radius], [radius * turn])
+    line = PlaneOutline.of([circular_piece(arc, within=1e-5)]).section("FR", 0.0)
+    places = sample(loft(line_curve_data([line])), 16)[1][:, 1:]
     away = np.hypot(*(places - arc.centres()[0]).T) - radius
     assert np.abs(away).max() < 1e-5
 
 
 def test_pieces_meet_as_their_directions_say() -> None:
     """One direction makes a tangent point, two make a knuckle, as does one that is not known."""
-    line = Outline.of(
+    line = PlaneOutline.of(
         [
-            straight((0, 0), (2, 0)),
-            smooth([(2, 0), (4, 1), (5, 3)], start=0.0),
-            straight((5, 3), (5, 6)),
-            straight((5, 6), (9, 6)),
+            straight_piece((0, 0), (2, 0)),
+            smooth_piece([(2, 0), (4, 1), (5, 3)], start=0.0),
+            straight_piece((5, 3), (5, 6)),
+            straight_piece((5, 6), (9, 6)),
         ]
     )
     assert line.kind.tolist() == [

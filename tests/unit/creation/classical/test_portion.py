@@ -12,11 +12,11 @@ import assoc_hull as ah
 from assoc_hull.creation.classical.sfolds_portion import (
     KINDS,
     Portion,
-    require_apart,
-    three_eighths,
+    require_portions_apart,
+    three_eighths_rule,
 )
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
+from assoc_hull.geometry.classical.ordinate_section import PairedParabolas
 from tests.unit.geometry.classical.test_ordinate_section import section
 
 X, AREAS = [0.0, 8.0, 16.0, 24.0, 32.0], [120.0, 160.0, 185.0, 190.0, 178.0]
@@ -36,7 +36,7 @@ def test_printed_values_of_a_portion() -> None:
 
 def test_printed_values_of_other_rules() -> None:
     """Simpson's second rule; the first of two steps alone."""
-    assert three_eighths([1.0, 4.0, 9.0, 16.0], 1.0) == 21.0
+    assert three_eighths_rule([1.0, 4.0, 9.0, 16.0], 1.0) == 21.0
     curve = PairedParabolas.make("areas", 0.0, 1.0, [1.0, 4.0, 9.0, 16.0])
     assert curve.integral(0.0, 1.0) == pytest.approx(2.3333333333333335, rel=1e-15)
 
@@ -96,12 +96,12 @@ def test_main_portions_are_one_to_seven() -> None:
 def test_portions_of_the_main_body_may_leave_gaps_and_others_may_overlap() -> None:
     """A sentence for each gap; order plays no part; nothing is said of other kinds."""
     aft, fore = of(2, np.array(X) - 40.0), of(5, np.array(X) + 40.0)
-    notes = require_apart([fore, of(3), of(8), of(8), aft])
+    notes = require_portions_apart([fore, of(3), of(8), of(8), aft])
     assert notes == (
         "portions 2 and 3 of the main body leave a gap in x: [-8,0]",
         "portions 3 and 5 of the main body leave a gap in x: [32,40]",
     )
-    assert require_apart([of(3), of(4, np.array(X) + 32.0)]) == ()
+    assert require_portions_apart([of(3), of(4, np.array(X) + 32.0)]) == ()
 
 
 def bare() -> Portion:
@@ -133,11 +133,11 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
         lambda: of(3, X[::-1]), "portion 3: stations not ascending at index 0 (step -8)"
     ),
     "overlap": (
-        lambda: require_apart([of(5, np.array(X) + 24.0), of(4)]),
+        lambda: require_portions_apart([of(5, np.array(X) + 24.0), of(4)]),
         "portions 4 and 5 of the main body overlap in x: [24,32]",
     ),
     "one within another": (
-        lambda: require_apart([of(4), of(5, 0.25 * np.array(X) + 8.0)]),
+        lambda: require_portions_apart([of(4), of(5, 0.25 * np.array(X) + 8.0)]),
         "portions 4 and 5 of the main body overlap in x: [8,16]",
     ),
     "other counts": (lambda: of(3, X, AREAS[:3]), "portion 3: 5 stations and 3 sections"),
@@ -148,7 +148,7 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     "outside": (lambda: of().area(33.0), "portion 3: x=33 outside [0, 32]"),
     "areas alone": (lambda: bare().volume_below(3.0), "portion 3: no sections, only areas"),
     "3/8 of three": (
-        lambda: three_eighths([1.0, 2.0, 3.0], 1.0), "3/8 rule: expected shape (4), got (3,)"
+        lambda: three_eighths_rule([1.0, 2.0, 3.0], 1.0), "3/8 rule: expected shape (4), got (3,)"
     ),
 }  # fmt: skip
 

@@ -11,17 +11,13 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.creation.classical.classical_net import classical_net
 from assoc_hull.creation.classical.prelikon import Prelikon
-from assoc_hull.creation.classical.prelikon_pieces import Joint, joints_of
-from assoc_hull.creation.classical.prelikon_stations import Station
+from assoc_hull.creation.classical.prelikon_lines import ArcJoint, Station, arc_joints
 from assoc_hull.errors import AssocHullError, GeometryError
-from assoc_hull.geometry.classical.appendage_box import AppendageBox
-from assoc_hull.geometry.classical.arc_boundary import ArcBoundary
-from assoc_hull.geometry.classical.arc_section import round_corners, through_points
-from assoc_hull.geometry.classical.camber_kinds import CamberKind
-from assoc_hull.geometry.classical.deck_house import DeckHouse
-from assoc_hull.geometry.classical.deck_surface import Deck
-from assoc_hull.geometry.classical.sheer import Sheer
-from assoc_hull.geometry.classical.space_curve import SpaceCurve
+from assoc_hull.geometry.classical.appendages import AppendageBox
+from assoc_hull.geometry.classical.arc_curve import ArcBoundary, round_corners, through_points
+from assoc_hull.geometry.classical.boundary_lines import SpaceCurve
+from assoc_hull.geometry.classical.camber import CamberKind
+from assoc_hull.geometry.classical.deck import Deck, DeckHouse, Sheer
 from assoc_hull.shipped.classical_ships import classical_ship
 
 SIZES = ah.Particulars("Body", 40.0, 20.0, 9.0, 6.0, "closed")
@@ -192,7 +188,7 @@ def test_mean_circles_go_into_the_net_smoothly() -> None:
     turn = np.linspace(0.0, 0.5 * np.pi, 9)
     points = np.stack([10.0 * np.sin(turn), 6.0 - 6.0 * np.cos(turn)], axis=1)
     curve = through_points([*points, (10.0, 9.0)], kind=["arc"] * 8 + ["line"], knuckles=[8])
-    assert set(joints_of(curve)[:-1]) == {Joint.SMOOTH}
+    assert set(arc_joints(curve)[:-1]) == {ArcJoint.SMOOTH}
     ship = body(stations=[Station(x, curve) for x in (0.0, 10.0, 25.0, 40.0)])
     assert ship.notes[0].startswith("sections have 28 joints at which their direction jumps, by up")
     hull = ah.create(ship)

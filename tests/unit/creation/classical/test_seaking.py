@@ -10,19 +10,16 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.creation.classical.classical_net import classical_net
-from assoc_hull.creation.classical.midship import Midship
+from assoc_hull.creation.classical.middle_body import Midship
 from assoc_hull.creation.classical.report import ClassicalReport
-from assoc_hull.creation.classical.seaking import Seaking
-from assoc_hull.creation.classical.seaking_parts import DeckCamber, Parallel
-from assoc_hull.creation.classical.seaking_sections import MidshipSection
-from assoc_hull.creation.classical.seaking_sums import breaks_of
+from assoc_hull.creation.classical.seaking import Seaking, area_breaks
+from assoc_hull.creation.classical.seaking_parts import DeckCamber, MidshipSection, ParallelPart
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.frame import Frame
-from assoc_hull.geometry.classical.keel_outline import KeelOutline
-from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
+from assoc_hull.geometry.classical.boundary_lines import CodedKnuckleLine, KeelOutline
+from assoc_hull.geometry.classical.frame_section import FrameSection
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
-from assoc_hull.geometry.splines.closest import closest
-from assoc_hull.model.state import Particulars
+from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.model.tables import Particulars
 from assoc_hull.shipped.classical_ships import classical_ship
 
 
@@ -34,9 +31,9 @@ def body(**changed: object) -> Seaking:
         "waterlines": tuple(
             ParallelWaterline.make(z, [(0, 16), (40, 16)], parallel=(0, 40)) for z in (5, 9)
         ),
-        "deck": KnuckleLine.make([0, 40], [(16, 14), (16, 14)], [1]),
+        "deck": CodedKnuckleLine.make([0, 40], [(16, 14), (16, 14)], [1]),
         "frames": np.arange(5.0, 40.0, 5.0),
-        "parallel": Parallel(Midship(16, 2, 0.3, 2.5), 0, 40),
+        "parallel": ParallelPart(Midship(16, 2, 0.3, 2.5), 0, 40),
     }
     return Seaking(**(given | changed))  # type: ignore[arg-type]
 
@@ -56,7 +53,7 @@ def wedge() -> Seaking:
         particulars=Particulars("Wedge", 38, 8, 8, 6, "closed"),
         keel=KeelOutline.make(0, 30, [(0, 0)], [(30, 0), (38, 8)], [(0, 0), (30, 0)]),
         waterlines=tuple(lines),
-        deck=KnuckleLine.make([0, 30, 38], [(4, 8), (4, 8), (0, 8)], [1, 1]),
+        deck=CodedKnuckleLine.make([0, 30, 38], [(4, 8), (4, 8), (0, 8)], [1, 1]),
         frames=np.array([5.0, 15, 25, 32, 35]),
     )
 
@@ -108,16 +105,16 @@ def test_sections_of_the_middle_body_are_the_midship_section() -> None:
 
 def test_breaks_of_the_curve_of_areas_are_found() -> None:
     """Corners of lines and of the deck; where the keel passes a waterline, and the level."""
-    found = breaks_of(wedge(), [5.0])
+    found = area_breaks(wedge(), [5.0])
     assert {0.0, 15.0, 30.0, 32.0, 34.0, 35.0, 36.0, 38.0} <= set(found.round(9).tolist())
 
 
 def test_sections_abaft_and_over_the_level_keel_are_built_otherwise(coaster: Seaking) -> None:
     """Over the level keel a frame leaves its flat; ahead and abaft it begins at the keel."""
     after, middle, ahead = coaster.sections([5.0, 25.0, 106.0])
-    assert isinstance(after, Frame)
-    assert isinstance(middle, Frame)
-    assert isinstance(ahead, Frame)
+    assert isinstance(after, FrameSection)
+    assert isinstance(middle, FrameSection)
+    assert isinstance(ahead, FrameSection)
     assert (after.flat, ahead.flat) == (0.0, 0.0)
     assert middle.flat > 3.0
     assert middle.level_start
@@ -163,7 +160,7 @@ def test_the_net_passes_the_points_of_waterlines(coaster: Seaking, hull: ah.Hull
         curve = hull.lines[f"WL {line.z:g}"].curves[0]
         spline = hull.state.spline(curve.row)
         given = np.column_stack([line.points, np.full(len(line.points), line.z)])
-        assert closest(spline, 0, given)[2].max() < 1.05e-3
+        assert closest_points(spline, 0, given)[2].max() < 1.05e-3
 
 
 def test_a_report_tells_the_corrugation_and_calls_no_frame_fair(
@@ -187,7 +184,7 @@ def test_a_waterline_beside_the_midship_section_is_told() -> None:
 
 def test_a_deck_with_a_step_is_built_section_by_section() -> None:
     """Right of the step sections are higher; the volume of the whole is that of both parts."""
-    deck = KnuckleLine.make([0, 25, 25, 40], [(16, 14)] * 2 + [(16, 16)] * 2, [1, 0, 1])
+    deck = CodedKnuckleLine.make([0, 25, 25, 40], [(16, 14)] * 2 + [(16, 16)] * 2, [1, 0, 1])
     ship = body(deck=deck)
     low, high = ship.sections([24.999, 25.0])
     assert (low.area() + 2 * 32) == pytest.approx(high.area(), rel=1e-12)
@@ -206,19 +203,19 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
     ),
     "deck too short": (
         "deck side: must cover [0, 40]",
-        lambda: body(deck=KnuckleLine.make([0, 30], [(16, 14), (16, 14)], [1])),
+        lambda: body(deck=CodedKnuckleLine.make([0, 30], [(16, 14), (16, 14)], [1])),
     ),
     "deck of one column": (
         "deck side: has one column of values",
-        lambda: body(deck=KnuckleLine.make([0, 40], [16, 16], [1])),
+        lambda: body(deck=CodedKnuckleLine.make([0, 40], [16, 16], [1])),
     ),
     "deck of negative breadth": (
         "deck side: negative half-breadth at row 1",
-        lambda: body(deck=KnuckleLine.make([0, 40], [(16, 14), (-1, 14)], [1])),
+        lambda: body(deck=CodedKnuckleLine.make([0, 40], [(16, 14), (-1, 14)], [1])),
     ),
     "deck below the keel": (
         "deck side: z=-1 at x=0 lies below the contour",
-        lambda: body(deck=KnuckleLine.make([0, 40], [(16, -1), (16, 14)], [1])),
+        lambda: body(deck=CodedKnuckleLine.make([0, 40], [(16, -1), (16, 14)], [1])),
     ),
     "frames in disorder": (
         "frames: x not strictly increasing at row 1", lambda: body(frames=np.array([5.0, 3.0])),
@@ -228,15 +225,15 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
     ),
     "midship beyond the keel": (
         "midship: its part [0, 41] leaves the level keel",
-        lambda: body(parallel=Parallel(Midship(16, 2, 0.3, 2.5), 0, 41)),
+        lambda: body(parallel=ParallelPart(Midship(16, 2, 0.3, 2.5), 0, 41)),
     ),
     "midship of another breadth": (
         "midship: the deck side at x=0 has y=16, not a=15",
-        lambda: body(parallel=Parallel(Midship(15, 2, 0.3, 2.5), 0, 40)),
+        lambda: body(parallel=ParallelPart(Midship(15, 2, 0.3, 2.5), 0, 40)),
     ),
     "bilge above the deck": (
         "midship: bilge centre z=14.28531716 above the side height 14",
-        lambda: body(parallel=Parallel(Midship(16, 0, 0.3, 14.25), 0, 40)),
+        lambda: body(parallel=ParallelPart(Midship(16, 0, 0.3, 14.25), 0, 40)),
     ),
     "camber runs back": (
         "camber: x not strictly increasing at row 1",

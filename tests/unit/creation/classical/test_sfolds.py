@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.creation.classical.runs import kinds_along
-from assoc_hull.creation.classical.sfolds import Sfolds
-from assoc_hull.creation.classical.sfolds_lines import frames_of, section_points
+from assoc_hull.creation.classical.line_outline import point_kinds_along
+from assoc_hull.creation.classical.sfolds import Sfolds, portion_frames, section_points
 from assoc_hull.creation.classical.sfolds_portion import Portion
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
@@ -100,7 +99,7 @@ def test_the_shipped_ferry_is_sound(ferry: Sfolds, hull: ah.Hull) -> None:
 
 def test_the_net_passes_all_given_points(ferry: Sfolds, hull: ah.Hull) -> None:
     """Within 0.1 mm, which a waterline that is cut may bend its sections by."""
-    for frame in frames_of(ferry.portions)[1:-1:3]:
+    for frame in portion_frames(ferry.portions)[1:-1:3]:
         (curve,) = hull.lines[f"ST {frame.x:g}"].curves
         for y, z in frame.section.outline().tolist():
             assert curve.closest((frame.x, y, z))[2] < 1e-4
@@ -168,13 +167,13 @@ def test_gaps_are_noted_and_bridged() -> None:
     """The net runs on between the sections on both sides."""
     ship = Sfolds.make(BODY, [prism(), prism(5, 40.0)])
     assert ship.notes == ("portions 3 and 5 of the main body leave a gap in x: [32,40]",)
-    assert [frame.x for frame in frames_of(ship.portions)] == [*X, *(X + 40.0)]
+    assert [frame.x for frame in portion_frames(ship.portions)] == [*X, *(X + 40.0)]
 
 
 def test_a_joint_is_one_section() -> None:
     """Where one portion ends and the next begins."""
     ship = Sfolds.make(BODY, [prism(4, 32.0), prism()])
-    assert [frame.x for frame in frames_of(ship.portions)] == [*X, *(X[1:] + 32.0)]
+    assert [frame.x for frame in portion_frames(ship.portions)] == [*X, *(X[1:] + 32.0)]
 
 
 def test_a_ship_of_areas_alone_tells_its_volume() -> None:
@@ -210,12 +209,12 @@ def test_corners_of_a_section_stay_where_they_are_sharp() -> None:
 def test_straight_runs_stay_straight() -> None:
     """A curve is tangent to a run; two runs that meet, and sharp turns, have a knuckle."""
     runs = [[0, 0, 5], [10, 0, 1], [20, 0, 0], [30, 0, 0], [40, 0, 0], [50, 0, 10]]
-    kind, direction = kinds_along(runs, 30.0)
+    kind, direction = point_kinds_along(runs, 30.0)
     assert kind.tolist() == [0, 0, 1, 0, 2, 0]
     assert direction[2].tolist() == [1.0, 0.0, 0.0]
     level = [[0, 0, 0], [10, 0, 0], [20, 0, 0], [30, 0, 3], [40, 0, 6]]
-    assert kinds_along(level, 30.0)[0].tolist() == [0, 0, 2, 0, 0]
-    assert kinds_along(level[:2], 30.0)[0].tolist() == [0, 0]
+    assert point_kinds_along(level, 30.0)[0].tolist() == [0, 0, 2, 0, 0]
+    assert point_kinds_along(level[:2], 30.0)[0].tolist() == [0, 0]
 
 
 def narrow(y: float) -> OrdinateSection:

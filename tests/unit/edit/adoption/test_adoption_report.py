@@ -6,14 +6,13 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
-from assoc_hull.edit.adoption.adopt import adopt
-from assoc_hull.edit.adoption.report import AdoptionReport, LineReport
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, LineReport, adopt
 from assoc_hull.geometry.curves import CurveData, FloatArray
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.model.tables import HullState, Particulars
 
 SHIP = Particulars("test", 100.0, 20.0, 10.0, 6.0)
 

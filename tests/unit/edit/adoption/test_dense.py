@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from assoc_hull.edit.adoption.adopt import adopt
+from assoc_hull.edit.adoption.adopt_lines import adopt
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.model.tables import HullState, Particulars
 
 SHIP = Particulars("piece", 10.0, 4.0, 4.0, 2.0)
 

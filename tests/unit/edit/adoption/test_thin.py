@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from assoc_hull.edit.adoption.adopt import adopt
-from assoc_hull.edit.adoption.report import AdoptionReport
-from assoc_hull.edit.checks.hull import check
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
+from assoc_hull.edit.checks.hull_findings import check
 from assoc_hull.geometry.curves import PointKind
 from assoc_hull.model.kinds import Sort
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from assoc_hull.tolerance import Tolerances
 from tests.strategies import Net, nets, wigley_sources
 

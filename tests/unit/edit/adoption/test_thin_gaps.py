@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from assoc_hull.edit.adoption.match_crossings import Meeting
-from assoc_hull.edit.adoption.thin_gaps import wide_gaps
+from assoc_hull.edit.adoption.match_crossings import LineIntersection
+from assoc_hull.edit.adoption.thinned_deviations import wide_gaps
 from assoc_hull.geometry.curves import CurveData, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
 
 
-def _lines(lift: float, drop: float) -> tuple[SplineBatch, SplineBatch, list[Meeting]]:
+def _lines(lift: float, drop: float) -> tuple[SplineBatch, SplineBatch, list[LineIntersection]]:
     """A line along x and one along y that meet at (5, 5, 0), and both off along z."""
     x = np.array([[0.0, 5, 0], [5, 5, 0], [10, 5, 0]])
     y = x[:, [1, 0, 2]]
@@ -18,7 +18,7 @@ def _lines(lift: float, drop: float) -> tuple[SplineBatch, SplineBatch, list[Mee
         return SplineBatch.join([loft(CurveData.single(line)) for line in (x + a * up, y + b * up)])
 
     spot = x[1].copy()
-    meeting = Meeting(0, 1, (5.0, 5.0), (90.0, 90.0), (spot, spot), 0.0, 1)
+    meeting = LineIntersection(0, 1, (5.0, 5.0), (90.0, 90.0), (spot, spot), 0.0, 1)
     return both(0.0, 0.0), both(lift, drop), [meeting]
 
 

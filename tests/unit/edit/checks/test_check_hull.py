@@ -4,15 +4,15 @@ import attrs
 import numpy as np
 import pytest
 
-from assoc_hull.edit.checks import hull as check_hull
+from assoc_hull.edit.checks import hull_findings as check_hull
 from assoc_hull.edit.checks.finding import Finding
-from assoc_hull.edit.checks.hull import check
+from assoc_hull.edit.checks.hull_findings import check
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker, PointSpec
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from tests.unit.edit.planted_defects import POINT, curve_of, every_defect, planted, row_of, sound
 
 

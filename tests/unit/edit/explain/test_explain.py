@@ -4,18 +4,16 @@ import numpy as np
 import pytest
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.explain.explain import node_of, why
+from assoc_hull.edit.explain.causes import node_of, why
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, ForeignPointError
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.node import Readers
-from assoc_hull.graph.trace_causes import Tracer, chain
-from assoc_hull.model.address import resolve
-from assoc_hull.model.handles import handle
+from assoc_hull.graph.network import Readers
+from assoc_hull.graph.trace_causes import CauseTracer, cause_chain
+from assoc_hull.model.address import resolve_address
 from assoc_hull.model.kinds import Role
-from assoc_hull.model.line import Line
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.point import Point
+from assoc_hull.model.objects import Line, Point, handle
 from assoc_hull.shipped.wigley import wigley
 
 POINT = "WL 2.5 x ST 7"
@@ -25,9 +23,9 @@ POINT = "WL 2.5 x ST 7"
 def document() -> Document:
     """A hull where ST 7 drives WL 5, so that a chain has two curves."""
     state = wigley()
-    row = resolve(state, "WL 5 x ST 7").row
+    row = resolve_address(state, "WL 5 x ST 7").row
     Maker(state, Journal()).roles(np.array([row]), np.array([Role.DRIVES_B]))
-    curve = resolve(state, "ST 7 [1]").curve
+    curve = resolve_address(state, "ST 7 [1]").curve
     rows = state.curves.rows.data[curve]
     Maker(state, Journal()).define(curve, rows[rows != row])
     return Document(state)
@@ -35,7 +33,7 @@ def document() -> Document:
 
 def move(document: Document, name: str, dy: float, address: str = POINT) -> None:
     """Move one point along y."""
-    row = resolve(document.state, address).row
+    row = resolve_address(document.state, address).row
     value = document.state.rows.xyz.data[[row]] + [[0.0, dy, 0.0]]
     with Transaction(document, name) as edit:
         edit.write(np.array([row]), value, name)
@@ -55,9 +53,9 @@ def test_the_chain_leads_back_to_the_edit(document: Document) -> None:
     keys = document.state.rows.key.data
     assert found.chain() == [
         "waterlines:5.000000/1",
-        keys[resolve(document.state, "WL 5 x ST 7").row],
+        keys[resolve_address(document.state, "WL 5 x ST 7").row],
         "sections:35.000000/1",
-        keys[resolve(document.state, POINT).row],
+        keys[resolve_address(document.state, POINT).row],
     ]
     assert (found.edit, found.step) == ("fair", 1)
     last = found.causes[0].causes[0].causes[0]
@@ -89,7 +87,7 @@ def test_the_last_edit_that_reached_the_object_is_told(document: Document) -> No
 
 def test_a_watched_crossing_moves_with_its_curves(document: Document) -> None:
     """It has no value: its causes are the two curves."""
-    row = resolve(document.state, "WL 1.25 x ST 7").row
+    row = resolve_address(document.state, "WL 1.25 x ST 7").row
     Maker(document.state, Journal()).roles(np.array([row]), np.array([Role.WATCHED]))
     move(document, "fair", 0.01)
     found = why(document, 2 * row)
@@ -101,21 +99,21 @@ def test_what_came_out_the_same_tells_why_it_stopped() -> None:
     """A node that was evaluated and did not change is known, with causes and no movement."""
     pushes = Readers(np.array([3, 5, 7, 7]), np.array([2, 3, 5, 3]))
     moved = np.array([np.nan, 0.1, 0.2])
-    tracer = Tracer(pushes, np.array([2, 3, 5]), moved, np.array([2]))
+    tracer = CauseTracer(pushes, np.array([2, 3, 5]), moved, np.array([2]))
     trace = tracer.trace(7)
     assert tracer.knows(7)
     assert not tracer.knows(9)
     assert trace.moved == 0.0
     assert [each.node for each in trace.causes] == [5, 3]
-    assert chain(trace) == [7, 5, 3, 2]
+    assert cause_chain(trace) == [7, 5, 3, 2]
     assert tracer.cut_off(3) == (7,)
 
 
 def test_a_ring_over_two_passes_ends() -> None:
     """A later pass may run the other way; the tree stays finite."""
     pushes = Readers(np.array([3, 5, 3]), np.array([2, 3, 5]))
-    tracer = Tracer(pushes, np.array([2, 3, 5]), np.array([np.nan, 0.1, 0.2]), np.array([2]))
-    assert len(chain(tracer.trace(5))) <= 4
+    tracer = CauseTracer(pushes, np.array([2, 3, 5]), np.array([np.nan, 0.1, 0.2]), np.array([2]))
+    assert len(cause_chain(tracer.trace(5))) <= 4
 
 
 def test_a_cut_off_curve_is_explained(document: Document) -> None:
@@ -130,7 +128,7 @@ def test_a_cut_off_curve_is_explained(document: Document) -> None:
     found = why(document, node)
     assert "same bits" in found.what
     assert found.edit == "fair"
-    driver = why(document, 2 * resolve(document.state, "WL 5 x ST 7").row)
+    driver = why(document, 2 * resolve_address(document.state, "WL 5 x ST 7").row)
     assert driver.stopped == ("WL 5",)
 
 

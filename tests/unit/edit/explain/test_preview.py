@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.explain.line_changes import line_changes
+from assoc_hull.edit.explain.preview import line_changes
 from assoc_hull.errors import UnknownNameError, WrongTypeError
 
 POINT = "WL 2.5 x ST 7"

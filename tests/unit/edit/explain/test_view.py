@@ -13,19 +13,17 @@ from assoc_hull.edit.explain.hull_graph import changed_by, graph_of
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, UnknownNameError
-from assoc_hull.graph.graph_filter import around
-from assoc_hull.graph.graph_text import FORMATS, export
+from assoc_hull.graph.graph_filter import neighbourhood_graph
+from assoc_hull.graph.graph_text import FORMATS, graph_text
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.address import resolve
-from assoc_hull.model.curve import Curve
-from assoc_hull.model.definition.definition import definition, published
+from assoc_hull.model.address import resolve_address
+from assoc_hull.model.definition.records import definition, published
 from assoc_hull.model.definition.restore import from_definition
-from assoc_hull.model.handles import handle
 from assoc_hull.model.kinds import Role
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.point import Crossing
-from assoc_hull.model.state import Association
-from assoc_hull.model.view import dependencies, graph, point_id
+from assoc_hull.model.object_graph import dependencies, object_graph, point_id
+from assoc_hull.model.objects import Crossing, Curve, handle
+from assoc_hull.model.tables import Association
 from assoc_hull.shipped.wigley import wigley
 from tests.unit.edit.planted_defects import DEFECTS, planted, sound
 
@@ -44,7 +42,7 @@ def kinds(found: networkx.MultiDiGraph[str]) -> dict[str, int]:
 
 def test_every_object_is_a_node(document: Document) -> None:
     """Groups, lines, curves, and a point on each curve of a crossing."""
-    state, found = document.state, graph(document.state)
+    state, found = document.state, object_graph(document.state)
     points = int((state.rows.curve.data[state.live("rows")] >= 0).sum())
     count = sum(len(state.live(name)) for name in ("groups", "lines", "curves"))
     assert found.number_of_nodes() == count + points
@@ -56,16 +54,16 @@ def test_links_are_those_of_the_tables(document: Document) -> None:
     state = document.state
     crossings = int((state.rows.curve.data[state.live("rows"), 1] >= 0).sum())
     own = len(state.live("rows")) - crossings
-    found = kinds(graph(state))
+    found = kinds(object_graph(state))
     assert found["container"] == 2 * crossings + own
     assert found["friend"] == found["parent"] == found["touch actual"] == 2 * crossings
 
 
 def test_attributes_tell_state_role_and_revision(document: Document) -> None:
     """They are those of the handles."""
-    place = resolve(document.state, "WL 2.5 x ST 7")
+    place = resolve_address(document.state, "WL 2.5 x ST 7")
     document.state.revision_row[place.row] = 4
-    data = graph(document.state).nodes[point_id(document.state, place.row, place.side)]
+    data = object_graph(document.state).nodes[point_id(document.state, place.row, place.side)]
     assert (data["name"], data["role"], data["state"]) == ("WL 2.5 x ST 7", "defining", "clean")
     assert (data["crossing_role"], data["revision"]) == ("shared", 4)
 
@@ -73,7 +71,7 @@ def test_attributes_tell_state_role_and_revision(document: Document) -> None:
 def test_dependencies_are_acyclic_and_follow_roles(document: Document) -> None:
     """An edge for each driver; with points the graph the update follows."""
     state = document.state
-    row = resolve(state, "WL 5 x ST 7").row
+    row = resolve_address(state, "WL 5 x ST 7").row
     before = dependencies(state).number_of_edges()
     Maker(state, Journal()).roles(np.array([row]), np.array([Role.DRIVES_B]))
     found = dependencies(state)
@@ -89,17 +87,17 @@ def test_dependencies_are_acyclic_and_follow_roles(document: Document) -> None:
 def test_around_keeps_hops_up_and_down() -> None:
     """Hops are counted on each side alone; more than there are end at the ends."""
     chain = networkx.DiGraph([("a", "b"), ("b", "c"), ("c", "d"), ("d", "e")])
-    assert sorted(around(chain, "c", up=2, down=1)) == ["a", "b", "c", "d"]
-    assert sorted(around(chain, "c", up=0, down=0)) == ["c"]
-    assert len(around(chain, "c", up=10**12, down=10**12)) == 5
+    assert sorted(neighbourhood_graph(chain, "c", up=2, down=1)) == ["a", "b", "c", "d"]
+    assert sorted(neighbourhood_graph(chain, "c", up=0, down=0)) == ["c"]
+    assert len(neighbourhood_graph(chain, "c", up=10**12, down=10**12)) == 5
     with pytest.raises(UnknownNameError):
-        around(chain, "z")
+        neighbourhood_graph(chain, "z")
 
 
 def test_what_is_reached_against_the_links_is_reached_along_them_too() -> None:
     """Two nodes that point at one another are each other's hop, up as down."""
     pair = networkx.DiGraph([("a", "b"), ("b", "a"), ("b", "c")])
-    assert sorted(around(pair, "a", up=1, down=2)) == ["a", "b", "c"]
+    assert sorted(neighbourhood_graph(pair, "a", up=1, down=2)) == ["a", "b", "c"]
 
 
 def test_around_a_line_means_around_its_curves_too(document: Document) -> None:
@@ -113,7 +111,7 @@ def test_around_a_line_means_around_its_curves_too(document: Document) -> None:
 
 def test_around_a_crossing_means_around_both_points(document: Document) -> None:
     """Given as a handle; the node of a point, as the text forms write it, is taken too."""
-    row = resolve(document.state, "WL 2.5 x ST 7").row
+    row = resolve_address(document.state, "WL 2.5 x ST 7").row
     nodes = {point_id(document.state, row, side) for side in (0, 1)}
     assert set(graph_of(document, Crossing.of(document.state, row), (0, 0))) == nodes
     for node in nodes:
@@ -132,9 +130,9 @@ def ways(found: networkx.MultiDiGraph[str]) -> set[tuple[str, str]]:
 
 def test_touches_and_associations_tell_their_way(document: Document) -> None:
     """Two-way where both sides generate; one association changed, one way changes."""
-    assert {way for _, way in ways(graph(document.state))} == {"two-way"}
+    assert {way for _, way in ways(object_graph(document.state))} == {"two-way"}
     turn_one_way(document)
-    found = graph(document.state)
+    found = object_graph(document.state)
     one_way = [each for each in found.edges(data=True) if each[2].get("way") == "one-way"]
     assert {data["kind"] for _, _, data in one_way} == {"association", "touch actual"}
     assert all(tail.startswith("sections") for tail, _, _ in one_way)
@@ -144,7 +142,7 @@ def test_only_two_way_and_only_one_way_part_the_links(document: Document) -> Non
     """Each touch and association is in one of the two; crossings bring curves and friends."""
     assert len(graph_of(document, only="one-way")) == 0
     turn_one_way(document)
-    place = resolve(document.state, "WL 2.5 x ST 7")
+    place = resolve_address(document.state, "WL 2.5 x ST 7")
     friends = {point_id(document.state, place.row, side) for side in (0, 1)}
     both, one = graph_of(document, only="two-way"), graph_of(document, only="one-way")
     assert {way for _, way in ways(both)} == {"two-way"}
@@ -152,7 +150,7 @@ def test_only_two_way_and_only_one_way_part_the_links(document: Document) -> Non
     assert friends | {"sections:35.000000/1", "waterlines:2.500000/1"} <= set(one)
     assert not friends & set(both)
     assert "sections:35.000000/1" in both, "it has other links"
-    whole = [data for _, _, data in graph(document.state).edges(data=True) if "way" in data]
+    whole = [data for _, _, data in object_graph(document.state).edges(data=True) if "way" in data]
     told = [data for part in (both, one) for _, _, data in part.edges(data=True) if "way" in data]
     assert len(told) == len(whole)
 
@@ -186,7 +184,7 @@ def test_a_filter_of_links_looks_at_the_whole_hull(document: Document) -> None:
 
 def move(document: Document, address: str = "WL 2.5 x ST 7") -> int:
     """Move a point by 10 mm; give its row."""
-    row = resolve(document.state, address).row
+    row = resolve_address(document.state, address).row
     value = document.state.rows.xyz.data[[row]] + [[0.0, 0.01, 0.0]]
     with Transaction(document, "move") as edit:
         edit.write(np.array([row]), value, "move")
@@ -224,11 +222,12 @@ def test_the_order_is_that_of_the_keys(document: Document) -> None:
     state = document.state
     again = from_definition(definition(state), published(state))
     for found, other in (
-        (graph(state), graph(again)), (dependencies(state, True), dependencies(again, True)),
+        (object_graph(state), object_graph(again)),
+        (dependencies(state, True), dependencies(again, True)),
         (graph_of(document, "WL 5"), graph_of(Document(again), "WL 5")),
-    ):  # fmt: skip
-        assert export(found, "json") == export(other, "json")
-    lines = [node for node, data in graph(state).nodes(data=True) if data["kind"] == "line"]
+    ):
+        assert graph_text(found, "json") == graph_text(other, "json")
+    lines = [node for node, data in object_graph(state).nodes(data=True) if data["kind"] == "line"]
     assert lines == sorted(lines)
 
 
@@ -236,7 +235,7 @@ def test_the_order_is_that_of_the_keys(document: Document) -> None:
 def test_every_form_tells_all_nodes_and_edges(document: Document, form: str) -> None:
     """Written for the objects and for the dependencies; ends with one newline."""
     for found in (graph_of(document, "WL 2.5 x ST 7"), dependencies(document.state)):
-        text = export(found, form)
+        text = graph_text(found, form)
         assert text.endswith("\n")
         if form == "json":
             data = json.loads(text)
@@ -257,5 +256,5 @@ def test_a_spoilt_hull_has_a_graph(name: str) -> None:
     """It is wanted most then: orphans and lone crossings are shown as far as they are linked."""
     state = sound()
     planted(name, state)
-    found = graph(state)
-    assert min(len(export(found, form)) for form in FORMATS) > 1000
+    found = object_graph(state)
+    assert min(len(graph_text(found, form)) for form in FORMATS) > 1000

@@ -8,9 +8,8 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.session import Edit
-from assoc_hull.model.copy import copy_of
-from assoc_hull.model.generated import attached
-from assoc_hull.model.state import HullState
+from assoc_hull.model.generated_curves import attached_curves
+from assoc_hull.model.tables import HullState, copy_state
 from tests.formed import formed
 
 Act = Callable[[Edit, ah.Hull], object]
@@ -25,7 +24,7 @@ def made() -> HullState:
 @pytest.fixture
 def hull(made: HullState) -> ah.Hull:
     """Give a hull of its own for each test."""
-    return ah.Hull(copy_of(made))
+    return ah.Hull(copy_state(made))
 
 
 def moved(edit: Edit, hull: ah.Hull, name: str, **by: float) -> None:
@@ -130,10 +129,10 @@ def test_a_section_that_was_cut_by_hand_can_be_attached(hull: ah.Hull) -> None:
     """It takes its shape from the definitions, and the waterlines follow it."""
     with hull.edit("one more") as edit:
         edit.add_line("sections", 50.0)
-    assert len(attached(hull.state)) == 9
+    assert len(attached_curves(hull.state)) == 9
     with hull.edit("attach") as edit:
         edit.reattach("ST 50")
-    assert len(attached(hull.state)) == 10
+    assert len(attached_curves(hull.state)) == 10
     assert hull.verify() == () == hull.check()
     with hull.edit("slimmer") as edit:
         edit.set_form("areas", full=93.9)

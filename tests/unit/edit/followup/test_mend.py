@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from assoc_hull.edit.followup.mend_gaps import mend
+from assoc_hull.edit.followup.adopted_points import mend_gaps
 from assoc_hull.graph.journal import Journal
 from assoc_hull.hull import Hull
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 
 def _watched(state: HullState, near: bool) -> int:
@@ -46,7 +46,7 @@ def test_the_curve_of_higher_rank_gives_way_unless_it_is_held(state: HullState, 
     curve = int(state.rows.curve.data[row, gives])
     place = state.rows.spot.data[row, 1 - gives].copy()
     journal = Journal()
-    curves, moved = mend(Maker(state, journal), np.array([row]))
+    curves, moved = mend_gaps(Maker(state, journal), np.array([row]))
     own = state.curves.rows.data[curve]
     assert curves.tolist() == [curve]
     assert np.isin(moved, own).all()

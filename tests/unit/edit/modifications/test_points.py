@@ -18,8 +18,7 @@ from assoc_hull.errors import (
     RefusedEditError,
     UnknownNameError,
 )
-from assoc_hull.model.curve import Curve
-from assoc_hull.model.point import Point
+from assoc_hull.model.objects import Curve, Point
 from tests.net_strategies import fresh, refused
 
 SHARED = "WL 3.343 x ST 3"

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
-from assoc_hull.edit.normals import hull_normals
+from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.report import EditReport
 from assoc_hull.geometry.curves import FloatArray
 from tests.independent import trouble

@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.model.copy import copy_of
-from assoc_hull.model.definition.definition import definition
+from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import from_definition
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState, copy_state
 from tests.formed import formed
 from tests.independent import polynomial
 from tests.unit.test_bad_arguments import BAD
@@ -25,7 +24,7 @@ def made() -> HullState:
 @pytest.fixture
 def hull(made: HullState) -> ah.Hull:
     """Give a hull of its own for each test."""
-    return ah.Hull(copy_of(made))
+    return ah.Hull(copy_state(made))
 
 
 def area(hull: ah.Hull, line: str) -> float:
@@ -48,7 +47,7 @@ def test_sections_have_the_area_of_the_definition(hull: ah.Hull) -> None:
         if values:
             with hull.edit("fuller") as edit:
                 edit.set_form("areas", **values)
-        from assoc_hull.model.regenerate import forms_of
+        from assoc_hull.model.generated_curves import forms_of
 
         wanted = 0.5 * float(forms_of(hull.state).value("sectional_area", 25.0)[0])
         assert area(hull, "ST 25") == pytest.approx(wanted, rel=1e-6)
@@ -123,7 +122,7 @@ def test_more_points_come_where_a_curve_needs_them(hull: ah.Hull) -> None:
 def test_other_pieces_make_other_points(hull: ah.Hull) -> None:
     """A flat of bottom that comes makes a section of other pieces, with the kinds they need."""
     from assoc_hull.graph.journal import Journal
-    from assoc_hull.model.definition_part import FormDefinition
+    from assoc_hull.model.form_definition import FormDefinition
     from assoc_hull.model.make_objects import Maker
 
     flat = FormDefinition(

@@ -7,7 +7,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, PointRoleError, RingError
-from assoc_hull.model.point import Crossing
+from assoc_hull.model.objects import Crossing
 from tests.independent import trouble
 from tests.net_strategies import fresh, refused
 

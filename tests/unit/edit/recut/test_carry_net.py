@@ -8,16 +8,15 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.mapped_planes import carry_planes
 from assoc_hull.edit.recut.carry_structure import NetMap, carry_net
-from assoc_hull.edit.space_map import Mapping, SpaceMap
+from assoc_hull.edit.space_map import PointMapping, SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.copy import copy_of
 from assoc_hull.model.kinds import Sort
-from assoc_hull.model.state import HullState
-from assoc_hull.shipped.wigley import half_breadth
+from assoc_hull.model.tables import HullState, copy_state
+from assoc_hull.shipped.wigley import wigley_half_breadth
 
 
-def swell(by: float) -> Mapping:
+def swell(by: float) -> PointMapping:
     """Broaden amidships by a part, fading along the length: waterlines stay plane, sections too."""
 
     def carried(xyz: FloatArray) -> FloatArray:
@@ -27,7 +26,7 @@ def swell(by: float) -> Mapping:
     return carried
 
 
-def lift(by: float) -> Mapping:
+def lift(by: float) -> PointMapping:
     """Lift the ends: waterlines and sections' heights bend, buttocks stay in their planes."""
 
     def carried(xyz: FloatArray) -> FloatArray:
@@ -37,7 +36,7 @@ def lift(by: float) -> Mapping:
     return carried
 
 
-def carried(hull: ah.Hull, mapping: Mapping, drivers: str) -> None:
+def carried(hull: ah.Hull, mapping: PointMapping, drivers: str) -> None:
     """Carry a hull by a mapping; a group drives, and boundary curves."""
     state, space = hull.state, SpaceMap(mapping)
     lines = state.lines
@@ -62,7 +61,7 @@ def made() -> HullState:
 
 def net() -> ah.Hull:
     """A copy of it."""
-    return ah.Hull(copy_of(made()))
+    return ah.Hull(copy_state(made()))
 
 
 def off_planes(state: HullState) -> float:
@@ -99,7 +98,7 @@ def test_points_stay_in_their_planes_and_on_the_image(mapping: object, tolerance
     for _ in range(30):  # back by the mapping, whose displacement is small
         before += np.stack([x, y, z], axis=1) - mapping(0.04)(before)  # type: ignore[operator]
     inner = (before[:, 2] < 6.25) & (before[:, 2] > 0.0) & (np.abs(before[:, 0] - 50.0) < 49.0)
-    formula = half_breadth(before[inner, 0], before[inner, 2], 100.0, 10.0, 6.25)
+    formula = wigley_half_breadth(before[inner, 0], before[inner, 2], 100.0, 10.0, 6.25)
     assert np.abs(before[inner, 1] - formula).max() <= tolerance
     assert hull.check() == ()
     hull.undo()

@@ -19,10 +19,10 @@ from assoc_hull.errors import (
     UnknownNameError,
 )
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.shipped.wigley import half_breadth
+from assoc_hull.shipped.wigley import wigley_half_breadth
 from tests.independent import lost_meetings, trouble
 from tests.net_strategies import refused
 from tests.taken_back import taken_back
@@ -159,7 +159,7 @@ def off_formula(hull: ah.Hull, breadth: float, draught: float) -> float:
     worst = 0.0
     for line in hull.groups["waterlines"].lines.values():
         places = sample(hull.state.spline(line.curves[0].row), 8)[1]
-        truth = half_breadth(places[:, 0], places[:, 2], 100.0, breadth, draught)
+        truth = wigley_half_breadth(places[:, 0], places[:, 2], 100.0, breadth, draught)
         worst = max(worst, float(np.abs(places[:, 1] - truth).max()))
     return worst
 
@@ -227,7 +227,7 @@ def test_series60_keeps_what_must_hold(
     assert report.largest_gap <= 10e-3
     for name, places in old.items():
         curve = hull.groups["sections"].lines[name].curves[0]
-        away = closest(curve.spline, 0, mapping(places))[2]
+        away = closest_points(curve.spline, 0, mapping(places))[2]
         assert away.max() <= 2e-3 + 1e-6
 
 
@@ -312,7 +312,7 @@ def test_waterlines_drive_sections(fresh_wigley: ah.Hull) -> None:
     transformed(hull, lambda xyz: xyz * [1.02, 1.0, 1.0], ["waterlines"])
     assert hull.lines["ST 10"].position == 50.0
     assert hull.half_breadth(50.0, 5.0) == pytest.approx(
-        half_breadth(np.array([50.0]), np.array([5.0]), 102.0, 10.0, 6.25)[0], abs=5e-4
+        wigley_half_breadth(np.array([50.0]), np.array([5.0]), 102.0, 10.0, 6.25)[0], abs=5e-4
     )
 
 
@@ -337,10 +337,10 @@ class TestPlaced:
     def test_in_a_plane_that_slides(self) -> None:
         """A placed point comes to the follower's plane, as far off the hull as it was."""
         hull = self.hull_with_points()
-        off = 3.2 - half_breadth(np.array([52.5]), np.array([2.5]), 100.0, 10.0, 6.25)[0]
+        off = 3.2 - wigley_half_breadth(np.array([52.5]), np.array([2.5]), 100.0, 10.0, 6.25)[0]
         transformed(hull, lambda xyz: xyz * [1.0, 1.0, 1.05], MAIN)
         x, y, z = hull.points["WL 2.5 @ placed 1"].position.tolist()
-        truth = half_breadth(np.array([x]), np.array([2.5]), 100.0, 10.0, 6.25 * 1.05)[0]
+        truth = wigley_half_breadth(np.array([x]), np.array([2.5]), 100.0, 10.0, 6.25 * 1.05)[0]
         assert z == 2.5
         assert y - truth == pytest.approx(off, abs=5e-3)
         assert hull.points["ST 10 @ placed 1"].position.tolist() == [50.0, 2.69, 2.0 * 1.05]
@@ -552,7 +552,9 @@ def test_a_follower_is_its_image_where_the_map_keeps_its_plane(series60_70: ah.H
                 and point.position[0] < 0.7 * length
             ])  # fmt: skip
             if len(kept):
-                feet = [closest(each, 0, kept / [1.0, 1.0, 1.02])[2] for each in before[name]]
+                feet = [
+                    closest_points(each, 0, kept / [1.0, 1.0, 1.02])[2] for each in before[name]
+                ]
                 away += np.min(feet, axis=0).tolist()
         assert len(away) > 10
         assert max(away) < 1e-9

@@ -7,15 +7,18 @@ import pytest
 from scipy.spatial import cKDTree
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.arc_chain_search import FitPieces
 from assoc_hull.geometry.classical.arc_fit import ArcFit, fit_arcs
-from assoc_hull.geometry.classical.arc_pieces import Pieces
-from assoc_hull.geometry.classical.arc_ratio import biarcs_by_ratio
-from assoc_hull.geometry.classical.arcs import Arcs
-from assoc_hull.geometry.classical.biarc_family import BiarcChords, shared
-from assoc_hull.geometry.classical.checks import wrap
+from assoc_hull.geometry.classical.biarc_family import (
+    BiarcChords,
+    biarcs_by_ratio,
+    biarcs_of_shares,
+)
+from assoc_hull.geometry.classical.checked_input import wrap_angle
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.segments import power
+from assoc_hull.geometry.splines.segments import power_coefficients
 
 WITHIN = 0.0005
 
@@ -23,7 +26,7 @@ WITHIN = 0.0005
 def splines(curves: list[SplineBatch]) -> tuple[FloatArray, IntArray]:
     """Cubics of curves in x and y, and where those of each begin."""
     batch = SplineBatch.join(curves)
-    return power(batch)[:, :, :2], batch.start - np.arange(batch.count + 1)
+    return power_coefficients(batch)[:, :, :2], batch.start - np.arange(batch.count + 1)
 
 
 def through(points: FloatArray, kind: list[int] | None = None) -> SplineBatch:
@@ -64,7 +67,7 @@ def along(cubic: FloatArray, per: int) -> FloatArray:
     return np.concatenate([(powers @ cubic).reshape(-1, 2), cubic[-1].sum(axis=0)[None]])
 
 
-def on_arcs(arcs: Arcs, step: float) -> FloatArray:
+def on_arcs(arcs: PlaneArcs, step: float) -> FloatArray:
     """Dense places on arcs."""
     count = np.maximum(np.ceil(arcs.length / step).astype(int), 8)
     arc = np.repeat(np.arange(len(arcs)), count)
@@ -105,10 +108,10 @@ def test_neighbours_join_and_are_tangent(fit: ArcFit) -> None:
     inner = np.setdiff1d(np.arange(1, len(fit.arcs)), fit.start)
     ends, angles = fit.arcs.ends(), fit.arcs.end_angles()
     assert np.abs(ends[inner - 1] - fit.arcs.start[inner]).max() < 1e-12
-    turn = np.abs(wrap(angles[smooth - 1] - fit.arcs.angle[smooth]))
+    turn = np.abs(wrap_angle(angles[smooth - 1] - fit.arcs.angle[smooth]))
     assert turn.max() < 1e-9
     corner = np.setdiff1d(inner, smooth)
-    assert np.abs(wrap(angles[corner - 1] - fit.arcs.angle[corner])).min() > 1e-9
+    assert np.abs(wrap_angle(angles[corner - 1] - fit.arcs.angle[corner])).min() > 1e-9
 
 
 def test_ends_and_corners_keep_their_tangents(
@@ -116,17 +119,19 @@ def test_ends_and_corners_keep_their_tangents(
 ) -> None:
     """A chain begins and ends where its curve does, in its direction; on both sides of corners."""
     cubic, start = curves
-    pieces = Pieces.of(cubic, start, 1e-6)
+    pieces = FitPieces.of(cubic, start, 1e-6)
     first, last = start[:-1], start[1:] - 1
     begin, end = fit.start[:-1], fit.start[1:] - 1
     assert np.abs(fit.arcs.start[begin] - cubic[first, 0]).max() == 0.0
     assert np.abs(fit.arcs.ends()[end] - cubic[last].sum(axis=1)).max() < 1e-12
     corners = np.flatnonzero(~fit.smooth)
-    piece = np.flatnonzero(np.abs(wrap(pieces.angle[1:, 0] - pieces.angle[:-1, 1])) > 1e-9) + 1
+    piece = (
+        np.flatnonzero(np.abs(wrap_angle(pieces.angle[1:, 0] - pieces.angle[:-1, 1])) > 1e-9) + 1
+    )
     assert len(corners) >= len(piece)
-    turn = wrap(fit.arcs.angle[corners][:, None] - pieces.angle[:, 0])
+    turn = wrap_angle(fit.arcs.angle[corners][:, None] - pieces.angle[:, 0])
     assert np.abs(turn).min(axis=1).max() < 1e-9
-    turn = wrap(fit.arcs.end_angles()[corners[1:] - 1][:, None] - pieces.angle[:, 1])
+    turn = wrap_angle(fit.arcs.end_angles()[corners[1:] - 1][:, None] - pieces.angle[:, 1])
     assert np.abs(turn).min(axis=1).max() < 1e-9
 
 
@@ -214,7 +219,7 @@ def test_radii_may_be_any() -> None:
     assert found.deviation.max() <= 2e-5
     gap = np.abs(found.arcs.ends()[:-1] - found.arcs.start[1:]).max()
     assert gap < 1e-12
-    assert (np.abs(wrap(found.arcs.end_angles()[:-1] - found.arcs.angle[1:])) < 1e-9).all()
+    assert (np.abs(wrap_angle(found.arcs.end_angles()[:-1] - found.arcs.angle[1:])) < 1e-9).all()
 
 
 def test_biarcs_by_ratio_are_those_of_the_family() -> None:
@@ -226,7 +231,7 @@ def test_biarcs_by_ratio_are_those_of_the_family() -> None:
     chord, ratio = np.exp(rng.uniform(-4.0, 6.0, n)), rng.uniform(0.05, 0.95, n)
     zero = np.zeros((n, 2))
     ends = np.column_stack([chord, np.zeros(n)])
-    arcs, tau = shared(BiarcChords.of(zero, alpha, ends, beta), ratio, 1.0 - ratio)
+    arcs, tau = biarcs_of_shares(BiarcChords.of(zero, alpha, ends, beta), ratio, 1.0 - ratio)
     found = biarcs_by_ratio(chord, alpha, beta, ratio)
     assert found.tau == pytest.approx(tau, abs=1e-13)
     assert found.bend.T.ravel() * np.repeat(chord, 2) == pytest.approx(

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.arcs import Arcs, sinc
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs, sinc
 from assoc_hull.geometry.curves import FloatArray
 
 FIRST = np.zeros(1, np.int64)
@@ -18,9 +18,9 @@ curvatures = st.one_of(
 )
 
 
-def one(angle: float, curvature: float, length: float, start: tuple[float, float]) -> Arcs:
+def one(angle: float, curvature: float, length: float, start: tuple[float, float]) -> PlaneArcs:
     """A batch of one arc."""
-    return Arcs.make([start], [angle], [curvature], [length])
+    return PlaneArcs.make([start], [angle], [curvature], [length])
 
 
 @given(st.floats(-7.0, 7.0), curvatures, st.floats(0.01, 20.0))
@@ -48,7 +48,7 @@ def test_points_lie_on_the_circle(angle: float, bend: float, right: bool, t: flo
 
 def test_a_line_has_no_centre() -> None:
     """Both coordinates are infinite, whatever its direction."""
-    arcs = Arcs.make([[0, 0]] * 3, [0.0, np.pi / 2, 1.0], [0.0] * 3, [1.0] * 3)
+    arcs = PlaneArcs.make([[0, 0]] * 3, [0.0, np.pi / 2, 1.0], [0.0] * 3, [1.0] * 3)
     assert np.isposinf(arcs.centres()).all()
 
 
@@ -57,7 +57,7 @@ def test_an_arc_through_two_points_is_the_minor_one(way: float, chord: float, si
     """It ends where it must, turns by less than half a circle, with the curvature given."""
     end = [chord * np.cos(way) + 4.0, chord * np.sin(way)]
     bend = 2.0 * sine / chord
-    arc = Arcs.through([[4.0, 0.0]], [end], [bend])
+    arc = PlaneArcs.through([[4.0, 0.0]], [end], [bend])
     assert_allclose(arc.ends()[0], end, atol=1e-13 * chord + 1e-15)
     assert arc.curvature[0] == bend
     assert abs(bend * arc.length[0]) < np.pi
@@ -65,14 +65,14 @@ def test_an_arc_through_two_points_is_the_minor_one(way: float, chord: float, si
 
 def test_huge_radii_keep_the_digits() -> None:
     """A radius of 1e11 chords: the sagitta of 1.25e-12 chords, and distances from the arc."""
-    arc = Arcs.through([[0.0, 0.0]], [[1.0, 0.0]], [-1e-11])
+    arc = PlaneArcs.through([[0.0, 0.0]], [[1.0, 0.0]], [-1e-11])
     assert_allclose(arc.at(FIRST, [0.5])[0, 1], 1.25e-12, rtol=1e-12)
     assert_allclose(arc.ends(), [[1.0, 0.0]], rtol=1e-15)
     assert_allclose(arc.distance(FIRST, np.array([[0.5, 0.0]])), 1.25e-12, rtol=1e-12)
     assert_allclose(arc.distance(FIRST, np.array([[0.5, 7e-12]])), 5.75e-12, rtol=1e-12)
 
 
-def nearest_sample(arc: Arcs, point: FloatArray) -> tuple[float, float]:
+def nearest_sample(arc: PlaneArcs, point: FloatArray) -> tuple[float, float]:
     """Distance of a point from 5,001 points of an arc, and half their spacing."""
     t = np.linspace(0.0, float(arc.length[0]), 5_001)
     places = arc.at(np.zeros(len(t), np.int64), t)
@@ -114,7 +114,7 @@ def test_sinc_is_one_at_nil() -> None:
 def test_records_are_frozen() -> None:
     """Neither arrays nor fields can be written to; what was handed in stays the caller's."""
     start = np.zeros((1, 2))
-    arcs = Arcs.make(start, [0.0], [0.0], [1.0])
+    arcs = PlaneArcs.make(start, [0.0], [0.0], [1.0])
     start[0, 0] = 5.0
     assert arcs.start[0, 0] == 0.0
     assert not any(
@@ -124,25 +124,25 @@ def test_records_are_frozen() -> None:
 
 WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "length of none": (
-        lambda: Arcs.make([[0, 0]] * 2, [0, 0], [0, 0], [1, 0]),
+        lambda: PlaneArcs.make([[0, 0]] * 2, [0, 0], [0, 0], [1, 0]),
         "arcs: length 0 at index 1; give lengths above 0",
     ),
     "other counts": (
-        lambda: Arcs.make([[0, 0]], [0, 0], [0], [1]), "arcs: expected shape (1), got (2,); ",
+        lambda: PlaneArcs.make([[0, 0]], [0, 0], [0], [1]), "arcs: expected shape (1), got (2,); ",
     ),
     "not finite": (
-        lambda: Arcs.make([[0, 0]], [0], [np.nan], [1]), "arcs: non-finite value at index 0; ",
+        lambda: PlaneArcs.make([[0, 0]], [0], [np.nan], [1]), "arcs: non-finite value at index 0; ",
     ),
     "other counts of points": (
-        lambda: Arcs.through([[0, 0]] * 2, [[1, 1]], [0, 0]),
+        lambda: PlaneArcs.through([[0, 0]] * 2, [[1, 1]], [0, 0]),
         "arcs: expected shape (2, 2), got (1, 2); ",
     ),
     "twice the same point": (
-        lambda: Arcs.through([[0, 0], [1, 1]], [[1, 0], [1, 1]], [0, 0]),
+        lambda: PlaneArcs.through([[0, 0], [1, 1]], [[1, 0], [1, 1]], [0, 0]),
         "arcs: coincident points at index 1; ",
     ),
     "radius below half the chord": (
-        lambda: Arcs.through([[0, 0]], [[2, 0]], [1.5]),
+        lambda: PlaneArcs.through([[0, 0]], [[2, 0]], [1.5]),
         "arcs: curvature 1.5 over a chord of 2; give a radius above half the chord",
     ),
 }  # fmt: skip

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.arc_boundary import ArcBoundary
-from assoc_hull.geometry.classical.arc_curve import ArcCurve
-from assoc_hull.geometry.classical.arc_section import (
+from assoc_hull.geometry.classical.arc_curve import (
+    ArcBoundary,
+    ArcCurve,
     mean_curvatures,
     round_corners,
     three_point_curvatures,
     through_points,
 )
-from assoc_hull.geometry.classical.checks import wrap
+from assoc_hull.geometry.classical.checked_input import wrap_angle
 
 FIVE = [(0, 0), (6, 0.2), (10, 1.5), (12, 4), (12.4, 8)]
 CORNER = [(0, 0), (10, 0), (12, 6)]
@@ -217,7 +217,7 @@ def test_fillets_have_no_corner_whatever_the_polygon() -> None:
         ends = curve.joints()
         np.testing.assert_allclose(ends[[0, -1]], points[[0, -1]], atol=1e-10)
         np.testing.assert_allclose(curve.arcs.ends()[:-1], curve.arcs.start[1:], atol=1e-10)
-        assert np.abs(wrap(curve.turns())).max(initial=0.0) < 1e-9
+        assert np.abs(wrap_angle(curve.turns())).max(initial=0.0) < 1e-9
 
 
 def test_a_corner_in_line_needs_no_fillet() -> None:

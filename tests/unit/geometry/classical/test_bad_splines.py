@@ -11,18 +11,17 @@ import pytest
 
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.classical.chord_spline import ChordSpline, chord_splines
-from assoc_hull.geometry.classical.circles import (
+from assoc_hull.geometry.classical.circular_arcs import (
     circle_by_tangent,
     circle_through,
     fitted_circle,
     tangent_curvature,
 )
-from assoc_hull.geometry.classical.elastica import Elastica
-from assoc_hull.geometry.classical.elastica_fit import fit_elastica
+from assoc_hull.geometry.classical.elastica import Elastica, fit_elastica
 from assoc_hull.geometry.classical.truncated_power_spline import (
     TruncatedPower,
     power_columns,
-    solved_directly,
+    solve_truncated_powers,
 )
 
 P = np.array([(0.0, 0.0), (2.0, 1.0), (4.0, 1.5), (7.0, 1.2), (9.0, 0.0)])
@@ -49,7 +48,7 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "TruncatedPower.through": (TruncatedPower.through, {"x": P[:, 0], "y": P[:, 1]}),
     "TruncatedPower.at": (POWERS.at, {"x": 1.0}),
     "power_columns": (power_columns, {"x": P[:, 0]}),
-    "solved_directly": (solved_directly, {"x": P[:, 0], "y": P[:, 1]}),
+    "solved_directly": (solve_truncated_powers, {"x": P[:, 0], "y": P[:, 1]}),
     "Elastica.make": (
         Elastica.make,
         {"k": 0.6, "phi0": 0.0, "phi1": 1.0, "rate": 1.0, "start": (0, 0), "rotation": 0.0,

@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import AssocHullError
-from assoc_hull.geometry.classical.arcs import Arcs
-from assoc_hull.geometry.classical.biarc_chain import biarc_chain
-from assoc_hull.geometry.classical.biarc_tangents import biarc_tangents
+from assoc_hull.geometry.classical.biarc_chain import biarc_chain, biarc_tangents
 from assoc_hull.geometry.classical.biarcs import biarcs, free_biarcs
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from tests.unit.test_bad_arguments import BAD
 
 FIVE = np.array([[0, 0], [1, 0.8], [2.5, 1.5], [4, 1.7], [6, 1.2]])
@@ -27,10 +26,14 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "direction": (CHAIN.direction, {"s": 1.0}),
     "distances": (CHAIN.distances, {"points": FIVE}),
     "arcs": (
-        Arcs.make, {"start": FIVE, "angle": [0] * 5, "curvature": [0] * 5, "length": [1] * 5},
+        PlaneArcs.make,
+        {"start": FIVE, "angle": [0] * 5, "curvature": [0] * 5, "length": [1] * 5},
     ),
-    "arcs through": (Arcs.through, {"start": FIVE[:-1], "end": FIVE[1:], "curvature": [0] * 4}),
-}  # fmt: skip
+    "arcs through": (
+        PlaneArcs.through,
+        {"start": FIVE[:-1], "end": FIVE[1:], "curvature": [0] * 4},
+    ),
+}
 
 
 @pytest.mark.parametrize("name", CALLS)

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.biarc_chain import BiarcChain, biarc_chain
-from assoc_hull.geometry.classical.biarc_rules import BiarcRule
+from assoc_hull.geometry.classical.biarcs import BiarcRule
 from assoc_hull.geometry.curves import FloatArray
 
 FIVE = np.array([[0, 0], [1, 0.8], [2.5, 1.5], [4, 1.7], [6, 1.2]])

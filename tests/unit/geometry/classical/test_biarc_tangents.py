@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.biarc_part import TangentForm
-from assoc_hull.geometry.classical.biarc_tangents import biarc_tangents
-from assoc_hull.geometry.classical.checks import wrap
+from assoc_hull.geometry.classical.biarc_chain import TangentForm, biarc_tangents
+from assoc_hull.geometry.classical.checked_input import wrap_angle
 from assoc_hull.geometry.curves import FloatArray
 
 FIVE = np.array([[0, 0], [1, 0.8], [2.5, 1.5], [4, 1.7], [6, 1.2]])
@@ -89,7 +88,7 @@ def test_elsewhere_they_are_of_second_order() -> None:
         t = np.linspace(0.0, 1.4, count + 1) + 0.2 / count * np.sin(np.arange(count + 1.0))
         found = biarc_tangents(np.stack([5 * np.cos(t), 2 * np.sin(t)], axis=1))
         true = np.arctan2(2 * np.cos(t), -5 * np.sin(t))
-        errors.append(np.abs(wrap(found.leaving_angles - true)).max())
+        errors.append(np.abs(wrap_angle(found.leaving_angles - true)).max())
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert (orders > 1.7).all()
 

@@ -8,15 +8,15 @@ import pytest
 from numpy.testing import assert_allclose
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.biarc_c import one_bend_limit, one_bend_radii
 from assoc_hull.geometry.classical.biarc_family import (
     BiarcChords,
     directions_to_shares,
+    one_bend_limit,
+    one_bend_radii,
     one_sided_shares,
+    ratio_radii,
 )
-from assoc_hull.geometry.classical.biarc_rules import BiarcRule
-from assoc_hull.geometry.classical.biarc_s import ratio_radii
-from assoc_hull.geometry.classical.biarcs import Biarcs, biarcs, free_biarcs
+from assoc_hull.geometry.classical.biarcs import BiarcRule, Biarcs, biarcs, free_biarcs
 from assoc_hull.geometry.curves import FloatArray
 
 CHORD = 10.0

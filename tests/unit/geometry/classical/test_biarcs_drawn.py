@@ -4,11 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.geometry.classical.biarc_c import one_bend_limit, one_bend_radii
-from assoc_hull.geometry.classical.biarc_rules import BiarcRule
-from assoc_hull.geometry.classical.biarc_s import ratio_radii
-from assoc_hull.geometry.classical.biarcs import Biarcs, biarcs
-from assoc_hull.geometry.classical.checks import wrap
+from assoc_hull.geometry.classical.biarc_family import one_bend_limit, one_bend_radii, ratio_radii
+from assoc_hull.geometry.classical.biarcs import BiarcRule, Biarcs, biarcs
+from assoc_hull.geometry.classical.checked_input import wrap_angle
 from assoc_hull.geometry.curves import FloatArray
 
 COUNT = 20_000
@@ -43,7 +41,7 @@ def drawn(seed: int, count: int) -> tuple[Drawn, FloatArray]:
     first = rng.uniform(-1.0, 1.0, (count, 2)) * chord[:, None]
     last = first + chord[:, None] * np.stack([np.cos(way), np.sin(way)], axis=1)
     alpha, beta = drawn_angles(rng, count)
-    return (first, wrap(way + alpha), last, wrap(way + beta)), chord
+    return (first, wrap_angle(way + alpha), last, wrap_angle(way + beta)), chord
 
 
 def closure(found: Biarcs, last: FloatArray) -> FloatArray:
@@ -57,7 +55,7 @@ def tangency(found: Biarcs, given: Drawn) -> FloatArray:
     """How far the directions miss at start, join and end, rad, the largest."""
     arcs, ends = found.arcs, found.arcs.end_angles()
     misses = [arcs.angle[::2] - given[1], ends[::2] - found.directions, ends[1::2] - given[3]]
-    return np.asarray(np.abs(wrap(np.array(misses))).max(axis=0))
+    return np.asarray(np.abs(wrap_angle(np.array(misses))).max(axis=0))
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -86,7 +84,7 @@ def test_4_000_least_radii_are_kept(rule: BiarcRule) -> None:
     given: Drawn = (every[0][rows], every[1][rows], every[2][rows], every[3][rows])
     chord, bent = chord[rows], free.kind[rows] == "C"
     step = given[2] - given[0]
-    a, b = np.abs(wrap(np.stack(given[1::2]) - np.arctan2(step[:, 1], step[:, 0])))
+    a, b = np.abs(wrap_angle(np.stack(given[1::2]) - np.arctan2(step[:, 1], step[:, 0])))
     balanced = ratio_radii(chord, a, b, np.ones_like(a))[0]
     limit = np.where(bent, one_bend_limit(chord, a, b), balanced)
     least = limit * np.random.default_rng(5).uniform(0.01, 0.999, len(limit))

@@ -7,15 +7,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from assoc_hull.creation.classical.midship import Midship
+from assoc_hull.creation.classical.middle_body import Midship
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.appendage import Appendage
+from assoc_hull.geometry.classical.appendages import LoftedAppendage
+from assoc_hull.geometry.classical.boundary_lines import CodedKnuckleLine, KeelOutline
 from assoc_hull.geometry.classical.camber import Camber
-from assoc_hull.geometry.classical.deck_corner import deck_corner
-from assoc_hull.geometry.classical.frame import Frame
-from assoc_hull.geometry.classical.frame_parabolas import run_bends
-from assoc_hull.geometry.classical.keel_outline import KeelOutline
-from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
+from assoc_hull.geometry.classical.frame_section import FrameSection, deck_corner, run_bends
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 
 AFT, FORWARD, TANGENT = [(0, 8), (10, 0)], [(120, 0), (130, 9)], [(10, 0), (120, 0)]
@@ -34,15 +31,15 @@ def line(points: object = RUN, **options: object) -> ParallelWaterline:
     return ParallelWaterline.make(6, points, **options)  # type: ignore[arg-type]
 
 
-def knuckle(code: list[object], x: object = (0, 10, 25, 40)) -> KnuckleLine:
+def knuckle(code: list[object], x: object = (0, 10, 25, 40)) -> CodedKnuckleLine:
     """A knuckle line of four points."""
-    return KnuckleLine.make(x, [5, 8, 9.5, 9], code)  # type: ignore[arg-type]
+    return CodedKnuckleLine.make(x, [5, 8, 9.5, 9], code)  # type: ignore[arg-type]
 
 
-def frame(water: object, **options: object) -> Frame:
+def frame(water: object, **options: object) -> FrameSection:
     """A frame at 20 m, its deck side at (15, 14)."""
     given = {"deck_side": (15, 14)} | options
-    return Frame.make(20, water, **given)  # type: ignore[arg-type]
+    return FrameSection.make(20, water, **given)  # type: ignore[arg-type]
 
 
 REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
@@ -168,11 +165,11 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
         lambda: knuckle([1, 1, 1], (0, 10, 9, 40)),
     ),
     "knuckle line of one point": (
-        "knuckle line: 1 point(s)", lambda: KnuckleLine.make([0], [1], []),
+        "knuckle line: 1 point(s)", lambda: CodedKnuckleLine.make([0], [1], []),
     ),
     "another blend": (
         "knuckle line: blend is 'mean'",
-        lambda: KnuckleLine.make([0, 1], [1, 2], [1], "mean"),  # type: ignore[arg-type]
+        lambda: CodedKnuckleLine.make([0, 1], [1, 2], [1], "mean"),  # type: ignore[arg-type]
     ),
     "codes too few": ("knuckle line: expected shape (3), got (2,)", lambda: knuckle([1, 1])),
     "beyond the side": (
@@ -191,36 +188,37 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
     ),
     "four sections": (
         "appendage: 1, 2 or 3 sections expected, got 4",
-        lambda: Appendage.make([BOX] * 4, (0, 1, 2)),
+        lambda: LoftedAppendage.make([BOX] * 4, (0, 1, 2)),
     ),
     "sections of other sizes": (
-        "appendage: sections have 4 and 3 points", lambda: Appendage.make([BOX, BOX[:3]], (0, 1)),
+        "appendage: sections have 4 and 3 points",
+        lambda: LoftedAppendage.make([BOX, BOX[:3]], (0, 1)),
     ),
     "appendage of no length": (
-        "appendage: x must be strictly increasing", lambda: Appendage.make([BOX], (1, 1)),
+        "appendage: x must be strictly increasing", lambda: LoftedAppendage.make([BOX], (1, 1)),
     ),
     "sections that cross themselves": (
         "appendage: section at x=0 self-intersects",
-        lambda: Appendage.make([[(0, 0), (2, 2), (2, 0), (0, 3)]] , (0, 1)),
+        lambda: LoftedAppendage.make([[(0, 0), (2, 2), (2, 0), (0, 3)]] , (0, 1)),
     ),
     "sections that cross themselves between": (
         "appendage: section at x=1.125 self-intersects",
-        lambda: Appendage.make([BOX, [(0, 0), (1, 0), (0.02, 1), (0, 1)], BOX], (0, 1, 6)),
+        lambda: LoftedAppendage.make([BOX, [(0, 0), (1, 0), (0.02, 1), (0, 1)], BOX], (0, 1, 6)),
     ),
     "sections the other way round": (
         "appendage: sections have opposite orientation",
-        lambda: Appendage.make([BOX, BOX[::-1]], (0, 1)),
+        lambda: LoftedAppendage.make([BOX, BOX[::-1]], (0, 1)),
     ),
     "sections of two points": (
-        "appendage: a section has 2 point(s)", lambda: Appendage.make([BOX[:2]], (0, 1)),
+        "appendage: a section has 2 point(s)", lambda: LoftedAppendage.make([BOX[:2]], (0, 1)),
     ),
     "a number for sections": (
         "appendage: sections are no row of arrays",
-        lambda: Appendage.make(np.array(5.0), (0, 1)),  # type: ignore[arg-type]
+        lambda: LoftedAppendage.make(np.array(5.0), (0, 1)),  # type: ignore[arg-type]
     ),
-    "another sign": ("appendage: sign is 2", lambda: Appendage.make([BOX], (0, 1), 2)),
+    "another sign": ("appendage: sign is 2", lambda: LoftedAppendage.make([BOX], (0, 1), 2)),
     "beyond the appendage": (
-        "appendage: x=3 outside [0, 1]", lambda: Appendage.make([BOX], (0, 1)).area(3),
+        "appendage: x=3 outside [0, 1]", lambda: LoftedAppendage.make([BOX], (0, 1)).area(3),
     ),
     "frame of one point": (
         "frame x=20: fewer than 2 points on the section",

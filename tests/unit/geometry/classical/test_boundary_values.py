@@ -8,15 +8,17 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from assoc_hull.creation.classical.midship import Midship
-from assoc_hull.geometry.classical.appendage import Appendage
+from assoc_hull.creation.classical.middle_body import Midship
+from assoc_hull.geometry.classical.appendages import LoftedAppendage
+from assoc_hull.geometry.classical.boundary_lines import CodedKnuckleLine, KeelOutline
 from assoc_hull.geometry.classical.camber import Camber
-from assoc_hull.geometry.classical.deck_corner import deck_corner
-from assoc_hull.geometry.classical.frame_parabolas import run_bends, tangent_jumps
-from assoc_hull.geometry.classical.keel_outline import KeelOutline
-from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
+from assoc_hull.geometry.classical.frame_section import (
+    Quadratics,
+    deck_corner,
+    run_bends,
+    tangent_jumps,
+)
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
-from assoc_hull.geometry.classical.quadratics import Quadratics
 
 AFT, FORWARD = [(0, 8), (5, 3), (10, 0)], [(120, 0), (126, 1.5), (130, 9)]
 TANGENT = [(10, 0), (30, 7.5), (90, 7.5), (120, 0)]
@@ -33,13 +35,13 @@ CORNER = deck_corner(15, 14, 0.4, 1)
 BASE = [(0, 0), (0.4, 0), (0.4, 2), (0, 2)]
 MIDDLE = [(0, 0), (0.8, 0.2), (0.7, 2.5), (0, 2.4)]
 LAST = [(0, 0), (0.3, 0.1), (0.2, 1.6), (0, 1.5)]
-ROUND = Appendage.make([BASE, MIDDLE, LAST], (0, 2.4, 6))
+ROUND = LoftedAppendage.make([BASE, MIDDLE, LAST], (0, 2.4, 6))
 BLENDS: tuple[Literal["overhauser"] | None, ...] = (None, "overhauser")
 
 
 def knuckle(code: int, blend: Literal["overhauser"] | None = None) -> float:
     """Value at x = 16, in the second of three intervals."""
-    line = KnuckleLine.make([0, 10, 25, 40], [5, 8, 9.5, 9], [1, code, 1], blend)
+    line = CodedKnuckleLine.make([0, 10, 25, 40], [5, 8, 9.5, 9], [1, code, 1], blend)
     return float(line.at(16))
 
 
@@ -74,8 +76,8 @@ VALUES = {
     "straight camber": (deck("line").height(50, 6), 18.27),
     "area of a parabolic camber": (deck("parabola").area(50), 9.0),
     "area of a straight camber": (deck("line").area(50), 6.75),
-    "prism": (Appendage.make([BASE], (0, 6)).volume, 4.8),
-    "ruled appendage": (Appendage.make([BASE, MIDDLE], (0, 6)).volume, 7.58),
+    "prism": (LoftedAppendage.make([BASE], (0, 6)).volume, 4.8),
+    "ruled appendage": (LoftedAppendage.make([BASE, MIDDLE], (0, 6)).volume, 7.58),
     "parabolic appendage": (ROUND.volume, 8.006527777777778),
     "a point of it": (ROUND.at(4.2)[1, 0], 0.715),
     "bend 0": (BENDS[0], 0.121976048046298),
@@ -202,7 +204,7 @@ def test_codes_2_to_4_reproduce_parabolas() -> None:
     for codes in np.array([[2, 2, 3, 4, 3], [1, 4, 2, 3, 3], [2, 4, 4, 4, 3]]):
         a, b, c = rng.normal(size=3)
         for blend in BLENDS:
-            line = KnuckleLine.make(x, a + b * x + c * x * x, codes, blend)
+            line = CodedKnuckleLine.make(x, a + b * x + c * x * x, codes, blend)
             at = rng.uniform(3.0 if codes[0] == 1 else 0.0, 20.0, 50)
             assert line.at(at) == pytest.approx(a + b * at + c * at * at, abs=1e-10)
             assert line.slopes(at)[0] == pytest.approx(b + 2 * c * at, abs=1e-10)
@@ -212,8 +214,8 @@ def test_codes_1_to_4_are_continuous_and_their_jumps_of_slope_told() -> None:
     """Nil between blended intervals, by a polynomial of each interval elsewhere."""
     x = [0.0, 4, 9, 15, 22]
     v = np.array([[1.0, 9], [4, 8], [5, 8.5], [4.5, 9], [3, 9.8]])
-    plain = KnuckleLine.make(x, v, [2, 4, 4, 3])
-    blended = KnuckleLine.make(x, v, [2, 4, 4, 3], "overhauser")
+    plain = CodedKnuckleLine.make(x, v, [2, 4, 4, 3])
+    blended = CodedKnuckleLine.make(x, v, [2, 4, 4, 3], "overhauser")
     for line in (plain, blended):
         assert line.at(x[1:-1], "left") == pytest.approx(line.at(x[1:-1]), abs=1e-12)
     jumps = plain.slope_jumps()
@@ -227,7 +229,7 @@ def test_codes_1_to_4_are_continuous_and_their_jumps_of_slope_told() -> None:
 
 def test_a_step_falls_at_the_end_of_its_interval() -> None:
     """Right-continuous; the limit from the left on demand; no length, or some."""
-    line = KnuckleLine.make([0, 10, 10, 20, 30], [1, 2, 5, 5, 7], [1, 0, 1, 0])
+    line = CodedKnuckleLine.make([0, 10, 10, 20, 30], [1, 2, 5, 5, 7], [1, 0, 1, 0])
     assert line.at([10, 20, 29.9, 30]).tolist() == [5, 5, 5, 7]
     assert line.at([0, 10, 30], "left").tolist() == [1, 2, 5]
     before, after = line.slopes([10])
@@ -256,6 +258,6 @@ def test_an_appendage_passes_its_sections_and_is_exact() -> None:
     x = (np.arange(20_000) + 0.5) * 6 / 20_000
     assert ROUND.area(x).mean() * 6 == pytest.approx(ROUND.volume, rel=1e-8)
     assert (ROUND.area(x) * x).mean() * 6 == pytest.approx(ROUND.moment[0], rel=1e-8)
-    box = Appendage.make([[(1, 2), (3, 2), (3, 5), (1, 5)]], (10, 14), -1)
+    box = LoftedAppendage.make([[(1, 2), (3, 2), (3, 5), (1, 5)]], (10, 14), -1)
     assert (box.volume, *box.moment) == pytest.approx((-24, -288, -48, -84))
     assert ROUND.at([[0, 1], [2, 3]]).shape == (2, 2, 4, 2)

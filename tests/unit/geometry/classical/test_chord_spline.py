@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.chord_spline import ChordSpline, chord_splines
-from assoc_hull.geometry.classical.chord_spline_solve import Mode
+from assoc_hull.geometry.classical.chord_spline import ChordSpline, Mode, chord_splines
 from assoc_hull.geometry.curves import FloatArray
 
 POINTS = [(0.0, 0.0), (2.0, 1.0), (4.0, 1.5), (7.0, 1.2), (9.0, 0.0)]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.circles import (
+from assoc_hull.geometry.classical.circular_arcs import (
     circle_by_tangent,
     circle_through,
     fitted_circle,

@@ -11,13 +11,16 @@ import pytest
 from scipy.optimize import least_squares
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.combined_waterline import conic, conic_coefficients, waterline
-from assoc_hull.geometry.classical.cubic_conic import (
+from assoc_hull.geometry.classical.combined_waterline import combined_waterline
+from assoc_hull.geometry.classical.pieced_curve import (
+    FormulaPiece,
+    PiecedCurve,
+    conic,
+    conic_coefficients,
     cubic_conic,
     cubic_conic_coefficients,
     fit_cubic_conic,
 )
-from assoc_hull.geometry.classical.pieces import Piece, PiecedCurve
 from tests.piece_values import PIECES
 
 OFFSETS = [(24, 11.97), (30, 11.72), (36, 11.2), (42, 10.4), (48, 9.3), (54, 8)]
@@ -26,7 +29,7 @@ OFFSETS = [(24, 11.97), (30, 11.72), (36, 11.2), (42, 10.4), (48, 9.3), (54, 8)]
 def fore(**other: Any) -> PiecedCurve:
     """The waterline of the test values, or one that differs."""
     given = {"x0": 20, "x1": 60, "x2": 75, "y0": 12, "y1": 6.5, "offsets": OFFSETS}
-    return waterline(**{**given, **other})
+    return combined_waterline(**{**given, **other})
 
 
 @pytest.fixture(scope="module")
@@ -218,7 +221,7 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
     "gap": (
         "waterline: a piece ends at x=1, the next begins at 2",
         lambda: PiecedCurve.make(
-            tuple(Piece("line", a, a + 1.0, np.array([1.0])) for a in (0.0, 2.0))
+            tuple(FormulaPiece("line", a, a + 1.0, np.array([1.0])) for a in (0.0, 2.0))
         ),
     ),
     "third derivative": ("waterline: derivative of order 3", lambda: fore().at(30.0, 3)),

@@ -13,7 +13,7 @@ from assoc_hull.geometry.classical.conformal_sections import (
     fit_conformal,
     lewis_sections,
 )
-from assoc_hull.geometry.classical.draft_functions import DraftFunctions
+from assoc_hull.geometry.classical.polynomial_hulls import DraftFunctions
 from tests.piece_values import PIECES
 
 RIGHT = 0.5 * np.pi

@@ -11,11 +11,12 @@ from scipy.integrate import solve_ivp
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.chord_spline import ChordSpline
-from assoc_hull.geometry.classical.elastica import Elastica, Family
-from assoc_hull.geometry.classical.elastica_fit import fit_elastica
-from assoc_hull.geometry.classical.elastica_solve import (
+from assoc_hull.geometry.classical.elastica import (
     FREE_MODULUS,
+    Elastica,
+    Family,
     fit_amplitudes,
+    fit_elastica,
     least_modulus,
 )
 from assoc_hull.geometry.numeric.quadrature import gauss

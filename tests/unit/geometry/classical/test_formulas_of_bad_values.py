@@ -11,25 +11,13 @@ import pytest
 from assoc_hull.creation.classical.lewis_hull import LewisHull
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.classical.combined_waterline import (
-    conic,
-    conic_coefficients,
-    conic_notes,
-    waterline,
+    WaterlineRegion,
+    WaterlineRegions,
+    combined_waterline,
+    fit_quintic,
+    joined_pieces,
 )
 from assoc_hull.geometry.classical.conformal_sections import fit_conformal, lewis_sections
-from assoc_hull.geometry.classical.cubic_conic import (
-    cubic_conic,
-    cubic_conic_coefficients,
-    fit_cubic_conic,
-)
-from assoc_hull.geometry.classical.draft_functions import DraftFunctions, fit_polynomial_hull
-from assoc_hull.geometry.classical.form_polynomials import (
-    chapman,
-    form_polynomial,
-    product_hull,
-    taylor_quintic,
-)
-from assoc_hull.geometry.classical.joined_pieces import circle_piece, joined_pieces
 from assoc_hull.geometry.classical.lackenby_shift import lackenby_shift, one_minus_prismatic
 from assoc_hull.geometry.classical.linear_least_squares import (
     bounded_fit,
@@ -37,12 +25,25 @@ from assoc_hull.geometry.classical.linear_least_squares import (
     linear_fit,
     orthogonal_fit,
 )
-from assoc_hull.geometry.classical.quintic import fit_quintic
-from assoc_hull.geometry.classical.regions import Region, Regions
-from assoc_hull.geometry.classical.series_hulls import (
+from assoc_hull.geometry.classical.pieced_curve import (
+    circle_piece,
+    conic,
+    conic_coefficients,
+    conic_notes,
+    cubic_conic,
+    cubic_conic_coefficients,
+    fit_cubic_conic,
+)
+from assoc_hull.geometry.classical.polynomial_hulls import (
+    DraftFunctions,
+    chapman_parabola,
+    fit_polynomial_hull,
     fit_series,
     fit_series_hull,
+    form_polynomial,
+    product_hull,
     series_columns,
+    taylor_quintic,
 )
 from assoc_hull.geometry.classical.smooth_offsets import smooth_offsets, smooth_table
 
@@ -57,8 +58,8 @@ U, Y = [0.1, 0.25, 0.4, 0.55, 0.7, 0.85], [7.93, 7.58, 6.94, 6.0, 4.7, 2.95]
 X = np.linspace(-1.0, 1.0, 9)
 FLAT, END = [(0, 30), (5, 42)], [(0, 70), (5, 73)]
 SIDE = [
-    Region("flat", "change", "quintic", 20.0, 60.0),
-    Region("change", "end", "conic", 60.0, 75.0),
+    WaterlineRegion("flat", "change", "quintic", 20.0, 60.0),
+    WaterlineRegion("change", "end", "conic", 60.0, 75.0),
 ]
 ALONG = np.linspace(0.0, 100.0, 9)
 BEAM = 8.0 * (1.0 - (ALONG / 50.0 - 1.0) ** 4)
@@ -88,7 +89,7 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
         {"u": 0.5, "order": 0},
     ),
     "waterline": (
-        waterline,
+        combined_waterline,
         {
             "x0": 20,
             "x1": 60,
@@ -103,7 +104,7 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
         },
     ),
     "place on a waterline": (
-        lambda x, order: waterline(20, 60, 75, 12, 6.5, OFFSETS).at(x, order),
+        lambda x, order: combined_waterline(20, 60, 75, 12, 6.5, OFFSETS).at(x, order),
         {"x": 50.0, "order": 0},
     ),
     "conic": (conic, {"first": 60.0, "last": 75.0, "y": 6.5, "slope": -0.2, "end": 0.0}),
@@ -124,12 +125,17 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
         },
     ),
     "regions": (
-        Regions.make,
+        WaterlineRegions.make,
         {"boundaries": {"flat": FLAT, "end": END}, "formulas": {("flat", "end"): "line"}},
     ),
-    "boundary": (lambda line: Regions.make({"flat": FLAT, "end": line}, {}), {"line": END}),
+    "boundary": (
+        lambda line: WaterlineRegions.make({"flat": FLAT, "end": line}, {}),
+        {"line": END},
+    ),
     "level of regions": (
-        lambda z: Regions.make({"flat": FLAT, "end": END}, {("flat", "end"): "line"}).at(z),
+        lambda z: WaterlineRegions.make({"flat": FLAT, "end": END}, {("flat", "end"): "line"}).at(
+            z
+        ),
         {"z": 3.0},
     ),
     "joined pieces": (
@@ -152,7 +158,7 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
         form_polynomial,
         {"powers": [0, 1], "conditions": [("value", 0, 1), ("slope", 0, 1)]},
     ),
-    "Chapman": (chapman, {"x": 0.4, "n": 2.0}),
+    "Chapman": (chapman_parabola, {"x": 0.4, "n": 2.0}),
     "product": (product_hull, {"x": 0.4, "zeta": 0.2, "a": [0, 1], "b": [0, 1]}),
     "Lackenby": (
         lackenby_shift,

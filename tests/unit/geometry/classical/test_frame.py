@@ -7,15 +7,18 @@ import math
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.classical.deck_corner import deck_corner
-from assoc_hull.geometry.classical.frame import Frame
-from assoc_hull.geometry.classical.frame_parabolas import run_bends, tangent_jumps
-from assoc_hull.geometry.classical.quadratics import Quadratics
+from assoc_hull.geometry.classical.frame_section import (
+    FrameSection,
+    Quadratics,
+    deck_corner,
+    run_bends,
+    tangent_jumps,
+)
 
 WATER = [(11, 0.8), (13.5, 2.5), (14.8, 5), (15, 9)]
 
 
-def polygon(frame: Frame, count: int = 400) -> np.ndarray:
+def polygon(frame: FrameSection, count: int = 400) -> np.ndarray:
     """The whole curve as a polygon: side, corner, deck, to the centre line."""
     parts = [frame.drawn(count)]
     if frame.corner is not None:
@@ -37,17 +40,17 @@ def area_below(points: np.ndarray, level: float) -> tuple[float, float]:
 
 
 FRAMES = {
-    "flat of bottom": Frame.make(20, WATER, deck_side=(15, 14), flat=7.5),
-    "camber and corner": Frame.make(
+    "flat of bottom": FrameSection.make(20, WATER, deck_side=(15, 14), flat=7.5),
+    "camber and corner": FrameSection.make(
         20, WATER, deck_side=(15, 14), flat=7.5, camber=0.4, corner_radius=1.0
     ),
-    "ridged camber": Frame.make(
+    "ridged camber": FrameSection.make(
         20, WATER, deck_side=(15.6, 14), flat=7.5, camber=0.5, camber_kind="line", corner_radius=0.8
     ),
-    "hollow deck": Frame.make(20, WATER, deck_side=(15, 14), flat=7.5, camber=-0.3),
-    "from the keel": Frame.make(5, [(1, 3), (3, 6)], keel=1.2, deck_side=(5, 9), camber=0.2),
-    "a knuckle": Frame.make(20, WATER, deck_side=(14, 14), flat=7.5, knuckles=[(15.2, 10)]),
-    "a shelf": Frame.make(
+    "hollow deck": FrameSection.make(20, WATER, deck_side=(15, 14), flat=7.5, camber=-0.3),
+    "from the keel": FrameSection.make(5, [(1, 3), (3, 6)], keel=1.2, deck_side=(5, 9), camber=0.2),
+    "a knuckle": FrameSection.make(20, WATER, deck_side=(14, 14), flat=7.5, knuckles=[(15.2, 10)]),
+    "a shelf": FrameSection.make(
         20, [(3, 1), (4, 3)], deck_side=(7, 9), keel=0.0, knuckles=[(5, 5), (6, 5)]
     ),
 }  # fmt: skip
@@ -130,15 +133,15 @@ def test_a_neighbour_beside_the_chord_is_left_out_and_told() -> None:
 
 def test_uneven_waterlines_are_told() -> None:
     """Beyond a ratio of four, with the height."""
-    frame = Frame.make(12, [(3, 1), (4, 1.5), (5, 4)], deck_side=(6, 6))
+    frame = FrameSection.make(12, [(3, 1), (4, 1.5), (5, 4)], deck_side=(6, 6))
     assert frame.notes == ("frame x=12: waterline spacing ratio 5 exceeds 4 at z=1.5",)
     assert FRAMES["flat of bottom"].notes == ()
 
 
 def test_waterlines_below_the_keel_and_above_the_deck_do_not_count() -> None:
     """Nor does one that stands at a knuckle of its own place."""
-    plain = Frame.make(9, [(2, 3), (4, 5)], deck_side=(5, 7), keel=1.0, knuckles=[(3, 4)])
-    more = Frame.make(
+    plain = FrameSection.make(9, [(2, 3), (4, 5)], deck_side=(5, 7), keel=1.0, knuckles=[(3, 4)])
+    more = FrameSection.make(
         9, [(1, 0.5), (2, 3), (3, 4), (4, 5), (9, 8)], deck_side=(5, 7), keel=1.0, knuckles=[(3, 4)]
     )
     assert plain.area() == more.area()

@@ -12,13 +12,6 @@ from numpy.polynomial.polynomial import polyder, polyint, polyval
 from scipy.interpolate import BPoly
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.draft_functions import DraftFunctions, fit_polynomial_hull
-from assoc_hull.geometry.classical.form_polynomials import (
-    chapman,
-    form_polynomial,
-    product_hull,
-    taylor_quintic,
-)
 from assoc_hull.geometry.classical.lackenby_shift import lackenby_shift, one_minus_prismatic
 from assoc_hull.geometry.classical.linear_least_squares import (
     bounded_fit,
@@ -26,13 +19,19 @@ from assoc_hull.geometry.classical.linear_least_squares import (
     linear_fit,
     orthogonal_fit,
 )
-from assoc_hull.geometry.classical.series_hulls import (
+from assoc_hull.geometry.classical.polynomial_hulls import (
+    DraftFunctions,
+    chapman_parabola,
+    fit_polynomial_hull,
     fit_series,
     fit_series_hull,
+    form_polynomial,
+    product_hull,
     series_columns,
+    taylor_quintic,
 )
 from assoc_hull.geometry.classical.smooth_offsets import smooth_offsets, smooth_table
-from assoc_hull.shipped.wigley import half_breadth
+from assoc_hull.shipped.wigley import wigley_half_breadth
 from assoc_hull.variation.shifts.lackenby import HalfBody
 from tests.piece_values import PIECES
 
@@ -74,11 +73,11 @@ def test_form_parameters_make_polynomials() -> None:
 
 def test_parabolas_and_products() -> None:
     """Chapman's test value; Wigley's hull is a product of two."""
-    assert float(chapman(0.4)) == pytest.approx(PIECES["Cp.y"], rel=1e-14)
-    assert chapman([0.0, 1.0], 3.5).tolist() == [1.0, 0.0]
+    assert float(chapman_parabola(0.4)) == pytest.approx(PIECES["Cp.y"], rel=1e-14)
+    assert chapman_parabola([0.0, 1.0], 3.5).tolist() == [1.0, 0.0]
     x, z = np.meshgrid(np.linspace(0.0, 100.0, 9), np.linspace(0.0, 6.25, 5))
     mine = 5.0 * product_hull(x / 50.0 - 1.0, 1.0 - z / 6.25, [0, 1], [0, 1])
-    np.testing.assert_allclose(mine, half_breadth(x, z, 100.0, 10.0, 6.25), atol=1e-13)
+    np.testing.assert_allclose(mine, wigley_half_breadth(x, z, 100.0, 10.0, 6.25), atol=1e-13)
 
 
 def test_bezier_curves_are_bpoly() -> None:
@@ -140,11 +139,13 @@ def test_series_in_two_variables_are_surfaces(basis: Any) -> None:
     """Wigley's hull is a polynomial and comes back whole from scattered offsets."""
     rng = np.random.default_rng(1)
     x, z = rng.uniform(0.0, 100.0, 60), rng.uniform(0.0, 6.25, 60)
-    y = half_breadth(x, z, 100.0, 10.0, 6.25)
+    y = wigley_half_breadth(x, z, 100.0, 10.0, 6.25)
     hull = fit_series_hull(x, z, y, (2, 2), (0.0, 100.0), (0.0, 6.25), basis=basis)
     assert hull.rms < 1e-12
     at = np.meshgrid(np.linspace(0.0, 100.0, 5), np.linspace(0.0, 6.25, 4))
-    np.testing.assert_allclose(hull.at(*at), half_breadth(*at, 100.0, 10.0, 6.25), atol=1e-11)
+    np.testing.assert_allclose(
+        hull.at(*at), wigley_half_breadth(*at, 100.0, 10.0, 6.25), atol=1e-11
+    )
 
 
 def test_further_columns_take_what_polynomials_cannot() -> None:
@@ -222,11 +223,11 @@ def test_sections_of_polynomials_have_coefficients_in_x() -> None:
     """The same with stations as levels: Wigley's sections."""
     stations, heights = np.linspace(0.0, 100.0, 9), np.linspace(0.0, 6.25, 6)
     grid = np.meshgrid(heights, stations)
-    table = half_breadth(grid[1], grid[0], 100.0, 10.0, 6.25)
+    table = wigley_half_breadth(grid[1], grid[0], 100.0, 10.0, 6.25)
     hull = fit_polynomial_hull(heights / 6.25, stations, table, 2, 2)
     found = float(hull.at(2.0 / 6.25, 33.0))
     assert found == pytest.approx(
-        float(half_breadth(np.array(33.0), np.array(2.0), 100.0, 10.0, 6.25)), rel=1e-10
+        float(wigley_half_breadth(np.array(33.0), np.array(2.0), 100.0, 10.0, 6.25)), rel=1e-10
     )
 
 
@@ -302,8 +303,8 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
     "condition of two": (
         "form polynomial: condition", lambda: form_polynomial([0], [cast("Any", ("value", 0))])
     ),
-    "Chapman outside": (r"Chapman parabola: x=2 outside \[0, 1\]", lambda: chapman(2.0)),
-    "Chapman power": ("Chapman parabola: power 0", lambda: chapman(0.5, 0.0)),
+    "Chapman outside": (r"Chapman parabola: x=2 outside \[0, 1\]", lambda: chapman_parabola(2.0)),
+    "Chapman power": ("Chapman parabola: power 0", lambda: chapman_parabola(0.5, 0.0)),
     "product outside": (r"product hull: x=2 outside", lambda: product_hull(2, 0, [1], [1])),
     "product of shapes": (
         "product hull: shapes", lambda: product_hull([0, 0], [0, 0, 0], [1], [1])

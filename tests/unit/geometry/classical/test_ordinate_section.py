@@ -9,9 +9,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.ordinate_checks import FORMS
-from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
-from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
+from assoc_hull.geometry.classical.ordinate_section import FORMS, OrdinateSection, PairedParabolas
 
 GIVEN: dict[str, Any] = {
     "hb": 0.9, "sb": 3.0, "sw": 2.0, "hd": 12.4, "bd": 15.2, "cam": 0.4,

@@ -8,15 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from assoc_hull.creation.classical.main_types import require_types
+from assoc_hull.creation.classical.prelikon import require_types
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.appendage_box import AppendageBox
-from assoc_hull.geometry.classical.arc_section import through_points
-from assoc_hull.geometry.classical.camber_kinds import CamberKind
-from assoc_hull.geometry.classical.deck_house import DeckHouse
-from assoc_hull.geometry.classical.deck_surface import Deck, require_apart
-from assoc_hull.geometry.classical.sheer import Sheer
-from assoc_hull.geometry.classical.space_curve import SpaceCurve
+from assoc_hull.geometry.classical.appendages import AppendageBox
+from assoc_hull.geometry.classical.arc_curve import through_points
+from assoc_hull.geometry.classical.boundary_lines import SpaceCurve
+from assoc_hull.geometry.classical.camber import CamberKind
+from assoc_hull.geometry.classical.deck import Deck, DeckHouse, Sheer, require_decks_apart
 
 ROWS = [(-60, 2.2), (-30, 0.6), (0, 0), (30, 0.9), (60, 3.4)]
 SHEER = Sheer.make(ROWS)
@@ -95,7 +93,7 @@ MESSAGES: dict[str, tuple[str, Callable[[], object]]] = {
     ),
     "decks that meet": (
         "decks 1 and 2 intersect near x=0",
-        lambda: require_apart(
+        lambda: require_decks_apart(
             [DECK, Deck.make(2, 12.4, Sheer.make([(-60, 0), (60, 0.6)]), PARABOLA)],
             [-30.0, 0.0, 10.0], [9.0, 9.0, 9.0],
         ),
@@ -254,7 +252,7 @@ def test_deck_has_the_printed_values() -> None:
 def test_decks_that_lie_apart_are_let_be() -> None:
     """One 2.6 m below the other, and one of another camber that reaches less far."""
     below = Deck.make(2, 9.9, SHEER, CamberKind.make(3, 6.0, 0.3))
-    require_apart([DECK, below], np.linspace(-60, 60, 9), np.full(9, 11.0))
+    require_decks_apart([DECK, below], np.linspace(-60, 60, 9), np.full(9, 11.0))
 
 
 def test_box_has_the_printed_values() -> None:

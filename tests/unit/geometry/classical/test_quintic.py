@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.quintic import Quintic, fit_quintic
+from assoc_hull.geometry.classical.combined_waterline import Quintic, fit_quintic
 from tests.piece_values import PIECES
 
 U, Y = (0.1, 0.25, 0.4, 0.55, 0.7, 0.85), (7.93, 7.58, 6.94, 6.0, 4.7, 2.95)

@@ -9,9 +9,13 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.combined_waterline import waterline
-from assoc_hull.geometry.classical.joined_pieces import circle_piece, joined_pieces
-from assoc_hull.geometry.classical.regions import Region, Regions
+from assoc_hull.geometry.classical.combined_waterline import (
+    WaterlineRegion,
+    WaterlineRegions,
+    combined_waterline,
+    joined_pieces,
+)
+from assoc_hull.geometry.classical.pieced_curve import circle_piece
 from tests.piece_values import PIECES
 
 FLAT = [(0, 30), (5, 42), (10, 50)]
@@ -21,10 +25,10 @@ FORMULAS: dict[tuple[str, str], Any] = {("flat", "change"): "quintic", ("change"
 OFFSETS = [(24, 11.97), (30, 11.72), (36, 11.2), (42, 10.4), (48, 9.3), (54, 8)]
 
 
-def made(**other: Any) -> Regions:
+def made(**other: Any) -> WaterlineRegions:
     """The boundaries of the test values, or others."""
     lines = {"end": END, "flat": FLAT, "change": CHANGE, **other}
-    return Regions.make({k: v for k, v in lines.items() if v is not None}, FORMULAS)
+    return WaterlineRegions.make({k: v for k, v in lines.items() if v is not None}, FORMULAS)
 
 
 def test_boundaries_are_evaluated_and_put_in_order() -> None:
@@ -47,7 +51,9 @@ def test_boundaries_that_coincide_drop_their_piece() -> None:
     assert [r.formula for r in merged.at(0.0)] == ["quintic"]
     assert merged.at(0.0)[0].before == "change"
     assert [r.formula for r in merged.at(10.0)] == ["conic"]
-    both = Regions.make({"flat": FLAT, "end": END}, {("flat", "end"): formulas["flat", "end"]})
+    both = WaterlineRegions.make(
+        {"flat": FLAT, "end": END}, {("flat", "end"): formulas["flat", "end"]}
+    )
     assert [r.formula for r in both.at(3.0)] == ["line"]
 
 
@@ -61,10 +67,10 @@ def test_touching_boundaries_do_not_cross() -> None:
 
 def test_pieces_through_regions_are_those_of_the_waterline() -> None:
     """The same quintic and conic, to the last bits; heights by the name of the boundary."""
-    regions = [Region("flat", "change", "quintic", 20.0, 60.0)]
-    regions.append(Region("change", "end", "conic", 60.0, 75.0))
+    regions = [WaterlineRegion("flat", "change", "quintic", 20.0, 60.0)]
+    regions.append(WaterlineRegion("change", "end", "conic", 60.0, 75.0))
     curve = joined_pieces(regions, {"flat": 12.0, "change": 6.5, "end": 0.0}, OFFSETS)
-    peer = waterline(20, 60, 75, 12, 6.5, OFFSETS)
+    peer = combined_waterline(20, 60, 75, 12, 6.5, OFFSETS)
     for mine, other in zip(curve.pieces, peer.pieces, strict=True):
         np.testing.assert_allclose(mine.coefficients, other.coefficients, rtol=1e-12, atol=1e-12)
 
@@ -74,7 +80,7 @@ def test_every_formula_joins_with_its_rule() -> None:
     names = ["mid", "a", "b", "c", "end"]
     x, formulas = [0.0, 10.0, 30.0, 40.0, 44.0], ["line", "quintic", "line", "circle"]
     regions = [
-        Region(names[k], names[k + 1], formulas[k], x[k], x[k + 1])  # type: ignore[arg-type]
+        WaterlineRegion(names[k], names[k + 1], formulas[k], x[k], x[k + 1])  # type: ignore[arg-type]
         for k in range(4)
     ]
     heights = dict(zip(names, [8.0, 8.0, 5.0, 3.0, 1.5], strict=True))
@@ -83,7 +89,7 @@ def test_every_formula_joins_with_its_rule() -> None:
         assert abs(join.gap) < 1e-12
         assert abs(join.turn) < 1e-12
     assert float(curve.at(44.0)) == pytest.approx(1.5, abs=1e-12)
-    regions[2:] = [Region("b", "end", "cubic conic", 30.0, 40.0)]
+    regions[2:] = [WaterlineRegion("b", "end", "cubic conic", 30.0, 40.0)]
     given = [(x, 8 - 0.0075 * (x - 10) ** 2) for x in (14, 18, 22, 26)]
     joined = joined_pieces(regions, {**heights, "end": 0.0}, given)
     last = joined.joins()[-1]
@@ -104,7 +110,10 @@ def test_a_circle_piece_is_a_circle_in_true_lengths() -> None:
     assert float(piece.at(2.0, 1)) == pytest.approx(-0.2, rel=1e-12)
 
 
-TWO = [Region("flat", "end", "conic", 0.0, 9.0), Region("end", "far", "line", 9.0, 10.0)]
+TWO = [
+    WaterlineRegion("flat", "end", "conic", 0.0, 9.0),
+    WaterlineRegion("end", "far", "line", 9.0, 10.0),
+]
 HEIGHTS = {"flat": 5.0, "end": 0.0, "far": 0.0}
 REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
     "crossing": (
@@ -123,7 +132,7 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
         "regions: boundary change does not reach z=6.5",
         lambda: made(change=CHANGE[:2]).places(6.5),
     ),
-    "one boundary": ("regions: 1 boundaries", lambda: Regions.make({"flat": FLAT}, {})),
+    "one boundary": ("regions: 1 boundaries", lambda: WaterlineRegions.make({"flat": FLAT}, {})),
     "z that falls": (
         "regions: z of boundary flat does not rise at z=0",
         lambda: made(flat=[(5, 42), (0, 30)]),
@@ -131,11 +140,11 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
     "one point": ("regions: boundary flat has 1 points", lambda: made(flat=FLAT[:1])),
     "unknown formula": (
         "regions: no formula is called 'spiral'",
-        lambda: Regions.make({"a": FLAT, "b": END}, {("a", "b"): "spiral"}),  # type: ignore[dict-item]
+        lambda: WaterlineRegions.make({"a": FLAT, "b": END}, {("a", "b"): "spiral"}),  # type: ignore[dict-item]
     ),
     "unknown boundary": (
         r"regions: no two boundaries are called \('a', 'c'\)",
-        lambda: Regions.make({"a": FLAT, "b": END}, {("a", "c"): "line"}),
+        lambda: WaterlineRegions.make({"a": FLAT, "b": END}, {("a", "c"): "line"}),
     ),
     "no height": (
         "regions: no half-breadth on boundary end",

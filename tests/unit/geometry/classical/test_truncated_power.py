@@ -12,7 +12,7 @@ from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.truncated_power_spline import (
     TruncatedPower,
     power_columns,
-    solved_directly,
+    solve_truncated_powers,
 )
 from assoc_hull.geometry.curves import FloatArray
 
@@ -89,7 +89,7 @@ def test_digits_are_lost_where_x_is_far_from_nil(origin: float, least: float, mo
     """One wave on 100 m: solved directly it errs by 1e-14, or by 1e-10."""
     x = np.linspace(origin, origin + 100.0, 41)
     y = np.sin(2.0 * np.pi * (x - origin) / 100.0)
-    away = np.abs(power_columns(x)[:-2] @ solved_directly(x, y) - y).max()
+    away = np.abs(power_columns(x)[:-2] @ solve_truncated_powers(x, y) - y).max()
     assert least <= away < most
     assert np.abs(TruncatedPower.through(x, y).at(x) - y).max() < 1e-15
 

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.fairness.combs import combs
+from assoc_hull.geometry.fairness.combs import comb_teeth
 from assoc_hull.geometry.fairness.inflections import inflections
-from assoc_hull.geometry.splines.curvature import curvature
+from assoc_hull.geometry.splines.evaluation import curvature
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -177,7 +177,7 @@ def test_any_plane(tilt: float, heading: float) -> None:
 def test_combs_stand_on_the_curve() -> None:
     """Bases lie on the curve, both ends of a segment included; teeth are scale x curvature."""
     curve = sine(1, 10, 0.3, 0.1)
-    base, tip = combs(curve, UP, per_segment=5, scale=0.2)
+    base, tip = comb_teeth(curve, UP, per_segment=5, scale=0.2)
     assert base.shape == tip.shape == (10, 5, 3)
     assert base[:, 0].tolist() == curve.xyz[:-1].tolist()
     assert base[:, -1].tolist() == curve.xyz[1:].tolist()
@@ -189,9 +189,9 @@ def test_combs_stand_on_the_curve() -> None:
 def test_combs_of_plane_and_space_agree() -> None:
     """In its plane a curve has the same comb as in space, and from either side."""
     curve = sine(1, 10, 0.3, 0.1)
-    plane, space = combs(curve, UP)[1], combs(curve, np.full(3, np.nan))[1]
+    plane, space = comb_teeth(curve, UP)[1], comb_teeth(curve, np.full(3, np.nan))[1]
     assert plane == pytest.approx(space, abs=1e-10)
-    assert combs(curve, -UP)[1] == pytest.approx(plane, abs=1e-10)
+    assert comb_teeth(curve, -UP)[1] == pytest.approx(plane, abs=1e-10)
 
 
 def test_bad_arguments_are_refused() -> None:
@@ -202,4 +202,4 @@ def test_bad_arguments_are_refused() -> None:
     with pytest.raises(BadInputError):
         inflections(curve, UP, lobe_deg=-1.0)
     with pytest.raises(BadInputError):
-        combs(curve, UP, per_segment=1)
+        comb_teeth(curve, UP, per_segment=1)

@@ -7,15 +7,23 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline, PPoly
 
-from assoc_hull.analysis.fairness.classical_pieces import ArcPieces, ElasticaPieces, chord_pieces
+from assoc_hull.analysis.fairness.classical_pieces import (
+    ArcFairnessPieces,
+    ElasticaFairnessPieces,
+    chord_spline_pieces,
+)
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.chord_spline import ChordSpline
-from assoc_hull.geometry.classical.elastica_fit import fit_elastica
+from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
+from assoc_hull.geometry.classical.elastica import fit_elastica
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.fairness.criteria import FairnessRecord, Offsets, criteria
-from assoc_hull.geometry.splines.fairness_graph import GraphPieces
-from assoc_hull.geometry.splines.fairness_pieces import Pieces, Seen, SplinePieces
+from assoc_hull.geometry.fairness.criteria import FairnessRecord, OffsetDeviations, criteria
+from assoc_hull.geometry.splines.curve_pieces import (
+    GraphPieces,
+    PieceDerivatives,
+    PiecewiseCurves,
+    SplinePieces,
+)
 from assoc_hull.geometry.splines.loft import loft
 
 UP = [0.0, 0.0, 1.0]
@@ -40,7 +48,7 @@ class QuarterEllipse:
     def of_arcs(self) -> bool:
         return False
 
-    def seen(self, u: FloatArray) -> Seen:
+    def seen(self, u: FloatArray) -> PieceDerivatives:
         step = 0.5 * np.pi / self.pieces
         t = (np.arange(self.pieces)[:, None] + u) * step
         along = np.stack([-3.0 * np.sin(t), 1.5 * np.cos(t)], axis=-1)
@@ -49,7 +57,7 @@ class QuarterEllipse:
         rate = -3.0 * 4.5 * (9.0 - 2.25) * np.sin(t) * np.cos(t) / speed**6
         tangent = along / speed[..., None]
         left = np.stack([-tangent[..., 1], tangent[..., 0]], axis=-1)
-        return Seen(tangent, bend, rate, speed * step, bend[..., None] * left, rate)
+        return PieceDerivatives(tangent, bend, rate, speed * step, bend[..., None] * left, rate)
 
     def distance(self, curve: IntArray, points: FloatArray) -> FloatArray:
         raise NotImplementedError
@@ -118,7 +126,7 @@ def test_bending_and_variation_have_no_unit(scale: float) -> None:
     """A curve drawn in mm or km has the same E2, E3, counts and relative jumps."""
     points = np.array([(0.0, 0.0), (2.0, 1.0), (4.0, 1.5), (7.0, 1.2), (9.0, 0.0)])
     one, other = (
-        criteria(chord_pieces(ChordSpline.through(factor * points, mode="moment")))[0]
+        criteria(chord_spline_pieces(ChordSpline.through(factor * points, mode="moment")))[0]
         for factor in (1.0, scale)
     )
     assert other.bending == pytest.approx(one.bending, rel=1e-10)
@@ -131,7 +139,7 @@ def test_a_jump_of_curvature_is_told_against_the_size_of_it() -> None:
     """A moment spline fails the second criterion alone, a curvature spline none."""
     points = [(0.0, 0.0), (2.0, 1.0), (4.0, 1.5), (7.0, 1.2), (9.0, 0.0)]
     rough, even = (
-        criteria(chord_pieces(ChordSpline.through(points, mode=mode)))[0]
+        criteria(chord_spline_pieces(ChordSpline.through(points, mode=mode)))[0]
         for mode in ("moment", "curvature")
     )
     assert rough.failed == ("second derivative",)
@@ -156,10 +164,10 @@ def test_arcs_count_by_the_steps_between_them() -> None:
     bends, sizes = np.array([0.1, 0.3, 0.2]), np.array([2.0, 1.0, 4.0])
     start, angle = [np.zeros(2)], [0.0]
     for bend, size in zip(bends[:-1], sizes[:-1], strict=True):
-        arc = Arcs.make([start[-1]], [angle[-1]], [bend], [size])
+        arc = PlaneArcs.make([start[-1]], [angle[-1]], [bend], [size])
         start.append(arc.ends()[0])
         angle.append(float(arc.end_angles()[0]))
-    record = criteria(ArcPieces(Arcs.make(start, angle, bends, sizes)))[0]
+    record = criteria(ArcFairnessPieces(PlaneArcs.make(start, angle, bends, sizes)))[0]
     assert record.length == pytest.approx(7.0)
     assert record.bending == pytest.approx(7.0 * float((bends**2) @ sizes))
     assert record.variation == pytest.approx(343.0 * (0.04 / 1.5 + 0.01 / 2.5))
@@ -171,7 +179,7 @@ def test_arcs_count_by_the_steps_between_them() -> None:
 def test_an_elastica_is_smooth_within() -> None:
     """Its bending is its energy times its length; nothing jumps."""
     rod = fit_elastica([0, 0], [1, 0], 0.5, -0.3)
-    record = criteria(ElasticaPieces((rod,)))[0]
+    record = criteria(ElasticaFairnessPieces((rod,)))[0]
     assert record.bending == pytest.approx(rod.energy * rod.length, rel=1e-12)
     assert record.failed == ()
 
@@ -211,22 +219,24 @@ def test_a_curve_in_space_has_no_inflection() -> None:
     "pieces",
     [
         pytest.param(GraphPieces.of(PPoly(np.array([[0.0], [0.0]]), [0, 4])), id="graph"),
-        pytest.param(ArcPieces(Arcs.make([(0, 0)], [0.0], [0.0], [4.0])), id="arcs"),
-        pytest.param(chord_pieces(ChordSpline.through([(0, 0), (1, 0), (4, 0)])), id="chords"),
-        pytest.param(ElasticaPieces((fit_elastica([0, 0], [4, 0], 0, 0),)), id="elastica"),
+        pytest.param(ArcFairnessPieces(PlaneArcs.make([(0, 0)], [0.0], [0.0], [4.0])), id="arcs"),
+        pytest.param(
+            chord_spline_pieces(ChordSpline.through([(0, 0), (1, 0), (4, 0)])), id="chords"
+        ),
+        pytest.param(ElasticaFairnessPieces((fit_elastica([0, 0], [4, 0], 0, 0),)), id="elastica"),
     ],
 )
-def test_offsets_are_measured_from_any_curve(pieces: Pieces) -> None:
+def test_offsets_are_measured_from_any_curve(pieces: PiecewiseCurves) -> None:
     """On a straight line 4 m long: distance over tolerance, the largest and the mean."""
     points, tolerances = [(1.0, 0.003), (2.0, -0.004), (7.0, 4.0)], [0.005, 0.010, 10.0]
-    offsets = Offsets.measured(pieces, points, tolerances)
+    offsets = OffsetDeviations.measured(pieces, points, tolerances)
     record = criteria(pieces, offsets=offsets)[0]
     assert record.offsets == 3
     assert record.deviation_max == pytest.approx(0.6, abs=1e-9)
     assert record.deviation_rms == pytest.approx(np.sqrt((0.36 + 0.16 + 0.25) / 3.0), abs=1e-9)
     assert record.passed["deviation"] is True
     assert record.inflections == record.extrema == 0
-    tight = criteria(pieces, offsets=Offsets.measured(pieces, points, 0.0025))[0]
+    tight = criteria(pieces, offsets=OffsetDeviations.measured(pieces, points, 0.0025))[0]
     assert tight.failed == ("deviation",)
 
 
@@ -254,7 +264,7 @@ def test_offsets_that_are_none_are_refused(
     points: object, tolerances: object, message: str
 ) -> None:
     """One line that says what is wrong."""
-    pieces = chord_pieces(ChordSpline.through([(0, 0), (4, 0)]))
+    pieces = chord_spline_pieces(ChordSpline.through([(0, 0), (4, 0)]))
     with pytest.raises(GeometryError) as refused:
-        Offsets.measured(pieces, points, tolerances)  # type: ignore[arg-type]
+        OffsetDeviations.measured(pieces, points, tolerances)  # type: ignore[arg-type]
     assert str(refused.value).startswith(message)

@@ -8,14 +8,11 @@ from scipy.interpolate import BSpline
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.fitting.basis import basis_rows, clamped
-from assoc_hull.geometry.fitting.breaks import even
-from assoc_hull.geometry.fitting.fit import Fit, fit_surface, solved
+from assoc_hull.geometry.fitting.basis import basis_rows, clamped_knots
+from assoc_hull.geometry.fitting.fit_input import HeldControls, Samples
+from assoc_hull.geometry.fitting.fit_surface import SurfaceFit, even_breaks, fit_surface, solve_once
 from assoc_hull.geometry.fitting.foot_points import derivatives, distances, foot_points
-from assoc_hull.geometry.fitting.held_controls import HeldControls
-from assoc_hull.geometry.fitting.samples import Samples
-from assoc_hull.geometry.fitting.solving import controls
-from assoc_hull.geometry.fitting.stencils import bending
+from assoc_hull.geometry.fitting.least_squares import bending, solve_controls
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
 UNEVEN = np.array([0.0, 0.4, 1.0, 1.0, 2.5, 3.0, 4.0])
@@ -26,7 +23,7 @@ def a_surface(
     breaks_u: FloatArray = UNEVEN, breaks_v: FloatArray = SHORT, bulge: float = 0.2
 ) -> SplineSurface:
     """A smooth surface over its parameters, with control points moved about a little."""
-    knots = clamped(breaks_u), clamped(breaks_v)
+    knots = clamped_knots(breaks_u), clamped_knots(breaks_v)
     own = [np.mean([each[i : i + len(each) - 4] for i in (1, 2, 3)], axis=0) for each in knots]
     u, v = np.meshgrid(*own, indexing="ij")
     moved = np.random.default_rng(2).normal(0.0, 0.02, (*u.shape, 3))
@@ -70,7 +67,7 @@ def plate_energy(knots_u: FloatArray, knots_v: FloatArray) -> FloatArray:
 @pytest.mark.parametrize("order", [0, 1, 2])
 def test_rows_are_those_of_another_library(order: int) -> None:
     """Values and derivatives of the four splines agree with scipy's, repeated knots among them."""
-    knots = clamped(UNEVEN)
+    knots = clamped_knots(UNEVEN)
     at = np.concatenate([UNEVEN, np.linspace(0.0, 4.0, 57)])
     first, rows = basis_rows(knots, at, order)
     found = np.zeros((len(at), len(knots) - 4))
@@ -93,7 +90,7 @@ def test_controls_solve_the_dense_equations(turned: bool, hold: bool) -> None:
     held = HeldControls.none(shape)
     if hold:
         held = held.on("v0", 0.25, axes=(1,)).on("u1", surface.net[-2] + 0.1, depth=1)
-    found = controls(samples, *knots, smoothing, held)
+    found = solve_controls(samples, *knots, smoothing, held)
     along, across = (full_rows(k, t) for k, t in zip(knots, samples.uv.T, strict=True))
     rows = (along[:, :, None] * across[:, None, :]).reshape(len(samples), -1)
     matrix = (rows * samples.weight[:, None]).T @ rows + smoothing * plate_energy(*knots)
@@ -110,17 +107,17 @@ def test_controls_solve_the_dense_equations(turned: bool, hold: bool) -> None:
 def test_the_surface_that_points_come_from_is_found_again() -> None:
     """With its knots and hardly any penalty, control points return to 1e-10 m."""
     surface = a_surface()
-    found = solved("again", samples_of(surface), (UNEVEN, SHORT), 1e-15)
+    found = solve_once("again", samples_of(surface), (UNEVEN, SHORT), 1e-15)
     assert np.abs(found.surface.net - surface.net).max() < 1e-10
 
 
 def test_the_penalty_is_the_bending_of_a_formula() -> None:
     """x^3 + x^2 y^2 on [0, 4] x [0, 2] bends as its integral by hand says."""
-    knots = clamped(even(0.0, 4.0, 5)), clamped(even(0.0, 2.0, 2))
+    knots = clamped_knots(even_breaks(0.0, 4.0, 5)), clamped_knots(even_breaks(0.0, 2.0, 2))
     uv = some_places(SplineSurface("", (3, 3), *knots, np.zeros((8, 5, 3))), 400)
     x, y = uv.T
     values = np.column_stack([x**3 + x**2 * y**2, x, y])
-    net = controls(Samples.of(uv, values), *knots, 0.0)[..., 0]
+    net = solve_controls(Samples.of(uv, values), *knots, 0.0)[..., 0]
     stencil, bent = bending(*knots), 0.0
     for a in range(4):
         for b in range(-3, 4):
@@ -156,23 +153,27 @@ def test_what_is_held_is_met_to_the_bit_after_all_rounds() -> None:
 
 
 @pytest.fixture(scope="module")
-def wrong_start() -> tuple[Fit, SplineSurface, Samples]:
+def wrong_start() -> tuple[SurfaceFit, SplineSurface, Samples]:
     """A surface found from points whose parameters are wrong by up to 0.1 m, held on one border."""
-    surface = a_surface(even(0.0, 4.0, 6), even(0.0, 2.0, 3))
+    surface = a_surface(even_breaks(0.0, 4.0, 6), even_breaks(0.0, 2.0, 3))
     uv = some_places(surface, 2500)
     uv[:100, 0] = 0.0
     held = np.zeros((2500, 2), np.bool_)
     held[:100, 0] = True
     wrong = uv + np.random.default_rng(1).uniform(-0.1, 0.1, uv.shape) * ~held
     start = Samples.of(np.clip(wrong, [0, 0], [4, 2]), surface.at(*uv.T), held=held)
-    breaks = even(0.0, 4.0, 6), even(0.0, 2.0, 3)
+    breaks = even_breaks(0.0, 4.0, 6), even_breaks(0.0, 2.0, 3)
     return fit_surface("found", start, *breaks, 1e-7, rounds=6), surface, start
 
 
-def test_wrong_parameters_are_corrected(wrong_start: tuple[Fit, SplineSurface, Samples]) -> None:
+def test_wrong_parameters_are_corrected(
+    wrong_start: tuple[SurfaceFit, SplineSurface, Samples],
+) -> None:
     """Foot points bring 95 % of the residuals below 2 mm; held and outermost ones stay inside."""
     found, _, start = wrong_start
-    before = solved("before", start, (even(0.0, 4.0, 6), even(0.0, 2.0, 3)), 1e-7, steps=0)
+    before = solve_once(
+        "before", start, (even_breaks(0.0, 4.0, 6), even_breaks(0.0, 2.0, 3)), 1e-7, steps=0
+    )
     assert np.percentile(before.residual, 95) > 0.05
     assert np.percentile(found.residual, 95) < 2e-3
     uv = found.samples.uv
@@ -183,7 +184,7 @@ def test_wrong_parameters_are_corrected(wrong_start: tuple[Fit, SplineSurface, S
 
 
 def test_residuals_are_distances_of_the_foot_points(
-    wrong_start: tuple[Fit, SplineSurface, Samples],
+    wrong_start: tuple[SurfaceFit, SplineSurface, Samples],
 ) -> None:
     """A residual is the distance of a point from the surface at its parameters."""
     found = wrong_start[0]
@@ -201,7 +202,7 @@ def test_the_same_points_give_the_same_bits() -> None:
 
 def test_foot_points_are_where_the_miss_is_normal() -> None:
     """From near starts, points off the surface get the foot of the normal and its length."""
-    surface = a_surface(even(0.0, 4.0, 4), even(0.0, 2.0, 2))
+    surface = a_surface(even_breaks(0.0, 4.0, 4), even_breaks(0.0, 2.0, 2))
     uv = 0.3 + 0.8 * some_places(surface, 200) * [0.8, 0.6]
     point, along, across = derivatives(surface, uv)
     normal = np.cross(along, across)
@@ -217,17 +218,17 @@ def test_the_first_rounds_are_stiffer_and_the_last_is_not() -> None:
     """Two rounds: a solution with 30 times the penalty, and one of the corrected parameters."""
     surface = a_surface()
     samples, breaks = samples_of(surface, 400), (UNEVEN, SHORT)
-    first = solved("fit", samples, breaks, 30 * 0.01)
+    first = solve_once("fit", samples, breaks, 30 * 0.01)
     found = fit_surface("fit", samples, *breaks, 0.01, rounds=2)
     assert (
         found.surface.net.tobytes()
-        == solved("fit", first.samples, breaks, 0.01).surface.net.tobytes()
+        == solve_once("fit", first.samples, breaks, 0.01).surface.net.tobytes()
     )
 
 
 def test_a_step_of_foot_points_is_no_longer_than_a_part_of_the_domain() -> None:
     """From a start far away parameters move by 1/40 of the domain a step, no more."""
-    surface = a_surface(even(0.0, 4.0, 4), even(0.0, 2.0, 2))
+    surface = a_surface(even_breaks(0.0, 4.0, 4), even_breaks(0.0, 2.0, 2))
     start = np.array([[1.0, 0.5]])
     found, _ = foot_points(surface, surface.at([2.5], [1.5]), start, steps=1)
     assert np.abs(found - start) == pytest.approx(np.array([[0.1, 0.05]]))

@@ -6,12 +6,17 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.fitting.breaks import even
-from assoc_hull.geometry.fitting.fit import Fit, fit_surface
-from assoc_hull.geometry.fitting.held_controls import HeldControls
-from assoc_hull.geometry.fitting.joints import Extent, Joint, cut_out, joined, joint_at
-from assoc_hull.geometry.fitting.samples import Samples
-from assoc_hull.geometry.fitting.strips import Strip, strip_of
+from assoc_hull.geometry.fitting.fit_input import HeldControls, Samples
+from assoc_hull.geometry.fitting.fit_surface import SurfaceFit, even_breaks, fit_surface
+from assoc_hull.geometry.fitting.surface_joints import (
+    Extent,
+    Strip,
+    SurfaceJoint,
+    cut_out_part,
+    join_to_masters,
+    measure_joint,
+    strip_of,
+)
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
 BODY: Extent = ((0.0, 10.0), (0.0, 6.0))
@@ -26,7 +31,7 @@ def shape(u: FloatArray, v: FloatArray) -> FloatArray:
     )
 
 
-def fitted(name: str, extent: Extent, past: float, spans: tuple[int, int]) -> Fit:
+def fitted(name: str, extent: Extent, past: float, spans: tuple[int, int]) -> SurfaceFit:
     """A fit to points of the shape, with overlap over neighbours; borders keep both parameters."""
     (u0, u1), (v0, v1) = extent
     low, high = np.array([max(u0 - past, 0.0), max(v0 - past, 0.0)]), np.array([u1, v1])
@@ -36,7 +41,7 @@ def fitted(name: str, extent: Extent, past: float, spans: tuple[int, int]) -> Fi
     uv = lines.reshape(-1, 2)
     held = np.repeat((uv == [u0, v0]).any(axis=1)[:, None], 2, axis=1)
     samples = Samples.of(uv, shape(*uv.T), 0.3, held=held)
-    breaks = even(low[0], high[0], spans[0]), even(low[1], high[1], spans[1])
+    breaks = even_breaks(low[0], high[0], spans[0]), even_breaks(low[1], high[1], spans[1])
     return fit_surface(name, samples, *breaks, 1e-7, held=centre(*breaks), rounds=2)
 
 
@@ -50,29 +55,29 @@ def centre(u: FloatArray, v: FloatArray) -> HeldControls:
 class Three:
     """A body, and two blocks that meet a part of its side each, and one another."""
 
-    body: Fit
-    alone: dict[str, Fit]
+    body: SurfaceFit
+    alone: dict[str, SurfaceFit]
     strips: dict[str, dict[str, Strip]]
-    found: dict[str, Fit]
+    found: dict[str, SurfaceFit]
 
-    def joint(self, name: str, side: str) -> Joint:
+    def joint(self, name: str, side: str) -> SurfaceJoint:
         """How a block meets its master."""
         before, after = self.alone[name].surface, self.found[name].surface
-        return joint_at(side, self.strips[name][side], before, after)
+        return measure_joint(side, self.strips[name][side], before, after)
 
 
 @pytest.fixture(scope="module")
 def three() -> Three:
     """All of them fitted with overlap, and joined: the stem to the body, the bulb to both."""
-    body = cut_out(fitted("body", BODY, 1.0, (11, 9)), BODY)
+    body = cut_out_part(fitted("body", BODY, 1.0, (11, 9)), BODY)
     alone = {"stem": fitted("stem", STEM, 1.0, (5, 5)), "bulb": fitted("bulb", BULB, 1.0, (6, 4))}
     strips = {"stem": {"u0": strip_of(body.surface, "u1", STEM[1])}}
-    found = {"stem": joined(alone["stem"], STEM, strips["stem"], centre)}
+    found = {"stem": join_to_masters(alone["stem"], STEM, strips["stem"], centre)}
     strips["bulb"] = {
         "v0": strip_of(found["stem"].surface, "v1"),
         "u0": strip_of(body.surface, "u1", BULB[1]),
     }
-    found["bulb"] = joined(alone["bulb"], BULB, strips["bulb"], centre)
+    found["bulb"] = join_to_masters(alone["bulb"], BULB, strips["bulb"], centre)
     return Three(body, alone, strips, found)
 
 
@@ -103,7 +108,7 @@ def test_three_surfaces_meet_in_one_corner(three: Three) -> None:
 def test_a_joint_leaves_the_fit_as_good_as_it_was(three: Three, name: str) -> None:
     """What is given at borders costs the points no more than the gap; y = 0 stays to the bit."""
     alone, found = three.alone[name], three.found[name]
-    inside = cut_out(alone, {"stem": STEM, "bulb": BULB}[name])
+    inside = cut_out_part(alone, {"stem": STEM, "bulb": BULB}[name])
     assert len(found.residual) == len(inside.residual) < len(alone.residual)
     gap = max(three.joint(name, side).gap[2] for side in three.strips[name])
     assert found.residual.max() < inside.residual.max() + 1.2 * gap
@@ -118,7 +123,9 @@ def test_a_fit_without_masters_is_cut_only(three: Three) -> None:
     assert (uv <= [10.0, 6.0]).all()
     assert len(uv) < len(whole.samples)
     assert three.body.surface.at(*uv.T) == pytest.approx(whole.surface.at(*uv.T), abs=1e-13)
-    assert joined(whole, BODY, {}).surface.net.tobytes() == three.body.surface.net.tobytes()
+    assert (
+        join_to_masters(whole, BODY, {}).surface.net.tobytes() == three.body.surface.net.tobytes()
+    )
 
 
 def test_a_strip_on_more_knots_is_the_same_curve(three: Three) -> None:
@@ -141,8 +148,8 @@ def test_the_speed_across_a_border_may_differ(three: Three) -> None:
     knots = alone.surface.knots_u
     breaks = 0.5 * knots[3:-3], alone.surface.knots_v[3:-3]
     fit = fit_surface("slow", slow, *breaks, 1e-8, rounds=1)
-    found = joined(fit, ((5.0, 7.0), STEM[1]), three.strips["stem"])
-    joint = joint_at("u0", three.strips["stem"]["u0"], fit.surface, found.surface)
+    found = join_to_masters(fit, ((5.0, 7.0), STEM[1]), three.strips["stem"])
+    joint = measure_joint("u0", three.strips["stem"]["u0"], fit.surface, found.surface)
     assert joint.joined_gap < 1e-13
     assert joint.angle[2] < 1e-3
     across = strip_of(found.surface, "u0").across
@@ -152,7 +159,7 @@ def test_the_speed_across_a_border_may_differ(three: Three) -> None:
 def test_a_strip_of_another_part_is_refused(three: Three) -> None:
     """A border that does not end where the side does is no border of it."""
     with pytest.raises(BadInputError, match="that of its master from"):
-        joined(three.alone["stem"], STEM, {"u0": three.strips["bulb"]["u0"]})
+        join_to_masters(three.alone["stem"], STEM, {"u0": three.strips["bulb"]["u0"]})
     with pytest.raises(BadInputError, match="has a knot at"):
         three.strips["stem"]["u0"].on(np.array([0.0, 3.5]))
 
@@ -164,8 +171,8 @@ def test_the_angle_leaves_singular_corners_out(three: Three) -> None:
     # The derivative across the border goes back on itself at the end: no normal, then the opposite.
     net[1, -1] = net[0, -1] - 1e-3 * (net[1, -1] - net[0, -1])
     bent = SplineSurface("bent", (3, 3), after.knots_u, after.knots_v, net)
-    found = joint_at("u0", strip, three.alone["stem"].surface, bent)
+    found = measure_joint("u0", strip, three.alone["stem"].surface, bent)
     assert found.angle[2] < 0.1
     net[1, -1] = net[0, -1] - 0.2 * (after.net[1, -1] - net[0, -1])
     folded = SplineSurface("folded", (3, 3), after.knots_u, after.knots_v, net)
-    assert joint_at("u0", strip, three.alone["stem"].surface, folded).angle[2] > 90.0
+    assert measure_joint("u0", strip, three.alone["stem"].surface, folded).angle[2] > 90.0

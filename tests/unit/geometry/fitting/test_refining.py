@@ -4,14 +4,20 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.fitting.basis import clamped
-from assoc_hull.geometry.fitting.breaks import checked_breaks, even, halved, subdivided, to_halve
-from assoc_hull.geometry.fitting.fit import Fit, fit_surface
-from assoc_hull.geometry.fitting.folds import elements, facing
+from assoc_hull.geometry.fitting.basis import clamped_knots
+from assoc_hull.geometry.fitting.fit_input import HeldControls, Samples
+from assoc_hull.geometry.fitting.fit_surface import (
+    SurfaceFit,
+    checked_breaks,
+    even_breaks,
+    fit_refined,
+    fit_surface,
+    halve_spans,
+    spans_to_halve,
+    subdivide_bays,
+)
+from assoc_hull.geometry.fitting.folds import normal_cosines, surface_elements
 from assoc_hull.geometry.fitting.foot_points import derivatives
-from assoc_hull.geometry.fitting.held_controls import HeldControls
-from assoc_hull.geometry.fitting.refining import fit_refined
-from assoc_hull.geometry.fitting.samples import Samples
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
 
@@ -24,10 +30,10 @@ def wavy(count: int = 41) -> Samples:
     return Samples.of(np.column_stack([x, y]), np.column_stack([x, y, wave]))
 
 
-def refined(samples: Samples, passes: int = 4) -> Fit:
+def refined(samples: Samples, passes: int = 4) -> SurfaceFit:
     """A fit of the wave with 1 cm of tolerance, on few spans at first."""
     return fit_refined(
-        "wave", samples, even(0, 8, 4), even(0, 2, 1), 1e-9, 0.01, passes=passes,
+        "wave", samples, even_breaks(0, 8, 4), even_breaks(0, 2, 1), 1e-9, 0.01, passes=passes,
         held=lambda u, v: HeldControls.none((len(u) + 2, len(v) + 2)).on("u0", 0.0, axes=(2,)),
     )  # fmt: skip
 
@@ -45,9 +51,11 @@ def test_spans_are_halved_where_the_surface_does_not_follow() -> None:
 
 def test_halving_ends_with_the_passes_or_the_points() -> None:
     """No pass gives the plain fit; there are never more control points than points."""
-    plain = fit_surface("wave", wavy(), even(0, 8, 4), even(0, 2, 1), 1e-9)
+    plain = fit_surface("wave", wavy(), even_breaks(0, 8, 4), even_breaks(0, 2, 1), 1e-9)
     assert refined(wavy(), 0).spans == plain.spans == (4, 1)
-    few = fit_refined("wave", wavy(), even(0, 8, 4), even(0, 2, 1), 1e-9, 1e-9, passes=12)
+    few = fit_refined(
+        "wave", wavy(), even_breaks(0, 8, 4), even_breaks(0, 2, 1), 1e-9, 1e-9, passes=12
+    )
     assert len(few.samples) // 4 < len(few.surface.net.reshape(-1, 3)) <= len(few.samples)
 
 
@@ -56,18 +64,18 @@ def test_a_span_is_halved_for_more_than_one_point_in_twenty() -> None:
     at = np.concatenate([np.linspace(0.0, 0.99, 40), np.linspace(1.0, 1.4, 40), [2.5]])
     off = np.zeros(81)
     off[[0, 1, 40, 41, 42, 43, 80]] = 1.0
-    assert to_halve(even(0, 3, 3), at, off, 0.5).tolist() == [False, False, False]
+    assert spans_to_halve(even_breaks(0, 3, 3), at, off, 0.5).tolist() == [False, False, False]
     off[2] = 1.0
-    assert to_halve(even(0, 3, 3), at, off, 0.5).tolist() == [True, False, False]
+    assert spans_to_halve(even_breaks(0, 3, 3), at, off, 0.5).tolist() == [True, False, False]
 
 
 def test_breaks_keep_the_places_they_were_made_from() -> None:
     """Given places are found among the parts to the last bit; doubled ones stay doubled."""
     places = np.array([0.1, 0.7, 0.7, 2.3])
-    assert subdivided(places, np.array([3, 1, 2])).tolist() == pytest.approx(
+    assert subdivide_bays(places, np.array([3, 1, 2])).tolist() == pytest.approx(
         [0.1, 0.3, 0.5, 0.7, 0.7, 1.5, 2.3]
     )
-    found = halved(places, np.array([False, True, True]))
+    found = halve_spans(places, np.array([False, True, True]))
     assert set(places.tolist()) <= set(found.tolist())
     assert found == pytest.approx([0.1, 0.7, 0.7, 1.5, 2.3])
 
@@ -81,7 +89,7 @@ def test_a_place_repeated_four_times_is_refused() -> None:
 
 def graph(height: object) -> SplineSurface:
     """A surface over the unit square of its parameters, 4 by 4 spans, with given heights."""
-    knots = clamped(even(0.0, 1.0, 4))
+    knots = clamped_knots(even_breaks(0.0, 1.0, 4))
     own = np.mean([knots[i : i + 7] for i in (1, 2, 3)], axis=0)
     u, v = np.meshgrid(own, own, indexing="ij")
     return SplineSurface("graph", (3, 3), knots, knots, np.stack([u, v, u * v + height], axis=-1))
@@ -89,7 +97,7 @@ def graph(height: object) -> SplineSurface:
 
 def test_elements_are_those_of_the_formula() -> None:
     """For z = u v the element is the root of 1 + u^2 + v^2: least at the origin."""
-    found = elements(graph(0.0))
+    found = surface_elements(graph(0.0))
     u, v = np.meshgrid(found.u, found.v, indexing="ij")
     size = np.sqrt(1.0 + u * u + v * v)
     assert np.linalg.norm(found.normal, axis=-1) == pytest.approx(size, abs=1e-12)
@@ -104,7 +112,7 @@ def test_a_fold_is_found_where_it_is(axis: int) -> None:
     net = graph(0.0).net.copy()
     net[(slice(None),) * axis + (3,)] += 0.6 * np.eye(3)[axis]
     given = graph(0.0)
-    found = elements(SplineSurface("folded", (3, 3), given.knots_u, given.knots_v, net))
+    found = surface_elements(SplineSurface("folded", (3, 3), given.knots_u, given.knots_v, net))
     assert len(found.folded) > 0
     assert 0.25 < found.folded[:, axis].min() < found.folded[:, axis].max() < 0.95
     assert found.least < 0.2
@@ -116,7 +124,7 @@ def test_a_corner_whose_sides_are_tangent_is_singular() -> None:
     net[0, 1] = net[0, 0] + [-0.1, 0.0, 0.0]
     net[1, 0] = net[0, 0] + [0.1, 0.0, 0.0]
     given = graph(0.0)
-    found = elements(SplineSurface("corner", (3, 3), given.knots_u, given.knots_v, net))
+    found = surface_elements(SplineSurface("corner", (3, 3), given.knots_u, given.knots_v, net))
     assert found.singular == ((0.0, 0.0),)
     assert found.place == (0.0, 0.0)
     assert found.least < 1e-12
@@ -128,6 +136,6 @@ def test_facing_is_the_cosine_with_a_direction() -> None:
     uv = np.random.default_rng(3).random((20, 2))
     _, along, across = derivatives(surface, uv)
     normal = np.cross(along, across)
-    assert facing(surface, uv, 3.0 * normal) == pytest.approx(np.ones(20))
-    assert facing(surface, uv, -normal) == pytest.approx(-np.ones(20))
-    assert facing(surface, uv, along) == pytest.approx(np.zeros(20), abs=1e-12)
+    assert normal_cosines(surface, uv, 3.0 * normal) == pytest.approx(np.ones(20))
+    assert normal_cosines(surface, uv, -normal) == pytest.approx(-np.ones(20))
+    assert normal_cosines(surface, uv, along) == pytest.approx(np.zeros(20), abs=1e-12)

@@ -7,12 +7,11 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.floating.between_planes import Between, between
-from assoc_hull.geometry.floating.cross_sections import areas_at, cross_section
-from assoc_hull.geometry.floating.immersed import Planes
-from assoc_hull.geometry.floating.immersion import immersed
-from assoc_hull.geometry.floating.prepared_strips import prepare
-from assoc_hull.geometry.floating.strip_spans import Spans, spans
+from assoc_hull.geometry.floating.immersion import FloatingPlanes, integrate_immersed
+from assoc_hull.geometry.floating.prepared_strips import prepare_strips
+from assoc_hull.geometry.floating.raked_strips import StripSpans, strip_spans
+from assoc_hull.geometry.floating.sections import areas_at, cross_section
+from assoc_hull.geometry.floating.slices import SliceIntegrals, integrate_slice
 from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 from tests.exact_hulls import FormStrips, box, ellipsoid, wigley
@@ -28,45 +27,45 @@ RAKED = FormStrips(
 """All its strips are raked: forward at the bow, aft at the stern; open at both ends."""
 
 
-def at(height: float, trim: float = 0.0) -> Planes:
+def at(height: float, trim: float = 0.0) -> FloatingPlanes:
     """One floating plane, upright."""
-    return Planes(np.array([height]), np.array([trim]), np.zeros(1))
+    return FloatingPlanes(np.array([height]), np.array([trim]), np.zeros(1))
 
 
 @pytest.fixture(scope="module")
-def exact_wigley() -> Spans:
+def exact_wigley() -> StripSpans:
     """Wigley's hull by its formula."""
-    return spans(prepare(wigley()))
+    return strip_spans(prepare_strips(wigley()))
 
 
 @pytest.fixture(scope="module")
-def exact_ellipsoid() -> Spans:
+def exact_ellipsoid() -> StripSpans:
     """An ellipsoid, nearly by its formula."""
-    return spans(prepare(ellipsoid()))
+    return strip_spans(prepare_strips(ellipsoid()))
 
 
 @pytest.fixture(scope="module")
-def raked() -> Spans:
+def raked() -> StripSpans:
     """A body of raked strips."""
-    return spans(prepare(RAKED))
+    return strip_spans(prepare_strips(RAKED))
 
 
-def wigley_aft_of(x: float) -> Between:
+def wigley_aft_of(x: float) -> SliceIntegrals:
     """Of Wigley's hull at its draught: A(x) = 2/3 B T s, b(x) = B/2 s, s = 1 - (2 x/L - 1)^2."""
     s = 1.0 - Polynomial([-1.0, 2.0 / LENGTH]) ** 2
     along = Polynomial([0.0, 1.0])
     amount, moment = s.integ()(x), (along * s).integ()(x)
     section = 2.0 / 3.0 * BREADTH * DRAUGHT
     up = 5.0 / 8.0 * DRAUGHT
-    return Between(
+    return SliceIntegrals(
         section * amount, section * moment, up * section * amount,
         BREADTH * amount, BREADTH * moment,
     )  # fmt: skip
 
 
-def close(found: Between, wanted: Between, within: float) -> bool:
+def close(found: SliceIntegrals, wanted: SliceIntegrals, within: float) -> bool:
     """Whether two parts of Wigley's hull are the same but for so much of the whole."""
-    scale = Between(2777.8, 138889.0, 10851.0, 666.7, 33333.0)
+    scale = SliceIntegrals(2777.8, 138889.0, 10851.0, 666.7, 33333.0)
     return all(
         abs(getattr(found, name) - getattr(wanted, name)) <= within * getattr(scale, name)
         for name in ("volume", "moment_x", "moment_z", "area", "area_x")
@@ -75,33 +74,35 @@ def close(found: Between, wanted: Between, within: float) -> bool:
 
 @given(x=st.floats(0.0, LENGTH))
 def test_the_part_of_wigleys_hull_aft_of_any_place_is_the_polynomial(
-    exact_wigley: Spans, x: float
+    exact_wigley: StripSpans, x: float
 ) -> None:
     """Volume, waterplane and their moments aft of x, in closed form, to 1e-12 of the whole."""
-    assert close(between(exact_wigley, -np.inf, x, at(DRAUGHT)), wigley_aft_of(x), 1e-12)
+    assert close(integrate_slice(exact_wigley, -np.inf, x, at(DRAUGHT)), wigley_aft_of(x), 1e-12)
 
 
 @example(x=3.0705343726637063e-12)
 @given(x=st.floats(0.0, LENGTH))
 def test_the_volume_of_the_ellipsoid_aft_of_any_place_is_half_a_cap(
-    exact_ellipsoid: Spans, x: float
+    exact_ellipsoid: StripSpans, x: float
 ) -> None:
     """At half its height: pi b c / 2 times the integral of 1 - ((x - a) / a)^2, to 1e-9."""
     t = x / 50.0 - 1.0
     wanted = 0.5 * np.pi * 8.0 * 6.0 * 50.0 * (t - t**3 / 3.0 + 2.0 / 3.0)
-    found = between(exact_ellipsoid, -np.inf, x, at(6.0)).volume
+    found = integrate_slice(exact_ellipsoid, -np.inf, x, at(6.0)).volume
     assert found == pytest.approx(wanted, abs=1e-9 * 5026.5)
 
 
 @pytest.mark.parametrize("x", [5e-324, 1e-15, 8e-11, 1.1e-10, 1e-8])
-def test_next_to_nothing_lies_aft_of_a_place_at_the_end(exact_ellipsoid: Spans, x: float) -> None:
+def test_next_to_nothing_lies_aft_of_a_place_at_the_end(
+    exact_ellipsoid: StripSpans, x: float
+) -> None:
     """No error there: the strip that the plane leaves is too short to have a height."""
-    found = between(exact_ellipsoid, -np.inf, x, at(6.0))
+    found = integrate_slice(exact_ellipsoid, -np.inf, x, at(6.0))
     assert abs(found.volume) < 1e-12
 
 
 @pytest.mark.parametrize("x", [0.5, 33.0, 50.0, 99.0])
-def test_sections_of_the_ellipsoid_are_half_ellipses(exact_ellipsoid: Spans, x: float) -> None:
+def test_sections_of_the_ellipsoid_are_half_ellipses(exact_ellipsoid: StripSpans, x: float) -> None:
     """Below the height of the centre, between the curves of the rule too; to 1e-9."""
     wanted = 0.5 * np.pi * 48.0 * (1.0 - (x / 50.0 - 1.0) ** 2)
     found = areas_at(exact_ellipsoid, np.array([x]), at(6.0))
@@ -110,15 +111,17 @@ def test_sections_of_the_ellipsoid_are_half_ellipses(exact_ellipsoid: Spans, x: 
 
 def test_a_slice_of_a_box_is_a_box() -> None:
     """Between x 10 and 37.5 m at a trim: breadth times length times the mean draught."""
-    found = between(spans(prepare(box())), 10.0, 37.5, at(5.0, 0.02))
+    found = integrate_slice(strip_spans(prepare_strips(box())), 10.0, 37.5, at(5.0, 0.02))
     mean = 5.0 + 0.02 * 23.75
     assert found.volume == pytest.approx(20.0 * 27.5 * mean, rel=1e-13)
     assert (found.area, found.area_x) == pytest.approx((550.0, 550.0 * 23.75), rel=1e-13)
 
 
-def test_no_body_lies_beyond_its_ends(exact_wigley: Spans) -> None:
+def test_no_body_lies_beyond_its_ends(exact_wigley: StripSpans) -> None:
     """Slices and sections there are nil, not an error."""
-    assert between(exact_wigley, 120.0, np.inf, at(DRAUGHT)) == Between(0.0, 0.0, 0.0, 0.0, 0.0)
+    assert integrate_slice(exact_wigley, 120.0, np.inf, at(DRAUGHT)) == SliceIntegrals(
+        0.0, 0.0, 0.0, 0.0, 0.0
+    )
     assert areas_at(exact_wigley, np.array([-1.0, 101.0]), at(DRAUGHT)).tolist() == [0.0, 0.0]
     assert cross_section(exact_wigley, 101.0).count == 0
 
@@ -126,30 +129,32 @@ def test_no_body_lies_beyond_its_ends(exact_wigley: Spans) -> None:
 @settings(max_examples=20)
 @given(x=st.floats(12.0, 88.0), height=st.floats(3.0, 7.0), trim=st.floats(-0.01, 0.01))
 def test_parts_of_raked_strips_add_up_to_the_body(
-    raked: Spans, x: float, height: float, trim: float
+    raked: StripSpans, x: float, height: float, trim: float
 ) -> None:
     """The two parts on either side of any place, of strips that a plane across cuts askew."""
     plane = at(height, trim)
-    parts = between(raked, -np.inf, x, plane) + between(raked, x, np.inf, plane)
-    whole = immersed(raked.prepared, plane)
+    parts = integrate_slice(raked, -np.inf, x, plane) + integrate_slice(raked, x, np.inf, plane)
+    whole = integrate_immersed(raked.prepared, plane)
     for name in ("volume", "moment_x", "moment_z", "area", "area_x"):
         assert getattr(parts, name) == pytest.approx(float(getattr(whole, name)[0]), rel=1e-7)
 
 
 def test_the_volume_between_two_places_is_the_integral_of_the_sections_there(
-    raked: Spans,
+    raked: StripSpans,
 ) -> None:
     """Traced sections against slices, with another rule along the ship."""
     plane, (node, weight) = at(5.0), gauss(24)
     edge = np.linspace(41.0, 44.0, 4)
     x = (edge[:-1, None] + np.diff(edge)[:, None] * node).ravel()
     sections = areas_at(raked, x, plane).reshape(3, -1) @ weight
-    assert sections.sum() == pytest.approx(between(raked, 41.0, 44.0, plane).volume, rel=1e-7)
+    assert sections.sum() == pytest.approx(
+        integrate_slice(raked, 41.0, 44.0, plane).volume, rel=1e-7
+    )
 
 
 @pytest.mark.parametrize(("part", "within"), [(0.0, 1e-10), (0.5, 1e-7)])
 def test_a_traced_section_lies_in_its_plane_and_on_the_surface(
-    raked: Spans, part: float, within: float
+    raked: StripSpans, part: float, within: float
 ) -> None:
     """Every place on it is one of the formula: where its cubics meet, and in their middles."""
     found = cross_section(raked, 57.3)
@@ -172,7 +177,7 @@ def test_a_traced_section_lies_in_its_plane_and_on_the_surface(
         )
 
 
-def test_a_section_of_wigley_has_its_offsets(exact_wigley: Spans) -> None:
+def test_a_section_of_wigley_has_its_offsets(exact_wigley: StripSpans) -> None:
     """Every place of it is on the formula; above the draught the side is upright."""
     found = cross_section(exact_wigley, 30.0)
     _, y, z = found.point[~found.deck].sum(axis=1).T
@@ -194,9 +199,9 @@ class Uneven:
         return IsoCurves(found.start, found.point, rate * found.across, found.deck)
 
 
-def test_a_traced_section_does_not_depend_on_how_v_runs(raked: Spans) -> None:
+def test_a_traced_section_does_not_depend_on_how_v_runs(raked: StripSpans) -> None:
     """Lines along ships bend anew at every point of theirs; what is traced keeps to them."""
-    uneven = spans(prepare(Uneven()))
+    uneven = strip_spans(prepare_strips(Uneven()))
     for x in (52.5, 54.0, 57.3):
         one, other = (cross_section(body, x).point for body in (raked, uneven))
         np.testing.assert_allclose(one[:, 0], other[:, 0], rtol=0.0, atol=1e-11)

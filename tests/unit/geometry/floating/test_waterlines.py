@@ -4,19 +4,23 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from assoc_hull.geometry.floating.immersed import Planes
-from assoc_hull.geometry.floating.outer_line import OuterLine, outer_line
-from assoc_hull.geometry.floating.prepared_strips import prepare
-from assoc_hull.geometry.floating.strip_spans import spans
-from assoc_hull.geometry.floating.waterlines import Arcs, waterline_arcs
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.geometry.floating.prepared_strips import prepare_strips
+from assoc_hull.geometry.floating.raked_strips import strip_spans
+from assoc_hull.geometry.floating.waterlines import (
+    OuterLine,
+    WaterlineArcs,
+    outer_line,
+    waterline_arcs,
+)
 from assoc_hull.geometry.surfaces.isocurves import Strips
 from tests.exact_hulls import FormStrips, box, ellipsoid, wigley
 
 
-def arcs(strips: Strips, height: float, trim: float = 0.0) -> Arcs:
+def arcs(strips: Strips, height: float, trim: float = 0.0) -> WaterlineArcs:
     """The waterline at a height, upright."""
-    plane = Planes(np.array([height]), np.array([trim]), np.zeros(1))
-    return waterline_arcs(spans(prepare(strips)), plane)
+    plane = FloatingPlanes(np.array([height]), np.array([trim]), np.zeros(1))
+    return waterline_arcs(strip_spans(prepare_strips(strips)), plane)
 
 
 def bow_of(strips: Strips, height: float, trim: float = 0.0) -> OuterLine:
@@ -65,7 +69,7 @@ def test_behind_a_round_stem_the_angle_is_that_of_the_tangent(degrees: float) ->
     way = np.array([np.cos(angle), -np.sin(angle)])
     side = bow[0] + (t[:, None] - 1.0) * 5.0 * way
     ahead = np.stack([np.cos(turn), -np.sin(turn)], axis=1)
-    both = Arcs(
+    both = WaterlineArcs(
         np.stack([side, bow]),
         np.stack([np.tile(5.0 * way, (8, 1)), radius * (0.5 * np.pi - angle) * ahead]),
         np.full(8, 0.125),
@@ -136,7 +140,7 @@ def test_pieces_of_a_waterline_are_told_apart() -> None:
     island = np.stack([110.0 + 4.0 * t, 4.0 * t * (1.0 - t)], axis=1)[None]
     slope = np.stack([4.0 + 0.0 * t, 4.0 - 8.0 * t], axis=1)[None]
     points, slopes = np.concatenate([ship.point, island]), np.concatenate([ship.slope, slope])
-    both = Arcs(points, slopes, ship.weight.copy())
+    both = WaterlineArcs(points, slopes, ship.weight.copy())
     line = outer_line(both, forward=True)
     assert line is not None
     assert line.end == pytest.approx((100.0, 10.0), abs=1e-12)

@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
 
-from assoc_hull.geometry.form_curves.basis import area_table, basis, moment_table
 from assoc_hull.geometry.form_curves.curve import form_at
-from assoc_hull.geometry.form_curves.integrals import form_integrals, middle_terms
+from assoc_hull.geometry.form_curves.integrals import (
+    area_table,
+    form_basis,
+    form_integrals,
+    middle_terms,
+    moment_table,
+)
 
 AREAS = [
     [-10, -9, 18, 1, 0, 0, 0],
@@ -47,7 +52,7 @@ def test_the_middle_vertex_acts_by_differences_of_opposite_vertices() -> None:
 def test_basis_functions_add_up_to_one() -> None:
     """On every segment; with +6 for the second power of the second vertex they would not."""
     for segment in range(4):
-        parts = [basis(vertex, segment) for vertex in range(segment, segment + 4)]
+        parts = [form_basis(vertex, segment) for vertex in range(segment, segment + 4)]
         sums = [sum(column) for column in zip(*parts, strict=True)]
         assert sums == [1, 0, 0, 0]
         assert parts[1][2] == Fraction(-6, 6)

@@ -6,10 +6,14 @@ import attrs
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.form_curves.checks import check_parameters, check_shape
-from assoc_hull.geometry.form_curves.inverse import form_values
-from assoc_hull.geometry.form_curves.limits import area_limits, centroid_box, centroid_limits
-from assoc_hull.geometry.form_curves.parameters import FormParameters
+from assoc_hull.geometry.form_curves.checks import (
+    area_limits,
+    centroid_box,
+    centroid_limits,
+    check_parameters,
+    check_shape,
+)
+from assoc_hull.geometry.form_curves.curve import FormParameters, form_values
 from tests.form_curves import CURVES
 
 FINE = FormParameters(0.0, 0.0, 0.5, 0.0, 0.3, 0.0, 1.0, 1.0, 1.1, 0.0, 0.3, 0.0, 0.4, 0.6)

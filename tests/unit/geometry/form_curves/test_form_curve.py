@@ -7,12 +7,22 @@ import pytest
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curves.chain import FormChain, straight_vertices
-from assoc_hull.geometry.form_curves.curve import FormEnd, end_vertices, form_at, form_vertices
-from assoc_hull.geometry.form_curves.extremes import least_rate
+from assoc_hull.geometry.form_curves.curve import (
+    FormEnd,
+    end_of,
+    end_vertices,
+    form_at,
+    form_values,
+    form_vertices,
+)
 from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.form_curves.inverse import end_of, form_values
-from assoc_hull.geometry.form_curves.middle import fair_vertex, middle_vertex
-from assoc_hull.geometry.form_curves.shape import energy, form_length, inflections
+from assoc_hull.geometry.form_curves.middle_vertex import fair_vertex, middle_vertex
+from assoc_hull.geometry.form_curves.shape import (
+    form_energy,
+    form_inflections,
+    form_length,
+    least_rate,
+)
 from tests.form_curves import BULK_CARRIER, CURVES
 
 NAMES = tuple(CURVES)
@@ -100,9 +110,9 @@ def test_shapes_are_the_published_ones(name: str) -> None:
     assert printed(middle, form_at(vertices, np.array([2.0])))
     assert printed(bend, curvature(vertices, 2.0))
     assert printed(height, found.moment_y / found.area)
-    assert printed(two, energy(vertices, "E2"))
-    assert printed(three, energy(vertices, "E3"))
-    assert len(inflections(vertices[0])) == count
+    assert printed(two, form_energy(vertices, "E2"))
+    assert printed(three, form_energy(vertices, "E3"))
+    assert len(form_inflections(vertices[0])) == count
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -262,7 +272,7 @@ def test_a_section_by_its_area_and_centroid(
     assert printed(girth, form_length(vertices))
     if tangent[0] == "1":
         assert printed("4.31500001556 5.965165741483", form_at(vertices, np.array([2.0])))
-        assert inflections(vertices[0]) == ()
+        assert form_inflections(vertices[0]) == ()
 
 
 def test_a_topside_joins_with_curvature() -> None:

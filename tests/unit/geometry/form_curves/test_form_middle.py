@@ -8,20 +8,18 @@ import pytest
 from scipy.optimize import minimize
 
 from assoc_hull.errors import DegenerateEndsError, NoMiddleVertexError
-from assoc_hull.geometry.form_curves.curve import FormEnd, end_vertices, form_vertices
-from assoc_hull.geometry.form_curves.extremes import least_rate
+from assoc_hull.geometry.form_curves.curve import FormEnd, end_vertices, form_values, form_vertices
 from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.form_curves.inverse import form_values
-from assoc_hull.geometry.form_curves.middle import (
+from assoc_hull.geometry.form_curves.middle_vertex import (
     area_vertex,
     centroid_limit,
     fair_vertex,
     middle_vertex,
     only_area,
+    required_middle,
     with_middle,
 )
-from assoc_hull.geometry.form_curves.shape import energy
-from assoc_hull.geometry.form_curves.solve import required_middle
+from assoc_hull.geometry.form_curves.shape import form_energy, least_rate
 from tests.exact_curves import integrals, on_the_line
 from tests.form_curves import CURVES
 
@@ -178,10 +176,10 @@ def test_fairest_vertices_are_stationary(order: int, kind: str) -> None:
     ends = rng.uniform(-1.0, 1.0, (20, 6, 2))
     middle = fair_vertex(ends, order)
     curves = with_middle(ends, middle[:, 0], middle[:, 1])
-    least = energy(curves, kind)
+    least = form_energy(curves, kind)
     for step in ((1e-4, 0.0), (-1e-4, 0.0), (0.0, 1e-4), (0.0, -1e-4)):
         moved = with_middle(ends, middle[:, 0] + step[0], middle[:, 1] + step[1])
-        assert (energy(moved, kind) > least).all()
+        assert (form_energy(moved, kind) > least).all()
     row = {2: [1, 0, -9, 16, -9, 0, 1], 3: [-1, 6, -15, 20, -15, 6, -1]}[order]
     assert np.abs(np.einsum("k,nkx->nx", np.array(row, float), curves)).max() < 1e-13
 
@@ -196,7 +194,7 @@ def test_the_fairest_vertex_of_an_area() -> None:
     way = np.array([vertex[1] - free[1], free[0] - vertex[0]])
 
     def cost(s: np.ndarray) -> float:
-        return float(energy(with_middle(ends, *(vertex + s[0] * way)), "E3")[0])
+        return float(form_energy(with_middle(ends, *(vertex + s[0] * way)), "E3")[0])
 
     found: Any = minimize(cost, [0.3])
     assert found.x[0] == pytest.approx(0.0, abs=1e-6)

@@ -9,13 +9,12 @@ from scipy.optimize import minimize
 
 from assoc_hull.geometry.form_curves.chain import FormChain, straight_vertices
 from assoc_hull.geometry.form_curves.curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_curves.extremes import least_rate
 from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.form_curves.shape import energy
+from assoc_hull.geometry.form_curves.shape import form_energy, least_rate
 from assoc_hull.geometry.form_curves.tangents import (
     FASTEST,
     SLOWEST,
-    chords,
+    chord_lengths,
     fairest_tangents,
     usual_tangents,
 )
@@ -60,13 +59,13 @@ def test_fairest_tangents_are_the_published_ones(name: str) -> None:
     """Tangents and energy to 1e-4; where the printed ones lie beyond a bound, with that bound."""
     first, last, least = FAIREST[name]
     curve = given(name)
-    even = chords(*curve[:2])[0] / 4.0
+    even = chord_lengths(*curve[:2])[0] / 4.0
     bounds = (min(SLOWEST, first / even, last / even), max(FASTEST, first / even, last / even))
     assert bounds == pytest.approx((SLOWEST, FASTEST), rel=5e-4)
     found = fairest_tangents(*curve, bounds=bounds)
     assert found.tangents[0] == pytest.approx([first, last], abs=2e-6)
     vertices = made(name, found.tangents[0])
-    assert energy(vertices)[0] == pytest.approx(least, abs=5e-6)
+    assert form_energy(vertices)[0] == pytest.approx(least, abs=5e-6)
     sums = form_integrals(vertices)
     assert sums.area == pytest.approx(curve[2], abs=1e-14)
     assert sums.moment / sums.area == pytest.approx(curve[3], abs=1e-14)
@@ -80,14 +79,14 @@ def test_no_simplex_finds_a_fairer_curve(name: str, kind: str) -> None:
     """The search of Nelder and Mead, from the middle of the range."""
     curve = given(name)
     found = fairest_tangents(*curve, kind)
-    even, width = chords(*curve[:2])[0] / 4.0, (curve[1].x - curve[0].x)[0] / 4.0
+    even, width = chord_lengths(*curve[:2])[0] / 4.0, (curve[1].x - curve[0].x)[0] / 4.0
     scale = 1.0 if kind == "J" else (4.0 * even) ** 2
 
     def cost(logs: np.ndarray) -> float:
         pace = np.exp(np.clip(logs, math.log(SLOWEST), math.log(FASTEST)))
         vertices = made(name, even * pace)
         slow = max(0.0, 0.02 - least_rate(vertices, 0)[0] / width)
-        return float(energy(vertices, kind)[0] + scale * 1e3 * slow**2)
+        return float(form_energy(vertices, kind)[0] + scale * 1e3 * slow**2)
 
     options: Any = {"xatol": 1e-7, "fatol": 1e-10, "maxiter": 120}
     other = minimize(cost, np.log([0.5, 0.5]), method="Nelder-Mead", options=options)
@@ -98,7 +97,7 @@ def test_bounds_that_hold_are_told() -> None:
     """The entrance of type 2 wants a shorter tangent at its hollow end, its run a longer one."""
     found = fairest_tangents(*given("T2_ent"))
     assert found.at_bound.tolist() == [[False, True]]
-    even = chords(*given("T2_ent")[:2])[0] / 4.0
+    even = chord_lengths(*given("T2_ent")[:2])[0] / 4.0
     assert found.tangents[0, 1] == pytest.approx(SLOWEST * even, rel=1e-12)
     assert fairest_tangents(*given("T2_run")).at_bound.tolist() == [[False, True]]
     assert fairest_tangents(*given("T1_run")).at_bound.tolist() == [[False, False]]
@@ -107,7 +106,7 @@ def test_bounds_that_hold_are_told() -> None:
 def test_without_a_lower_bound_a_hollow_end_is_lost() -> None:
     """At a fiftieth of an even pace the end of an entrance bends beyond all measure: J is 232."""
     found = fairest_tangents(*given("T2_ent"), bounds=(0.02, FASTEST))
-    assert round(energy(made("T2_ent", found.tangents[0]), "J")[0]) == 232
+    assert round(form_energy(made("T2_ent", found.tangents[0]), "J")[0]) == 232
 
 
 def test_alone_in_company_and_in_another_unit() -> None:

@@ -14,25 +14,27 @@ from numpy.testing import assert_allclose
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray
 from assoc_hull.geometry.integrals.area_moments import plane_integrals
-from assoc_hull.geometry.integrals.chain_transforms import (
+from assoc_hull.geometry.integrals.chains import (
+    PlaneChains,
+    chain_ends,
+    closed_loop,
+    cut_chain,
+    join_chains,
+    reversed_chain,
+    straight_chain,
+)
+from assoc_hull.geometry.integrals.series import (
+    ComplexArray,
     chebyshev_of_chains,
+    chebyshev_of_function,
     descriptor_truncation,
     evaluate_descriptors,
     fourier_descriptors,
     function_samples,
     length_of_chains,
     sine_of_chains,
+    sine_of_function,
 )
-from assoc_hull.geometry.integrals.plane_chains import (
-    PlaneChains,
-    backward,
-    cut,
-    ends_of,
-    joined,
-    loop,
-    straight,
-)
-from assoc_hull.geometry.integrals.transforms import ComplexArray, chebyshev, sine
 from assoc_hull.geometry.splines.loft import loft
 from tests.unit.geometry.integrals.test_transforms import PRINTED, SHIP_B, SHIP_C
 
@@ -48,7 +50,9 @@ def parabolas(*pieces: tuple[float, float, float, float, float]) -> FloatArray:
 
 def section() -> PlaneChains:
     """A smooth section closed with its mirror image."""
-    return PlaneChains.single(loop(PlaneChains.of(loft(CurveData.single(HALF)), (0, 1)).cubic, 0))
+    return PlaneChains.single(
+        closed_loop(PlaneChains.of(loft(CurveData.single(HALF)), (0, 1)).cubic, 0)
+    )
 
 
 def turned(chain: PlaneChains, first: int) -> PlaneChains:
@@ -75,7 +79,7 @@ def test_an_upright_end_costs_no_digits() -> None:
     """v = sqrt((1 - xi) / 2), as u = 1 - 2 t^2, v = t: c_k = (2 - delta) / pi 2 / (1 - 4 k^2)."""
     k = np.arange(40)
     end = np.array([[[1.0, 0.0], [0.0, 1.0], [-2.0, 0.0], [0.0, 0.0]]])
-    found = chebyshev_of_chains(PlaneChains.single(backward(end)), 40)[0]
+    found = chebyshev_of_chains(PlaneChains.single(reversed_chain(end)), 40)[0]
     assert_allclose(found, (2.0 - (k == 0)) / np.pi * 2.0 / (1.0 - 4.0 * k**2), atol=1e-12)
 
 
@@ -83,12 +87,12 @@ def test_a_step_is_a_piece_as_any_other() -> None:
     """From 0 to 2 at xi = 0, and upright at both ends: the closed form of a jump."""
     corners = [(-1, 5), (-1, 0), (0, 0), (0, 2), (1, 2), (1, -3)]
     places = np.array(corners, float)
-    steps = [straight(a, b) for a, b in pairwise(places)]
+    steps = [straight_chain(a, b) for a, b in pairwise(places)]
     k = np.arange(1, 30)
     wanted = np.where(k % 2, 4.0 / (np.pi * k) * (-1.0) ** ((k - 1) // 2), 0.0)
-    chain = PlaneChains.single(joined(steps))
+    chain = PlaneChains.single(join_chains(steps))
     assert_allclose(chebyshev_of_chains(chain, 30)[0], [1.0, *wanted], atol=1e-12)
-    jump = sine(lambda xi: np.where(xi > 0.0, 2.0, 0.0), 30, [0.0])
+    jump = sine_of_function(lambda xi: np.where(xi > 0.0, 2.0, 0.0), 30, [0.0])
     assert_allclose(sine_of_chains(chain, 30)[0], jump, atol=1e-12)
 
 
@@ -106,9 +110,9 @@ def test_splines_have_the_series_of_the_functions_they_are(y: FloatArray) -> Non
     function = PPoly(cubic[:, ::-1, 1].T / wide ** np.arange(3, -1, -1)[:, None], x)
     both = PlaneChains(np.array([0, 4, 8]), np.concatenate([cubic, 2.0 * cubic]))
     inner = x[1:-1] / 5.0 - 1.0
-    wanted = chebyshev(lambda xi: function(5.0 * (xi + 1.0)), 9, inner)
+    wanted = chebyshev_of_function(lambda xi: function(5.0 * (xi + 1.0)), 9, inner)
     assert_allclose(chebyshev_of_chains(both, 9), [wanted, 2.0 * wanted], atol=1e-11)
-    wanted = sine(lambda xi: function(5.0 * (xi + 1.0)), 9, inner)
+    wanted = sine_of_function(lambda xi: function(5.0 * (xi + 1.0)), 9, inner)
     assert_allclose(sine_of_chains(both, 9), [wanted, 2.0 * wanted], atol=1e-11)
 
 
@@ -122,7 +126,9 @@ def test_samples_integrate_over_the_abscissa() -> None:
 
 def test_descriptors_of_a_square_are_those_of_its_sides() -> None:
     """X_k = (8 / pi^2) sqrt(2) e^(..) / k^2 in size for k = 1, -3, 5, ..., nil otherwise."""
-    square = PlaneChains.single(loop(straight(np.array([1.0, -1]), np.array([1.0, 1])), 0))
+    square = PlaneChains.single(
+        closed_loop(straight_chain(np.array([1.0, -1]), np.array([1.0, 1])), 0)
+    )
     k = np.arange(-9, 10)
     size = np.where(k % 4 == 1, 8.0 * np.sqrt(2.0) / (np.pi * np.where(k == 0, 1, k)) ** 2, 0.0)
     assert_allclose(np.abs(fourier_descriptors(square, 9)[0]), size, atol=1e-12)
@@ -178,7 +184,9 @@ def test_shift_turn_scale_and_start(factor: complex, shift: complex, first: int)
 def test_a_section_is_symmetric() -> None:
     """Begun in the mirror y = 0 all X_k are imaginary; begun in the mirror v = 0 they are real."""
     assert_allclose(fourier_descriptors(section(), 9)[0].real, 0.0, atol=1e-12)
-    waterline = loop(PlaneChains.of(loft(CurveData.single(HALF[:, [1, 0, 2]])), (0, 1)).cubic, 1)
+    waterline = closed_loop(
+        PlaneChains.of(loft(CurveData.single(HALF[:, [1, 0, 2]])), (0, 1)).cubic, 1
+    )
     assert_allclose(fourier_descriptors(PlaneChains.single(waterline), 9)[0].imag, 0.0, atol=1e-12)
 
 
@@ -198,9 +206,9 @@ def test_descriptors_come_back_to_the_curve() -> None:
 
 def test_what_is_no_function_or_not_closed_is_refused() -> None:
     """A chain that ends behind its beginning, and one that does not come back."""
-    line = straight(np.array([0.0, 0.0]), np.array([4.0, 1.0]))
+    line = straight_chain(np.array([0.0, 0.0]), np.array([4.0, 1.0]))
     with pytest.raises(BadInputError, match="run through it forward"):
-        chebyshev_of_chains(PlaneChains.single(backward(line)), 3)
+        chebyshev_of_chains(PlaneChains.single(reversed_chain(line)), 3)
     with pytest.raises(BadInputError, match="an open curve"):
         fourier_descriptors(PlaneChains.single(line), 3)
 
@@ -208,19 +216,19 @@ def test_what_is_no_function_or_not_closed_is_refused() -> None:
 def test_a_chain_is_cut_where_it_passes_the_limits() -> None:
     """An arch cut by two heights leaves its two flanks, their ends at the heights."""
     arch = parabolas((0, 4, 0, 4, -4), (4, 6, 0, -1, 0))
-    left, right = cut(arch, 1, 0.25, 0.75)
-    assert_allclose(ends_of(left), [[4 * (0.5 - 0.75**0.5 / 2), 0.25], [1.0, 0.75]], atol=1e-12)
-    assert_allclose(ends_of(right)[1][1], 0.25, atol=1e-12)
-    assert len(cut(arch, 0, 1.0, 5.0)) == 1
-    assert cut(arch, 1, 2.0, 3.0) == []
+    left, right = cut_chain(arch, 1, 0.25, 0.75)
+    assert_allclose(chain_ends(left), [[4 * (0.5 - 0.75**0.5 / 2), 0.25], [1.0, 0.75]], atol=1e-12)
+    assert_allclose(chain_ends(right)[1][1], 0.25, atol=1e-12)
+    assert len(cut_chain(arch, 0, 1.0, 5.0)) == 1
+    assert cut_chain(arch, 1, 2.0, 3.0) == []
 
 
 def test_a_loop_is_closed_and_counter_clockwise() -> None:
     """Whichever way its half runs."""
     half = PlaneChains.of(loft(CurveData.single(HALF)), (0, 1)).cubic
-    for each in (half, backward(half)):
-        ring = loop(each, 0)
-        first, last = ends_of(ring)
+    for each in (half, reversed_chain(half)):
+        ring = closed_loop(each, 0)
+        first, last = chain_ends(ring)
         assert_allclose(first, last, atol=1e-12)
         assert first[0] == 0.0
         found = fourier_descriptors(PlaneChains.single(ring), 3)[0]

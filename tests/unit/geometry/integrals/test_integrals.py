@@ -11,12 +11,8 @@ from scipy.interpolate import CubicSpline
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.integrals.area_moments import (
-    integrate_stations,
-    line_integral,
-    plane_integrals,
-    section_area,
-)
+from assoc_hull.geometry.integrals.area_moments import line_integral, plane_integrals, section_area
+from assoc_hull.geometry.integrals.stations import integrate_stations
 
 COORDINATE = st.floats(-10.0, 10.0)
 

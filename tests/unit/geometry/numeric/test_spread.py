@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.geometry.numeric.interval_spacing import spread
+from assoc_hull.geometry.numeric.interval_spacing import space_intervals
 
 LABELS = st.lists(st.tuples(st.floats(-50.0, 50.0), st.floats(0.5, 8.0)), min_size=0, max_size=20)
 
@@ -16,7 +16,7 @@ def test_labels_do_not_touch_and_keep_their_order(
     """Neighbours are a gap or more apart, in the order of the wanted places."""
     wanted = np.array([place for place, _ in labels])
     size = np.array([length for _, length in labels])
-    found = spread(wanted, size, gap)
+    found = space_intervals(wanted, size, gap)
     order = np.argsort(wanted, kind="stable")
     apart = np.diff(found[order]) - 0.5 * (size[order][1:] + size[order][:-1])
     assert (apart >= gap - 1e-9).all()
@@ -27,6 +27,6 @@ def test_labels_are_not_moved_without_need(labels: list[tuple[float, float]]) ->
     """The movements sum to nil, and spread labels stay where they are when spread again."""
     wanted = np.array([place for place, _ in labels])
     size = np.array([length for _, length in labels])
-    found = spread(wanted, size)
+    found = space_intervals(wanted, size)
     assert abs((found - wanted).sum()) < 1e-6
-    assert np.allclose(spread(found, size), found, atol=1e-9)
+    assert np.allclose(space_intervals(found, size), found, atol=1e-9)

@@ -7,8 +7,12 @@ import pytest
 from scipy.linalg import solve_banded
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.numeric.tridiagonal import accumulate, slots_of, solve
-from assoc_hull.geometry.numeric.workspace import Workspace
+from assoc_hull.geometry.numeric.tridiagonal import (
+    Workspace,
+    running_sums,
+    slots_of,
+    solve_tridiagonal,
+)
 
 COUNTS = (1, 2, 3, 4, 5, 7, 8, 9, 16, 17, 63, 64, 65, 100, 129, 300)
 
@@ -27,7 +31,7 @@ def random_rows(count: int, seed: int) -> FloatArray:
 def solved(start: list[int], rows: FloatArray) -> FloatArray:
     """The solution, outside scratch memory."""
     with Workspace() as workspace:
-        return solve(slots_of(np.array(start)), rows, workspace) + 0.0
+        return solve_tridiagonal(slots_of(np.array(start)), rows, workspace) + 0.0
 
 
 @pytest.mark.parametrize("count", COUNTS)
@@ -66,7 +70,7 @@ def test_sums_run_strictly_one_after_the_other() -> None:
     steps = rng.random(sum(COUNTS) + 1)
     start = np.array([0, *np.cumsum(COUNTS)])
     steps[start] = 0.0
-    got = accumulate(slots_of(start), steps)
+    got = running_sums(slots_of(start), steps)
     for begin, end in pairwise(start.tolist()):
         total = 0.0
         for place in range(begin, end):

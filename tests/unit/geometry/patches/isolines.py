@@ -6,8 +6,8 @@ import numpy as np
 from scipy.interpolate import BSpline
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction
-from assoc_hull.geometry.patches.patches import Patches
 
 Box = tuple[float, float, float, float]
 

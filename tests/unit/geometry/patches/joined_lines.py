@@ -7,17 +7,17 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.arcs import arcs_of
-from assoc_hull.geometry.patches.cells import Arcs, Cells
-from assoc_hull.geometry.patches.chains import forward
-from assoc_hull.geometry.patches.components import Component
+from assoc_hull.geometry.patches.arc_chains import positive_on_left
+from assoc_hull.geometry.patches.arcs import arcs_of, sample_arcs
+from assoc_hull.geometry.patches.bezier_patches import Patches
+from assoc_hull.geometry.patches.cell_subdivision import (
+    subdivide_again,
+    subdivide_patches,
+    zero_edges,
+)
+from assoc_hull.geometry.patches.cells import SignCells, ZeroSetArcs
+from assoc_hull.geometry.patches.components import ZeroSetComponent, join_arcs
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
-from assoc_hull.geometry.patches.joining import joined
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.refining import refined
-from assoc_hull.geometry.patches.sampling import sampled
-from assoc_hull.geometry.patches.signs import edge_lines
-from assoc_hull.geometry.patches.solve import solve
 
 KINDS = ("closed", "open", "junction", "isolated")
 
@@ -28,14 +28,16 @@ class Joined:
 
     patches: Patches
     function: IsoFunction
-    cells: Cells
-    arcs: Arcs
-    components: tuple[Component, ...]
+    cells: SignCells
+    arcs: ZeroSetArcs
+    components: tuple[ZeroSetComponent, ...]
 
-    def polyline(self, component: Component, chain: int, chord_tol: float = 1e-3) -> FloatArray:
+    def polyline(
+        self, component: ZeroSetComponent, chain: int, chord_tol: float = 1e-3
+    ) -> FloatArray:
         """The points (p, 2), in parameters of the surface, of one line, with positive left."""
-        start, uv = sampled(self.patches, self.cells, self.arcs, chord_tol)
-        along = forward(self.arcs)
+        start, uv = sample_arcs(self.patches, self.cells, self.arcs, chord_tol)
+        along = positive_on_left(self.arcs)
         patch = self.cells.patch[self.arcs.cell]
         parts = []
         for arc in component.chains[chain].tolist():
@@ -54,10 +56,10 @@ def join(patches: Patches, level: float = 0.0, known_to: float = 0.0) -> Joined:
 
 def joined_of(patches: Patches, function: IsoFunction, nil: FloatArray | None = None) -> Joined:
     """Solve and join for any polynomials."""
-    cells = refined(function, solve(function, nil=nil), nil=nil)
+    cells = subdivide_again(function, subdivide_patches(function, nil=nil), nil=nil)
     arcs = arcs_of(cells)
-    edges = edge_lines(function.b, function.err if nil is None else nil)
-    return Joined(patches, function, cells, arcs, joined(patches, cells, arcs, edges))
+    edges = zero_edges(function.b, function.err if nil is None else nil)
+    return Joined(patches, function, cells, arcs, join_arcs(patches, cells, arcs, edges))
 
 
 def join_nets(nets: FloatArray, known_to: float = 0.0) -> Joined:
@@ -71,13 +73,13 @@ def apart(nets: FloatArray) -> Patches:
     return Patches(nets.copy(), box, np.arange(len(nets)))
 
 
-def counts(components: Sequence[Component]) -> tuple[int, ...]:
+def counts(components: Sequence[ZeroSetComponent]) -> tuple[int, ...]:
     """How many components are closed, open, junctions, isolated."""
     found = Counter(each.kind.value for each in components)
     return tuple(found[kind] for kind in KINDS)
 
 
-def by_patch(components: Sequence[Component], count: int) -> list[tuple[int, ...]]:
+def by_patch(components: Sequence[ZeroSetComponent], count: int) -> list[tuple[int, ...]]:
     """The counts of each patch, of components that lie on one patch each."""
     return [counts([c for c in components if c.patches.tolist() == [k]]) for k in range(count)]
 

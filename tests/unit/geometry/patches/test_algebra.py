@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches import algebra
+from assoc_hull.geometry.patches import bernstein_polynomials as algebra
 
 U, V = np.random.default_rng(0).uniform(size=(2, 30))
 U[:2], V[:2] = (0.0, 1.0), (1.0, 0.0)
@@ -35,21 +35,25 @@ SINGLE, SCALAR, OTHER = some(4, 2, 2), some(5, 5, 1, 4, 4), some(6, 5, 3, 3, 3)
     ("found", "truth"),
     [
         pytest.param(algebra.multiply(A, B), value(A) * value(B), id="product"),
-        pytest.param(algebra.add(A, B), value(A) + value(B), id="sum"),
+        pytest.param(algebra.add_polynomials(A, B), value(A) + value(B), id="sum"),
         pytest.param(algebra.subtract(A, B), value(A) - value(B), id="difference"),
         pytest.param(algebra.elevated(A, 9, 7), value(A), id="higher degrees"),
         pytest.param(algebra.multiply(SINGLE, A), value(SINGLE) * value(A), id="one by many"),
         pytest.param(
             algebra.multiply(LONG, SCALAR), value(LONG) * value(SCALAR), id="vector by scalar"
         ),
-        pytest.param(algebra.dot(LONG, LONG), (value(LONG) ** 2).sum(axis=-2), id="scalar product"),
         pytest.param(
-            algebra.cross(LONG, OTHER),
+            algebra.dot_polynomials(LONG, LONG),
+            (value(LONG) ** 2).sum(axis=-2),
+            id="scalar product",
+        ),
+        pytest.param(
+            algebra.cross_polynomials(LONG, OTHER),
             np.cross(value(LONG), value(OTHER), axis=-2),
             id="vector product",
         ),
     ],
-)  # fmt: skip
+)
 def test_operations_hold_everywhere(found: FloatArray, truth: FloatArray) -> None:
     """At points, the result has the value that the operation on values has."""
     assert np.abs(value(found) - truth).max() <= 5e-14
@@ -58,7 +62,7 @@ def test_operations_hold_everywhere(found: FloatArray, truth: FloatArray) -> Non
 def test_degrees_of_results() -> None:
     """A product has the sum of the degrees, a sum the greater, a derivative one less."""
     assert algebra.degrees(algebra.multiply(A, B)) == (9, 7)
-    assert algebra.degrees(algebra.add(A, B)) == (6, 5)
+    assert algebra.degrees(algebra.add_polynomials(A, B)) == (6, 5)
     assert algebra.degrees(algebra.u_derivative(A)) == (2, 5)
     assert algebra.degrees(algebra.v_derivative(A)) == (3, 4)
     assert not algebra.u_derivative(some(1, 1, 4)).any()
@@ -77,7 +81,7 @@ def test_derivatives() -> None:
 @pytest.mark.parametrize(("u", "v"), [(0.4871, 0.5137), (0.5, 0.5), (0.0, 1.0)])
 def test_parts_are_the_polynomial_there(u: float, v: float) -> None:
     """The four parts of a cut, each on its own unit square."""
-    parts = algebra.halves(A, u, v)
+    parts = algebra.subdivide_at(A, u, v)
     places = [(u * U, v * V), (u * U, v + (1 - v) * V), (u + (1 - u) * U, v * V)]
     places.append((u + (1 - u) * U, v + (1 - v) * V))
     for part, (s, t) in zip(parts, places, strict=True):
@@ -103,9 +107,9 @@ def test_integral() -> None:
 
 ALONE: dict[str, Callable[[FloatArray], FloatArray]] = {
     "product": lambda a: algebra.multiply(a, a[:, :3]),
-    "sum": lambda a: algebra.add(a, a[:, :3]),
+    "sum": lambda a: algebra.add_polynomials(a, a[:, :3]),
     "after a product": lambda a: algebra.elevated(algebra.multiply(a, a), 15, 16),
-    "parts": lambda a: np.concatenate(algebra.halves(a, 0.4871, 0.5137), axis=-1),
+    "parts": lambda a: np.concatenate(algebra.subdivide_at(a, 0.4871, 0.5137), axis=-1),
     "integral": algebra.integral,
     "lower": lambda a: algebra.lowered(a, -1),
 }

@@ -5,20 +5,23 @@ import pytest
 from scipy.spatial import cKDTree
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.algebra import multiply
-from assoc_hull.geometry.patches.arcs import arcs_of, placed
-from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
+from assoc_hull.geometry.patches.arcs import (
+    arc_heights,
+    arcs_of,
+    bernstein_table,
+    patch_parameters,
+    sample_arcs,
+)
+from assoc_hull.geometry.patches.bernstein_polynomials import multiply
+from assoc_hull.geometry.patches.bezier_patches import Patches, patch_points
+from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches
+from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
-from assoc_hull.geometry.patches.heights import bernstein_table, heights
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.points import points
-from assoc_hull.geometry.patches.sampling import sampled
-from assoc_hull.geometry.patches.solve import solve
 from tests.curved_patches import graph_plates, patch, random_nets
 from tests.unit.geometry.patches.isolines import batch, function, plate, pointwise, polynomial
 
 
-def free_ends(cells: Cells, arcs: Arcs, within: float = 1e-9) -> FloatArray:
+def free_ends(cells: SignCells, arcs: ZeroSetArcs, within: float = 1e-9) -> FloatArray:
     """Ends (n, 3), with the patch, that meet no other, and lie on no border of their patch."""
     ends = arcs.ends.reshape(-1, 2)
     keys = np.column_stack([ends, np.repeat(cells.patch[arcs.cell], 2)]).astype(np.float64)
@@ -27,7 +30,7 @@ def free_ends(cells: Cells, arcs: Arcs, within: float = 1e-9) -> FloatArray:
     return np.asarray(keys[~met])
 
 
-def touching(cells: Cells, keys: FloatArray) -> FloatArray:
+def touching(cells: SignCells, keys: FloatArray) -> FloatArray:
     """Whether each end touches a cell that is undecided, or nil."""
     found = np.zeros(len(keys), bool)
     for number, (u, v, own) in enumerate(keys.tolist()):
@@ -41,7 +44,7 @@ def touching(cells: Cells, keys: FloatArray) -> FloatArray:
 @pytest.mark.parametrize("level", [0.0, 1e-3])
 def test_arcs_of_plates_meet_end_to_end(level: float) -> None:
     """On 120 random plates each end within a patch is the end of another arc, to 1e-12."""
-    cells = solve(gauss_function(batch(graph_plates(120, 11)), level))
+    cells = subdivide_patches(gauss_function(batch(graph_plates(120, 11)), level))
     arcs = arcs_of(cells)
     assert len(arcs) > 1500
     assert len(free_ends(cells, arcs, 1e-12)) == 0
@@ -49,7 +52,7 @@ def test_arcs_of_plates_meet_end_to_end(level: float) -> None:
 
 def test_arcs_that_meet_none_end_at_what_is_undecided() -> None:
     """On 60 folded and pierced nets, of 10,000 arcs no end is left over that nothing explains."""
-    cells = solve(gauss_function(batch(random_nets(60, 1)), 0.0))
+    cells = subdivide_patches(gauss_function(batch(random_nets(60, 1)), 0.0))
     keys = free_ends(cells, arcs_of(cells))
     assert len(keys) > 100
     assert touching(cells, keys).all()
@@ -63,7 +66,7 @@ def test_whole_numbers_leave_no_end_over(factor: bool) -> None:
         b = draw.integers(-1, 2, (60, m + 1, n + 1)).astype(np.float64)
         if factor:
             b = multiply(b, draw.integers(-2, 3, (60, 3, 2)).astype(np.float64))
-        cells = solve(IsoFunction(b, np.full(b.shape, 1e-14)), budget=500)
+        cells = subdivide_patches(IsoFunction(b, np.full(b.shape, 1e-14)), budget=500)
         arcs = arcs_of(cells)
         simple = (cells.kind == CellKind.U_SIMPLE) | (cells.kind == CellKind.V_SIMPLE)
         assert np.array_equal(arcs.cell, np.flatnonzero(simple))
@@ -72,7 +75,7 @@ def test_whole_numbers_leave_no_end_over(factor: bool) -> None:
 
 def test_ends_lie_on_borders_to_the_bit() -> None:
     """Each end has a parameter of a border of its cell, and the span is that of its ends."""
-    cells = solve(gauss_function(batch(graph_plates(30, 2)), 0.0))
+    cells = subdivide_patches(gauss_function(batch(graph_plates(30, 2)), 0.0))
     arcs = arcs_of(cells)
     box = cells.box[arcs.cell]
     on_border = (arcs.ends[..., None] == box[:, None]).any(axis=(2, 3))
@@ -87,11 +90,11 @@ def test_ends_lie_on_borders_to_the_bit() -> None:
 def test_exchanged_parameters_give_exchanged_arcs() -> None:
     """With u and v exchanged, in one cell, the arc is the same with its parameters exchanged."""
     b = polynomial({(1, 0): 1.0, (0, 2): 0.4, (0, 0): -0.5}, 5)
-    arcs, other = (arcs_of(solve(function(each))) for each in (b, b.T))
+    arcs, other = (arcs_of(subdivide_patches(function(each))) for each in (b, b.T))
     assert (arcs.across.tolist(), other.across.tolist()) == ([0], [1])
     assert np.abs(arcs.ends - other.ends[..., ::-1]).max() < 1e-15
     assert arcs.rising.tolist() == other.rising.tolist() == [True]
-    assert arcs_of(solve(function(-b))).rising.tolist() == [False]
+    assert arcs_of(subdivide_patches(function(-b))).rising.tolist() == [False]
 
 
 @pytest.mark.parametrize(
@@ -109,7 +112,7 @@ def test_ends_of_straight_lines(
     terms: dict[tuple[int, int], float], ends: list[list[float]]
 ) -> None:
     """A line from corner to corner, or across a corner, is one arc with its ends there."""
-    found = arcs_of(solve(function(polynomial(terms, 4))))
+    found = arcs_of(subdivide_patches(function(polynomial(terms, 4))))
     assert len(found) == 1
     assert np.abs(np.sort(found.ends[0], axis=0) - np.sort(ends, axis=0)).max() < 1e-15
 
@@ -118,15 +121,15 @@ def test_arcs_do_not_depend_on_their_batch() -> None:
     """Arcs and their points are the same to the last bit alone and in a batch."""
     nets = np.concatenate([graph_plates(12, 5), random_nets(2, 6)])
     f = gauss_function(batch(nets), 0.0)
-    cells = solve(f)
+    cells = subdivide_patches(f)
     arcs = arcs_of(cells)
-    start, uv = sampled(batch(nets), cells, arcs, 0.002)
+    start, uv = sample_arcs(batch(nets), cells, arcs, 0.002)
     for k in range(14):
-        own = solve(IsoFunction(f.b[k : k + 1], f.err[k : k + 1]))
+        own = subdivide_patches(IsoFunction(f.b[k : k + 1], f.err[k : k + 1]))
         alone = arcs_of(own)
         rows = np.flatnonzero(cells.patch[arcs.cell] == k)
         assert np.array_equal(arcs.ends[rows], alone.ends)
-        begin, point = sampled(Patches.single(nets[k]), own, alone, 0.002)
+        begin, point = sample_arcs(Patches.single(nets[k]), own, alone, 0.002)
         assert np.array_equal(np.diff(start)[rows], np.diff(begin))
         assert np.array_equal(uv[start[rows[0]] : start[rows[-1] + 1]], point)
 
@@ -135,9 +138,9 @@ def test_arcs_do_not_depend_on_their_batch() -> None:
 def test_every_point_of_a_polyline_is_a_root(name: str) -> None:
     """Points are 1e-13 from the zero set, by curvature found without the polynomial."""
     patches = Patches.single(patch(name))
-    cells = solve(gauss_function(patches, 0.0))
+    cells = subdivide_patches(gauss_function(patches, 0.0))
     arcs = arcs_of(cells)
-    start, uv = sampled(patches, cells, arcs, 0.001)
+    start, uv = sample_arcs(patches, cells, arcs, 0.001)
     assert np.array_equal(uv[start[:-1]], arcs.ends[:, 0])
     assert np.array_equal(uv[start[1:] - 1], arcs.ends[:, 1])
     value, step = np.empty((5, len(uv))), 1e-6
@@ -153,9 +156,9 @@ def test_polylines_keep_their_chord_tolerance(chord_tol: float) -> None:
     """A circle in a plate stays as near to its chords as was asked, and has no points in vain."""
     net = plate({(3, 0): 1.0, (1, 2): -3.0, (2, 0): 1.5, (0, 2): 1.5})
     patches = Patches.single(net)
-    cells = solve(gauss_function(patches, 0.0))
-    start, uv = sampled(patches, cells, arcs_of(cells), chord_tol)
-    xyz = points(patches, np.zeros(len(uv), np.int64), uv)
+    cells = subdivide_patches(gauss_function(patches, 0.0))
+    start, uv = sample_arcs(patches, cells, arcs_of(cells), chord_tol)
+    xyz = patch_points(patches, np.zeros(len(uv), np.int64), uv)
     inner = np.setdiff1d(np.arange(len(uv) - 1), start[1:] - 1)
     middle = 0.5 * (xyz[inner] + xyz[inner + 1])
     assert np.abs(np.hypot(xyz[:, 0], xyz[:, 1]) - 0.5).max() < 1e-14
@@ -166,9 +169,9 @@ def test_polylines_keep_their_chord_tolerance(chord_tol: float) -> None:
 def test_an_arc_that_meets_its_chord_in_the_middle_is_followed() -> None:
     """An arc in the shape of an S has points on both of its bows."""
     terms = {(1, 0): 1.0, (0, 3): -2.0, (0, 2): 3.0, (0, 1): -1.0, (0, 0): -0.5}
-    cells = solve(function(polynomial(terms, 3)))
+    cells = subdivide_patches(function(polynomial(terms, 3)))
     flat = Patches.single(plate({}, (0.0, 1.0, 0.0, 1.0)))
-    _, uv = sampled(flat, cells, arcs_of(cells), 0.01)
+    _, uv = sample_arcs(flat, cells, arcs_of(cells), 0.01)
     assert len(cells) == 1
     assert len(uv) > 8
     assert np.ptp(uv[:, 0]) == pytest.approx(0.19, abs=0.01)
@@ -177,8 +180,8 @@ def test_an_arc_that_meets_its_chord_in_the_middle_is_followed() -> None:
 def test_short_arcs_have_no_points_in_vain() -> None:
     """Where arcs are shorter than the tolerance, only their ends are given."""
     patches = Patches.single(patch("P05_cross"))
-    cells = solve(gauss_function(patches, 0.0))
-    start, _ = sampled(patches, cells, arcs_of(cells), 10.0)
+    cells = subdivide_patches(gauss_function(patches, 0.0))
+    start, _ = sample_arcs(patches, cells, arcs_of(cells), 10.0)
     assert np.diff(start).tolist() == [2] * (len(start) - 1)
 
 
@@ -186,8 +189,8 @@ def test_borders_are_kept_to_the_bit() -> None:
     """At 0 and 1 of a box its borders are given, not sums that round to another number."""
     box = np.array([[0.1, 0.7], [2.0**-54, 0.5 + 2.0**-53]])
     assert box[1, 0] + (box[1, 1] - box[1, 0]) != box[1, 1]
-    assert np.array_equal(placed(box, np.zeros(2)), box[:, 0])
-    assert np.array_equal(placed(box, np.ones(2)), box[:, 1])
+    assert np.array_equal(patch_parameters(box, np.zeros(2)), box[:, 0])
+    assert np.array_equal(patch_parameters(box, np.ones(2)), box[:, 1])
 
 
 def test_heights_are_where_the_polynomial_is_nil() -> None:
@@ -198,7 +201,7 @@ def test_heights_are_where_the_polynomial_is_nil() -> None:
     rising = np.arange(100) % 2 == 0
     b = np.where(rising[:, None, None], b, -b)
     t = random.random((100, 50))
-    g = heights(b, rising, t)
+    g = arc_heights(b, rising, t)
     u = bernstein_table(g.ravel(), 8).reshape(9, 100, 50)
     v = bernstein_table(t.ravel(), 5).reshape(6, 100, 50)
     assert np.abs(np.einsum("icq,cij,jcq->cq", u, b, v)).max() < 1e-14

@@ -9,13 +9,16 @@ import pytest
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.arcs import arcs_of
-from assoc_hull.geometry.patches.area_direct import along_lines, over_boxes
-from assoc_hull.geometry.patches.area_elements import on_grid
-from assoc_hull.geometry.patches.area_ground import AreaGround
-from assoc_hull.geometry.patches.areas import Areas, areas
+from assoc_hull.geometry.patches.area_elements import elements_on_grid
+from assoc_hull.geometry.patches.area_integrals import (
+    AreaIntegrator,
+    areas_over_boxes,
+    integrals_along_lines,
+)
+from assoc_hull.geometry.patches.areas_by_sign import SignAreas, sign_areas
+from assoc_hull.geometry.patches.bezier_patches import Patches
+from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.solve import solve
 from tests.curved_patches import graph_plates, nets, patch, random_nets, references
 
 DEVELOPABLE = ("P13_plane", "P14_cyl", "P15_cyl_rot", "P16_cone_rot")
@@ -29,41 +32,41 @@ def batch(net: FloatArray) -> Patches:
 
 def solved(
     net: FloatArray, level: float = 0.0, delta: float = 0.0
-) -> Callable[[float, bool], Areas]:
+) -> Callable[[float, bool], SignAreas]:
     """What gives the areas of nets (k, m + 1, n + 1, 3) at a tolerance, by series or points."""
     patches = batch(net)
-    cells = solve(gauss_function(patches, level, delta))
+    cells = subdivide_patches(gauss_function(patches, level, delta))
     arcs = arcs_of(cells)
 
-    def at(tol: float, by_series: bool = True) -> Areas:
-        return areas(patches, cells, arcs, tol, AreaGround.of(patches, tol, by_series))
+    def at(tol: float, by_series: bool = True) -> SignAreas:
+        return sign_areas(patches, cells, arcs, tol, AreaIntegrator.of(patches, tol, by_series))
 
     return at
 
 
-def found(net: FloatArray, tol: float, level: float = 0.0) -> Areas:
+def found(net: FloatArray, tol: float, level: float = 0.0) -> SignAreas:
     """The areas of nets (k, m + 1, n + 1, 3)."""
     return solved(net, level)(tol, True)
 
 
-def parts(of: Areas) -> FloatArray:
+def parts(of: SignAreas) -> FloatArray:
     """Positive, negative, nil and undecided areas and the total, (5, k)."""
     return np.array([of.positive, of.negative, of.zero, of.unresolved, of.total])
 
 
 @cache
-def of_table(name: str) -> Callable[[float, bool], Areas]:
+def of_table(name: str) -> Callable[[float, bool], SignAreas]:
     """What gives the areas of a patch of the table."""
     return solved(patch(name)[None], delta=1e-12 if name in DEVELOPABLE else 0.0)
 
 
 @cache
-def reference_areas(name: str, tol: float) -> Areas:
+def reference_areas(name: str, tol: float) -> SignAreas:
     """The areas of a patch of the table."""
     return of_table(name)(tol, True)
 
 
-def worst(of: Areas, positive: FloatArray, negative: FloatArray) -> FloatArray:
+def worst(of: SignAreas, positive: FloatArray, negative: FloatArray) -> FloatArray:
     """The larger of both errors, in parts of the whole."""
     off = np.abs([of.positive_estimate - positive, of.negative_estimate - negative])
     return np.asarray(off.max(axis=0) / of.total)
@@ -124,7 +127,7 @@ def test_a_patch_does_not_depend_on_the_others() -> None:
     """Alone, in a batch and in another order all areas are the same to the last bit."""
     some = [net for net in nets().values() if net.shape == (4, 4, 3)]
     net = np.concatenate([graph_plates(8, 5), random_nets(1, 6), np.array(some[:6])])
-    fields = [field.name for field in attrs.fields(Areas)]
+    fields = [field.name for field in attrs.fields(SignAreas)]
     whole = found(net, 1e-6)
     order = np.random.default_rng(8).permutation(len(net))
     other = found(net[order], 1e-6)
@@ -201,8 +204,8 @@ def test_the_area_below_a_line_is_known() -> None:
     net = np.zeros((1, 2, 2, 3))
     net[0, 1, :, 0], net[0, :, 1, 1] = 2.0, 3.0
     line = np.array([[[-1.0, -2.0], [3.0, 2.0]]])
-    cells = solve(IsoFunction(line, 1e-15 + 0.0 * line))
-    got = areas(batch(net), cells, arcs_of(cells), 1e-9)
+    cells = subdivide_patches(IsoFunction(line, 1e-15 + 0.0 * line))
+    got = sign_areas(batch(net), cells, arcs_of(cells), 1e-9)
     assert got.negative == pytest.approx([2.25], abs=1e-12)
     assert got.positive == pytest.approx([3.75], abs=1e-12)
 
@@ -213,9 +216,9 @@ def test_an_arc_too_short_to_count_leaves_its_cell_whole(sign: float) -> None:
     net = np.zeros((1, 2, 2, 3))
     net[0, 1, :, 0] = net[0, :, 1, 1] = 1.0
     line = sign * np.array([[[-1e-15, 1.0], [1.0, 2.0]]])
-    cells = solve(IsoFunction(line, 1e-20 + 0.0 * line))
+    cells = subdivide_patches(IsoFunction(line, 1e-20 + 0.0 * line))
     assert not len(arcs_of(cells))
-    got = areas(batch(net), cells, arcs_of(cells), 1e-9)
+    got = sign_areas(batch(net), cells, arcs_of(cells), 1e-9)
     assert got.positive == pytest.approx([float(sign > 0.0)], abs=1e-12)
     assert got.negative == pytest.approx([float(sign < 0.0)], abs=1e-12)
 
@@ -247,9 +250,11 @@ def test_points_halve_what_is_not_smooth() -> None:
     true = 0.5 * (slope[0] * turn - slope[1] * (1.0 - turn))
     patches, row = batch(net), np.array([0])
     tolerance = np.array([1e-7])
-    value, error = over_boxes(patches, row, np.array([[[0.0, 1.0], [0.0, 1.0]]]), tolerance)
+    value, error = areas_over_boxes(patches, row, np.array([[[0.0, 1.0], [0.0, 1.0]]]), tolerance)
     assert abs(value[0] - true) <= error[0] <= 1e-7
-    value, error = along_lines(patches, row, np.array([[0.0, 1.0]]), np.array([0.3]), tolerance)
+    value, error = integrals_along_lines(
+        patches, row, np.array([[0.0, 1.0]]), np.array([0.3]), tolerance
+    )
     assert abs(value[0] - true) <= error[0] <= 1e-7
 
 
@@ -257,5 +262,5 @@ def test_the_element_is_that_of_the_points_themselves() -> None:
     """At 100 m from the origin |r_u x r_v| has lost no more than the points have."""
     net = graph_plates(3, 1)
     t = np.linspace(0.0, 1.0, 9)
-    near, far = (on_grid(batch(each), t, t) for each in (net, turned(net)))
+    near, far = (elements_on_grid(batch(each), t, t) for each in (net, turned(net)))
     assert np.abs(near / far - 1.0).max() < 1e-13

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.patches.volume_below import below
+from assoc_hull.geometry.patches.volume_below import integrate_below
 
 LENGTH, BREADTH, DRAUGHT = 100.0, 10.0, 6.25
 # Bezier points of 1 - t**2 for t from -1 to 1, and of 1 - (1 - t)**2 for t from 0 to 1.
@@ -35,7 +35,7 @@ def enclosed(level: float) -> tuple[float, float]:
 @pytest.mark.parametrize("level", [0.4, 3.0, 6.25, 9.0], ids=["low", "half", "full", "above"])
 def test_a_hull_by_formula_has_the_volume_of_its_formula(level: float, turned: bool) -> None:
     """Volume and moments are exact to rounding, wherever the level cuts, whichever way u runs."""
-    found = below([wigley(turned)], level)
+    found = integrate_below([wigley(turned)], level)
     volume, moment = enclosed(min(level, DRAUGHT))
     assert found.volume == pytest.approx(volume, rel=1e-12)
     assert found.moment.tolist() == pytest.approx([50.0 * volume, moment], rel=1e-12)
@@ -47,7 +47,7 @@ def test_parts_have_together_what_the_whole_has() -> None:
     parts = [
         whole.restricted(u, v) for u in ((0.0, 0.3), (0.3, 1.0)) for v in ((0.0, 0.6), (0.6, 1.0))
     ]
-    one, four = below([whole], 4.0), below(parts, 4.0)
+    one, four = integrate_below([whole], 4.0), integrate_below(parts, 4.0)
     assert four.volume == pytest.approx(one.volume, rel=1e-12)
     assert four.area == pytest.approx(one.area, rel=1e-6)
 
@@ -57,7 +57,7 @@ def test_a_wall_with_a_sloping_border_is_cut_across_corners() -> None:
     net = np.zeros((2, 2, 3))
     net[..., 0], net[..., 1] = [[0.0, 0.0], [10.0, 10.0]], 2.0
     net[..., 2] = [[4.0, 0.0], [9.0, 5.0]]  # top edge and bottom edge rise from 0 to 5
-    found = below([SplineSurface.bezier(net)], 3.0)
+    found = integrate_below([SplineSurface.bezier(net)], 3.0)
     area = 0.5 * 6.0 * 3.0  # the triangle below the level: 6 m long, 3 m high
     assert found.area == pytest.approx(area, rel=1e-3)
     assert found.volume == pytest.approx(2.0 * area, rel=1e-3)
@@ -65,5 +65,5 @@ def test_a_wall_with_a_sloping_border_is_cut_across_corners() -> None:
 
 def test_nothing_lies_below_a_level_under_the_surface() -> None:
     """A surface above the level adds nothing at all."""
-    found = below([wigley()], -1.0)
+    found = integrate_below([wigley()], -1.0)
     assert (found.volume, found.area, found.moment.tolist()) == (0.0, 0.0, [0.0, 0.0])

@@ -7,7 +7,8 @@ import pytest
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches import curvature_terms as terms
-from assoc_hull.geometry.patches.algebra import dot
+from assoc_hull.geometry.patches.bernstein_polynomials import dot_polynomials
+from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.curvature_functions import (
     IsoFunction,
     gauss_function,
@@ -15,7 +16,6 @@ from assoc_hull.geometry.patches.curvature_functions import (
     mean_function,
     umbilic_function,
 )
-from assoc_hull.geometry.patches.patches import Patches
 from tests.curved_patches import nets
 from tests.exact_patches import Exact, bernstein, degrees, exact_patch, product, total
 
@@ -59,12 +59,17 @@ def test_nominal_degrees(m: int, n: int) -> None:
     patch = Patches.single(whole_net(m, n))
     found = terms.values(patch)
     shapes = {
-        "S": found.s, "E": dot(found.ru, found.ru), "G": dot(found.rv, found.rv),
-        "M": dot(found.s, found.ruv), "area": terms.area_squared(found),
-        "A": gauss_function(patch, 0.0).b, "A - K0 |S|**4": gauss_function(patch, 0.1).b,
-        "B": mean_function(patch).b, "H0": mean_function(patch, 0.1).b,
+        "S": found.s,
+        "E": dot_polynomials(found.ru, found.ru),
+        "G": dot_polynomials(found.rv, found.rv),
+        "M": dot_polynomials(found.s, found.ruv),
+        "area": terms.area_squared(found),
+        "A": gauss_function(patch, 0.0).b,
+        "A - K0 |S|**4": gauss_function(patch, 0.1).b,
+        "B": mean_function(patch).b,
+        "H0": mean_function(patch, 0.1).b,
         "umbilics": umbilic_function(patch).b,
-    }  # fmt: skip
+    }
     assert {key: (each.shape[-2] - 1, each.shape[-1] - 1) for key, each in shapes.items()} == {
         "S": (2 * m - 1, 2 * n - 1), "E": (2 * m - 2, 2 * n), "G": (2 * m, 2 * n - 2),
         "M": (3 * m - 2, 3 * n - 2), "area": (4 * m - 2, 4 * n - 2),
@@ -77,7 +82,7 @@ def test_nominal_degrees(m: int, n: int) -> None:
     if min(m, n) > 1:
         assert found.ruu is not None
         assert found.rvv is not None
-        nominal = [dot(found.s, each).shape[1:] for each in (found.ruu, found.rvv)]
+        nominal = [dot_polynomials(found.s, each).shape[1:] for each in (found.ruu, found.rvv)]
         assert nominal == [(3 * m - 2, 3 * n), (3 * m, 3 * n - 2)]
 
 

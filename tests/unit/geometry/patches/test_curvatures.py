@@ -5,9 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.curvatures import curvatures
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.pointwise import jets
+from assoc_hull.geometry.patches.bezier_patches import Patches, curvatures, jets
 from tests.curved_patches import nets
 
 

@@ -4,15 +4,16 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.algebra import multiply
-from assoc_hull.geometry.patches.arcs import arcs_of
+from assoc_hull.geometry.patches.arcs import arcs_of, bernstein_table
+from assoc_hull.geometry.patches.bernstein_polynomials import multiply
+from assoc_hull.geometry.patches.bezier_patches import Patches
+from assoc_hull.geometry.patches.cell_subdivision import (
+    divide_by_edge_lines,
+    subdivide_patches,
+    zero_edges,
+)
 from assoc_hull.geometry.patches.cells import CellKind
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
-from assoc_hull.geometry.patches.edge_factors import without_edge_lines
-from assoc_hull.geometry.patches.heights import bernstein_table
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.signs import edge_lines
-from assoc_hull.geometry.patches.solve import solve
 from tests.curved_patches import patch
 from tests.polynomial_parts import restricted
 from tests.unit.geometry.patches.isolines import function, plate, polynomial
@@ -45,20 +46,20 @@ def test_factors_are_taken_out_at_every_edge(
     for factor in factors:
         b = multiply(b, factor)
     err = 1e-14 * np.abs(b)
-    found = without_edge_lines(np.stack([b, err])[None])[0]
+    found = divide_by_edge_lines(np.stack([b, err])[None])[0]
     uv = np.random.default_rng(2).random((40, 2))
-    assert edge_lines(b[None], err[None])[0].tolist() == lines
+    assert zero_edges(b[None], err[None])[0].tolist() == lines
     assert found.shape == (2, *b.shape)
     off = np.abs(values(found[0], uv) - values(rest, uv))
     assert (off <= values(found[1], uv)).all()
-    assert not edge_lines(found[:1], found[1:]).any()
-    assert without_edge_lines(np.stack([b, np.zeros_like(b)])[None])[0, 1].min() > 0.0
+    assert not zero_edges(found[:1], found[1:]).any()
+    assert divide_by_edge_lines(np.stack([b, np.zeros_like(b)])[None])[0, 1].min() > 0.0
 
 
 def test_patches_without_such_edges_keep_their_bits() -> None:
     """In a batch only those polynomials are divided that have a nil edge; one that is nil stays."""
     b = np.stack([np.ones((3, 3)), multiply(U, np.ones((2, 3))), np.zeros((3, 3))])
-    found = without_edge_lines(np.stack([b, np.full(b.shape, 1e-12)], axis=1))
+    found = divide_by_edge_lines(np.stack([b, np.full(b.shape, 1e-12)], axis=1))
     assert np.array_equal(found[[0, 2], 0], b[[0, 2]])
     assert np.allclose(found[1, 0], 1.0, rtol=0.0, atol=1e-15)
 
@@ -68,8 +69,8 @@ def test_noise_at_a_pole_is_not_cut() -> None:
     net = patch("P17_pole_sphere").copy()
     net += 1e-16 * np.random.default_rng(3).normal(size=net.shape)
     f = gauss_function(Patches.single(net), 0.0, 1e-14)
-    assert edge_lines(f.b, f.err).any()
-    assert solve(f).kind.tolist() == [CellKind.POSITIVE]
+    assert zero_edges(f.b, f.err).any()
+    assert subdivide_patches(f).kind.tolist() == [CellKind.POSITIVE]
 
 
 def test_noise_at_a_pole_hides_no_loop() -> None:
@@ -78,7 +79,7 @@ def test_noise_at_a_pole_hides_no_loop() -> None:
     loop = polynomial(terms, 8)
     b = multiply(multiply(U, U), multiply(U, loop))
     b[:3] = 1e-17 * np.random.default_rng(4).normal(size=b[:3].shape)
-    cells = solve(IsoFunction(b[None], np.full((1, *b.shape), 1e-15)))
+    cells = subdivide_patches(IsoFunction(b[None], np.full((1, *b.shape), 1e-15)))
     ends = np.sort(arcs_of(cells).ends.reshape(-1, 2), axis=0)
     assert CellKind.UNRESOLVED not in cells.kind
     assert np.abs(ends[::2] - ends[1::2]).max() < 1e-12
@@ -100,8 +101,8 @@ def test_edges_where_curvature_vanishes_are_told(
 ) -> None:
     """K = 0 along an edge is told by edge, beside cells that hold no arc."""
     f = gauss_function(Patches.single(plate(terms, (0.0, 1.0, 0.0, 1.0))), 0.0, 1e-13)
-    assert edge_lines(f.b, f.err)[0].tolist() == lines
-    assert len(solve(f)) == 1
+    assert zero_edges(f.b, f.err)[0].tolist() == lines
+    assert len(subdivide_patches(f)) == 1
 
 
 def test_restricted_polynomials_have_the_values_of_the_whole() -> None:
@@ -129,11 +130,11 @@ def test_a_box_is_solved_with_other_cuts() -> None:
         (0, 0): x * x + y * y - radius * radius,
     }  # fmt: skip
     whole = function(polynomial(terms, 4))
-    cells = solve(whole)
+    cells = subdivide_patches(whole)
     left = cells.box[cells.kind == CellKind.UNRESOLVED]
     assert 1 <= len(left) <= 4
     low, high = left[..., 0].min(axis=0), left[..., 1].max(axis=0)
     box = np.stack([low - (high - low), high + (high - low)], axis=1)[None]
-    again = solve(restricted(whole, np.array([0]), box), split=(0.4583, 0.5391))
+    again = subdivide_patches(restricted(whole, np.array([0]), box), split=(0.4583, 0.5391))
     assert CellKind.UNRESOLVED not in again.kind
     assert {CellKind.U_SIMPLE, CellKind.V_SIMPLE} & set(again.kind.tolist())

@@ -2,9 +2,13 @@
 
 import numpy as np
 
-from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
-from assoc_hull.geometry.patches.components import Component, ComponentKind, EndKind
-from assoc_hull.geometry.patches.joining import joined
+from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs
+from assoc_hull.geometry.patches.components import (
+    ComponentKind,
+    LineEndKind,
+    ZeroSetComponent,
+    join_arcs,
+)
 from tests.unit.geometry.patches.joined_lines import apart
 
 Box = tuple[tuple[float, float], tuple[float, float]]
@@ -14,7 +18,9 @@ LOW, HIGH, ALL = (0.0, 0.5), (0.5, 1.0), (0.0, 1.0)
 ARC = CellKind.V_SIMPLE
 
 
-def components(*rows: tuple[CellKind, tuple[float, float], tuple[float, float]]) -> list[Component]:
+def components(
+    *rows: tuple[CellKind, tuple[float, float], tuple[float, float]],
+) -> list[ZeroSetComponent]:
     """The components of cells; in simple ones the line v = 1/2 runs, positive above."""
     kind = np.array([row[0] for row in rows])
     box = np.array([row[1:] for row in rows])
@@ -23,12 +29,12 @@ def components(*rows: tuple[CellKind, tuple[float, float], tuple[float, float]])
     row[simple] = np.arange(len(simple))
     b = np.tile(np.array([[-1.0, 1.0], [-1.0, 1.0]]), (len(simple), 1, 1))
     level = np.zeros(len(rows), np.intp)
-    cells = Cells(level, box, level, kind, row, b, 1e-9 + 0.0 * b, np.zeros(1, bool))
+    cells = SignCells(level, box, level, kind, row, b, 1e-9 + 0.0 * b, np.zeros(1, bool))
     ends = np.full((len(simple), 2, 2), 0.5)
     ends[..., 0] = box[simple, 0]
     across, rising = np.ones(len(simple), np.intp), np.ones(len(simple), bool)
-    arcs = Arcs(simple, across, box[simple, 0], ends, rising)
-    return list(joined(apart(np.zeros((1, 2, 2, 3))), cells, arcs))
+    arcs = ZeroSetArcs(simple, across, box[simple, 0], ends, rising)
+    return list(join_arcs(apart(np.zeros((1, 2, 2, 3))), cells, arcs))
 
 
 def test_a_gap_is_followed_along_cells() -> None:
@@ -51,7 +57,7 @@ def test_a_gap_may_lead_to_the_border() -> None:
         (CellKind.NEGATIVE, (0.25, 1.0), LOW), (CellKind.POSITIVE, (0.25, 1.0), HIGH),
     )  # fmt: skip
     assert line.kind is ComponentKind.OPEN
-    assert line.end_kinds == (EndKind.BORDER, EndKind.BORDER)
+    assert line.end_kinds == (LineEndKind.BORDER, LineEndKind.BORDER)
 
 
 def test_a_gap_turns_with_the_cells() -> None:
@@ -62,7 +68,7 @@ def test_a_gap_turns_with_the_cells() -> None:
         (CellKind.POSITIVE, (0.5, 1.0), ALL),
     )  # fmt: skip
     assert line.kind is ComponentKind.OPEN
-    assert EndKind.JUNCTION not in line.end_kinds
+    assert LineEndKind.JUNCTION not in line.end_kinds
 
 
 def test_a_gap_may_lead_to_nil_cells() -> None:

@@ -4,29 +4,28 @@ import attrs
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.patches.cells import Arcs, Cells
-from assoc_hull.geometry.patches.gathering import gathered, rows_of
+from assoc_hull.geometry.patches.cells import SignCells, ZeroSetArcs, rows_of_groups, select_patches
 
 
-def batch(counts: list[int], seed: int) -> tuple[Cells, Arcs]:
+def batch(counts: list[int], seed: int) -> tuple[SignCells, ZeroSetArcs]:
     """Cells with made-up contents: so many a patch, every other with a polynomial and an arc."""
     draw = np.random.default_rng(seed)
     patch = np.repeat(np.arange(len(counts)), counts)
     held = np.arange(len(patch)) % 2 == 0
     row = np.where(held, np.cumsum(held) - 1, -1)
     b = draw.normal(size=(held.sum(), 3, 4))
-    cells = Cells(
+    cells = SignCells(
         patch, draw.random((len(patch), 2, 2)), draw.integers(0, 9, len(patch)),
         np.where(held, 2, 1), row, b, abs(b) * 1e-9, np.arange(len(counts)) % 3 == 0,
     )  # fmt: skip
     cell = np.flatnonzero(held)
-    arcs = Arcs(
+    arcs = ZeroSetArcs(
         cell, cell % 2, draw.random((len(cell), 2)), draw.random((len(cell), 2, 2)), cell % 3 == 0
     )
     return cells, arcs
 
 
-def contents(cells: Cells, arcs: Arcs, patch: int) -> list[object]:
+def contents(cells: SignCells, arcs: ZeroSetArcs, patch: int) -> list[object]:
     """All that is known of one patch, free of the numbers of rows."""
     own = np.flatnonzero(cells.patch == patch)
     found: list[object] = [bool(cells.stopped[patch])]
@@ -56,7 +55,9 @@ def contents(cells: Cells, arcs: Arcs, patch: int) -> list[object]:
 def test_what_is_gathered_is_that_of_each_patch(chosen: list[int]) -> None:
     """Cells, polynomials and arcs of a patch stay together, out of two batches."""
     first, second = batch([3, 5, 0], 1), batch([4, 1], 2)
-    cells, arcs = gathered([first[0], second[0]], [first[1], second[1]], np.array(chosen, np.intp))
+    cells, arcs = select_patches(
+        [first[0], second[0]], [first[1], second[1]], np.array(chosen, np.intp)
+    )
     each = [contents(*first, i) for i in range(3)] + [contents(*second, i) for i in range(2)]
     assert [contents(cells, arcs, i) for i in range(len(chosen))] == [each[i] for i in chosen]
     assert (np.diff(cells.patch) >= 0).all()
@@ -65,6 +66,6 @@ def test_what_is_gathered_is_that_of_each_patch(chosen: list[int]) -> None:
 
 def test_rows_of_groups_lie_in_the_order_asked_for() -> None:
     """Groups without rows give none."""
-    rows, owner = rows_of(np.array([2, 0, 3]), np.array([2, 1, 0, 2]))
+    rows, owner = rows_of_groups(np.array([2, 0, 3]), np.array([2, 1, 0, 2]))
     assert rows.tolist() == [2, 3, 4, 0, 1, 2, 3, 4]
     assert owner.tolist() == [0, 0, 0, 2, 2, 3, 3, 3]

@@ -6,13 +6,16 @@ import pytest
 
 from assoc_hull.errors import DanglingArcError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
-from assoc_hull.geometry.patches.components import Component, ComponentKind, EndKind
+from assoc_hull.geometry.patches.bezier_patches import Patches
+from assoc_hull.geometry.patches.cell_subdivision import subdivide_again, subdivide_patches
+from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs
+from assoc_hull.geometry.patches.components import (
+    ComponentKind,
+    LineEndKind,
+    ZeroSetComponent,
+    join_arcs,
+)
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
-from assoc_hull.geometry.patches.joining import joined
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.refining import refined
-from assoc_hull.geometry.patches.solve import solve
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from tests.curved_patches import graph_plates, patch, random_nets, references
 from tests.unit.geometry.patches.isolines import function, monkey, plate, polynomial
@@ -45,7 +48,7 @@ def test_a_crossing_has_four_ends() -> None:
     """Where two lines cross, four ends of lines meet at undecided cells; the others are borders."""
     (cross,) = join_nets(patch("P05_cross")[None]).components
     assert cross.meetings == 4
-    assert cross.end_kinds.count(EndKind.BORDER) == 4
+    assert cross.end_kinds.count(LineEndKind.BORDER) == 4
     assert len(cross.cells) >= 1
 
 
@@ -57,17 +60,17 @@ def test_lines_that_meet_in_a_point_are_a_junction() -> None:
     )
     four, none = np.zeros(4, np.intp), np.zeros((0, 2, 2))
     kind = np.full(4, CellKind.U_SIMPLE)
-    cells = Cells(four, box, four, kind, four - 1, none, none, np.zeros(1, bool))
+    cells = SignCells(four, box, four, kind, four - 1, none, none, np.zeros(1, bool))
     across = np.array([1, 1, 0, 0])
     ends = np.stack([lines, np.full((4, 2), 0.5)], axis=1)
     rising = np.array([True, False, False, True])
-    arcs = Arcs(np.array([0, 1, 3, 2]), across, none[:0, 0].reshape(0, 2), ends, rising)
-    (cross,) = joined(apart(np.zeros((1, 2, 2, 3))), cells, arcs)
+    arcs = ZeroSetArcs(np.array([0, 1, 3, 2]), across, none[:0, 0].reshape(0, 2), ends, rising)
+    (cross,) = join_arcs(apart(np.zeros((1, 2, 2, 3))), cells, arcs)
     assert cross.kind is ComponentKind.JUNCTION
     assert cross.meetings == 4
-    assert sorted(cross.ends[[k is EndKind.BORDER for k in cross.end_kinds]].tolist()) == sorted(
-        lines.tolist()
-    )
+    assert sorted(
+        cross.ends[[k is LineEndKind.BORDER for k in cross.end_kinds]].tolist()
+    ) == sorted(lines.tolist())
 
 
 def test_a_line_may_end_in_the_corner_of_its_patch() -> None:
@@ -77,7 +80,7 @@ def test_a_line_may_end_in_the_corner_of_its_patch() -> None:
         line_of = joined_of(apart(monkey(0.5)[None]), function(polynomial(terms, 2)))
         (line,) = line_of.components
         assert line.kind is ComponentKind.OPEN
-        assert line.end_kinds == (EndKind.BORDER, EndKind.BORDER)
+        assert line.end_kinds == (LineEndKind.BORDER, LineEndKind.BORDER)
         assert np.abs(line.ends).min() < 3e-5
 
 
@@ -127,9 +130,9 @@ def test_a_lost_arc_is_an_error() -> None:
     """If an arc is missing, its neighbours break off, and that is refused."""
     found = join_nets(patch("P03_circle_loop")[None])
     columns = attrs.astuple(found.arcs, recurse=False)
-    fewer = Arcs(*(np.delete(column, 1, axis=0) for column in columns))
+    fewer = ZeroSetArcs(*(np.delete(column, 1, axis=0) for column in columns))
     with pytest.raises(DanglingArcError, match="2 ends of lines") as caught:
-        joined(found.patches, found.cells, fewer)
+        join_arcs(found.patches, found.cells, fewer)
     assert caught.value.count == 2
     assert 0.0 < caught.value.uv[0] < 1.0
 
@@ -168,7 +171,7 @@ def test_lines_cross_the_borders_of_patches() -> None:
     assert len(several) >= 5
     for each in found.components:
         assert each.kind in (ComponentKind.OPEN, ComponentKind.CLOSED)
-        assert all(kind is EndKind.BORDER for kind in each.end_kinds)
+        assert all(kind is LineEndKind.BORDER for kind in each.end_kinds)
         on_border = (each.ends == 0.0) | (each.ends == [3.0, 5.0])
         assert on_border.any(axis=1).all()
         for chain in range(len(each.chains)):
@@ -182,7 +185,7 @@ def test_lines_end_where_the_curvature_jumps() -> None:
     jumps = [each for each in found.components if "knot-line" in each.tags]
     assert jumps
     for each in jumps:
-        at = [kind is EndKind.KNOT_LINE for kind in each.end_kinds]
+        at = [kind is LineEndKind.KNOT_LINE for kind in each.end_kinds]
         assert np.isin(each.ends[at][:, 0], [1.0, 2.0]).all()
 
 
@@ -278,11 +281,11 @@ def test_cells_made_anew_do_not_depend_on_the_batch() -> None:
     """Of discs that touch a cut and such that do not, each has the cells that it has alone."""
     discs = [_circle(u, 0.53, 0.2) for u in (0.6871, 0.5, 0.2871)]
     whole = function(*discs)
-    cells = refined(whole, solve(whole))
+    cells = subdivide_again(whole, subdivide_patches(whole))
     assert cells.kind.max() < CellKind.UNRESOLVED
     for k, disc in enumerate(discs):
         one = function(disc)
-        alone = refined(one, solve(one))
+        alone = subdivide_again(one, subdivide_patches(one))
         mine = cells.patch == k
         assert cells.box[mine].tobytes() == alone.box.tobytes()
         held = cells.row[mine][cells.row[mine] >= 0]
@@ -306,5 +309,5 @@ def test_nil_cells_that_are_small_do_not_end_a_line() -> None:
 def test_no_patches_have_no_components() -> None:
     """Nothing joined is nothing."""
     none = Patches(np.zeros((0, 4, 4, 3)), np.zeros((0, 2, 2)), np.zeros(0, np.intp))
-    components: tuple[Component, ...] = join(none).components
+    components: tuple[ZeroSetComponent, ...] = join(none).components
     assert components == ()

@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.patches.cell_borders import between, leftover
-from assoc_hull.geometry.patches.chains import chained
-from assoc_hull.geometry.patches.lattice import Lattice
-from assoc_hull.geometry.patches.loops import followers
-from assoc_hull.geometry.patches.touching import clusters, connected, touching
+from assoc_hull.geometry.patches.adjacency import (
+    Lattice,
+    box_clusters,
+    connected_labels,
+    touching_pairs,
+)
+from assoc_hull.geometry.patches.arc_chains import chain_arcs, next_pieces
+from assoc_hull.geometry.patches.cell_borders import cancel_opposite_walks, shared_borders
 
 
 def test_patches_of_a_surface_lie_side_by_side() -> None:
@@ -43,15 +46,15 @@ def test_touching_boxes_are_those_of_all_pairs(seed: int) -> None:
     meet = (low[:, None] <= high + 1e-9) & (low <= high[:, None] + 1e-9)
     a, b = np.nonzero(np.triu(meet.all(axis=2), 1))
     want = {frozenset(pair) for pair in zip(a.tolist(), b.tolist(), strict=True)}
-    found = touching(low, high, 1e-9)
+    found = touching_pairs(low, high, 1e-9)
     assert {frozenset(pair) for pair in found.tolist()} == want
     assert len(found) == len(want)
 
 
 def test_parts_are_numbered_by_their_first() -> None:
     """The number of a part tells in which order parts begin."""
-    assert connected(5, np.array([[4, 0], [3, 1]])).tolist() == [0, 1, 2, 1, 0]
-    assert clusters(np.zeros((0, 2)), np.zeros((0, 2)), 1e-9).tolist() == []
+    assert connected_labels(5, np.array([[4, 0], [3, 1]])).tolist() == [0, 1, 2, 1, 0]
+    assert box_clusters(np.zeros((0, 2)), np.zeros((0, 2)), 1e-9).tolist() == []
 
 
 @pytest.mark.parametrize("count", [0, 1, 2, 7, 500])
@@ -60,7 +63,7 @@ def test_arcs_come_in_the_order_of_their_chain(count: int) -> None:
     draw = np.random.default_rng(count)
     following = draw.permutation(count)
     following[draw.random(count) < 0.1] = -1
-    chains = chained(following)
+    chains = chain_arcs(following)
     assert sorted(chains.arcs.tolist()) == list(range(count))
     for i in range(len(chains)):
         arcs = chains.of(i)
@@ -78,7 +81,7 @@ def test_loops_that_touch_in_a_point_stay_apart() -> None:
     order = np.array([5, 0, 7, 2, 4, 1, 3, 6])
     pieces = pieces[order]
     along = pieces[:, 1] - pieces[:, 0]
-    chains = chained(followers(pieces, along, along))
+    chains = chain_arcs(next_pieces(pieces, along, along))
     assert chains.closed.tolist() == [True, True]
     assert sorted(sorted(order[chains.of(i)].tolist()) for i in (0, 1)) == [
         [0, 1, 2, 3],
@@ -91,9 +94,9 @@ def test_what_is_walked_both_ways_cancels() -> None:
     corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     one = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     other = one + np.array([1.0, 0.5])
-    left = leftover(np.concatenate([one, other]))
+    left = cancel_opposite_walks(np.concatenate([one, other]))
     a, b = left[:, 0], left[:, 1]
     assert 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() == 2.0
     assert np.abs(b - a).sum() == 7.0
-    assert between(one, other).tolist() == [[[1.0, 0.5], [1.0, 1.0]]]
-    assert between(other, one).tolist() == [[[1.0, 1.0], [1.0, 0.5]]]
+    assert shared_borders(one, other).tolist() == [[[1.0, 0.5], [1.0, 1.0]]]
+    assert shared_borders(other, one).tolist() == [[[1.0, 1.0], [1.0, 0.5]]]

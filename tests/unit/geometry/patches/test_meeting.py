@@ -5,10 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.patches.facets import Facets, facets_of, joined_facets
-from assoc_hull.geometry.patches.plane_intersection import meet_plane, slopes
+from assoc_hull.geometry.patches.plane_intersection import intersect_plane, surface_derivatives
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.patches.stitching import outward_parts, stitched
+from assoc_hull.geometry.patches.triangulation import (
+    Facets,
+    facets_of,
+    joined_facets,
+    outward_parts,
+    stitch_facets,
+)
 from assoc_hull.geometry.surfaces.triangles import boundary_edges
 from tests import cad_hulls
 from tests.unit.io.slicing.test_surface_slices import wigley
@@ -21,7 +26,7 @@ def test_slopes_are_those_of_the_surface() -> None:
     net, weights = rng.normal(size=(5, 5, 3)), rng.uniform(0.5, 2.0, (5, 5))
     surface = SplineSurface("any", (2, 3), ku, kv, net, weights)
     uv = rng.uniform(0.02, 0.98, (40, 2))
-    r, ru, rv = slopes(surface, uv)
+    r, ru, rv = surface_derivatives(surface, uv)
     assert np.abs(r - surface.at(*uv.T)).max() < 1e-12
     for slope, way in ((ru, [1e-6, 0.0]), (rv, [0.0, 1e-6])):
         ahead, back = surface.at(*(uv + way).T), surface.at(*(uv - way).T)
@@ -31,7 +36,7 @@ def test_slopes_are_those_of_the_surface() -> None:
 def test_a_point_on_a_border_stays_there() -> None:
     """The end of a station on the deck edge is found along the deck edge."""
     surface = cad_hulls.side()
-    found = meet_plane(surface, [[0.7, 0.0], [0.7, 0.1]], [0, 0], [60.0, 60.0])
+    found = intersect_plane(surface, [[0.7, 0.0], [0.7, 0.1]], [0, 0], [60.0, 60.0])
     assert np.abs(found.xyz[:, 0] - 60.0).max() < 1e-9
     assert found.uv[0, 1] == 0.0
     assert abs(found.uv[1, 1] - 0.1) > 1e-3
@@ -39,13 +44,13 @@ def test_a_point_on_a_border_stays_there() -> None:
 
 def test_a_point_can_be_asked_into_two_planes() -> None:
     """Both are met, by Newton's method in both parameters."""
-    found = meet_plane(wigley(), [[0.4, 0.3]], [0], [45.0], ([True], 2, 3.0))
+    found = intersect_plane(wigley(), [[0.4, 0.3]], [0], [45.0], ([True], 2, 3.0))
     assert np.abs(found.xyz[0, [0, 2]] - [45.0, 3.0]).max() < 1e-12
 
 
 def test_a_plane_that_misses_is_told() -> None:
     """The point stays in the domain, and how far it is off is given."""
-    found = meet_plane(wigley(), [[0.9, 0.3]], [0], [110.0])
+    found = intersect_plane(wigley(), [[0.9, 0.3]], [0], [110.0])
     assert found.off[0] == pytest.approx(10.0)
     assert found.uv[0, 0] == 1.0
 
@@ -83,7 +88,7 @@ def test_borders_are_sewn_within_reach(gap: float, sewn: bool) -> None:
     fine = facets_of([plate(1.0 + gap)], 0.01, 1.7)
     assert len(fine.mesh.face) > len(coarse.mesh.face)
     for facets in (both, _together(coarse, fine)):
-        found = stitched(facets, 1e-3)
+        found = stitch_facets(facets, 1e-3)
         edges = found.mesh.xyz[boundary_edges(found.mesh)]
         inner = np.abs(edges[:, :, 1] - 1.0).max(axis=1) < 2e-3
         assert bool(inner.any()) != sewn

@@ -4,9 +4,14 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.arcs import sample_arcs
 from assoc_hull.geometry.patches.cells import CellKind
-from assoc_hull.geometry.patches.outlines import Outlines, Region, outlines, rest
-from assoc_hull.geometry.patches.sampling import sampled
+from assoc_hull.geometry.patches.outlines import (
+    Outlines,
+    SignRegion,
+    outlines_of_region,
+    outlines_of_rest,
+)
 from tests.curved_patches import graph_plates, patch, random_nets
 from tests.unit.geometry.patches.isolines import monkey
 from tests.unit.geometry.patches.joined_lines import Joined, join, join_nets
@@ -17,8 +22,10 @@ REGIONS = CellKind.POSITIVE, CellKind.NEGATIVE, CellKind.ZERO, CellKind.UNRESOLV
 
 def drawn(found: Joined, kind: CellKind, chord_tol: float = 1e-3, across: bool = False) -> Outlines:
     """The outlines of a region with sampled arcs."""
-    samples = sampled(found.patches, found.cells, found.arcs, chord_tol)
-    return outlines(found.patches, Region(found.cells, found.arcs, kind, samples), across)
+    samples = sample_arcs(found.patches, found.cells, found.arcs, chord_tol)
+    return outlines_of_region(
+        found.patches, SignRegion(found.cells, found.arcs, kind, samples), across
+    )
 
 
 def enclosed(found: Joined, kind: CellKind) -> FloatArray:
@@ -107,13 +114,13 @@ def test_what_a_band_leaves(across: bool) -> None:
     size, taken = 0.0, []
     for level, kind in ((0.02, CellKind.POSITIVE), (-0.02, CellKind.NEGATIVE)):
         found = join(patches, level)
-        samples = sampled(patches, found.cells, found.arcs, 1e-3)
-        taken.append(Region(found.cells, found.arcs, kind, samples))
-        size += outlines(patches, taken[-1], across).enclosed.sum()
-    band = rest(patches, taken, across)
+        samples = sample_arcs(patches, found.cells, found.arcs, 1e-3)
+        taken.append(SignRegion(found.cells, found.arcs, kind, samples))
+        size += outlines_of_region(patches, taken[-1], across).enclosed.sum()
+    band = outlines_of_rest(patches, taken, across)
     assert size + band.enclosed.sum() == pytest.approx(15.0, abs=1e-12)
     assert 0.2 < band.enclosed.sum() < 10.0
-    assert rest(patches, [], True).enclosed.tolist() == [15.0]
+    assert outlines_of_rest(patches, [], True).enclosed.tolist() == [15.0]
 
 
 def test_a_region_that_is_not_there_has_no_outline() -> None:

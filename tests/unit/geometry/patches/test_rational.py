@@ -9,21 +9,24 @@ import pytest
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.arcs import arcs_of
-from assoc_hull.geometry.patches.areas import areas
+from assoc_hull.geometry.patches.areas_by_sign import sign_areas
+from assoc_hull.geometry.patches.bernstein_polynomials import BoundedPolynomial
+from assoc_hull.geometry.patches.bezier_patches import (
+    Patches,
+    curvatures,
+    jets,
+    patch_normals,
+    patch_points,
+)
+from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches
 from assoc_hull.geometry.patches.curvature_functions import (
     IsoFunction,
+    RationalTerms,
     gauss_function,
     gauss_functions,
     mean_function,
     umbilic_function,
 )
-from assoc_hull.geometry.patches.curvatures import curvatures
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.points import normals, points
-from assoc_hull.geometry.patches.pointwise import jets
-from assoc_hull.geometry.patches.rational_terms import RationalTerms
-from assoc_hull.geometry.patches.running_bounds import Running
-from assoc_hull.geometry.patches.solve import solve
 from tests.curved_patches import nets
 from tests.exact_patches import Exact, bernstein, exact_rational, product, total
 from tests.rational_surfaces import arc, revolved
@@ -109,9 +112,11 @@ def test_curvatures_on_a_torus() -> None:
 def test_points_and_normals_of_polylines() -> None:
     """What polylines are made of lies on the sphere too, and its normals are as long as it."""
     uv, row = np.random.default_rng(8).uniform(size=(20, 2)), np.zeros(20, np.intp)
-    found = points(sphere(2.0), row, uv)
+    found = patch_points(sphere(2.0), row, uv)
     assert np.sqrt((found**2).sum(axis=1)) == pytest.approx(2.0, rel=4e-16)
-    assert normals(sphere(2.0), row, uv) == pytest.approx(jets(sphere(2.0), row, uv).s, abs=1e-13)
+    assert patch_normals(sphere(2.0), row, uv) == pytest.approx(
+        jets(sphere(2.0), row, uv).s, abs=1e-13
+    )
 
 
 def test_a_cylinder_is_nil_to_its_bound() -> None:
@@ -142,7 +147,7 @@ def test_equal_weights_are_a_polynomial_patch() -> None:
 def test_a_product_is_off_by_its_roundings() -> None:
     """Of exact factors: each coefficient of the product lies within its bound, above nil."""
     rng = np.random.default_rng(11)
-    a, b = (Running(each, np.zeros_like(each)) for each in rng.normal(size=(2, 1, 4, 5)))
+    a, b = (BoundedPolynomial(each, np.zeros_like(each)) for each in rng.normal(size=(2, 1, 4, 5)))
     found, exact = a.times(b), np.zeros((7, 9), object)
     scaled = [
         np.array([[Fraction(x) for x in row] for row in each.b[0]]) * weights(3, 4)
@@ -229,8 +234,8 @@ def test_a_patch_does_not_depend_on_its_batch() -> None:
 def test_areas_on_a_torus_are_exact(level: float) -> None:
     """Where K = level the angle of the tube has cos(a) = R r K / (1 - r**2 K): known areas."""
     found = gauss_function(torus(), level, 1e-12)
-    cells = solve(found)
-    area = areas(torus(), cells, arcs_of(cells), 1e-10)
+    cells = subdivide_patches(found)
+    area = sign_areas(torus(), cells, arcs_of(cells), 1e-10)
     border = np.arccos(3.0 * level / (1.0 - level))
     low, middle, high = (
         np.pi / 4 * (3.0 * a + np.sin(a)) for a in (np.pi / 6, border, 5 * np.pi / 6)
@@ -244,8 +249,8 @@ def test_area_of_an_octant_of_a_sphere() -> None:
     """With a pole: all of it is positive, and pi / 2."""
     curve, weights = arc(0.0, np.pi / 2)
     octant = Patches.single(*revolved(curve, weights, 0.0, np.pi / 2))
-    cells = solve(gauss_function(octant, 0.5, 1e-12))
-    area = areas(octant, cells, arcs_of(cells), 1e-10)
+    cells = subdivide_patches(gauss_function(octant, 0.5, 1e-12))
+    area = sign_areas(octant, cells, arcs_of(cells), 1e-10)
     assert area.positive[0] == pytest.approx(np.pi / 2, rel=1e-14)
     assert area.unresolved[0] == area.zero[0] == area.negative[0] == 0.0
 

@@ -8,10 +8,15 @@ import pytest
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.cell_subdivision import (
+    cell_kinds,
+    count_sign_changes,
+    first_and_last,
+    signs,
+    subdivide_patches,
+)
 from assoc_hull.geometry.patches.cells import CellKind
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction
-from assoc_hull.geometry.patches.signs import changes, first_and_last, kinds, signs
-from assoc_hull.geometry.patches.solve import solve
 
 INNER, OUTER = np.zeros((1, 2, 2), bool), np.ones((1, 2, 2), bool)
 WAVE = np.array([-1.0, -2.0, 3.0, 1.0])
@@ -19,7 +24,7 @@ WAVE = np.array([-1.0, -2.0, 3.0, 1.0])
 
 def kind(b: FloatArray, err: float, outer: NDArray[np.bool_] = INNER) -> CellKind:
     """What is proved of one cell."""
-    return CellKind(int(kinds(b[None], np.full((1, *b.shape), err), outer)[0]))
+    return CellKind(int(cell_kinds(b[None], np.full((1, *b.shape), err), outer)[0]))
 
 
 @pytest.mark.parametrize(
@@ -73,7 +78,7 @@ def test_the_dead_band_is_passed_over() -> None:
     """Coefficients without a sign neither make a change nor hide one."""
     b = np.array([[0.0, 1.0, 0.0, 2.0, 0.0], [0.0, 1.0, 0.0, -2.0, 0.0], [0.0] * 5])
     s = signs(b, np.full(b.shape, 0.5))
-    assert changes(s).tolist() == [0, 1, 0]
+    assert count_sign_changes(s).tolist() == [0, 1, 0]
     first, last = first_and_last(s)
     assert (first.tolist(), last.tolist()) == ([1, 1, 0], [1, -1, 0])
 
@@ -101,7 +106,7 @@ def test_errors_of_cells_cover_what_cutting_rounds() -> None:
     """Coefficients in small cells, against whole numbers, are off by less than is told, not nil."""
     b = np.random.default_rng(2).normal(size=(1, 8, 1))
     b = b * np.ones((1, 8, 4)) + np.random.default_rng(3).normal(size=(1, 8, 4))
-    cells = solve(IsoFunction(b, np.zeros_like(b)), depth=6)
+    cells = subdivide_patches(IsoFunction(b, np.zeros_like(b)), depth=6)
     rows = np.flatnonzero(cells.row >= 0)[::5]
     worst = 0.0
     for row in rows.tolist():

@@ -7,12 +7,11 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.arcs import arcs_of
-from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
+from assoc_hull.geometry.patches.arcs import arc_heights, arcs_of, bernstein_table, polynomials_over
+from assoc_hull.geometry.patches.bezier_patches import Patches
+from assoc_hull.geometry.patches.cell_subdivision import FIRST_CUT, OTHER_CUT, subdivide_patches
+from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
-from assoc_hull.geometry.patches.heights import bernstein_table, heights, polynomials_over
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.solve import FIRST_CUT, OTHER_CUT, solve
 from tests.curved_patches import graph_plates, nets, patch, random_nets
 from tests.unit.geometry.patches.isolines import (
     Box,
@@ -33,7 +32,7 @@ def gauss(net: FloatArray, delta: float = 0.0) -> IsoFunction:
     return gauss_function(Patches.single(net), 0.0, delta)
 
 
-def kinds_of(cells: Cells) -> dict[CellKind, int]:
+def kinds_of(cells: SignCells) -> dict[CellKind, int]:
     """How many cells there are of each kind."""
     return {kind: int((cells.kind == kind).sum()) for kind in CellKind if kind in cells.kind}
 
@@ -41,7 +40,7 @@ def kinds_of(cells: Cells) -> dict[CellKind, int]:
 @pytest.mark.parametrize("name", sorted(set(nets()) - {"P07_double_cross"}))
 def test_what_is_left_of_reference_patches(name: str) -> None:
     """Only the isolated point and the crossing stay open: a few cells, at the last level."""
-    cells = solve(gauss(patch(name)))
+    cells = subdivide_patches(gauss(patch(name)))
     left = cells.level[cells.kind == CellKind.UNRESOLVED]
     assert len(left) <= UNRESOLVED.get(name, 0)
     assert (left == 16).all()
@@ -53,7 +52,7 @@ def test_what_is_left_of_reference_patches(name: str) -> None:
 def test_a_point_costs_a_few_cells_a_level(name: str, most: int) -> None:
     """At each level an isolated zero has one or two open cells, a crossing four at most."""
     for depth in range(2, 14, 3):
-        cells = solve(gauss(patch(name)), depth=depth)
+        cells = subdivide_patches(gauss(patch(name)), depth=depth)
         assert 1 <= (cells.kind == CellKind.UNRESOLVED).sum() <= most
 
 
@@ -61,11 +60,11 @@ def test_a_double_line_doubles_its_cells_until_the_budget_ends() -> None:
     """A line without change of sign has twice the cells at each level; the budget ends this."""
     counts = []
     for depth in (5, 6, 7):
-        cells = solve(gauss(patch("P07_double_cross")), depth=depth)
+        cells = subdivide_patches(gauss(patch("P07_double_cross")), depth=depth)
         assert not cells.stopped.any()
         counts.append(int((cells.kind == CellKind.UNRESOLVED).sum()))
     assert counts == [63, 127, 255]
-    cells = solve(gauss(patch("P07_double_cross")), budget=1000)
+    cells = subdivide_patches(gauss(patch("P07_double_cross")), budget=1000)
     assert cells.stopped.tolist() == [True]
     assert len(cells) < 4 * 1000
     assert (cells.kind == CellKind.UNRESOLVED).any()
@@ -79,17 +78,17 @@ def test_a_double_line_doubles_its_cells_until_the_budget_ends() -> None:
 )  # fmt: skip
 def test_patches_of_one_sign_are_one_cell(name: str, kind: int) -> None:
     """A developable patch is nil, a bowl positive, at once; so are poles, edges with K = 0."""
-    assert solve(gauss(patch(name), 1e-12)).kind.tolist() == [kind]
+    assert subdivide_patches(gauss(patch(name), 1e-12)).kind.tolist() == [kind]
 
 
-def checked_points(cells: Cells) -> tuple[FloatArray, FloatArray]:
+def checked_points(cells: SignCells) -> tuple[FloatArray, FloatArray]:
     """A grid of points in each cell: local (c, 7, 7, 2), and in the patch."""
     local = np.stack(np.meshgrid(POINTS, POINTS, indexing="ij"), axis=-1)
     low, high = cells.box[:, None, None, :, 0], cells.box[:, None, None, :, 1]
     return local, low + local * (high - low)
 
 
-def claimed(cells: Cells, arcs: Arcs) -> FloatArray:
+def claimed(cells: SignCells, arcs: ZeroSetArcs) -> FloatArray:
     """The signs that cells and arcs claim at the points of `checked_points`: nan for none."""
     found = np.full((len(cells), 7, 7), np.nan)
     found[np.abs(cells.kind) == 1] = cells.kind[np.abs(cells.kind) == 1, None, None]
@@ -100,7 +99,7 @@ def claimed(cells: Cells, arcs: Arcs) -> FloatArray:
         ends = (arcs.span[rows] - box[:, :1]) / (box[:, 1:] - box[:, :1])
         places = np.clip(POINTS, ends[:, :1], ends[:, 1:])
         b = polynomials_over(cells, cell, across)
-        height = heights(b, arcs.rising[rows], places)
+        height = arc_heights(b, arcs.rising[rows], places)
         side = np.sign(POINTS[:, None] - height[:, None, :])
         side = np.where(arcs.rising[rows, None, None], side, -side)
         inside = (ends[:, :1] <= POINTS) & (ends[:, 1:] >= POINTS)
@@ -109,20 +108,20 @@ def claimed(cells: Cells, arcs: Arcs) -> FloatArray:
     return found
 
 
-def thinned(cells: Cells, arcs: Arcs, count: int) -> tuple[Cells, Arcs]:
+def thinned(cells: SignCells, arcs: ZeroSetArcs, count: int) -> tuple[SignCells, ZeroSetArcs]:
     """About so many of the cells, with their arcs."""
     kept = np.arange(len(cells)) % (len(cells) // count + 1) == 0
     number, own = np.cumsum(kept) - 1, kept[arcs.cell]
-    thin = Cells(
+    thin = SignCells(
         cells.patch[kept], cells.box[kept], cells.level[kept], cells.kind[kept], cells.row[kept],
         cells.b, cells.err, cells.stopped,
     )  # fmt: skip
-    return thin, Arcs(
+    return thin, ZeroSetArcs(
         number[arcs.cell[own]], arcs.across[own], arcs.span[own], arcs.ends[own], arcs.rising[own]
     )
 
 
-def bound(function: IsoFunction, cells: Cells, place: FloatArray) -> FloatArray:
+def bound(function: IsoFunction, cells: SignCells, place: FloatArray) -> FloatArray:
     """What rounding may do to the polynomial at points (c, p, 2)."""
     m, n = (size - 1 for size in function.err.shape[1:])
     u, v = bernstein_table(place[..., 0].ravel(), m), bernstein_table(place[..., 1].ravel(), n)
@@ -137,7 +136,7 @@ def test_every_claim_on_random_patches_is_true(draw: object) -> None:
     assert callable(draw)
     net = draw(120 if draw is graph_plates else 60, 5)
     f = gauss_function(batch(net), 0.0)
-    cells = solve(f)
+    cells = subdivide_patches(f)
     arcs = arcs_of(cells)
     assert sorted(arcs.cell) == np.flatnonzero((cells.kind == 2) | (cells.kind == 3)).tolist()
     cells, arcs = thinned(cells, arcs, 3000)
@@ -153,7 +152,7 @@ def test_every_claim_on_random_patches_is_true(draw: object) -> None:
 
 
 def assert_one_sign_beside_arcs(
-    cells: Cells, sign: FloatArray, value: FloatArray, wide: FloatArray
+    cells: SignCells, sign: FloatArray, value: FloatArray, wide: FloatArray
 ) -> None:
     """Lines of a simple cell that its arc does not reach have one sign."""
     for kind in (CellKind.U_SIMPLE, CellKind.V_SIMPLE):
@@ -170,7 +169,7 @@ def assert_one_sign_beside_arcs(
 
 def test_cells_tile_each_patch() -> None:
     """Every point lies in one cell, and borders of neighbours are the same number."""
-    cells = solve(gauss_function(batch(graph_plates(20, 3)), 0.0))
+    cells = subdivide_patches(gauss_function(batch(graph_plates(20, 3)), 0.0))
     size = cells.box[..., 1] - cells.box[..., 0]
     assert np.abs(np.bincount(cells.patch, size.prod(axis=1)) - 1.0).max() < 1e-14
     for k in range(20):
@@ -185,11 +184,11 @@ def test_cells_tile_each_patch() -> None:
 def test_a_patch_does_not_depend_on_its_batch() -> None:
     """Cells and polynomials are the same to the last bit alone, in a batch, in another order."""
     f = gauss_function(batch(np.concatenate([graph_plates(70, 1), random_nets(4, 2)])), 0.0)
-    whole = solve(f)
+    whole = subdivide_patches(f)
     order = np.random.default_rng(3).permutation(74)
-    mixed = solve(IsoFunction(f.b[order], f.err[order]))
+    mixed = subdivide_patches(IsoFunction(f.b[order], f.err[order]))
     for k in [*range(0, 74, 9), 70, 71, 72, 73]:
-        alone = solve(IsoFunction(f.b[k : k + 1], f.err[k : k + 1]))
+        alone = subdivide_patches(IsoFunction(f.b[k : k + 1], f.err[k : k + 1]))
         for cells, number in ((whole, k), (mixed, int(np.flatnonzero(order == k)[0]))):
             rows = cells.patch == number
             used = cells.row[rows][cells.row[rows] >= 0]
@@ -201,7 +200,7 @@ def test_a_patch_does_not_depend_on_its_batch() -> None:
 
 def test_cells_come_in_the_order_of_patch_level_and_box() -> None:
     """The order is told, and rows of polynomials follow it."""
-    cells = solve(gauss_function(batch(graph_plates(9, 4)), 0.0))
+    cells = subdivide_patches(gauss_function(batch(graph_plates(9, 4)), 0.0))
     keys = [*zip(cells.patch, cells.level, cells.box[:, 0, 0], cells.box[:, 1, 0], strict=True)]
     assert keys == sorted(keys)
     assert cells.row[cells.row >= 0].tolist() == list(range(len(cells.b)))
@@ -212,7 +211,7 @@ def test_cells_come_in_the_order_of_patch_level_and_box() -> None:
 @pytest.mark.parametrize("box", [(-0.8, 1.0, -0.9, 0.7), (-1.0, 1.0, -1.0, 1.0)])
 def test_small_loops_are_found(radius: float, box: Box) -> None:
     """A convex disc in a monkey saddle, down to a radius of 1e-4, is closed by arcs."""
-    cells = solve(gauss(monkey(radius, box)))
+    cells = subdivide_patches(gauss(monkey(radius, box)))
     arcs = arcs_of(cells)
     assert CellKind.UNRESOLVED not in cells.kind
     ends = np.sort(arcs.ends.reshape(-1, 2), axis=0)
@@ -224,7 +223,7 @@ def test_small_loops_are_found(radius: float, box: Box) -> None:
 
 def test_a_loop_below_the_last_cells_is_told_as_open() -> None:
     """A convex disc of 1e-5 is not lost: cells that hold it are unresolved."""
-    cells = solve(gauss(monkey(1e-5)))
+    cells = subdivide_patches(gauss(monkey(1e-5)))
     assert 1 <= kinds_of(cells)[CellKind.UNRESOLVED] <= 4
     box = cells.box[cells.kind == CellKind.UNRESOLVED]
     middle = np.array([0.8 / 1.8, 0.9 / 1.6])
@@ -235,7 +234,7 @@ def test_a_loop_below_the_last_cells_is_told_as_open() -> None:
 @pytest.mark.parametrize("box", [(-1.0, 1.0, -1.0, 1.0), (-0.7, 1.1, -0.8, 0.9)])
 def test_a_straight_line_in_the_middle_is_found(box: Box) -> None:
     """The line of a plate x**3 + y**2 is an arc, also where it halves the patch."""
-    arcs = arcs_of(solve(gauss(plate({(3, 0): 1.0, (0, 2): 1.0}, box))))
+    arcs = arcs_of(subdivide_patches(gauss(plate({(3, 0): 1.0, (0, 2): 1.0}, box))))
     assert len(arcs) == 1
     assert np.abs(arcs.ends[0, :, 0] + box[0] / (box[1] - box[0])).max() < 4e-16
     assert arcs.ends[0, :, 1].tolist() == [0.0, 1.0]
@@ -246,7 +245,7 @@ def test_a_straight_line_in_the_middle_is_found(box: Box) -> None:
 def test_a_line_where_a_cut_goes_is_found(at: float, turned: bool) -> None:
     """A zero line that a cut would follow from end to end is an arc all the same."""
     line = polynomial({(2, 0): 1.0, (1, 0): -at - 0.1, (0, 0): 0.1 * at}, 6)
-    cells = solve(function(line.T if turned else line))
+    cells = subdivide_patches(function(line.T if turned else line))
     arcs = arcs_of(cells)
     found = arcs.ends[..., int(turned)].mean(axis=1)
     assert CellKind.UNRESOLVED not in cells.kind
@@ -268,7 +267,7 @@ def test_crossings_are_never_taken_for_arcs_that_pass() -> None:
             for (k, l), q in other.items():
                 terms[i + k, j + l] = terms.get((i + k, j + l), 0.0) + p * q
         crossings.append(polynomial(terms, 8))
-    cells = solve(function(*crossings))
+    cells = subdivide_patches(function(*crossings))
     left = cells.kind == CellKind.UNRESOLVED
     low, high = cells.box[..., 0], cells.box[..., 1]
     near = (low - 1e-9 <= places[cells.patch]) & (places[cells.patch] <= high + 1e-9)
@@ -280,7 +279,7 @@ def test_polynomials_of_any_degree(m: int, n: int) -> None:
     """The signs at points are those claimed, for degrees of bilinear to rational patches."""
     b = np.random.default_rng(m).normal(size=(4, m + 1, n + 1))
     f = IsoFunction(b, np.full(b.shape, 1e-13))
-    cells = solve(f)
+    cells = subdivide_patches(f)
     arcs = arcs_of(cells)
     _, place = checked_points(cells)
     place = place.reshape(len(cells), -1, 2)
@@ -306,7 +305,7 @@ def test_polynomials_of_any_degree(m: int, n: int) -> None:
 )
 def test_polynomials_of_one_sign(b: FloatArray, err: float, kind: CellKind) -> None:
     """What is nil, or of one sign within its error, is one cell."""
-    cells = solve(IsoFunction(b[None].copy(), np.full((1, *b.shape), err)))
+    cells = subdivide_patches(IsoFunction(b[None].copy(), np.full((1, *b.shape), err)))
     assert cells.kind.tolist() == [kind]
     assert len(arcs_of(cells)) == 0
 
@@ -314,7 +313,7 @@ def test_polynomials_of_one_sign(b: FloatArray, err: float, kind: CellKind) -> N
 def test_errors_as_large_as_the_polynomial_end_the_search() -> None:
     """Noise about its error is told as nil or unresolved, in few cells, and claims no arc."""
     b = np.random.default_rng(0).normal(size=(1, 15, 15))
-    cells = solve(IsoFunction(b, np.full(b.shape, 0.3)))
+    cells = subdivide_patches(IsoFunction(b, np.full(b.shape, 0.3)))
     assert len(cells) < 6000
     assert not cells.stopped.any()
     assert {CellKind.ZERO, CellKind.UNRESOLVED} <= set(kinds_of(cells))
@@ -324,7 +323,7 @@ def test_errors_as_large_as_the_polynomial_end_the_search() -> None:
 def test_no_patches_have_no_cells() -> None:
     """An empty batch is solved."""
     none = np.zeros((0, 4, 4))
-    cells = solve(IsoFunction(none, none.copy()))
+    cells = subdivide_patches(IsoFunction(none, none.copy()))
     assert (len(cells), len(arcs_of(cells)), cells.b.shape) == (0, 0, (0, 4, 4))
 
 
@@ -334,7 +333,7 @@ def test_polynomials_that_are_not_finite_are_refused(value: float) -> None:
     b = np.ones((3, 2, 2))
     b[1, 0, 1] = value
     with pytest.raises(BadInputError, match=r"coefficient 0, 1 .* patch 1;"):
-        solve(IsoFunction(b, np.zeros((3, 2, 2))))
+        subdivide_patches(IsoFunction(b, np.zeros((3, 2, 2))))
 
 
 def test_what_counts_as_nil_moves_no_arc() -> None:
@@ -342,7 +341,7 @@ def test_what_counts_as_nil_moves_no_arc() -> None:
     b = polynomial({(2, 0): 1.0, (1, 0): -0.9, (0, 0): 0.14, (0, 4): 0.3}, 6)
     f = function(b, 1e-12 * b, b)
     nil = np.full(f.b.shape, 1e-10)
-    plain, known = solve(f), solve(f, nil=nil)
+    plain, known = subdivide_patches(f), subdivide_patches(f, nil=nil)
     assert known.kind[known.patch == 1].tolist() == [CellKind.ZERO]
     for k in (0, 2):
         mine, own = (cells.box[cells.patch == k] for cells in (plain, known))
@@ -358,7 +357,7 @@ def test_many_hostile_patches_fit_into_memory() -> None:
     f = gauss(patch("P07_double_cross"))
     rows = np.zeros(40, np.int64)
     tracemalloc.start()
-    cells = solve(IsoFunction(f.b[rows], f.err[rows]), budget=400)
+    cells = subdivide_patches(IsoFunction(f.b[rows], f.err[rows]), budget=400)
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert cells.stopped.all()

@@ -6,7 +6,7 @@ from scipy.interpolate import NdBSpline
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
 CLAMPED_U = [0.0, 0, 0, 0, 1, 1, 2.5, 3, 4, 4, 4, 4]

@@ -6,7 +6,7 @@ import pytest
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.numeric.circle_fit import fit_circle
 from assoc_hull.geometry.polylines.circular_arcs import ArcRule, find_arcs
-from assoc_hull.geometry.polylines.noise import scatter
+from assoc_hull.geometry.polylines.noise import point_scatter
 from tests.unit.geometry.planted import NOISE, Planted
 from tests.unit.geometry.polylines.test_straight import ellipse, parabola
 
@@ -34,7 +34,7 @@ def test_a_planted_arc_is_found(radius: float, turn: float, beside: float, spaci
     off, doubt, away = [], [], []
     for seed in range(SEEDS):
         points = curve.digitised(seed, spacing)
-        [arc] = find_arcs(points, scatter(points))
+        [arc] = find_arcs(points, point_scatter(points))
         off.append(arc.radius / radius - 1.0)
         doubt.append(arc.uncertainty / radius)
         places = [each.place for each in (arc.before, arc.after) if each.kind == "arc"]
@@ -60,7 +60,7 @@ def test_smooth_hulls_have_no_arc(line: FloatArray) -> None:
     assert find_arcs(line, 0.0) == []
     for seed in range(SEEDS):
         noisy = line + np.random.default_rng(seed).normal(0.0, NOISE, line.shape)
-        assert find_arcs(noisy, scatter(noisy)) == []
+        assert find_arcs(noisy, point_scatter(noisy)) == []
 
 
 def test_a_section_of_a_body_of_revolution_is_an_arc() -> None:
@@ -68,7 +68,7 @@ def test_a_section_of_a_body_of_revolution_is_an_arc() -> None:
     angle = np.linspace(0.0, np.pi / 2, 60)
     points = 5.0 * np.column_stack([np.sin(angle), -np.cos(angle)])
     points += np.random.default_rng(1).normal(0.0, NOISE, points.shape)
-    [arc] = find_arcs(points, scatter(points))
+    [arc] = find_arcs(points, point_scatter(points))
     assert (arc.before.kind, arc.after.kind) == ("end", "end")
     assert arc.radius == pytest.approx(5.0, rel=2e-3)
     assert np.abs(arc.centre).max() < 0.02
@@ -77,7 +77,7 @@ def test_a_section_of_a_body_of_revolution_is_an_arc() -> None:
 def test_a_straight_line_is_no_arc() -> None:
     """A straight line with noise holds no arc."""
     points = Planted(10.0, lambda s: 0.0 * s).digitised(3)
-    assert find_arcs(points, scatter(points)) == []
+    assert find_arcs(points, point_scatter(points)) == []
 
 
 def test_an_arc_is_found_either_way_round() -> None:

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.polylines.corners import CornerRule, find_corners
-from assoc_hull.geometry.polylines.knuckle_lines import join_corners
-from assoc_hull.geometry.polylines.noise import facet_depth, scatter
+from assoc_hull.geometry.polylines.corners import CornerRule, find_corners, join_corners
+from assoc_hull.geometry.polylines.noise import facet_depth, point_scatter
 from tests.unit.geometry.planted import NOISE, Planted
 
 SEEDS = 200
@@ -18,7 +17,7 @@ def test_a_planted_knuckle_line_is_found() -> None:
     off, turn, doubt = [], [], []
     for seed in range(SEEDS):
         drawn = [curve.digitised(3 * seed + i) for i, curve in enumerate(curves)]
-        corners = [find_corners(points, scatter(points)) for points in drawn]
+        corners = [find_corners(points, point_scatter(points)) for points in drawn]
         [chain] = join_corners(np.array([0.0, 5.0, 10.0]), corners)
         mine = [corners[i][j] for i, j in chain]
         places = np.array([each.place for each in mine])
@@ -52,7 +51,7 @@ def test_a_bend_is_no_corner(curve: Planted) -> None:
     """Smooth bends at 1 mm noise, 200 seeds: no corner is found."""
     for seed in range(SEEDS):
         points = curve.digitised(seed, 0.15)
-        assert find_corners(points, scatter(points)) == []
+        assert find_corners(points, point_scatter(points)) == []
 
 
 def test_facets_of_a_bend_are_no_corners() -> None:
@@ -72,7 +71,7 @@ def test_the_least_turn_is_settable() -> None:
 def test_scatter_is_estimated() -> None:
     """The scatter of noisy points on a bend is found within a tenth, in the mean of seeds."""
     curve = Planted(12.0, lambda s: 0.2 + 0 * s)
-    found = [scatter(curve.digitised(seed)) for seed in range(50)]
+    found = [point_scatter(curve.digitised(seed)) for seed in range(50)]
     assert np.mean(found) == pytest.approx(NOISE, rel=0.1)
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.polylines.borders import bends, fit_border, order_places
-from assoc_hull.geometry.polylines.flats import fit_plane, join_runs
+from assoc_hull.geometry.polylines.borders import border_bends, fit_border, order_places
+from assoc_hull.geometry.polylines.flats import fit_plane, join_straight_runs
 
 
 def test_runs_in_one_plane_make_a_flat() -> None:
@@ -12,7 +12,7 @@ def test_runs_in_one_plane_make_a_flat() -> None:
     x = np.repeat(np.arange(5.0) * 6.0, 2)
     y = np.tile([16.0, 3.0], 5) + np.where(np.arange(10) % 2, 0.02 * x * x, 0.0)
     begin, end = np.column_stack([x, y, x * 0 + 2.0]), np.column_stack([x, y, x * 0 + 9.0])
-    [flat] = join_runs(np.repeat(np.arange(5), 2), begin, end, 1e-3)
+    [flat] = join_straight_runs(np.repeat(np.arange(5), 2), begin, end, 1e-3)
     assert flat.runs == (0, 2, 4, 6, 8)
     assert (flat.normal.tolist(), flat.offset) == ([0.0, 1.0, 0.0], 16.0)
 
@@ -21,7 +21,7 @@ def test_a_rise_of_floor_is_a_flat_too() -> None:
     """Bottoms that rise by 3 degrees lie in one plane, which leans."""
     x, rise = np.arange(4.0) * 5.0, np.tan(np.deg2rad(3.0))
     keel, bilge = np.column_stack([x, 0 * x, 0 * x]), np.column_stack([x, 8 + x, rise * (8 + x)])
-    [flat] = join_runs(np.arange(4), keel, bilge, 1e-3)
+    [flat] = join_straight_runs(np.arange(4), keel, bilge, 1e-3)
     assert len(flat.runs) == 4
     assert np.degrees(np.arccos(flat.normal[2])) == pytest.approx(3.0, abs=1e-6)
 
@@ -31,7 +31,7 @@ def test_fewer_than_three_neighbours_make_no_flat(lines: list[int]) -> None:
     """Runs of two lines, or of three that are not neighbours, are no flat."""
     x = 6.0 * np.array(lines)
     begin, end = np.column_stack([x, 0 * x, 0 * x]), np.column_stack([x, 0 * x, 0 * x + 5.0])
-    assert join_runs(np.array(lines), begin, end, 1e-3) == []
+    assert join_straight_runs(np.array(lines), begin, end, 1e-3) == []
 
 
 def test_a_plane_across_an_axis_is_taken_where_it_fits() -> None:
@@ -74,7 +74,7 @@ def test_a_border_is_smooth_within_the_doubt_of_its_places() -> None:
 def test_a_border_turns_where_it_surely_does() -> None:
     """A corner is kept, a turn that the doubt of its places explains is none."""
     places = np.array([[0.0, 9.0], [0.0, 6.0], [0.0, 3.0], [4.0, 3.0], [8.0, 3.0]])
-    assert bends(places, np.full(5, 0.01), 40.0) == [2]
-    assert bends(places, np.full(5, 1.0), 40.0) == []
+    assert border_bends(places, np.full(5, 0.01), 40.0) == [2]
+    assert border_bends(places, np.full(5, 1.0), 40.0) == []
     drawn = fit_border(places, np.full(5, 0.01), [2])
     assert np.abs(drawn - places).max() < 0.01

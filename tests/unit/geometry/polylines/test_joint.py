@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.polylines.joint import Tie, join_fits
-from assoc_hull.geometry.polylines.smooth import Fitted, fit_line
+from assoc_hull.geometry.polylines.smoothing import FitTie, PolylineFit, fit_polyline, join_fits
 
 RADIUS, NOISE = 20.0, 2e-3
 OFFSETS = np.linspace(2.0, 16.0, 8)
 
 
-def _line(axis: int, offset: float, draw: np.random.Generator) -> tuple[Fitted, FloatArray]:
+def _line(axis: int, offset: float, draw: np.random.Generator) -> tuple[PolylineFit, FloatArray]:
     """Fit the noisy cut of a sphere at x = offset (axis 0: (y, z)) or z = offset ((x, y))."""
     radius = np.sqrt(RADIUS**2 - offset**2)
     t = np.linspace(0.0, np.pi / 2, 160)
@@ -19,12 +18,12 @@ def _line(axis: int, offset: float, draw: np.random.Generator) -> tuple[Fitted, 
     points = round_ + np.where(t[:, None] % (np.pi / 2) > 1e-9, 1.0, 0.0) * draw.normal(
         0.0, NOISE, (160, 2)
     )
-    fitted = fit_line(points, 3.0 * NOISE)
+    fitted = fit_polyline(points, 3.0 * NOISE)
     assert fitted is not None
     return fitted, points
 
 
-def _net(seed: int) -> tuple[list[Fitted], list[Tie]]:
+def _net(seed: int) -> tuple[list[PolylineFit], list[FitTie]]:
     """Sections (y, z) and waterlines (x, y) of a sphere, tied wherever they cross."""
     draw = np.random.default_rng(seed)
     sections = [_line(0, x, draw) for x in OFFSETS]
@@ -39,7 +38,7 @@ def _net(seed: int) -> tuple[list[Fitted], list[Tie]]:
             at_a = _length(sections[i][1], np.array([y, z]))
             at_b = _length(waterlines[j][1], np.array([x, y]))
             offset = normal[2] * z - normal[0] * x
-            ties.append(Tie(i, at_a, normal[1:], 8 + j, at_b, normal[:2], float(offset)))
+            ties.append(FitTie(i, at_a, normal[1:], 8 + j, at_b, normal[:2], float(offset)))
     return [each for each, _ in sections + waterlines], ties
 
 
@@ -50,7 +49,7 @@ def _length(points: FloatArray, place: FloatArray) -> float:
     return float(np.interp(np.arctan2(place[1], place[0]), angle, at))
 
 
-def _gaps(fits: list[Fitted], ties: list[Tie]) -> FloatArray:
+def _gaps(fits: list[PolylineFit], ties: list[FitTie]) -> FloatArray:
     out = []
     for tie in ties:
         a = fits[tie.a].fit.rows(np.array([tie.at_a])) @ fits[tie.a].control
@@ -75,7 +74,7 @@ def test_joined_lines_lie_closer_to_the_surface(seed: int) -> None:
     joined = join_fits(fits, ties, 1e-4)
     radius = [np.sqrt(RADIUS**2 - offset**2) for offset in (*OFFSETS, *OFFSETS)]
 
-    def off(lines: list[Fitted]) -> float:
+    def off(lines: list[PolylineFit]) -> float:
         away = [
             np.abs(np.linalg.norm(each.draw().points, axis=1) - r).mean() * r / RADIUS
             for each, r in zip(lines, radius, strict=True)
@@ -97,7 +96,7 @@ def test_a_tie_to_a_place_that_may_not_move_pulls_the_line_there() -> None:
     tie = ties[5]
     place = fits[tie.a].fit.rows(np.array([tie.at_a])) @ fits[tie.a].control
     wanted = float(place[0] @ tie.way_a) + 1e-3
-    alone = Tie(tie.a, tie.at_a, tie.way_a, -1, 0.0, tie.way_b, wanted)
+    alone = FitTie(tie.a, tie.at_a, tie.way_a, -1, 0.0, tie.way_b, wanted)
     moved = join_fits(fits, [alone], 1e-5)[tie.a]
     now = float((moved.fit.rows(np.array([tie.at_a])) @ moved.control)[0] @ tie.way_a)
     assert now == pytest.approx(wanted, abs=1e-5)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.polylines.noise import scatter
-from assoc_hull.geometry.polylines.straight import RunRule, find_runs
-from assoc_hull.shipped.wigley import half_breadth
+from assoc_hull.geometry.polylines.noise import point_scatter
+from assoc_hull.geometry.polylines.straight_runs import StraightRunRule, find_straight_runs
+from assoc_hull.shipped.wigley import wigley_half_breadth
 from tests.unit.geometry.planted import NOISE, Planted
 
 SEEDS = 200
@@ -22,7 +22,7 @@ def test_a_flat_of_side_that_ends_in_an_arc_is_found() -> None:
     off, radius = [], []
     for seed in range(SEEDS):
         points = curve.digitised(seed)
-        [run] = find_runs(points, scatter(points))
+        [run] = find_straight_runs(points, point_scatter(points))
         arc = run.after.kind == "arc"
         off.append(float(np.linalg.norm(run.after.place - truth)) if arc else np.inf)
         radius.append(abs(run.after.radius / 3.0 - 1.0) if arc else np.inf)
@@ -49,7 +49,7 @@ def test_a_gradual_onset_has_no_place(power: int, size: float) -> None:
     kinds, off, doubt = [], [], []
     for seed in range(SEEDS):
         points = curve.digitised(seed)
-        [run] = find_runs(points, scatter(points))
+        [run] = find_straight_runs(points, point_scatter(points))
         kinds.append(run.after.kind)
         off.append(abs(run.after.at - 8.0))
         doubt.append(run.after.uncertainty)
@@ -74,7 +74,7 @@ def ellipse() -> FloatArray:
 def parabola() -> FloatArray:
     """A waterline of the Wigley hull."""
     x = np.linspace(0.0, 100.0, 201)
-    return np.column_stack([x, half_breadth(x, np.full(201, 5.0), 100.0, 10.0, 6.25)])
+    return np.column_stack([x, wigley_half_breadth(x, np.full(201, 5.0), 100.0, 10.0, 6.25)])
 
 
 @pytest.mark.parametrize(
@@ -85,23 +85,23 @@ def test_smooth_hulls_have_no_straight_run(line: FloatArray) -> None:
 
     All lines of two such hulls, with 200 seeds: `tests/cases/test_analytic_hulls_are_smooth.py`.
     """
-    assert find_runs(line, 0.0) == []
+    assert find_straight_runs(line, 0.0) == []
     for seed in range(SEEDS // 4):
         noisy = line + np.random.default_rng(seed).normal(0.0, NOISE, line.shape)
-        assert find_runs(noisy, scatter(noisy)) == []
+        assert find_straight_runs(noisy, point_scatter(noisy)) == []
 
 
 def test_what_counts_as_a_run_is_settable() -> None:
     """A flat of 2 m is a run, unless runs of 3 m and more are asked for."""
     curve = Planted(8.0, lambda s: np.where(abs(s - 4.0) > 1.0, 0.5, 0.0))
     points = curve.digitised(1, 0.05)
-    assert len(find_runs(points, NOISE)) == 1
-    assert find_runs(points, NOISE, RunRule(least=3.0)) == []
+    assert len(find_straight_runs(points, NOISE)) == 1
+    assert find_straight_runs(points, NOISE, StraightRunRule(least=3.0)) == []
 
 
 def test_a_line_that_is_straight_throughout_is_one_run() -> None:
     """A straight line with noise is one run from end to end."""
     points = Planted(10.0, lambda s: 0.0 * s).digitised(3)
-    [run] = find_runs(points, scatter(points))
+    [run] = find_straight_runs(points, point_scatter(points))
     assert (run.before.kind, run.after.kind) == ("end", "end")
     assert run.end - run.begin > 9.7

@@ -12,9 +12,13 @@ from assoc_hull.geometry.plane import Plane
 from assoc_hull.geometry.splines.backend import backend, set_backend
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.plane_intersections import Meetings, meet_planes
-from assoc_hull.geometry.splines.segments import bernstein
-from assoc_hull.geometry.splines.tangent_planes import lies_in, touches
+from assoc_hull.geometry.splines.plane_intersections import (
+    PlaneIntersections,
+    intersect_planes,
+    stretches_in_plane,
+    touch_points,
+)
+from assoc_hull.geometry.splines.segments import bezier_points
 
 UP = np.array([0.0, 0.0, 1.0])
 SKEW = np.array([0.48, 0.6, 0.64])
@@ -60,7 +64,7 @@ def reference_roots(
 ) -> FloatArray:
     """The roots that scipy finds."""
     one = batch.curve(curve)
-    points = bernstein(one)
+    points = bezier_points(one)
     b0, b1, b2, b3 = (points @ normal).T
     step = np.diff(one.knot)
     powers = [
@@ -73,7 +77,7 @@ def reference_roots(
     return np.sort(roots)
 
 
-def heights_of(meetings: Meetings, normal: FloatArray, offsets: FloatArray) -> FloatArray:
+def heights_of(meetings: PlaneIntersections, normal: FloatArray, offsets: FloatArray) -> FloatArray:
     """Distance of the points from their planes."""
     result: FloatArray = meetings.xyz @ normal - offsets[meetings.plane]
     return result
@@ -84,7 +88,7 @@ def heights_of(meetings: Meetings, normal: FloatArray, offsets: FloatArray) -> F
 def test_all_roots_are_found(seed: int, normal: FloatArray) -> None:
     """Every root that scipy finds is met, in order, once, with the right point."""
     batch, offsets = random_batch(seed), np.linspace(-4.9, 4.7, 23)
-    meetings = meet_planes(batch, normal, offsets)
+    meetings = intersect_planes(batch, normal, offsets)
     for curve in range(batch.count):
         for plane, offset in enumerate(offsets):
             mine = meetings.t[(meetings.curve == curve) & (meetings.plane == plane)]
@@ -100,7 +104,7 @@ def test_all_roots_are_found(seed: int, normal: FloatArray) -> None:
 def test_signs_alternate_and_the_order_is_curve_plane_parameter(seed: int) -> None:
     """Along one curve and one plane signs alternate; meetings are sorted."""
     batch, offsets = random_batch(seed), np.linspace(-4.9, 4.7, 23)
-    meetings = meet_planes(batch, SKEW, offsets)
+    meetings = intersect_planes(batch, SKEW, offsets)
     keys = list(zip(meetings.curve, meetings.plane, meetings.t, strict=True))
     assert keys == sorted(keys)
     same = (np.diff(meetings.curve) == 0) & (np.diff(meetings.plane) == 0)
@@ -115,7 +119,7 @@ def test_meetings_with_planes_through_knots_are_exact(axis: int) -> None:
     batch = random_batch(7)
     normal = np.eye(3)[axis]
     offsets = np.unique(batch.xyz[:, axis])
-    meetings = meet_planes(batch, normal, offsets)
+    meetings = intersect_planes(batch, normal, offsets)
     at_knot = 0
     for curve in range(batch.count):
         for knot in range(batch.start[curve] + 1, batch.start[curve + 1] - 1):
@@ -135,7 +139,7 @@ def test_meetings_with_planes_through_knots_are_exact(axis: int) -> None:
 def test_three_roots_in_one_segment() -> None:
     """A wiggle between two knots meets the plane three times."""
     wiggle = hermite([-0.1, 0.1], [4.0, 0.0], [0.0, 4.0])
-    meetings = meet_planes(wiggle, UP, np.array([0.0]))
+    meetings = intersect_planes(wiggle, UP, np.array([0.0]))
     assert meetings.sign.tolist() == [1, -1, 1]
     assert meetings.t[1] == pytest.approx(0.5, abs=1e-15)
     assert not meetings.tangential.any()
@@ -144,9 +148,9 @@ def test_three_roots_in_one_segment() -> None:
 def test_a_second_plane_changes_no_bit() -> None:
     """The meetings with a plane do not depend on which other planes are asked."""
     batch, offsets = random_batch(5), np.linspace(-4.9, 4.7, 23)
-    together = meet_planes(batch, SKEW, offsets)
+    together = intersect_planes(batch, SKEW, offsets)
     for plane, offset in enumerate(offsets):
-        alone = meet_planes(batch, SKEW, np.array([offset]))
+        alone = intersect_planes(batch, SKEW, np.array([offset]))
         mine = together.plane == plane
         assert alone.xyz.tobytes() == together.xyz[mine].tobytes()
         assert alone.t.tobytes() == together.t[mine].tobytes()
@@ -156,7 +160,7 @@ def test_nearly_touching_from_below_are_two_tangential_meetings() -> None:
     """Two meetings with less than 1e-9 m between them and the plane are marked."""
     hill = hermite([-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [1.0, 0.0, -1.0])
     for lift, marked in ((0.0, True), (5e-10, True), (1e-6, False)):
-        meetings = meet_planes(hill, UP, np.array([-lift]))
+        meetings = intersect_planes(hill, UP, np.array([-lift]))
         assert meetings.sign.tolist() == [1, -1]
         assert meetings.tangential.tolist() == [marked, marked]
 
@@ -164,8 +168,8 @@ def test_nearly_touching_from_below_are_two_tangential_meetings() -> None:
 def test_a_stationary_place_between_knots_is_a_touch() -> None:
     """A valley that reaches the plane from above, between knots, is no meeting but a touch."""
     valley = hermite([1.0, 1.0], [-4.0, 4.0], [-4.0, 4.0])
-    meetings = meet_planes(valley, UP, np.array([0.0]))
-    found = touches(valley, UP, np.array([-1.0, 0.0, 0.5]))
+    meetings = intersect_planes(valley, UP, np.array([0.0]))
+    found = touch_points(valley, UP, np.array([-1.0, 0.0, 0.5]))
     assert meetings.count == 0
     assert found.plane.tolist() == [1]
     assert found.t.tolist() == [0.5]
@@ -176,37 +180,37 @@ def test_a_stationary_place_between_knots_is_a_touch() -> None:
 def test_a_touch_at_a_knot_and_at_an_end() -> None:
     """Knots and ends that reach the plane without crossing it are touches."""
     valley = hermite([1.0, 0.0, 1.0], [-1.0, 0.0, 1.0], [-1.0, 0.0, 1.0])
-    assert touches(valley, UP, np.array([0.0])).t.tolist() == [1.0]
-    assert touches(valley, UP, np.array([1.0])).t.tolist() == []
-    assert touches(valley, UP, np.array([1.0 + 1e-10])).t.tolist() == [0.0, 2.0]
-    assert meet_planes(valley, UP, np.array([0.0])).count == 0
+    assert touch_points(valley, UP, np.array([0.0])).t.tolist() == [1.0]
+    assert touch_points(valley, UP, np.array([1.0])).t.tolist() == []
+    assert touch_points(valley, UP, np.array([1.0 + 1e-10])).t.tolist() == [0.0, 2.0]
+    assert intersect_planes(valley, UP, np.array([0.0])).count == 0
 
 
 def test_a_crossing_is_no_touch() -> None:
     """A knot next to a meeting does not touch."""
     rising = hermite([-1.0, 1e-10, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, 1.0])
-    assert touches(rising, UP, np.array([0.0])).count == 0
-    assert meet_planes(rising, UP, np.array([0.0])).count == 1
+    assert touch_points(rising, UP, np.array([0.0])).count == 0
+    assert intersect_planes(rising, UP, np.array([0.0])).count == 1
 
 
 @pytest.mark.parametrize("noise", [0.0, 3e-10, -3e-10])
 def test_a_curve_that_lies_in_the_plane_for_a_while(noise: float) -> None:
     """No meeting lies inside the level stretch, one where the curve leaves it downwards."""
     level = hermite([1.0, noise, -noise, -1.0], [0.0, 0.0, 0.0, -1.0], [-1.0, 0.0, 0.0, -1.0])
-    meetings = meet_planes(level, UP, np.array([0.0]))
+    meetings = intersect_planes(level, UP, np.array([0.0]))
     assert meetings.sign.tolist() == [-1]
     assert meetings.t[0] == pytest.approx(2.0, abs=1e-4)
     assert meetings.t[0] >= 2.0
-    curve, begin, end = lies_in(level, UP, 0.0)
+    curve, begin, end = stretches_in_plane(level, UP, 0.0)
     assert (curve.tolist(), begin.tolist(), end.tolist()) == ([0], [1.0], [2.0])
-    assert touches(level, UP, np.array([0.0])).count == 0
+    assert touch_points(level, UP, np.array([0.0])).count == 0
 
 
 @pytest.mark.parametrize("noise", [0.0, 3e-10, -3e-10])
 def test_a_curve_that_rises_into_the_plane(noise: float) -> None:
     """Coming from below it meets the plane where the level stretch begins."""
     level = hermite([-1.0, noise, -noise, 1.0], [1.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0])
-    meetings = meet_planes(level, UP, np.array([0.0]))
+    meetings = intersect_planes(level, UP, np.array([0.0]))
     assert meetings.sign.tolist() == [1]
     assert meetings.t[0] == pytest.approx(1.0, abs=1e-4)
     assert meetings.t[0] <= 1.0
@@ -215,16 +219,16 @@ def test_a_curve_that_rises_into_the_plane(noise: float) -> None:
 def test_level_stretches_are_joined_within_one_curve_only() -> None:
     """Segments that follow one another are one stretch; curves stay apart."""
     flat = loft(CurveData.single(np.array([[0.0, 0, 2], [1, 0, 2], [1, 3, 2]])))
-    curve, begin, end = lies_in(SplineBatch.join([flat, flat]), UP, 2.0)
+    curve, begin, end = stretches_in_plane(SplineBatch.join([flat, flat]), UP, 2.0)
     assert curve.tolist() == [0, 1]
     assert (begin.tolist(), end.tolist()) == ([0.0, 0.0], [4.0, 4.0])
-    assert meet_planes(flat, UP, np.array([2.0])).count == 0
+    assert intersect_planes(flat, UP, np.array([2.0])).count == 0
 
 
 def test_a_triple_root_is_found() -> None:
     """A curve that grazes and crosses at once meets the plane once."""
     cubic = hermite([-0.125, 0.125], [0.75, 0.0], [0.0, 0.75])
-    meetings = meet_planes(cubic, UP, np.array([0.0]))
+    meetings = intersect_planes(cubic, UP, np.array([0.0]))
     assert meetings.sign.tolist() == [1]
     assert np.abs(meetings.t - 0.5).max() < 1e-4
 
@@ -232,9 +236,9 @@ def test_a_triple_root_is_found() -> None:
 def test_no_plane_and_no_meeting() -> None:
     """An empty family, and planes out of reach, give empty results."""
     batch = random_batch(1)
-    assert meet_planes(batch, UP, np.zeros(0)).count == 0
-    assert meet_planes(batch, UP, np.array([100.0])).xyz.shape == (0, 3)
-    assert touches(batch, UP, np.array([100.0])).xyz.shape == (0, 3)
+    assert intersect_planes(batch, UP, np.zeros(0)).count == 0
+    assert intersect_planes(batch, UP, np.array([100.0])).xyz.shape == (0, 3)
+    assert touch_points(batch, UP, np.array([100.0])).xyz.shape == (0, 3)
 
 
 def test_bad_planes_are_refused() -> None:
@@ -242,15 +246,15 @@ def test_bad_planes_are_refused() -> None:
     batch = random_batch(1, 2)
     for normal in (np.array([0.0, 0, 2]), np.array([np.nan, 0, 1]), np.array([1.0, 0])):
         with pytest.raises(BadInputError, match="unit"):
-            meet_planes(batch, normal, np.array([0.0]))
+            intersect_planes(batch, normal, np.array([0.0]))
     for offsets in ([1.0, 0.0], [np.nan], [0.0, np.inf]):
         with pytest.raises(BadInputError, match="ascend"):
-            meet_planes(batch, UP, np.array(offsets))
+            intersect_planes(batch, UP, np.array(offsets))
 
 
 def test_results_are_frozen() -> None:
     """No array of the result can be written to."""
-    meetings = meet_planes(random_batch(1), UP, np.array([0.0]))
+    meetings = intersect_planes(random_batch(1), UP, np.array([0.0]))
     arrays = (meetings.curve, meetings.plane, meetings.segment, meetings.t, meetings.xyz)
     assert not any(array.flags.writeable for array in (*arrays, meetings.sign, meetings.tangential))
 

@@ -8,8 +8,7 @@ from numpy.testing import assert_allclose
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.floating.wetted_curves import wet_runs
 from assoc_hull.geometry.numeric.polynomials import differentiate
-from assoc_hull.geometry.splines.equal_arcs import Chains, shares
-from assoc_hull.geometry.splines.length import length_until
+from assoc_hull.geometry.splines.arc_length import CubicChains, length_until, share_by_length
 from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 
@@ -41,7 +40,7 @@ def midship(parts: int = 64) -> FloatArray:
 def test_the_half_midship_section_is_parted_as_the_reference_says() -> None:
     """Length and five of twenty points, to the ten digits that are printed of them."""
     cubic = midship()
-    chain = Chains(np.array([0, len(cubic)]), cubic)
+    chain = CubicChains(np.array([0, len(cubic)]), cubic)
     points = chain.equal(20)[0]
     reference = {
         1: (1.2442943502, 0.0),
@@ -64,7 +63,7 @@ def test_a_side_above_the_water_does_not_count() -> None:
         np.array([0, len(tall)]), tall, np.zeros_like(tall), np.zeros(len(tall), np.bool_)
     )
     wet = wet_runs(curves, 10.5, 0.0, 0.0)
-    whole = Chains(np.array([0, len(short)]), short)
+    whole = CubicChains(np.array([0, len(short)]), short)
     assert wet.bottom.all()
     assert not wet.top.any()
     assert_allclose(wet.chains.equal(20), whole.equal(20), rtol=0.0, atol=1e-12)
@@ -77,10 +76,10 @@ def test_points_have_equal_lengths_between_them(seed: int, points: int) -> None:
     random = np.random.default_rng(seed)
     knots = random.normal(size=(7, 3))
     cubic = hermite(knots[:-1], knots[1:], *random.normal(size=(2, 6, 3)))
-    chains = Chains(np.array([0, 2, 6]), cubic)
+    chains = CubicChains(np.array([0, 2, 6]), cubic)
     found = chains.equal(points)
     for number, (low, high) in enumerate([(0, 2), (2, 6)]):
-        alone = Chains(np.array([0, high - low]), cubic[low:high])
+        alone = CubicChains(np.array([0, high - low]), cubic[low:high])
         assert (alone.equal(points)[0] == found[number]).all()
         length = float(alone.length[0])
         wanted = length * np.arange(points) / (points - 1)
@@ -108,7 +107,7 @@ def test_a_chain_without_length_gives_its_place() -> None:
     """A point as a chain has that point at every length."""
     cubic = np.zeros((1, 4, 3))
     cubic[0, 0] = [1.0, 2.0, 3.0]
-    assert Chains(np.array([0, 1]), cubic).equal(3).tolist() == [[[1.0, 2.0, 3.0]] * 3]
+    assert CubicChains(np.array([0, 1]), cubic).equal(3).tolist() == [[[1.0, 2.0, 3.0]] * 3]
 
 
 @example([5e-324], 1, 1)
@@ -116,7 +115,7 @@ def test_a_chain_without_length_gives_its_place() -> None:
 def test_shares_are_whole_and_fair(lengths: list[float], total: int, least: int) -> None:
     """They add up, nobody goes without, and nobody is off his due by a part or more."""
     size = np.array(lengths)
-    found = shares(size, total, least)
+    found = share_by_length(size, total, least)
     assert (found >= least).all()
     assert found.sum() == max(total, least * len(lengths))
     due = size * total / size.sum() if size.sum() > 0.0 else np.full(len(size), total / len(size))
@@ -126,4 +125,4 @@ def test_shares_are_whole_and_fair(lengths: list[float], total: int, least: int)
 
 def test_what_rounding_leaves_goes_to_the_largest_remainder() -> None:
     """2.6, 1.3 and 1.1 of five are 3, 1 and 1."""
-    assert shares(np.array([2.6, 1.3, 1.1]), 5).tolist() == [3, 1, 1]
+    assert share_by_length(np.array([2.6, 1.3, 1.1]), 5).tolist() == [3, 1, 1]

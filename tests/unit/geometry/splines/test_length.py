@@ -11,7 +11,7 @@ from scipy.integrate import quad
 
 from assoc_hull.errors import BadInputError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.splines.length import arc_length, length_at, segment_length
+from assoc_hull.geometry.splines.arc_length import arc_length, length_at, segment_length
 
 COORDINATE = st.floats(-10.0, 10.0)
 

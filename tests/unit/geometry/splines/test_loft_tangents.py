@@ -14,10 +14,11 @@ from assoc_hull.errors import BadInputError, CoincidentPointsError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, PointKind
 from assoc_hull.geometry.integrals.area_moments import line_integral, plane_integrals, section_area
 from assoc_hull.geometry.numeric.dual import Dual, as_array, real
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner, varied_roots
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner
+from assoc_hull.geometry.numeric.roots import roots_with_tangents
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.loft_tangents import DualSplines, loft_tangents
-from assoc_hull.geometry.splines.segments import bernstein, power
+from assoc_hull.geometry.splines.segments import bezier_points, power_coefficients
 from tests.complex_loft import as_batch
 
 STEP = 1e-100
@@ -319,9 +320,9 @@ def test_functions_of_splines_take_tangents_and_complex_numbers(
     batch = case.derived.batch()
     u = np.random.default_rng(seed).random((sum(sizes) - len(sizes), 3))
     for function in (
-        power, bernstein,
-        lambda b: horner(power(b), u),
-        lambda b: horner(differentiate(power(b)), u),
+        power_coefficients, bezier_points,
+        lambda b: horner(power_coefficients(b), u),
+        lambda b: horner(differentiate(power_coefficients(b)), u),
         lambda b: line_integral(b, (1, 2)),
         lambda b: plane_integrals(b).second_uv,
         lambda b: plane_integrals(b, (0, 2), close=True).moment_u,
@@ -340,10 +341,10 @@ def test_roots_that_vary() -> None:
     """Plain ones are what they were; others move as their polynomials do, but for marked ones."""
     cubic = np.array([[-6.0, 11.0, -6.0, 1.0]])
     u, simple = np.array([[1.0, 2.0, 2.5]]), np.array([[True, True, False]])
-    assert varied_roots(cubic, u, simple) is u
+    assert roots_with_tangents(cubic, u, simple) is u
     shift = np.array([[[-1.0, 0, 0, 0]], [[0.0, 0, 0, 1]]])
-    found: Any = varied_roots(as_array(Dual(cubic, shift)), u, simple)
+    found: Any = roots_with_tangents(as_array(Dual(cubic, shift)), u, simple)
     assert found.value.tolist() == u.tolist()
     np.testing.assert_allclose(found.dot[:, 0], [[0.5, -1.0, 0.0], [-0.5, 8.0, 0.0]])
-    stepped: Any = varied_roots(cubic + 1j * STEP * shift[0], u, simple)
+    stepped: Any = roots_with_tangents(cubic + 1j * STEP * shift[0], u, simple)
     np.testing.assert_allclose(stepped.imag / STEP, [[0.5, -1.0, 0.0]])

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from assoc_hull.errors import BadInputError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.splines.curve_order import folds, order_kept
+from assoc_hull.geometry.splines.curve_order import curve_folds, order_kept
 
 
 def curve_of(
@@ -36,20 +36,20 @@ def fair() -> SplineBatch:
 
 def test_a_fair_curve_has_none() -> None:
     """Chords and tangents that go on ahead are no fold."""
-    assert len(folds(fair())) == 0
+    assert len(curve_folds(fair())) == 0
 
 
 def test_chords_that_turn_back() -> None:
     """Two chords at more than 90 degrees are a fold at the smooth point between them."""
     hook = curve_of([[0, 0], [4, 0], [1, 3]], [[1, 0], [0.1, 1], [-1, 1]])
-    found = folds(SplineBatch.join([fair(), hook]))
+    found = curve_folds(SplineBatch.join([fair(), hook]))
     assert (found.curve.tolist(), found.knot.tolist()) == ([1], [1])
     assert found.cosine[0] == pytest.approx(-(0.5**0.5), rel=1e-14)
 
 
 def test_chords_at_a_right_angle_are_no_fold() -> None:
     """Exactly 90 degrees between chords is allowed."""
-    assert len(folds(curve_of([[0, 0], [4, 0], [4, 4]], [[1, 0], [1, 1], [0, 1]]))) == 0
+    assert len(curve_folds(curve_of([[0, 0], [4, 0], [4, 4]], [[1, 0], [1, 1], [0, 1]]))) == 0
 
 
 def test_a_knuckle_may_be_sharp() -> None:
@@ -57,7 +57,7 @@ def test_a_knuckle_may_be_sharp() -> None:
     chine = curve_of(
         [[0, 0], [4, 0], [1, 3]], [[1, 0], [-1, 1], [-1, 1]], [[1, 0], [1, 0], [-1, 1]]
     )
-    assert len(folds(chine)) == 0
+    assert len(curve_folds(chine)) == 0
 
 
 @pytest.mark.parametrize(
@@ -71,7 +71,7 @@ def test_a_knuckle_may_be_sharp() -> None:
 )
 def test_tangents_that_turn_back(leave: list[list[float]], knot: int, cosine: float) -> None:
     """A tangent at 90 degrees or more to its chord is a fold, told once per point."""
-    found = folds(curve_of([[0, 0], [2, 0], [4, 0]], leave))
+    found = curve_folds(curve_of([[0, 0], [2, 0], [4, 0]], leave))
     assert found.knot.tolist() == [knot]
     assert found.cosine[0] == pytest.approx(cosine, abs=1e-15)
 
@@ -79,7 +79,7 @@ def test_tangents_that_turn_back(leave: list[list[float]], knot: int, cosine: fl
 def test_a_tangent_at_a_knuckle_is_looked_at() -> None:
     """A knuckle excuses the turn of the chords, not a segment that starts backwards."""
     chine = curve_of([[0, 0], [4, 0], [4, 3]], [[1, 0], [0, -1], [0, 1]], [[1, 0], [1, 0], [0, 1]])
-    assert folds(chine).knot.tolist() == [1]
+    assert curve_folds(chine).knot.tolist() == [1]
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 8))
@@ -91,9 +91,9 @@ def test_the_rest_of_the_batch_does_not_matter(seed: int, count: int) -> None:
         size = int(random.integers(2, 9))
         rows = random.normal(size=(3, size, 2)).round(1)
         curves.append(curve_of(rows[0].tolist(), rows[1].tolist(), rows[2].tolist()))
-    together = folds(SplineBatch.join(curves))
+    together = curve_folds(SplineBatch.join(curves))
     for index, curve in enumerate(curves):
-        mine, alone = together.curve == index, folds(curve)
+        mine, alone = together.curve == index, curve_folds(curve)
         assert together.knot[mine].tolist() == alone.knot.tolist()
         assert together.cosine[mine].tolist() == alone.cosine.tolist()
 
@@ -103,16 +103,16 @@ def test_reversing_keeps_the_folds(seed: int) -> None:
     """Run the other way, a curve folds at the same points."""
     rows = np.random.default_rng(seed).normal(size=(3, 7, 2)).round(1)
     rows[2, 2:5] = rows[1, 2:5]
-    there = folds(curve_of(rows[0].tolist(), rows[1].tolist(), rows[2].tolist()))
+    there = curve_folds(curve_of(rows[0].tolist(), rows[1].tolist(), rows[2].tolist()))
     back = (rows[0, ::-1].tolist(), (-rows[2, ::-1]).tolist(), (-rows[1, ::-1]).tolist())
-    again = folds(curve_of(*back))
+    again = curve_folds(curve_of(*back))
     assert sorted(6 - again.knot) == there.knot.tolist()
 
 
 def test_one_point_is_refused() -> None:
     """A curve of one point is an error of the package."""
     with pytest.raises(TooFewPointsError):
-        folds(curve_of([[0, 0]], [[1, 0]]))
+        curve_folds(curve_of([[0, 0]], [[1, 0]]))
 
 
 @pytest.mark.parametrize(

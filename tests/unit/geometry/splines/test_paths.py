@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.paths import Paths, shapes
+from assoc_hull.geometry.splines.paths import Paths, shape_paths
 
 STEP = 1e-6
 
@@ -27,7 +27,7 @@ def _wave() -> SplineBatch:
 def test_a_path_over_a_whole_curve_is_the_curve(w: float) -> None:
     """Its fraction is the chord parameter divided by the length."""
     batch = _wave()
-    path = shapes(Paths.of([[(i, 0.0, 1.0) for i in range(4)]]), batch)
+    path = shape_paths(Paths.of([[(i, 0.0, 1.0) for i in range(4)]]), batch)
     place, slope = path.at(np.array([0]), np.array([w]))
     whole = float(batch.knot[-1])
     expected = evaluate(batch, np.array([0]), np.array([w * whole]))
@@ -44,7 +44,7 @@ def test_a_path_walked_back_is_the_same_path(w: float) -> None:
     batch = _wave()
     there = [(0, 0.25, 1.0), (1, 0.0, 1.0), (2, 0.0, 0.5)]
     back = [(s, b, a) for s, a, b in reversed(there)]
-    both = shapes(Paths.of([there, back]), batch)
+    both = shape_paths(Paths.of([there, back]), batch)
     one, along = both.at(np.array([0]), np.array([w]))
     other, against = both.at(np.array([1]), np.array([1.0 - w]))
     assert one == pytest.approx(other, abs=1e-12)
@@ -56,7 +56,9 @@ def test_a_path_walked_back_is_the_same_path(w: float) -> None:
 def test_a_part_of_the_way_along_x_is_found(part: float) -> None:
     """The place lies by that part between the ends' x; its derivative has the ends' distance."""
     batch = _wave()
-    path = shapes(Paths.of([[(0, 0.5, 1.0), (1, 0.0, 1.0), (2, 0.0, 1.0)], [(3, 0.0, 1.0)]]), batch)
+    path = shape_paths(
+        Paths.of([[(0, 0.5, 1.0), (1, 0.0, 1.0), (2, 0.0, 1.0)], [(3, 0.0, 1.0)]]), batch
+    )
     place, slope = path.at_part(np.array([0, 1]), np.array([part, part]))
     first, last = path.ends
     expected = first[:, 0] + part * (last - first)[:, 0]
@@ -69,7 +71,7 @@ def test_a_part_of_the_way_along_x_is_found(part: float) -> None:
 
 def test_a_path_that_is_a_point_stays_there() -> None:
     """Rails may shrink to a point: the tip of an ellipsoid."""
-    path = shapes(Paths.of([[(1, 0.5, 0.5)], [(2, 0.0, 1.0)]]), _wave())
+    path = shape_paths(Paths.of([[(1, 0.5, 0.5)], [(2, 0.0, 1.0)]]), _wave())
     w = np.linspace(0.0, 1.0, 5)
     place, slope = path.at(np.zeros(5, np.int64), w)
     assert np.ptp(place, axis=0) == pytest.approx(0.0, abs=0.0)

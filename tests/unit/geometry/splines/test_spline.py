@@ -11,7 +11,7 @@ from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, PointKind
 from assoc_hull.geometry.splines.backend import backend, set_backend
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate, sample
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.segments import bernstein, segment_start
+from assoc_hull.geometry.splines.segments import bezier_points, segment_start
 
 WAVE = np.array([[0, 0, 0], [1, 0.8, 0.1], [2.5, 1, 0.3], [3, 0.2, 0.2], [4.4, -0.5, 0], [6, 0, 1]])
 GIVEN = (EndKind.TANGENT, EndKind.TANGENT)
@@ -37,7 +37,7 @@ def unit(vector: FloatArray) -> FloatArray:
 
 def second_derivatives(spline: SplineBatch, segment: int) -> tuple[FloatArray, FloatArray]:
     """Second derivative at the start and the end of a segment, from its Bezier points."""
-    index, points = segment_start(spline), bernstein(spline)
+    index, points = segment_start(spline), bezier_points(spline)
     one = points[int(np.flatnonzero(index == segment)[0])]
     scale = 6.0 / (spline.knot[segment + 1] - spline.knot[segment]) ** 2
     return scale * (one[0] - 2 * one[1] + one[2]), scale * (one[1] - 2 * one[2] + one[3])

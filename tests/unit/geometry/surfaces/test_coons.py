@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from assoc_hull.analysis.net.cells import blends, lay_out
-from assoc_hull.analysis.net.gather import Net, gather
+from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
+from assoc_hull.analysis.net.surface_layout import blend_cubics, lay_out_surface
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.backend import backend, set_backend
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
 from assoc_hull.geometry.surfaces.isocurves import IsoCurves
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from assoc_hull.shipped.wigley import wigley
 from tests.nets import ellipsoid_net
 
@@ -19,11 +19,11 @@ STEP = 1e-6
 @pytest.fixture(
     scope="module", params=[lambda: wigley(), lambda: ellipsoid_net(11, 6)], ids=["Wigley", "egg"]
 )
-def surface(request: pytest.FixtureRequest) -> tuple[HullState, Net, CoonsStrips]:
+def surface(request: pytest.FixtureRequest) -> tuple[HullState, CurveNet, CoonsStrips]:
     """Give a hull, its net and its surface with a closed deck."""
     state: HullState = request.param()
-    net = gather(state)
-    layout = lay_out(net, state.particulars.length, closed=True)
+    net = gather_net(state)
+    layout = lay_out_surface(net, state.particulars.length, closed=True)
     assert layout.lost == ()
     return state, net, CoonsStrips.on(layout.cells, net.batch)
 
@@ -40,7 +40,7 @@ def _at(curves: IsoCurves, u: FloatArray) -> tuple[FloatArray, FloatArray, Float
 
 
 def test_across_is_the_derivative_along_the_strip(
-    surface: tuple[HullState, Net, CoonsStrips],
+    surface: tuple[HullState, CurveNet, CoonsStrips],
 ) -> None:
     """P_v agrees with central differences of P."""
     strips = surface[2]
@@ -52,7 +52,7 @@ def test_across_is_the_derivative_along_the_strip(
     assert across == pytest.approx((high - low) / (2.0 * STEP), abs=1e-6)
 
 
-def test_tiles_of_a_curve_join(surface: tuple[HullState, Net, CoonsStrips]) -> None:
+def test_tiles_of_a_curve_join(surface: tuple[HullState, CurveNet, CoonsStrips]) -> None:
     """Each tile ends where the next begins; a closed deck ends on the centre plane."""
     strips = surface[2]
     for v in (0.0, 0.3, 1.0):
@@ -65,7 +65,7 @@ def test_tiles_of_a_curve_join(surface: tuple[HullState, Net, CoonsStrips]) -> N
 
 
 def test_curves_between_sections_are_sections(
-    surface: tuple[HullState, Net, CoonsStrips],
+    surface: tuple[HullState, CurveNet, CoonsStrips],
 ) -> None:
     """In a strip between two sections x is constant along each curve, and grows evenly with v."""
     strips = surface[2]
@@ -81,7 +81,7 @@ def test_curves_between_sections_are_sections(
     assert x == pytest.approx(np.broadcast_to(begin + 0.61 * (finish - begin), x.shape), abs=1e-9)
 
 
-def test_the_surface_is_closed(surface: tuple[HullState, Net, CoonsStrips]) -> None:
+def test_the_surface_is_closed(surface: tuple[HullState, CurveNet, CoonsStrips]) -> None:
     """The vector area of both halves with a deck is nil: along x and z; y is odd anyway.
 
     Both hulls run to a point or an edge at either end, so that there are no faces.
@@ -101,7 +101,7 @@ def test_the_surface_is_closed(surface: tuple[HullState, Net, CoonsStrips]) -> N
     assert total[[0, 2]] == pytest.approx(0.0, abs=1e-5 * size)
 
 
-def test_anchors_lie_in_the_surface(surface: tuple[HullState, Net, CoonsStrips]) -> None:
+def test_anchors_lie_in_the_surface(surface: tuple[HullState, CurveNet, CoonsStrips]) -> None:
     """Points of waterlines and diagonals between the sections are points of the surface."""
     _, _net, strips = surface
     cells, walked = strips.cells, strips.walked
@@ -125,7 +125,7 @@ def test_blends_carry_parabolas_on_without_error(count: int) -> None:
     def parabola(h: FloatArray) -> FloatArray:
         return coefficients[0] + coefficients[1] * h + coefficients[2] * h * h
 
-    first, cubic = blends(height)
+    first, cubic = blend_cubics(height)
     value = np.concatenate([parabola(height), np.zeros(4)])
     f = np.linspace(0.0, 1.0, 6)
     for cell in range(count - 1):
@@ -135,7 +135,7 @@ def test_blends_carry_parabolas_on_without_error(count: int) -> None:
 
 
 def test_compiled_code_gives_the_same_surface(
-    surface: tuple[HullState, Net, CoonsStrips],
+    surface: tuple[HullState, CurveNet, CoonsStrips],
 ) -> None:
     """To rounding; where numba is not installed there is nothing to compare."""
     pytest.importorskip("numba")

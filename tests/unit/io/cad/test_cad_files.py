@@ -15,14 +15,17 @@ import pytest
 
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.cad.both_sides import both_sides
-from assoc_hull.io.cad.check import area_of, faults_of, require_written
-from assoc_hull.io.cad.faces import Sewn, face_of
-from assoc_hull.io.cad.found import Found, find_in
+from assoc_hull.io.cad.check_file import (
+    WrittenFile,
+    area_of,
+    faults_of,
+    measure_file,
+    require_written,
+)
+from assoc_hull.io.cad.faces import SewnShell, face_of
 from assoc_hull.io.cad.kernel import require_opencascade
-from assoc_hull.io.cad.step_write import step_bytes
-from assoc_hull.io.cad.write import CAD_FORMS, cad_bytes, write_cad
-from assoc_hull.io.iges.read import surfaces_of_iges
+from assoc_hull.io.cad.write import CAD_FORMS, both_sides, cad_bytes, step_bytes, write_cad
+from assoc_hull.io.iges.surfaces import surfaces_of_iges
 from tests.cut_hulls import half_hull, three_blocks
 from tests.rational_surfaces import revolved
 
@@ -36,18 +39,21 @@ def kind_of(form: str) -> str:
 
 
 @pytest.fixture(scope="module")
-def written() -> dict[tuple[str, str, bool], tuple[bytes, Found]]:
+def written() -> dict[tuple[str, str, bool], tuple[bytes, WrittenFile]]:
     """Each form in each unit, half and whole: its bytes, and what OpenCASCADE reads."""
     found = {}
     for form, unit, half in CASES:
         data, _ = cad_bytes(BLOCKS, form, unit=unit, half=half)
-        found[form, unit, half] = data, find_in(data, kind_of(form))
+        found[form, unit, half] = data, measure_file(data, kind_of(form))
     return found
 
 
 @pytest.mark.parametrize(("form", "unit", "half"), CASES)
 def test_every_form_holds_what_was_written(
-    written: dict[tuple[str, str, bool], tuple[bytes, Found]], form: str, unit: str, half: bool
+    written: dict[tuple[str, str, bool], tuple[bytes, WrittenFile]],
+    form: str,
+    unit: str,
+    half: bool,
 ) -> None:
     """Control points to 1e-5 mm, faces, the unit as declared, areas to 1e-6, sound topology."""
     _, found = written[form, unit, half]
@@ -70,7 +76,7 @@ def test_every_form_holds_what_was_written(
 )
 @pytest.mark.parametrize("form", ["step", "iges-brep"])
 def test_faces_of_a_shell_share_their_edges(
-    written: dict[tuple[str, str, bool], tuple[bytes, Found]],
+    written: dict[tuple[str, str, bool], tuple[bytes, WrittenFile]],
     form: str,
     unit: str,
     half: bool,
@@ -91,7 +97,7 @@ def test_a_rational_surface_keeps_its_weights() -> None:
     pipe = SplineSurface.bezier(net, "pipe", weights)
     assert area_of(pipe) == pytest.approx(np.pi, rel=1e-9)
     for form in ("step", "iges"):
-        (back,) = find_in(cad_bytes([pipe], form, half=True)[0], kind_of(form)).surfaces
+        (back,) = measure_file(cad_bytes([pipe], form, half=True)[0], kind_of(form)).surfaces
         assert back.weights == pytest.approx(weights, abs=1e-9)
 
 
@@ -108,7 +114,7 @@ def test_faces_keep_order_and_names_where_sewing_turns_them_over() -> None:
 
 
 def test_our_own_reader_reads_what_both_writers_make(
-    written: dict[tuple[str, str, bool], tuple[bytes, Found]],
+    written: dict[tuple[str, str, bool], tuple[bytes, WrittenFile]],
 ) -> None:
     """Trimmed surfaces with natural borders to 1e-12, bare ones to the digit; with names."""
     for (form, unit, half), (data, _) in written.items():
@@ -124,7 +130,7 @@ def test_our_own_reader_reads_what_both_writers_make(
 
 
 def test_the_header_says_what_and_from_whom(
-    written: dict[tuple[str, str, bool], tuple[bytes, Found]],
+    written: dict[tuple[str, str, bool], tuple[bytes, WrittenFile]],
 ) -> None:
     """AP214, the name of the part, names of faces, a fixed time, and no name of a user."""
     text = written["step", "m", True][0].decode()
@@ -159,16 +165,16 @@ def test_opencascade_prints_nothing(capfd: pytest.CaptureFixture[str]) -> None:
     """Neither on writing nor on reading what is damaged: a command prints JSON there."""
     data, _ = cad_bytes(BLOCKS[:1], "step", half=True)
     with pytest.raises(BadInputError, match="OpenCASCADE reads no surface"):
-        find_in(data[: len(data) // 2], "step")
+        measure_file(data[: len(data) // 2], "step")
     with pytest.raises(BadInputError):
-        find_in(b"", "step")
+        measure_file(b"", "step")
     assert capfd.readouterr() == ("", "")
 
 
 # What makes a file bad, and what is found.
 
 
-def unsewn() -> Sewn:
+def unsewn() -> SewnShell:
     """The blocks in one shell, with an edge each where they meet."""
     from OCP.BRep import BRep_Builder
     from OCP.TopoDS import TopoDS_Shell
@@ -178,12 +184,12 @@ def unsewn() -> Sewn:
     faces = [face_of(each) for each in BLOCKS]
     for face in faces:
         builder.Add(shell, face)
-    return Sewn(shell, faces)
+    return SewnShell(shell, faces)
 
 
 def faults(data: bytes, unit: str = "mm", form: str = "step") -> list[str]:
     """What the check says of a file that was to hold the blocks."""
-    return faults_of(find_in(data, kind_of(form)), BLOCKS, unit, shell=form != "iges")
+    return faults_of(measure_file(data, kind_of(form)), BLOCKS, unit, shell=form != "iges")
 
 
 def test_an_unsewn_file_is_found() -> None:
@@ -200,7 +206,7 @@ def test_an_unsewn_file_is_found() -> None:
     ],
 )
 def test_metres_declared_as_millimetres_are_found(
-    written: dict[tuple[str, str, bool], tuple[bytes, Found]],
+    written: dict[tuple[str, str, bool], tuple[bytes, WrittenFile]],
     form: str,
     metres: bytes,
     millimetres: bytes,
@@ -215,7 +221,7 @@ def test_metres_declared_as_millimetres_are_found(
 
 
 def test_a_block_that_is_missing_turned_or_moved_is_found(
-    written: dict[tuple[str, str, bool], tuple[bytes, Found]],
+    written: dict[tuple[str, str, bool], tuple[bytes, WrittenFile]],
 ) -> None:
     """One by one."""
     _, found = written["step", "m", True]

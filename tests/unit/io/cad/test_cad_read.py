@@ -11,14 +11,12 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError, MissingExtraError, NeedsCadError
-from assoc_hull.io.cad.both_sides import both_sides
-from assoc_hull.io.cad.faces import face_of, sewn
-from assoc_hull.io.cad.kernel import quiet
-from assoc_hull.io.cad.step_text import require_sound, step_unit
-from assoc_hull.io.cad.step_write import step_bytes
-from assoc_hull.io.cad.write import write_cad
-from assoc_hull.io.lines.slices import Slices
-from assoc_hull.io.slicing.surface_hull import faces_of_file, read_surface_lines
+from assoc_hull.io.cad.faces import face_of, sew_surfaces
+from assoc_hull.io.cad.kernel import quiet_kernel
+from assoc_hull.io.cad.read import require_sound_step, step_unit
+from assoc_hull.io.cad.write import both_sides, step_bytes, write_cad
+from assoc_hull.io.lines.slices import HullSlices
+from assoc_hull.io.slicing.surface_lines import faces_of_file, read_surface_lines
 from tests import meshes
 from tests.iges_files import face, iges
 from tests.unit.io.slicing.test_surface_slices import wigley
@@ -26,7 +24,7 @@ from tests.unit.io.slicing.test_surface_slices import wigley
 CUTS: dict[str, Any] = {"stations": [10.0, 50.0], "waterlines": [2.0], "buttocks": [2.0]}
 
 
-def check_wigley(slices: Slices) -> None:
+def check_wigley(slices: HullSlices) -> None:
     """Every line is one piece on the formula, and ends on boundary curves."""
     for line in slices.lines:
         (piece,) = line.pieces
@@ -39,7 +37,9 @@ def test_a_step_file_gives_exact_lines(tmp_path: Path) -> None:
     """Of both halves, in metres; the unit is told."""
     path = tmp_path / "wigley.step"
     surfaces = both_sides([wigley()])
-    path.write_bytes(step_bytes(sewn(surfaces), [each.name for each in surfaces], "m", "hull"))
+    path.write_bytes(
+        step_bytes(sew_surfaces(surfaces), [each.name for each in surfaces], "m", "hull")
+    )
     slices = read_surface_lines(path, **CUTS)
     check_wigley(slices)
     assert "unit: the surfaces: m: the hull is 100 m long" in str(slices.report)
@@ -53,7 +53,7 @@ def write_trimmed(path: Path, height: float) -> None:
     from OCP.gp import gp_Pnt
     from OCP.IGESControl import IGESControl_Writer
 
-    with quiet():
+    with quiet_kernel():
         box = BRepPrimAPI_MakeBox(gp_Pnt(-1e3, -1e3, -1e3), gp_Pnt(1e6, 1e6, 1e3 * height))
         common = BRepAlgoAPI_Common(face_of(wigley()), box.Shape())
         writer = IGESControl_Writer("MM", 0)
@@ -135,9 +135,9 @@ def test_text_that_ends_opencascade_is_refused_before(old: str, new: str, messag
         "#1 = CARTESIAN_POINT('nan #7 (',(0.,1.,2.));\n/* nan; */"
         "#2 = LINE('',#1,.T.,-1.5E-07,$,*);\nENDSEC;\nEND-ISO-10303-21;\n"
     )
-    require_sound(text, "a.step")
+    require_sound_step(text, "a.step")
     with pytest.raises(BadInputError, match=rf"{message}.*in a\.step"):
-        require_sound(text.replace(old, new), "a.step")
+        require_sound_step(text.replace(old, new), "a.step")
 
 
 @pytest.mark.parametrize(("entity", "unit"), [

@@ -11,7 +11,7 @@ import pytest
 from assoc_hull.creation.classical.prelikon import Prelikon
 from assoc_hull.errors import AssocHullError, BadInputError, GeometryError
 from assoc_hull.io.classical.cards import read_cards
-from assoc_hull.io.classical.prelikon_text import read_prelikon
+from assoc_hull.io.classical.prelikon import read_prelikon
 from assoc_hull.shipped.classical_ships import classical_text
 
 SECTION = "0 0 line\n8 0 arc 2\n10 2 line\n10 12\n"

@@ -7,12 +7,12 @@ import pytest
 
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.io.digitised.read import read_lines
-from assoc_hull.io.lines.slices import Gaps, Slices
-from assoc_hull.io.slicing.mesh import slice_mesh
+from assoc_hull.io.lines.slices import Gaps, HullSlices
+from assoc_hull.io.slicing.mesh_lines import slice_mesh
 from tests import meshes
 
 
-def as_csv(slices: Slices, mark: str = ",") -> str:
+def as_csv(slices: HullSlices, mark: str = ",") -> str:
     """The lines of a hull as text, one row per point."""
     rows = [mark.join(["line", "piece", "x", "y", "z"])]
     for line in (*slices.lines, *slices.boundaries):

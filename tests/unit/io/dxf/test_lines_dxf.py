@@ -17,13 +17,13 @@ from assoc_hull.geometry.splines.evaluation import positions
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
 from assoc_hull.io.digitised.read import read_lines
-from assoc_hull.io.dxf.digitised_spline import RawSpline
 from assoc_hull.io.dxf.document import NAMES
+from assoc_hull.io.dxf.entities import RawSpline
 from assoc_hull.io.dxf.lines import lines_drawing
 from assoc_hull.io.dxf.lines_plan import plan_drawing
-from assoc_hull.io.export_book import ExportBook
 from assoc_hull.io.lines.line_points import splines_of
-from assoc_hull.io.lines.slices import Slices
+from assoc_hull.io.lines.slices import HullSlices
+from assoc_hull.io.reports import ExportBook
 from assoc_hull.model.address import AddressBook
 from tests.conftest import Shipped
 
@@ -39,7 +39,7 @@ def plan(series60_70: Hull) -> str:
     return plan_drawing(series60_70.state, ExportBook(17))
 
 
-def largest_miss(hull: Hull, found: Slices) -> tuple[float, set[str]]:
+def largest_miss(hull: Hull, found: HullSlices) -> tuple[float, set[str]]:
     """How far defining points of lines are from points that were read; lines that were not."""
     book, worst, missing = AddressBook(hull.state), 0.0, set()
     read = {line.name: line for line in (*found.lines, *found.boundaries)}

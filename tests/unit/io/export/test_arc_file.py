@@ -15,10 +15,10 @@ import assoc_hull as ah
 from assoc_hull.analysis.production_arcs import drawing_axes
 from assoc_hull.errors import BadInputError, GeometryError, MissingExtraError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.hull import Hull
 from assoc_hull.io.dxf.document import NAMES
-from assoc_hull.io.export.arc_file import arc_table
+from assoc_hull.io.export.arcs import arc_table
 from assoc_hull.production import ProductionArcs, production_arcs
 
 WITHIN = 0.0005
@@ -78,7 +78,7 @@ def test_the_drawing_lies_on_the_lines_in_space(
         curve = found.curves[0] if isinstance(found, ah.Line) else found
         assert isinstance(curve, ah.Curve)
         places = places_of(polyline)
-        assert closest(curve.spline, 0, places)[2].max() <= WITHIN
+        assert closest_points(curve.spline, 0, places)[2].max() <= WITHIN
         own = curve.polyline(20)
         gap = np.sqrt(((own[:, None] - places) ** 2).sum(axis=2)).min(axis=1)
         step = np.sqrt((np.diff(places, axis=0) ** 2).sum(axis=1)).max()

@@ -12,17 +12,17 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.hull import Hull
 from assoc_hull.io.digitised.read import read_lines
-from assoc_hull.io.export.sections import sections_of
+from assoc_hull.io.export.sections import sections_to_export
 from assoc_hull.io.export.write import FORMS
-from assoc_hull.io.export_book import ExportBook, ExportReport
-from assoc_hull.io.lines.line_points import CHORD, DrawnLine, lines_as_points
-from assoc_hull.io.lines.slices import Slices
+from assoc_hull.io.lines.line_points import CHORD, LinePolylines, lines_as_points
+from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.offsets.read import read_offsets
 from assoc_hull.io.offsets.table import OffsetTable
-from assoc_hull.model.state import Particulars
+from assoc_hull.io.reports import ExportBook, ExportReport
+from assoc_hull.model.tables import Particulars
 from assoc_hull.sources import examples
 
 SECTIONS = ("britfair", "delftship", "gf")
@@ -44,14 +44,14 @@ def hull(request: pytest.FixtureRequest) -> Hull:
     return found
 
 
-def written_lines(hull: Hull, form: str) -> list[DrawnLine]:
+def written_lines(hull: Hull, form: str) -> list[LinePolylines]:
     """The lines of a hull that a form holds, as points before rounding."""
     if form in SECTIONS:
-        return sections_of(hull.state, ExportBook(decimals=9))
+        return sections_to_export(hull.state, ExportBook(decimals=9))
     return lines_as_points(hull.state, ("sections", "waterlines", "buttocks"))
 
 
-def largest_difference(wanted: list[DrawnLine], found: Slices) -> float:
+def largest_difference(wanted: list[LinePolylines], found: HullSlices) -> float:
     """The largest difference of any coordinate of any point, m; lines and pieces must agree."""
     worst = 0.0
     for line in wanted:
@@ -91,7 +91,7 @@ def test_points_lie_on_the_curves(hull: Hull, form: str, tmp_path: Path) -> None
         for piece in same.pieces:
             places = piece.points.copy()
             places[:, 0] = position
-            off = np.min([closest(c.spline, 0, places)[2]
+            off = np.min([closest_points(c.spline, 0, places)[2]
                           for c in line.curves], axis=0)  # fmt: skip
             assert off.max() <= limit, line.name
 
@@ -234,7 +234,9 @@ def test_a_table_that_no_rule_completes_is_adopted_as_it_stands(
         ]  # fmt: skip
         if same:
             places = curve.polyline(4)
-            off.append(np.min([closest(c.spline, 0, places)[2] for c in same[0].curves], axis=0))
+            off.append(
+                np.min([closest_points(c.spline, 0, places)[2] for c in same[0].curves], axis=0)
+            )
     away: FloatArray = np.concatenate(off)
     print(f"\np95 {1e3 * np.percentile(away, 95):.1f} mm, largest {1e3 * away.max():.1f} mm")
     assert np.percentile(away, 95) < 0.02

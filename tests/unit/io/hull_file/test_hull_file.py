@@ -9,7 +9,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import FileBusyError, HullFileError, NameTakenError, StaleHullError
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 
 POINT = "WL 2.5 x ST 7"
 OTHER = "WL 3.75 x ST 12"

@@ -14,12 +14,11 @@ from assoc_hull.geometry.splines.control_polygon import control_polygon
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
-from assoc_hull.io.cad.found import shape_in
+from assoc_hull.io.cad.check_file import shape_in
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.iges.curves import curves_of_iges, holds_surfaces
-from assoc_hull.io.iges.layout import Layout
 from assoc_hull.io.iges.lines import curve_values, iges_of_lines, write_iges_lines
-from assoc_hull.io.iges.write import iges_text
+from assoc_hull.io.iges.write import IgesLayout, iges_text
 from assoc_hull.io.lines.line_points import splines_of
 from tests.conftest import Shipped
 from tests.cut_hulls import three_blocks
@@ -66,7 +65,7 @@ def test_a_knuckle_and_a_tangent_point_come_back() -> None:
     places = [[0.0, 0, 0], [2, 0, 0], [4, 1, 0], [5, 3, 0], [5, 4, 1], [5, 5, 4]]
     along = np.tile([1.0, 0.0, 0.0], (6, 1))
     given = loft(CurveData.single(np.array(places), kind, along))
-    curve, layout = control_polygon(given), Layout()
+    curve, layout = control_polygon(given), IgesLayout()
     layout.add_named(126, curve_values(curve.knots, curve.points), "ST 1")
     (found,), _, _ = curves_of_iges(layout.text("A line", "m", 5.0), "line.igs")
     assert found.points.tobytes() == curve.points.tobytes()
@@ -208,7 +207,7 @@ def test_curves_beside_the_lines_are_told(tmp_path: Path) -> None:
     """Flats and diagonals are no lines, though they lie in planes, nor is a curve in space."""
     arch = np.array(ARCH)
     bent = arch + np.outer([0.0, 2.0, 1.0, 3.0], [0.0, 0.0, 1.0])
-    knots, layout = np.array([0.0] * 4 + [1.0] * 4), Layout()
+    knots, layout = np.array([0.0] * 4 + [1.0] * 4), IgesLayout()
     for name, points in (
         ("WL 1", arch), ("boundary: flat of side", arch), ("rail", bent), ("profile", bent),
     ):  # fmt: skip

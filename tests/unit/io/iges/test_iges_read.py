@@ -11,7 +11,7 @@ import pytest
 
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.iges.read import surfaces_of_iges
+from assoc_hull.io.iges.surfaces import surfaces_of_iges
 from assoc_hull.io.iges.write import iges_text
 from tests.curved_patches import patch
 from tests.fuzz.text import change_text

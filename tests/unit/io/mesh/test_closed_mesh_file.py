@@ -12,9 +12,8 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError, MissingExtraError, OpenMeshError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.mesh.closed_mesh_file import write_mesh
-from assoc_hull.surface.cells.closed_mesh import ClosedMesh
-from assoc_hull.surface.cells.hull_mesh import closed_mesh
+from assoc_hull.io.mesh.closed_mesh import write_mesh
+from assoc_hull.surface.cells.closed_mesh import ClosedMesh, closed_mesh
 
 trimesh: Any = pytest.importorskip("trimesh")
 

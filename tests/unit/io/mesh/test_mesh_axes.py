@@ -7,14 +7,14 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.surfaces.triangles import Triangles
-from assoc_hull.io.lines.slices import Slices
-from assoc_hull.io.slicing.mesh import slice_mesh
+from assoc_hull.io.lines.slices import HullSlices
+from assoc_hull.io.slicing.mesh_lines import slice_mesh
 from tests import meshes
 
 CUTS: dict[str, Any] = {"stations": [25.0, 50.0, 75.0], "waterlines": [2.0, 4.0], "buttocks": [2.0]}
 
 
-def check_wigley(slices: Slices) -> None:
+def check_wigley(slices: HullSlices) -> None:
     """All lines lie on the formula within what the facets of the mesh allow, 10 mm."""
     for line in slices.lines:
         for piece in line.pieces:

@@ -8,10 +8,16 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.offsets.contours import centre_profile, end_contours, stem_contour, stern_contour
-from assoc_hull.io.offsets.flats import flat_of_bottom, flat_of_side
+from assoc_hull.io.offsets.complete_table import (
+    centre_profile,
+    end_contours,
+    flat_of_bottom,
+    flat_of_side,
+    stem_contour,
+    stern_contour,
+)
 from assoc_hull.io.offsets.table import OffsetTable
-from assoc_hull.shipped.series60_table import todd_table
+from assoc_hull.shipped.series60 import todd_table
 
 LENGTH = 121.92
 BLOCKS = pytest.mark.parametrize("cb", [0.60, 0.70])

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.offset_report import OffsetReport
 from assoc_hull.io.offsets.read import read_offsets
 from assoc_hull.io.offsets.table import OffsetTable
+from assoc_hull.io.reports import OffsetReport
 
 STATIONS = np.arange(21.0)
 HEIGHTS = np.array([0.0, 0.5, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0])

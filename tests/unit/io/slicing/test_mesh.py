@@ -11,8 +11,8 @@ import pytest
 from assoc_hull.errors import BadInputError, MissingExtraError, NoMeetingError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.surfaces.triangles import Triangles
-from assoc_hull.io.lines.slices import Slices
-from assoc_hull.io.slicing.mesh import read_mesh, slice_mesh
+from assoc_hull.io.lines.slices import HullSlices
+from assoc_hull.io.slicing.mesh_lines import read_mesh, slice_mesh
 from tests import meshes
 
 CUTS: dict[str, Any] = {"stations": [25.0, 50.0, 75.0], "waterlines": [2.0, 4.0], "buttocks": [2.0]}
@@ -24,7 +24,7 @@ def facet_error(nx: int = 81, nz: int = 31) -> float:
     return (4e-3 * along**2 + 0.256 * down**2 + 2.0 * 0.064 * along * down) / 8.0
 
 
-def check_wigley(slices: Slices) -> None:
+def check_wigley(slices: HullSlices) -> None:
     """All lines lie on the formula within what the facets allow."""
     for line in slices.lines:
         for piece in line.pieces:

@@ -14,12 +14,11 @@ from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.hull import Hull
 from assoc_hull.io.digitised.read import read_lines
-from assoc_hull.io.lines.slices import Slices
-from assoc_hull.io.slicing.mesh import slice_mesh
-from assoc_hull.io.slicing.net import net_from_slices, sources_from_slices
-from assoc_hull.io.slicing.report import SliceReport
+from assoc_hull.io.lines.slices import HullSlices
+from assoc_hull.io.slicing.mesh_lines import slice_mesh
+from assoc_hull.io.slicing.net import SliceReport, net_from_slices, sources_from_slices
 from assoc_hull.model.definition.verify import verify
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from tests import meshes
 
 HULLS = [
@@ -33,7 +32,7 @@ HULLS = [
 
 
 @cache
-def slices_of(mesh: Triangles) -> Slices:
+def slices_of(mesh: Triangles) -> HullSlices:
     """Slices of a mesh, which several tests look at."""
     return slice_mesh(mesh, stations=9, waterlines=5, buttocks=3)
 
@@ -122,7 +121,7 @@ def test_digitised_and_sliced_lines_make_the_same_kind_of_net() -> None:
     """Lines with 1 mm noise, given as text, are adopted within 3 sigma and without inflections."""
     import attrs
 
-    from assoc_hull.io.lines.slices import Piece, SliceLine, Slices
+    from assoc_hull.io.lines.slices import HullSlices, LinePiece, SliceLine
     from tests.unit.io.digitised.test_digitised import as_csv
 
     slices = slice_mesh(meshes.wigley_half(401, 81), stations=7, waterlines=4, buttocks=0)
@@ -133,10 +132,10 @@ def test_digitised_and_sliced_lines_make_the_same_kind_of_net() -> None:
         for piece in line.pieces:
             points = piece.points.copy()
             points[1:-1, 1] += draw.normal(0.0, 1e-3, len(points) - 2)
-            pieces.append(Piece(points, piece.ends))
+            pieces.append(LinePiece(points, piece.ends))
         return attrs.evolve(line, pieces=tuple(pieces))
 
-    given: Slices = attrs.evolve(slices, lines=tuple(map(noisy, slices.lines)))
+    given: HullSlices = attrs.evolve(slices, lines=tuple(map(noisy, slices.lines)))
     state, report = net_from_slices(read_lines(as_csv(given)))
     assert report.inflections == (0, 0)
     rows, live = state.rows, state.live("rows")

@@ -13,11 +13,10 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.cad.hull_faces import Faces
+from assoc_hull.io.cad.hull_faces import HullFaces
 from assoc_hull.io.iges.write import iges_text
-from assoc_hull.io.lines.slices import Slices
-from assoc_hull.io.slicing.surface_hull import read_surface_lines
-from assoc_hull.io.slicing.surface_slices import slice_surfaces
+from assoc_hull.io.lines.slices import HullSlices
+from assoc_hull.io.slicing.surface_lines import read_surface_lines, slice_surfaces
 from tests import cad_hulls, meshes
 
 CUTS: dict[str, Any] = {"stations": [25.0, 50.0, 75.0], "waterlines": [2.0, 4.0], "buttocks": [2.0]}
@@ -39,12 +38,12 @@ def parted() -> list[SplineSurface]:
     return [upper, lower.restricted((0, 0.37), (0.4, 1)), lower.restricted((0.37, 1), (0.4, 1))]
 
 
-def cut(surfaces: list[SplineSurface], cuts: dict[str, Any] = CUTS, **options: Any) -> Slices:
+def cut(surfaces: list[SplineSurface], cuts: dict[str, Any] = CUTS, **options: Any) -> HullSlices:
     """Lines of surfaces in metres."""
-    return slice_surfaces(Faces.of(surfaces, "m"), **cuts, **options)
+    return slice_surfaces(HullFaces.of(surfaces, "m"), **cuts, **options)
 
 
-def check_wigley(slices: Slices) -> None:
+def check_wigley(slices: HullSlices) -> None:
     """Every line is one piece, lies on the formula to rounding, and is well covered."""
     for line in slices.lines:
         (piece,) = line.pieces
@@ -104,7 +103,7 @@ CHANGES: dict[str, tuple[Callable[[FloatArray], FloatArray], str]] = {
 
 
 @pytest.fixture(scope="module")
-def true_lines() -> Slices:
+def true_lines() -> HullSlices:
     """Lines of the small ship as it should come."""
     slices = cut(cad_hulls.port(), FEW)
     assert not slices.report.repairs
@@ -112,7 +111,7 @@ def true_lines() -> Slices:
     return slices
 
 
-def check_same(slices: Slices, other: Slices) -> None:
+def check_same(slices: HullSlices, other: HullSlices) -> None:
     """Both have lines at the same places: every point of one lies on the polyline of the other."""
     for one, two in zip(slices.lines, other.lines, strict=True):
         assert one.name == two.name
@@ -123,7 +122,7 @@ def check_same(slices: Slices, other: Slices) -> None:
 
 
 @pytest.mark.parametrize("name", CHANGES)
-def test_a_hull_that_lies_otherwise_is_turned_and_told(name: str, true_lines: Slices) -> None:
+def test_a_hull_that_lies_otherwise_is_turned_and_told(name: str, true_lines: HullSlices) -> None:
     """The lines are those of the ship as it should come, and the report names what was done."""
     change, kind = CHANGES[name]
     slices = cut(cad_hulls.moved(cad_hulls.port(), change), FEW)
@@ -131,7 +130,7 @@ def test_a_hull_that_lies_otherwise_is_turned_and_told(name: str, true_lines: Sl
     check_same(slices, true_lines)
 
 
-def test_both_halves_give_the_lines_of_one(true_lines: Slices) -> None:
+def test_both_halves_give_the_lines_of_one(true_lines: HullSlices) -> None:
     """The starboard half is seen, and is not cut."""
     slices = cut([*cad_hulls.port(), *cad_hulls.starboard()], FEW)
     (kind,) = (note.what for note in slices.report.assumptions if note.kind == "half or whole")
@@ -139,7 +138,7 @@ def test_both_halves_give_the_lines_of_one(true_lines: Slices) -> None:
     check_same(slices, true_lines)
 
 
-def test_a_half_that_is_there_twice_is_taken_once(true_lines: Slices) -> None:
+def test_a_half_that_is_there_twice_is_taken_once(true_lines: HullSlices) -> None:
     """The report names it."""
     slices = cut([*cad_hulls.port(), *cad_hulls.port()], FEW)
     assert slices.report.kinds("repairs") == ("duplicate",)
@@ -180,7 +179,7 @@ def test_a_hull_without_its_bottom_is_refused(tmp_path: Path, form: str) -> None
     if form == "igs":
         written(path, [cad_hulls.side()])
     else:
-        from assoc_hull.geometry.patches.facets import facets_of
+        from assoc_hull.geometry.patches.triangulation import facets_of
 
         meshes.write(facets_of([cad_hulls.side()], 0.01, 2.0).mesh, path)
     with pytest.raises(BadInputError, match=r"bottom is missing.* of 7 begin off .* \(ST"):
@@ -216,7 +215,7 @@ def test_a_model_is_read_as_finely_as_a_ship() -> None:
     """Limits shrink with the hull: the lines of a model of 2.5 m are those of the ship."""
     model = cad_hulls.moved(parted(), lambda net: net / 40.0)
     slices = slice_surfaces(
-        Faces.of(model, "m"), stations=[0.625, 1.25], waterlines=[0.05], buttocks=0
+        HullFaces.of(model, "m"), stations=[0.625, 1.25], waterlines=[0.05], buttocks=0
     )
     assert slices.gaps.join == pytest.approx(0.003)
     for line in slices.lines:

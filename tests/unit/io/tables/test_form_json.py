@@ -13,12 +13,15 @@ from jsonschema import Draft202012Validator
 
 import assoc_hull as ah
 from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.parameter import Parameter
-from assoc_hull.analysis.form.report import form_report
-from assoc_hull.analysis.form.value import Value
-from assoc_hull.io.hull_schema import dumps_schema
-from assoc_hull.io.tables.form_json import catalogue_json, form_json
-from assoc_hull.io.tables.form_schema import catalogue_schema, form_schema
+from assoc_hull.analysis.form.form_parameters import form_report
+from assoc_hull.analysis.form.parameter import FormParameter, FormValue
+from assoc_hull.io.tables.form_parameters import (
+    catalogue_json,
+    catalogue_schema,
+    form_json,
+    form_schema,
+)
+from assoc_hull.io.tables.json_schema import dumps_schema
 from tests.form_entries import bare, doubted, passed_on
 
 OWN = (bare, doubted, passed_on)
@@ -60,11 +63,11 @@ def test_both_documents_are_valid(values: str) -> None:
 def test_names_are_those_of_the_python_objects(values: str) -> None:
     """Every attribute but the function; every number to its last bit."""
     (entry, *_) = json.loads(catalogue_json())["entries"]
-    told = {field.name for field in attrs.fields(Parameter)} - {"compute"}
+    told = {field.name for field in attrs.fields(FormParameter)} - {"compute"}
     assert set(entry) == told
     found = json.loads(values)["values"]
     own = ah.form_parameters(ah.examples.wigley(), draughts=(6.0, 5.0), screw=SCREW, further=OWN)
-    assert {symbol: Value(**value) for symbol, value in found.items()} == dict(own)
+    assert {symbol: FormValue(**value) for symbol, value in found.items()} == dict(own)
 
 
 def test_the_catalogue_is_told_whole() -> None:

@@ -12,15 +12,14 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.hull_schema import dumps_schema
-from assoc_hull.io.tables.hull_plates_file import (
+from assoc_hull.io.tables.hull_plates import (
     hull_plates_csv,
     hull_plates_document,
+    hull_plates_schema,
     write_hull_plates,
 )
-from assoc_hull.io.tables.hull_plates_schema import hull_plates_schema
-from assoc_hull.surface.plates.hull_plate_table import COLUMNS, HullPlates
-from assoc_hull.surface.plates.hull_plates import hull_plates
+from assoc_hull.io.tables.json_schema import dumps_schema
+from assoc_hull.surface.plates.hull_plates import COLUMNS, HullPlateTable, hull_plates
 from assoc_hull.surface.plates.hull_seams import HullSeams
 from tests.formula_sides import BOWL
 
@@ -28,14 +27,14 @@ VALIDATOR = Draft202012Validator(hull_plates_schema())
 
 
 @pytest.fixture(scope="module")
-def plates() -> HullPlates:
+def plates() -> HullPlateTable:
     """Four plates: bent both ways, and with a border of blocks in their middle."""
     aft = BOWL.surface((-12.0, 0.0), (-5.0, 5.0), (2, 2), "body")
     fore = BOWL.surface((0.0, 9.0), (-5.0, 5.0), (2, 2), "bow")
     return hull_plates((aft, fore), HullSeams(x=1.0, z=0.0), zero="absolute", k0=7e-3)
 
 
-def test_the_document_is_what_the_schema_tells(plates: HullPlates) -> None:
+def test_the_document_is_what_the_schema_tells(plates: HullPlateTable) -> None:
     """With what is not there as null: no seam at an end, no other fit, no class."""
     document = hull_plates_document(plates)
     VALIDATOR.validate(document)
@@ -46,7 +45,7 @@ def test_the_document_is_what_the_schema_tells(plates: HullPlates) -> None:
     assert first["blocks"] == ["body", "bow"]
 
 
-def test_the_schema_refuses_what_is_no_table(plates: HullPlates) -> None:
+def test_the_schema_refuses_what_is_no_table(plates: HullPlateTable) -> None:
     """Another class, a number as text, a key that is unknown."""
     for key, value in {"kind": "round", "area": "19.2", "colour": "red", "dk": "nil"}.items():
         document = hull_plates_document(plates)
@@ -61,7 +60,7 @@ def test_the_schema_that_ships_is_that_of_the_writer() -> None:
     assert shipped.read_text("utf-8") == dumps_schema(hull_plates_schema())
 
 
-def test_the_table_has_all_digits(plates: HullPlates, tmp_path: Path) -> None:
+def test_the_table_has_all_digits(plates: HullPlateTable, tmp_path: Path) -> None:
     """Names, units, a row a plate; what is printed is rounded, what is written is not."""
     path = tmp_path / "plates.csv"
     write_hull_plates(plates, path)
@@ -75,14 +74,14 @@ def test_the_table_has_all_digits(plates: HullPlates, tmp_path: Path) -> None:
     assert {row[names.index("dk")] for row in rows} == {""}
 
 
-def test_another_ending_is_refused(plates: HullPlates, tmp_path: Path) -> None:
+def test_another_ending_is_refused(plates: HullPlateTable, tmp_path: Path) -> None:
     """And nothing is written."""
     with pytest.raises(BadInputError, match="tells no form"):
         write_hull_plates(plates, tmp_path / "plates.xls")
     assert not list(tmp_path.iterdir())
 
 
-def test_words_tell_rows_advice_and_notes(plates: HullPlates) -> None:
+def test_words_tell_rows_advice_and_notes(plates: HullPlateTable) -> None:
     """The table has a line a plate; a plate without a class says why."""
     words = str(plates)
     assert words.splitlines()[0].split()[:4] == ["plate", "area", "a", "b"]

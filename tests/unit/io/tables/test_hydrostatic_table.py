@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.hydrostatics.appendage import Appendage
-from assoc_hull.analysis.hydrostatics.compute import table_of
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
-from assoc_hull.analysis.hydrostatics.hydrostatic_table import HydrostaticTable
-from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
+from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingPosition
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import table_of
+from assoc_hull.analysis.hydrostatics.record import FIELDS, HydrostaticTable
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.tables.hydrostatics import csv_text, write_hydrostatic_table, xlsx_bytes
+from assoc_hull.io.tables.hydrostatics import (
+    hydrostatic_csv,
+    hydrostatic_xlsx,
+    write_hydrostatic_table,
+)
 from tests.floating_bodies import Box, head
 
 FIN = Appendage("fin, port", 30.0, (20.0, 0.0, -1.0), 50.0)
@@ -49,7 +51,7 @@ def check(names: list[str], units: list[str], rows: list[list[float]], table: Hy
 
 def test_a_csv_reads_back(table: HydrostaticTable) -> None:
     """To twelve digits; what a position has not is blank; the head stands above."""
-    text = csv_text(table)
+    text = hydrostatic_csv(table)
     above = [line for line in text.splitlines() if line.startswith("#")]
     names, units, *rows = csv.reader(io.StringIO("\n".join(text.splitlines()[len(above) :])))
     numbers = [[float(cell or "nan") for cell in row] for row in rows]
@@ -66,8 +68,8 @@ def test_a_csv_reads_back(table: HydrostaticTable) -> None:
 def test_a_workbook_reads_back(table: HydrostaticTable) -> None:
     """To the last bit but that a cell holds fifteen or more digits; the same bytes each time."""
     openpyxl = pytest.importorskip("openpyxl")
-    data = xlsx_bytes(table)
-    assert data == xlsx_bytes(table)
+    data = hydrostatic_xlsx(table)
+    assert data == hydrostatic_xlsx(table)
     sheet = openpyxl.load_workbook(io.BytesIO(data)).active
     cells = [list(row) for row in sheet.iter_rows(values_only=True)]
     top = next(k for k, row in enumerate(cells) if not str(row[0]).startswith("#"))
@@ -97,7 +99,7 @@ def test_a_name_that_looks_like_a_formula_stays_text() -> None:
     openpyxl = pytest.importorskip("openpyxl")
     named = Appendage("=1+1", 30.0, (20.0, 0.0, -1.0), 50.0)
     header = head(100.0, 20.0, 6.0, appendages=(named,), ship="=A1")
-    book = xlsx_bytes(table_of(Box(off=1e-6), [FloatingPosition(5.0, 5.0)], header))
+    book = hydrostatic_xlsx(table_of(Box(off=1e-6), [FloatingPosition(5.0, 5.0)], header))
     sheet = openpyxl.load_workbook(io.BytesIO(book)).active
     cells = [cell for row in sheet.iter_rows(max_col=2) for cell in row]
     assert all(cell.data_type != "f" for cell in cells)

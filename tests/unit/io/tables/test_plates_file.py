@@ -13,18 +13,17 @@ from jsonschema import Draft202012Validator
 
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.hull_schema import dumps_schema
-from assoc_hull.io.tables.plates_file import (
+from assoc_hull.io.tables.json_schema import dumps_schema
+from assoc_hull.io.tables.plates import (
     development_csv,
     plates_csv,
     plates_document,
     plates_json,
+    plates_schema,
 )
-from assoc_hull.io.tables.plates_schema import plates_schema
 from assoc_hull.plating import Plates
 from assoc_hull.surface.plates.development import LABEL
-from assoc_hull.surface.plates.plate_table import COLUMNS
-from assoc_hull.surface.plates.seams import Seams
+from assoc_hull.surface.plates.surface_plates import COLUMNS, Seams
 
 VALIDATOR = Draft202012Validator(plates_schema())
 

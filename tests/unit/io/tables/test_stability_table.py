@@ -10,20 +10,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from assoc_hull.analysis.hydrostatics.appendage import Appendage
-from assoc_hull.analysis.stability.condition import Asked
+from assoc_hull.analysis.hydrostatics.floating_body import Appendage
+from assoc_hull.analysis.stability.condition import ConditionRequest
 from assoc_hull.analysis.stability.cross_curves import CrossCurves, cross_curves_of
 from assoc_hull.analysis.stability.flooding import FloodingPoint
-from assoc_hull.analysis.stability.result import Stability
-from assoc_hull.analysis.stability.stability import stability_of
+from assoc_hull.analysis.stability.stability_report import Stability, stability_of
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.tables.stability_json import stability_document
-from assoc_hull.io.tables.stability_table import (
+from assoc_hull.io.tables.stability import (
     ENDINGS,
-    csv_text,
+    stability_csv,
+    stability_document,
     stability_text,
+    stability_xlsx,
     write_stability,
-    xlsx_bytes,
 )
 from tests.floating_bodies import box_body, head
 
@@ -36,14 +35,19 @@ def levers() -> Stability:
     point = FloodingPoint("hatch", (50.0, 8.0, 10.0))
     heels = np.array([-10.0, 0.0, 10.0, 40.0])
     return stability_of(
-        box_body(closed=False), header, Asked(draught=6.0, kg=5.0), "fixed", heels, [point]
+        box_body(closed=False),
+        header,
+        ConditionRequest(draught=6.0, kg=5.0),
+        "fixed",
+        heels,
+        [point],
     )
 
 
 @pytest.fixture(scope="module")
 def curves() -> CrossCurves:
     """The open box at two draughts; the deeper one does not float at 25 degrees."""
-    asked = [Asked(draughts=(t, t)) for t in (6.0, 8.0)]
+    asked = [ConditionRequest(draughts=(t, t)) for t in (6.0, 8.0)]
     header = head(100.0, 20.0, 6.0, deck="open", date="2026-01-31")
     return cross_curves_of(box_body(False), header, asked, "fixed", np.array([10.0, 25.0]))
 
@@ -57,7 +61,7 @@ def parted(text: str) -> tuple[list[str], list[list[str]]]:
 
 def test_levers_read_back_from_csv(levers: Stability) -> None:
     """To twelve digits; where she does not float it is blank; the head says the deck is open."""
-    above, (names, units, *rows) = parted(csv_text(levers))
+    above, (names, units, *rows) = parted(stability_csv(levers))
     assert names == ["heel_deg", "kn", "gz", "arm", "draught_aft", "draught_fore"]
     assert units == ["deg", "m", "m", "m rad", "m", "m"]
     numbers = np.array([[float(cell or "nan") for cell in row] for row in rows])
@@ -74,7 +78,7 @@ def test_levers_read_back_from_csv(levers: Stability) -> None:
 
 def test_cross_curves_read_back_from_csv(curves: CrossCurves) -> None:
     """A row per displacement, a column per heel."""
-    above, (names, units, *rows) = parted(csv_text(curves))
+    above, (names, units, *rows) = parted(stability_csv(curves))
     assert names == ["displacement", "volume", "draught", "KN 10", "KN 25"]
     assert units == ["t", "m3", "m", "m", "m"]
     assert [float(row[3]) for row in rows] == pytest.approx(curves.kn[:, 0].tolist(), rel=1e-11)
@@ -87,10 +91,10 @@ def test_workbooks_hold_the_same_numbers(levers: Stability, curves: CrossCurves)
     """Whole ones, under names and units; the name of the ship is no formula."""
     openpyxl = pytest.importorskip("openpyxl")
     for found in (levers, curves):
-        sheet = openpyxl.load_workbook(io.BytesIO(xlsx_bytes(found))).active
+        sheet = openpyxl.load_workbook(io.BytesIO(stability_xlsx(found))).active
         rows = [[cell.value for cell in row] for row in sheet.iter_rows()]
         top = next(k for k, row in enumerate(rows) if not str(row[0]).startswith("# "))
-        above, (names, units, *numbers) = parted(csv_text(found))
+        above, (names, units, *numbers) = parted(stability_csv(found))
         assert len(above) == top
         assert [rows[top], rows[top + 1]] == [names, units]
         for row, wanted in zip(rows[top + 2 :], numbers, strict=True):

@@ -13,21 +13,22 @@ import numpy as np
 import pytest
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.followup.adopted_points import ride_links
+from assoc_hull.edit.followup.adopted_points import link_adopted_points
 from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, CoincidentPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.node import Evaluation
-from assoc_hull.graph.run_update import Policy
-from assoc_hull.model.definition.definition import definition, fingerprint, published
+from assoc_hull.graph.network import Evaluation
+from assoc_hull.graph.run_update import FailurePolicy
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.records import definition, published
 from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.definition.verify import verify
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker, PointSpec
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from tests.strategies import Move, Net, PinnedEdit, apply_edit, make_document, wigley_sources
 
 Record = dict[str, Any]
@@ -44,7 +45,7 @@ def one_way() -> Net:
 def document(request: pytest.FixtureRequest) -> Document:
     """A small net after a few edits, its adopted points linked to their neighbours."""
     found = make_document(wigley_sources(5, 3, 2) if request.param == "two-way" else one_way())
-    ride_links(found.state, found.state.live("curves"), Journal())
+    link_adopted_points(found.state, found.state.live("curves"), Journal())
     found.refresh()
     for which in (3, 11, 25):
         assert apply_edit(found, PinnedEdit((Move(which, 0.01),), False))
@@ -197,7 +198,7 @@ def test_a_failed_curve_keeps_its_shape_and_blocks_its_readers() -> None:
     value = state.rows.xyz.data[[row]] + np.array([0.0, 0.01, 0.0])
     with (
         failing("waterlines:3.125000/1"),
-        Transaction(document, "go on", Settings(Policy.KEEP_GOING, False)) as edit,
+        Transaction(document, "go on", Settings(FailurePolicy.KEEP_GOING, False)) as edit,
     ):
         edit.write(np.array([row]), value, "go on")
     assert [state.curves.key.data[curve] for curve in state.failed] == ["waterlines:3.125000/1"]

@@ -12,8 +12,8 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.integrals.stations import integrate_by_simpson
-from assoc_hull.model.forms.chains import chain_of
 from assoc_hull.model.forms.closure import coefficients
+from assoc_hull.model.forms.form_values import chain_of
 from tests.cases import versluis
 
 SHIP = ah.Particulars("carrier", versluis.LPP, versluis.BREADTH, 15.8, versluis.DRAUGHT)

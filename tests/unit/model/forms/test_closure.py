@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError, OutOfRangeError
-from assoc_hull.model.definition_part import FormDefinition
-from assoc_hull.model.forms.closure import close_halves, coefficients
-from assoc_hull.model.forms.closure_sums import close_sac
-from assoc_hull.model.forms.halves import halves_vertices
-from assoc_hull.model.state import Particulars
+from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.forms.closure import close_halves, close_sac, coefficients
+from assoc_hull.model.forms.two_halves import halves_vertices
+from assoc_hull.model.tables import Particulars
 
 SHIP = Particulars("ship", 180.0, 28.0, 15.8, 10.5)
 

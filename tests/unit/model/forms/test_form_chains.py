@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError, OutOfRangeError, UnknownNameError
-from assoc_hull.model.definition_part import FormDefinition
-from assoc_hull.model.forms.chains import chain_of
+from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.forms.courses import course_vertices
-from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.state import Particulars
+from assoc_hull.model.forms.form_values import Forms, chain_of
+from assoc_hull.model.tables import Particulars
 from tests.form_ship import AREAS, PARTICULARS, course, plain_ship
 
 UNIT = Particulars("two long", 2.0, 2.0, 2.0, 1.0)

@@ -15,12 +15,17 @@ from assoc_hull.geometry.form_curves.curve import form_at
 from assoc_hull.geometry.form_curves.integrals import form_integrals
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.model.definition_part import FormDefinition, GeneratedCurve
-from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.generate import generated_points, marks_for, marks_suffice, reads
-from assoc_hull.model.forms.layout import layout_at
-from assoc_hull.model.forms.section_pieces import CurvePieces, SectionShape
-from assoc_hull.model.forms.sections import parted, section_shape
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.forms.form_values import Forms
+from assoc_hull.model.forms.generate_points import (
+    definitions_read,
+    generated_points,
+    marks_for,
+    marks_suffice,
+)
+from assoc_hull.model.forms.line_layout import layout_at
+from assoc_hull.model.forms.section_pieces import SectionCurves, SectionShape
+from assoc_hull.model.forms.sections import parts_at_draught, section_shape
 from tests.form_ship import AREAS, PARTICULARS, WATERLINE, course, plain_ship
 
 STATIONS = (0.0, 4.5, 9.0, 18.0, 36.0, 45.0, 54.0, 63.0, 90.0, 126.0, 135.0, 153.0, 171.0, 178.0)
@@ -51,7 +56,7 @@ def drawn(forms: Forms, x: float) -> tuple[SplineBatch, SectionShape, int]:
         (finish.kind[0], finish.kind[1]), np.array(finish.vector),
     )  # fmt: skip
     shape = section_shape(forms, curve.layout, np.array([x]), ends[None])
-    return loft(data), shape, len(parted(curve.layout)[0])
+    return loft(data), shape, len(parts_at_draught(curve.layout)[0])
 
 
 def immersed(spline: SplineBatch, draught: float) -> tuple[float, float]:
@@ -188,7 +193,7 @@ def test_printed_section() -> None:
     forms = one_section(120.0, 8.0, (9.5, 15.0), centroid=6.4, keel_angle=62.0, waterline_angle=0.0)
     shape = section_shape(forms, "curve+topside", np.array([90.0]), ends_at(forms, 90.0)[None])
     (below, _) = shape.pieces
-    assert isinstance(below, CurvePieces)
+    assert isinstance(below, SectionCurves)
     assert below.vertices[0, 3] == pytest.approx([4.06634928353, 6.583522278763], abs=2e-12)
     sums = form_integrals(below.vertices)
     assert sums.area[0] == pytest.approx(60.0, abs=1e-12)
@@ -206,7 +211,7 @@ def test_printed_section_of_longer_tangents() -> None:
     )  # fmt: skip
     shape = section_shape(forms, "curve+topside", np.array([90.0]), ends_at(forms, 90.0)[None])
     below = shape.pieces[0]
-    assert isinstance(below, CurvePieces)
+    assert isinstance(below, SectionCurves)
     assert below.vertices[0, 3] == pytest.approx([3.617398688192, 5.754153725792], abs=2e-12)
     sums = form_integrals(below.vertices)
     assert sums.moment_y[0] / sums.area[0] == pytest.approx(3.3193535396, abs=6e-11)
@@ -220,9 +225,9 @@ def test_printed_joint() -> None:
     )  # fmt: skip
     shape = section_shape(forms, "curve+topside", np.array([90.0]), ends_at(forms, 90.0)[None])
     below, above = shape.pieces
-    assert isinstance(above, CurvePieces)
+    assert isinstance(above, SectionCurves)
     assert above.vertices[0, 3] == pytest.approx([12.733173599, 8.8250015454], abs=6e-11)
-    assert isinstance(below, CurvePieces)
+    assert isinstance(below, SectionCurves)
     for piece, t in ((below, 4.0), (above, 0.0)):
         first, second = (form_at(piece.vertices, np.array([t]), order)[0] for order in (1, 2))
         turn = first[0] * second[1] - first[1] * second[0]
@@ -291,11 +296,11 @@ def test_a_section_depends_on_what_it_reads_only() -> None:
             places = np.array([x])
             old, new = (generated_points(f, [curve], places, ends[None])[0] for f in (ship, forms))
             if old.tobytes() != new.tobytes():
-                assert use in reads(curve)
+                assert use in definitions_read(curve)
                 mattered.add(use)
     assert mattered == set(changes) - {"half_siding"}
     flat = GeneratedCurve("", 0, "section", "level+curve+upright+topside", (), ())
-    assert not {"keel_angle", "waterline_angle"} & set(reads(flat))
+    assert not {"keel_angle", "waterline_angle"} & set(definitions_read(flat))
 
 
 def test_known_marks_stay(ship: Forms) -> None:

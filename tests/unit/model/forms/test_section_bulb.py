@@ -11,13 +11,12 @@ from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curves.curve import form_at
 from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.model.definition_part import GeneratedCurve
-from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.generate import generated_points, marks_for, reads
-from assoc_hull.model.forms.layout import ends_for, layout_at
-from assoc_hull.model.forms.section_bulb import bulb_vertices
-from assoc_hull.model.forms.section_pieces import CurvePieces
-from assoc_hull.model.forms.sections import section_shape
+from assoc_hull.model.form_definition import GeneratedCurve
+from assoc_hull.model.forms.form_values import Forms
+from assoc_hull.model.forms.generate_points import definitions_read, generated_points, marks_for
+from assoc_hull.model.forms.line_layout import ends_for, layout_at
+from assoc_hull.model.forms.section_pieces import SectionCurves
+from assoc_hull.model.forms.sections import bulb_vertices, section_shape
 from assoc_hull.shipped.container_ship_225m import container_ship_225m_design
 
 DESIGN = container_ship_225m_design()
@@ -38,28 +37,28 @@ def ends_at(forms: Forms, x: float, part: int = 0) -> FloatArray:
     return np.array([[x, *heights[2 * part]], [x, *heights[2 * part + 1]]])
 
 
-def pieces(forms: Forms, x: float, part: int = 0) -> list[CurvePieces]:
+def pieces(forms: Forms, x: float, part: int = 0) -> list[SectionCurves]:
     """The pieces of a curve of a section."""
     layout = layout_at(forms, "section", x, part)
     shape = section_shape(forms, layout, np.array([x]), ends_at(forms, x, part)[None])
-    found = [each for each in shape.pieces if isinstance(each, CurvePieces)]
+    found = [each for each in shape.pieces if isinstance(each, SectionCurves)]
     assert len(found) == len(shape.pieces)
     return found
 
 
-def curvature(piece: CurvePieces, t: float) -> float:
+def curvature(piece: SectionCurves, t: float) -> float:
     """The signed curvature of a piece, by its derivatives."""
     (x1, y1), (x2, y2) = (form_at(piece.vertices, np.array([t]), n)[0] for n in (1, 2))
     return float((x1 * y2 - y1 * x2) / math.hypot(x1, y1) ** 3)
 
 
-def angle(piece: CurvePieces, t: float) -> float:
+def angle(piece: SectionCurves, t: float) -> float:
     """The angle (degrees) of a piece in the graph of y over z."""
     z, y = form_at(piece.vertices, np.array([t]), 1)[0]
     return math.degrees(math.atan2(y, z))
 
 
-def area(piece: CurvePieces) -> float:
+def area(piece: SectionCurves) -> float:
     """The area of half a section under a piece."""
     return float(form_integrals(piece.vertices).area[0])
 
@@ -134,8 +133,8 @@ def test_sections_of_a_bulb_depend_on_what_shapes_it() -> None:
         ("bulb+upper+topside", bulb), ("round", {"bulb_area"}), ("topside", set[str]()),
     ):  # fmt: skip
         curve = GeneratedCurve("", 0, "section", layout, (), ())
-        assert bulb & set(reads(curve)) == wanted
-    whole = reads(GeneratedCurve("", 0, "section", "bulb+upper+topside", (), ()))
+        assert bulb & set(definitions_read(curve)) == wanted
+    whole = definitions_read(GeneratedCurve("", 0, "section", "bulb+upper+topside", (), ()))
     assert {"sectional_area", "design_waterline", "waterline_angle", "deck_angle"} <= set(whole)
     assert "keel_angle" not in whole
 

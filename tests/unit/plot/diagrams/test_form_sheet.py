@@ -9,14 +9,12 @@ import attrs
 import numpy as np
 import pytest
 
-from assoc_hull.analysis.form.report import FormReport, form_report, number_text
+from assoc_hull.analysis.form.form_parameters import FormReport, form_report, number_text
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
-from assoc_hull.plot.diagrams.form_files import ENDINGS, write_form_report
-from assoc_hull.plot.diagrams.form_sheet import form_pdf, form_sheets
-from assoc_hull.plot.sheet.form_flow import LEFT, PAGE, RIGHT
-from assoc_hull.plot.sheet.pages import pdf_of
-from assoc_hull.plot.sheet.sheet import Sheet
+from assoc_hull.plot.diagrams.form_report import ENDINGS, form_pdf, form_sheets, write_form_report
+from assoc_hull.plot.sheet.report_pages import LEFT, PAGE, RIGHT
+from assoc_hull.plot.sheet.sheet_figure import Sheet, pdf_of
 from tests.form_entries import bare, doubted, many, passed_on
 
 _OVERLAP = 0.35  # mm: boxes of words hold room above and below the letters

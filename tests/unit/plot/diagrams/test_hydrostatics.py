@@ -8,20 +8,22 @@ import pytest
 from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.hydrostatics.bonjean import Bonjean
-from assoc_hull.analysis.hydrostatics.compute import table_of
-from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
-from assoc_hull.analysis.hydrostatics.floating_body import StationAreas
-from assoc_hull.analysis.hydrostatics.hydrostatic_table import HydrostaticTable
-from assoc_hull.analysis.hydrostatics.hydrostatics import hydrostatic_table
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, StationAreas
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatic_table, table_of
+from assoc_hull.analysis.hydrostatics.record import HydrostaticTable
+from assoc_hull.analysis.hydrostatics.section_areas import Bonjean
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.hull import Hull
-from assoc_hull.plot.diagrams.hydrostatic_curves import hydrostatic_curves
-from assoc_hull.plot.diagrams.hydrostatics import PICTURES, plot_hydrostatics
-from assoc_hull.plot.diagrams.section_areas import bonjean_curves, sectional_area_curve
-from assoc_hull.plot.sheet.chart import scale_to, smooth
+from assoc_hull.plot.diagrams.hydrostatics import (
+    PICTURES,
+    bonjean_curves,
+    hydrostatic_curves,
+    plot_hydrostatics,
+    sectional_area_curve,
+)
+from assoc_hull.plot.sheet.chart import scale_to, smooth_course
 from assoc_hull.plot.sheet.paper import PAPERS
 from tests.floating_bodies import Wigley, head
 
@@ -41,7 +43,7 @@ def table() -> HydrostaticTable:
 
 def areas(height: FloatArray) -> StationAreas:
     """Of the stations of the Wigley hull at even keel."""
-    return WIGLEY.stations(Planes(height, 0.0 * height, 0.0 * height))
+    return WIGLEY.stations(FloatingPlanes(height, 0.0 * height, 0.0 * height))
 
 
 def pictures(table: HydrostaticTable, hull: Hull, paper: str) -> list[Figure]:
@@ -134,9 +136,9 @@ def test_one_draught_makes_no_curve() -> None:
 def test_a_smooth_curve_is_level_between_level_points_and_exact_on_parabolas() -> None:
     """So that a parallel body is drawn as one."""
     x = np.array([0.0, 1.0, 2.5, 3.0, 4.0])
-    course = smooth(x, x**2)
+    course = smooth_course(x, x**2)
     assert_allclose(course[:, 1], course[:, 0] ** 2, atol=1e-12)
-    flat = smooth(x, np.array([0.0, 3.0, 3.0, 3.0, 1.0]))
+    flat = smooth_course(x, np.array([0.0, 3.0, 3.0, 3.0, 1.0]))
     inside = (flat[:, 0] >= 1.0) & (flat[:, 0] <= 3.0)
     assert (flat[inside, 1] == 3.0).all()
 

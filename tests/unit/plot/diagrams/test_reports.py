@@ -11,11 +11,11 @@ from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
 from assoc_hull.plot import before_after, curvature_combs, neighbourhood, snapshot
-from assoc_hull.plot.diagrams.links import links
+from assoc_hull.plot.diagrams.driver_graph import drive_links
+from assoc_hull.plot.lines_plan.before_after import movements
 from assoc_hull.plot.lines_plan.drawing import Drawing, drawing
-from assoc_hull.plot.lines_plan.movement import movements
+from assoc_hull.plot.sheet.labels import overlaps
 from assoc_hull.plot.sheet.paper import MARGIN, PAPERS, PaperName
-from assoc_hull.plot.sheet.rails import overlaps
 from assoc_hull.sources import examples
 
 Boxes = Callable[[Figure], dict[str, FloatArray]]
@@ -122,7 +122,7 @@ def test_the_neighbourhood_is_that_of_the_links(series60: Hull) -> None:
     """One node per neighbour, one edge per pair, and the numbers are those of the crossings."""
     pairs = {
         frozenset((link.tail.name, link.head.name)): link
-        for link in links(series60)
+        for link in drive_links(series60)
         if "WL 0.5" in (link.tail.name, link.head.name)
     }
     figure = neighbourhood(series60, "WL 0.5")

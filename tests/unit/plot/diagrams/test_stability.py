@@ -12,15 +12,18 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.stability.condition import Asked
+from assoc_hull.analysis.stability.condition import ConditionRequest
 from assoc_hull.analysis.stability.cross_curves import CrossCurves, cross_curves_of
 from assoc_hull.analysis.stability.flooding import FloodingPoint
-from assoc_hull.analysis.stability.result import Stability
-from assoc_hull.analysis.stability.stability import stability_of
+from assoc_hull.analysis.stability.stability_report import Stability, stability_of
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.diagrams.cross_curves import cross_curve_picture
-from assoc_hull.plot.diagrams.stability import _AREAS, lever_picture, plot_stability
+from assoc_hull.plot.diagrams.stability import (
+    _AREAS,
+    cross_curve_picture,
+    lever_picture,
+    plot_stability,
+)
 from assoc_hull.plot.sheet.paper import PAPERS
 from tests.floating_bodies import box_body, head
 
@@ -34,7 +37,7 @@ def box(kg: float, *, closed: bool = True, tcg: float = 0.0, draught: float = 6.
     """The box with an opening."""
     header = head(100.0, 20.0, 6.0, kg=kg, deck="closed" if closed else "open", ship="Box")
     point = FloodingPoint("hatch", (50.0, 8.0, 10.0))
-    asked = Asked(draught=draught, kg=kg, tcg=tcg)
+    asked = ConditionRequest(draught=draught, kg=kg, tcg=tcg)
     return stability_of(box_body(closed), header, asked, "fixed", HEELS, [point])
 
 
@@ -53,7 +56,7 @@ def ships() -> dict[str, Stability]:
 @pytest.fixture(scope="module")
 def curves() -> CrossCurves:
     """The box at five draughts."""
-    asked = [Asked(draughts=(t, t)) for t in (2.0, 4.0, 6.0, 8.0, 10.0)]
+    asked = [ConditionRequest(draughts=(t, t)) for t in (2.0, 4.0, 6.0, 8.0, 10.0)]
     return cross_curves_of(box_body(), head(100.0, 20.0, 6.0), asked, "fixed", HEELS[1:])
 
 
@@ -141,7 +144,7 @@ def test_cross_curves_pass_through_the_table(curves: CrossCurves, lines_of: Line
 
 def test_one_displacement_makes_no_curve() -> None:
     """The error says how many are needed."""
-    header, asked = head(100.0, 20.0, 6.0), [Asked(draughts=(6.0, 6.0))]
+    header, asked = head(100.0, 20.0, 6.0), [ConditionRequest(draughts=(6.0, 6.0))]
     single = cross_curves_of(box_body(), header, asked, "fixed", HEELS[1:3])
     with pytest.raises(BadInputError, match="two or more"):
         cross_curve_picture(single)

@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.form.curve_transforms import curve_transform
-from assoc_hull.analysis.form.transform_record import CurveTransform
+from assoc_hull.analysis.form.curve_transform import CurveTransform, curve_transform
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull

@@ -11,10 +11,9 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.hull import Hull
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.state import Particulars
+from assoc_hull.model.tables import Particulars
 from assoc_hull.plot import combs_plan
-from assoc_hull.plot.lines_plan.drawing import drawing
-from assoc_hull.plot.lines_plan.given import given_lines
+from assoc_hull.plot.lines_plan.drawing import drawing, given_lines
 from tests import meshes
 
 Lines = Callable[[Figure, str], list[FloatArray]]

@@ -12,11 +12,10 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot import comparison_pdf, comparison_plan
-from assoc_hull.plot.lines_plan.comparison_sheet import comparison_sheets
-from assoc_hull.plot.sheet.form_flow import LEFT, PAGE, RIGHT
-from assoc_hull.plot.sheet.pages import pdf_of
-from assoc_hull.plot.sheet.sheet import Sheet
-from assoc_hull.variation.comparing.compare import HullComparison
+from assoc_hull.plot.lines_plan.comparison import comparison_sheets
+from assoc_hull.plot.sheet.report_pages import LEFT, PAGE, RIGHT
+from assoc_hull.plot.sheet.sheet_figure import Sheet, pdf_of
+from assoc_hull.variation.comparing.comparison import HullComparison
 
 Lines = Callable[[Figure, str], list[FloatArray]]
 

@@ -13,8 +13,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
 from assoc_hull.plot import adoption_deviations
-from assoc_hull.plot.sheet.paper import PAPERS
-from assoc_hull.plot.sheet.pens import TINT
+from assoc_hull.plot.sheet.paper import PAPERS, TINT
 
 Lines = Callable[[Figure, str], list[FloatArray]]
 Boxes = Callable[[Figure], dict[str, FloatArray]]

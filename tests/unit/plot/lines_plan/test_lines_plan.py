@@ -13,8 +13,8 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
 from assoc_hull.plot import lines_plan
 from assoc_hull.plot.lines_plan.drawing import Drawing, drawing
-from assoc_hull.plot.lines_plan.layout import lay_out
-from assoc_hull.plot.sheet import sheet
+from assoc_hull.plot.lines_plan.three_views import lay_out_views
+from assoc_hull.plot.sheet import sheet_figure as sheet
 from assoc_hull.plot.sheet.paper import PAPERS
 
 Lines = Callable[[Figure, str], list[FloatArray]]
@@ -148,7 +148,7 @@ def test_the_bow_is_on_the_right_and_the_views_are_aligned(
 ) -> None:
     """x grows to the right, on one scale and at one place in profile and half-breadth plan."""
     shown = drawing(hull)
-    layout, figure = lay_out(shown, PAPERS["A3"]), plan()
+    layout, figure = lay_out_views(shown, PAPERS["A3"]), plan()
     assert layout.profile.denominator == layout.half.denominator
     for line in shown.of("sections"):
         (upper,) = lines_of(figure, f"profile/grid/{line.name}")[:1]
@@ -162,7 +162,7 @@ def test_the_bow_is_on_the_right_and_the_views_are_aligned(
 def test_the_aft_body_is_on_the_left(hull: Hull, plan: Plan, lines_of: Lines) -> None:
     """Sections abaft the middle lie left of the centre line, those before it right."""
     shown = drawing(hull)
-    layout = lay_out(shown, PAPERS["A3"])
+    layout = lay_out_views(shown, PAPERS["A3"])
     figure, centre = plan(), layout.body.across(0.0)
     middle = 0.5 * hull.particulars.length
     for line in shown.of("sections"):

@@ -15,12 +15,12 @@ from matplotlib.figure import Figure
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.plates.colour_bar import CURVATURE, STRAIN, shades
+from assoc_hull.plot.plates.colour_legend import CURVATURE, STRAIN, shades
 from assoc_hull.plot.plates.curvature_map import curvature_figure
-from assoc_hull.plot.plates.plate_paint import SIGNS, TINTS
+from assoc_hull.plot.plates.paint_tiles import SIGNS, TINTS
 from assoc_hull.plot.sheet.paper import PAPERS
-from assoc_hull.surface.plates.plate_table import Plates
-from assoc_hull.surface.regions.region_result import RegionResult
+from assoc_hull.surface.plates.surface_plates import PlateTable
+from assoc_hull.surface.regions.result import RegionResult
 from tests.curved_patches import patch
 
 Boxes = Callable[[Figure], dict[str, FloatArray]]
@@ -45,7 +45,7 @@ def picture(wavy: RegionResult) -> Figure:
 
 
 @pytest.fixture(scope="module")
-def shell() -> Plates:
+def shell() -> PlateTable:
     """A saddle with a slanting roll axis, a flat plate, a cylinder turned in space."""
     return ah.plates([bezier(name) for name in ("P11_hypar", "P13_plane", "P15_cyl_rot")])
 
@@ -149,7 +149,7 @@ def test_block_and_legend_tell_areas_and_band(wavy: RegionResult, picture: Figur
 
 
 @pytest.mark.parametrize("name", ["several", "tiny"])
-def test_all_lies_on_the_sheet(shell: Plates, boxes_of: Boxes, name: str) -> None:
+def test_all_lies_on_the_sheet(shell: PlateTable, boxes_of: Boxes, name: str) -> None:
     """Words, lines and tiles of several plates, and of one that needs no scale bar."""
     found = shell if name == "several" else ah.curvature_regions(1e-3 * patch("P12_bowl"))
     figure = curvature_figure(found, paper="A1")
@@ -168,7 +168,7 @@ def test_all_lies_on_the_sheet(shell: Plates, boxes_of: Boxes, name: str) -> Non
             assert (corner < (size.width, size.height)).all()
 
 
-def test_plates_have_their_class_and_roll_axis(shell: Plates, lines_of: Lines) -> None:
+def test_plates_have_their_class_and_roll_axis(shell: PlateTable, lines_of: Lines) -> None:
     """The axis stands at its angle, clockwise from the long side; a flat plate has none."""
     figure = curvature_figure(shell, views=["plan"])
     below = " ".join(words(figure, "label/shares"))

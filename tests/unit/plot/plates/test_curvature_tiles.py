@@ -6,35 +6,34 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.bezier_patches import Patches, curvatures
+from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches
 from assoc_hull.geometry.patches.cells import CellKind
 from assoc_hull.geometry.patches.curvature_functions import gauss_function
-from assoc_hull.geometry.patches.curvatures import curvatures
-from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.solve import solve
-from assoc_hull.plot.plates.curvature_tiles import Tiles, tiles_of
+from assoc_hull.plot.plates.plate_picture import CurvatureTiles, tiles_of
 from tests.curved_patches import patch
 
 NAMES = ("P03_circle_loop", "P08_wavy_plate", "P20_five_arcs")
 
 
-def sizes(tiles: Tiles) -> FloatArray:
+def sizes(tiles: CurvatureTiles) -> FloatArray:
     """Areas of tiles in parameters, with the sign of the way they go round."""
     first, second = (tiles.uv[:, k + 2] - tiles.uv[:, k] for k in (0, 1))
     return np.asarray(0.5 * (first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]))
 
 
 @pytest.fixture(scope="module", params=[0.0, 1.28e-3], ids=["K = 0", "K = K0"])
-def cut(request: pytest.FixtureRequest) -> tuple[Patches, float, Tiles]:
+def cut(request: pytest.FixtureRequest) -> tuple[Patches, float, CurvatureTiles]:
     """Tiles of three patches that lines of this level cut, both ways round."""
     patches = Patches(
         np.stack([patch(name) for name in NAMES]), np.tile([[0.0, 1.0]], (3, 2, 1)), np.arange(3)
     )
-    cells = solve(gauss_function(patches, request.param))
+    cells = subdivide_patches(gauss_function(patches, request.param))
     assert {CellKind.U_SIMPLE, CellKind.V_SIMPLE} <= set(cells.kind.tolist())
     return patches, request.param, tiles_of(cells, 40)
 
 
-def test_tiles_fill_each_patch_once(cut: tuple[Patches, float, Tiles]) -> None:
+def test_tiles_fill_each_patch_once(cut: tuple[Patches, float, CurvatureTiles]) -> None:
     """They go round anticlockwise, and their areas add up to that of the unit square."""
     patches, _, tiles = cut
     found = sizes(tiles)
@@ -44,7 +43,7 @@ def test_tiles_fill_each_patch_once(cut: tuple[Patches, float, Tiles]) -> None:
     assert tiles.uv.max() <= 1.0
 
 
-def test_no_tile_lies_across_a_border(cut: tuple[Patches, float, Tiles]) -> None:
+def test_no_tile_lies_across_a_border(cut: tuple[Patches, float, CurvatureTiles]) -> None:
     """K at its middle and on the way to its corners is on the side that it tells.
 
     But for the chord between two places on a line: a tile has straight sides.
@@ -65,9 +64,9 @@ def test_no_tile_lies_across_a_border(cut: tuple[Patches, float, Tiles]) -> None
 def test_zero_and_unresolved_cells() -> None:
     """A plane is one zero cell, parted into tiles; what is unresolved gets none."""
     plane = Patches.single(patch("P13_plane"))
-    tiles = tiles_of(solve(gauss_function(plane, 0.0, 1e-9)), 4)
+    tiles = tiles_of(subdivide_patches(gauss_function(plane, 0.0, 1e-9)), 4)
     assert (len(tiles), set(tiles.sign.tolist())) == (16, {0})
-    monkey = solve(gauss_function(Patches.single(patch("P02_monkey")), 0.0), depth=6)
+    monkey = subdivide_patches(gauss_function(Patches.single(patch("P02_monkey")), 0.0), depth=6)
     box = monkey.box[monkey.kind == CellKind.UNRESOLVED]
     assert len(box)
     lost = np.prod(box[..., 1] - box[..., 0], axis=1).sum()

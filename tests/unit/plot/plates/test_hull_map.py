@@ -8,14 +8,12 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError, WrongTypeError
-from assoc_hull.plot.plates.hull_map import hull_map
-from assoc_hull.plot.plates.hull_sheet import hull_sheet
+from assoc_hull.plot.plates.hull_map import hull_map, hull_sheet
 from assoc_hull.plot.plates.hull_tiles import hull_tiles
 from assoc_hull.plot.plates.lit_surface import surface_figure
-from assoc_hull.surface.plates.hull_plate_table import HullPlates
-from assoc_hull.surface.plates.hull_plates import hull_plates
+from assoc_hull.surface.plates.hull_plates import HullPlateTable, hull_plates
 from assoc_hull.surface.plates.hull_seams import HullSeams
-from assoc_hull.surface.plates.shell import Shell
+from assoc_hull.surface.plates.hull_shell import HullShell
 from tests.formula_sides import BOWL
 
 AFT = BOWL.surface((-12.0, 0.0), (-5.0, 5.0), (2, 2), "body")
@@ -23,13 +21,13 @@ FORE = BOWL.surface((0.0, 9.0), (-5.0, 5.0), (2, 2), "bow")
 
 
 @pytest.fixture(scope="module")
-def plates() -> HullPlates:
+def plates() -> HullPlateTable:
     """Plates of two blocks."""
     seams = HullSeams(x=(-6.0, 4.0), girth=(3.0, 7.0))
     return hull_plates((AFT, FORE), seams, zero="absolute", k0=7e-3)
 
 
-def test_every_view_has_tiles_lines_and_plates_their_names(plates: HullPlates) -> None:
+def test_every_view_has_tiles_lines_and_plates_their_names(plates: HullPlateTable) -> None:
     """Also hatching where curvature is contested; a plate without a class has a question mark."""
     figure = hull_map(plates)
     drawn = figure.axes[0]
@@ -43,7 +41,7 @@ def test_every_view_has_tiles_lines_and_plates_their_names(plates: HullPlates) -
     assert any(plate.kind is None for plate in plates)
 
 
-def test_the_ending_of_the_name_chooses_the_picture(plates: HullPlates, tmp_path: Path) -> None:
+def test_the_ending_of_the_name_chooses_the_picture(plates: HullPlateTable, tmp_path: Path) -> None:
     """Of the map and of the surface; another ending, and what is neither, is refused."""
     hull_map(plates, tmp_path / "map.svg", paper="A4")
     surface_figure((AFT, FORE), tmp_path / "surface.png")
@@ -58,7 +56,9 @@ def test_the_ending_of_the_name_chooses_the_picture(plates: HullPlates, tmp_path
     assert len(list(tmp_path.iterdir())) == 2
 
 
-def test_the_sheet_has_the_map_the_table_and_the_notes(plates: HullPlates, tmp_path: Path) -> None:
+def test_the_sheet_has_the_map_the_table_and_the_notes(
+    plates: HullPlateTable, tmp_path: Path
+) -> None:
     """Three pages."""
     path = tmp_path / "plates.pdf"
     hull_sheet(plates, path, paper="A4")
@@ -69,7 +69,7 @@ def test_the_sheet_has_the_map_the_table_and_the_notes(plates: HullPlates, tmp_p
 
 def test_lines_of_tiles_lie_where_a_value_has_its_level() -> None:
     """Pieces x = constant, from the lower edge of the side to the upper."""
-    tiles = hull_tiles(Shell.of((AFT, FORE)).patches, aim=64)
+    tiles = hull_tiles(HullShell.of((AFT, FORE)).patches, aim=64)
     pieces, normals = tiles.contour(tiles.grid[..., 0], -5.3)
     assert np.abs(pieces[..., 0] + 5.3).max() < 1e-12
     assert (pieces[..., 2].min(), pieces[..., 2].max()) == (-5.0, 5.0)

@@ -7,7 +7,7 @@ import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from assoc_hull.analysis.panels.build import panels
+from assoc_hull.analysis.panels.hull_panels import panels
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
 from assoc_hull.hull import Hull

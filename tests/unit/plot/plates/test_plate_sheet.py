@@ -16,16 +16,16 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.plates.development import development_figure
 from assoc_hull.plot.plates.plate_book import plate_sheet, plate_sheets
 from assoc_hull.plot.sheet.paper import PAPERS
-from assoc_hull.plot.sheet.sheet import Sheet
+from assoc_hull.plot.sheet.sheet_figure import Sheet
 from assoc_hull.surface.plates.development import LABEL, Development
-from assoc_hull.surface.plates.plate_table import COLUMNS, Plates
+from assoc_hull.surface.plates.surface_plates import COLUMNS, PlateTable
 from tests.curved_patches import patch
 
 Boxes = Callable[[Figure], dict[str, FloatArray]]
 
 
 @pytest.fixture(scope="module")
-def shell() -> Plates:
+def shell() -> PlateTable:
     """Seven plates with long names: more than one page of maps."""
     return ah.plates(
         [ah.SplineSurface.bezier(patch("P12_bowl"), f"strake {k} between frames 120 and 131")
@@ -34,13 +34,13 @@ def shell() -> Plates:
 
 
 @pytest.fixture(scope="module")
-def pages(shell: Plates) -> list[Sheet]:
+def pages(shell: PlateTable) -> list[Sheet]:
     """Their book."""
     return plate_sheets(shell, title="Fore body")
 
 
 @pytest.fixture(scope="module")
-def flat(shell: Plates) -> Development:
+def flat(shell: PlateTable) -> Development:
     """One of them laid flat."""
     return shell[0].development((13, 5))
 
@@ -51,7 +51,7 @@ def words(sheet: Sheet, begin: str) -> list[str]:
             if str(text.get_gid()).startswith(begin)]  # fmt: skip
 
 
-def test_the_table_has_all_that_is_printed(shell: Plates, pages: list[Sheet]) -> None:
+def test_the_table_has_all_that_is_printed(shell: PlateTable, pages: list[Sheet]) -> None:
     """A cell for each column that has a head; names that are too long end in dots."""
     heads = [column for column in COLUMNS if column.head]
     assert words(pages[0], "label/head")[: len(heads)] == [column.head for column in heads]
@@ -63,7 +63,7 @@ def test_the_table_has_all_that_is_printed(shell: Plates, pages: list[Sheet]) ->
     assert "convex" in first
 
 
-def test_advice_conditions_and_notes_stand_there(shell: Plates, pages: list[Sheet]) -> None:
+def test_advice_conditions_and_notes_stand_there(shell: PlateTable, pages: list[Sheet]) -> None:
     """Each plate has its advice; heating patterns have their caveat, K0 its origin."""
     told = " ".join(line for page in pages for line in words(page, "label/words"))
     for plate in shell:
@@ -72,7 +72,7 @@ def test_advice_conditions_and_notes_stand_there(shell: Plates, pages: list[Shee
     assert "strain 0.001 over 2.5 m" in told
 
 
-def test_maps_of_six_plates_to_a_page(shell: Plates, pages: list[Sheet]) -> None:
+def test_maps_of_six_plates_to_a_page(shell: PlateTable, pages: list[Sheet]) -> None:
     """All plates once, the title and the number on each page, the colours told."""
     told = [" ".join(words(page, "label/plate")) for page in pages]
     assert [each.count("strake") for each in told] == [0, 6, 1]
@@ -96,7 +96,7 @@ def test_words_lie_on_the_page_and_apart(pages: list[Sheet], boxes_of: Boxes) ->
             assert ((across > 0.0) & (up > 0.6)).sum() == 1  # itself
 
 
-def test_a_book_is_a_pdf(shell: Plates, tmp_path: Path) -> None:
+def test_a_book_is_a_pdf(shell: PlateTable, tmp_path: Path) -> None:
     """A page for each plate laid flat is added where this is asked; another ending is refused."""
     one = attrs.evolve(shell, rows=shell.rows[:1])
     plate_sheet(one, tmp_path / "book.PDF")

@@ -3,17 +3,18 @@
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.fitting.folds import elements
+from assoc_hull.geometry.fitting.folds import surface_elements
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.blocks.doubts import (
+from assoc_hull.surface.blocks.fit_options import angle_limit, fit_options
+from assoc_hull.surface.blocks.fit_quality import (
+    BlockBorder,
+    Residuals,
     doubts_of_border,
     doubts_of_fit,
     doubts_of_half,
     doubts_of_penalty,
     doubts_of_shape,
 )
-from assoc_hull.surface.blocks.fit_options import angle_limit, fit_options
-from assoc_hull.surface.blocks.net_records import Border, Residuals
 
 OPTIONS = fit_options(300.0)
 
@@ -75,7 +76,7 @@ def test_a_fold_is_told() -> None:
     """A sheet that goes back on itself is folded; one that only slows down is not."""
     for back, count in ((0.0, 0), (6.0, 1)):
         sheet = folded_sheet(back)
-        shape = elements(sheet)
+        shape = surface_elements(sheet)
         notes = list(doubts_of_shape(sheet, shape, shape.folded))
         assert sum(note.startswith("folded: the normal turns over") for note in notes) == count
 
@@ -92,9 +93,9 @@ def test_borders_over_their_limits_are_told() -> None:
     limit = angle_limit(("body", "bow"))
     assert (limit, angle_limit(("bow", "bow"))) == (0.1, 0.5)
     place, gap = np.array([5.0, 1.0, 2.0]), np.zeros(3)
-    good = Border(("body", "bow"), gap, 1e-12, np.array([0.0, 0.0, 0.09]), place, limit)
+    good = BlockBorder(("body", "bow"), gap, 1e-12, np.array([0.0, 0.0, 0.09]), place, limit)
     assert list(doubts_of_border(good)) == []
-    bad = Border(("body", "bow"), gap, 1e-4, np.array([0.0, 0.0, 0.2]), place, limit)
+    bad = BlockBorder(("body", "bow"), gap, 1e-4, np.array([0.0, 0.0, 0.2]), place, limit)
     assert [note.split(": ")[1][:9] for note in doubts_of_border(bad)] == ["a gap of ", "the norma"]
 
 
@@ -107,7 +108,7 @@ def test_a_half_that_crosses_the_centre_plane_is_told(across: float, told: bool)
     net[:, -1, 1] = 1.0
     knots = np.repeat([0.0, 3.0], 4)
     surface = SplineSurface("half", (3, 3), knots, knots, net)
-    notes = list(doubts_of_half(surface, elements(surface), OPTIONS))
+    notes = list(doubts_of_half(surface, surface_elements(surface), OPTIONS))
     assert len(notes) == told
     if told:
         assert notes[0].startswith("waves across the centre plane by 2.00 mm at (")

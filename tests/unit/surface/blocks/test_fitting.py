@@ -9,7 +9,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.hull import Hull
 from assoc_hull.shell import HullSurface
-from assoc_hull.surface.blocks.net_report import FORMAT
+from assoc_hull.surface.blocks.net_surface import FORMAT
 
 
 @pytest.fixture(scope="module")

@@ -6,14 +6,13 @@ import attrs
 import numpy as np
 import pytest
 
-from assoc_hull.analysis.net.gather import Net, gather
+from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.hull import Hull
-from assoc_hull.surface.blocks.block import Block
+from assoc_hull.surface.blocks.block_layout import HullBlock, lay_out
 from assoc_hull.surface.blocks.block_map import GRID, BlockMap, block_map
-from assoc_hull.surface.blocks.layout import lay_out
-from assoc_hull.surface.blocks.plan import block_plans
-from assoc_hull.surface.cells.faces import cells
+from assoc_hull.surface.blocks.block_plan import block_plans
+from assoc_hull.surface.cells.net_faces import find_cells
 from assoc_hull.surface.cells.net_graph import net_graph
 
 BLOCKS = {
@@ -31,17 +30,17 @@ NAMES = list(BLOCKS)
 class Case:
     """A hull, laid out."""
 
-    net: Net
+    net: CurveNet
     length: float
-    blocks: tuple[Block, ...]
+    blocks: tuple[HullBlock, ...]
     maps: Mapping[str, BlockMap]
 
 
 def laid(hull: Hull) -> Case:
     """Lay a hull out, with the maps of its blocks as well."""
-    net, length = gather(hull.state), hull.particulars.length
+    net, length = gather_net(hull.state), hull.particulars.length
     maps = dict[str, BlockMap]()
-    for plan in block_plans(cells(net_graph(net)), length):
+    for plan in block_plans(find_cells(net_graph(net)), length):
         maps[plan.name] = block_map(plan, length, maps)
     return Case(net, length, lay_out(net, length), maps)
 
@@ -148,7 +147,7 @@ def test_a_border_has_the_parameters_of_its_master_in_proportion(case: Cases, na
     assert compared > 50
 
 
-def points_on(block: Block, side: str) -> dict[bytes, float]:
+def points_on(block: HullBlock, side: str) -> dict[bytes, float]:
     """Points held in both parameters on a side, and where they lie along it."""
     axis = 0 if side[0] == "u" else 1
     samples, at = block.samples, block.extent[axis, int(side[1])]
@@ -207,7 +206,7 @@ def test_a_hull_moved_forward_has_the_same_layout(case: Cases) -> None:
         assert np.abs(a.samples.uv - b.samples.uv).max() <= 2.0 * GRID * known.length
 
 
-def changed(net: Net, scale: float, shift: float) -> Net:
+def changed(net: CurveNet, scale: float, shift: float) -> CurveNet:
     """A net of another size, or elsewhere."""
     batch = net.batch
     moved = SplineBatch(
@@ -243,7 +242,7 @@ def test_without_the_section_at_its_bend_a_stern_is_cut_along_a_waterline(case: 
     np.testing.assert_allclose(blocks["stern boss"].corners[0], [0.0, 0.0, 6.18], atol=0.01)
 
 
-def every_fourth(net: Net, axis: int) -> list[str]:
+def every_fourth(net: CurveNet, axis: int) -> list[str]:
     """The names of every fourth section, or waterline, from aft or from below, the first too."""
     family = "waterlines" if axis else "sections"
     own = [i for i, name in enumerate(net.family) if name == family]

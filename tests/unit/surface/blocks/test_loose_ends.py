@@ -6,12 +6,16 @@ import attrs
 import numpy as np
 import pytest
 
-from assoc_hull.analysis.net.gather import gather
-from assoc_hull.geometry.fitting.samples import Samples
+from assoc_hull.analysis.net.curve_net import gather_net
+from assoc_hull.geometry.fitting.fit_input import Samples
 from assoc_hull.hull import Hull
-from assoc_hull.surface.blocks.block import Block
-from assoc_hull.surface.blocks.layout import lay_out
-from assoc_hull.surface.blocks.loose_ends import LooseEnds, loose_ends, with_loose_ends
+from assoc_hull.surface.blocks.block_layout import (
+    HullBlock,
+    LooseEnds,
+    lay_out,
+    loose_ends,
+    with_loose_ends,
+)
 from assoc_hull.surface.cells.net_graph import net_graph
 
 LENGTH = 300.0  # m, of the carrier
@@ -26,7 +30,7 @@ def carrier(shipped: Callable[[str], Hull]) -> Hull:
 
 def test_the_end_of_a_flat_is_loose(carrier: Hull) -> None:
     """Points at even steps to the tip stand for its length; the crossing it begins at is none."""
-    graph = net_graph(gather(carrier.state))
+    graph = net_graph(gather_net(carrier.state))
     found = loose_ends(graph, LENGTH)
     assert {graph.net.name[line] for line in found.line.tolist()} == {"flat of bottom"}
     assert np.abs(found.point[-1] - TIP).max() < 1e-4
@@ -38,7 +42,7 @@ def test_the_end_of_a_flat_is_loose(carrier: Hull) -> None:
 
 def test_a_block_has_the_points_of_loose_ends(carrier: Hull) -> None:
     """They lie on the block, are free, and are measured with the others."""
-    blocks = {block.name: block for block in lay_out(gather(carrier.state), LENGTH)}
+    blocks = {block.name: block for block in lay_out(gather_net(carrier.state), LENGTH)}
     boss = blocks["stern boss"]
     away = np.linalg.norm(boss.samples.point - TIP, axis=1)
     last = int(away.argmin())
@@ -52,7 +56,7 @@ def test_a_block_has_the_points_of_loose_ends(carrier: Hull) -> None:
 
 def test_parameters_are_those_of_the_neighbourhood(carrier: Hull) -> None:
     """Points that are taken from a block come back with their parameters, to half a metre."""
-    body, *others = lay_out(gather(carrier.state), LENGTH)
+    body, *others = lay_out(gather_net(carrier.state), LENGTH)
     samples = body.samples
     middle = np.abs(samples.uv - body.extent.mean(axis=1)) < 0.3 * np.ptp(body.extent, axis=1)
     gone = np.flatnonzero(body.inside & middle.all(axis=1))[::500]
@@ -67,7 +71,7 @@ def test_parameters_are_those_of_the_neighbourhood(carrier: Hull) -> None:
     assert (back * 2.0**7 == np.round(back * 2.0**7)).all()
 
 
-def without(block: Block, gone: np.typing.NDArray[np.int64]) -> Block:
+def without(block: HullBlock, gone: np.typing.NDArray[np.int64]) -> HullBlock:
     """A block that lacks some of its points."""
     kept = np.setdiff1d(np.arange(len(block.samples)), gone)
     samples = Samples(*(each[kept] for each in attrs.astuple(block.samples, recurse=False)))

@@ -5,28 +5,32 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.analysis.net.gather import gather
+from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
-from assoc_hull.surface.blocks.corners import four_corners
-from assoc_hull.surface.blocks.outline import Course, bends_inward, course, turns
-from assoc_hull.surface.blocks.plan import block_plans
-from assoc_hull.surface.blocks.region import Region
-from assoc_hull.surface.blocks.run_slopes import slopes_along
-from assoc_hull.surface.cells.faces import Cells, cells
+from assoc_hull.surface.blocks.block_layout import slopes_along
+from assoc_hull.surface.blocks.block_plan import block_plans, four_corners
+from assoc_hull.surface.blocks.cell_regions import (
+    BorderCourse,
+    CellRegion,
+    border_course,
+    border_turns,
+    find_inward_bends,
+)
+from assoc_hull.surface.cells.net_faces import NetCells, find_cells
 from assoc_hull.surface.cells.net_graph import net_graph
 from tests.nets import wigley_net
 
 
 @pytest.fixture(scope="module")
-def small() -> Cells:
+def small() -> NetCells:
     """The cells of a Wigley hull of few lines."""
-    return cells(net_graph(gather(wigley_net(7, 4))))
+    return find_cells(net_graph(gather_net(wigley_net(7, 4))))
 
 
-def test_a_chord_parts_a_disc_in_two_discs(small: Cells) -> None:
+def test_a_chord_parts_a_disc_in_two_discs(small: NetCells) -> None:
     """Each section runs from border to border; its left half-edges lie on one side of it."""
-    whole = Region.whole(small)
+    whole = CellRegion.whole(small)
     sections = [i for i, name in enumerate(small.graph.net.family) if name == "sections"]
     for curve in sections:
         (chord,) = whole.chords(curve)
@@ -43,42 +47,44 @@ def test_a_chord_parts_a_disc_in_two_discs(small: Cells) -> None:
         assert (back.first, back.last) == (chord.last, chord.first)
 
 
-def test_the_outline_goes_round_with_the_hull_to_its_left(small: Cells) -> None:
+def test_the_outline_goes_round_with_the_hull_to_its_left(small: NetCells) -> None:
     """The deck forward, the keel aft: in the side view a way clockwise."""
-    found = course(Region.whole(small))
+    found = border_course(CellRegion.whole(small))
     x, _, z = found.place.T
     assert 0.5 * (x[:-1] * z[1:] - x[1:] * z[:-1]).sum() < 0.0
     np.testing.assert_allclose(found.at(np.array([0.0])), found.at(np.array([found.length])))
 
 
-def test_a_region_with_a_hole_is_no_disc(small: Cells) -> None:
+def test_a_region_with_a_hole_is_no_disc(small: NetCells) -> None:
     """It has two loops, of which the longer one goes round it."""
-    whole = Region.whole(small)
+    whole = CellRegion.whole(small)
     inner = np.flatnonzero([not whole.on_loop[small.nodes(c)].any() for c in range(small.count)])
     holed = whole.inside.copy()
     holed[inner[0]] = False
-    found = Region(small, holed)
+    found = CellRegion(small, holed)
     assert len(found.loops) == 2
     assert not found.is_disc
     assert np.array_equal(np.sort(found.loop), np.sort(whole.loop))
 
 
-def test_cells_that_are_no_disc_are_refused(small: Cells, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cells_that_are_no_disc_are_refused(
+    small: NetCells, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The error says so, and by how many loops."""
-    whole = Region.whole(small)
+    whole = CellRegion.whole(small)
     inner = np.flatnonzero([not whole.on_loop[small.nodes(c)].any() for c in range(small.count)])
     holed = whole.inside.copy()
     holed[inner[0]] = False
-    monkeypatch.setattr(Region, "whole", classmethod(lambda cls, given: cls(given, holed)))
+    monkeypatch.setattr(CellRegion, "whole", classmethod(lambda cls, given: cls(given, holed)))
     with pytest.raises(BadInputError, match=r"the half hull is no disc: its border has 2 loops"):
         block_plans(small, 100.0)
 
 
 def test_bends_into_the_ship_are_found_and_no_others(
-    small: Cells, series60_70: Hull, bulk_carrier: Hull
+    small: NetCells, series60_70: Hull, bulk_carrier: Hull
 ) -> None:
     """None on a wall-sided hull; the top of a stern post; an aperture, and a stem above a bulb."""
-    assert bends_inward(course(Region.whole(small)), 100.0) == ()
+    assert find_inward_bends(border_course(CellRegion.whole(small)), 100.0) == ()
     (post,) = bends_of(series60_70)
     assert post.turn > 70.0
     np.testing.assert_allclose(post.place, [0.0, 0.0, 6.0], atol=0.7)
@@ -93,16 +99,16 @@ def test_a_border_turns_only_where_it_turns_inward() -> None:
     corner = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0], [1, 2, 0], [0, 2, 0], [0, 0, 0]])
     place = np.array(corner, np.float64)
     start = np.append(0.0, np.cumsum(np.abs(np.diff(place, axis=0)).sum(axis=1)))
-    found = Course(np.arange(6), start, start.copy(), place, np.zeros(7, np.bool_))
+    found = BorderCourse(np.arange(6), start, start.copy(), place, np.zeros(7, np.bool_))
     up = np.tile([0.0, 0.0, 1.0], (6, 1))
-    np.testing.assert_allclose(turns(found, start[:-1], 0.2), 90.0)
-    inward = turns(found, start[:-1], 0.2, up)
+    np.testing.assert_allclose(border_turns(found, start[:-1], 0.2), 90.0)
+    inward = border_turns(found, start[:-1], 0.2, up)
     np.testing.assert_allclose(inward, [90.0, 90.0, 90.0, 0.0, 90.0, 90.0], atol=1e-9)
 
 
-def test_corners_that_must_be_are_and_those_that_must_not_are_not(small: Cells) -> None:
+def test_corners_that_must_be_are_and_those_that_must_not_are_not(small: NetCells) -> None:
     """A node on a straight side can be asked for; a sharp one can be ruled out."""
-    whole = Region.whole(small)
+    whole = CellRegion.whole(small)
     nodes = whole.begin(whole.loop)
     place = small.graph.place[nodes]
     sharp, _ = four_corners(whole, 100.0, ())
@@ -117,8 +123,8 @@ def test_corners_that_must_be_are_and_those_that_must_not_are_not(small: Cells) 
 
 def bends_of(hull: Hull) -> tuple:  # type: ignore[type-arg]
     """Bends of the profile of a hull, from 35 degrees on."""
-    whole = Region.whole(cells(net_graph(gather(hull.state))))
-    return bends_inward(course(whole), hull.particulars.length, 35.0)
+    whole = CellRegion.whole(find_cells(net_graph(gather_net(hull.state))))
+    return find_inward_bends(border_course(whole), hull.particulars.length, 35.0)
 
 
 @given(st.lists(st.tuples(st.floats(0.1, 9.0), st.floats(0.0, 9.0)), min_size=2, max_size=8))

@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.net.gather import Net, gather
+from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
 from assoc_hull.errors import BadInputError, OpenMeshError, OpenNetError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.shipped.wigley import half_breadth
-from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
-from assoc_hull.surface.cells.faces import cells
+from assoc_hull.shipped.wigley import wigley_half_breadth
+from assoc_hull.surface.cells.closed_mesh import ClosedMesh, examine_mesh, mesh_of_net
 from assoc_hull.surface.cells.filling import FilledCells, fill_cells
-from assoc_hull.surface.cells.mesh_report import examined
+from assoc_hull.surface.cells.net_faces import find_cells
 from assoc_hull.surface.cells.net_graph import net_graph
 from tests.cases.test_box_with_bilges import round_box
 from tests.net_strategies import fresh
@@ -31,9 +30,9 @@ def wigley() -> ah.Hull:
 
 
 @pytest.fixture(scope="module")
-def ellipsoid() -> Net:
+def ellipsoid() -> CurveNet:
     """All of it, as one half of a ship: no border but the centre plane."""
-    return gather(ellipsoid_net(15, 7))
+    return gather_net(ellipsoid_net(15, 7))
 
 
 def closed_by_counting(mesh: ClosedMesh) -> bool:
@@ -87,34 +86,34 @@ def lines_and_cells(filled: FilledCells, off: FloatArray) -> tuple[float, float]
 
 
 def test_between_the_lines_the_mesh_is_as_good_as_the_lines(
-    wigley: ah.Hull, ellipsoid: Net
+    wigley: ah.Hull, ellipsoid: CurveNet
 ) -> None:
     """Vertices within cells lie off the formula by no more than splines between crossings do."""
-    filled = fill_cells(cells(net_graph(gather(wigley.state))), 4)
+    filled = fill_cells(find_cells(net_graph(gather_net(wigley.state))), 4)
     x, y, z = filled.xyz.T
-    off = np.where(z <= 6.25, y - half_breadth(x, z, 100.0, 10.0, 6.25), 0.0)
+    off = np.where(z <= 6.25, y - wigley_half_breadth(x, z, 100.0, 10.0, 6.25), 0.0)
     on_lines, in_cells = lines_and_cells(filled, off)
     assert on_lines < 4e-3
     assert in_cells < 1.05 * on_lines
-    filled = fill_cells(cells(net_graph(ellipsoid)), 4)
+    filled = fill_cells(find_cells(net_graph(ellipsoid)), 4)
     size = np.sqrt((((filled.xyz - [A, 0.0, C]) / [A, B, C]) ** 2).sum(axis=1))
     on_lines, in_cells = lines_and_cells(filled, size - 1.0)
     assert on_lines < 5e-3
     assert in_cells < on_lines
 
 
-def test_elements_of_neighbours_fit_together(ellipsoid: Net) -> None:
+def test_elements_of_neighbours_fit_together(ellipsoid: CurveNet) -> None:
     """Whatever the number of their sides, cells share all points of their common edge."""
-    filled: FilledCells = fill_cells(cells(net_graph(ellipsoid)), 4)
+    filled: FilledCells = fill_cells(find_cells(net_graph(ellipsoid)), 4)
     triangle, cell = filled.triangles()
-    report = examined(filled.xyz, triangle)
+    report = examine_mesh(filled.xyz, triangle)
     outline = filled.along(filled.cells.outline)
     assert report.open_edges == outline.shape[0] * 4
     assert report.euler == 1
     assert (np.bincount(cell) == np.where(filled.cells.sides == 3, 24, 32)).all()
 
 
-def test_a_body_without_deck_closes_by_itself(ellipsoid: Net) -> None:
+def test_a_body_without_deck_closes_by_itself(ellipsoid: CurveNet) -> None:
     """The profile of an ellipsoid is a ring; nothing is covered, volume and centre are right."""
     mesh = mesh_of_net(ellipsoid, points=8)
     assert mesh.names == ("shell",)
@@ -192,7 +191,7 @@ def test_places_that_coincide_are_one() -> None:
 
 def test_a_profile_that_misses_the_centre_plane_by_rounding_lies_in_it(wigley: ah.Hull) -> None:
     """20 micrometres to port on a hull of 100 m: the halves meet all the same."""
-    net = gather(wigley.state)
+    net = gather_net(wigley.state)
     profile = net.name.index("profile")
     rows = np.arange(net.batch.start[profile], net.batch.start[profile + 1])
     xyz = net.batch.xyz.copy()
@@ -228,7 +227,7 @@ def test_faults_of_a_mesh_are_found(
     """Each of them takes the volume away; only the first is sound."""
     corner = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     face = change(TETRAHEDRON)
-    report = examined(np.vstack([corner, corner + 2.0])[: face.max() + 1], face)
+    report = examine_mesh(np.vstack([corner, corner + 2.0])[: face.max() + 1], face)
     assert (report.open_edges, report.euler) == (open_edges, euler)
     assert report.sound == np.array_equal(face, TETRAHEDRON)
     if report.sound:

@@ -7,28 +7,27 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.net.gather import Net, gather
+from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
 from assoc_hull.errors import OpenNetError
 from assoc_hull.geometry.curves import SplineBatch
-from assoc_hull.geometry.splines.length import arc_length
-from assoc_hull.surface.cells.faces import Cells, cells
+from assoc_hull.geometry.splines.arc_length import arc_length
+from assoc_hull.surface.cells.net_faces import NetCells, find_cells, sound_cells
 from assoc_hull.surface.cells.net_graph import net_graph
-from assoc_hull.surface.cells.sound_cells import sound_cells
 from tests.nets import A, B, C, ellipsoid_net
 
 
 @pytest.fixture(scope="module")
-def wigley() -> Net:
+def wigley() -> CurveNet:
     """19 sections, 10 waterlines, profile and deck edge."""
-    return gather(ah.examples.wigley().state)
+    return gather_net(ah.examples.wigley().state)
 
 
-def named(net: Net, name: str) -> int:
+def named(net: CurveNet, name: str) -> int:
     """The first curve of a line."""
     return net.name.index(name)
 
 
-def without_rows(net: Net, gone: np.ndarray) -> Net:
+def without_rows(net: CurveNet, gone: np.ndarray) -> CurveNet:
     """The net without some of its crossings."""
     kept = ~gone
     return attrs.evolve(
@@ -37,20 +36,20 @@ def without_rows(net: Net, gone: np.ndarray) -> Net:
     )  # fmt: skip
 
 
-def rows_of(net: Net, one: str, other: str) -> np.ndarray:
+def rows_of(net: CurveNet, one: str, other: str) -> np.ndarray:
     """Which crossings are those of two lines."""
     names = np.array(net.name)[net.meets]
     return np.asarray((names == one).any(axis=1) & (names == other).any(axis=1))
 
 
-def joined(one: Net, other: Net) -> Net:
+def joined(one: CurveNet, other: CurveNet) -> CurveNet:
     """Two nets side by side."""
     count = one.batch.count
     both = {
         name: np.concatenate([getattr(one, name), getattr(other, name)])
         for name in ("curve", "end", "flat", "knuckle", "x", "centre", "normal", "watched", "row")
     }
-    return Net(
+    return CurveNet(
         batch=SplineBatch.join([one.batch, other.batch]),
         name=one.name + other.name, family=one.family + other.family,
         meets=np.concatenate([one.meets, other.meets + count]),
@@ -58,13 +57,13 @@ def joined(one: Net, other: Net) -> Net:
     )  # fmt: skip
 
 
-def moved(net: Net, way: float) -> Net:
+def moved(net: CurveNet, way: float) -> CurveNet:
     """The net farther forward."""
     xyz = net.batch.xyz + np.array([way, 0.0, 0.0])
     return attrs.evolve(net, batch=attrs.evolve(net.batch, xyz=xyz))
 
 
-def test_nodes_are_the_crossings_and_edges_the_pieces_between(wigley: Net) -> None:
+def test_nodes_are_the_crossings_and_edges_the_pieces_between(wigley: CurveNet) -> None:
     """Every row has its node at its place; pieces of a line are as long together as the line."""
     graph = net_graph(wigley)
     hull = ah.examples.wigley()
@@ -83,17 +82,17 @@ def test_nodes_are_the_crossings_and_edges_the_pieces_between(wigley: Net) -> No
 
 def test_points_along_edges_lie_at_equal_steps() -> None:
     """Chords of an edge differ in length by as much as its bend makes them."""
-    step = np.diff(net_graph(gather(ellipsoid_net(15, 7))).points(8), axis=1)
+    step = np.diff(net_graph(gather_net(ellipsoid_net(15, 7))).points(8), axis=1)
     size = np.sqrt((step * step).sum(axis=2))
     assert (size.max(axis=1) <= 1.01 * size.min(axis=1)).all()
 
 
 def test_a_line_that_closes_is_whole_where_nothing_crosses_it() -> None:
     """The profile of an ellipsoid begins and ends on top, where a section is left out."""
-    net = gather(ellipsoid_net(15, 7))
+    net = gather_net(ellipsoid_net(15, 7))
     top = net.batch.xyz[net.batch.start[named(net, "profile")]]
     without = np.isclose(net.x, top[0])
-    found = cells(net_graph(net, leave_out=without))
+    found = find_cells(net_graph(net, leave_out=without))
     assert without.sum() == 1
     assert found.count == 12 * 13
     assert len(found.graph.loose) == 0
@@ -101,7 +100,7 @@ def test_a_line_that_closes_is_whole_where_nothing_crosses_it() -> None:
 
 def test_normals_are_those_of_the_formula() -> None:
     """On an ellipsoid to 1.5 degrees, but at its tips, where all lines run to one point."""
-    graph = net_graph(gather(ellipsoid_net(31, 13)))
+    graph = net_graph(gather_net(ellipsoid_net(31, 13)))
     place = graph.place - [A, 0.0, C]
     true = place / np.array([A, B, C]) ** 2
     true /= np.sqrt((true * true).sum(axis=1))[:, None]
@@ -113,7 +112,7 @@ def test_normals_are_those_of_the_formula() -> None:
 
 def test_cells_of_a_net_of_two_families() -> None:
     """Between 19 stations, 10 waterlines, profile and deck edge; each node is told from outside."""
-    found: Cells = cells(net_graph(gather(ah.examples.wigley().state)))
+    found: NetCells = find_cells(net_graph(gather_net(ah.examples.wigley().state)))
     graph = found.graph
     assert len(graph.place) - len(graph.edge) + found.count + 1 == 2
     assert found.count == 220
@@ -125,7 +124,7 @@ def test_cells_of_a_net_of_two_families() -> None:
     assert turn @ graph.normal[found.nodes(0)].mean(axis=0) > 0.0
 
 
-def test_a_line_that_is_left_out_takes_its_nodes_with_it(wigley: Net) -> None:
+def test_a_line_that_is_left_out_takes_its_nodes_with_it(wigley: CurveNet) -> None:
     """The lines that it crossed go on through: one row of cells less."""
     without = np.array(wigley.name) == "WL 2.5"
     graph = net_graph(wigley, leave_out=without)
@@ -134,12 +133,12 @@ def test_a_line_that_is_left_out_takes_its_nodes_with_it(wigley: Net) -> None:
     ).any(axis=1)
     assert (graph.row_node[gone] == -1).all()
     assert (graph.row_node[~gone] >= 0).all()
-    assert cells(graph).count == 200
+    assert find_cells(graph).count == 200
 
 
 def test_borders_of_flats_meet_lines_that_do_not_know_them(series60_70: ah.Hull) -> None:
     """Rows of a flat bottom and the sections are found again where they lay, to 1 mm."""
-    net = gather(series60_70.state)
+    net = gather_net(series60_70.state)
     flat = named(net, "flat of bottom")
     family = np.array(net.family)
     gone = (net.meets == flat).any(axis=1) & (family[net.meets] == "sections").any(axis=1)
@@ -147,12 +146,12 @@ def test_borders_of_flats_meet_lines_that_do_not_know_them(series60_70: ah.Hull)
     assert gone.sum() == 39
     assert len(found.place) == len(whole.place)
     assert len(found.edge) == len(whole.edge)
-    assert cells(found).count == cells(whole).count
+    assert find_cells(found).count == find_cells(whole).count
     own, other = (graph.place[graph.stops(flat)[0]] for graph in (whole, found))
     assert np.abs(own - other).max() < 1e-3
 
 
-def test_lines_that_lie_on_one_another_are_one(wigley: Net) -> None:
+def test_lines_that_lie_on_one_another_are_one(wigley: CurveNet) -> None:
     """A section drawn twice, once by another name, makes the cells that it makes drawn once."""
     own = named(wigley, "ST 7")
     twice = np.flatnonzero((wigley.meets == own).any(axis=1))
@@ -175,17 +174,17 @@ def test_lines_that_lie_on_one_another_are_one(wigley: Net) -> None:
     one, two = net_graph(wigley), net_graph(doubled)
     assert len(two.edge) == len(one.edge)
     assert len(two.place) == len(one.place)
-    assert cells(two).count == 220
+    assert find_cells(two).count == 220
 
 
-def refused(net: Net, leave_out: np.ndarray | None = None) -> str:
+def refused(net: CurveNet, leave_out: np.ndarray | None = None) -> str:
     """The message with which the cells of a net are refused."""
     with pytest.raises(OpenNetError) as caught:
-        cells(net_graph(net, leave_out=leave_out))
+        find_cells(net_graph(net, leave_out=leave_out))
     return str(caught.value)
 
 
-def test_a_crossing_without_a_row_is_named(wigley: Net) -> None:
+def test_a_crossing_without_a_row_is_named(wigley: CurveNet) -> None:
     """Inside the hull the edges do not fit on it any more; at an end the line ends nowhere."""
     told = refused(without_rows(wigley, rows_of(wigley, "WL 2.5", "ST 7")))
     assert "nodes - edges + faces is 0" in told
@@ -194,10 +193,10 @@ def test_a_crossing_without_a_row_is_named(wigley: Net) -> None:
     assert "lines end on no other line: WL 2.5 at (" in told
 
 
-def test_a_crossing_without_a_row_is_found_where_lines_meet(wigley: Net) -> None:
+def test_a_crossing_without_a_row_is_found_where_lines_meet(wigley: CurveNet) -> None:
     """The cells are those of the whole net, and what was done is told; 0.5 m apart it is not."""
     gone = rows_of(wigley, "WL 2.5", "ST 7")
-    found, whole = sound_cells(without_rows(wigley, gone)), cells(net_graph(wigley))
+    found, whole = sound_cells(without_rows(wigley, gone)), find_cells(net_graph(wigley))
     assert whole.notes == ()
     assert found.notes == (
         "crossings that the tables do not hold: "
@@ -209,7 +208,7 @@ def test_a_crossing_without_a_row_is_found_where_lines_meet(wigley: Net) -> None
         sound_cells(apart)
 
 
-def with_section_aside(net: Net, name: str, way: float) -> Net:
+def with_section_aside(net: CurveNet, name: str, way: float) -> CurveNet:
     """The net with a section that bulges out between its ends."""
     curve = named(net, name)
     rows = np.arange(net.batch.start[curve] + 1, net.batch.start[curve + 1] - 1)
@@ -220,7 +219,7 @@ def with_section_aside(net: Net, name: str, way: float) -> Net:
 
 def test_borders_of_flats_that_fit_nothing_are_left_out(series60_70: ah.Hull) -> None:
     """A border 1 m below the lines is named, and the cells are those without it."""
-    net = gather(series60_70.state)
+    net = gather_net(series60_70.state)
     flat = named(net, "flat of side")
     rows = np.arange(net.batch.start[flat], net.batch.start[flat + 1])
     xyz = net.batch.xyz.copy()
@@ -229,10 +228,10 @@ def test_borders_of_flats_that_fit_nothing_are_left_out(series60_70: ah.Hull) ->
     gone = (net.meets == flat).any(axis=1) & (np.arange(len(net.meets)) % 3 == 0)
     found = sound_cells(without_rows(astray, gone))
     assert found.notes == ("left out, as they do not fit the lines: flat of bottom, flat of side",)
-    assert found.count == cells(net_graph(net, leave_out=net.flat)).count
+    assert found.count == find_cells(net_graph(net, leave_out=net.flat)).count
 
 
-def shortened(net: Net) -> Net:
+def shortened(net: CurveNet) -> CurveNet:
     """The net with a waterline that ends 5 cm outside the profile."""
     curve = named(net, "WL 2.5")
     xyz = net.batch.xyz.copy()
@@ -266,7 +265,7 @@ def shortened(net: Net) -> Net:
     ],
 )
 def test_lines_that_enclose_no_half_hull_are_refused(
-    wigley: Net, change: Callable[[Net], tuple[Net, np.ndarray | None]], told: str
+    wigley: CurveNet, change: Callable[[CurveNet], tuple[CurveNet, np.ndarray | None]], told: str
 ) -> None:
     """With the lines at fault, and what to do."""
     assert told in refused(*change(wigley))

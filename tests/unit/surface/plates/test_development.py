@@ -7,10 +7,8 @@ from scipy.optimize import least_squares
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.plates.development import LABEL, development
-from assoc_hull.surface.plates.equal_grid import equal_grid
-from assoc_hull.surface.plates.flattening import flattened
-from assoc_hull.surface.plates.springs import springs_of
+from assoc_hull.surface.plates.development import LABEL, development, equal_grid
+from assoc_hull.surface.plates.grid_flattening import flatten_grid, springs_of
 from tests import bent_plates
 from tests.curved_patches import patch
 
@@ -48,7 +46,7 @@ def test_a_cone_gets_its_own_sector() -> None:
 def test_a_plate_rolled_over_itself_is_laid_flat() -> None:
     """Three quarters of a tube, whose projection onto a plane would overlap, comes out straight."""
     angle, z = np.meshgrid(np.linspace(0.0, 4.7, 97), np.linspace(0.0, 1.6, 33), indexing="ij")
-    flat = flattened(springs_of(np.stack([np.cos(angle), np.sin(angle), z], axis=-1)))
+    flat = flatten_grid(springs_of(np.stack([np.cos(angle), np.sin(angle), z], axis=-1)))
     assert flat.settled
     assert np.ptp(flat.place[..., 0]) == pytest.approx(4.7, rel=1e-6)
     assert np.abs(flat.strain).max() < 1e-7
@@ -103,7 +101,7 @@ def test_the_figure_is_the_best_one() -> None:
         apart = np.linalg.norm(np.diff(at.reshape(-1, 2)[[first, second]], axis=0)[0], axis=1)
         return np.asarray(np.sqrt(springs.weight) * (apart / springs.length - 1.0))
 
-    found = flattened(springs)
+    found = flatten_grid(springs)
     assert found.settled
     least = float((off(found.place.ravel()) ** 2).sum())
     for start in (found.place, points.place[..., :2]):

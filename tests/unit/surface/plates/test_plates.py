@@ -9,10 +9,8 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.plates.plate_class import KINDS, Shares
-from assoc_hull.surface.plates.plate_table import COLUMNS, Plates
-from assoc_hull.surface.plates.seams import Seams, cut_at
-from assoc_hull.surface.plates.suggestions import CAVEAT, SUGGESTIONS
+from assoc_hull.surface.plates.plate_class import CAVEAT, KINDS, SUGGESTIONS, PlateShares
+from assoc_hull.surface.plates.surface_plates import COLUMNS, PlateTable, Seams, cut_at_seams
 from tests import bent_plates
 from tests.curved_patches import nets, patch
 
@@ -28,7 +26,7 @@ def surface(name: str) -> SplineSurface:
 
 
 @pytest.fixture(scope="module")
-def shell() -> Plates:
+def shell() -> PlateTable:
     """Seven of the reference patches as plates."""
     return ah.plates([surface(name) for name in NAMES])
 
@@ -46,7 +44,7 @@ def shell() -> Plates:
     ],
 )
 def test_plates_are_what_their_regions_make_them(
-    shell: Plates, name: str, convex: float, saddle: float, cylinder: float, flat: float,
+    shell: PlateTable, name: str, convex: float, saddle: float, cylinder: float, flat: float,
     kind: str, order: int,
 ) -> None:  # fmt: skip
     """Shares of the reference plates in per cent, their class and order."""
@@ -77,7 +75,7 @@ def test_an_inflected_cylinder_is_rollable_though_mixed() -> None:
     assert plate.largest_radius is None
 
 
-def test_a_bow_plate_is_rollable_in_the_band_only(shell: Plates) -> None:
+def test_a_bow_plate_is_rollable_in_the_band_only(shell: PlateTable) -> None:
     """Strictly a fifth of it is convex and the rest a saddle; with the band it is a cylinder, of
     mean strain 2.5e-4, rolled 5.1 degrees off its long side.
     """
@@ -89,7 +87,7 @@ def test_a_bow_plate_is_rollable_in_the_band_only(shell: Plates) -> None:
     assert plate.k0 == pytest.approx(1.28e-3)
 
 
-def test_a_flat_plate_has_no_roll_axis(shell: Plates) -> None:
+def test_a_flat_plate_has_no_roll_axis(shell: PlateTable) -> None:
     """Noise may have a direction as well; the class is asked first."""
     plate = shell["P13_plane"]
     assert plate.roll_axis is None
@@ -152,7 +150,7 @@ def test_a_band_for_each_breadth() -> None:
     assert any("wide is 4.1" in note and "breadth=None" in note for note in ah.plates(wide).notes)
 
 
-def test_plates_do_not_know_each_other(shell: Plates) -> None:
+def test_plates_do_not_know_each_other(shell: PlateTable) -> None:
     """Asked for alone, or in another order, a plate has the same numbers to the last bit."""
     for name in ("P08_wavy_plate", "P14_cyl"):
         alone = ah.plates(surface(name))
@@ -161,12 +159,12 @@ def test_plates_do_not_know_each_other(shell: Plates) -> None:
     assert _numbers(turned)[::-1] == _numbers(shell)
 
 
-def _numbers(found: Plates) -> list[list[object]]:
+def _numbers(found: PlateTable) -> list[list[object]]:
     """All columns of all plates, so that equal means equal bits."""
     return [[repr(value) for value in row.values()] for row in found.table()]
 
 
-def test_earlier_plates_are_taken_over(shell: Plates) -> None:
+def test_earlier_plates_are_taken_over(shell: PlateTable) -> None:
     """What did not change is not computed again, and nothing differs."""
     moved = [surface(name) for name in NAMES]
     net = patch("P12_bowl").copy()
@@ -206,14 +204,14 @@ def test_seams_that_cut_nothing_are_refused(seams: object, message: str) -> None
         ah.plates(surface("P11_hypar"), seams=seams)  # type: ignore[call-overload]
     with pytest.raises(BadInputError, match="u is"):
         Seams(u=(0.5, 0.2))
-    assert cut_at(surface("P11_hypar"), Seams())[0].name == "P11_hypar"
+    assert cut_at_seams(surface("P11_hypar"), Seams())[0].name == "P11_hypar"
 
 
 def test_the_class_needs_its_share() -> None:
     """95 % by default; another share another class; 94 % is none."""
     for kind in KINDS[:-1]:
         parts = dict.fromkeys(("convex", "saddle", "cylinder", "flat", "unresolved"), 0.0)
-        shares = Shares(**parts | {kind: 0.95, "unresolved": 0.05})
+        shares = PlateShares(**parts | {kind: 0.95, "unresolved": 0.05})
         assert shares.kind(0.95) == kind
         assert shares.kind(0.96) == "mixed"
         assert shares.order(0.95) == {"flat": 1, "cylinder": 2}.get(kind, 3)
@@ -237,7 +235,7 @@ def test_what_is_flat_depends_on_the_length_of_the_sagitta() -> None:
     assert ah.plates(slight, sagitta_tol=0.001)[0].kind == "cylinder"
 
 
-def test_the_table_has_all_columns_once(shell: Plates) -> None:
+def test_the_table_has_all_columns_once(shell: PlateTable) -> None:
     """Plain values by name, as attributes have them; print has those with a head."""
     rows = shell.table()
     assert [list(row) for row in rows] == [[each.name for each in COLUMNS]] * len(NAMES)
@@ -252,14 +250,14 @@ def test_the_table_has_all_columns_once(shell: Plates) -> None:
     assert "K0 = 0.00128 1/m2 (strain 0.001 over 2.5 m)" in str(shell)
 
 
-def test_lines_are_counted_by_plate(shell: Plates) -> None:
+def test_lines_are_counted_by_plate(shell: PlateTable) -> None:
     """The loop and the open lines of the wavy plate; none on plates of one region."""
     regions = ah.curvature_regions(surface("P08_wavy_plate"))
     assert shell["P08_wavy_plate"].lines == len(regions.components) > 0
     assert shell["P12_bowl"].lines == 0
 
 
-def test_plates_are_found_by_number_and_name(shell: Plates) -> None:
+def test_plates_are_found_by_number_and_name(shell: PlateTable) -> None:
     """Unknown ones are refused in words."""
     assert shell[1].name == shell["P09_bow_plate"].name == shell[int(np.int64(1))].name
     with pytest.raises(UnknownNameError, match="P09_bow_plate"):

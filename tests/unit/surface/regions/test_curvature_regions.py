@@ -16,9 +16,9 @@ import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, BadInputError, DanglingArcError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.arcs import arcs_of
-from assoc_hull.geometry.patches.cells import Arcs, Cells
+from assoc_hull.geometry.patches.cells import SignCells, ZeroSetArcs
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.regions import solving
+from assoc_hull.surface.regions import curvature_regions as solving
 from tests.curved_patches import patch, random_nets
 
 REPOSITORY = Path(__file__).resolve().parents[3]
@@ -190,9 +190,9 @@ def test_coordinates_are_known_to_their_rounding(name: str) -> None:
 def test_a_line_that_breaks_off_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     """If an arc were lost, the result would be refused, not given with a gap."""
 
-    def without_one(cells: Cells) -> Arcs:
+    def without_one(cells: SignCells) -> ZeroSetArcs:
         arcs = arcs_of(cells)
-        return Arcs(
+        return ZeroSetArcs(
             *(value[np.arange(len(arcs)) != 5] for value in attrs.astuple(arcs, recurse=False))
         )
 

@@ -10,7 +10,7 @@ import assoc_hull as ah
 from assoc_hull.errors import WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.regions.region_result import RegionResult
+from assoc_hull.surface.regions.result import RegionResult
 
 ROWS, COLUMNS = 9, 8
 

@@ -5,14 +5,13 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.regions.edge_polylines import edge_polyline
-from assoc_hull.surface.regions.region_component import Component
+from assoc_hull.surface.regions.level_lines import LevelLine, edge_polyline
 from tests.curved_patches import graph_plates, patch
 
 
-def components(net: FloatArray) -> tuple[Component, ...]:
+def components(net: FloatArray) -> tuple[LevelLine, ...]:
     """The lines K = 0 of a patch."""
     return ah.curvature_regions(net, zero="exact", delta=1e-14).components
 

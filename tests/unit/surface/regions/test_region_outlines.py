@@ -5,12 +5,12 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
-from assoc_hull.surface.regions.region_outlines import REGIONS, Outline
+from assoc_hull.surface.regions.result import REGIONS, RegionOutline
 from tests.curved_patches import patch
 from tests.unit.geometry.patches.test_joining import spline
 
 
-def enclosed(outline: Outline) -> float:
+def enclosed(outline: RegionOutline) -> float:
     """What an outline encloses in parameters."""
     (u, v), (next_u, next_v) = outline.uv.T, np.roll(outline.uv, -1, axis=0).T
     return float(0.5 * (u * next_v - next_u * v).sum())

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from assoc_hull.errors import AssocHullError, BadInputError
-from assoc_hull.surface.regions.zero_band import zero_band
+from assoc_hull.surface.regions.options import zero_band
 
 
 def test_the_band_of_a_strain_is_that_of_a_strip() -> None:

@@ -17,9 +17,9 @@ from assoc_hull.errors import (
     UnreachableError,
 )
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.aiming.report import Aimed
-from assoc_hull.variation.aiming.stopping_rule import Rule
-from assoc_hull.variation.aiming.target_solver import solve
+from assoc_hull.variation.aiming.report import AimReport
+from assoc_hull.variation.aiming.stopping_rule import StoppingRule
+from assoc_hull.variation.aiming.target_solver import solve_targets
 from tests.aims import FULLER, SHIFTED, problem, small
 from tests.formula_ships import OUTPUTS, PARENT, UNITS, Formula, FormulaShip
 
@@ -36,10 +36,10 @@ def changed(ship: FormulaShip, change: dict[str, float] | None = None) -> FloatA
     return targets
 
 
-def aim(ship: FormulaShip, targets: FloatArray, **how: Any) -> Aimed:
+def aim(ship: FormulaShip, targets: FloatArray, **how: Any) -> AimReport:
     """Aim from the parent, with the ship's own scales."""
     units = tuple(UNITS[OUTPUTS.index(name)] for name in ship.outputs)
-    return solve(
+    return solve_targets(
         ship, targets, start=np.zeros(len(ship.free)), scales_free=ship.usual,
         scales_out=ship.sizes, units=units, **how,
     )  # fmt: skip
@@ -104,7 +104,7 @@ def test_more_freedom_gives_the_least_change() -> None:
     ship = FormulaShip(ALL)
     targets = changed(ship)
     found = aim(ship, targets)
-    plain = aim(ship, targets, rule=Rule(least=False))
+    plain = aim(ship, targets, rule=StoppingRule(least=False))
     assert len(found.steps) - 1 <= 12
     assert found.residual <= 1e-10
     assert found.kkt <= 1e-6
@@ -122,14 +122,19 @@ def test_a_hull_of_the_kernel_gets_the_least_change_that_meets_its_targets() -> 
     targets = [1.03 * now.volume, now.lcb + 0.4]
     free = ["breadth", "draught", SHIFTED, FULLER]
     found, plain = (
-        solve(
-            ship, targets, start=np.zeros(4), scales_free=[each.usual for each in ship.maps.free],
-            scales_out=targets, rule=rule,
+        solve_targets(
+            ship,
+            targets,
+            start=np.zeros(4),
+            scales_free=[each.usual for each in ship.maps.free],
+            scales_out=targets,
+            rule=rule,
         )
         for ship, rule in (
-            (problem(hull, ["volume", "lcb"], free), rule) for rule in (Rule(), Rule(least=False))
+            (problem(hull, ["volume", "lcb"], free), rule)
+            for rule in (StoppingRule(), StoppingRule(least=False))
         )
-    )  # fmt: skip
+    )
     assert len(found.steps) - 1 <= 12
     assert found.residual <= 1e-10
     assert found.kkt <= 1e-6
@@ -277,7 +282,7 @@ def test_a_target_that_hardly_moves_is_one_that_nothing_moves() -> None:
             return Formula(0.7 + 1e-7 * amplitudes, np.full((1, 1), 1e-7))
 
     with pytest.raises(DependentTargetsError) as caught:
-        solve(Faint(), [0.71], start=[0.0], scales_free=[1.0], scales_out=[0.7])
+        solve_targets(Faint(), [0.71], start=[0.0], scales_free=[1.0], scales_out=[0.7])
     assert caught.value.targets == ("cb",)
 
 
@@ -383,6 +388,6 @@ def test_numbers_that_cannot_be_used_are_refused(
         "scales_out": [1.0, 1.0], **wrong,
     }  # fmt: skip
     with pytest.raises(BadInputError) as caught:
-        solve(ship, **given)
+        solve_targets(ship, **given)
     assert words in str(caught.value)
     assert ship.looks == 0

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import nnls
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.aiming.broyden_update import learnt, no_curvature
+from assoc_hull.variation.aiming.broyden_update import no_curvature, updated_curvature
 from assoc_hull.variation.aiming.quadratic_program import Quadratic, least_squares_step, split
 
 
@@ -77,6 +77,6 @@ def test_curvature_of_a_quadratic_is_learnt_from_its_gradients() -> None:
     known = no_curvature(2, 3)
     for _ in range(60):
         step = rng.normal(size=3)
-        known = learnt(known, step, truth @ step)
+        known = updated_curvature(known, step, truth @ step)
     assert np.abs(known - truth).max() < 1e-9
-    assert learnt(known, np.full(3, 1e-9), np.ones((2, 3))) is known
+    assert updated_curvature(known, np.full(3, 1e-9), np.ones((2, 3))) is known

@@ -10,11 +10,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 import assoc_hull as ah
-from assoc_hull.analysis.derivatives.curve_tangents import moving
-from assoc_hull.analysis.derivatives.derivatives import hydrostatic_derivatives
+from assoc_hull.analysis.derivatives.curve_tangents import curve_tangents
 from assoc_hull.analysis.derivatives.given_motion import Moves
+from assoc_hull.analysis.derivatives.hydrostatic_derivatives import hydrostatic_derivatives
 from assoc_hull.analysis.derivatives.parameters import DRAUGHT, HEEL, TRIM, PointMove, Rates
-from assoc_hull.analysis.derivatives.reused_layout import moved
+from assoc_hull.analysis.derivatives.reused_layout import flotation_at_points
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
@@ -58,13 +58,13 @@ def smooth_moves(hull: Hull) -> list[Moves]:
 def differences(hull: Hull, outputs: Outputs, way: Moves, step: float) -> FloatArray:
     """Central differences of re-lofted hulls, extrapolated; their dimensions change as well."""
     body, ship = flotation(hull.state), hull.particulars
-    gone, _ = moving(body, [way])
+    gone, _ = curve_tangents(body, [way])
 
     def at(amount: float) -> FloatArray:
         rates = attrs.asdict(way.rates)
         sizes = {each: getattr(ship, each) + amount * rate for each, rate in rates.items()}
         resized = attrs.evolve(ship, **sizes)
-        return outputs.values_of(moved(body, *gone.stepped(0, amount)), resized)
+        return outputs.values_of(flotation_at_points(body, *gone.stepped(0, amount)), resized)
 
     one, two = (at(k * step) - at(-k * step) for k in (1, 2))
     return (8.0 * one - two) / (12.0 * step)

@@ -6,18 +6,16 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.variation.carrying.stations import section_planes, stations_along
-from assoc_hull.variation.fields.additive import AdditiveLayer
-from assoc_hull.variation.fields.field import Boundary, Field, Piece
-from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.carrying.driving_lines import section_planes, stations_along
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, Boundary, StackedField
+from assoc_hull.variation.fields.layers import AdditiveLayer, FieldLayer, Layer, Rake
 
-LONGER = Field(
-    "length", "x", (Boundary("base", Chain.constant(0.0)),),
-    (Piece.along(Chain.constant(1.0), 0.02, 0.0),),
+LONGER = StackedField(
+    "length", "x", (Boundary("base", BlendChain.constant(0.0)),),
+    (AffinePiece.along(BlendChain.constant(1.0), 0.02, 0.0),),
 )  # fmt: skip
-RAKE = Rake("rake", Chain.constant(1.0), 0.1, 2.0, 1.0)
+RAKE = Rake("rake", BlendChain.constant(1.0), 0.1, 2.0, 1.0)
 X = np.array([0.0, 50.0, 100.0])
 
 
@@ -25,15 +23,15 @@ def test_stations_go_with_what_keeps_their_planes_and_not_with_what_bends_them()
     """Layer after layer, each at the places that the one before gives."""
     layers: list[Layer] = [
         FieldLayer("size", (LONGER, RAKE)),
-        AdditiveLayer("shift", x=Chain.through([0.0, 102.0], [0.0, 1.0])),
+        AdditiveLayer("shift", x=BlendChain.through([0.0, 102.0], [0.0, 1.0])),
     ]
     assert stations_along(layers, X).tolist() == [0.0, 51.5, 103.0]
 
 
 def test_layers_that_move_nothing_along_the_ship_move_no_station() -> None:
     """To the bit."""
-    wide = AdditiveLayer("wide", y=(Chain.constant(1.0), Chain.through([0.0, 5.0], [0.0, 1.0]),
-                                    Chain.constant(1.0)))  # fmt: skip
+    rising = BlendChain.through([0.0, 5.0], [0.0, 1.0])
+    wide = AdditiveLayer("wide", y=(BlendChain.constant(1.0), rising, BlendChain.constant(1.0)))
     assert stations_along([wide, FieldLayer("rake", (RAKE,))], X).tolist() == X.tolist()
 
 

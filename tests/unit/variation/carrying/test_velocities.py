@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.normals import hull_normals
+from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState
 from assoc_hull.variation.aiming.hull_problem import HullProblem, Reached
 from tests.aims import SHIFTED, problem, small
 

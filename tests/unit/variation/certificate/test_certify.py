@@ -6,21 +6,26 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError, FoldError
-from assoc_hull.variation.certificate.certify import certify
-from assoc_hull.variation.fields.blend import BLENDS, Blend
-from assoc_hull.variation.fields.field import Boundary, Field, Piece, Tube, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.certificate.fold_check import certify
+from assoc_hull.variation.fields.bounded_functions import BLENDS, Blend, BlendChain
+from assoc_hull.variation.fields.field import (
+    AffinePiece,
+    Boundary,
+    StackedField,
+    Tube,
+    level_boundaries,
+)
+from assoc_hull.variation.fields.layers import FieldLayer
 
 BOX = np.array([[-5.0, -16.0, -1.0], [230.0, 16.0, 20.0]])
 
 
 def shaft(amount: float, blend: Blend) -> FieldLayer:
     """Field S of the printed values: a plateau around the shaft, nil at base and T."""
-    fade = Chain.through([4.37, 62.0], [1.0, 0.0], blend)
-    walls = stack(["base", "shaft-r", "shaft+r", "T"], [0.0, 3.27, 4.73, 10.8])
-    pieces = tuple(Piece.along(fade, 0.0, amount * d) for d in (0.0, 1.0, 1.0, 0.0))
-    return FieldLayer("local", (Field("shaft_height", "z", walls, pieces, blend),))
+    fade = BlendChain.through([4.37, 62.0], [1.0, 0.0], blend)
+    walls = level_boundaries(["base", "shaft-r", "shaft+r", "T"], [0.0, 3.27, 4.73, 10.8])
+    pieces = tuple(AffinePiece.along(fade, 0.0, amount * d) for d in (0.0, 1.0, 1.0, 0.0))
+    return FieldLayer("local", (StackedField("shaft_height", "z", walls, pieces, blend),))
 
 
 @pytest.mark.parametrize(
@@ -48,12 +53,14 @@ def test_least_minor_of_a_plateau_has_its_printed_digits(
 @pytest.mark.parametrize(("blend", "least"), [("cubic", 0.7203869730), ("quintic", 0.6598594214)])
 def test_least_minor_of_the_papers_stacks_has_its_printed_digits(blend: str, least: float) -> None:
     """Ratios of z and y about the base, constant along the ship."""
-    curve, none = BLENDS[blend], Chain.constant(0.0)
+    curve, none = BLENDS[blend], BlendChain.constant(0.0)
 
-    def ratios(axis: str, z: list[float], values: list[float]) -> Field:
-        pieces = tuple(Piece(Chain.constant(value - 1.0), 0.0, none) for value in values)
+    def ratios(axis: str, z: list[float], values: list[float]) -> StackedField:
+        pieces = tuple(AffinePiece(BlendChain.constant(value - 1.0), 0.0, none) for value in values)
         names = [f"h{k}" for k in range(len(z))]
-        return Field(axis, "z" if axis == "z" else "y", stack(names, z), pieces, curve)
+        return StackedField(
+            axis, "z" if axis == "z" else "y", level_boundaries(names, z), pieces, curve
+        )
 
     heights = ratios("z", [0, 4.275, 5, 5.725, 18], [1, 5 / 4.275, 6 / 5, 7 / 5.725, 1])
     breadths = ratios("y", [2.825, 5, 7.175], [1, 1 / 0.725, 1])
@@ -64,8 +71,13 @@ def test_least_minor_of_the_papers_stacks_has_its_printed_digits(blend: str, lea
 
 def step(amount: float, gap: float, blend: Blend) -> FieldLayer:
     """A shift of z from nil to an amount over a gap."""
-    pieces = tuple(Piece(Chain.constant(0.0), 0.0, Chain.constant(d)) for d in (0.0, amount))
-    return FieldLayer("step", (Field("step", "z", stack(["a", "b"], [3, 3 + gap]), pieces, blend),))
+    pieces = tuple(
+        AffinePiece(BlendChain.constant(0.0), 0.0, BlendChain.constant(d)) for d in (0.0, amount)
+    )
+    return FieldLayer(
+        "step",
+        (StackedField("step", "z", level_boundaries(["a", "b"], [3, 3 + gap]), pieces, blend),),
+    )
 
 
 @pytest.mark.parametrize("blend", BLENDS.values(), ids=list(BLENDS))
@@ -85,13 +97,13 @@ def test_bossing_of_the_story_is_certified_by_its_tube() -> None:
     """Y_y is least where psi falls most steeply: .588."""
     r, h = 0.725, 5.0
     ratio = 1.0 / r - 1.0
-    walls = stack(["base", "h-r", "h+r", "T"], [0.0, h - r, h + r, 18.0])
-    near, far = Chain.through([6, 30], [1, 0]), Chain.through([6, 66], [1, 0])
-    none = Piece.along(near, 0.0, 0.0)
-    tall = Piece(near.scaled(ratio), h, far)
-    broad = Piece.along(near, ratio, 0.0)
-    up = Field("shaft", "z", walls, (none, tall, tall, none))
-    out = Field("bossing", "y", walls, (none, broad, broad, none), tube=Tube(r))
+    walls = level_boundaries(["base", "h-r", "h+r", "T"], [0.0, h - r, h + r, 18.0])
+    near, far = BlendChain.through([6, 30], [1, 0]), BlendChain.through([6, 66], [1, 0])
+    none = AffinePiece.along(near, 0.0, 0.0)
+    tall = AffinePiece(near.scaled(ratio), h, far)
+    broad = AffinePiece.along(near, ratio, 0.0)
+    up = StackedField("shaft", "z", walls, (none, tall, tall, none))
+    out = StackedField("bossing", "y", walls, (none, broad, broad, none), tube=Tube(r))
     found = certify(FieldLayer("boss", (up, out)), [[6, -16, 0], [66, 16, 18]])
     assert found.certified
     assert dict(found.minors)["Y_y"] == pytest.approx(0.588, abs=5e-4)
@@ -99,14 +111,14 @@ def test_bossing_of_the_story_is_certified_by_its_tube() -> None:
 
 def crossed(size: float) -> FieldLayer:
     """Heights shift lengths and lengths shift heights: X_x = Z_z = 1 everywhere."""
-    none = Chain.constant(0.0)
-    along = Field(
-        "along", "x", stack(["a", "b"], [4.0, 6.0]),
-        (Piece(none, 0.0, none), Piece(none, 0.0, Chain.constant(4.0 * size))),
+    none = BlendChain.constant(0.0)
+    along = StackedField(
+        "along", "x", level_boundaries(["a", "b"], [4.0, 6.0]),
+        (AffinePiece(none, 0.0, none), AffinePiece(none, 0.0, BlendChain.constant(4.0 * size))),
     )  # fmt: skip
-    up = Field(
-        "up", "z", stack(["a"], [0.0]),
-        (Piece(none, 0.0, Chain.through([100.0, 110.0], [0.0, 3.0])),),
+    up = StackedField(
+        "up", "z", level_boundaries(["a"], [0.0]),
+        (AffinePiece(none, 0.0, BlendChain.through([100.0, 110.0], [0.0, 3.0])),),
     )  # fmt: skip
     return FieldLayer("crossed", (along, up))
 
@@ -129,11 +141,13 @@ def test_one_sloping_boundary_is_checked_on_both_sides(
     axis: str, places: tuple[float, float]
 ) -> None:
     """A piece acts below and above its only boundary; a fold counts wherever that lies."""
-    wall = Boundary("counter", Chain.through([0.0, 200.0], places))
-    fall = Chain.through([100.0, 110.0], [0.0, -20.0])
-    shift = Piece(Chain.constant(0.0), 0.0, fall)
-    ratio = Piece(Chain.constant(-1.2), 0.0, Chain.constant(0.0))
-    field = Field("field", "x" if axis == "x" else "z", (wall,), (shift if axis == "x" else ratio,))
+    wall = Boundary("counter", BlendChain.through([0.0, 200.0], places))
+    fall = BlendChain.through([100.0, 110.0], [0.0, -20.0])
+    shift = AffinePiece(BlendChain.constant(0.0), 0.0, fall)
+    ratio = AffinePiece(BlendChain.constant(-1.2), 0.0, BlendChain.constant(0.0))
+    field = StackedField(
+        "field", "x" if axis == "x" else "z", (wall,), (shift if axis == "x" else ratio,)
+    )
     assert certify(FieldLayer("one", (field,)), BOX).reason == "folds"
 
 
@@ -150,8 +164,10 @@ def test_refusal_says_where_and_between_what() -> None:
 @pytest.mark.parametrize("first", [0, 1])
 def test_the_field_that_shrinks_space_most_is_named(first: int) -> None:
     """Of several that act at the witness, in whatever order they stand."""
-    shifts = [Piece.along(Chain.constant(1.0), 0.0, d) for d in (0.0, -0.5, 0.0)]
-    weak = Field("weak", "z", stack(["low", "middle", "high"], [0.0, 8.0, 16.0]), tuple(shifts))
+    shifts = [AffinePiece.along(BlendChain.constant(1.0), 0.0, d) for d in (0.0, -0.5, 0.0)]
+    weak = StackedField(
+        "weak", "z", level_boundaries(["low", "middle", "high"], [0.0, 8.0, 16.0]), tuple(shifts)
+    )
     strong = shaft(4.2, BLENDS["cubic"]).fields[0]
     fields = (weak, strong) if first == 0 else (strong, weak)
     found = certify(FieldLayer("local", fields), BOX)
@@ -169,14 +185,17 @@ def test_identity_is_certified_with_minors_of_one() -> None:
 def test_field_that_moves_nothing_in_the_box_costs_nothing() -> None:
     """Beside fields that are nil, or act beyond the box, a field is checked as if alone."""
     walls = (
-        Boundary("low", Chain.through([0.0, 200.0], [2.0, 4.0])),
-        Boundary("high", Chain.through([50.0, 150.0], [9.0, 8.0])),
+        Boundary("low", BlendChain.through([0.0, 200.0], [2.0, 4.0])),
+        Boundary("high", BlendChain.through([50.0, 150.0], [9.0, 8.0])),
     )
-    none = Piece(Chain.constant(0.0), 0.0, Chain.constant(0.0))
-    lift = Piece(Chain.constant(0.0), 0.0, Chain.through([60.0, 90.0], [0.0, -3.0]))
-    far = Piece(Chain.constant(0.0), 0.0, Chain.through([240.0, 260.0], [0.0, 3.0]))
-    one = Field("lift", "z", walls, (none, lift))
-    idle = Field("idle", "z", walls, (none, none)), Field("far", "z", walls, (none, far))
+    none = AffinePiece(BlendChain.constant(0.0), 0.0, BlendChain.constant(0.0))
+    lift = AffinePiece(BlendChain.constant(0.0), 0.0, BlendChain.through([60.0, 90.0], [0.0, -3.0]))
+    far = AffinePiece(BlendChain.constant(0.0), 0.0, BlendChain.through([240.0, 260.0], [0.0, 3.0]))
+    one = StackedField("lift", "z", walls, (none, lift))
+    idle = (
+        StackedField("idle", "z", walls, (none, none)),
+        StackedField("far", "z", walls, (none, far)),
+    )
     alone, beside = (certify(FieldLayer("local", each), BOX) for each in ((one,), (one, *idle)))
     assert beside == alone
 

@@ -14,17 +14,21 @@ import pytest
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.certificate import (
-    certify_fields,
-    certify_layer,
-    certify_strip,
-)
-from assoc_hull.variation.certificate import (
     field_enclosures as field_bounds,
 )
-from assoc_hull.variation.certificate.certify import MARGIN
-from assoc_hull.variation.certificate.certify_layer import is_level
-from assoc_hull.variation.fields.field import Field
-from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
+from assoc_hull.variation.certificate import (
+    field_minors as certify_fields,
+)
+from assoc_hull.variation.certificate import (
+    field_minors as certify_layer,
+)
+from assoc_hull.variation.certificate import (
+    field_minors as certify_strip,
+)
+from assoc_hull.variation.certificate.field_minors import is_level
+from assoc_hull.variation.certificate.fold_check import MARGIN
+from assoc_hull.variation.fields.field import StackedField
+from assoc_hull.variation.fields.layers import FieldLayer, Rake
 from benchmarks.fold_check import SURE, Case, Summary, compare, draw
 from benchmarks.fold_polish import minors_at
 
@@ -88,7 +92,7 @@ def contradictions(cases: Sequence[Case], concerns: Callable[[Case], bool]) -> l
     return []
 
 
-def groups(case: Case) -> list[list[Field | Rake]]:
+def groups(case: Case) -> list[list[StackedField | Rake]]:
     """The fields of a map that move the same coordinate, layer by layer."""
     layers = [layer for layer in case.vmap.layers if isinstance(layer, FieldLayer)]
     every = [[each for each in layer.fields if each.axis == axis]
@@ -143,7 +147,7 @@ def test_a_level_boundary_left_out_is_found_out(
     cases: list[Case], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Two level strips taken for one contradict the samples."""
-    right = certify_layer.rows
+    right = certify_layer.strip_heights
 
     def wrong(fields: Any, box: FloatArray) -> FloatArray:
         found = right(fields, box)

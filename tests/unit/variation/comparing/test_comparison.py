@@ -12,11 +12,11 @@ from jsonschema import Draft202012Validator
 
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError, OutOfRangeError, UnknownNameError
-from assoc_hull.io.hull_schema import dumps_schema
 from assoc_hull.io.tables.comparison import comparison_schema
-from assoc_hull.variation.comparing.compare import HullComparison
+from assoc_hull.io.tables.json_schema import dumps_schema
+from assoc_hull.variation.comparing.comparison import HullComparison
+from assoc_hull.variation.comparing.line_comparison import compare_lines
 from assoc_hull.variation.comparing.line_fairness import compare_fairness, measure_fairness
-from assoc_hull.variation.comparing.lines import compare_lines
 from assoc_hull.variation.comparing.number_comparison import (
     NumberComparison,
     Numbers,

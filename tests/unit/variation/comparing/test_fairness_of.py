@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, SplineBatch
-from assoc_hull.geometry.fairness.comb_integrals import (
+from assoc_hull.geometry.fairness.combs import (
     comb_integrals,
     curvature_sign_changes,
     greatest_curvatures,

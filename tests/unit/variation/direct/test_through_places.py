@@ -9,15 +9,19 @@ import pytest
 
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray
-from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
-from assoc_hull.model.curve import Curve
-from assoc_hull.model.line import Line
+from assoc_hull.model.objects import Curve, Line
 from assoc_hull.sources import examples
-from assoc_hull.variation.direct.least_change_net import Held, all_free, pass_places, pass_through
-from assoc_hull.variation.direct.pull_through import pull_through
+from assoc_hull.variation.direct.pull_curve_through import (
+    HeldPlace,
+    all_free,
+    pass_places,
+    pass_through,
+    pull_through,
+)
 from tests.complex_loft import complex_loft
 from tests.taken_back import taken_back
 
@@ -60,7 +64,7 @@ def curve_of(hull: Hull, name: str) -> Curve:
 def test_what_is_left_is_squared_from_step_to_step() -> None:
     """Newton with exact derivatives: from 0.3 m to rounding in three steps, each squaring."""
     asked = held_place(CURVE, *PLACE) + np.array([0.0, 0.3, 0.0])
-    left = pass_through(CURVE, [Held(*PLACE, asked)]).residuals
+    left = pass_through(CURVE, [HeldPlace(*PLACE, asked)]).residuals
     assert left[0] == pytest.approx(0.3, abs=1e-12)
     assert len(left) == 4
     assert left[1] < 5e-3
@@ -73,7 +77,7 @@ def test_what_is_left_is_squared_from_step_to_step() -> None:
 def test_the_place_is_met_with_segment_and_fraction_held() -> None:
     """The new curve passes through what was asked at the same fraction of the same segment."""
     asked = held_place(CURVE, *PLACE) + np.array([0.1, 0.3, 0.2])
-    moved = CurveData.single(pass_through(CURVE, [Held(*PLACE, asked)]).xyz)
+    moved = CurveData.single(pass_through(CURVE, [HeldPlace(*PLACE, asked)]).xyz)
     assert held_place(moved, *PLACE) == pytest.approx(asked, abs=1e-13)
 
 
@@ -96,7 +100,7 @@ def test_the_derivatives_are_those_of_the_loft() -> None:
         rows[:, i] = place.imag[:2] / h
     step = rows.T @ np.linalg.solve(rows @ rows.T, [0.0, size])
     asked = held_place(CURVE, *PLACE) + np.array([0.0, size, 0.0])
-    change = pass_through(CURVE, [Held(*PLACE, asked)]).xyz - POINTS
+    change = pass_through(CURVE, [HeldPlace(*PLACE, asked)]).xyz - POINTS
     assert change[:, :2].ravel() == pytest.approx(step, abs=1e-4 * size)
     assert np.abs(change[:, 2]).max() < 1e-12
 
@@ -106,7 +110,7 @@ def test_pins_and_fixed_points_stay() -> None:
     pin = held_place(CURVE, 4, 0.5)
     asked = held_place(CURVE, *PLACE) + np.array([0.0, 0.2, 0.0])
     free = all_free(CURVE, fixed=[0, 6])
-    passed = pass_through(CURVE, [Held(*PLACE, asked), Held(4, 0.5, pin)], free)
+    passed = pass_through(CURVE, [HeldPlace(*PLACE, asked), HeldPlace(4, 0.5, pin)], free)
     moved = CurveData.single(passed.xyz)
     assert held_place(moved, *PLACE) == pytest.approx(asked, abs=1e-13)
     assert held_place(moved, 4, 0.5) == pytest.approx(pin, abs=1e-13)
@@ -118,7 +122,7 @@ def test_a_place_may_slide_along_the_curve() -> None:
     free = all_free(CURVE)[1::3]
     asked = np.array([[3.0, 3.4, 0.0], [5.0, 2.2, 0.0]])
     passed = pass_places(CURVE, asked, free)
-    distance = closest(loft(CurveData.single(passed.xyz)), 0, asked)[2]
+    distance = closest_points(loft(CurveData.single(passed.xyz)), 0, asked)[2]
     assert distance.max() < 1e-12
     assert (passed.xyz[:, [0, 2]] == POINTS[:, [0, 2]]).all()
 
@@ -132,7 +136,7 @@ def test_knuckles_and_end_tangents_are_kept() -> None:
         end_vector=np.array([[0.0, 1, 0], [0, 0, 0]]),
     )
     asked = held_place(data, *PLACE) + np.array([0.0, 0.2, 0.0])
-    passed = pass_through(data, [Held(*PLACE, asked)])
+    passed = pass_through(data, [HeldPlace(*PLACE, asked)])
     assert passed.residuals[-1] < 1e-12
     assert np.abs(passed.xyz[4:] - POINTS[4:]).max() == 0.0
 
@@ -140,14 +144,14 @@ def test_knuckles_and_end_tangents_are_kept() -> None:
 @pytest.mark.parametrize(
     ("targets", "message"),
     [
-        ([Held(6, 0.5, POINTS[0])], "segment is 6"),
-        ([Held(2, 1.5, POINTS[0])], "fraction is 1.5"),
-        ([Held(2, 0.5, np.array([1.0, np.nan, 0]))], "place"),
+        ([HeldPlace(6, 0.5, POINTS[0])], "segment is 6"),
+        ([HeldPlace(2, 1.5, POINTS[0])], "fraction is 1.5"),
+        ([HeldPlace(2, 0.5, np.array([1.0, np.nan, 0]))], "place"),
         ([], "1 curves and 0 targets"),
-        ([Held(2, 0.5, POINTS[2]), Held(2, 0.5, POINTS[3])], "2 targets on one point"),
+        ([HeldPlace(2, 0.5, POINTS[2]), HeldPlace(2, 0.5, POINTS[3])], "2 targets on one point"),
     ],
 )
-def test_what_cannot_be_asked_is_refused(targets: list[Held], message: str) -> None:
+def test_what_cannot_be_asked_is_refused(targets: list[HeldPlace], message: str) -> None:
     """Each refusal is an error of the family and says what is wrong."""
     with pytest.raises(BadInputError, match=message):
         pass_through(CURVE, targets)
@@ -182,7 +186,7 @@ def test_a_station_takes_its_points_along_their_planes(hull: Hull) -> None:
     target = np.array([[50.0, hull.half_breadth(50.0, 3.1) + 0.03, 3.1]])
     with hull.edit("fuller station") as edit:
         pull_through(edit, curve, target, fixed=(curve.defining[0], curve.defining[-1]))
-    assert closest(curve.spline, 0, target)[2][0] < 1e-9
+    assert closest_points(curve.spline, 0, target)[2][0] < 1e-9
     assert len(athwart) > 5
     assert [point.z for point in athwart] == heights
 

@@ -10,30 +10,28 @@ import assoc_hull as ah
 from assoc_hull import Hull
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.features.bilge import bilge
-from assoc_hull.variation.features.bilge_arc import Arc, BilgeMap
-from assoc_hull.variation.features.bilge_arcs_of_net import bilge_map
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.fields.shear import DeadriseLayer
-from assoc_hull.variation.fields.space_map import VMap
-from assoc_hull.variation.parameters.compose_map import compose
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.parameters.parent_places import Parent
+from assoc_hull.variation.features.redrawn_bilges import BilgeArc, BilgeMap, bilge_map, fillet_bilge
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.layers import DeadriseLayer
+from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.parameters.compose_map import compose_map
+from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.parameters.parent import Parent
 
 RISE = np.tan(np.radians(2.0))
 DEADRISE = DeadriseLayer(
-    "deadrise", Chain.through([60, 115, 205, 265], [0, 1, 1, 0]), RISE, 1.0, 0.0,
-    Chain.through([2.4, 14.4], [1, 0]),
+    "deadrise", BlendChain.through([60, 115, 205, 265], [0, 1, 1, 0]), RISE, 1.0, 0.0,
+    BlendChain.through([2.4, 14.4], [1, 0]),
 )  # fmt: skip
-TURNED = VMap((DEADRISE,))
+TURNED = VariationMap((DEADRISE,))
 """Turns a level bottom about a keel plate of half-width 1 m by 2 degrees."""
 
 
-def drawn(x: float) -> Arc:
+def drawn(x: float) -> BilgeArc:
     """Draw the bilge of the section at x again."""
-    new = bilge(25.0, 2.4, deadrise_deg=2.0, keel=1.0)
-    old = bilge(25.0, 2.4, keel=1.0)
-    return Arc(f"{x:g}", f"arc {x:g}", x, old, new, (14.4, 14.4), TURNED, TURNED.jacobian)
+    new = fillet_bilge(25.0, 2.4, deadrise_deg=2.0, keel=1.0)
+    old = fillet_bilge(25.0, 2.4, keel=1.0)
+    return BilgeArc(f"{x:g}", f"arc {x:g}", x, old, new, (14.4, 14.4), TURNED, TURNED.jacobian)
 
 
 BILGES = BilgeMap(TURNED, TURNED.jacobian, (drawn(120.0), drawn(150.0), drawn(180.0)))
@@ -60,7 +58,7 @@ def off_circle(xyz: FloatArray) -> float:
 )
 def test_centre_and_tangent_points_by_rise_of_floor(beta: float, z: str, floor: list[str]) -> None:
     """B/2 = 25 m, keel half-width 1 m, radius 2.4 m: the digits of the derivation."""
-    arc = bilge(25.0, 2.4, deadrise_deg=beta, keel=1.0)
+    arc = fillet_bilge(25.0, 2.4, deadrise_deg=beta, keel=1.0)
     assert f"{arc.z:.10f}" == z
     assert [f"{each:.10f}" for each in arc.floor] == floor
     assert arc.side.tolist() == [25.0, arc.z]
@@ -69,7 +67,7 @@ def test_centre_and_tangent_points_by_rise_of_floor(beta: float, z: str, floor: 
 @pytest.mark.parametrize("beta", [-1.0, 0.0, 2.0, 5.0])
 def test_the_arc_is_tangent_to_floor_and_side(beta: float) -> None:
     """And round in between: its places lie at the radius, its ends are the tangent points."""
-    arc = bilge(25.0, 2.4, deadrise_deg=beta, keel=1.0)
+    arc = fillet_bilge(25.0, 2.4, deadrise_deg=beta, keel=1.0)
     places = arc.at(np.linspace(0.0, 1.0, 9))
     assert places[0].tolist() == arc.floor.tolist()
     assert places[-1].tolist() == arc.side.tolist()
@@ -84,14 +82,14 @@ def test_a_radius_that_leaves_no_bottom_is_refused() -> None:
     """The keel's half-width is named."""
     words = r"bilge: radius 9\.0 m leaves no bottom \(keel half-width 17\.0\)"
     with pytest.raises(BadInputError, match=words):
-        bilge(25.0, 9.0, keel=17.0)
+        fillet_bilge(25.0, 9.0, keel=17.0)
 
 
 @pytest.mark.parametrize("beta", [-90.0, 90.0, np.nan])
 def test_a_floor_that_is_none_is_refused(beta: float) -> None:
     """Upright, or no number."""
     with pytest.raises(BadInputError):
-        bilge(25.0, 2.4, deadrise_deg=beta)
+        fillet_bilge(25.0, 2.4, deadrise_deg=beta)
 
 
 @pytest.mark.parametrize("x", [120.0, 137.0, 150.0, 180.0])
@@ -175,13 +173,13 @@ def test_ratios_of_the_whole_hull_keep_the_exact_image(bulk_carrier: Hull) -> No
     """No arc is drawn, though an oval is none: the block coefficient counts for more."""
     ship, state = Parent(300, 50, 27, 18, 27, {}), bulk_carrier.state
     for asked in ({"breadth": 51.0}, {"draught": 18.5}, {"length": 310.0, "breadth": 49.0}):
-        assert bilge_map(state, compose(ship, asked, Layout())).arcs == ()
+        assert bilge_map(state, compose_map(ship, asked, Layout())).arcs == ()
 
 
 @pytest.mark.parametrize("q", [0.01, -0.01])
 def test_a_turned_bottom_has_all_bilges_drawn_anew(bulk_carrier: Hull, q: float) -> None:
     """Rising or falling outward, with the radius they had."""
-    turned = VMap((attrs.evolve(DEADRISE, q=q, keel=0.0),))
+    turned = VariationMap((attrs.evolve(DEADRISE, q=q, keel=0.0),))
     arcs = bilge_map(bulk_carrier.state, turned).arcs
     assert [arc.x for arc in arcs] == [120.0, 150.0, 180.0]
     assert [arc.after.radius for arc in arcs] == [2.4, 2.4, 2.4]

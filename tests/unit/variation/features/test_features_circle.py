@@ -11,10 +11,16 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.variation.features.circle import Circle, enough, off, redraw, touch
+from assoc_hull.variation.features.redrawn_circles import (
+    SpaceCircle,
+    circle_deviation,
+    directions_to_add,
+    redraw_circle,
+    tangent_point,
+)
 
-BOSS = Circle.of([6.0, 0.0, 5.0], 0.725, [1.0, 0.0, 0.0])
-UNIT = Circle.of([0.0, 0.0, 0.0], 1.0, [1.0, 0.0, 0.0])
+BOSS = SpaceCircle.of([6.0, 0.0, 5.0], 0.725, [1.0, 0.0, 0.0])
+UNIT = SpaceCircle.of([0.0, 0.0, 0.0], 1.0, [1.0, 0.0, 0.0])
 
 
 def half(count: int) -> FloatArray:
@@ -35,7 +41,7 @@ def test_a_clamped_half_circle_is_as_round_as_its_points_make_it(count: int, err
     worst = abs(np.hypot(*sample(loft(clamped), 100)[1][:, 1:].T) - 1.0).max()
     assert f"{worst:.1e}" == error
     # what the features are judged by takes seven places an interval
-    assert off(UNIT, half(count)).max() == pytest.approx(worst, rel=0.02)
+    assert circle_deviation(UNIT, half(count)).max() == pytest.approx(worst, rel=0.02)
 
 
 @pytest.mark.parametrize(
@@ -72,19 +78,19 @@ def _bezier(count: int) -> float:
 def test_points_are_added_until_the_curve_is_the_circle_to_a_micrometre() -> None:
     """25 points, as a bossing end is drawn with, are too few for r = 1 m; what is added is few."""
     units = half(25)
-    more = enough(UNIT, units)
+    more = directions_to_add(UNIT, units)
     both = np.vstack([units, more])
     both = both[np.argsort(both[:, 2])]
-    assert off(UNIT, units).max() > 1e-6
-    assert off(UNIT, both).max() <= 1e-6
-    assert len(enough(UNIT, half(33))) == 0
+    assert circle_deviation(UNIT, units).max() > 1e-6
+    assert circle_deviation(UNIT, both).max() <= 1e-6
+    assert len(directions_to_add(UNIT, half(33))) == 0
     assert 0 < len(more) <= 24
 
 
 def test_the_centre_is_the_image_and_the_radius_keeps_the_area() -> None:
     """Where none is asked: r sqrt|det J| in the plane of the circle."""
     wide = affine([1.0, 1.05, 1.2], [0.0, 0.0, 0.4])
-    after = redraw("boss", BOSS, wide, wide.jacobian).after
+    after = redraw_circle("boss", BOSS, wide, wide.jacobian).after
     assert after.centre.tolist() == [6.0, 0.0, 1.2 * 5.0 + 0.4]
     assert after.radius == pytest.approx(0.725 * np.sqrt(1.05 * 1.2), rel=1e-15)
 
@@ -92,23 +98,23 @@ def test_the_centre_is_the_image_and_the_radius_keeps_the_area() -> None:
 def test_asked_radius_and_centre_are_taken_as_they_are() -> None:
     """To the last bit."""
     up = affine(None, [0.0, 0.0, 0.98])
-    after = redraw("boss", BOSS, up, up.jacobian, radius=0.75, centre=[6.0, 0.0, 6.0]).after
+    after = redraw_circle("boss", BOSS, up, up.jacobian, radius=0.75, centre=[6.0, 0.0, 6.0]).after
     assert (after.centre.tolist(), after.radius) == ([6.0, 0.0, 6.0], 0.75)
 
 
 def test_only_what_nothing_is_asked_of_is_idle() -> None:
     """A map that leaves a circle alone leaves work all the same where a radius is asked for."""
     still = affine(None, [0.0, 0.0, 0.0])
-    assert redraw("boss", BOSS, still, still.jacobian).idle
-    assert not redraw("boss", BOSS, still, still.jacobian, radius=0.75).idle
+    assert redraw_circle("boss", BOSS, still, still.jacobian).idle
+    assert not redraw_circle("boss", BOSS, still, still.jacobian, radius=0.75).idle
     up = affine(None, [0.0, 0.0, 0.98])
-    assert not redraw("boss", BOSS, up, up.jacobian).idle
+    assert not redraw_circle("boss", BOSS, up, up.jacobian).idle
 
 
 def test_angles_are_kept() -> None:
     """Each place of the circle goes to C + r (cos, sin) of its old angle, axes to the bit."""
     up = affine(None, [0.0, 0.0, 1.0])
-    drawn = redraw("boss", BOSS, up, up.jacobian, radius=0.75)
+    drawn = redraw_circle("boss", BOSS, up, up.jacobian, radius=0.75)
     units, old = half(5), BOSS.at(half(5))
     assert np.abs(BOSS.unit(old)[0] - units).max() < 1e-15
     assert drawn.after.at(units)[2].tolist() == [6.0, 0.75, 6.0]
@@ -120,17 +126,17 @@ def test_a_map_that_differs_too_much_is_refused() -> None:
     with pytest.raises(
         BadInputError, match=r"feature 'boss' differs 0\.14 m from the varied curve"
     ):
-        redraw("boss", BOSS, still, still.jacobian, radius=0.865)
+        redraw_circle("boss", BOSS, still, still.jacobian, radius=0.865)
 
 
 @pytest.mark.parametrize("near", [0.0, 9e-7, -9e-7])
 def test_a_plane_within_a_micrometre_of_tangent_touches_at_one_place(near: float) -> None:
     """At the circle's own place, in the plane to the bit."""
-    boss = Circle.of([6.0, 0.0, 6.0], 1.0, [1.0, 0.0, 0.0])
-    found = touch(boss, [0.0, 1.0, 0.0], 1.0 + near)
+    boss = SpaceCircle.of([6.0, 0.0, 6.0], 1.0, [1.0, 0.0, 0.0])
+    found = tangent_point(boss, [0.0, 1.0, 0.0], 1.0 + near)
     assert found is not None
     assert found.tolist() == [6.0, 1.0 + near, 6.0]
-    below = touch(boss, [0.0, 0.0, 1.0], 5.0 + near)
+    below = tangent_point(boss, [0.0, 0.0, 1.0], 5.0 + near)
     assert below is not None
     assert below.tolist() == [6.0, 0.0, 5.0 + near]
 
@@ -138,9 +144,9 @@ def test_a_plane_within_a_micrometre_of_tangent_touches_at_one_place(near: float
 @pytest.mark.parametrize("offset", [1.0 + 2e-6, 1.0 - 2e-6, 0.5, 0.0])
 def test_other_planes_do_not_touch(offset: float) -> None:
     """They pass by, or cut the circle twice; its own plane never touches it."""
-    boss = Circle.of([6.0, 0.0, 6.0], 1.0, [1.0, 0.0, 0.0])
-    assert touch(boss, [0.0, 1.0, 0.0], offset) is None
-    assert touch(boss, [1.0, 0.0, 0.0], 6.0) is None
+    boss = SpaceCircle.of([6.0, 0.0, 6.0], 1.0, [1.0, 0.0, 0.0])
+    assert tangent_point(boss, [0.0, 1.0, 0.0], offset) is None
+    assert tangent_point(boss, [1.0, 0.0, 0.0], 6.0) is None
 
 
 def test_a_sampled_curve_may_miss_a_tangent_plane() -> None:

@@ -5,33 +5,39 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.features.circle import Circle, Redrawn, redraw
-from assoc_hull.variation.features.map import FeatureMap, acting, fade
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.hat import hat
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.features.redrawn_circles import (
+    FeatureMap,
+    RedrawnCircle,
+    SpaceCircle,
+    changed_circles,
+    distance_fade,
+    redraw_circle,
+)
+from assoc_hull.variation.fields.anchor_fields import hat_field
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.layers import FieldLayer
+from assoc_hull.variation.fields.space_map import VariationMap
 
-SHAFT = hat(
+SHAFT = hat_field(
     "shaft",
     [("base", 0, 0), ("shaft-r", 4.275, 1), ("shaft+r", 5.725, 1), ("T", 18, 0)],
-    Chain.through([6, 66], [1, 0]),
+    BlendChain.through([6, 66], [1, 0]),
 )
-MAP = VMap((FieldLayer("local", (SHAFT,)),))
+MAP = VariationMap((FieldLayer("local", (SHAFT,)),))
 """Raises the shaft by 1 m; the window of the hat leaves the end circle no circle."""
 
 
-def drawn(x: float, radius: float | None) -> Redrawn:
+def drawn(x: float, radius: float | None) -> RedrawnCircle:
     """Draw the circle at x again."""
-    circle = Circle.of([x, 0.0, 5.0], 0.725, [1.0, 0.0, 0.0])
-    return redraw(f"circle at {x:g}", circle, MAP, MAP.jacobian, radius=radius)
+    circle = SpaceCircle.of([x, 0.0, 5.0], 0.725, [1.0, 0.0, 0.0])
+    return redraw_circle(f"circle at {x:g}", circle, MAP, MAP.jacobian, radius=radius)
 
 
 CIRCLES = (drawn(6.0, 0.75), drawn(6.75, 0.74), drawn(7.5, None))
 FEATURES = FeatureMap(MAP, MAP.jacobian, CIRCLES)
 
 
-def around(circle: Circle) -> tuple[FloatArray, FloatArray]:
+def around(circle: SpaceCircle) -> tuple[FloatArray, FloatArray]:
     """Give places and tangents of half a circle, (n, 3)."""
     angle = np.linspace(-np.pi / 2.0, np.pi / 2.0, 25)
     unit = np.column_stack([0.0 * angle, np.cos(angle), np.sin(angle)])
@@ -68,10 +74,12 @@ def test_the_jacobian_is_the_derivative() -> None:
 
 def test_between_circles_that_move_alike_the_hull_moves_with_them() -> None:
     """The shares of three add up: a cylinder between them stays straight within 0.01 mm."""
-    up = hat("shaft", [("base", 0, 0), ("shaft", 5, 0.6), ("T", 18, 0)], Chain.constant(1.0))
-    vmap = VMap((FieldLayer("local", (up,)),))
+    up = hat_field(
+        "shaft", [("base", 0, 0), ("shaft", 5, 0.6), ("T", 18, 0)], BlendChain.constant(1.0)
+    )
+    vmap = VariationMap((FieldLayer("local", (up,)),))
     circles = tuple(
-        redraw(each.name, each.before, vmap, vmap.jacobian, radius=0.75) for each in CIRCLES
+        redraw_circle(each.name, each.before, vmap, vmap.jacobian, radius=0.75) for each in CIRCLES
     )
     x = np.linspace(6.0, 7.5, 31)
     side = np.column_stack([x, np.full(31, 0.725), np.full(31, 5.0)])
@@ -113,7 +121,7 @@ def test_a_fade_over_six_radii_adds_no_sign_change() -> None:
 def _changes(reach: float) -> int:
     """Count the sign changes of a flat arc (radius 20 r) that a correction of .054 r fades on."""
     girth = np.linspace(0.0, 12.0, 4001)
-    curve = np.column_stack([girth, -girth * girth / 40.0 + 0.054 * fade(girth, reach)])
+    curve = np.column_stack([girth, -girth * girth / 40.0 + 0.054 * distance_fade(girth, reach)])
     first = np.gradient(curve, axis=0)
     second = np.gradient(first, axis=0)
     bend = (first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])[3:-3]
@@ -123,10 +131,10 @@ def _changes(reach: float) -> int:
 
 def test_a_circle_that_stays_is_left_alone() -> None:
     """A map elsewhere adds nothing to it, and its places keep their bits."""
-    circle = Circle.of([80.0, 0.0, 5.0], 0.725, [1.0, 0.0, 0.0])
-    far = redraw("far", circle, MAP, MAP.jacobian)
+    circle = SpaceCircle.of([80.0, 0.0, 5.0], 0.725, [1.0, 0.0, 0.0])
+    far = redraw_circle("far", circle, MAP, MAP.jacobian)
     assert far.idle
-    assert acting([*CIRCLES, far]) == CIRCLES
+    assert changed_circles([*CIRCLES, far]) == CIRCLES
 
 
 def test_the_centre_of_a_circle_goes_to_the_centre() -> None:

@@ -8,12 +8,18 @@ from scipy.optimize import minimize_scalar
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.certificate.certify import certify
-from assoc_hull.variation.fields.additive import AdditiveLayer
-from assoc_hull.variation.fields.blend import CUBIC, QUINTIC, Blend
-from assoc_hull.variation.fields.piecewise_linear import Chain, Course
-from assoc_hull.variation.fields.ramps_and_polynomials import Polynomial, Ramp
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.certificate.fold_check import certify
+from assoc_hull.variation.fields.bounded_functions import (
+    CUBIC,
+    QUINTIC,
+    Blend,
+    BlendChain,
+    BoundedFunction,
+    Polynomial,
+    Ramp,
+)
+from assoc_hull.variation.fields.layers import AdditiveLayer
+from assoc_hull.variation.fields.space_map import VariationMap
 
 HALF = 16.1
 """Half-breadth, m, of the hull that is made broader."""
@@ -30,11 +36,11 @@ def full(lift: float = 1.0, blend: Blend = QUINTIC) -> AdditiveLayer:
     """A layer in which all seven functions act, of all three kinds."""
     return AdditiveLayer(
         "full",
-        Chain.through([0, 40, 100], [0, 2, 0], blend),
-        (Chain.through([10, 60], [1, 0], blend), Ramp(1.0, 4.0, 0.1, blend),
-         Chain.through([4, 9], [1, 0], blend)),
-        (Chain.through([6, 66], [lift, 0], blend), Polynomial.of([1, 0, -1e-3]),
-         Chain.through([0, 5, 18], [0, 1, 0], blend)),
+        BlendChain.through([0, 40, 100], [0, 2, 0], blend),
+        (BlendChain.through([10, 60], [1, 0], blend), Ramp(1.0, 4.0, 0.1, blend),
+         BlendChain.through([4, 9], [1, 0], blend)),
+        (BlendChain.through([6, 66], [lift, 0], blend), Polynomial.of([1, 0, -1e-3]),
+         BlendChain.through([0, 5, 18], [0, 1, 0], blend)),
     )  # fmt: skip
 
 
@@ -42,8 +48,8 @@ def full(lift: float = 1.0, blend: Blend = QUINTIC) -> AdditiveLayer:
 def test_a_blend_over_the_half_breadth_is_no_scaling(blend: Blend, part: float) -> None:
     """It leaves exact scaling by the printed part of what the side moves."""
     edge = 0.4
-    rise = Chain.through([0.0, HALF], [0.0, edge], blend)
-    layer = AdditiveLayer("B", y=(Chain.constant(1.0), rise, Chain.constant(1.0)))
+    rise = BlendChain.through([0.0, HALF], [0.0, edge], blend)
+    layer = AdditiveLayer("B", y=(BlendChain.constant(1.0), rise, BlendChain.constant(1.0)))
 
     def away(y: float) -> float:
         moved = layer.displacement(np.array([[50.0, y, 5.0]]))[0, 1]
@@ -58,11 +64,11 @@ def test_a_blend_over_the_half_breadth_is_no_scaling(blend: Blend, part: float) 
 
 def test_the_half_breadth_itself_scales_exactly() -> None:
     """With F3(y) = y the method has an affine part: B alone, to one rounding."""
-    one = Chain.constant(1.0)
+    one = BlendChain.constant(1.0)
     layer = AdditiveLayer("B", y=(one, Polynomial.of([0.0, 0.03]), one))
     y = np.random.default_rng(7).uniform(-HALF, HALF, 1000)
     xyz = np.stack([np.full(1000, 50.0), y, np.full(1000, 5.0)], axis=1)
-    assert np.abs(VMap((layer,))(xyz)[:, 1] - 1.03 * y).max() <= np.spacing(HALF)
+    assert np.abs(VariationMap((layer,))(xyz)[:, 1] - 1.03 * y).max() <= np.spacing(HALF)
 
 
 @blends()
@@ -70,7 +76,7 @@ def test_outside_the_region_no_bit_changes(blend: Blend) -> None:
     """Displacement nil and unit Jacobian; the regions name the box."""
     layer = full(blend=blend)
     xyz = np.array([[-3.0, 7.1, 18.0], [100.0, -7.1, 5.0], [300.0, 0.1, 0.3], [101.5, 3.0, 20.0]])
-    assert VMap((layer,))(xyz).tobytes() == xyz.tobytes()
+    assert VariationMap((layer,))(xyz).tobytes() == xyz.tobytes()
     assert (layer.jacobian(xyz) == np.eye(3)).all()
     along, athwart, up = layer.regions()
     assert (along.x, along.z) == ((0.0, 100.0), (-np.inf, np.inf))
@@ -83,7 +89,9 @@ def test_the_centre_plane_stays() -> None:
     xyz = np.array([[20.0, 0.0, 5.0]])
     assert full().displacement(xyz)[0, 1] == 0.0
     with pytest.raises(BadInputError, match="moves the centre plane"):
-        AdditiveLayer("off", y=(Chain.constant(1.0), Chain.constant(1.0), Chain.constant(1.0)))
+        AdditiveLayer(
+            "off", y=(BlendChain.constant(1.0), BlendChain.constant(1.0), BlendChain.constant(1.0))
+        )
 
 
 def test_both_sides_of_the_ship_stay_alike() -> None:
@@ -114,7 +122,7 @@ def test_the_inverse_finds_back(blend: Blend, lift: float) -> None:
     layer = full(lift, blend)
     assert certify(layer, BOX).certified
     xyz = np.random.default_rng(4).uniform(BOX[0], BOX[1], (500, 3))
-    vmap = VMap((layer,))
+    vmap = VariationMap((layer,))
     assert np.abs(vmap.inverse(vmap(xyz)) - xyz).max() < 1e-12
     outside = np.array([[300.0, 4.0, 5.0], [-50.0, 4.0, 19.0]])
     assert vmap.inverse(outside).tobytes() == outside.tobytes()
@@ -141,7 +149,7 @@ def test_bounds_of_ramps_are_exact(
     held(Ramp(begin, -width if back else width, slope), low, low + span)
 
 
-def held(course: Course, low: float, high: float) -> None:
+def held(course: BoundedFunction, low: float, high: float) -> None:
     """Check bounds of a course on an interval against samples."""
     x = np.linspace(low, high, 4001)
     for sampled, (least, most) in (
@@ -191,16 +199,16 @@ def test_a_refused_layer_has_a_witness(lift: float) -> None:
 @blends()
 def test_the_interval_of_a_hump_is_found(blend: Blend) -> None:
     """A hump of D over 5 m below and 13 m above holds up to 13 / max b', to the last per cent."""
-    one, hump = Chain.constant(1.0), Chain.through([0, 5, 18], [0, 1, 0], blend)
+    one, hump = BlendChain.constant(1.0), BlendChain.through([0, 5, 18], [0, 1, 0], blend)
     most = 13.0 / blend.steepest
     for part, holds in ((0.99, True), (1.01, False)):
-        layer = AdditiveLayer("hump", z=(Chain.constant(part * most), one, hump))
+        layer = AdditiveLayer("hump", z=(BlendChain.constant(part * most), one, hump))
         assert certify(layer, BOX, least=0.0).certified is holds
 
 
 def test_the_determinant_of_the_block_counts() -> None:
     """Slopes of one coordinate that are all positive do not make a map one to one."""
-    one = Chain.constant(1.0)
+    one = BlendChain.constant(1.0)
     layer = AdditiveLayer(
         "swirl",
         y=(one, Polynomial.of([0.0, 1.0]), Polynomial.of([0.0, 0.2])),
@@ -215,7 +223,7 @@ def test_the_determinant_of_the_block_counts() -> None:
 
 def test_a_margin_thinner_than_a_rounding_is_undecided() -> None:
     """A minor that is the margin itself over a whole box can be neither shown nor refuted."""
-    one = Chain.constant(1.0)
+    one = BlendChain.constant(1.0)
     layer = AdditiveLayer("thin", z=(one, one, Polynomial.of([0.0, -0.95])))
     found = certify(layer, [[0, 0, 0], [1, 1, 1]], least=1.0 - 0.95)
     assert found.reason == "undecided"

@@ -12,9 +12,9 @@ from numpy.testing import assert_allclose
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.fields.bump import Bump
-from assoc_hull.variation.fields.field import stack
-from assoc_hull.variation.fields.piecewise_linear import Chain, Contour, Course
+from assoc_hull.variation.fields.bounded_functions import BlendChain, BoundedFunction, Contour
+from assoc_hull.variation.fields.field import level_boundaries
+from assoc_hull.variation.fields.shift_shapes import Bump
 from tests.variation_strategies import bumps, chains, contours, courses
 
 Give = Callable[[FloatArray], FloatArray]
@@ -34,7 +34,7 @@ def extremes(give: Give, low: float, high: float, marks: FloatArray) -> tuple[fl
     return found[0], found[1]
 
 
-def check_bounds(course: Course, span: tuple[float, float]) -> None:
+def check_bounds(course: BoundedFunction, span: tuple[float, float]) -> None:
     """Bounds of values and slopes on an interval are those of the function, to rounding."""
     low, high = span[0], span[0] + span[1]
     one = np.array([low]), np.array([high])
@@ -47,9 +47,9 @@ def check_bounds(course: Course, span: tuple[float, float]) -> None:
 
 
 @given(chain=chains(-1.0, 1.0))
-@example(chain=Chain.through([0.0, 10.0, 20.0], [0.7, 0.1, 0.7]))
-@example(chain=Chain.through([0.0, 10.0], [0.7, 0.1]))
-def test_a_chain_gives_the_values_of_its_nodes(chain: Chain) -> None:
+@example(chain=BlendChain.through([0.0, 10.0, 20.0], [0.7, 0.1, 0.7]))
+@example(chain=BlendChain.through([0.0, 10.0], [0.7, 0.1]))
+def test_a_chain_gives_the_values_of_its_nodes(chain: BlendChain) -> None:
     """At nodes and outside, to the last bit and with slope nil."""
     assert chain.at(chain.x).tolist() == chain.v.tolist()
     outside = np.array([-np.inf, -1e6, chain.x[0] - 1e-9, chain.x[-1] + 1e-9, 1e6, np.inf])
@@ -80,7 +80,7 @@ def test_a_bump_is_nil_outside_its_terminals(bump: Bump) -> None:
 
 
 @given(chain=chains(-1.0, 1.0), span=spans)
-def test_bounds_of_a_chain_are_exact(chain: Chain, span: tuple[float, float]) -> None:
+def test_bounds_of_a_chain_are_exact(chain: BlendChain, span: tuple[float, float]) -> None:
     """No sample exceeds them, and they are reached."""
     check_bounds(chain, span)
 
@@ -106,7 +106,7 @@ def test_slopes_of_a_bump_count_at_its_terminals() -> None:
 
 
 @given(course=courses())
-def test_bounds_hold_everywhere(course: Course) -> None:
+def test_bounds_hold_everywhere(course: BoundedFunction) -> None:
     """On an interval without ends as well."""
     least, most = course.bounds(np.array([-np.inf]), np.array([np.inf]))
     sampled = course.at(np.linspace(-60.0, 400.0, 5001))
@@ -115,7 +115,7 @@ def test_bounds_hold_everywhere(course: Course) -> None:
 
 
 @given(course=courses(), factor=st.floats(-3.0, 3.0))
-def test_a_scaled_function_is_scaled_everywhere(course: Course, factor: float) -> None:
+def test_a_scaled_function_is_scaled_everywhere(course: BoundedFunction, factor: float) -> None:
     """Values and slopes both, to the rounding of a spline that is solved twice."""
     x, scaled = np.linspace(-60.0, 400.0, 400), course.scaled(factor)
     for found, wanted in (
@@ -129,7 +129,7 @@ def test_a_scaled_function_is_scaled_everywhere(course: Course, factor: float) -
 
 
 @given(course=courses())
-def test_the_slope_is_the_derivative(course: Course) -> None:
+def test_the_slope_is_the_derivative(course: BoundedFunction) -> None:
     """By central differences, away from where pieces join."""
     x = np.linspace(-30.0, 320.0, 701)
     x = x[np.abs(x[:, None] - course.nodes).min(axis=1) > 1e-3]
@@ -152,7 +152,7 @@ def test_the_slope_is_the_derivative(course: Course) -> None:
 def test_nodes_that_make_no_chain_are_refused(x: list[float], v: list[float], words: str) -> None:
     """The message names the chain, the node and what is wrong with it."""
     with pytest.raises(BadInputError) as caught:
-        Chain.through(x, v, name="rho_2")
+        BlendChain.through(x, v, name="rho_2")
     assert words in str(caught.value)
     assert "in vary" in str(caught.value)
 
@@ -161,13 +161,13 @@ def test_nodes_that_make_no_chain_are_refused(x: list[float], v: list[float], wo
 def test_level_boundaries_that_touch_are_refused(heights: list[float]) -> None:
     """The message names both, and the gap."""
     with pytest.raises(BadInputError, match=r"'shaft\+r' and 'T' touch \(gap -?0"):
-        stack(["base", "shaft+r", "T"], heights)
+        level_boundaries(["base", "shaft+r", "T"], heights)
 
 
 @pytest.mark.parametrize("nodes", [[3.0], [-1.0, 4.0, 9.0]], ids=["one node", "three"])
 def test_a_level_chain_is_its_value_everywhere(nodes: list[float]) -> None:
     """To the last bit, infinitely far off as well, in the shape that is asked; slopes are nil."""
-    chain = Chain.through(nodes, [0.1] * len(nodes))
+    chain = BlendChain.through(nodes, [0.1] * len(nodes))
     x = np.array([[-np.inf, -2.0, -1.0], [3.7, 9.0, np.inf]])
     assert chain.level
     assert (chain.at(x) == 0.1).all()

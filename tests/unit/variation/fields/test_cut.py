@@ -12,30 +12,31 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.variation.fields.blend import CUBIC, QUINTIC, Blend
-from assoc_hull.variation.fields.cut_without_loft import cut, plane_source
-from assoc_hull.variation.fields.field import Axis, Field, Piece, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.fields.bounded_functions import CUBIC, QUINTIC, Blend, BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, Axis, StackedField, level_boundaries
+from assoc_hull.variation.fields.image_intersections import intersect_images, plane_source
+from assoc_hull.variation.fields.layers import FieldLayer
+from assoc_hull.variation.fields.space_map import VariationMap
 from tests.variation_strategies import field_layers, maps, places
 
 AXES: tuple[Axis, ...] = ("x", "y", "z")
 
 
-def raised(blend: Blend = QUINTIC) -> VMap:
+def raised(blend: Blend = QUINTIC) -> VariationMap:
     """A plateau about a shaft raised by 1 m, full at the stern, fading forward."""
-    fade = Chain.through([4.37, 62.0], [1.0, 0.0], blend)
-    pieces = tuple(Piece.along(fade, 0.0, d) for d in (0.0, 1.0, 1.0, 0.0))
-    levels = stack(["base", "h-r", "h+r", "T"], [0.0, 3.27, 4.73, 10.8])
-    return VMap((FieldLayer("S", (Field("S", "z", levels, pieces, blend),)),))
+    fade = BlendChain.through([4.37, 62.0], [1.0, 0.0], blend)
+    pieces = tuple(AffinePiece.along(fade, 0.0, d) for d in (0.0, 1.0, 1.0, 0.0))
+    levels = level_boundaries(["base", "h-r", "h+r", "T"], [0.0, 3.27, 4.73, 10.8])
+    return VariationMap((FieldLayer("S", (StackedField("S", "z", levels, pieces, blend),)),))
 
 
-def hill() -> VMap:
+def hill() -> VariationMap:
     """Everything within 0.5 m of x = 100.5 m is raised, by 1 m at most."""
-    course = Chain.through([100.0, 100.5, 101.0], [0.0, 1.0, 0.0])
-    field = Field("hill", "z", stack(["0"], [0.0]), (Piece.along(course, 0.0, 1.0),))
-    return VMap((FieldLayer("hill", (field,)),))
+    course = BlendChain.through([100.0, 100.5, 101.0], [0.0, 1.0, 0.0])
+    field = StackedField(
+        "hill", "z", level_boundaries(["0"], [0.0]), (AffinePiece.along(course, 0.0, 1.0),)
+    )
+    return VariationMap((FieldLayer("hill", (field,)),))
 
 
 def line(*xyz: tuple[float, float, float]) -> SplineBatch:
@@ -43,7 +44,9 @@ def line(*xyz: tuple[float, float, float]) -> SplineBatch:
     return loft(CurveData.single(np.array(xyz, np.float64)))
 
 
-def passed(vmap: VMap, batch: SplineBatch, row: int, value: float, t: FloatArray) -> FloatArray:
+def passed(
+    vmap: VariationMap, batch: SplineBatch, row: int, value: float, t: FloatArray
+) -> FloatArray:
     """Between which places of one curve its image changes sides, (n - 1,) 0 or 1."""
     above = vmap(evaluate(batch, np.zeros(len(t), np.int64), t))[:, row] >= value
     return np.asarray(above[1:] != above[:-1], np.float64)
@@ -52,12 +55,14 @@ def passed(vmap: VMap, batch: SplineBatch, row: int, value: float, t: FloatArray
 @pytest.mark.parametrize("axis", AXES)
 @settings(max_examples=20)
 @given(vmap=maps(), knots=places(5), part=st.floats(0.05, 0.95))
-def test_every_crossing_is_found(axis: Axis, vmap: VMap, knots: FloatArray, part: float) -> None:
+def test_every_crossing_is_found(
+    axis: Axis, vmap: VariationMap, knots: FloatArray, part: float
+) -> None:
     """An odd number wherever dense samples change sides; each in the plane and on the image."""
     batch, row = loft(CurveData.single(knots)), "xyz".index(axis)
     image = vmap(knots)[:, row]
     value = float(image.min() + part * np.ptp(image))
-    found = cut(vmap, batch, axis, value)
+    found = intersect_images(vmap, batch, axis, value)
     t = np.linspace(0.0, batch.knot[-1], 5001)
     count, _ = np.histogram(found.t, t)
     assert (count % 2 == passed(vmap, batch, row, value, t)).all()
@@ -72,15 +77,15 @@ def test_two_crossings_between_two_samples_are_found() -> None:
     arch = line((0.0, 1.0, 4.0), (5.0, 1.0, 5.0), (10.0, 1.0, 4.2))
     t = np.linspace(0.0, arch.knot[-1], 200_001)
     top = raised()(evaluate(arch, np.zeros(len(t), np.int64), t))[:, 2].max()
-    found = cut(raised(), arch, "z", float(top) - 1e-6)
+    found = intersect_images(raised(), arch, "z", float(top) - 1e-6)
     assert found.sign.tolist() == [1, -1]
     assert np.ptp(found.t) < 0.1
-    assert len(cut(raised(), arch, "z", float(top) + 1e-6).t) == 0
+    assert len(intersect_images(raised(), arch, "z", float(top) + 1e-6).t) == 0
 
 
 def test_a_narrow_region_on_a_long_segment_is_found() -> None:
     """One metre of a straight line of 240 m is raised; planes through it meet it twice."""
-    found = cut(hill(), line((0.0, 3.0, 5.0), (240.0, 3.0, 5.0)), "z", 5.25)
+    found = intersect_images(hill(), line((0.0, 3.0, 5.0), (240.0, 3.0, 5.0)), "z", 5.25)
     assert found.sign.tolist() == [1, -1]
     assert_allclose(found.xyz[:, 0].mean(), 100.5, rtol=0, atol=1e-12)
     assert_allclose(QUINTIC.value(2.0 * (found.xyz[:1, 0] - 100.0)), [0.25], rtol=0, atol=1e-12)
@@ -88,10 +93,13 @@ def test_a_narrow_region_on_a_long_segment_is_found() -> None:
 
 def test_a_narrow_strip_on_a_long_segment_is_found() -> None:
     """Two centimetres of a post of 18 m are pushed forward; a plane through them meets it twice."""
-    levels, full = stack(["low", "middle", "high"], [5.0, 5.01, 5.02]), Chain.constant(1.0)
-    pieces = tuple(Piece.along(full, 0.0, d) for d in (0.0, 0.5, 0.0))
-    vmap = VMap((FieldLayer("rib", (Field("rib", "x", levels, pieces),)),))
-    found = cut(vmap, line((100.0, 0.0, 0.0), (100.0, 0.0, 18.0)), "x", 100.25)
+    levels, full = (
+        level_boundaries(["low", "middle", "high"], [5.0, 5.01, 5.02]),
+        BlendChain.constant(1.0),
+    )
+    pieces = tuple(AffinePiece.along(full, 0.0, d) for d in (0.0, 0.5, 0.0))
+    vmap = VariationMap((FieldLayer("rib", (StackedField("rib", "x", levels, pieces),)),))
+    found = intersect_images(vmap, line((100.0, 0.0, 0.0), (100.0, 0.0, 18.0)), "x", 100.25)
     assert found.sign.tolist() == [1, -1]
     assert_allclose(found.xyz[:, 2], [5.005, 5.015], rtol=0, atol=1e-12)
 
@@ -100,7 +108,7 @@ def test_curves_of_a_batch_keep_their_own_crossings() -> None:
     """Sorted by curve; one that lies below the plane has none."""
     batch = SplineBatch.join([line((6.0, 0, 0), (6.0, 0, 18)), line((6.0, 1, 0), (6.0, 1, 2)),
                               line((90.0, 0, 18), (90.0, 0, 0))])  # fmt: skip
-    found = cut(raised(), batch, "z", 5.0)
+    found = intersect_images(raised(), batch, "z", 5.0)
     assert found.curve.tolist() == [0, 2]
     assert found.sign.tolist() == [1, -1]
     assert_allclose(found.xyz[:, 2], 5.0, rtol=0, atol=1e-13)
@@ -112,8 +120,8 @@ def test_the_source_of_a_plane_cuts_the_parent_alike(
     layer: FieldLayer, knots: FloatArray, value: float
 ) -> None:
     """A waterplane of the varied hull comes from a cylinder: crossings lie on it."""
-    vmap, batch = VMap((layer,)), loft(CurveData.single(knots))
-    found = cut(vmap, batch, "z", value)
+    vmap, batch = VariationMap((layer,)), loft(CurveData.single(knots))
+    found = intersect_images(vmap, batch, "z", value)
     if len(found.t):
         before = np.asarray(evaluate(batch, found.curve, found.t))
         source = plane_source(vmap, "z", value, before)
@@ -126,7 +134,7 @@ def test_the_source_of_a_plane_cuts_the_parent_alike(
 @settings(max_examples=20)
 @given(vmap=maps(), xyz=places(), value=st.floats(1.0, 12.0))
 def test_the_source_of_a_plane_is_mapped_into_it(
-    axis: Axis, vmap: VMap, xyz: FloatArray, value: float
+    axis: Axis, vmap: VariationMap, xyz: FloatArray, value: float
 ) -> None:
     """Through up to three layers, also those that couple y and z."""
     row, before = "xyz".index(axis), xyz.copy()
@@ -146,6 +154,6 @@ def test_a_plane_that_is_none_is_refused() -> None:
     """The axis and the value are checked."""
     post = line((6.0, 0.0, 0.0), (6.0, 0.0, 18.0))
     with pytest.raises(BadInputError, match="axis is 'w', in cut"):
-        cut(raised(), post, "w", 5.0)  # type: ignore[arg-type]
+        intersect_images(raised(), post, "w", 5.0)  # type: ignore[arg-type]
     with pytest.raises(BadInputError, match="value is nan, in plane_source"):
         plane_source(raised(), "z", float("nan"), [[0.0, 0.0, 0.0]])

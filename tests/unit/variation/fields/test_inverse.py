@@ -10,12 +10,16 @@ from numpy.testing import assert_allclose
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.fields import inverse as module
-from assoc_hull.variation.fields.field import Field, Piece, Region, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.fields import space_map as module
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.field import (
+    AffinePiece,
+    FieldRegion,
+    StackedField,
+    level_boundaries,
+)
+from assoc_hull.variation.fields.layers import FieldLayer, Layer
+from assoc_hull.variation.fields.space_map import VariationMap
 from tests.variation_strategies import layers, maps, places
 
 
@@ -32,25 +36,31 @@ class Wrapped:
     def jacobian(self, xyz: FloatArray) -> FloatArray:
         return self.inner.jacobian(xyz)
 
-    def regions(self) -> tuple[Region, ...]:
+    def regions(self) -> tuple[FieldRegion, ...]:
         return self.inner.regions()
 
 
-def collapsed() -> VMap:
+def collapsed() -> VariationMap:
     """All heights come to 3 m."""
-    piece = Piece(Chain.constant(-1.0), 0.0, Chain.constant(3.0))
-    return VMap((FieldLayer("flat", (Field("flat", "z", stack(["0"], [0.0]), (piece,)),)),))
+    piece = AffinePiece(BlendChain.constant(-1.0), 0.0, BlendChain.constant(3.0))
+    return VariationMap(
+        (
+            FieldLayer(
+                "flat", (StackedField("flat", "z", level_boundaries(["0"], [0.0]), (piece,)),)
+            ),
+        )
+    )
 
 
 @given(vmap=maps(), xyz=places())
-def test_the_inverse_undoes_the_map(vmap: VMap, xyz: FloatArray) -> None:
+def test_the_inverse_undoes_the_map(vmap: VariationMap, xyz: FloatArray) -> None:
     """To 1e-12 m, through up to three layers of every kind."""
     assert_allclose(vmap.inverse(vmap(xyz)), xyz, rtol=0, atol=1e-12)
 
 
 @settings(max_examples=25)
 @given(vmap=maps(), xyz=places())
-def test_the_map_undoes_the_inverse(vmap: VMap, xyz: FloatArray) -> None:
+def test_the_map_undoes_the_inverse(vmap: VariationMap, xyz: FloatArray) -> None:
     """To 1e-12 m; every place of the varied hull comes from somewhere."""
     assert_allclose(vmap(vmap.inverse(xyz)), xyz, rtol=0, atol=1e-12)
 
@@ -59,7 +69,7 @@ def test_the_map_undoes_the_inverse(vmap: VMap, xyz: FloatArray) -> None:
 @given(layer=layers(), xyz=places(12))
 def test_a_layer_of_unknown_kind_is_undone(layer: Layer, xyz: FloatArray) -> None:
     """All three coordinates at once, from displacement and Jacobian alone."""
-    vmap = VMap((Wrapped(layer),))
+    vmap = VariationMap((Wrapped(layer),))
     assert_allclose(vmap.inverse(vmap(xyz)), xyz, rtol=0, atol=1e-12)
 
 
@@ -69,7 +79,7 @@ def test_nested_brackets_find_the_same() -> None:
     @settings(max_examples=25)
     @given(layer=layers(), xyz=places(6))
     def check(layer: Layer, xyz: FloatArray) -> None:
-        for vmap in (VMap((layer,)), VMap((Wrapped(layer),))):
+        for vmap in (VariationMap((layer,)), VariationMap((Wrapped(layer),))):
             assert_allclose(vmap.inverse(vmap(xyz)), xyz, rtol=0, atol=1e-12)
 
     with pytest.MonkeyPatch.context() as patch:
@@ -79,7 +89,7 @@ def test_nested_brackets_find_the_same() -> None:
 
 @settings(max_examples=25)
 @given(vmap=maps(), xyz=places(20))
-def test_a_place_is_undone_by_itself(vmap: VMap, xyz: FloatArray) -> None:
+def test_a_place_is_undone_by_itself(vmap: VariationMap, xyz: FloatArray) -> None:
     """The same bits, whatever other places are asked with it."""
     both = vmap.inverse(xyz)
     assert (vmap.inverse(xyz[7]) == both[7:8]).all()

@@ -7,14 +7,13 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
-from assoc_hull.variation.fields.blend import CUBIC, QUINTIC, Blend
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.fields.ratios import ratios
-from assoc_hull.variation.parameters.compose_map import compose
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.parameters.read_parent import parent_of
+from assoc_hull.variation.fields.anchor_fields import ratio_field
+from assoc_hull.variation.fields.bounded_functions import CUBIC, QUINTIC, Blend, BlendChain
+from assoc_hull.variation.parameters.compose_map import compose_map
+from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.parameters.parent import parent_of
 
-ONE = Chain.constant(1.0)
+ONE = BlendChain.constant(1.0)
 
 
 @pytest.mark.parametrize(("blend", "low", "high"), [
@@ -31,23 +30,23 @@ def test_shaft_and_bossing_add_to_the_stack_of_the_paper(
     xyz = np.array([[0.0, 0.5, 5.5], [0.0, 3.0, 12.0]])
     moved = xyz[:, 2].copy()
     for name, anchors in (("shaft", shaft), ("boss", boss)):
-        moved += ratios(name, anchors, ONE, blend=blend).displacement(xyz)
+        moved += ratio_field(name, anchors, ONE, blend=blend).displacement(xyz)
     assert moved == pytest.approx([low, high], abs=5e-10)
 
 
 def test_an_anchor_at_the_base_has_no_ratio() -> None:
     """One that stays there needs none; one that is to move is refused by name."""
-    ratios("bulb", [("base", 0.0, 0.0), ("tip", 5.0, 1.0)], ONE)
+    ratio_field("bulb", [("base", 0.0, 0.0), ("tip", 5.0, 1.0)], ONE)
     says = r"'bulb' cannot use a ratio: anchor 'base' at 0\.000 m"
     with pytest.raises(BadInputError, match=says):
-        ratios("bulb", [("base", 0.0, 0.5), ("tip", 5.0, 1.0)], ONE)
+        ratio_field("bulb", [("base", 0.0, 0.5), ("tip", 5.0, 1.0)], ONE)
 
 
 def test_the_form_is_chosen_by_the_layout(bulk_carrier: ah.Hull) -> None:
     """Same anchor, same change; between anchors the ratio's field differs from the hat's."""
     parent = parent_of(bulk_carrier.state)
     hat, paper = (
-        compose(parent, {"bulb_height": 7.4}, Layout.of({"blend": blend}))
+        compose_map(parent, {"bulb_height": 7.4}, Layout.of({"blend": blend}))
         for blend in ("cubic", "paper")
     )
     tip = parent.places["bulb tip"][None, :]
@@ -64,5 +63,5 @@ def test_the_stern_has_the_stack_of_the_paper(bulk_carrier: ah.Hull, name: str, 
     """A shaft is met at its centre, a radius at the top of the circle."""
     parent = parent_of(bulk_carrier.state)
     asked, height = {"shaft_height": (5.5, 5.5), "bossing_radius": (0.8, 5.8)}[name]
-    vmap = compose(parent, {name: asked}, Layout.of({"blend": "paper"}))
+    vmap = compose_map(parent, {name: asked}, Layout.of({"blend": "paper"}))
     assert float(vmap(parent.places[place][None, :])[0, 2]) == pytest.approx(height, abs=1e-6)

@@ -4,24 +4,23 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.variation.fields.additive import AdditiveLayer
+from assoc_hull.variation.fields.anchor_fields import hat_field
 from assoc_hull.variation.fields.batch_displacements import FieldPlan
-from assoc_hull.variation.fields.blend import QUINTIC
-from assoc_hull.variation.fields.field import Field, Piece, stack
-from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
-from assoc_hull.variation.fields.hat import hat
-from assoc_hull.variation.fields.layer import Layer
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.fields.bounded_functions import QUINTIC, BlendChain
+from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
+from assoc_hull.variation.fields.layers import AdditiveLayer, FieldLayer, Layer, Rake
+from assoc_hull.variation.fields.space_map import VariationMap
 
-AFT, FORE = Chain.through([6, 66], [1, 0]), Chain.through([200, 250], [0, 1])
-SHAFT = FieldLayer("shaft", (hat("shaft", [("base", 0, 0), ("shaft", 5, 1), ("T", 18, 0)], AFT),))
+AFT, FORE = BlendChain.through([6, 66], [1, 0]), BlendChain.through([200, 250], [0, 1])
+SHAFT = FieldLayer(
+    "shaft", (hat_field("shaft", [("base", 0, 0), ("shaft", 5, 1), ("T", 18, 0)], AFT),)
+)
 TRANSOM = FieldLayer(
     "transom",
     (
-        Field("transom", "y", stack(["low", "T"], [9, 18]),
-              (Piece.along(AFT, 0.0, 0.0), Piece.along(AFT, 0.05, 0.0)), QUINTIC),
-        hat("transom z", [("low", 3, 0), ("transom", 15, 0.6)], AFT),
+        StackedField("transom", "y", level_boundaries(["low", "T"], [9, 18]),
+              (AffinePiece.along(AFT, 0.0, 0.0), AffinePiece.along(AFT, 0.05, 0.0)), QUINTIC),
+        hat_field("transom z", [("low", 3, 0), ("transom", 15, 0.6)], AFT),
     ),
 )  # fmt: skip
 STEM = FieldLayer("stem", (Rake("stem", FORE, 0.1, 14.0, 4.0),))
@@ -33,14 +32,14 @@ def test_a_variant_is_what_the_map_gives() -> None:
     """At amplitudes 1 and 0 to the last bit; at others to rounding, all fields scaled."""
     for k, unit in enumerate(UNITS):
         plan = FieldPlan.of(UNITS, XYZ)
-        assert plan.places(np.eye(3)[k]).tobytes() == VMap((unit,))(XYZ).tobytes()
+        assert plan.places(np.eye(3)[k]).tobytes() == VariationMap((unit,))(XYZ).tobytes()
     size = [0.7, -0.4, 1.3]
     scaled = tuple(
         field.scaled(part)
         for part, unit in zip(size, (SHAFT, TRANSOM, STEM), strict=True)
         for field in unit.fields
     )
-    expected = VMap((FieldLayer("all", scaled),))(XYZ)
+    expected = VariationMap((FieldLayer("all", scaled),))(XYZ)
     assert np.abs(plan.places(size) - expected).max() < 1e-13
 
 
@@ -79,9 +78,11 @@ def test_memory_of_another_shape_is_refused() -> None:
 
 def test_additive_functions_are_planned_alike() -> None:
     """Any layer can be a unit."""
-    hump = AdditiveLayer("hump", z=(AFT, Chain.constant(1.0), Chain.through([0, 5, 18], [0, 1, 0])))
+    hump = AdditiveLayer(
+        "hump", z=(AFT, BlendChain.constant(1.0), BlendChain.through([0, 5, 18], [0, 1, 0]))
+    )
     plan = FieldPlan.of([hump], XYZ)
-    assert plan.places([1.0]).tobytes() == VMap((hump,))(XYZ).tobytes()
+    assert plan.places([1.0]).tobytes() == VariationMap((hump,))(XYZ).tobytes()
 
 
 def test_a_plan_that_moves_nothing() -> None:

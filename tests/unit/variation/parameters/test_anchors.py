@@ -19,13 +19,11 @@ from assoc_hull.errors import (
 )
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.evaluation import sample
-from assoc_hull.model.copy import copy_of
-from assoc_hull.model.state import HullState
+from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.shipped import bulk_carrier_207k_form as form
-from assoc_hull.variation.fields.corner import CornerLayer
-from assoc_hull.variation.fields.piecewise_linear import Chain
-from assoc_hull.variation.parameters.anchor import Anchor, Measures
-from assoc_hull.variation.parameters.drawn_curves import Drawn
+from assoc_hull.variation.fields.bounded_functions import BlendChain
+from assoc_hull.variation.fields.layers import CornerLayer
+from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter, Measures
 from assoc_hull.variation.parameters.parameter_measures import (
     AMPLITUDES,
     MEASURES,
@@ -57,7 +55,7 @@ def mapped(hull: ah.Hull, mapping: Map, *drivers: str) -> HullState:
     with taken_back(hull):
         with hull.edit("map") as edit:
             edit.transform(mapping, drivers=drivers or ["sections"])
-        return copy_of(hull.state)
+        return copy_state(hull.state)
 
 
 def through(layer: CornerLayer, xyz: FloatArray) -> FloatArray:
@@ -79,7 +77,7 @@ def through(layer: CornerLayer, xyz: FloatArray) -> FloatArray:
         ("shaft_height", form.SHAFT),
         ("bossing_radius", form.BOSS),
         ("transom_height", form.TRANSOM_LOW),
-        ("transom_half_breadth", float(form.half_breadth(form.TRANSOM, form.DEPTH))),
+        ("transom_half_breadth", float(form.carrier_half_breadth(form.TRANSOM, form.DEPTH))),
         ("bilge_radius", form.BILGE),
         ("deadrise_deg", 0.0),
         ("flat_of_bottom", form.BREADTH / 2.0 - form.BILGE),
@@ -103,7 +101,7 @@ def test_the_bulb_is_that_of_the_drawn_curves(bulk_carrier: ah.Hull, carrier: Me
 
     The splines come to within 2 mm of the formulas, whose nose is at a defining point.
     """
-    drawn = Drawn(bulk_carrier.state)
+    drawn = DrawnCurves(bulk_carrier.state)
     profile = sample(drawn.some(drawn.profile), 400)[1]
     foremost = profile[:, 0].max()
     tip = carrier.anchors["bulb_length"].places[0]
@@ -113,7 +111,7 @@ def test_the_bulb_is_that_of_the_drawn_curves(bulk_carrier: ah.Hull, carrier: Me
     assert carrier["bulb_height"] == tip[2]
     z = np.linspace(1.5, 15.5, 4001)
     assert carrier["bulb_half_breadth"] == pytest.approx(
-        form.half_breadth(form.LENGTH, z).max(), abs=2e-3
+        form.carrier_half_breadth(form.LENGTH, z).max(), abs=2e-3
     )
 
 
@@ -148,7 +146,7 @@ def test_a_section_added_at_fp_is_the_section_that_was_measured(
 def test_anchors_lie_on_the_curves_they_name(bulk_carrier: ah.Hull, carrier: Measures) -> None:
     """Keys are those of live curves, and places of extremes lie on them."""
     keys = set(bulk_carrier.state.curves.key.data)
-    drawn = Drawn(bulk_carrier.state)
+    drawn = DrawnCurves(bulk_carrier.state)
     for name in ("transom_height", "transom_half_breadth", "bulb_length", "flat_of_bottom"):
         anchor = carrier.anchors[name]
         assert anchor.curves
@@ -187,7 +185,7 @@ def test_a_hull_of_another_size_measures_in_proportion(
     with taken_back(bulk_carrier) as hull:
         with hull.edit("larger") as edit:
             edit.transform(scale=(k, k, k), drivers=["sections", "waterlines", "buttocks"])
-        state = copy_of(hull.state)
+        state = copy_state(hull.state)
     state.settings.particulars.data[0] = attrs.evolve(ship, **sizes)
     found = measure_all(state)
     assert list(found) == list(carrier)
@@ -254,8 +252,8 @@ def test_values_follow_a_map_evenly(
 
 def test_a_bilge_stretched_about_its_corner_is_measured_larger(box: ah.Hull) -> None:
     """An arc stays one: ratio 1.25 makes its radius 1.25 times as large, its flat narrower."""
-    fade = Chain.through([BILGE, 4.0 * BILGE], [1.0, 0.0])
-    layer = CornerLayer("bilge", Chain.constant(1.0), HALF, 0.0, 0.0, 1.25, 1.25, fade)
+    fade = BlendChain.through([BILGE, 4.0 * BILGE], [1.0, 0.0])
+    layer = CornerLayer("bilge", BlendChain.constant(1.0), HALF, 0.0, 0.0, 1.25, 1.25, fade)
     state = mapped(box, partial(through, layer))
     found = measure_all(state, ["bilge_radius", "flat_of_bottom"])
     assert found["bilge_radius"] == pytest.approx(1.25 * BILGE, abs=1e-9)
@@ -266,8 +264,8 @@ def test_a_bilge_that_is_no_arc_grows_with_a_stretch_about_its_corner(box: ah.Hu
     """Through three places the radius of an elliptic bilge is homogeneous in its size."""
     radius = []
     for by in (1.0, 1.2):
-        fade = Chain.through([1.3 * BILGE, 4.0 * BILGE], [1.0, 0.0])
-        layer = CornerLayer("bilge", Chain.constant(1.0), HALF, 0.0, 0.0, by, 1.3 * by, fade)
+        fade = BlendChain.through([1.3 * BILGE, 4.0 * BILGE], [1.0, 0.0])
+        layer = CornerLayer("bilge", BlendChain.constant(1.0), HALF, 0.0, 0.0, by, 1.3 * by, fade)
         state = mapped(box, partial(through, layer))
         found = measure_all(state, ["bilge_radius"]).anchors["bilge_radius"]
         assert found.value is not None
@@ -335,7 +333,7 @@ def test_a_box_is_parallel_from_end_to_end(box: ah.Hull) -> None:
 
 def test_the_dtc_is_measured_at_its_own_length(dtc: ah.Hull) -> None:
     """A rounded hub has a height but no circle; with Lpp 355 m the bulb lies before FP."""
-    state = copy_of(dtc.state)
+    state = copy_state(dtc.state)
     state.settings.particulars.data[0] = attrs.evolve(state.particulars, length=355.0)
     found = measure_all(state)
     assert dict(found.absent) == {"bossing_radius": "parent has no bossing circle"}
@@ -401,10 +399,10 @@ def test_something_else_than_a_hull_is_refused() -> None:
 def test_an_anchor_has_a_value_or_a_reason() -> None:
     """Neither and both are mistakes; places and numbers are frozen."""
     with pytest.raises(BadInputError):
-        Anchor("breadth", "m", None)
+        MeasuredParameter("breadth", "m", None)
     with pytest.raises(BadInputError):
-        Anchor("breadth", "m", 3.0, reason="none")
-    anchor = Anchor("breadth", "m", 3.0, places=[[0.0, 1.5, 0.0]], numbers={"x": 0.0})
+        MeasuredParameter("breadth", "m", 3.0, reason="none")
+    anchor = MeasuredParameter("breadth", "m", 3.0, places=[[0.0, 1.5, 0.0]], numbers={"x": 0.0})
     assert not anchor.places.flags.writeable
     with pytest.raises(TypeError):
         anchor.numbers["x"] = 1.0  # type: ignore[index]

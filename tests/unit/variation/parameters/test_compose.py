@@ -6,9 +6,9 @@ import pytest
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.parameters.catalogue import CATALOGUE, NAMES
-from assoc_hull.variation.parameters.compose_map import compose, conflicts
-from assoc_hull.variation.parameters.layout import Layout
-from assoc_hull.variation.parameters.parent_places import Parent
+from assoc_hull.variation.parameters.compose_map import compose_map, conflicts
+from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.parameters.parent import Parent
 from tests.unit.variation.conftest import at
 
 
@@ -28,7 +28,7 @@ ASKED = {
 
 def test_all_anchors_are_met_together(ship: Parent) -> None:
     """Many parameters in one map; each anchor lies where it was asked for."""
-    vmap = compose(ship, ASKED, Layout())
+    vmap = compose_map(ship, ASKED, Layout())
     here = {name: vmap(place[None, :])[0] for name, place in ship.places.items()}
     found = {
         "shaft_height": here["boss"][2], "bossing_radius": here["boss side"][1],
@@ -46,7 +46,7 @@ def test_all_anchors_are_met_together(ship: Parent) -> None:
 
 def test_a_rake_turns_the_chord_of_the_stem(ship: Parent) -> None:
     """Its top moves, the fore perpendicular stays."""
-    vmap = compose(ship, {"stem_rake_deg": 22.0}, Layout())
+    vmap = compose_map(ship, {"stem_rake_deg": 22.0}, Layout())
     foot, top = vmap(np.array([ship.places["stem"], ship.places["stem top"]]))
     assert rake_deg(foot, top) == pytest.approx(22.0)
     assert (foot == ship.places["stem"]).all()
@@ -54,7 +54,7 @@ def test_a_rake_turns_the_chord_of_the_stem(ship: Parent) -> None:
 
 def test_a_shaft_is_raised_as_a_whole(ship: Parent) -> None:
     """The map is level at its height, so that the bossing keeps its radius; the base stays."""
-    vmap = compose(ship, {"shaft_height": 6.0}, Layout())
+    vmap = compose_map(ship, {"shaft_height": 6.0}, Layout())
     boss = ship.places["boss"][None]
     assert np.abs(vmap.jacobian(boss)[0] - np.eye(3)).max() < 1e-14
     assert (vmap(boss * [1.0, 1.0, 0.0]) == boss * [1.0, 1.0, 0.0]).all()
@@ -66,7 +66,7 @@ def test_a_larger_bossing_stays_a_circle(ship: Parent) -> None:
 
     Twelve radii ahead nothing is left of it.
     """
-    vmap = compose(ship, {"bossing_radius": 1.0}, Layout())
+    vmap = compose_map(ship, {"bossing_radius": 1.0}, Layout())
     angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 91)
     end = np.column_stack([np.full(91, 6.0), 0.725 * np.cos(angle), 5 + 0.725 * np.sin(angle)])
     _, y, z = vmap(end).T
@@ -80,7 +80,7 @@ def test_a_larger_bossing_stays_a_circle(ship: Parent) -> None:
 
 def test_a_rigid_shaft_moves_its_bossing_by_one_amount(ship: Parent) -> None:
     """Where the layout says so: from its lower to its upper side."""
-    vmap = compose(ship, {"shaft_height": 6.0}, Layout(rigid=True))
+    vmap = compose_map(ship, {"shaft_height": 6.0}, Layout(rigid=True))
     z = np.linspace(4.275, 5.725, 51)
     places = np.column_stack([np.full(51, 6.0), np.zeros(51), z])
     assert np.abs(vmap(places)[:, 2] - z - 1.0).max() < 1e-14
@@ -91,14 +91,14 @@ def test_a_rake_holds_on_a_stem_that_the_deck_made_longer(
     ship: Parent, deck: dict[str, float]
 ) -> None:
     """The angle is that of the stem as it comes to be, by one map."""
-    vmap = compose(ship, {"stem_rake_deg": 22.0, **deck}, Layout())
+    vmap = compose_map(ship, {"stem_rake_deg": 22.0, **deck}, Layout())
     foot, top = vmap(np.array([ship.places["stem"], ship.places["stem top"]]))
     assert rake_deg(foot, top) == pytest.approx(22.0, abs=1e-12)
 
 
 def test_a_deck_raised_at_the_bow_goes_with_a_depth(ship: Parent) -> None:
     """They contradict each other amidships only."""
-    vmap = compose(ship, {"depth": 28.0, "deck_height": 29.0}, Layout(deck="fore"))
+    vmap = compose_map(ship, {"depth": 28.0, "deck_height": 29.0}, Layout(deck="fore"))
     here = vmap(np.array([ship.places["deck"], ship.places["deck fore"]]))
     assert here[:, 2] == pytest.approx([28.0, 29.0], abs=1e-12)
 
@@ -112,7 +112,7 @@ def test_a_parameter_alone_leaves_the_rest_of_the_ship_to_the_bit(ship: Parent, 
            "deadrise_deg": 0.0, "flat_of_bottom": 22.6, "parallel_body_start": 115.0,
            "parallel_body_end": 205.5, "stem_rake_deg": 18.43, "fore_shift": 0.0,
            "aft_shift": 0.0}  # fmt: skip
-    vmap = compose(ship, {name: now[name] + 0.2}, Layout())
+    vmap = compose_map(ship, {name: now[name] + 0.2}, Layout())
     random = np.random.default_rng(7)
     xyz = random.uniform([-5, 0, 0], [306, 25, 27], (4000, 3))
     outside = np.ones(len(xyz), bool)
@@ -133,7 +133,7 @@ def test_parameters_that_contradict_each_other_are_both_named(
 ) -> None:
     """Whatever their values are."""
     with pytest.raises(BadInputError, match=f"'{one}' and '{other}'"):
-        compose(ship, {one: 3.0, other: 2.0}, Layout())
+        compose_map(ship, {one: 3.0, other: 2.0}, Layout())
     assert other in conflicts(one)
     assert one in conflicts(other)
 
@@ -144,14 +144,14 @@ def test_two_changes_of_one_place_are_refused(ship: Parent) -> None:
     del both["boss top"]
     parent = Parent(300, 50, 27, 18, 27, both)
     with pytest.raises(BadInputError, match="different changes of the same place"):
-        compose(parent, {"shaft_height": 5.4, "transom_height": 6.0}, Layout())
+        compose_map(parent, {"shaft_height": 5.4, "transom_height": 6.0}, Layout())
 
 
 def test_a_ratio_needs_a_grip(ship: Parent) -> None:
     """What the parent has not is told by its reason."""
     parent = Parent(300, 50, 27, 18, 27, {}, {"bossing_radius": "parent has no bossing circle"})
     with pytest.raises(BadInputError, match="parent has no bossing circle"):
-        compose(parent, {"bossing_radius": 1.0}, Layout())
+        compose_map(parent, {"bossing_radius": 1.0}, Layout())
 
 
 @pytest.mark.parametrize("layout", [{"stern": -1.0}, {"sten": 0.2}, {"rigid": 1}, {"blend": "b3"}])

@@ -1,0 +1,326 @@
+"""Exact derivatives of hydrostatics: the kernel's own sums, differentiated.
+
+Everything runs through the same code as the values, on arrays that carry tangents
+(`assoc_hull.geometry.dual`): the loft, the surface, its cuts by the plane, the algebra of the
+record. `tangents_by` carries eight parameters at a time; form parameters and variations use it,
+too. Reference: A. Griewank, A. Walther, "Evaluating Derivatives", 2nd ed., SIAM 2008, ch. 3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.derivatives.curve_tangents import CurveTangents
+from assoc_hull.analysis.derivatives.parameters import (
+    FIXED_DIMENSIONS,
+    Parameter,
+    Position,
+    Rates,
+    ShapeParameter,
+)
+from assoc_hull.analysis.derivatives.tangent_flotation import TangentFlotation, tangent_flotation
+from assoc_hull.analysis.hydrostatics.floating_body import Appendage, planes_of
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation, header_of
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import (
+    DraughtTo,
+    OnError,
+    Values,
+    position_of,
+    table_without_doubts,
+    values_at,
+)
+from assoc_hull.analysis.hydrostatics.record import FIELDS, SALT, HydrostaticHeader, Hydrostatics
+from assoc_hull.arguments import all_of, choice
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.geometry.numeric.dual import Dual, as_array, real
+from assoc_hull.model.tables import HasState, state_of
+
+__all__ = [
+    "Derivatives",
+    "TangentHull",
+    "hydrostatic_derivatives",
+    "tangents_by",
+    "tangents_of",
+    "with_tangents",
+]
+
+# --------------------------------------------------------------------------------------
+# Hydrostatics of a hull that carries tangents by parameters, some at a time.
+
+_AT_ONCE = 8
+"""Tangents that are carried along together, which bounds the memory."""
+
+
+@attrs.frozen(eq=False)
+class TangentHull:
+    """A hull at a floating position, with tangents by k parameters.
+
+    Attributes
+    ----------
+    where : tuple of k int
+        The places of these parameters among all.
+    rates : tuple of k Rates
+        How the principal dimensions change.
+    draughts : (3, k)
+        How T_A (m), T_F (m) and the heel (degrees) change.
+    body : Varied or Flotation
+        The hull; in plain numbers where only its position changes.
+    moving : Moving or None
+        How its points move, if they do.
+    planes : Planes
+        Where it floats.
+    header : HydrostaticHeader
+        Its dimensions; with tangents where these change.
+    values : dict of (d,)
+        Every value of the record.
+    """
+
+    where: tuple[int, ...]
+    rates: tuple[Rates, ...]
+    draughts: FloatArray
+    body: TangentFlotation | Flotation
+    moving: CurveTangents | None
+    planes: FloatingPlanes
+    header: HydrostaticHeader
+    values: Values
+
+    @property
+    def count(self) -> int:
+        """Number of parameters."""
+        return len(self.where)
+
+
+def tangents_by(
+    body: Flotation,
+    plane: FloatingPlanes,
+    header: HydrostaticHeader,
+    wrt: Sequence[Parameter],
+    *,
+    sinks: bool = False,
+) -> Iterator[TangentHull]:
+    """Carry parameters through hydrostatics, eight at a time; those of the position, cheap, apart.
+
+    Parameters
+    ----------
+    body : Flotation
+        The hull.
+    plane : Planes
+        Where it floats: one plane.
+    header : HydrostaticHeader
+        Dimensions, water and what counts.
+    wrt : sequence of Parameter
+        The parameters; rates of length and breadth enter coefficients.
+    sinks : bool
+        The plane goes along with the design draught; else draughts at the perpendiculars stay.
+
+    Raises
+    ------
+    BadInputError
+        A parameter that cannot be used.
+    """
+    for kind in (Position, ShapeParameter):
+        own = [k for k, each in enumerate(wrt) if isinstance(each, kind)]
+        for i in range(0, len(own), _AT_ONCE):
+            yield _some(body, plane, header, wrt, tuple(own[i : i + _AT_ONCE]), sinks)
+
+
+def _some(
+    body: Flotation, plane: FloatingPlanes, header: HydrostaticHeader, wrt: Sequence[Parameter],
+    where: tuple[int, ...], sinks: bool,
+) -> TangentHull:  # fmt: skip
+    given = [wrt[k] for k in where]
+    shapes = [each for each in given if isinstance(each, ShapeParameter)]
+    rates = tuple(
+        each.rates if isinstance(each, ShapeParameter) else FIXED_DIMENSIONS for each in given
+    )
+    draughts = np.array([_draughts(each, sinks) for each in given]).T
+    varied = tangent_flotation(body, shapes) if shapes else None
+    sized, tilted = _sized(header, rates), _tilted(plane, header.length, rates, draughts)
+    hull = body if varied is None else varied
+    values = values_at(hull, tilted, sized)
+    way = None if varied is None else varied.moving
+    return TangentHull(where, rates, draughts, hull, way, tilted, sized, values)
+
+
+def _draughts(parameter: Parameter, sinks: bool) -> tuple[float, float, float]:
+    if isinstance(parameter, Position):
+        return parameter.rates
+    rate = parameter.rates.draught if sinks and isinstance(parameter, ShapeParameter) else 0.0
+    return rate, rate, 0.0
+
+
+def with_tangents(value: float, rates: Sequence[float] | FloatArray) -> float:
+    """Give a number with its tangents; as it is where none of them is other than nil."""
+    dot = np.array(rates, np.float64)
+    return Dual(value, dot) if dot.any() else value  # type: ignore[return-value]
+
+
+def _sized(header: HydrostaticHeader, rates: Sequence[Rates]) -> HydrostaticHeader:
+    sizes: Mapping[str, Any] = {
+        name: with_tangents(getattr(header, name), [getattr(each, name) for each in rates])
+        for name in ("length", "breadth", "draught")
+    }
+    return attrs.evolve(header, **sizes)
+
+
+def _tilted(
+    plane: FloatingPlanes, length: float, rates: Sequence[Rates], draughts: FloatArray
+) -> FloatingPlanes:
+    """Give the plane with its tangents; with trim it turns if the length changes."""
+    aft, fore, heel = draughts[..., None]
+    longer = np.array([each.length for each in rates])[:, None]
+    turn = (fore - aft - plane.tan_trim * longer) / length
+    lean = np.radians(heel) * (1.0 + plane.tan_heel**2)
+    given = zip(attrs.astuple(plane, recurse=False), (aft, turn, lean), strict=True)
+    return FloatingPlanes(
+        *(as_array(Dual(value, dot)) if dot.any() else value for value, dot in given)
+    )
+
+
+def tangents_of(value: Any, count: int) -> FloatArray:
+    """Give the tangents of a number, or of that of one plane, (count,); nan where it is nan."""
+    dot = value.dot.reshape(count, -1)[:, 0] if isinstance(value, Dual) else np.zeros(count)
+    return np.where(np.isnan(real(value).ravel()[0]), np.nan, dot)
+
+
+# --------------------------------------------------------------------------------------
+# Exact derivatives of hydrostatics: the kernel's own sums, differentiated.
+#
+# Everything runs through the same code as the values, on arrays that carry tangents
+# (`assoc_hull.geometry.numeric.dual`): the loft with its chord lengths, the surface, its cuts by
+# the plane, the places where the immersed part changes its kind, and the algebra of the record.
+#
+# Reference: A. Griewank, A. Walther, "Evaluating Derivatives", 2nd ed., SIAM 2008, ch. 3
+# (forward mode).
+
+_WHERE = "in hydrostatic_derivatives"
+
+
+@attrs.frozen(eq=False)
+class Derivatives:
+    """Derivatives of a record of hydrostatics by k parameters.
+
+    Attributes
+    ----------
+    value : Hydrostatics
+        The record.
+    names, units : tuple of k str
+        The parameters and their units.
+    columns : mapping of str to (k,)
+        By field of the record: its derivatives, in its unit per unit of each parameter; nan
+        where the record has no value.
+    """
+
+    value: Hydrostatics
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    columns: Mapping[str, FloatArray]
+
+    def __attrs_post_init__(self) -> None:
+        freeze(*self.columns.values())
+
+    def of(self, name: str) -> FloatArray:
+        """Give the derivatives of one field of the record, (k,).
+
+        Raises
+        ------
+        BadInputError
+            The record has no such field.
+        """
+        return self.columns[choice(name, "the field", self.columns, _WHERE)]
+
+    def matrix(self, names: Iterable[str]) -> FloatArray:
+        """Give the derivatives of some fields, (n, k): a row each."""
+        return np.stack([self.of(name) for name in names])
+
+
+def hydrostatic_derivatives(
+    hull: HasState,
+    wrt: Iterable[Parameter],
+    *,
+    draught: float | None = None,
+    draughts: tuple[float, float] | None = None,
+    heel_deg: float = 0.0,
+    rho: float = SALT,
+    shell_factor: float = 1.0,
+    kg: float | None = None,
+    transom: bool = False,
+    on_error: OnError = "refuse",
+    appendages: Iterable[Appendage] = (),
+    keel_thickness: float = 0.0,
+    draught_to: DraughtTo = "moulded",
+) -> Derivatives:
+    """Differentiate the hydrostatics of a hull at one floating position.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    wrt : iterable of k parameters
+        By what: `DRAUGHT`, `TRIM`, `DRAUGHT_AFT`, `DRAUGHT_FORE` (m), `HEEL` (degree),
+        `PointMove` (m), `Deformation`; of `assoc_hull.analysis.derivatives.parameters`; or `Moves`.
+    draught, draughts, heel_deg, rho, shell_factor, kg, transom, on_error, appendages
+        As for `hydrostatics`.
+    keel_thickness, draught_to
+        As for `hydrostatics`.
+
+    Returns
+    -------
+    Derivatives
+        The record, and its derivatives.
+
+    Raises
+    ------
+    WrongTypeError, BadInputError, UnknownNameError, FreedomError, PointRoleError
+        A parameter that cannot be used; else as `hydrostatics`.
+
+    Notes
+    -----
+    Draughts, water, KG and appendages stay as they are, and so do Lpp and B but where a parameter
+    has rates for them (`assoc_hull.analysis.derivatives.given_motion.Moves`). The layout of the
+    surface is that of the hull as it stands; where a value has a kink (the largest station changes,
+    a section begins to be wet) the derivative is that to one side.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.derivatives.hydrostatic_derivatives import hydrostatic_derivatives
+    >>> from assoc_hull.analysis.derivatives.parameters import DRAUGHT, PointMove
+    >>> from assoc_hull.sources import examples
+    >>> wrt = [DRAUGHT, PointMove("WL 2.5 x ST 7")]
+    >>> found = hydrostatic_derivatives(examples.wigley(), wrt, draught=6.25)
+    >>> found.of("volume").round(2).tolist(), round(found.value.waterplane_area, 2)
+    ([666.63, 6.25], 666.63)
+    """
+    terms: dict[str, object] = {
+        "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
+        "appendages": appendages, "keel_thickness": keel_thickness,
+    }  # fmt: skip
+    body = flotation(state_of(hull))
+    header = header_of(hull, body, terms)
+    position = position_of(header, draught, draughts, heel_deg, draught_to)
+    parameters = all_of(wrt, Parameter, "wrt", _WHERE)  # type: ignore[type-abstract]
+    table = table_without_doubts(body, [position], header, (1, 1), on_error, estimate=False)
+    plane = planes_of([position], header.length)
+    return Derivatives(
+        table[0],
+        tuple(each.title for each in parameters),
+        tuple(each.per for each in parameters),
+        MappingProxyType(_differentiated(body, plane, header, parameters)),
+    )
+
+
+def _differentiated(
+    body: Flotation, plane: FloatingPlanes, header: HydrostaticHeader, wrt: Sequence[Parameter]
+) -> dict[str, FloatArray]:
+    """Give the derivatives, (k,) by field; nan where there is no value."""
+    found = {name: np.zeros(len(wrt)) for name in FIELDS}
+    for some in tangents_by(body, plane, header, wrt):
+        for name, value in some.values.items():
+            found[name][list(some.where)] = tangents_of(value, some.count)
+    return found

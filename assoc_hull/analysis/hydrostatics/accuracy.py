@@ -1,0 +1,504 @@
+"""How far hydrostatics of a net may be off, and which lines make them doubtful.
+
+Numbers are compared with those of other rules, of another route, and of nets with fewer lines;
+each comparison gives a change of every integral. Doubts name a line, a place and an amount: open
+or crossed sections, kinks, crossings that gape, routes that disagree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.analysis.hydrostatics.floating_body import IntegralChange
+from assoc_hull.analysis.net.curve_net import (
+    CurveNet,
+    NetSections,
+    every_other_line,
+    every_other_section,
+    flat_ends_below,
+    sections_of,
+    station_planes,
+    thinned_net,
+)
+from assoc_hull.analysis.net.surface_layout import SurfaceLayout, areas_between, lay_out_surface
+from assoc_hull.geometry.curves import FloatArray, PointKind
+from assoc_hull.geometry.floating.immersion import (
+    FloatingPlanes,
+    ImmersedIntegrals,
+    integrate_immersed,
+)
+from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
+from assoc_hull.geometry.floating.sections import sections_below
+from assoc_hull.geometry.numeric.quadrature import bunched_rule
+from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.surfaces.coons import CoonsStrips
+from assoc_hull.model.tables import HullState
+
+__all__ = [
+    "CoarseHull",
+    "ErrorEstimator",
+    "doubtful_lines",
+    "doubtful_numbers",
+    "error_estimator",
+    "integrate_by_waterplanes",
+    "open_sections",
+]
+
+# --------------------------------------------------------------------------------------
+# How far hydrostatics may be off: other rules, another route, fewer lines.
+#
+# Four comparisons, of which each gives a change of every integral:
+#
+# 1. the Gauss order along the strips doubled: the error of the rule;
+# 2. waterplanes integrated vertically: volume and moments by another route, which agrees only
+#    if the surface is closed and consistent;
+# 3. every other section left out, the even ones and then the odd ones: how much lies between
+#    the sections;
+# 4. every other waterline, buttock and diagonal left out: how much lies between these.
+#
+# For lines twice as far apart an error of third order is eight times as large, so that the
+# difference is seven times the error of the net itself; half of the difference is stated. Where
+# lines are so wide apart that no order shows, the difference itself is large.
+#
+# Source: L.F. Richardson, J.A. Gaunt, "The deferred approach to the limit", Phil. Trans. A
+# 226 (1927).
+
+_PART = 0.5
+"""Of the difference to the net with half the lines this is stated."""
+
+_LEVELS, _LEAST = 48, 12
+"""Waterplanes of the vertical route, and those of a stretch between two corners at least."""
+
+_STRETCHES = 7
+"""Between so many corners at most the vertical route is parted."""
+
+_NEAR = 1e-3
+"""Corners whose heights differ by less, in parts of the whole, are one."""
+
+
+@attrs.frozen(eq=False)
+class CoarseHull:
+    """A hull with fewer lines.
+
+    Attributes
+    ----------
+    net : Net
+        The lines.
+    layout : Layout
+        How the surface through them is put together.
+    prepared : Prepared
+        The surface.
+    """
+
+    net: CurveNet
+    layout: SurfaceLayout
+    prepared: PreparedStrips
+
+
+@attrs.frozen(eq=False)
+class ErrorEstimator:
+    """What the numbers of a hull are compared with.
+
+    Attributes
+    ----------
+    own : Net
+        The lines.
+    fine : Prepared
+        The same surface with the order along the strips doubled.
+    sections : tuple of Coarse
+        Without the even and without the odd sections.
+    lines : Coarse
+        Without every other line along the ship.
+    closed : bool
+        The deck is closed.
+    """
+
+    own: CurveNet
+    fine: PreparedStrips
+    sections: tuple[CoarseHull, ...]
+    lines: CoarseHull
+    closed: bool
+
+    def changes(
+        self,
+        known: ImmersedIntegrals,
+        route: ImmersedIntegrals,
+        own: NetSections,
+        planes: FloatingPlanes,
+    ) -> list[IntegralChange]:
+        """Give the change of each comparison; see the module.
+
+        Parameters
+        ----------
+        known : Immersed
+            What is published.
+        route : Immersed
+            What `by_waterplanes` gives.
+        own : Sections
+            The sections.
+        planes : Planes
+            d planes.
+        """
+        areas = own.per_station(sections_below(own.curves, planes))
+        ends = flat_ends_below(self.own, self.closed, planes)
+        still, dry = np.zeros_like(areas), np.zeros_like(ends)
+        share = _PART / max(len(self.sections), 1)
+        found = [
+            IntegralChange(_less(integrate_immersed(self.fine, planes), known), still, dry),
+            IntegralChange(_less(route, known), still, dry),
+        ]
+        found += [
+            IntegralChange(
+                _times(_less(integrate_immersed(each.prepared, planes), known), share), still, dry
+            )
+            for each in self.sections
+        ]
+        coarse = sections_of(self.lines.net, self.closed)
+        fewer = coarse.per_station(sections_below(coarse.curves, planes))
+        found.append(
+            IntegralChange(
+                _times(_less(integrate_immersed(self.lines.prepared, planes), known), _PART),
+                _PART * (fewer - areas),
+                _PART * (flat_ends_below(self.lines.net, self.closed, planes) - ends),
+            )
+        )
+        return found
+
+
+def error_estimator(
+    state: HullState, net: CurveNet, strips: CoonsStrips, closed: bool
+) -> ErrorEstimator:
+    """Make what a hull is compared with.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    net : Net
+        The lines.
+    strips : CoonsStrips
+        The surface through them.
+    closed : bool
+        The deck is closed.
+    """
+
+    def coarse(without: NDArray[np.bool_]) -> CoarseHull:
+        fewer = thinned_net(state, net, without)
+        layout = lay_out_surface(fewer, state.particulars.length, closed)
+        return CoarseHull(fewer, layout, prepare_strips(CoonsStrips.on(layout.cells, fewer.batch)))
+
+    return ErrorEstimator(
+        net,
+        prepare_strips(strips, factor=2),
+        tuple(coarse(every_other_section(net, first)) for first in (0, 1)),
+        coarse(every_other_line(net)),
+        closed,
+    )
+
+
+def integrate_by_waterplanes(
+    prepared: PreparedStrips,
+    planes: FloatingPlanes,
+    known: ImmersedIntegrals,
+    places: FloatArray,
+    corners: FloatArray,
+) -> ImmersedIntegrals:
+    """Integrate waterplanes from the lowest place up: volume and moments by another route.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        The surface.
+    planes : Planes
+        d planes.
+    known : Immersed
+        What is below them; all but volume and moments is taken from it.
+    places : (n, 3), m
+        Among which the lowest is.
+    corners : (c, 3), m
+        At the heights of which the area of the waterplane may bend: each stretch between them
+        has a rule of its own.
+
+    Returns
+    -------
+    Immersed
+        With volume and moments as integrals of the area of the waterplane and its moments.
+    """
+    lowest = _heights(places, planes).min(axis=1)
+    stretches = [
+        _stretches(float(low), float(high), row)
+        for low, high, row in zip(lowest, planes.height, _heights(corners, planes), strict=True)
+    ]
+    rules = [_rule(edge) for edge in stretches]
+    height, weight = (np.concatenate(parts) for parts in zip(*rules, strict=True))
+    owner = np.repeat(np.arange(len(rules)), [len(rule[0]) for rule in rules])
+    trim, heel = planes.tan_trim[owner], planes.tan_heel[owner]
+    cut = integrate_immersed(prepared, FloatingPlanes(height, trim, heel))
+    z = cut.area * height + trim * cut.area_x - heel * cut.area_y
+
+    def sum_up(values: FloatArray) -> FloatArray:
+        total: FloatArray = np.bincount(owner, values * weight, len(rules)).astype(np.float64)
+        return total
+
+    return attrs.evolve(
+        known,
+        volume=sum_up(cut.area),
+        moment_x=sum_up(cut.area_x),
+        moment_y=sum_up(cut.area_y),
+        moment_z=sum_up(z),
+    )
+
+
+def _heights(places: FloatArray, planes: FloatingPlanes) -> FloatArray:
+    """Give the heights at x = y = 0 of planes through places of both sides, (d, 2 n), m."""
+    x, y, z = places.T
+    level = z - planes.tan_trim[:, None] * x
+    heel = planes.tan_heel[:, None] * y
+    return np.concatenate([level - heel, level + heel], axis=1)
+
+
+def _stretches(low: float, high: float, corners: FloatArray) -> FloatArray:
+    """Give the heights between which a rule is laid, (s + 1,): no more than are worth it."""
+    reach = max(high - low, 0.0)
+    inner = np.sort(corners[(corners > low + _NEAR * reach) & (corners < high - _NEAR * reach)])
+    inner = inner[np.diff(inner, prepend=-np.inf) > _NEAR * reach]
+    if len(inner) >= _STRETCHES:
+        inner = inner[np.linspace(0, len(inner) - 1, _STRETCHES - 1).round().astype(np.int64)]
+    return np.concatenate([[low], inner, [low + reach]])
+
+
+def _rule(edge: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give heights and weights between edges, for half-integer powers over a round bottom."""
+    part, weight = bunched_rule(max(_LEVELS // (len(edge) - 1), _LEAST))
+    step = np.diff(edge)[:, None]
+    return (edge[:-1, None] + step * part).ravel(), (step * weight).ravel()
+
+
+def _less(one: ImmersedIntegrals, other: ImmersedIntegrals) -> ImmersedIntegrals:
+    pairs = {
+        field.name: getattr(one, field.name) - getattr(other, field.name)
+        for field in attrs.fields(ImmersedIntegrals)
+    }
+    return ImmersedIntegrals(**pairs)
+
+
+def _times(one: ImmersedIntegrals, factor: float) -> ImmersedIntegrals:
+    return ImmersedIntegrals(
+        **{
+            field.name: factor * getattr(one, field.name)
+            for field in attrs.fields(ImmersedIntegrals)
+        }
+    )
+
+
+# --------------------------------------------------------------------------------------
+# What makes the numbers of a hull doubtful: lines named, with place and amount.
+#
+# Looked at are the sections as drawn (open, crossing themselves, bent to and fro), the crossings
+# of the net (two lines that pass one another), and what the estimate compares (a section that
+# its neighbours do not expect, two routes that disagree).
+
+_OPEN = 1e-3
+"""A section that ends farther from the centre plane, in half breadths of the ship, is open."""
+
+_GAP = 4e-3
+"""Lines that pass one another by more, in half breadths, do not cross."""
+
+_TURN, _BACK = np.radians(60.0), np.radians(15.0)
+"""A smooth section that turns by so much at a point, and back by so much on either side."""
+
+_HAIRPIN = np.radians(150.0)
+"""A smooth section that turns by more at a point runs back on itself."""
+
+_EXPECTED = 0.1
+"""Areas of sections differ from what the others expect by less than this, of the largest."""
+
+_AGREED = 1e-3
+"""Two routes to the volume agree to this."""
+
+_PLACES = 6
+"""Places on each segment between which sections are taken as straight, to find crossings."""
+
+
+def doubtful_lines(
+    net: CurveNet, layout: SurfaceLayout, sections: NetSections, kinds: NDArray[np.int8]
+) -> list[str]:
+    """Say which lines cannot bound a hull, wherever it floats.
+
+    Parameters
+    ----------
+    net : Net
+        The lines.
+    layout : Layout
+        How the surface through them is put together.
+    sections : Sections
+        The sections as drawn.
+    kinds : (n,) int8
+        The `PointKind` of each defining point of the net.
+    """
+    return [
+        *_lost(layout),
+        *_crossing(net, sections),
+        *_kinked(net, sections, kinds),
+        *_apart(net, _GAP * _half_breadth(net)),
+    ]
+
+
+def _half_breadth(net: CurveNet) -> float:
+    """Give the greatest half breadth of the lines, m."""
+    return float(np.abs(net.batch.xyz[:, 1]).max())
+
+
+def doubtful_numbers(
+    sections: NetSections,
+    coarse: Sequence[CoarseHull],
+    routes: tuple[FloatArray, FloatArray],
+    planes: FloatingPlanes,
+) -> list[str]:
+    """Say where comparisons disagree by more than lines do on a ship.
+
+    Parameters
+    ----------
+    sections : Sections
+        The sections as drawn.
+    coarse : sequence of Coarse
+        The hull without some of them.
+    routes : ((d,), (d,)), m3
+        The volume below each plane, by sections and by waterplanes.
+    planes : Planes
+        d planes.
+    """
+    return [*_unexpected(sections, coarse, planes), *_routes(*routes)]
+
+
+def _lost(layout: SurfaceLayout) -> Iterator[str]:
+    for each in layout.lost:
+        yield f"{', '.join(each.names)}: between two sections {each.why}"
+
+
+def open_sections(net: CurveNet, sections: NetSections, planes: FloatingPlanes) -> list[str]:
+    """Say which sections end off the centre plane below one of the planes."""
+    most = _OPEN * _half_breadth(net)
+    point = sections.curves.point[sections.curves.start[:-1], 0]
+    x, y, z = point.T
+    level = planes.height[:, None] + planes.tan_trim[:, None] * x
+    level = level + np.abs(planes.tan_heel)[:, None] * np.abs(y)
+    wet = (z < level).any(axis=0)
+    return [
+        f"{net.name[int(sections.curve[i])]} is open: it ends {y[i]:.3f} m off the centre plane, "
+        f"at z {z[i]:.3f} m"
+        for i in np.flatnonzero(wet & (np.abs(y) > most)).tolist()
+    ]
+
+
+def _crossing(net: CurveNet, sections: NetSections) -> Iterator[str]:
+    """Find sections that cross themselves."""
+    u = np.linspace(0.0, 1.0, _PLACES + 1)[:-1]
+    power = u[:, None] ** np.arange(4)
+    for i, curve in enumerate(sections.curve.tolist()):
+        a, b = sections.curves.start[i : i + 2]
+        tiles = sections.curves.point[a:b][~sections.curves.deck[a:b]]
+        place = np.einsum("qc,scx->sqx", power, tiles[:, :, 1:]).reshape(-1, 2)
+        place = np.concatenate([place, tiles[-1:, :, 1:].sum(axis=1)])
+        meets = _self_crossing(place)
+        if meets is not None:
+            y, z = meets.tolist()
+            yield f"{net.name[curve]} crosses itself at y {y:.3f} m, z {z:.3f} m"
+
+
+def _self_crossing(place: FloatArray) -> FloatArray | None:
+    """Give where a polyline (n, 2) first crosses itself, None if nowhere."""
+    first, step = place[:-1], np.diff(place, axis=0)
+    one, other = np.triu_indices(len(step), 2)
+    low, high = np.minimum(place[:-1], place[1:]), np.maximum(place[:-1], place[1:])
+    near = ((low[one] <= high[other]) & (low[other] <= high[one])).all(axis=1)
+    one, other = one[near], other[near]
+    between = first[other] - first[one]
+    turn = _cross(step[one], step[other])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s, t = _cross(between, step[other]) / turn, _cross(between, step[one]) / turn
+    # Ends that touch (a closed piece on the centre plane) are no crossing.
+    inside = (s > 1e-9) & (s < 1.0 - 1e-9) & (t > 1e-9) & (t < 1.0 - 1e-9)
+    if not inside.any():
+        return None
+    k = int(np.argmax(inside))
+    found: FloatArray = first[one[k]] + s[k] * step[one[k]]
+    return found
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    found: FloatArray = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return found
+
+
+def _kinked(net: CurveNet, sections: NetSections, kinds: NDArray[np.int8]) -> Iterator[str]:
+    """Find sections that turn sharply at a smooth point, and back before and behind it."""
+    for curve in sections.curve.tolist():
+        a, b = net.batch.start[curve : curve + 2]
+        chord = np.diff(net.batch.xyz[a:b, 1:], axis=0)
+        if len(chord) < 4:
+            continue
+        turn = np.arctan2(_cross(chord[:-1], chord[1:]), (chord[:-1] * chord[1:]).sum(axis=1))
+        middle = turn[1:-1]
+        back = np.maximum(turn[:-2] * -np.sign(middle), turn[2:] * -np.sign(middle))
+        smooth = kinds[a + 2 : b - 2] == PointKind.SMOOTH
+        kink = (np.abs(middle) > _TURN) & (back > _BACK)
+        sharp = np.flatnonzero((kink | (np.abs(middle) > _HAIRPIN)) & smooth)
+        if len(sharp):
+            y, z = net.batch.xyz[a + 2 + sharp[0], 1:].tolist()
+            angle = float(np.degrees(abs(middle[sharp[0]])))
+            yield (
+                f"{net.name[curve]} has a kink of {angle:.0f} deg at y {y:.3f} m, z {z:.3f} m, "
+                "where no knuckle is drawn"
+            )
+
+
+def _apart(net: CurveNet, most: float) -> Iterator[str]:
+    """Find crossings at which one line passes the other."""
+    if not len(net.meets):
+        return
+    one, other = (evaluate(net.batch, net.meets[:, i], net.place[:, i]) for i in (0, 1))
+    gap = np.sqrt(((one - other) ** 2).sum(axis=1))
+    for k in np.flatnonzero((gap > most) & ~net.watched).tolist():
+        a, b = (net.name[i] for i in net.meets[k].tolist())
+        x, y, z = one[k].tolist()
+        yield f"{a} and {b} pass by {gap[k]:.3f} m at x {x:.2f}, y {y:.2f}, z {z:.2f} m"
+
+
+def _unexpected(
+    sections: NetSections, coarse: Sequence[CoarseHull], planes: FloatingPlanes
+) -> Iterator[str]:
+    """Find sections whose area is not what their neighbours make one expect."""
+    own = sections.per_station(sections_below(sections.curves, planes))
+    most = own.max(axis=1)
+    for each in coarse:
+        x = station_planes(each.net)
+        for i, place in enumerate(sections.x.tolist()):
+            if np.abs(x - place).min() > 1e-6:
+                at, strips = np.array([place]), each.prepared.strips
+                found = areas_between(each.layout, strips, x, at, planes)
+                if found is None:
+                    continue
+                area = found[:, 0]
+                off = np.abs(area - own[:, i]) / most
+                if (off > _EXPECTED).any():
+                    k = int(off.argmax())
+                    yield (
+                        f"{sections.names[i]} has {own[k, i]:.2f} m2 where its neighbours "
+                        f"make one expect {area[k]:.2f} m2"
+                    )
+
+
+def _routes(sections: FloatArray, waterplanes: FloatArray) -> Iterator[str]:
+    """Compare the volume by sections with that by waterplanes."""
+    off = np.abs(waterplanes - sections) / np.maximum(sections, 1e-300)
+    if (off > _AGREED).any():
+        k = int(off.argmax())
+        yield (
+            f"the volume is {sections[k]:.2f} m3 by sections and {waterplanes[k]:.2f} m3 by "
+            "waterplanes"
+        )

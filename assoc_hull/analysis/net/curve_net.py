@@ -1,0 +1,471 @@
+"""The lines of a hull as plain arrays: curves, crossings, sections, and the net with fewer lines.
+
+`gather_net` takes live curves and crossings from the tables; all else here reads its `CurveNet`.
+Sections are those drawn, as curves that planes can cut, not those of the surface through the lines.
+`thinned_net` leaves lines out: what the numbers of such a net differ by tells how far they are off.
+"""
+
+from __future__ import annotations
+
+import itertools
+from bisect import bisect_left, bisect_right
+from functools import cached_property
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import (
+    CurveData,
+    FloatArray,
+    IntArray,
+    PointKind,
+    SplineBatch,
+    freeze,
+)
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.geometry.floating.sections import sections_below
+from assoc_hull.geometry.numeric.dual import real
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.paths import Bit
+from assoc_hull.geometry.splines.segments import power_coefficients
+from assoc_hull.geometry.surfaces.isocurves import IsoCurves
+from assoc_hull.model.kinds import BoundaryKind, Role, Sort
+from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.tables import HullState
+
+__all__ = [
+    "ON_CENTRE",
+    "ON_PLANE",
+    "CurveNet",
+    "CurvePart",
+    "NetSections",
+    "areas_of_flat_ends",
+    "every_other_line",
+    "every_other_section",
+    "flat_ends_below",
+    "gather_net",
+    "sections_of",
+    "segments_of_part",
+    "station_planes",
+    "thinned_net",
+]
+
+ON_PLANE = 1e-6
+"""So near to a section's plane (m) a boundary curve lies in it."""
+
+
+def station_planes(net: CurveNet) -> FloatArray:
+    """Give where sections stand, ascending, m."""
+    every = np.sort(net.x[np.isfinite(net.x) & ~net.end])
+    found: FloatArray = every[np.diff(every, prepend=-np.inf) > ON_PLANE]
+    return found
+
+
+# --------------------------------------------------------------------------------------
+# Take the curves and crossings of a hull from its tables, as plain arrays.
+
+CurvePart = tuple[int, float, float]
+"""A curve of the net and the chord parameters (m) between which it is walked, in that sense."""
+
+_SNAP = 1e-9
+"""A parameter so near to a knot (m) is the knot."""
+
+
+@attrs.frozen(eq=False)
+class CurveNet:
+    """The curves of a hull, and where they cross.
+
+    Attributes
+    ----------
+    batch : SplineBatch
+        All live curves, in the order of their keys.
+    curve : (m,) int
+        Their numbers in the tables.
+    name : tuple of str
+        The names of their lines.
+    family : tuple of str
+        The families of their lines.
+    end : (m,) bool
+        Boundary curves at which the hull ends.
+    flat, knuckle : (m,) bool
+        Borders of flats, to which the hull is tangent; and knuckles.
+    x : (m,), m
+        Where a curve that lies in a plane across the ship stands; nan for the others.
+    centre : (m,) bool
+        The line lies in the centre plane.
+    normal : (m, 3)
+        Of the plane of the line; nan where it lies in none.
+    meets : (k, 2) int
+        The two curves of each crossing.
+    place : (k, 2), m
+        Where on each of the two it lies.
+    watched : (k,) bool
+        It defines neither: the curves may pass one another, along a flat by much.
+    row : (k,) int
+        The point that it is.
+    """
+
+    batch: SplineBatch
+    curve: IntArray
+    name: tuple[str, ...]
+    family: tuple[str, ...]
+    end: NDArray[np.bool_]
+    flat: NDArray[np.bool_]
+    knuckle: NDArray[np.bool_]
+    x: FloatArray
+    centre: NDArray[np.bool_]
+    normal: FloatArray
+    meets: IntArray
+    place: FloatArray
+    watched: NDArray[np.bool_]
+    row: IntArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.curve, self.end, self.flat, self.knuckle, self.x, self.centre)
+        freeze(self.normal)
+        freeze(self.meets, self.place, self.watched, self.row)
+
+    @cached_property
+    def knots(self) -> tuple[list[float], ...]:
+        """The chord parameters of the knots of each curve, m."""
+        knot, start = self.batch.knot.tolist(), self.batch.start.tolist()
+        return tuple(knot[a:b] for a, b in itertools.pairwise(start))
+
+    def length(self, curve: int) -> float:
+        """Give the chord length of a curve, m."""
+        return self.knots[curve][-1]
+
+
+def gather_net(state: HullState) -> CurveNet:
+    """Take all live curves and their crossings from the tables.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    """
+    keys = state.curves.key.data
+    curves = np.array(sorted(state.live("curves").tolist(), key=lambda c: str(keys[c])), np.int64)
+    lines = state.curves.line.data[curves]
+    table = state.lines
+    normal, boundary = table.normal.data[lines], table.boundary.data[lines]
+    family = tuple(state.family(line).name for line in lines.tolist())
+    flat = table.planar.data[lines]
+    end = boundary == BoundaryKind.END
+    across = flat & (np.abs(normal[:, 0]) == 1.0) & (end | (np.array(family) == "sections"))
+    offset = table.offset.data[lines]
+    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+    row, meets, place = _crossings(state, curves, batch)
+    return CurveNet(
+        batch,
+        curves,
+        tuple(str(table.name.data[line]) for line in lines.tolist()),
+        family,
+        end,
+        boundary == BoundaryKind.FLAT,
+        boundary == BoundaryKind.KNUCKLE,
+        np.where(across, offset * normal[:, 0], np.nan),
+        flat & (np.abs(normal[:, 1]) == 1.0) & (offset == 0.0),
+        np.where(flat[:, None], normal, np.nan),
+        meets,
+        place,
+        state.rows.role.data[row] == Role.WATCHED,
+        row,
+    )
+
+
+def _crossings(
+    state: HullState, curves: IntArray, batch: SplineBatch
+) -> tuple[IntArray, IntArray, FloatArray]:
+    """Give all crossings, which two curves of the net cross there, and where on them.
+
+    Watched crossings count: a surface within their gap is as good as the net itself.
+    """
+    number = np.full(state.curves.count + 1, -1, np.int64)
+    number[curves] = np.arange(len(curves))
+    table = state.rows
+    place = table.parameter.data[: table.count].copy()
+    # Where a line ends on another it has no meeting, but a defining point: a knot.
+    row = np.concatenate([state.curves.rows.data[curve] for curve in curves.tolist()])
+    side = np.concatenate([state.curves.side.data[curve] for curve in curves.tolist()])
+    place[row, side] = batch.knot
+    rows = state.live("rows")
+    rows = rows[table.sort.data[rows] == Sort.CROSSING]
+    both = number[table.curve.data[rows]]
+    place = place[rows]
+    good = (both >= 0).all(axis=1) & np.isfinite(place).all(axis=1)
+    return rows[good], both[good], place[good]
+
+
+def segments_of_part(net: CurveNet, part: CurvePart) -> list[Bit]:
+    """Give the bits of segments that a part of a curve consists of."""
+    curve, begin, finish = part
+    knot = net.knots[curve]
+    low, high = (_snapped(knot, t) for t in (min(begin, finish), max(begin, finish)))
+    first = min(bisect_right(knot, low), len(knot) - 1) - 1
+    last = max(bisect_left(knot, high), first + 1) - 1
+    base = int(net.batch.start[curve]) - curve
+    bits = []
+    for i in range(first, last + 1):
+        length = knot[i + 1] - knot[i]
+        a = max((low - knot[i]) / length, 0.0)
+        b = 1.0 if i < last else min((high - knot[i]) / length, 1.0)
+        bits.append((base + i, a, b))
+    return bits if begin <= finish else [(s, b, a) for s, a, b in reversed(bits)]
+
+
+def _snapped(knot: list[float], t: float) -> float:
+    """Take the knot for a parameter that is as good as there."""
+    i = bisect_left(knot, t)
+    for near in knot[max(i - 1, 0) : i + 1]:
+        if abs(near - t) <= _SNAP:
+            return near
+    return t
+
+
+# --------------------------------------------------------------------------------------
+# The sections of a net as curves that planes can cut: as drawn, not as the surface has them.
+
+ON_CENTRE = 1e-4
+"""A curve that ends so near to the centre plane (m) ends on it."""
+
+
+@attrs.frozen(eq=False)
+class NetSections:
+    """Sections, piece by piece.
+
+    Attributes
+    ----------
+    curves : IsoCurves
+        k pieces, from keel to deck, with the closed deck where there is one.
+    curve : (k,) int
+        Their curves in the net.
+    station : (k,) int
+        The station of each piece.
+    x : (n,), m
+        Where the stations are, rising.
+    names : tuple of n str
+        Their names.
+    """
+
+    curves: IsoCurves
+    curve: IntArray
+    station: IntArray
+    x: FloatArray
+    names: tuple[str, ...]
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.curve, self.station, self.x)
+
+    def per_station(self, values: FloatArray) -> FloatArray:
+        """Add up what belongs to the pieces of each station: (d, k) to (d, n)."""
+        member = (self.station[:, None] == np.arange(len(self.x))).astype(np.float64)
+        found: FloatArray = values @ member
+        return found
+
+
+def sections_of(net: CurveNet, closed: bool) -> NetSections:
+    """Take the sections of a net; `closed` joins deck edges to the centre plane."""
+    chosen = np.flatnonzero(np.isfinite(net.x) & ~net.end)
+    chosen = chosen[np.argsort(net.x[chosen], kind="stable")]
+    x, station = np.unique(net.x[chosen], return_inverse=True)
+    names = tuple(net.name[int(chosen[np.argmax(station == i)])] for i in range(len(x)))
+    parts = [net.batch.part(curve, curve + 1) for curve in chosen.tolist()]
+    return NetSections(_curves(SplineBatch.join(parts), closed), chosen, station, x, names)
+
+
+def flat_ends_below(net: CurveNet, closed: bool, planes: FloatingPlanes) -> FloatArray:
+    """Give the area of transom and other ends in planes across the ship, (d,), m2."""
+    chosen = np.flatnonzero(np.isfinite(net.x) & net.end)
+    if not len(chosen):
+        return np.zeros(len(planes.height))
+    parts = [net.batch.part(curve, curve + 1) for curve in chosen.tolist()]
+    return areas_of_flat_ends(SplineBatch.join(parts), closed, planes)
+
+
+def areas_of_flat_ends(edges: SplineBatch, closed: bool, planes: FloatingPlanes) -> FloatArray:
+    """Give the area inside the edges of ends across the ship, (d,), m2."""
+    area: FloatArray = sections_below(_curves(edges, closed), planes).sum(axis=1)
+    return area
+
+
+def _curves(batch: SplineBatch, closed: bool) -> IsoCurves:
+    """Give curves as tiles from keel to deck, with a deck where they end off the centre plane."""
+    tiles: list[FloatArray] = []
+    start, deck = [0], []
+    for curve in range(batch.count):
+        cubic = _upward(power_coefficients(batch.part(curve, curve + 1)))
+        last = cubic[-1].sum(axis=0)
+        covered = bool(closed and abs(last[1]) > ON_CENTRE)
+        if covered:
+            across = last * np.array([0.0, -1.0, 0.0])
+            lid = np.stack([last, across, 0.0 * last, 0.0 * last])
+            cubic = np.concatenate([cubic, lid[None]])
+        tiles.append(cubic)
+        deck += [False] * (len(cubic) - covered) + [True] * covered
+        start.append(len(deck))
+    point = np.concatenate(tiles)
+    return IsoCurves(np.array(start), point, np.zeros_like(point), np.array(deck, np.bool_))
+
+
+def _upward(cubic: FloatArray) -> FloatArray:
+    """Turn a curve so that it runs from keel to deck: it encloses area to port."""
+    first, last = cubic[:, 0], cubic.sum(axis=1)
+    swept = (0.5 * (first[:, 1] + last[:, 1]) * (last[:, 2] - first[:, 2])).sum()
+    if real(swept) >= 0.0:
+        return cubic
+    c0, c1, c2, c3 = (cubic[::-1, i] for i in range(4))
+    return np.stack([c0 + c1 + c2 + c3, -(c1 + 2.0 * c2 + 3.0 * c3), c2 + 3.0 * c3, -c3], axis=1)
+
+
+# --------------------------------------------------------------------------------------
+# The net with fewer lines: what its numbers differ by tells how far they may be off.
+#
+# A line that is left out takes with it the points at which it crossed the others, unless these
+# are ends, knuckles or tangent points; the lines that stay are lofted again without them.
+
+
+def every_other_section(net: CurveNet, first: int) -> NDArray[np.bool_]:
+    """Choose every other section, (m,), from the second or the first on (`first` 0 or 1).
+
+    Those that stand beside one of another number of pieces stay: there something begins or ends.
+    The outermost are left out too when it is their turn, or how much lies between the ends of
+    the ship and the next section would not show.
+    """
+    section = np.isfinite(net.x) & ~net.end
+    place, number, pieces = np.unique(net.x[section], return_inverse=True, return_counts=True)
+    alike = np.ones(len(place), bool)
+    alike[1:] &= pieces[1:] == pieces[:-1]
+    alike[:-1] &= pieces[1:] == pieces[:-1]
+    alike[(np.arange(len(place)) + first) % 2 == 0] = False
+    chosen = np.zeros(net.batch.count, bool)
+    chosen[np.flatnonzero(section)] = alike[number]
+    return chosen
+
+
+def every_other_line(net: CurveNet) -> NDArray[np.bool_]:
+    """Choose every other line of each family that runs along the ship, (m,)."""
+    chosen = np.zeros(net.batch.count, bool)
+    for family in ("waterlines", "buttocks", "diagonals"):
+        own = [i for i, each in enumerate(net.family) if each == family]
+        names = sorted({net.name[i] for i in own}, key=lambda name: _height(net, own, name))
+        for i in own:
+            chosen[i] = names.index(net.name[i]) % 2 == 0
+    return chosen
+
+
+def _height(net: CurveNet, own: list[int], name: str) -> tuple[float, str]:
+    """Give how far up or in a line runs, to bring lines of a family into order.
+
+    Diagonals go by how far up the sections they lie on the average: heights and breadths of
+    two that are neighbours may turn round from bottom to side.
+    """
+    mine = np.array([i for i in own if net.name[i] == name])
+    family = net.family[mine[0]]
+    rows = np.concatenate([np.arange(net.batch.start[i], net.batch.start[i + 1]) for i in mine])
+    if family == "waterlines":
+        return float(net.batch.xyz[rows, 2].mean()), name
+    if family == "buttocks":
+        return -float(net.batch.xyz[rows, 1].mean()), name
+    part = [
+        net.place[k, 1 - side] / net.length(int(net.meets[k, 1 - side]))
+        for side in (0, 1)
+        for k in np.flatnonzero(np.isin(net.meets[:, side], mine)).tolist()
+        if np.isfinite(net.x[net.meets[k, 1 - side]])
+    ]
+    return float(np.mean(part)) if part else np.inf, name
+
+
+def thinned_net(state: HullState, net: CurveNet, without: NDArray[np.bool_]) -> CurveNet:
+    """Give the net without some curves.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables that the net was taken from.
+    net : Net
+        The net.
+    without : (m,) bool
+        The curves to leave out.
+    """
+    data = curve_data(state, net.curve)
+    keep = _points(state, net, data, without)
+    size = np.add.reduceat(keep, data.start[:-1])
+    short = np.repeat(size < 2, np.diff(data.start))
+    keep |= short & ~np.repeat(without, np.diff(data.start))
+    stay = np.flatnonzero(~without)
+    batch = loft(_taken(data, keep, stay))
+    number = np.full(net.batch.count, -1)
+    number[stay] = np.arange(len(stay))
+    good = ~without[net.meets].any(axis=1)
+    meets = number[net.meets[good]]
+    place = _places(net, keep, batch, net.meets[good], meets, net.place[good])
+    return attrs.evolve(
+        net,
+        batch=batch,
+        curve=net.curve[stay],
+        name=tuple(net.name[i] for i in stay.tolist()),
+        family=tuple(net.family[i] for i in stay.tolist()),
+        end=net.end[stay],
+        flat=net.flat[stay],
+        knuckle=net.knuckle[stay],
+        x=net.x[stay],
+        centre=net.centre[stay],
+        normal=net.normal[stay],
+        meets=meets,
+        place=place,
+        watched=net.watched[good],
+        row=net.row[good],
+    )
+
+
+def _points(
+    state: HullState, net: CurveNet, data: CurveData, without: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """Tell which defining points stay."""
+    row = np.concatenate([state.curves.rows.data[curve] for curve in net.curve.tolist()])
+    own = np.repeat(np.arange(net.batch.count), np.diff(data.start))
+    gone = np.zeros(state.curves.count + 1, bool)
+    gone[net.curve[without]] = True
+    gone[-1] = False
+    crossed = gone[state.rows.curve.data[row]].any(axis=1)
+    fixed = data.kind != PointKind.SMOOTH
+    fixed[data.start[:-1]] = fixed[data.start[1:] - 1] = True
+    keep: NDArray[np.bool_] = (fixed | ~crossed) & ~without[own]
+    return keep
+
+
+def _taken(data: CurveData, keep: NDArray[np.bool_], stay: IntArray) -> CurveData:
+    size = np.add.reduceat(keep.astype(np.int64), data.start[:-1])[stay]
+    start = np.zeros(len(stay) + 1, np.int64)
+    np.cumsum(size, out=start[1:])
+    return CurveData(
+        start,
+        data.xyz[keep],
+        data.kind[keep],
+        data.direction[keep],
+        data.end_kind[stay],
+        data.end_vector[stay],
+    )
+
+
+def _places(
+    net: CurveNet,
+    keep: NDArray[np.bool_],
+    batch: SplineBatch,
+    old: IntArray,
+    new: IntArray,
+    place: FloatArray,
+) -> FloatArray:
+    """Carry places on curves over: in proportion between the points that stayed."""
+    found = np.empty_like(place)
+    start = net.batch.start
+    for side in (0, 1):
+        for curve in np.unique(old[:, side]).tolist():
+            mine = np.flatnonzero(old[:, side] == curve)
+            target = int(new[mine[0], side])
+            kept = np.flatnonzero(keep[start[curve] : start[curve + 1]]) + start[curve]
+            knot = batch.knot[batch.start[target] : batch.start[target + 1]]
+            found[mine, side] = np.interp(place[mine, side], net.batch.knot[kept], knot)
+    return found

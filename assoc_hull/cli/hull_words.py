@@ -1,0 +1,289 @@
+"""Hulls, adoptions and edits in words, as several commands print them.
+
+Each function takes what the library gave and returns text for a terminal; `hull_facts` returns
+the same as plain values for `--json`. The report of an adoption is a table with a row per
+curve, in mm.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import zip_longest
+from typing import Any
+
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, LineReport
+from assoc_hull.edit.report import EditReport
+from assoc_hull.hull import Hull
+from assoc_hull.io.offsets.table import OffsetTable
+from assoc_hull.io.reports import OffsetReport
+from assoc_hull.io.slicing.net import SliceReport
+from assoc_hull.io.slicing.smooth_lines import SmoothReport
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.kinds import Sort
+from assoc_hull.model.objects import Curve
+
+__all__ = [
+    "adoption_words",
+    "edit_words",
+    "followers",
+    "hull_facts",
+    "hull_words",
+    "largest_gap",
+    "line_table",
+    "lists",
+    "slice_words",
+    "wrap_text",
+]
+
+# --------------------------------------------------------------------------------------
+# The report of an adoption as a table, one row per curve.
+
+_WIDTH = 160
+"""Room for every column, whatever is printed to: a table that is cut tells nothing."""
+
+_SMOOTHED = ("points", "noise", "smoothed", "band")
+_ADOPTED = (
+    "median", "p95", "max", "allowed", "at x, y, z (m)", "crossings", "adopted", "placed",
+    "inflections",
+)  # fmt: skip
+
+
+def line_table(adoption: AdoptionReport, smoothing: Sequence[SmoothReport] = ()) -> str:
+    """Write a row per curve; lengths in mm but for places.
+
+    Parameters
+    ----------
+    adoption : AdoptionReport
+        Per curve.
+    smoothing : sequence of SmoothReport
+        Of the piece behind each curve, if it was smoothed.
+
+    Examples
+    --------
+    >>> from assoc_hull.cli.hull_words import line_table
+    >>> from assoc_hull.shipped.series60 import series60_adopted
+    >>> print(line_table(series60_adopted(0.70)[1]).splitlines()[0].split()[:4])
+    ['line', 'median', 'p95', 'max']
+    """
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False)
+    table.add_column("line")
+    for title in (*(_SMOOTHED if smoothing else ()), *_ADOPTED):
+        table.add_column(title, justify="right", no_wrap=True)
+    for line, piece in zip_longest(adoption.lines, smoothing):
+        table.add_row(line.line, *_smoothed(piece, line), *_adopted(line))
+    console = Console(width=_WIDTH, color_system=None, force_terminal=False, legacy_windows=False)
+    with console.capture() as text:
+        console.print(table)
+    rows = [row.rstrip() for row in text.get().splitlines()]
+    return "\n".join([*rows, "", *_legend(bool(smoothing))])
+
+
+def _legend(smoothed: bool) -> Iterator[str]:
+    """Say what the columns mean."""
+    given = "smooth" if smoothed else "given"
+    if smoothed:
+        yield "points: given > of the smooth line; noise: of the given points, mm; smoothed: how"
+        yield "far the smooth line passes the farthest of them, mm; band: how far the hull may lie"
+        yield "off the adopted curve, mm"
+    yield f"median, p95, max: distances of the {given} line's points from the adopted curve, mm;"
+    yield "allowed, at: for the farthest of them; crossings, adopted, placed: points that define"
+    yield f"the curve; inflections: of the {given} line > of the adopted curve"
+
+
+def _smoothed(piece: SmoothReport | None, line: LineReport) -> Iterator[str]:
+    if piece is not None:
+        yield f"{piece.given} > {piece.points}"
+        yield f"{1e3 * piece.noise:.2f}"
+        yield f"{1e3 * piece.residual:.2f}"
+        yield f"{1e3 * (piece.band + line.deviation):.2f}"
+
+
+def _adopted(line: LineReport) -> Iterator[str]:
+    yield f"{1e3 * line.deviation_median:.2f}"
+    yield f"{1e3 * line.deviation_p95:.2f}"
+    yield f"{1e3 * line.deviation:.2f}"
+    yield f"{1e3 * line.tolerance:.1f}"
+    yield ", ".join(f"{value:.2f}" for value in line.place)
+    for count in (line.crossings, line.adopted, line.placed):
+        yield str(count)
+    yield f"{line.inflections_given} > {line.inflections}"
+
+
+# --------------------------------------------------------------------------------------
+# Hulls, adoptions and edits in words.
+
+_MOST_JOINS = 20
+"""So many joins are named."""
+
+
+def wrap_text(title: str, names: Iterable[str], indent: str = "  ") -> str:
+    """Write a title and names after it, on as many lines as they need."""
+    pad = indent + " " * 13
+    text = ", ".join(name.replace(" ", "\xa0") for name in names)
+    lines = textwrap.wrap(text, 96, initial_indent=f"{indent}{title:12} ", subsequent_indent=pad)
+    return "\n".join(lines).replace("\xa0", " ") if text else f"{indent}{title:12} -"
+
+
+def largest_gap(hull: Hull) -> float:
+    """Give the largest gap (m) at any watched crossing of a hull, 0 if there is none."""
+    gaps = [each.gap for each in hull.crossings.values()]
+    return max((gap for gap in gaps if gap is not None), default=0.0)
+
+
+def hull_facts(hull: Hull) -> dict[str, Any]:
+    """Give what a hull holds; lengths in m."""
+    groups = {
+        name: {"family": group.family, "lines": list(group.lines)}
+        for name, group in hull.groups.items()
+    }
+    return {
+        "particulars": hull.particulars,
+        "groups": groups,
+        "associations": hull.state.associations,
+        "points": _sorts(hull),
+        "crossings": dict(Counter(each.role for each in hull.crossings.values())),
+        "largest_gap": largest_gap(hull),
+        "fingerprint": hull.fingerprint,
+    }
+
+
+def _sorts(hull: Hull) -> dict[str, int]:
+    """Count the points by sort; from the tables, because handles on all would take long."""
+    table = hull.state.rows.sort.data[hull.state.live("rows")]
+    return dict(Counter(Sort(number).name.lower() for number in table.tolist()))
+
+
+def hull_words(hull: Hull, *, names: bool = False) -> str:
+    """Say what a hull holds, with the names of all lines if asked."""
+    facts, ship = hull_facts(hull), hull.particulars
+    points, roles = facts["points"], facts["crossings"]
+    driven = roles.get("drives a", 0) + roles.get("drives b", 0)
+    lines = [
+        f"{ship.name}: length {ship.length:.3f} m, breadth {ship.breadth:.3f} m, "
+        f"depth {ship.depth:.3f} m, draught {ship.draught:.3f} m, deck {ship.deck}",
+        wrap_text("lines", (f"{len(g['lines'])} {name}" for name, g in facts["groups"].items())),
+        f"  crossings    {sum(roles.values())}: {roles.get('shared', 0)} shared, {driven} driven, "
+        f"{roles.get('watched', 0)} watched",
+        f"  points       {points.get('placed', 0)} placed, {points.get('adopted', 0)} adopted",
+        f"  largest gap  {1e3 * facts['largest_gap']:.2f} mm",
+        f"  fingerprint  {facts['fingerprint']}",
+    ]
+    if names:
+        lines += [wrap_text(name, group["lines"]) for name, group in facts["groups"].items()]
+    return "\n".join(lines)
+
+
+def adoption_words(table: OffsetTable, offsets: OffsetReport, adoption: AdoptionReport) -> str:
+    """Say how a table was read, how exact it is, and how well the net holds it."""
+    worst, own = adoption.worst, adoption.own_points
+    lines = [
+        line_table(adoption),
+        f"{table.name}: {len(table.x)} stations, {len(table.z)} waterlines",
+        *(f"  {line}" for line in str(offsets).splitlines()),
+        *_rounding(table),
+        f"adopted {len(adoption.lines)} curves, {own} points of theirs that no crossing holds; "
+        f"they pass within {1e3 * worst.deviation:.3f} mm of every given point ({worst.line})",
+        *(f"  {note}" for note in adoption.notes),
+    ]
+    return "\n".join(lines)
+
+
+def slice_words(name: str, report: SliceReport) -> str:
+    """Say how a mesh or digitised lines were read, smoothed and adopted."""
+    worst = max(report.smoothing, key=lambda each: each.residual)
+    adopted = report.adoption.worst
+    lines = [
+        line_table(report.adoption, report.smoothing),
+        name,
+        *(f"  {line}" for line in str(report.slices).splitlines()),
+        *_joins(report),
+        f"noise {1e3 * report.noise:.2g} mm; smoothed by at most {1e3 * worst.residual:.2g} mm "
+        f"({worst.line}); {len(report.knuckles)} knuckle lines",
+        *(
+            f"  boundary curve: {e.name}, from {len(e.lines)} marks, {e.taken} lines end or turn "
+            "on it"
+            for e in report.borders
+        ),
+        f"adopted {len(report.adoption.lines)} curves within {1e3 * report.tolerance:.2g} mm, "
+        f"{report.adopted} points of theirs that no crossing holds; the farthest smooth point is "
+        f"{1e3 * adopted.deviation:.3g} mm off ({adopted.line}); {report.inflections[0]} "
+        f"inflections, {report.inflections[1]} more in the net",
+        *(f"  {note}" for note in (*report.suspicions, *report.adoption.notes)),
+    ]
+    return "\n".join(lines)
+
+
+def _joins(report: SliceReport) -> Iterator[str]:
+    """Name the widest joins across gaps."""
+    widest = sorted(report.joins, key=lambda each: -each.gap)
+    for each in widest[:_MOST_JOINS]:
+        x, y, z = each.place
+        yield f"  join: {each.line}: {1e3 * each.gap:.1f} mm at ({x:.3f}, {y:.3f}, {z:.3f}) m"
+    if len(widest) > _MOST_JOINS:
+        yield f"  join: {len(widest) - _MOST_JOINS} more, narrower ones; all in --report"
+
+
+def _rounding(table: OffsetTable) -> Iterator[str]:
+    """Say how exact the printed offsets are, waterlines of one rounding together."""
+    unit = table.draught or 1.0
+    of = "T" if table.draught else "m"
+    found: dict[float, list[str]] = {}
+    for z, amount in zip(table.z.tolist(), table.rounding.tolist(), strict=True):
+        found.setdefault(round(1e3 * amount, 6), []).append(f"{z / unit:g}")
+    for amount, heights in found.items():
+        yield f"  rounding: +-{amount:.2g} mm at waterlines {', '.join(heights)} {of}"
+
+
+def followers(hull: Hull, report: EditReport) -> dict[str, list[str]]:
+    """Give the names of the curves an edit re-lofted, by group, along each group."""
+    book, found = AddressBook(hull.state), dict[str, list[tuple[float, str]]]()
+    for key in report.relofted:
+        curve = book.keys[key].curve if key in book.keys else -1
+        if curve >= 0:
+            line = Curve.of(hull.state, curve).line
+            place = (line.position or 0.0, book.curve_name(curve))
+            found.setdefault(line.group.name, []).append(place)
+    order = [name for name in hull.groups if name in found]
+    return {name: [title for _, title in sorted(found[name])] for name in order}
+
+
+def edit_words(hull: Hull, report: EditReport, indent: str = "  ") -> str:
+    """Say what an edit did: what followed, what moved most, what remains."""
+    groups = followers(hull, report)
+    counts = ", ".join(f"{name} {len(names)}" for name, names in groups.items())
+    lines = [
+        f"{indent}followed     {len(report.relofted)} curves re-lofted ({counts or 'none'})",
+        f"{indent}stopped      at {report.cut_off} points that came out with the same bits",
+        *(wrap_text(name, names, indent) for name, names in groups.items()),
+        *_moved(hull, report, indent),
+        f"{indent}largest gap  {1e3 * report.largest_gap:.2f} mm; "
+        f"{sum(count for _, count in report.inflections)} new inflections",
+        *lists(report, indent),
+    ]
+    return "\n".join(lines)
+
+
+def _moved(hull: Hull, report: EditReport, indent: str) -> Iterator[str]:
+    if report.largest is None:
+        return
+    book, (x, y, z) = AddressBook(hull.state), report.largest.place
+    key = report.largest.point
+    name = book.address(book.keys[key].row) if key in book.keys else key
+    yield (
+        f"{indent}moved most   {name}, by {1e3 * report.largest.distance:.1f} mm, "
+        f"to ({x:.3f}, {y:.3f}, {z:.3f}) m"
+    )
+
+
+def lists(report: EditReport, indent: str) -> Iterator[str]:
+    """Name what appeared, vanished, was mended or could not be made."""
+    for title in ("born", "gone", "mended", "failed", "blocked", "notes"):
+        names: Sequence[str] = getattr(report, title)
+        if names:
+            yield wrap_text(title, names, indent)

@@ -1,0 +1,436 @@
+"""Commands that make a hull: `example`, `import`, `create`, `classical`.
+
+A hull ships with the program, or is read from offsets, meshes, surfaces or lines, or is made
+from a design by form parameters or from a classical definition. Each checks where the hull is
+to go before it works, writes it, and tells what was adopted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_json, add_replace
+from assoc_hull.cli.hull_words import adoption_words, hull_words, slice_words
+from assoc_hull.cli.output import emit, plain, progress, progress_bar, say
+from assoc_hull.cli.problems import UsageError, check_hull_target, check_target, is_apart
+from assoc_hull.errors import BadInputError
+from assoc_hull.hull import Hull
+from assoc_hull.io.hull_file.saving import holds_hull
+from assoc_hull.io.reports import Tell
+from assoc_hull.model.tables import DECKS
+from assoc_hull.sources import create, examples, open, read_classical
+
+__all__ = [
+    "add_classical",
+    "add_create",
+    "add_example_and_import",
+]
+
+# --------------------------------------------------------------------------------------
+# Commands that make a hull: one that ships (or plates that do), or one from a table of offsets.
+
+_EXAMPLES = {
+    "wigley": lambda: examples.wigley(),
+    "series60-060": lambda: examples.series60(0.60),
+    "series60-070": lambda: examples.series60(0.70),
+    "bulk-carrier-207k": lambda: examples.bulk_carrier_207k(),
+    "bulk-carrier-180m": lambda: examples.bulk_carrier_180m(),
+    "container-ship-225m": lambda: examples.container_ship_225m(),
+    "plain-ship": lambda: examples.plain_ship(),
+    "seaking-ship": lambda: examples.seaking_ship(),
+    "sfolds-ship": lambda: examples.sfolds_ship(),
+    "prelikon-ship": lambda: examples.prelikon_ship(),
+}
+_SURFACES = {"typical-plates": lambda: examples.typical_plates()}
+_SURFACE_ENDINGS = (".csv", ".json", ".igs", ".iges")
+
+
+def add_example_and_import(commands: Commands) -> None:
+    """Add ``example`` and ``import``."""
+    _add_example(commands)
+    _add_import(commands)
+
+
+def _add_example(commands: Commands) -> None:
+    parser = add_command(
+        commands, "example", "write a hull, or shell plates, that ship with the program", _example,
+        """assoc-hull example series60-070 -o ship.hull
+        assoc-hull example typical-plates -o plates.csv""",
+    )  # fmt: skip
+    names = (*_EXAMPLES, *_SURFACES)
+    parser.add_argument("name", metavar="NAME", choices=names, help=", ".join(names))
+    _add_target(parser)
+    add_json(parser)
+
+
+def _add_import(commands: Commands) -> None:
+    parser = add_command(
+        commands, "import", "make a hull from offsets, a mesh, surfaces or lines", _import,
+        """assoc-hull import offsets.csv -o ship.hull
+        assoc-hull import ship.hull.json -o ship.hull
+        assoc-hull import hull.stl -o ship.hull --scale 59.407 --stations 41
+        assoc-hull import hull.stl -o ship.hull --report report.json --picture report.pdf
+        assoc-hull import ship.step -o ship.hull --draught 8.5
+        assoc-hull import sections.bri -o ship.hull
+        assoc-hull import offsets.csv -o ship.hull --unit mm --draught 8.5
+        assoc-hull import offsets.csv -o ship.hull --station-zero fp --report report.json""",
+    )  # fmt: skip
+    parser.add_argument(
+        "file",
+        metavar="FILE",
+        type=Path,
+        help="CSV, TSV, XLSX, STL, OBJ, PLY, IGES, STEP, DXF, BRITFAIR (.bri), DELFTship (.txt), "
+        "GHS (.gf), a text of a classical definition, or a saved hull (.hull, .hull.json)",
+    )
+    _add_target(parser)
+    for name, what in (
+        ("length", "between perpendiculars"), ("breadth", "moulded"), ("draught", "design"),
+    ):  # fmt: skip
+        parser.add_argument(f"--{name}", type=float, metavar="M", help=f"{name}, {what}, m")
+    parser.add_argument(
+        "--deck", choices=DECKS,
+        help="closed: a deck lies between the deck edges; open by default",
+    )  # fmt: skip
+    units = ("auto", "m", "mm", "cm", "ft", "in", "normalised")
+    parser.add_argument("--unit", choices=units, default="auto", help="of the numbers in the file")
+    for name, count in (("stations", 41), ("waterlines", 20), ("buttocks", 12)):
+        parser.add_argument(
+            f"--{name}", type=_places, metavar="N",
+            help=f"of a mesh, surfaces: how many {name}, or places in m, as 1,2.5; else {count}",
+        )  # fmt: skip
+    parser.add_argument(
+        "--scale", type=float, metavar="S", help="of a mesh, surfaces: full over model scale"
+    )
+    parser.add_argument(
+        "--axes", metavar="AXES", help="of a mesh, surfaces: forward, port, up, as +x+y+z"
+    )
+    parser.add_argument(
+        "--tolerance", type=float, metavar="M", help="of a mesh or lines: adopted within this, m"
+    )
+    parser.add_argument(
+        "--join", type=float, metavar="M",
+        help="of a mesh or lines: loose ends this close are joined, m; 0.06 by default",
+    )  # fmt: skip
+    parser.add_argument(
+        "--station-zero", choices=("auto", "ap", "fp"), default="auto",
+        help="perpendicular of station 0",
+    )  # fmt: skip
+    parser.add_argument(
+        "--report", metavar="FILE", type=Path, help="write all assumptions and deviations as JSON"
+    )
+    parser.add_argument(
+        "--picture", metavar="FILE", type=Path,
+        help="draw the deviations of all lines, and where they are: .pdf, .svg or .png",
+    )  # fmt: skip
+    add_json(parser)
+
+
+def _add_target(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "-o", "--out", metavar="HULL", type=Path, required=True,
+        help="the hull to write: .hull keeps the history, .hull.json is text",
+    )  # fmt: skip
+    add_replace(parser)
+
+
+def _example(arguments: argparse.Namespace) -> int:
+    if arguments.name in _SURFACES:
+        return _example_surfaces(arguments)
+    check_hull_target(arguments.out, replace=arguments.replace)
+    with progress(f"making {arguments.name}"):
+        hull = _EXAMPLES[arguments.name]()
+    hull.save(arguments.out, replace=arguments.replace)
+    _tell(arguments, hull, {}, "")
+    return 0
+
+
+def _example_surfaces(arguments: argparse.Namespace) -> int:
+    """Write surfaces: control nets as a table or JSON, or IGES."""
+    from assoc_hull.io.surfaces.surface_file import write_surfaces
+
+    check_target(arguments.out, _SURFACE_ENDINGS)
+    surfaces = _SURFACES[arguments.name]()
+    write_surfaces(surfaces, arguments.out)
+    names = [each.name for each in surfaces]
+    words = f"{len(names)} surfaces: {', '.join(names)}\nwritten: {arguments.out}"
+    emit(arguments, {"surfaces": names, "saved": [str(arguments.out)]}, words)
+    return 0
+
+
+def _import(arguments: argparse.Namespace) -> int:
+    from assoc_hull.io.write_file import write_whole
+
+    check_hull_target(arguments.out, replace=arguments.replace)
+    if arguments.report is not None:
+        check_target(arguments.report, (".json",))
+        if not is_apart(arguments.report, arguments.out):
+            what = "the report would be written over the hull"
+            raise BadInputError(what, f"at {arguments.report}", "give it another name")
+    if arguments.picture is not None:
+        check_target(arguments.picture, PICTURE_ENDINGS)
+        _require_plot()
+    with progress_bar(f"importing {arguments.file.name}", hidden=arguments.json) as tell:
+        hull, report, text = _adopt(arguments, tell)
+        if arguments.picture is not None:
+            tell("drawing", 0, 0)
+            _draw(hull, arguments.picture)
+    hull.save(arguments.out, replace=arguments.replace)
+    if arguments.report is not None:
+        write_whole(arguments.report, (json.dumps(plain(report), indent=1) + "\n").encode())
+    _tell(arguments, hull, {"report": report}, text + "\n")
+    return 0
+
+
+def _require_plot() -> None:
+    """Say before anything is computed that pictures cannot be drawn."""
+    from assoc_hull.plot.sheet.sheet_figure import require_matplotlib
+
+    require_matplotlib()
+
+
+def _draw(hull: Hull, path: Path) -> None:
+    """Draw the deviations of all lines."""
+    from assoc_hull.plot import adoption_deviations
+
+    adoption_deviations(hull, path=path)
+
+
+def _places(text: str) -> int | list[float]:
+    """Read a number of planes, or their places."""
+    try:
+        return int(text) if text.isdigit() else [float(word) for word in text.split(",")]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number and no list of places") from error
+
+
+_OF_SLICES = ("stations", "waterlines", "buttocks", "scale", "axes", "tolerance", "join")
+
+
+def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
+    from assoc_hull.io.classical.read import holds_definition
+    from assoc_hull.io.slicing.read import holds_lines, require_file
+
+    if holds_hull(arguments.file):
+        return _adopt_nothing(arguments)
+    if holds_definition(arguments.file):
+        return _adopt_definition(arguments)
+    if holds_lines(arguments.file):
+        if arguments.station_zero != "auto":
+            raise BadInputError(
+                "--station-zero is for tables of offsets", f"with {arguments.file}", "leave it out"
+            )
+        return _adopt_slices(arguments, tell)
+    wrong = [name for name in _OF_SLICES if getattr(arguments, name) is not None]
+    if wrong:
+        require_file(arguments.file)
+        raise BadInputError(
+            f"--{wrong[0]} is for meshes, surfaces and digitised lines", f"with {arguments.file}",
+            "leave it out",
+        )  # fmt: skip
+    return _adopt_offsets(arguments)
+
+
+def _adopt_nothing(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+    """Take a hull that was saved; its history comes along where the file has one."""
+    _refuse_all(arguments, ("report", "picture"), "which is a hull already")
+    if arguments.out.exists() and arguments.out.samefile(arguments.file):
+        what = "it would be written over itself"
+        raise BadInputError(what, f"at {arguments.out}", "give another name after -o")
+    hull = open(arguments.file)
+    hull.detach()
+    return hull, _SCHEMA | {"source": str(arguments.file)}, f"taken from {arguments.file}"
+
+
+def _refuse_all(arguments: argparse.Namespace, more: tuple[str, ...], why: str) -> None:
+    """Refuse all options that say how numbers of a file are to be taken."""
+    names = (*_OF_SLICES, "length", "breadth", "draught", "deck", *more)
+    given = [name for name in names if getattr(arguments, name) is not None]
+    given += [name for name in ("unit", "station_zero") if getattr(arguments, name) != "auto"]
+    if given:
+        what = f"--{given[0].replace('_', '-')} cannot be given"
+        raise BadInputError(what, f"with {arguments.file}, {why}", "leave it out")
+
+
+def _adopt_definition(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+    """Make the net of a classical definition; the report is the definition's, beside the net."""
+    _refuse_all(arguments, (), "which is a definition")
+    definition = read_classical(arguments.file)
+    hull = create(definition)
+    report = definition.report(hull.state)
+    facts = _SCHEMA | {"definition": report.as_dict(), "adoption": hull.adoption}
+    return hull, facts, str(report)
+
+
+def _adopt_slices(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
+    from assoc_hull.io.slicing.read import read_slices
+
+    names = ("length", "breadth", "draught", "deck", "unit", *_OF_SLICES)
+    given = {name: getattr(arguments, name) for name in names}
+    options = {name: value for name, value in given.items() if value is not None}
+    state, report = read_slices(arguments.file, tell=tell, **options)
+    hull = Hull(state)
+    hull.adoption = report.adoption
+    totals = {
+        "bands": report.bands, "adopted": report.adopted, "inflections": report.inflections
+    }  # fmt: skip
+    facts = _SCHEMA | plain(report) | totals
+    return hull, facts, slice_words(hull.particulars.name, report)
+
+
+_SCHEMA = {"format": "assoc-hull report", "schema": 1}
+"""What a report begins with; the number grows when a field changes its meaning or goes."""
+
+
+def _adopt_offsets(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+    from assoc_hull.io.offsets.complete_table import net_from_table
+    from assoc_hull.io.offsets.read import read_offsets
+
+    names = ("length", "breadth", "draught", "unit", "station_zero")
+    table, offsets = read_offsets(
+        arguments.file, **{name: getattr(arguments, name) for name in names}
+    )
+    state, adoption = net_from_table(table, deck=arguments.deck or DECKS[0])
+    hull = Hull(state)
+    hull.adoption = adoption
+    rounding = [
+        {"z": z, "rounding": amount}
+        for z, amount in zip(table.z.tolist(), table.rounding.tolist(), strict=True)
+    ]
+    report = _SCHEMA | {"offsets": offsets, "rounding": rounding, "adoption": adoption}
+    return hull, report, adoption_words(table, offsets, adoption)
+
+
+def _tell(arguments: argparse.Namespace, hull: Hull, more: dict[str, Any], text: str) -> None:
+    facts = {"hull": arguments.out, "fingerprint": hull.fingerprint, **more}
+    emit(arguments, facts, f"{text}{hull_words(hull)}\nwritten: {arguments.out}")
+
+
+# --------------------------------------------------------------------------------------
+# The command that creates a hull from a design, by form parameters.
+
+
+def add_create(commands: Commands) -> None:
+    """Add ``create``."""
+    parser = add_command(
+        commands, "create", "make a hull from a design: definitions by form parameters", _create,
+        """assoc-hull create --example > design.json
+        assoc-hull create design.json -o ship.hull
+        assoc-hull create design.json -o ship.hull --json""",
+    )  # fmt: skip
+    parser.add_argument(
+        "design", metavar="DESIGN.json", type=Path, nargs="?", help="particulars and definitions"
+    )
+    parser.add_argument(
+        "-o", "--out", metavar="HULL", type=Path,
+        help="the hull to write: .hull keeps the history, .hull.json is text",
+    )  # fmt: skip
+    parser.add_argument(
+        "--example", action="store_true", help="print a design to start from, and make nothing"
+    )
+    add_replace(parser)
+    add_json(parser)
+
+
+def _create(arguments: argparse.Namespace) -> int:
+    from assoc_hull.creation.design import Design
+    from assoc_hull.sources import create
+
+    if arguments.example:
+        return _create_example(arguments)
+    if arguments.design is None or arguments.out is None:
+        missing = "DESIGN.json" if arguments.design is None else "-o HULL"
+        raise UsageError(f"{missing} is missing, in create; see: assoc-hull create --help")
+    check_hull_target(arguments.out, replace=arguments.replace)
+    design = Design.from_json(arguments.design)
+    with progress(f"creating {design.particulars.name}"):
+        hull = create(design)
+        report = hull.creation
+    hull.save(arguments.out, replace=arguments.replace)
+    facts = {
+        "format": "assoc-hull report", "schema": 1, "hull": arguments.out,
+        "fingerprint": hull.fingerprint, "report": report.data(),
+    }  # fmt: skip
+    text = f"{report}\n{hull_words(hull)}\nwritten: {arguments.out}"
+    emit(arguments, facts, text)
+    return 0
+
+
+def _create_example(arguments: argparse.Namespace) -> int:
+    """Print the design of an example."""
+    from assoc_hull.shipped.plain_ship import plain_ship_design
+
+    if arguments.design is not None or arguments.out is not None or arguments.json:
+        raise UsageError("--example stands alone, in create; leave the rest out")
+    say(plain_ship_design().to_json().rstrip("\n"))
+    return 0
+
+
+# --------------------------------------------------------------------------------------
+# The command that reads a classical definition and tells its own numbers.
+
+
+def add_classical(commands: Commands) -> None:
+    """Add ``classical``."""
+    parser = add_command(
+        commands, "classical", "tell volumes, areas and centroids of a classical definition",
+        _classical,
+        """assoc-hull classical --example sfolds > ferry.txt
+        assoc-hull classical ferry.txt
+        assoc-hull classical ferry.txt -o ferry.hull --json""",
+    )  # fmt: skip
+    parser.add_argument(
+        "file", metavar="FILE", type=Path, nargs="?",
+        help="a text of cards that begins with SEAKING, SFOLDS or PRELIKON",
+    )  # fmt: skip
+    parser.add_argument(
+        "-o", "--out", metavar="HULL", type=Path,
+        help="make the net as well, tell its numbers beside, and write it",
+    )  # fmt: skip
+    parser.add_argument(
+        "--example", metavar="KIND", help="print a text to start from: seaking, sfolds, prelikon"
+    )
+    add_replace(parser)
+    add_json(parser)
+
+
+def _classical(arguments: argparse.Namespace) -> int:
+    from assoc_hull.sources import create, read_classical
+
+    if arguments.example is not None:
+        return _classical_example(arguments)
+    if arguments.file is None:
+        raise UsageError("FILE is missing, in classical; see: assoc-hull classical --help")
+    if arguments.out is not None:
+        check_hull_target(arguments.out, replace=arguments.replace)
+    definition = read_classical(arguments.file)
+    facts = {"format": "assoc-hull report", "schema": 1, "source": arguments.file}
+    if arguments.out is None:
+        report = definition.report()
+        emit(arguments, facts | {"definition": report.as_dict()}, str(report).rstrip("\n"))
+        return 0
+    with progress(f"making {definition.particulars.name}"):
+        hull = create(definition)
+        report = definition.report(hull.state)
+    hull.save(arguments.out, replace=arguments.replace)
+    facts |= {
+        "definition": report.as_dict(), "hull": arguments.out, "fingerprint": hull.fingerprint,
+    }  # fmt: skip
+    emit(arguments, facts, f"{report}\n{hull_words(hull)}\nwritten: {arguments.out}")
+    return 0
+
+
+def _classical_example(arguments: argparse.Namespace) -> int:
+    """Print the text of an example."""
+    from assoc_hull.shipped.classical_ships import SHIPS, classical_text
+
+    if arguments.file is not None or arguments.out is not None or arguments.json:
+        raise UsageError("--example stands alone, in classical; leave the rest out")
+    kinds = {name.partition("_")[0]: name for name in SHIPS}
+    if arguments.example not in kinds:
+        known = ", ".join(kinds)
+        raise UsageError(f"there is no example {arguments.example!r}, in classical; give {known}")
+    say(classical_text(kinds[arguments.example]).rstrip("\n"))
+    return 0

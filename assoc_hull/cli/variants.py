@@ -1,0 +1,598 @@
+"""Commands that make variants of a hull and compare them.
+
+`vary` by named parameters or targets, `shift` and `swing` of sections, `study` of many variants,
+`compare` of a variant with its parent. A refused variant leaves the hull as it is; the findings
+are told and the exit code is 1.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from assoc_hull.arguments import shown
+from assoc_hull.cli.arguments import (
+    Commands,
+    add_command,
+    add_hull,
+    add_json,
+    add_replace,
+    add_screw,
+    add_wait,
+    parse_limits,
+    parse_pairs,
+    screw_of,
+)
+from assoc_hull.cli.edits import open_to_change
+from assoc_hull.cli.hull_words import edit_words
+from assoc_hull.cli.output import emit, progress, progress_bar
+from assoc_hull.cli.problems import UsageError, check_other_target, check_target
+from assoc_hull.errors import BadInputError, RefusedEditError, UnknownNameError
+from assoc_hull.hull import Hull
+from assoc_hull.sources import open
+
+if TYPE_CHECKING:
+    from assoc_hull.shifts import Shifted
+    from assoc_hull.studies import Study
+
+__all__ = [
+    "add_compare",
+    "add_out",
+    "add_shift_and_swing",
+    "add_study",
+    "add_vary",
+    "report_refusal",
+    "vary_into_file",
+]
+
+# --------------------------------------------------------------------------------------
+# What commands that make a variant share: where it goes, how it is made, what a refusal says.
+
+Done = TypeVar("Done")
+
+
+def add_out(parser: argparse.ArgumentParser) -> None:
+    """Add the name of the step, and where the variant goes."""
+    parser.add_argument("--name", help="name of the step in the history")
+    parser.add_argument(
+        "-o", "--out", metavar="OUT", type=Path, help="where to write the hull (default: HULL)"
+    )
+    add_wait(parser)
+    add_replace(parser)
+    add_json(parser)
+
+
+def vary_into_file(
+    arguments: argparse.Namespace, doing: str, act: Callable[[Hull], Done]
+) -> tuple[Hull, Done]:
+    """Open the hull, vary it in place, and write it where it is to go.
+
+    Parameters
+    ----------
+    arguments : Namespace
+        With those of `add_out` and the hull.
+    doing : str
+        What is done, for who waits.
+    act : callable
+        Varies the hull in place.
+    """
+    changed = open_to_change(arguments)
+    hull = changed.hull
+    with progress(doing):
+        found = act(hull)
+    changed.save()
+    return hull, found
+
+
+def report_refusal(arguments: argparse.Namespace, run: Callable[[], int]) -> int:
+    """Run what may be refused; then tell the findings, and exit with 1."""
+    try:
+        return run()
+    except RefusedEditError as error:
+        facts = {"refused": True, "edit": error.edit, "findings": error.findings, "saved": None}
+        emit(arguments, facts, "\n".join(error.findings))
+        print(f"refused: {error.edit!r}; the hull is unchanged", file=sys.stderr)
+        return 1
+
+
+# --------------------------------------------------------------------------------------
+# The command that varies a hull by named parameters.
+
+
+def add_vary(commands: Commands) -> None:
+    """Add ``vary``."""
+    parser = add_command(
+        commands, "vary", "vary a hull by named parameters; exit 1 if it is refused", _vary,
+        """assoc-hull vary ship.hull --list
+        assoc-hull vary ship.hull --set shaft_height=6.0 --set bossing_radius=1.0 -o larger.hull
+        assoc-hull vary ship.hull --set breadth=51.5 --stations x --json
+        assoc-hull vary ship.hull --script larger_screw.json -o larger.hull
+        assoc-hull vary ship.hull --reach volume=236000 --reach lcb=157 --free breadth=49:52
+        --free fore_shift=-3:3 --free aft_shift -o fuller.hull
+
+        larger_screw.json: {"set": {"shaft_height": 6.0, "bossing_radius": 1.0},
+        "layout": {"stern": 0.3}, "name": "larger screw"}
+        (m, or degrees where a name ends in _deg; x from AP, z from the base line)""",
+    )  # fmt: skip
+    add_hull(parser)
+    parser.add_argument(
+        "--set", metavar="NAME=VALUE", action="append", default=[],
+        help="a named parameter and the value it is to have; may be given more than once",
+    )  # fmt: skip
+    parser.add_argument(
+        "--reach", metavar="NAME=VALUE", action="append", default=[],
+        help="an output and the value it is to reach, as volume, lcb or cw; more than once",
+    )  # fmt: skip
+    parser.add_argument(
+        "--free", metavar="NAME[=LOW:HIGH]", action="append", default=[],
+        help="a named parameter that may change for it, and between which values; more than once",
+    )  # fmt: skip
+    parser.add_argument(
+        "--compromise", action="store_true",
+        help="where targets are out of reach, come as near as possible",
+    )  # fmt: skip
+    parser.add_argument(
+        "--layout", metavar="NAME=VALUE", action="append", default=[],
+        help="how far the fields reach; may be given more than once",
+    )  # fmt: skip
+    parser.add_argument("--script", metavar="FILE.json", type=Path, help="all of it as a file")
+    parser.add_argument(
+        "--drivers", metavar="NAME", nargs="+",
+        help="groups or lines that are carried as they are (default: all whose planes stay planes)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--stations", choices=("number", "x"), default=None,
+        help="sections keep their numbers and move, or stay where they are (default: number)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--planes", choices=("follow", "stay"), default=None,
+        help="waterlines and buttocks go with a map that keeps all their planes, or stay "
+        "(default: follow)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--tolerance", type=float, metavar="M",
+        help="how far a driver may leave its exact image, m (default: 0.002)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--list",
+        action="store_true",
+        help="show present values and what may be asked; write nothing",
+    )
+    add_out(parser)
+
+
+def _vary(arguments: argparse.Namespace) -> int:
+    if arguments.list:
+        return _list(arguments)
+    script = _script(arguments)
+    return report_refusal(arguments, lambda: _carry_out(arguments, script))
+
+
+def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
+    from assoc_hull.variants import vary_by
+
+    hull, found = vary_into_file(
+        arguments, "varying", lambda hull: vary_by(hull, script, in_place=True)
+    )
+    report, saved = found.report, str(arguments.out or arguments.hull)
+    facts = {
+        "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
+        "drivers": report.drivers, "added": report.added, "fingerprint": hull.fingerprint,
+        "refused": False, "saved": saved, "script": report.script, "aim": report.aim,
+    }  # fmt: skip
+    told = [report.edit.name, *(f"  {each}" for each in report.targets)]
+    if report.aim is not None:
+        told += [f"  {each}" for each in str(report.aim).splitlines()]
+    told += [edit_words(hull, report.edit), f"written: {saved}"]
+    emit(arguments, facts, "\n".join(told))
+    return 0
+
+
+def _list(arguments: argparse.Namespace) -> int:
+    from assoc_hull.variation.carrying.admissible_values import list_parameters, parameter_table
+    from assoc_hull.variation.parameters.field_layout import Layout
+
+    layout = Layout.of(_script(arguments).get("layout"))
+    hull = open(arguments.hull)
+    with progress("looking for what may be asked"):
+        found = list_parameters(hull.state, layout)
+    emit(arguments, {"parameters": found}, parameter_table(found))
+    return 0
+
+
+def _script(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Put together what is asked for; options go before what the file says."""
+    from assoc_hull.variation.request import read_script
+
+    script: dict[str, Any] = read_script(arguments.script) if arguments.script else {}
+    for key in ("set", "layout", "reach"):
+        given = parse_pairs(getattr(arguments, key), key)
+        if given:
+            script[key] = {**_held(script, key, arguments), **given}
+    _reach(script, arguments)
+    for key in ("drivers", "stations", "planes", "tolerance", "name"):
+        value = getattr(arguments, key)
+        if value is not None:
+            script[key] = value
+    return script
+
+
+def _held(script: dict[str, Any], key: str, arguments: argparse.Namespace) -> dict[str, Any]:
+    """Give what the file says by name."""
+    held = script.get(key, {})
+    if not isinstance(held, dict):
+        raise BadInputError(
+            f"{key} is {shown(held)}", f"in {arguments.script}", "give values by name"
+        )
+    return held
+
+
+def _reach(script: dict[str, Any], arguments: argparse.Namespace) -> None:
+    """Add what is free, with its bounds, to what the file says."""
+    given = parse_limits(arguments.free, "free")
+    if given:
+        held = script.get("free", [])
+        known = list(held) if isinstance(held, list) else [held]
+        script["free"] = [*known, *(name for name in given if name not in known)]
+    bounds = {name: span for name, span in given.items() if span is not None}
+    if bounds:
+        script["bounds"] = {**_held(script, "bounds", arguments), **bounds}
+    if arguments.compromise:
+        script["exact"] = False
+
+
+# --------------------------------------------------------------------------------------
+# The commands that shift the sections of a hull, and that swing it.
+
+_SHAPES = ("c1", "c2", "end", "half", "lackenby", "1-cp")
+
+
+def add_shift_and_swing(commands: Commands) -> None:
+    """Add ``shift`` and ``swing``."""
+    _add_shift(commands)
+    _add_swing(commands)
+
+
+def _add_shift(commands: Commands) -> None:
+    parser = add_command(
+        commands, "shift", "shift sections along the ship for another block or prismatic "
+        "coefficient and centre of buoyancy; exit 1 if it is refused", _shift,
+        """assoc-hull shift ship.hull --by cb=0.02 --by lcb_percent=0.5 -o fuller.hull
+        assoc-hull shift ship.hull --to cp=0.72 --shape lackenby --json
+        assoc-hull shift ship.hull --by Cpf=0.01 --terminals 0 60.96 67.056 121.92
+        assoc-hull shift ship.hull --by parallel_body_end=3
+
+        Values: cb, cp or volume (m3); lcb (m from AP) or lcb_percent (% Lpp from midship); or
+        Cpf and Cpa, each on its own; parallel_body_start and parallel_body_end (m from AP).
+        What is not named is held.""",
+    )  # fmt: skip
+    add_hull(parser)
+    parser.add_argument(
+        "--to", metavar="NAME=VALUE", action="append", default=[],
+        help="a value that is to be had; may be given more than once",
+    )  # fmt: skip
+    parser.add_argument(
+        "--by", metavar="NAME=CHANGE", action="append", default=[],
+        help="a change of a present value; may be given more than once",
+    )  # fmt: skip
+    parser.add_argument(
+        "--shape", choices=_SHAPES, default="c2",
+        help="how the movement rises and falls between parallel body and end (default: c2)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--terminals", metavar="M", nargs=4, type=float,
+        help="after terminal, start and end of the parallel body, fore terminal, m from AP "
+        "(default: as measured)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--fade", choices=("b5", "linear"), default="b5",
+        help="how the movement of an end of the parallel body fades out (default: b5)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--tolerance", type=float, metavar="M", default=2e-3,
+        help="how far a line may leave its exact image, m (default: 0.002)",
+    )  # fmt: skip
+    add_out(parser)
+
+
+def _add_swing(commands: Commands) -> None:
+    parser = add_command(
+        commands, "swing", "change breadth against draught, or length against both, at the same "
+        "volume and coefficients; exit 1 if it is refused", _swing,
+        """assoc-hull swing ship.hull --breadth 18.5 -o broader.hull
+        assoc-hull swing ship.hull --length 125 --draught 7 --json""",
+    )  # fmt: skip
+    add_hull(parser)
+    for name, rest in (
+        ("length", "alone: breadth and draught give way in one ratio"),
+        ("breadth", "alone: the draught gives way"), ("draught", "alone: the breadth gives way"),
+    ):  # fmt: skip
+        parser.add_argument(
+            f"--{name}", type=float, metavar="M", help=f"{name} that it is to have, m; {rest}"
+        )
+    add_out(parser)
+
+
+def _shift(arguments: argparse.Namespace) -> int:
+    from assoc_hull.shifts import shift_sections
+
+    to, by = parse_pairs(arguments.to, "to") or None, parse_pairs(arguments.by, "by") or None
+
+    def act(hull: Hull) -> Shifted:
+        return shift_sections(
+            hull, to=to, by=by, shape=arguments.shape, terminals=arguments.terminals,
+            fade=arguments.fade, tolerance=arguments.tolerance, name=arguments.name, in_place=True,
+        )  # fmt: skip
+
+    return report_refusal(arguments, lambda: _told(arguments, "shifting sections", act))
+
+
+def _swing(arguments: argparse.Namespace) -> int:
+    from assoc_hull.shifts import swing
+
+    def act(hull: Hull) -> Shifted:
+        return swing(
+            hull, length=arguments.length, breadth=arguments.breadth, draught=arguments.draught,
+            name=arguments.name, in_place=True,
+        )  # fmt: skip
+
+    return report_refusal(arguments, lambda: _told(arguments, "swinging", act))
+
+
+def _told(arguments: argparse.Namespace, doing: str, act: Callable[[Hull], Shifted]) -> int:
+    """Carry out, and tell what came of it."""
+    hull, found = vary_into_file(arguments, doing, act)
+    report, saved = found.report, str(arguments.out or arguments.hull)
+    at = report.shift.terms.terminals
+    facts: dict[str, Any] = {
+        "targets": report.targets, "shape": report.shift.terms.shape,
+        "terminals": at.places.tolist(), "fore": report.fore, "aft": report.aft,
+        "largest": report.shift.largest, "least": report.shift.least, "steps": report.steps,
+        "notes": report.notes, "fingerprint": hull.fingerprint, "refused": False, "saved": saved,
+        "script": report.variation.script,
+    }  # fmt: skip
+    told = [report.variation.edit.name, *(f"  {each}" for each in report.told)]
+    told += [edit_words(hull, report.variation.edit), f"written: {saved}"]
+    emit(arguments, facts, "\n".join(told))
+    return 0
+
+
+# --------------------------------------------------------------------------------------
+# The command that compares a variant with its parent.
+
+
+def add_compare(commands: Commands) -> None:
+    """Add ``compare``."""
+    parser = add_command(
+        commands, "compare", "tell how a variant differs from its parent", _compare,
+        """assoc-hull compare parent.hull variant.hull
+        assoc-hull compare parent.hull variant.hull --draught 16.5 --lines 50
+        assoc-hull compare parent.hull variant.hull --pdf comparison.pdf --json""",
+    )  # fmt: skip
+    for name in ("parent", "variant"):
+        parser.add_argument(
+            name, metavar=name.upper(), type=Path, help="a .hull or .hull.json file"
+        )
+    parser.add_argument(
+        "--draught", type=float, metavar="T",
+        help="moulded, even keel, for the numbers of both, m (default: the design draught of each)",
+    )  # fmt: skip
+    add_screw(parser)
+    parser.add_argument(
+        "--lines", type=int, default=10, metavar="N",
+        help="list so many lines, those that moved farthest (default: 10)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--pdf", type=Path, metavar="FILE", help="both lines plans and all tables, a .pdf file"
+    )
+    add_json(parser)
+
+
+def _compare(arguments: argparse.Namespace) -> int:
+    from assoc_hull.arguments import integer
+    from assoc_hull.variation.comparing.comparison import (
+        compare,
+        comparison_document,
+        comparison_text,
+    )
+
+    integer(arguments.lines, "lines", "in --lines", least=0)
+    screw = screw_of(arguments)
+    _check_target(arguments)
+    parent, variant = open(arguments.parent), open(arguments.variant)
+    with progress("comparing"):
+        found = compare(parent, variant, draught=arguments.draught, screw=screw)
+    saved: list[str] = []
+    if arguments.pdf is not None:
+        from assoc_hull.io.write_file import write_whole
+        from assoc_hull.plot.lines_plan.comparison import comparison_pdf
+
+        with progress(f"writing {arguments.pdf}"):
+            write_whole(arguments.pdf, comparison_pdf(parent, variant, found))
+        saved.append(str(arguments.pdf))
+    words = [comparison_text(found, arguments.lines), *(f"written: {each}" for each in saved)]
+    emit(arguments, comparison_document(found) | {"saved": saved}, "\n".join(words))
+    return 0
+
+
+def _check_target(arguments: argparse.Namespace) -> None:
+    """Refuse, before anything is computed, what could not be written."""
+    if arguments.pdf is not None:
+        check_target(arguments.pdf, (".pdf",))
+        for hull in (arguments.parent, arguments.variant):
+            check_other_target(arguments.pdf, hull)
+
+
+# --------------------------------------------------------------------------------------
+# The command that makes many variants of a hull.
+
+_ENDINGS = (".csv", ".json")
+_KEYS = ("set", "reach", "free", "bounds", "layers", "outputs", "layout")
+_SHOWN = 5
+"""So many reasons are told."""
+
+
+def add_study(commands: Commands) -> None:
+    """Add ``study``."""
+    parser = add_command(
+        commands, "study", "make many variants of a hull; exit 1 if none came to be", _study,
+        """assoc-hull study ship.hull --set breadth=31:33 --count 50 -o breadths.csv
+        assoc-hull study ship.hull --reach volume=51000:53000 --reach lcb=110:112
+            --free fore_shift=-4:4 --free aft_shift=-4:4 --count 200 --seed 1 -o variants.csv
+        assoc-hull study ship.hull --script study.json --workers 2 -o variants.json
+
+        study.json: {"set": {"draught": 11.0}, "reach": {"volume": [52000, 52500]},
+        "free": ["breadth"], "bounds": {"breadth": [31, 33]}}
+        (m, or degrees where a name ends in _deg; LOW:HIGH is drawn, one value per variant)""",
+    )  # fmt: skip
+    add_hull(parser)
+    _add_design(parser)
+    parser.add_argument("--script", metavar="FILE.json", type=Path, help="all of it as a file")
+    parser.add_argument(
+        "--workers", type=int, default=1, metavar="N", help="processes (default: 1)"
+    )
+    parser.add_argument("-o", "--out", metavar="FILE", type=Path, help="a .csv or .json file")
+    add_json(parser)
+
+
+def _add_design(parser: argparse.ArgumentParser) -> None:
+    value, several = "a value, or LOW:HIGH to draw one per variant", "; may be given more than once"
+    parser.add_argument(
+        "--set", metavar="NAME=VALUE", action="append", default=[],
+        help=f"a named parameter: {value}{several}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--reach", metavar="NAME=VALUE", action="append", default=[],
+        help=f"a target, of hydrostatics or form parameters: {value}{several}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--free", metavar="NAME[=LOW:HIGH]", action="append", default=[],
+        help=f"a parameter whose value is sought, between bounds{several}",
+    )  # fmt: skip
+    parser.add_argument("--outputs", metavar="NAME", nargs="+", help="what is told of each variant")
+    parser.add_argument(
+        "--count", type=int, default=10, metavar="N",
+        help="variants, where values are drawn (default: 10)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--seed", type=int, default=0, metavar="N", help="of what is drawn (default: 0)"
+    )
+    parser.add_argument(
+        "--method", choices=("sobol", "latin", "uniform"), default="sobol",
+        help="how values are drawn (default: sobol)",
+    )  # fmt: skip
+
+
+def _study(arguments: argparse.Namespace) -> int:
+    from assoc_hull.io.tables.study import study_document
+    from assoc_hull.studies import study
+
+    if arguments.out is not None:
+        check_target(arguments.out, _ENDINGS)
+        check_other_target(arguments.out, arguments.hull)
+    asked = _asked(arguments)
+    hull = open(arguments.hull)
+    with progress_bar("study", hidden=False) as tell:
+        found = study(hull, workers=arguments.workers, progress=tell, **asked)
+    saved = _saved(arguments.out, found)
+    document = dict(study_document(found.run, found.rows)) | {
+        "interrupted": found.interrupted, "saved": saved,
+    }  # fmt: skip
+    emit(arguments, document, "\n".join(_words(found, saved)))
+    return 0 if len(found.failed) < len(found) else 1
+
+
+def _asked(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Put together what is asked for; options go before what the file says."""
+    from assoc_hull.study.sampling import sample
+    from assoc_hull.variation.request import read_script
+
+    asked: dict[str, Any] = read_script(arguments.script) if arguments.script else {}
+    asked.pop("name", None)  # that of the file: a study has none
+    for key in asked:
+        if key not in _KEYS:
+            raise UnknownNameError("part of a study", key, _KEYS)
+    given = {key: _pairs(getattr(arguments, key), key) for key in ("set", "reach")}
+    drawn = {
+        (key, name): value
+        for key, pairs in given.items() for name, value in pairs.items() if isinstance(value, tuple)
+    }  # fmt: skip
+    if drawn:
+        ranges = {f"{key} {name}": value for (key, name), value in drawn.items()}
+        found = sample(ranges, arguments.count, seed=arguments.seed, method=arguments.method)
+        for (key, name), column in zip(drawn, found.values(), strict=True):
+            given[key][name] = column
+    for key, pairs in given.items():
+        if pairs:
+            asked[key] = {**asked.get(key, {}), **pairs}
+    free = _free(arguments.free)
+    if free:
+        asked["free"] = list(free)
+        asked["bounds"] = {name: ends for name, ends in free.items() if ends is not None}
+    if arguments.outputs:
+        asked["outputs"] = arguments.outputs
+    return asked
+
+
+def _pairs(given: list[str], option: str) -> dict[str, Any]:
+    """Take ``NAME=VALUE`` and ``NAME=LOW:HIGH``."""
+    found: dict[str, Any] = {}
+    for each in given:
+        name, equals, value = each.partition("=")
+        if not equals or not name:
+            raise UsageError(f"--{option} {each}: give NAME=VALUE or NAME=LOW:HIGH")
+        if name in found:
+            raise UsageError(f"--{option} {name} is given twice")
+        found[name] = _ends(value, f"--{option} {each}") if ":" in value else _number(value, each)
+    return found
+
+
+def _free(given: list[str]) -> dict[str, tuple[float, float] | None]:
+    found: dict[str, tuple[float, float] | None] = {}
+    for each in given:
+        name, equals, ends = each.partition("=")
+        if name in found:
+            raise UsageError(f"--free {name} is given twice")
+        found[name] = _ends(ends, f"--free {each}") if equals else None
+    return found
+
+
+def _ends(text: str, option: str) -> tuple[float, float]:
+    low, colon, high = text.partition(":")
+    if not colon:
+        raise UsageError(f"{option}: give LOW:HIGH")
+    return _number(low, option), _number(high, option)
+
+
+def _number(text: str, option: str) -> float:
+    try:
+        found = float(text)
+    except ValueError:
+        found = math.nan
+    if not math.isfinite(found):
+        raise UsageError(f"{option}: {text!r} is no number")
+    return found
+
+
+def _saved(out: Path | None, found: Study) -> str | None:
+    if out is None:
+        return None
+    if out.suffix == ".json":
+        found.to_json(out)
+    else:
+        found.to_csv(out)
+    return str(out)
+
+
+def _words(found: Study, saved: str | None) -> list[str]:
+    """Say what came of it: how many, why not the others, where it is."""
+    words = [str(found)]
+    words += [f"  variant {row.number}: {row.reason}" for row in found.failed[:_SHOWN]]
+    more = len(found.failed) - _SHOWN
+    if more > 0:
+        words.append(f"  and {more} more without a hull")
+    return [*words, f"written: {saved}"] if saved else words

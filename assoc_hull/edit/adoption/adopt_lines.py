@@ -1,0 +1,402 @@
+"""Make a net of given lines, and report how closely it holds them.
+
+The lines are lofted through their own points (the references), their crossings are found and given
+roles by the role rule, and points are added only where crossings alone do not hold the shape within
+the tolerance. The order in which lines are handed in plays no part. The report says curve by curve
+how far it passes its line, with how many points, and how fair it is.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import all_of, instance
+from assoc_hull.edit.adoption.match_crossings import (
+    Contact,
+    LineIntersection,
+    find_contacts,
+    find_line_intersections,
+)
+from assoc_hull.edit.adoption.thin_net import thin_net
+from assoc_hull.edit.adoption.thinning_state import OmittedPoint, ReferenceNet, ThinnedNet
+from assoc_hull.edit.followup.adopted_points import link_adopted_points
+from assoc_hull.edit.followup.features import find_features
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.geometry.splines.distance import closest_points_each
+from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.kinds import FAMILIES, Sort
+from assoc_hull.model.line_source import LineSource, line_curve_data
+from assoc_hull.model.loft_hull import loft_all, set_limits
+from assoc_hull.model.make_objects import CrossingSpec, Maker, PointSpec
+from assoc_hull.model.tables import Association, HullState, Particulars
+from assoc_hull.tolerance import Tolerances
+
+__all__ = [
+    "AdoptionReport",
+    "LineReport",
+    "adopt",
+    "match_lines",
+    "report_lines",
+    "source_order",
+]
+
+# --------------------------------------------------------------------------------------
+# What adoption made of given lines: per curve how closely, with how many points, how fair.
+
+
+@attrs.frozen
+class LineReport:
+    """How one curve was adopted.
+
+    Attributes
+    ----------
+    curve : str
+        Key of the curve.
+    group, line : str
+        The line it belongs to; a line in several pieces has several curves.
+    given, defining : int
+        Points given, and points that define the curve.
+    crossings, adopted, placed : int
+        The defining points by sort; together they are `defining`.
+    deviation : float, m
+        Largest distance of a given point from the curve; of a densely drawn line, of a place
+        half-way between two points, too.
+    deviation_median, deviation_p95 : float, m
+        Half, and 19 of 20, of the given points lie this close.
+    place : (float, float, float), m
+        The given point that lies farthest off.
+    tolerance : float, m
+        How far the curve may pass that point.
+    tolerance_used : float
+        The largest part of what is allowed, at any place: up to 1 the curve is within.
+    inflections_given, inflections : int
+        Of the given line and of the curve; nil for a space curve, whose curvature has no sign.
+    """
+
+    curve: str
+    group: str
+    line: str
+    given: int
+    defining: int
+    crossings: int
+    adopted: int
+    placed: int
+    deviation: float
+    deviation_median: float
+    deviation_p95: float
+    place: tuple[float, float, float]
+    tolerance: float
+    tolerance_used: float
+    inflections_given: int
+    inflections: int
+
+
+@attrs.frozen
+class AdoptionReport:
+    """What adoption made of the given lines; notes say what was assumed or left out."""
+
+    lines: tuple[LineReport, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def worst(self) -> LineReport:
+        """The curve with the largest deviation."""
+        return max(self.lines, key=lambda each: each.deviation)
+
+    @property
+    def own_points(self) -> int:
+        """Adopted points: those that define a curve and that no crossing holds."""
+        return sum(each.adopted for each in self.lines)
+
+    @property
+    def inflections(self) -> tuple[int, int]:
+        """Inflections of the given lines in all, and those that the net has more, by line."""
+        lines: dict[tuple[str, str], list[LineReport]] = defaultdict(list)
+        for each in self.lines:
+            lines[each.group, each.line].append(each)
+        more = (
+            sum(each.inflections - each.inflections_given for each in mine)
+            for mine in lines.values()
+        )
+        given = sum(each.inflections_given for each in self.lines)
+        return given, sum(max(0, count) for count in more)
+
+
+def report_lines(net: ReferenceNet) -> tuple[LineReport, ...]:
+    """Compare the curves of a net with the lines it was adopted from.
+
+    Parameters
+    ----------
+    net : Net
+        The given lines, their references, and the net that was made of them.
+    """
+    curves = net.state.curves
+    splines = SplineBatch.join([curves.spline.data[i] for i in range(len(net.sources))])
+    normals = np.array(
+        [np.full(3, np.nan) if each.normal is None else each.normal for each in net.sources]
+    )
+    bends = (inflections(batch, normals)[0] for batch in (net.reference, splines))
+    given, found = bends
+    away = _away(net, splines)
+    return tuple(
+        _line(net, i, away[i], int(given[i]), int(found[i])) for i in range(len(net.sources))
+    )
+
+
+def _away(net: ReferenceNet, splines: SplineBatch) -> list[FloatArray]:
+    """Give how far each curve passes the points it is measured at, m."""
+    points = [_measured(net, i)[0] for i in range(len(net.sources))]
+    sizes = [len(each) for each in points]
+    curve = np.repeat(np.arange(len(points)), sizes)
+    away = closest_points_each(splines, curve, np.concatenate(points))[2]
+    return np.split(away, np.cumsum(sizes)[:-1])
+
+
+def _line(net: ReferenceNet, number: int, away: FloatArray, given: int, found: int) -> LineReport:
+    state, source = net.state, net.sources[number]
+    crossings, adopted, placed = _sorts(state, state.curves.rows.data[number])
+    points, tolerance = _measured(net, number)
+    worst = int(np.argmax(away))
+    x, y, z = points[worst].tolist()
+    return LineReport(
+        state.curves.key.data[number], source.group, source.name, len(source.points),
+        crossings + adopted + placed, crossings, adopted, placed, float(away[worst]),
+        float(np.median(away)), float(np.percentile(away, 95.0)), (x, y, z),
+        float(tolerance[worst]), float((away / tolerance).max()), given, found,
+    )  # fmt: skip
+
+
+def _measured(net: ReferenceNet, number: int) -> tuple[FloatArray, FloatArray]:
+    """Give places of a line and how far they may be passed: of a dense one, between points too."""
+    source = net.sources[number]
+    tolerance = np.broadcast_to(source.tolerance, len(source.points)).astype(np.float64)
+    if not source.dense:
+        return source.points, tolerance
+    knot = net.reference.curve(number).knot
+    at = np.sort(np.concatenate([knot, 0.5 * (knot[1:] + knot[:-1])]))
+    points = evaluate(net.reference, np.full(len(at), number), at)
+    return points, np.interp(at, knot, tolerance)
+
+
+def _sorts(state: HullState, rows: IntArray) -> tuple[int, int, int]:
+    """Count the points of a curve: crossings, adopted and placed ones."""
+    sort = state.rows.sort.data[rows]
+    adopted, placed = int((sort == Sort.ADOPTED).sum()), int((sort == Sort.PLACED).sum())
+    return len(rows) - adopted - placed, adopted, placed
+
+
+# --------------------------------------------------------------------------------------
+# Adoption: a net from given lines.
+#
+# The lines are lofted through their own points (the *references*), their crossings found,
+# each crossing given its role by the role rule, and points added only where crossings alone
+# do not hold the shape within the tolerance. The order in which lines are handed in plays no
+# part: they are sorted first.
+
+_OVER = 1.05
+"""Between its points a curve may pass its line by this part more than at them."""
+
+
+def adopt(
+    sources: Sequence[LineSource],
+    particulars: Particulars,
+    associations: Sequence[Association],
+    tolerances: Tolerances | None = None,
+) -> tuple[HullState, AdoptionReport]:
+    """Make a net of given lines.
+
+    Parameters
+    ----------
+    sources : sequence of LineSource
+        The lines, in any order.
+    particulars : Particulars
+        Principal dimensions.
+    associations : sequence of Association
+        Which groups generate points on which, in any order.
+    tolerances : Tolerances or None
+        Defaults if None.
+
+    Returns
+    -------
+    HullState, AdoptionReport
+
+    Raises
+    ------
+    BadInputError
+        No lines, or an association with a group that has none.
+    RingError
+        One-way associations that run in a ring.
+    """
+    sources = all_of(sources, LineSource, "lines", "in a net of lines")
+    instance(particulars, Particulars, "particulars", "in a net of lines")
+    associations = all_of(associations, Association, "associations", "in a net of lines")
+    if tolerances is not None:
+        instance(tolerances, Tolerances, "tolerances", "in a net of lines")
+    if not sources:
+        raise BadInputError("no lines were given", particulars.name, "give two lines or more")
+    state = HullState(particulars, tolerances or Tolerances())
+    journal = Journal()
+    maker = Maker(state, journal)
+    ordered = sorted(sources, key=source_order)
+    _make_lines(maker, ordered, associations)
+    reference = loft(line_curve_data(ordered), list(state.curves.key.data))
+    net = ReferenceNet(state, tuple(ordered), reference, *_matches(state, ordered, reference))
+    thinned = thin_net(net)
+    notes = _write(maker, net, thinned)
+    notes += _loft(maker)
+    link_adopted_points(state, state.live("curves"), journal)
+    set_limits(state, journal)
+    maker.features(find_features(state, [float(np.max(each.tolerance)) for each in ordered]))
+    lines = report_lines(net)
+    return state, AdoptionReport(lines, (*notes, *_over_notes(net, thinned, lines)))
+
+
+def match_lines(
+    sources: Sequence[LineSource], associations: Sequence[Association]
+) -> tuple[SplineBatch, tuple[LineIntersection, ...]]:
+    """Find where given lines meet, without adopting them.
+
+    Parameters
+    ----------
+    sources : sequence of LineSource
+        The lines; curves of the answer are numbered in their order.
+    associations : sequence of Association
+        Which groups meet.
+
+    Returns
+    -------
+    SplineBatch, tuple of Meeting
+        The splines through the given points, and their meetings.
+    """
+    state = HullState(Particulars("lines", 1.0, 1.0, 1.0, 1.0), Tolerances())
+    _make_lines(Maker(state, Journal()), sources, associations)
+    reference = loft(line_curve_data(sources), list(state.curves.key.data))
+    return reference, tuple(find_line_intersections(state, reference))
+
+
+def source_order(source: LineSource) -> tuple[int, str, float, str, bytes]:
+    """Give what lines are sorted by, content alone: the order of input changes nothing."""
+    offset = source.offset if source.normal is not None else 0.0
+    rank = FAMILIES[source.family].rank
+    return rank, source.group, offset, source.name, source.points.tobytes()
+
+
+def _make_lines(
+    maker: Maker, sources: Sequence[LineSource], associations: Sequence[Association]
+) -> None:
+    groups: dict[str, int] = {}
+    lines: dict[tuple[str, str], int] = {}
+    wanted = {source.group: source.family for source in sources}
+    linked = {name for link in associations for name in (link.a, link.b)}
+    wanted |= {name: name for name in linked - set(wanted) if name in FAMILIES}
+    for name in sorted(wanted, key=lambda each: (FAMILIES[wanted[each]].rank, each)):
+        groups[name] = maker.group(name, wanted[name])
+    for source in sources:
+        if (source.group, source.name) not in lines:
+            plane = None if source.normal is None else (source.normal, source.offset)
+            boundary = -1 if source.boundary is None else int(source.boundary)
+            lines[source.group, source.name] = maker.line(
+                groups[source.group], source.name, plane, boundary
+            )
+        maker.curve(lines[source.group, source.name], source.ends)
+    for link in sorted(associations, key=lambda each: (each.a, each.b)):
+        maker.associate(link)
+
+
+def _matches(
+    state: HullState, sources: Sequence[LineSource], reference: SplineBatch
+) -> tuple[tuple[Contact, ...], tuple[LineIntersection, ...]]:
+    contacts = find_contacts(state, reference, [source.kind for source in sources])
+    return tuple(contacts), tuple(find_line_intersections(state, reference))
+
+
+def _write(maker: Maker, net: ReferenceNet, thinned: ThinnedNet) -> list[str]:
+    """Write the chosen crossings and points into the tables; say what was left out."""
+    specs = [
+        CrossingSpec(
+            contact.boundary, contact.curve, contact.xyz, role, contact.sign, None, True,
+            int(net.sources[contact.curve].kind[contact.point]),
+            net.sources[contact.curve].direction[contact.point],
+        )
+        for contact, role in zip(net.contacts, thinned.contact_role, strict=True)
+    ]  # fmt: skip
+    specs += [
+        CrossingSpec(meeting.a, meeting.b, meeting.spots[0], role, meeting.sign, meeting.spots)
+        for meeting, role in zip(net.meetings, thinned.meeting_role, strict=True)
+    ]
+    rows = maker.crossings(specs)
+    points = [
+        PointSpec(
+            item.curve,
+            item.xyz,
+            Sort.PLACED if item.placed else Sort.ADOPTED,
+            item.kind,
+            item.direction,
+        )
+        for item in thinned.points
+    ]
+    own = maker.points(points)
+    numbers = np.concatenate([rows, own])
+    for curve, order in enumerate(thinned.order):
+        maker.define(curve, numbers[np.array(order, np.int64)])
+    return [_left_note(net, each) for each in thinned.left]
+
+
+def _left_note(net: ReferenceNet, left: OmittedPoint) -> str:
+    x, y, z = net.sources[left.curve].points[left.point].tolist()
+    name = net.state.lines.name.data[net.state.line_of(left.curve)]
+    near = np.broadcast_to(net.sources[left.curve].tolerance, len(net.sources[left.curve].points))
+    over = (
+        f"{name} passes the given point ({x:.3f}, {y:.3f}, {z:.3f}) m {1e3 * left.away:.1f} mm "
+        f"off, over its tolerance of {1e3 * float(near[left.point]):g} mm: "
+    )
+    if left.bends:
+        return over + "a point there would give it an inflection that the given line lacks"
+    return over + (
+        f"it lies {1e3 * left.beside:.1f} mm beside a point of the curve, closer than "
+        f"{net.state.tolerances.adopted_spacing:g} m; the lines disagree there, mend the one "
+        "that is wrong"
+    )
+
+
+def _over_notes(net: ReferenceNet, thinned: ThinnedNet, lines: Sequence[LineReport]) -> list[str]:
+    """Name the densely drawn lines that are passed too far off and of which no point says so."""
+    told = {each.curve for each in thinned.left}
+    return [
+        f"{line.line} is passed by {line.tolerance_used:.2f} times what is allowed at some place: "
+        "no point could be adopted there, another stands too close"
+        for number, line in enumerate(lines)
+        if line.tolerance_used > _OVER and net.sources[number].dense and number not in told
+    ]
+
+
+def _loft(maker: Maker) -> list[str]:
+    """Loft; a crossing that its driver no longer reaches becomes an adopted point."""
+    notes: list[str] = []
+    while True:
+        missing = loft_all(maker.state, maker.journal)
+        if not len(missing):
+            return notes
+        for row in missing.tolist():
+            notes.append(f"{maker.state.rows.key.data[row]}: not reached, left out")
+            _release(maker, row)
+
+
+def _release(maker: Maker, row: int) -> None:
+    """Take out a crossing; the curve it defined keeps an adopted point at its place."""
+    table = maker.state.rows
+    curves = [curve for curve in table.reader.data[row].tolist() if curve >= 0]
+    xyz = table.xyz.data[row].copy()
+    for curve in curves:
+        point = maker.points([PointSpec(curve, xyz, Sort.ADOPTED)])[0]
+        rows = maker.state.curves.rows.data[curve]
+        maker.define(curve, np.where(rows == row, point, rows))
+    maker.remove_rows([row])

@@ -1,0 +1,383 @@
+"""Where thinned curves pass what was given too far off, and which given point would mend it.
+
+Three faults are looked for: a given point farther off than the tolerance, a watched gap between two
+densely drawn lines, and chords of a dense line that would fold. A dense line takes a point from the
+middle of an interval, never beside another point; where an interval has no room, none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from assoc_hull.edit.adoption.match_crossings import LineIntersection
+from assoc_hull.edit.adoption.thinning_state import (
+    SAME_PLACE,
+    CurveItem,
+    OmittedPoint,
+    ReferenceNet,
+    ThinningState,
+    knots_of,
+    thinned_at,
+)
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.splines.distance import closest_points_each
+from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.model.gaps import crossing_normals
+from assoc_hull.model.kinds import Role
+
+__all__ = [
+    "distances",
+    "find_wide",
+    "find_worst",
+    "has_room",
+    "point_amid_interval",
+    "point_near",
+    "sharp_turn",
+    "wide_gaps",
+]
+
+# --------------------------------------------------------------------------------------
+# Where a densely given line takes another point: amid an interval, never beside a point.
+#
+# A digitised line has many more points than should define a curve. Taken where the curve passes
+# them worst, they would come to lie in close pairs; so one is taken from the middle of the
+# interval in question, and none where the interval is short.
+
+BoolArray = np.typing.NDArray[np.bool_]
+
+_FOLD = 0.2
+"""Chords whose directions have a smaller cosine are taken for a fold."""
+
+_SHORTEST = 0.02
+"""No point is set in an interval shorter than this (m)."""
+
+
+def has_room(edges: FloatArray, at: FloatArray, spacing: float) -> BoolArray:
+    """Say which given points lie in an interval that has room for another point.
+
+    Parameters
+    ----------
+    edges : (k,), m
+        Parameters of the defining points, ascending.
+    at : (n,), m
+        Parameters of the given points.
+    spacing : float, m
+        Least length of an interval.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.edit.adoption.thinned_deviations import has_room
+    >>> has_room(np.array([0.0, 0.1, 5.0]), np.array([0.05, 2.0]), 0.2).tolist()
+    [False, True]
+    """
+    number = np.searchsorted(edges, at).clip(1, len(edges) - 1)
+    return np.asarray(edges[number] - edges[number - 1] >= spacing)
+
+
+def sharp_turn(known: FloatArray, edges: FloatArray, at: FloatArray, knuckle: BoolArray) -> int:
+    """Give a given point beside a smooth place where the chords turn so much as to fold.
+
+    Parameters
+    ----------
+    known : (k, 3), m
+        The defining points.
+    edges : (k,), m
+        Their parameters.
+    at : (n,), m
+        Parameters of the given points.
+    knuckle : (k,) bool
+        Which of the defining points may turn as they like.
+
+    Returns
+    -------
+    int
+        -1 if the chords turn nowhere so much.
+    """
+    step = np.diff(known, axis=0)
+    step = step / np.maximum(np.linalg.norm(step, axis=1), 1e-12)[:, None]
+    cosine = (step[1:] * step[:-1]).sum(axis=1)
+    for i in np.flatnonzero((cosine < _FOLD) & ~knuckle[1:-1]).tolist():
+        wide = i if edges[i + 1] - edges[i] > edges[i + 2] - edges[i + 1] else i + 1
+        low, high = float(edges[wide]), float(edges[wide + 1])
+        inside = _inside(at, low, high)
+        if len(inside) and high - low > _SHORTEST:
+            return int(inside[len(inside) // 2])
+    return -1
+
+
+def point_amid_interval(edges: FloatArray, at: FloatArray, point: int) -> tuple[int, float, float]:
+    """Give a given point for the interval of one that is passed badly.
+
+    Parameters
+    ----------
+    edges : (k,), m
+        Parameters of the defining points.
+    at : (n,), m
+        Parameters of the given points.
+    point : int
+        The given point that is passed badly.
+
+    Returns
+    -------
+    point : int
+        The given point nearest to it in the middle part of the interval.
+    target, reach : float, m
+        Where a point is wanted; a crossing within the reach will do as well.
+    """
+    here = float(at[point])
+    low = float(edges[edges <= here].max(initial=-np.inf))
+    high = float(edges[edges >= here].min(initial=np.inf))
+    low, high = (here if not np.isfinite(end) else end for end in (low, high))
+    target = min(max(here, low + 0.3 * (high - low)), high - 0.3 * (high - low))
+    inside = _inside(at, low, high)
+    if len(inside):
+        point = int(inside[np.argmin(np.abs(at[inside] - target))])
+    return point, target, 0.2 * (high - low)
+
+
+def point_near(edges: FloatArray, at: FloatArray, place: float, spacing: float) -> int:
+    """Give a given point by which a curve can be held at a place; -1 if there is no room.
+
+    Parameters
+    ----------
+    edges : (k,), m
+        Parameters of the defining points, ascending.
+    at : (n,), m
+        Parameters of the given points.
+    place : float, m
+        Parameter of the place.
+    spacing : float, m
+        Least length of an interval.
+    """
+    above = int(np.searchsorted(edges, place).clip(1, len(edges) - 1))
+    low, high = float(edges[above - 1]), float(edges[above])
+    inside = _inside(at, low, high)
+    if high - low < spacing or not len(inside):
+        return -1
+    return int(inside[np.argmin(np.abs(at[inside] - place))])
+
+
+def _inside(at: FloatArray, low: float, high: float) -> np.typing.NDArray[np.int64]:
+    quarter = 0.25 * (high - low)
+    return np.flatnonzero((at > low + quarter) & (at < high - quarter))
+
+
+# --------------------------------------------------------------------------------------
+# Watched crossings whose curves, thinned, pass each other too far off.
+#
+# Two densely drawn lines that meet may each keep within its tolerance, one on this side and one
+# on the other; the gap between them is then twice as large. Where it exceeds a part of the
+# adoption tolerance, the curve that passes its own line farther there needs another point.
+
+
+def wide_gaps(
+    reference: SplineBatch, trial: SplineBatch, meetings: Sequence[LineIntersection], limit: float
+) -> list[tuple[int, float]]:
+    """Find the curves that need another point because of gaps, the widest first.
+
+    Parameters
+    ----------
+    reference : SplineBatch
+        The lines as given.
+    trial : SplineBatch
+        The curves as they are thinned so far.
+    meetings : sequence of Meeting
+        Crossings that define neither curve.
+    limit : float, m
+        How wide a gap may be.
+
+    Returns
+    -------
+    list of (int, float)
+        A curve and the parameter (m) of the crossing on its reference; the curve that passes
+        its own line farther off comes first, the other of the pair after it.
+    """
+    if not meetings:
+        return []
+    curve, at, normal = _places(reference, meetings)
+    off = _off(trial, meetings, normal)
+    apart = np.array([float((each.spots[0] - each.spots[1]) @ n)
+                      for each, n in zip(meetings, normal, strict=True)])  # fmt: skip
+    gap = np.abs(off[:, 0] - off[:, 1] + apart)
+    found: list[tuple[int, float]] = []
+    for i in np.argsort(-gap, kind="stable")[: int((gap > limit).sum())].tolist():
+        first = int(abs(off[i, 1]) >= abs(off[i, 0]))
+        found += [(int(curve[i, j]), float(at[i, j])) for j in (first, 1 - first)]
+    return found
+
+
+def _places(
+    reference: SplineBatch, meetings: Sequence[LineIntersection]
+) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Give curves and parameters, (k, 2), and normals of the hull, (k, 3), of meetings."""
+    curve = np.array([[each.a, each.b] for each in meetings])
+    at = np.array([each.at for each in meetings])
+    one, other = (_tangents(reference, curve[:, i], at[:, i]) for i in (0, 1))
+    return curve, at, crossing_normals(one, other)
+
+
+def _tangents(reference: SplineBatch, curve: IntArray, at: FloatArray) -> FloatArray:
+    slope = derivative(reference, curve, at)
+    return np.asarray(slope / np.sqrt((slope * slope).sum(axis=1))[:, None])
+
+
+def _off(
+    trial: SplineBatch, meetings: Sequence[LineIntersection], normal: FloatArray
+) -> FloatArray:
+    """Give how far each of the two curves lies off its own line along the normal, (k, 2), m."""
+    sides = [[each.a, each.b] for each in meetings]
+    spots = np.array([each.spots for each in meetings]).reshape(-1, 3)
+    foot = closest_points_each(trial, np.array(sides, np.int64).ravel(), spots)[1]
+    away = (foot - spots).reshape(-1, 2, 3)
+    return np.asarray((away * normal[:, None]).sum(axis=2))
+
+
+# --------------------------------------------------------------------------------------
+# Where thinned curves pass what was given too far off.
+
+_GAP = 0.4
+"""Densely drawn curves are held so that watched gaps keep below this part of the tolerance."""
+
+
+def find_worst(
+    net: ReferenceNet, splines: SplineBatch, orders: list[list[CurveItem]], work: ThinningState
+) -> tuple[list[tuple[int, int]], list[OmittedPoint]]:
+    """Give, per curve that passes given points too far off, the worst one to be taken in.
+
+    Also given are the points that cannot be: beside a point that defines the curve already a
+    second one would only make it turn.
+    """
+    found: list[tuple[int, int]] = []
+    left: list[OmittedPoint] = []
+    numbers = [[item.number for item in order] for order in orders]
+    # A curve made through the same points as when it held its line holds it still.
+    todo = [i for i, order in enumerate(numbers) if work.held.get(i) != order]
+    measured = distances(work, todo, [orders[i] for i in todo], splines, todo)
+    for curve, (away, beside) in zip(todo, measured, strict=True):
+        source = net.sources[curve]
+        for point in np.flatnonzero(away > source.tolerance).tolist():
+            close = beside[point] < net.state.tolerances.adopted_spacing
+            if close and not source.dense and thinned_at(work, curve, point) is None:
+                left.append(OmittedPoint(curve, point, float(away[point]), float(beside[point])))
+                away[point] = 0.0
+        worst = int((away / source.tolerance).argmax())
+        if not (away > source.tolerance).any():
+            worst = _sharp(work, curve, orders[curve]) if source.dense else -1
+        if worst >= 0:
+            found.append((curve, worst))
+        elif not any(each.curve == curve for each in left):
+            work.held[curve] = numbers[curve]
+    return found, left
+
+
+def find_wide(
+    net: ReferenceNet,
+    splines: SplineBatch,
+    orders: list[list[CurveItem]],
+    work: ThinningState,
+    roles: list[Role],
+) -> list[tuple[int, int]]:
+    """Give, per curve, a given point to be taken in because a watched gap is wide."""
+    watched = [
+        meeting
+        for meeting, role in zip(net.meetings, roles[len(net.contacts) :], strict=True)
+        if role is Role.WATCHED and net.sources[meeting.a].dense and net.sources[meeting.b].dense
+    ]
+    found = iter(wide_gaps(net.reference, splines, watched, _GAP * net.state.tolerances.adoption))
+    return _points_with_room(work, orders, zip(found, found, strict=True))
+
+
+def _points_with_room(
+    work: ThinningState,
+    orders: list[list[CurveItem]],
+    places: Iterable[tuple[tuple[int, float], ...]],
+) -> list[tuple[int, int]]:
+    """Give a given point for the first curve of each place that has room; one per curve."""
+    found: dict[int, int] = {}
+    for choice in places:
+        for curve, at in choice:
+            edges = np.array([item.at for item in orders[curve]])
+            spacing = work.net.state.tolerances.adopted_spacing
+            point = point_near(edges, knots_of(work, curve), at, spacing)
+            if point >= 0:
+                found.setdefault(curve, point)
+                break
+    return sorted(found.items())
+
+
+def distances(
+    work: ThinningState,
+    curves: Sequence[int],
+    orders: Sequence[list[CurveItem]],
+    splines: SplineBatch,
+    numbers: Sequence[int],
+) -> list[tuple[FloatArray, FloatArray]]:
+    """Give how far curves pass the given points, and how far those are from defining ones.
+
+    Parameters
+    ----------
+    work : Work
+        What was given.
+    curves : (m,) int
+        The curves.
+    orders : (m,) list of Item
+        What defines each.
+    splines, numbers : SplineBatch, (m,) int
+        A batch with the curves lofted through them, and which of its curves they are.
+
+    Returns
+    -------
+    (m,) pairs
+        away : (n,), m
+            Nil at a defining point; of a dense line, also where there is no room for one more.
+        beside : (n,), m
+            From the nearest defining point.
+    """
+    pairs = list(zip(curves, orders, strict=True))
+    measured = [_beside(work, curve, order) for curve, order in pairs]
+    asked = [
+        work.net.sources[curve].points[there]
+        for curve, (there, _) in zip(curves, measured, strict=True)
+    ]
+    sizes = [len(points) for points in asked]
+    off = closest_points_each(
+        splines,
+        np.repeat(np.array(numbers, np.int64), sizes),
+        np.concatenate([np.zeros((0, 3)), *asked]),
+    )[2]
+    found, begin = [], 0
+    for (curve, order), (there, beside) in zip(pairs, measured, strict=True):
+        away = np.zeros(len(beside))
+        away[there] = off[begin : begin + len(there)]
+        begin += len(there)
+        _close_off(work, curve, order, away)
+        found.append((away, beside))
+    return found
+
+
+def _beside(work: ThinningState, curve: int, order: list[CurveItem]) -> tuple[IntArray, FloatArray]:
+    """Find the given points of a curve that define it not, and how far all are from those."""
+    known = work.given.xyz[work.numbers(order)]
+    step = work.net.sources[curve].points[:, None, :] - known[None, :, :]
+    there = np.flatnonzero(np.abs(step).max(axis=2).min(axis=1) > SAME_PLACE)
+    return there, np.sqrt((step * step).sum(axis=2)).min(axis=1)
+
+
+def _close_off(work: ThinningState, curve: int, order: list[CurveItem], away: FloatArray) -> None:
+    """Pass over the points of a dense line where there is no room for one more."""
+    if work.net.sources[curve].dense:
+        edges = np.array([item.at for item in order])
+        spacing = work.net.state.tolerances.adopted_spacing
+        away[~has_room(edges, knots_of(work, curve), spacing)] = 0.0
+
+
+def _sharp(work: ThinningState, curve: int, order: list[CurveItem]) -> int:
+    """Give a given point where the chords of a dense line would fold; -1 if nowhere."""
+    edges = np.array([item.at for item in order])
+    numbers = work.numbers(order)
+    kind, _ = work.given.on(np.array(curve), numbers)
+    known = work.given.xyz[numbers]
+    return sharp_turn(known, edges, knots_of(work, curve), kind == PointKind.KNUCKLE)

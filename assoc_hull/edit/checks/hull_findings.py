@@ -1,0 +1,229 @@
+"""Look a whole hull over: what is wrong, each finding with its place and number.
+
+`check` runs every look in a fixed order and goes on past one that stumbles over damaged tables.
+The small looks stand here too: points off their features, lines detached from the definitions,
+gaps over their limit, curves that failed, driven links in a ring.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.checks.finding import Finding, row_finding
+from assoc_hull.edit.checks.link_findings import find_associations, find_links, find_roles
+from assoc_hull.edit.checks.shape_findings import bounded, find_sense, find_shape
+from assoc_hull.edit.checks.table_findings import find_tables
+from assoc_hull.edit.document import Document
+from assoc_hull.errors import RingError
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.feature_geometry import ROUNDING, line_numbers, places_off
+from assoc_hull.model.features import Feature
+from assoc_hull.model.gaps import gap_at, watched_on
+from assoc_hull.model.index import driven_levels
+from assoc_hull.model.kinds import State
+from assoc_hull.model.tables import HullState
+
+__all__ = [
+    "check",
+    "find_detached",
+    "find_off_features",
+]
+
+# --------------------------------------------------------------------------------------
+# Findings on features: points that lie off them, and references that lead nowhere.
+#
+# An edit never leaves any behind: it dissolves what it bends. A file that other hands have written
+# may hold them, and so does a hull between a mapping and the making anew of its features.
+
+
+def find_off_features(state: HullState, book: AddressBook) -> Iterator[Finding]:
+    """Tell, feature by feature, the point that lies farthest off where one lies too far off.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.checks.hull_findings import find_off_features
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.address import AddressBook
+    >>> state = wigley(stations=5, waterlines=4)
+    >>> list(find_off_features(state, AddressBook(state)))
+    []
+    """
+    live = set(state.live("rows").tolist())
+    lines = set(line_numbers(state))
+    for each in state.features:
+        if not (live.issuperset(each.points) and lines.issuperset(each.lines)):
+            text = "owns a point or lies on a line that is not there: undo the edit"
+            yield Finding("feature", each.name, None, None, text)
+            continue
+        yield from _off(state, book, each)
+
+
+def _off(state: HullState, book: AddressBook, feature: Feature) -> Iterator[Finding]:
+    off = places_off(feature, state.rows.xyz.data[list(feature.points)])
+    worst = int(np.argmax(off))
+    if off[worst] > feature.gap + ROUNDING:
+        text = (
+            f"lies {1e3 * off[worst]:.3f} mm off the {feature.kind} {feature.name!r}: make the "
+            "feature anew, or undo what bent it"
+        )
+        yield row_finding(state, book, feature.points[worst], "feature", text, float(off[worst]))
+
+
+# --------------------------------------------------------------------------------------
+# Findings on definitions: lines that keep a shape of their own, against what defines them.
+#
+# Nothing is wrong with such a line; but who changes a definition must know that it stays.
+
+_MOST = 10
+"""More lines than these are told in one finding."""
+
+_TOLD = 3
+
+
+def find_detached(state: HullState, book: AddressBook) -> Iterator[Finding]:
+    """Tell, line by line, which are detached from the definitions; many of them at once.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.checks.hull_findings import find_detached
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.address import AddressBook
+    >>> state = wigley(stations=5, waterlines=4)
+    >>> list(find_detached(state, AddressBook(state)))
+    []
+    """
+    live = set(state.live("curves").tolist())
+    lost = [made for made in state.generated if not made.attached and made.curve in live]
+    lines = {state.line_of(made.curve) for made in lost}
+    names = sorted(book.line_name(line) for line in lines)
+    if len(names) > _MOST:
+        told = ", ".join(names[1 : 1 + _TOLD])
+        text = (
+            f"and {len(names) - 1} other lines ({told} ...) are detached from the definitions: "
+            "their shape was edited since; edit.reattach returns one"
+        )
+        yield Finding("detached", names[0], None, float(len(names)), text)
+        return
+    for name in names:
+        text = (
+            "is detached from the definitions since its shape was edited: edit.reattach returns it"
+        )
+        yield Finding("detached", name, None, None, text)
+
+
+# --------------------------------------------------------------------------------------
+# What is wrong with a hull, each finding with its place and number; empty if nothing is.
+
+
+def check(source: Document | HullState, notes: bool = False) -> tuple[Finding, ...]:
+    """Look a whole hull over.
+
+    Parameters
+    ----------
+    source : Document or HullState
+        The hull.
+    notes : bool
+        Whether to tell also what is not wrong: crossings that define a curve and that the
+        role rule would not choose any more.
+
+    Returns
+    -------
+    tuple of Finding
+        In the order of their kinds, each kind by the keys of the objects.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.checks.hull_findings import check
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> check(wigley())
+    ()
+    """
+    state = source.state if isinstance(source, Document) else source
+    book = AddressBook(state)
+    found = list(find_tables(state, book))
+    damaged = bool(found)
+    for look in (*_LOOKS, *((find_roles,) if notes else ())):
+        mine = list[Finding]()
+        try:
+            mine.extend(look(state, book))
+        except _STUMBLES as error:
+            if not damaged:
+                raise
+            mine.append(_left_out(look.__name__, error))
+        found += sorted(mine, key=lambda each: (each.kind, each.object))
+    return tuple(found)
+
+
+_STUMBLES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+
+
+def _left_out(look: str, error: Exception) -> Finding:
+    """Say that a look could not be finished over the damage that is told before."""
+    title = look.strip("_").removeprefix("find_")
+    text = f"could not be checked to the end ({type(error).__name__}): mend the tables first"
+    return Finding("tables", title, None, None, text)
+
+
+def _broken(state: HullState, book: AddressBook) -> Iterator[Finding]:
+    """Curves that could not be made, and all that is made from them."""
+    for curve in state.live("curves").tolist():
+        kind = State(int(state.curves.state.data[curve]))
+        if kind is not State.CLEAN:
+            yield attrs.evolve(
+                _of_curve(state, book, curve), kind=kind.name.lower(), message=_BROKEN[kind]
+            )
+    rows = state.live("rows")
+    for row in rows[state.rows.state.data[rows] != State.CLEAN].tolist():
+        kind = State(int(state.rows.state.data[row]))
+        yield row_finding(state, book, row, kind.name.lower(), _BROKEN[kind])
+
+
+_BROKEN = {
+    State.FAILED: "could not be lofted and keeps its last good shape: undo the edit or mend it",
+    State.BLOCKED: "is not up to date, as something it is made from has failed: mend that",
+}
+
+
+def _of_curve(state: HullState, book: AddressBook, curve: int) -> Finding:
+    rows = state.curves.rows.data[curve]
+    place = tuple(state.rows.xyz.data[int(rows[0])].tolist()) if len(rows) else None
+    return Finding("", book.curve_name(curve), place, None, "")
+
+
+def _gaps(state: HullState, book: AddressBook) -> Iterator[Finding]:
+    """Watched crossings whose curves pass each other farther apart than they may."""
+    rows = watched_on(state, state.live("curves"))
+    rows = rows[np.isfinite(state.rows.parameter.data[rows]).all(axis=1)]
+    lofted = np.array([bounded(spline) for spline in state.curves.spline.data], bool)
+    rows = rows[lofted[state.rows.curve.data[rows]].all(axis=1)]
+    gap, limit = gap_at(state, rows), state.rows.limit.data[rows]
+    for i in np.flatnonzero(gap > limit).tolist():
+        text = (
+            f"its curves pass {1e3 * gap[i]:.2f} mm apart, over the limit of "
+            f"{1e3 * limit[i]:.2f} mm: pull here, or place a point on the curve of higher rank"
+        )
+        yield row_finding(state, book, int(rows[i]), "gap", text, float(gap[i]))
+
+
+def _rings(state: HullState, _: AddressBook) -> Iterator[Finding]:
+    """Driven links that run in a ring."""
+    try:
+        driven_levels(state)
+    except RingError as error:
+        yield Finding("ring", error.path[0], None, float(len(error.path) - 1), str(error))
+
+
+_LOOKS: tuple[Callable[[HullState, AddressBook], Iterator[Finding]], ...] = (
+    _broken,
+    find_shape,
+    find_sense,
+    _gaps,
+    find_links,
+    find_associations,
+    find_off_features,
+    find_detached,
+    _rings,
+)

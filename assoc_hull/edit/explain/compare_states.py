@@ -1,0 +1,240 @@
+"""Two states of a hull side by side: which lines differ, how far, and the principal numbers.
+
+Lines are told apart by their keys. A state of the history is reached by walking: the writes of
+steps are run backward and forward over the tables, and at the end these are as they were, whatever
+happens in between; the document learns nothing of it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Sequence
+
+import attrs
+
+from assoc_hull.analysis.hydrostatics.flotation import even_keel_displacement
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.step import Step
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.geometry.splines.distance import OwnedCurves, farthest_points, identical_curves
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.kinds import Sort
+from assoc_hull.model.tables import HullState, copy_state
+
+__all__ = [
+    "PRESENT_STATE",
+    "Comparison",
+    "LineDifference",
+    "StateWalk",
+    "compare_labelled",
+    "compare_states",
+    "state_at",
+    "walk_states",
+]
+
+# --------------------------------------------------------------------------------------
+# Two states of a hull side by side: which lines differ, how far, and the principal numbers.
+
+
+@attrs.frozen
+class LineDifference:
+    """How a line differs between two states.
+
+    Attributes
+    ----------
+    line : str
+        Its name.
+    what : {"moved", "added", "removed", "renamed"}
+        How it differs; a line that moved may have another name as well.
+    distance : float, m
+        The largest distance of either form of it from the other; 0 if it did not move.
+    place : (float, float, float) or None, m
+        Where that is, on the line as it is after.
+    """
+
+    line: str
+    what: str
+    distance: float = 0.0
+    place: tuple[float, float, float] | None = None
+
+    def __str__(self) -> str:
+        if self.place is None:
+            return f"{self.line}: {self.what}"
+        x, y, z = self.place
+        return f"{self.line}: {1e3 * self.distance:.3f} mm at ({x:.3f}, {y:.3f}, {z:.3f}) m"
+
+
+@attrs.frozen
+class Comparison:
+    """Two states of a hull side by side.
+
+    Attributes
+    ----------
+    states : (str, str)
+        What they are called.
+    lines : tuple of LineDifference
+        Lines that differ, those that moved farthest first.
+    numbers : dict of str to (float or None, float or None)
+        Principal numbers in both states, those that differ: dimensions (m), ``volume`` (m3)
+        and ``lcb`` (m from AP, + forward) at the design draught, counts of lines and points.
+        None where there are not sections enough.
+    names : (str, str)
+        Name of the ship in both.
+    decks : (str, str)
+        The deck in both: open or closed.
+    """
+
+    states: tuple[str, str]
+    lines: tuple[LineDifference, ...]
+    numbers: dict[str, tuple[float | None, float | None]]
+    names: tuple[str, str]
+    decks: tuple[str, str]
+
+    def __str__(self) -> str:
+        many = "1 line differs" if len(self.lines) == 1 else f"{len(self.lines)} lines differ"
+        head = f"{self.states[0]} -> {self.states[1]}: {many}"
+        told = [head, *(f"  {line}" for line in self.lines)]
+        for name, (old, new) in self.numbers.items():
+            change = "" if old is None or new is None else f" ({new - old:+.6g})"
+            told.append(f"  {name}: {_plain(old)} -> {_plain(new)}{change}")
+        for name, (was, now) in (("name", self.names), ("deck", self.decks)):
+            if was != now:
+                told.append(f"  {name}: {was} -> {now}")
+        return "\n".join(told)
+
+
+def _plain(number: float | None) -> str:
+    return "unknown" if number is None else f"{number:.10g}"
+
+
+def compare_states(before: HullState, after: HullState, states: tuple[str, str]) -> Comparison:
+    """Compare two states of a hull, or two hulls; lines are told apart by their keys.
+
+    Parameters
+    ----------
+    before, after : HullState
+        The tables.
+    states : (str, str)
+        What they are called.
+
+    Returns
+    -------
+    Comparison
+    """
+    old, new = (_lines(state) for state in (before, after))
+    found = [LineDifference(old[key][0], "removed") for key in old if key not in new]
+    found += [LineDifference(new[key][0], "added") for key in new if key not in old]
+    found += _differences([(old[key], new[key]) for key in new if key in old])
+    order = sorted(found, key=lambda each: (-each.distance, each.what, each.line))
+    one, two = _numbers(before), _numbers(after)
+    numbers = {name: (one[name], two[name]) for name in one if one[name] != two[name]}
+    ship, other = before.particulars, after.particulars
+    words = (ship.name, other.name), (ship.deck, other.deck)
+    return Comparison(states, tuple(order), numbers, *words)
+
+
+Pieces = tuple[str, list[SplineBatch]]
+
+
+def _lines(state: HullState) -> dict[str, Pieces]:
+    """Give name and splines of each line that has a shape, by key."""
+    book, found = AddressBook(state), dict[str, Pieces]()
+    for line in state.live("lines").tolist():
+        splines = [state.spline(curve) for curve in state.curves_of(line)]
+        if splines:
+            found[str(state.lines.key.data[line])] = book.line_name(line), splines
+    return found
+
+
+def _differences(pairs: Sequence[tuple[Pieces, Pieces]]) -> Iterator[LineDifference]:
+    """Say how lines of both differ, those that do."""
+    moved = [pair for pair in pairs if not identical_curves(pair[0][1], pair[1][1])]
+    far = farthest_points(*(OwnedCurves.of([pair[k][1] for pair in moved]) for k in (0, 1)))
+    for (_, new), place, distance in zip(moved, far.other.tolist(), far.distance, strict=True):
+        x, y, z = place
+        yield LineDifference(new[0], "moved", float(distance), (x, y, z))
+    for old, new in pairs:
+        if old[0] != new[0]:
+            yield LineDifference(f"{old[0]} -> {new[0]}", "renamed")
+
+
+def _numbers(state: HullState) -> dict[str, float | None]:
+    """Give the principal numbers of a state."""
+    ship, sort = state.particulars, state.rows.sort.data[state.live("rows")]
+    found: dict[str, float | None] = {
+        name: getattr(ship, name) for name in ("length", "breadth", "depth", "draught")
+    }
+    try:
+        measured = even_keel_displacement(state)
+        found |= {"volume": measured.volume, "lcb": measured.lcb}
+    except BadInputError:
+        found |= {"volume": None, "lcb": None}
+    found["lines"] = float(len(state.live("lines")))
+    for each in Sort:
+        found[f"{each.name.lower()} points"] = float((sort == each).sum())
+    return found
+
+
+# --------------------------------------------------------------------------------------
+# The hull as it was after any step, beside the hull as it is.
+
+PRESENT_STATE = "the present state"
+
+
+class StateWalk:
+    """Brings the tables of a hull from one state to another; the document learns nothing of it."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.way: list[Step] = list(document.history)
+
+    def go(self, number: int) -> None:
+        """Go to the state after the step with a number, 0 for the hull as it came."""
+        target = self.document.path(number)
+        there = {step.number for step in target}
+        while self.way and self.way[-1].number not in there:
+            self.way.pop().journal.back()
+        for step in target[len(self.way) :]:
+            step.journal.forth()
+            self.way.append(step)
+
+
+@contextlib.contextmanager
+def walk_states(document: Document) -> Iterator[StateWalk]:
+    """Walk through the history; at the end the tables are as they were, whatever happens.
+
+    Raises
+    ------
+    BadInputError
+        An edit is open.
+    """
+    document.require_ended("the history")
+    document.begin(keep=False)
+    walk = StateWalk(document)
+    try:
+        yield walk
+    finally:
+        walk.go(document.head)
+        document.end(keep=False)
+
+
+def state_at(document: Document, number: int) -> HullState:
+    """Give a copy of the tables as they were after a step, 0 for the hull as it came."""
+    with walk_states(document) as walk:
+        walk.go(number)
+        return copy_state(document.state)
+
+
+def compare_labelled(document: Document, before: str, after: str | None = None) -> Comparison:
+    """Compare two named states, or one with the present state if `after` is None.
+
+    Raises
+    ------
+    UnknownNameError
+        There is no such checkpoint or branch.
+    """
+    old = state_at(document, document.labelled(before))
+    if after is None:
+        return compare_states(old, document.state, (before, PRESENT_STATE))
+    return compare_states(old, state_at(document, document.labelled(after)), (before, after))

@@ -1,0 +1,700 @@
+"""The errors this package raises: one small family, each also the fitting builtin.
+
+Every message says what is wrong, where, how much, and what to do; the same facts are fields
+of the exception, so a program need not read the text. `AssocHullError` is the root; each
+error is also a `ValueError`, `KeyError`, `OSError` or the like. First come those that
+many parts raise, then those of one subject: form-parameter curves, classical curves, aiming,
+meshes, curvature regions.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import attrs
+
+__all__ = [
+    "AbsentParameterError",
+    "AssocHullError",
+    "BadInputError",
+    "CoincidentPointsError",
+    "DamagedFileError",
+    "DanglingArcError",
+    "DegenerateEndsError",
+    "DependentTargetsError",
+    "FileBusyError",
+    "FoldError",
+    "ForeignPointError",
+    "FreedomError",
+    "GeometryError",
+    "HullFileError",
+    "MissingExtraError",
+    "NameTakenError",
+    "NoMeetingError",
+    "NoMiddleVertexError",
+    "OpenMeshError",
+    "OpenNetError",
+    "OutOfRangeError",
+    "PointRoleError",
+    "RefusedEditError",
+    "RingError",
+    "StaleHullError",
+    "TooFewFreeError",
+    "TooFewPointsError",
+    "UnknownNameError",
+    "UnreachableError",
+    "WrongTypeError",
+]
+
+# --------------------------------------------------------------------------------------
+# The root of the errors, and all of them that no subject has to itself.
+
+
+class AssocHullError(Exception):
+    """The root of the family: catch this to catch every error the package raises."""
+
+
+@attrs.define(slots=False, eq=False)
+class BadInputError(AssocHullError, ValueError):
+    """A value handed in cannot be used.
+
+    Attributes
+    ----------
+    what : str
+        What is wrong, with the number.
+    where : str
+        The object, file row or argument that holds the value.
+    remedy : str
+        What to do about it.
+    """
+
+    what: str
+    where: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.what}, {self.where}; {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class NeedsCadError(BadInputError):
+    """A file holds surfaces that only a CAD kernel takes apart, such as trimmed ones."""
+
+
+@attrs.define(slots=False, eq=False)
+class WrongTypeError(BadInputError, TypeError):
+    """A value of another type than can be used."""
+
+
+@attrs.define(slots=False, eq=False)
+class AbsentParameterError(BadInputError, KeyError):
+    """A parameter was asked for that this hull does not have."""
+
+
+def _span(least: float, most: float, unit: str) -> str:
+    """Give an interval in words; an infinite end is not told."""
+    unit = f" {unit}" if unit else ""
+    if math.isinf(most):
+        return f"from {least:.8g}{unit} up"
+    if math.isinf(least):
+        return f"up to {most:.8g}{unit}"
+    return f"from {least:.8g} to {most:.8g}{unit}"
+
+
+@attrs.define(slots=False, eq=False)
+class OutOfRangeError(AssocHullError, ValueError):
+    """A number lies outside the range that has a meaning for this hull.
+
+    Attributes
+    ----------
+    name, where : str
+        Of the number: what it is, and for what else given.
+    value : float
+        As it was given.
+    least, most : float
+        The admissible range.
+    unit : str
+        Of the three numbers.
+    why : str
+        What is wrong with the value.
+    """
+
+    name: str
+    value: float
+    where: str
+    why: str
+    least: float
+    most: float
+    unit: str
+
+    def __str__(self) -> str:
+        size = f"{self.value:.8g} {self.unit}".rstrip()
+        what = f"{self.name} of {size} {self.why}".rstrip()
+        return f"{what}, {self.where}; give one {_span(self.least, self.most, self.unit)}"
+
+
+@attrs.define(slots=False, eq=False)
+class DamagedFileError(BadInputError):
+    """A hull file that does not hold what was written to it."""
+
+
+@attrs.define(slots=False, eq=False)
+class HullFileError(AssocHullError, OSError):
+    """A file could not be reached, read or written; what was in it is there still."""
+
+    path: str
+    what: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.what}, at {self.path}; {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class FileBusyError(AssocHullError, TimeoutError):
+    """Another process is writing to a hull file; `waited` says for how long (s) it was waited."""
+
+    path: str
+    waited: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.path} is being edited by another process (waited {self.waited:g} s); "
+            "try again, or open it with a longer wait"
+        )
+
+
+@attrs.define(slots=False, eq=False)
+class StaleHullError(AssocHullError, RuntimeError):
+    """A hull file has moved on since it was opened, by edits `newer`; nothing was changed."""
+
+    path: str
+    newer: tuple[str, ...]
+
+    def __str__(self) -> str:
+        count = len(self.newer)
+        what = f"{count} edit(s), the last {self.newer[-1]!r}" if count else "an undo or a redo"
+        return (
+            f"{self.path} has moved on since it was opened, by {what}; "
+            "call refresh() and look at the hull again before you edit it"
+        )
+
+
+@attrs.define(slots=False, eq=False)
+class TooFewPointsError(AssocHullError, ValueError):
+    """A curve has fewer than two points."""
+
+    curve: str
+    count: int
+
+    def __str__(self) -> str:
+        return f"{self.curve} has {self.count} defining point(s); a curve needs two or more"
+
+
+@attrs.define(slots=False, eq=False)
+class CoincidentPointsError(AssocHullError, ValueError):
+    """Two neighbouring points of one curve lie closer than they may (m)."""
+
+    curve: str
+    position: tuple[float, float, float]
+    distance: float
+    limit: float
+
+    def __str__(self) -> str:
+        x, y, z = self.position
+        return (
+            f"two neighbouring points of {self.curve} at ({x:.4f}, {y:.4f}, {z:.4f}) m lie "
+            f"{self.distance:.3g} m apart, closer than {self.limit:.3g} m; delete one of them"
+        )
+
+
+@attrs.define(slots=False, eq=False)
+class NameTakenError(AssocHullError, ValueError):
+    """A name that must be unique is in use."""
+
+    kind: str
+    name: str
+
+    def __str__(self) -> str:
+        return f"a {self.kind} named {self.name!r} exists already; choose another name"
+
+
+@attrs.define(slots=False, eq=False)
+class UnknownNameError(AssocHullError, KeyError):
+    """No object of this kind has this name or id."""
+
+    kind: str
+    name: str
+    known: tuple[str, ...] = ()
+    meant: str = ""
+
+    def __str__(self) -> str:
+        import difflib  # a message only: what merely starts does not wait for it
+
+        if self.meant:
+            return f"there is no {self.kind} named {self.name!r}; it is called {self.meant!r}"
+        near = difflib.get_close_matches(str(self.name), self.known, n=3, cutoff=0.4)
+        hint = "the nearest names are " + ", ".join(map(repr, near)) if near else "list them first"
+        return f"there is no {self.kind} named {self.name!r}; {hint}"
+
+
+@attrs.define(slots=False, eq=False)
+class FreedomError(AssocHullError, ValueError):
+    """A point was to be moved along a coordinate in which it is not free."""
+
+    point: str
+    asked: tuple[str, ...]
+    free: tuple[str, ...]
+
+    def __str__(self) -> str:
+        asked, free = ", ".join(self.asked) or "nothing", ", ".join(self.free) or "nothing"
+        return f"{self.point} is free along {free}, and {asked} was asked; give exactly {free}"
+
+
+@attrs.define(slots=False, eq=False)
+class PointRoleError(AssocHullError, ValueError):
+    """The role of a point forbids the edit: it is computed, or it is a crossing.
+
+    Attributes
+    ----------
+    point, role : str
+        The point and its present role.
+    driver : str or None
+        The curve that the point is computed from.
+    remedy : str
+        The ways out.
+    """
+
+    point: str
+    role: str
+    driver: str | None
+    remedy: str
+
+    def __str__(self) -> str:
+        source = f", computed from {self.driver}" if self.driver else ""
+        return f"{self.point} is {self.role}{source}; {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class ForeignPointError(AssocHullError, ValueError):
+    """A handle belongs to another hull, or its object has gone."""
+
+    handle: str
+
+    def __str__(self) -> str:
+        return f"{self.handle} does not exist in this hull (any more); look it up again"
+
+
+@attrs.define(slots=False, eq=False)
+class NoMeetingError(AssocHullError, ValueError):
+    """A plane or line meets nothing where it was asked to, or `touches` an end only."""
+
+    what: str
+    nearest: float
+    remedy: str
+    touches: bool = False
+
+    def __str__(self) -> str:
+        if self.touches:
+            return f"{self.what} only touches what it was to cut; {self.remedy}"
+        return f"{self.what} meets nothing (nearest {self.nearest:.4g} m away); {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class RingError(AssocHullError, ValueError):
+    """Driven links would run in a ring; `path` names the nodes, first again at the end."""
+
+    path: tuple[str, ...]
+
+    def __str__(self) -> str:
+        ring = " -> ".join(self.path)
+        return f"these drive one another in a ring: {ring}; make one of the links two-way"
+
+
+@attrs.define(slots=False, eq=False)
+class RefusedEditError(AssocHullError, RuntimeError):
+    """An edit would have left the hull inconsistent; nothing was changed.
+
+    Attributes
+    ----------
+    edit : str
+        The name of the edit.
+    findings : tuple of str
+        Every reason, each naming curve, crossing, cause and number.
+    """
+
+    edit: str
+    findings: tuple[str, ...]
+
+    def __str__(self) -> str:
+        more = f" (and {len(self.findings) - 1} more)" if len(self.findings) > 1 else ""
+        return f"edit {self.edit!r} refused, the hull is unchanged: {self.findings[0]}{more}"
+
+
+@attrs.define(slots=False, eq=False)
+class FoldError(AssocHullError, ValueError):
+    """A map would fold the hull, or come too near to it; nothing was changed.
+
+    Attributes
+    ----------
+    reason : {"folds", "thin", "undecided"}
+    minor : str
+        The minor of the Jacobian that is too small: ``"Z_z"`` is by how much heights stretch.
+    least, margin : float
+        Its value at the witness, and what it must reach.
+    witness : (float, float, float), m
+        Where.
+    layer, field : str
+        Of the map; the field is empty if there is none.
+    between : tuple of (str, float)
+        Boundary curves of the field below and above the witness, with their heights, m.
+    node : float or None, m
+        The nearest node along the ship.
+    interval, unit : (float, float) or None, {"m", "deg"}
+        Between these values the named parameter at fault may be asked for alone; infinite where
+        nothing ends it.
+    part : float or None
+        So much of all changes that were asked for together is allowed, if each alone is.
+    """
+
+    reason: str
+    minor: str
+    least: float
+    margin: float
+    witness: tuple[float, float, float]
+    layer: str
+    field: str = ""
+    between: tuple[tuple[str, float], ...] = ()
+    node: float | None = None
+    interval: tuple[float, float] | None = None
+    unit: str = "m"
+    part: float | None = None
+
+    def __str__(self) -> str:
+        x, y, z = self.witness
+        at = f"x={x:.3f}" + (f" y={y:.3f}" if y else "") + f" z={z:.3f}"
+        text = f"variation: '{self.field or self.layer}' {self._verdict()} at {at}"
+        text += f" ({self.minor}={self.least:.3f})"
+        if self.between:
+            walls = " and ".join(f"'{name}' ({height:.3f})" for name, height in self.between)
+            text += f" {'between' if len(self.between) > 1 else 'beyond'} {walls}"
+        if self.node is not None:
+            text += f", node x={self.node:.3f}"
+        return f"{text}; {self._remedy()}"
+
+    def _verdict(self) -> str:
+        words = {"folds": "folds", "thin": f"leaves less than {self.margin:g}"}
+        return words.get(self.reason, "is not decided: bounds too wide")
+
+    def _remedy(self) -> str:
+        if self.part is not None:
+            return f"not beside the others asked for: admissible {100.0 * self.part:.3g} % of each"
+        if self.interval is not None:
+            low, high = (
+                inward(1e3 * end) / 1e3 if math.isfinite(end) else end
+                for inward, end in zip((math.ceil, math.floor), self.interval, strict=True)
+            )
+            return f"admissible {self.field or self.layer} {_span(low, high, self.unit)}"
+        return "ask for less, or let the field reach further"
+
+
+@attrs.define(slots=False, eq=False)
+class MissingExtraError(AssocHullError, ImportError):
+    """An optional library is not installed."""
+
+    library: str
+    extra: str
+
+    def __str__(self) -> str:
+        return f"{self.library} is not installed; run: pip install 'assoc-hull[{self.extra}]'"
+
+
+# --------------------------------------------------------------------------------------
+# The errors of form-parameter curves: no middle vertex gives what was asked for.
+
+
+@attrs.define(slots=False, eq=False)
+class DegenerateEndsError(AssocHullError, ValueError):
+    """The area under a form-parameter curve does not depend on its middle vertex.
+
+    Attributes
+    ----------
+    where : str
+        The curve.
+    area : float
+        As asked for, in square units of the plane.
+    only : float
+        The one area that the curve has with these ends.
+    """
+
+    where: str
+    area: float
+    only: float
+
+    def __str__(self) -> str:
+        return (
+            f"the two ends leave the area at {self.only:.8g} whatever the middle vertex, and "
+            f"{self.area:.8g} was asked for, in {self.where}; change a tangent length or an angle"
+        )
+
+
+@attrs.define(slots=False, eq=False)
+class NoMiddleVertexError(AssocHullError, ValueError):
+    """Area and centroid of a form-parameter curve cannot both be met.
+
+    Attributes
+    ----------
+    where : str
+        The curve.
+    area, centroid : float
+        As asked for; the centroid is the abscissa of that of the area.
+    nearest : float
+        The nearest centroid that can be reached with this area and these ends.
+    discriminant : float
+        Of the quadratic equation for the middle vertex, in its own units: below 0.
+    """
+
+    where: str
+    area: float
+    centroid: float
+    nearest: float
+    discriminant: float
+
+    def __str__(self) -> str:
+        way = "up" if self.nearest > self.centroid else "down"
+        return (
+            f"area {self.area:.8g} and centroid {self.centroid:.8g} cannot both be met, in "
+            f"{self.where}; with this area and these ends give a centroid from "
+            f"{self.nearest:.8g} {way}"
+        )
+
+
+# --------------------------------------------------------------------------------------
+# The error of classical curves and definitions: what is given makes no curve.
+
+
+@attrs.define(slots=False, eq=False)
+class GeometryError(AssocHullError, ValueError):
+    """A classical curve, section or definition cannot be made of what is given.
+
+    Attributes
+    ----------
+    what : str
+        What is wrong, with its numbers; begins with the kind of object ("biarc: ...").
+    remedy : str
+        What to do about it.
+    values : mapping of str to object
+        The numbers of the message by name.
+    where : str
+        Line of a file or name of an object, where one is known; else empty.
+    """
+
+    what: str
+    remedy: str
+    values: Mapping[str, object] = attrs.field(factory=dict)
+    where: str = ""
+
+    def __str__(self) -> str:
+        place = f", {self.where}" if self.where else ""
+        return f"{self.what}{place}; {self.remedy}"
+
+    def at(self, where: str) -> GeometryError:
+        """Give the same error with the place it was found at, unless it has one."""
+        return GeometryError(self.what, self.remedy, self.values, self.where or where)
+
+
+# --------------------------------------------------------------------------------------
+# The errors of aiming: what cannot be reached, and why.
+
+
+@attrs.define(slots=False, eq=False)
+class TooFewFreeError(AssocHullError, ValueError):
+    """There are more targets than free parameters; numbers of both."""
+
+    targets: int
+    free: int
+
+    def __str__(self) -> str:
+        return (
+            f"aim: {self.targets} targets need at least {self.targets} free parameters for an "
+            f"exact answer ({self.free} given); best compromise returned only with exact=False"
+        )
+
+
+@attrs.define(slots=False, eq=False)
+class DependentTargetsError(AssocHullError, ValueError):
+    """Free parameters move some targets only together, or one not at all; nothing was changed.
+
+    Attributes
+    ----------
+    targets : tuple of str
+        Their names; one name where nothing moves it.
+    condition : float
+        Of the scaled derivatives; infinite where they have no full rank.
+    """
+
+    targets: tuple[str, ...]
+    condition: float
+
+    def __str__(self) -> str:
+        if len(self.targets) == 1:
+            return f"aim: no free parameter moves {self.targets[0]}; drop it or free another one"
+        size = f"{self.condition:.0e}".replace("e+0", "e").replace("e+", "e")
+        return (
+            f"aim: targets {_in_words(self.targets)} move together (condition {size}); drop one "
+            "or free another parameter"
+        )
+
+
+@attrs.define(slots=False, eq=False)
+class UnreachableError(AssocHullError, ValueError):
+    """A target cannot be reached by what is free; nothing was changed.
+
+    Attributes
+    ----------
+    target, unit : str
+        The one that is farthest from what was asked, in the scale of its usual size; "-" and
+        nothing stand for no unit.
+    asked, best, before : float
+        Asked for, of the nearest hull, and of the parent.
+    bounds : tuple of str
+        Free parameters at their bounds.
+    why : str
+        What keeps the hull from coming nearer where no bound does; may be empty.
+    """
+
+    target: str
+    unit: str
+    asked: float
+    best: float
+    before: float
+    bounds: tuple[str, ...] = ()
+    why: str = ""
+
+    @property
+    def shortfall(self) -> float:
+        """How far the nearest hull is above what was asked, in per cent of the parent."""
+        return 100.0 * (self.best - self.asked) / abs(self.before) if self.before else float("inf")
+
+    def __str__(self) -> str:
+        unit = f" {self.unit}" if self.unit not in ("", "-") else ""
+        digits = next(
+            (n for n in (6, 8, 10, 12) if f"{self.asked:.{n}g}" != f"{self.best:.{n}g}"), 17
+        )
+        short = f" ({self.shortfall:+.3g} % of the parent)" if self.before else ""
+        return (
+            f"aim: cannot reach {self.target} {self.asked:.{digits}g}{unit}: best "
+            f"{self.best:.{digits}g}{unit}{short}{self._reason()}"
+        )
+
+    def _reason(self) -> str:
+        parts = list[str]()
+        if self.bounds:
+            end = "at its bound" if len(self.bounds) == 1 else "at their bounds"
+            parts.append(f", {_in_words(self.bounds)} {end}")
+        if self.why:
+            parts.append(f"; {self.why}")
+        return "".join(parts) or "; free another parameter, or ask for less"
+
+
+def _in_words(names: tuple[str, ...]) -> str:
+    """Give names as one speaks them: A, B and C."""
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+# --------------------------------------------------------------------------------------
+# Errors of meshes of a hull: lines that enclose nothing, triangles that do not close.
+
+_SHOWN = 4
+
+
+@attrs.define(slots=False, eq=False)
+class OpenNetError(AssocHullError, ValueError):
+    """The lines of a hull do not part its surface into cells.
+
+    Attributes
+    ----------
+    what : str
+        What is wrong.
+    findings : tuple of str
+        The lines or crossings at fault, each with its place; none where none could be found.
+    remedy : str
+        What to do.
+    """
+
+    what: str
+    findings: tuple[str, ...]
+    remedy: str
+
+    def __str__(self) -> str:
+        shown = ", ".join(self.findings[:_SHOWN])
+        left = len(self.findings) - _SHOWN
+        more = f" and {left} more" if left > 0 else ""
+        told = f": {shown}{more}" if shown else ""
+        return f"the lines do not part the hull into cells: {self.what}{told}; {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class OpenMeshError(AssocHullError, RuntimeError):
+    """A mesh that is not closed has no volume, and is not written.
+
+    Attributes
+    ----------
+    asked : str
+        What was asked of it.
+    edges : int
+        How many edges are not those of two triangles, once in each sense.
+    place : (float, float, float), m
+        Where the first of them is.
+    remedy : str
+        What to do.
+    """
+
+    asked: str
+    edges: int
+    place: tuple[float, float, float]
+    remedy: str
+
+    def __str__(self) -> str:
+        at = ", ".join(f"{each:.3f}" for each in self.place)
+        return (
+            f"{self.asked} of a mesh with {self.edges} open edges, the first at ({at}) m; "
+            f"{self.remedy}"
+        )
+
+
+# --------------------------------------------------------------------------------------
+# The error of curvature regions: a line of the zero set breaks off.
+
+
+@attrs.define(slots=False, eq=False)
+class DanglingArcError(AssocHullError, ArithmeticError):
+    """A line of the zero set breaks off inside a patch, at nothing that explains it.
+
+    Attributes
+    ----------
+    count : int
+        How many ends break off.
+    surface, patch : int
+        Where the first of them lies.
+    uv : (float, float)
+        Its parameters on the surface.
+    gap : float
+        How far the nearest other end is, in parameters of the patch; infinite where there is none.
+    """
+
+    count: int
+    surface: int
+    patch: int
+    uv: tuple[float, float]
+    gap: float
+
+    def __str__(self) -> str:
+        which = "an end" if self.count == 1 else f"{self.count} ends"
+        return (
+            f"{which} of lines of the zero set break off, the first on surface {self.surface}, "
+            f"patch {self.patch}, at u = {self.uv[0]:.9g}, v = {self.uv[1]:.9g}, {self.gap:.3g} of "
+            "the patch from the next end; give a larger delta (the uncertainty of control "
+            "points), so that noise is taken as nil"
+        )

@@ -1,0 +1,358 @@
+"""Untrimmed spline surfaces of an IGES file, moved to where they belong, in metres.
+
+A face whose border is that of its surface counts as untrimmed. Whatever else bounds a face needs
+OpenCASCADE, and the error says so.
+
+Source: IGES 5.3 (US PRO, 1996), section 4.24 (entity 128).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from itertools import chain
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.errors import BadInputError, NeedsCadError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.io.iges.entities import (
+    IDENTITY,
+    IgesSurface,
+    Transformation,
+    name_property,
+    readable_name,
+    scale_note,
+    spline_curve,
+    spline_surface,
+    transformation_of,
+    unit_of,
+)
+from assoc_hull.io.iges.file import IgesFile, IgesRecord
+from assoc_hull.io.iges.surface_entities import SurfaceEntity, surface_entities, unread_notes
+
+__all__ = [
+    "Box",
+    "borders_of_face",
+    "is_box",
+    "parameter_curves",
+    "surfaces_of_iges",
+]
+
+# --------------------------------------------------------------------------------------
+# Whether the border of a face is that of its surface: then it is not trimmed.
+#
+# A border is given as curves in the parameters of the surface. The control points of a spline
+# enclose
+# it, so a piece between two knots whose control points lie on one side of the box of the parameters
+# lies there as well; and a border on the sides of the box that covers all four of them is the box.
+# Nothing is sampled.
+#
+# Source: IGES 5.3 (US PRO, 1996), sections 4.33 to 4.35 (141 to 144), 4.145 and 4.147 (508, 510).
+
+Box = tuple[tuple[float, float], tuple[float, float]]
+
+_NEAR = 1e-6
+"""So far from a side, as a part of the box, digits that a file leaves out may put a point."""
+
+_MOST = 10_000
+_AGAIN = "export the file again"
+
+
+def is_box(pieces: list[FloatArray], box: Box, points: NDArray[np.bool_] | None = None) -> bool:
+    """Tell whether pieces of a closed border are the sides of a box.
+
+    Parameters
+    ----------
+    pieces : list of (k, 2)
+        Control points of each piece.
+    box : ((float, float), (float, float))
+        The least and greatest u, and v.
+    points : (2, 2) bool or None
+        Whether the surface is a point along the side of least u, greatest u, least v, greatest v:
+        of such a side a border need not speak.
+    """
+    low, high = (np.array(ends) for ends in zip(*box, strict=True))
+    covered = np.zeros((2, 2)) if points is None else points.astype(np.float64)
+    for piece in pieces:
+        place = (piece - low) / (high - low)
+        on = (np.abs(place[:, :, None] - [0.0, 1.0]) < _NEAR).all(axis=0)
+        if not (on.any() and (np.abs(place - 0.5) < 0.5 + _NEAR).all()):
+            return False
+        covered += on * np.abs(place[-1] - place[0])[::-1, None]
+    return bool((covered > 1.0 - 10.0 * _NEAR).all())
+
+
+def parameter_curves(file: IgesFile, number: int, met: tuple[int, ...] = ()) -> list[FloatArray]:
+    """Give a curve in the parameters of a surface in pieces, each inside its control points.
+
+    Parameters
+    ----------
+    file : IgesFile
+        The file.
+    number : int
+        Of a line (110), polyline (106), spline (126), or a chain of such (102).
+    met : tuple of int
+        The chains that it is a part of.
+
+    Returns
+    -------
+    list of (k, 2)
+        Control points; empty if it is a curve of another kind.
+
+    Raises
+    ------
+    BadInputError
+        A damaged curve, or a chain that is a part of itself.
+    """
+    record = file.record(number)
+    if number in met or len(met) > 20:
+        raise BadInputError("chains of curves run in a ring", record.where, _AGAIN)
+    entry = file.entries[number]
+    if entry.kind == 102:
+        count = record.count(1, "the number of curves", _MOST)
+        parts = record.pointers(2, count, "the curves")
+        found: list[FloatArray] = []
+        for each in parts:
+            more = parameter_curves(file, each, (*met, number))
+            if not more:
+                return []
+            found += more
+            if len(found) > _MOST:  # chains of chains grow without end, and no border has so many
+                what = f"a border has more than {_MOST} pieces"
+                raise BadInputError(what, record.where, _AGAIN)
+        return found
+    pieces = _pieces(record, entry.kind, entry.form)
+    motion = transformation_of(file, entry.transformation)
+    return [motion.of(piece)[:, :2] for piece in pieces]
+
+
+def _pieces(record: IgesRecord, kind: int, form: int) -> list[FloatArray]:
+    """Give the pieces (k, 3) of one curve; none if its kind does not tell them."""
+    if kind == 110:
+        return [record.reals(1, 6, "the line").reshape(2, 3)]
+    if kind == 106 and form in (1, 2, 11, 12, 63):
+        return _legs(_polyline(record))
+    if kind != 126:
+        return []
+    curve = spline_curve(record)
+    d, knots = curve.degree, curve.knots
+    first, last = curve.span
+    held = [
+        i for i in range(d, len(curve.points))
+        if knots[i] < knots[i + 1] and knots[i + 1] > first and knots[i] < last
+    ]  # fmt: skip
+    return [curve.points[i - d : i + 1] for i in held]
+
+
+def _polyline(record: IgesRecord) -> FloatArray:
+    """Give the points (k, 3) of an entity 106: pairs at one height, or triples."""
+    kind = record.count(1, "the kind of points", 2)
+    count = record.count(2, "the number of points", _MOST)
+    if kind == 2:
+        return record.reals(3, 3 * count, "the points").reshape(count, 3)
+    flat = record.reals(4, 2 * count, "the points").reshape(count, 2)
+    return np.column_stack([flat, np.zeros(count)])
+
+
+def _legs(points: FloatArray) -> list[FloatArray]:
+    return [points[i : i + 2] for i in range(len(points) - 1)]
+
+
+def borders_of_face(file: IgesFile, number: int) -> list[list[int]] | None:
+    """Give the borders of a face, each as numbers of curves in the parameters of its surface.
+
+    Parameters
+    ----------
+    file : IgesFile
+        The file.
+    number : int
+        Of a trimmed (144), bounded (143) surface or a face (510).
+
+    Returns
+    -------
+    list of list of int, or None
+        None: the border is said to be that of the surface. Curves that are missing are 0.
+
+    Raises
+    ------
+    BadInputError
+        A damaged entity.
+    """
+    record = file.record(number)
+    match file.entries[number].kind:
+        case 144:
+            return _of_trimmed(file, record)
+        case 143:
+            count = record.count(3, "the number of borders", _MOST)
+            return [_of_boundary(file, each) for each in record.pointers(4, count, "the borders")]
+        case _:
+            count = record.count(2, "the number of borders", _MOST)
+            return [_of_loop(file, each) for each in record.pointers(4, count, "the borders")]
+
+
+def _of_trimmed(file: IgesFile, record: IgesRecord) -> list[list[int]] | None:
+    """Give the borders of a trimmed surface: curves on it, entities 142."""
+    outer = record.whole(2, "the flag of the border", default=0)
+    count = record.count(3, "the number of holes", _MOST)
+    inner = record.pointers(5, count, "the holes")
+    if not outer and not count:
+        return None
+    ring = record.pointers(4, 1, "the border") if outer else ()
+    return [[*file.record(each).pointers(3, 1, "the curve")] for each in (*ring, *inner)]
+
+
+def _of_boundary(file: IgesFile, number: int) -> list[int]:
+    """Give the curves of a boundary, entity 141."""
+    record = file.record(number)
+    count, at = record.count(4, "the number of curves", _MOST), 5
+    found: list[int] = []
+    for _ in range(count):
+        more = record.count(at + 2, "the number of parameter curves", _MOST)
+        found += record.pointers(at + 3, more, "the curves") or (0,)
+        at += 3 + more
+    return found
+
+
+def _of_loop(file: IgesFile, number: int) -> list[int]:
+    """Give the curves of a loop, entity 508: of each edge one or some, each after a flag."""
+    record = file.record(number)
+    count, at = record.count(1, "the number of edges", _MOST), 2
+    found: list[int] = []
+    for _ in range(count):
+        more = record.count(at + 4, "the number of parameter curves", _MOST)
+        found += record.pointers(at + 5, 2 * more, "the curves")[1::2] or (0,)
+        at += 5 + 2 * more
+    return found
+
+
+# --------------------------------------------------------------------------------------
+# Untrimmed spline surfaces of an IGES file, moved to where they belong, in metres.
+#
+# Source: IGES 5.3 (US PRO, 1996), section 4.24 (entity 128).
+
+Found = tuple[list[SplineSurface], str, tuple[str, ...]]
+
+
+def surfaces_of_iges(text: str, source: str, unit: str | None = None) -> Found:
+    """Read the spline surfaces of an IGES file.
+
+    Parameters
+    ----------
+    text : str
+        The file.
+    source : str
+        Its name, for messages.
+    unit : str or None
+        The unit of its lengths; None: as the file says.
+
+    Returns
+    -------
+    surfaces : list of SplineSurface
+        In the order of the file; m.
+    unit : str
+        The unit of the file.
+    notes : tuple of str
+        What was left out or done.
+
+    Raises
+    ------
+    BadInputError
+        The file is damaged, tells no unit, holds no spline surface or surfaces of other kinds, or
+        a surface is trimmed.
+    """
+    file = IgesFile.of_text(text, source)
+    name, metres, notes = unit_of(file, unit)
+    parts = surface_entities(file)
+    shown = [part for part in parts if not part.hidden]
+    if not shown:
+        raise _nothing(file, parts)
+    records = [file.record(part.surface) for part in shown]
+    data = [spline_surface(record) for record in records]
+    for part, each in zip(shown, data, strict=True):
+        _require_untrimmed(file, part, each)
+    motions = [_motion(file, part) for part in shown]
+    properties = [
+        name_property(file, record, each.after) for record, each in zip(records, data, strict=True)
+    ]
+    names = _names(file, shown, properties)
+    found = [
+        _surface(each, motion, metres, called)
+        for each, motion, called in zip(data, motions, names, strict=True)
+    ]
+    more = (*scale_note(file), *unread_notes(file, parts), *_of_motions(file, shown, motions))
+    return found, name, (*notes, *more)
+
+
+def _nothing(file: IgesFile, parts: list[SurfaceEntity]) -> BadInputError:
+    """Give the error for a file without surfaces to see."""
+    notes = " ".join(unread_notes(file, parts))
+    what = "there is no spline surface (128)" if not parts else "all surfaces are blanked"
+    return BadInputError(what, f"in {file.source}", f"export the surfaces. {notes}".strip())
+
+
+def _require_untrimmed(file: IgesFile, part: SurfaceEntity, data: IgesSurface) -> None:
+    """Refuse a face that is not all of its surface."""
+    borders = borders_of_face(file, part.face) if part.face else None
+    if borders is None:
+        return
+    entry = file.entries[part.face]
+    curves = list(chain.from_iterable(borders))
+    if not all(curves):
+        what = "its border is not given in the parameters of the surface"
+    elif len(borders) > 1:
+        what = f"it has {len(borders) - 1} holes"
+    else:
+        found = [parameter_curves(file, each) for each in curves]
+        if all(found) and is_box(list(chain.from_iterable(found)), data.spans, data.points):
+            return
+        what = "its border is not that of the whole surface"
+    raise NeedsCadError(
+        f"this surface is trimmed: {what}", file.where(entry),
+        "export the surface untrimmed; hulls of trimmed ones are read with the extra 'cad'",
+    )  # fmt: skip
+
+
+def _motion(file: IgesFile, part: SurfaceEntity) -> Transformation:
+    """Give where a surface goes, moved by itself and with what it is a part of."""
+    found = IDENTITY
+    for number in part.chain:
+        found = found.then(transformation_of(file, file.entries[number].transformation))
+        if not file.entries[number].dependent:
+            break
+    return found
+
+
+def _of_motions(
+    file: IgesFile, parts: list[SurfaceEntity], motions: list[Transformation]
+) -> tuple[str, ...]:
+    return tuple(
+        f"{file.source}: the transformation of D{part.surface} stretches by up to "
+        f"{100.0 * motion.stretch:.3g} %, where only turns are usual."
+        for part, motion in zip(parts, motions, strict=True)
+        if motion.stretch
+    )
+
+
+def _surface(data: IgesSurface, motion: Transformation, metres: float, name: str) -> SplineSurface:
+    net = motion.of(data.net)
+    if metres != 1.0:
+        net = net * metres
+    found = SplineSurface(name, data.degrees, *data.knots, net, data.weights)
+    return found if found.domain == data.spans else found.restricted(*data.spans)
+
+
+def _names(file: IgesFile, parts: list[SurfaceEntity], properties: list[str]) -> list[str]:
+    """Give each surface its name in the file, or a number; none comes twice."""
+    found: dict[str, None] = {}
+    count: Counter[str] = Counter()
+    for place, (part, owned) in enumerate(zip(parts, properties, strict=True), start=1):
+        labels = [file.entries[number].label for number in reversed(part.chain[:2])]
+        told = (readable_name(word) for word in (owned, *labels))
+        first = name = next((word for word in told if word), f"surface {place}")
+        while name in found:
+            count[first] += 1
+            name = f"{first} ({count[first] + 1})"
+        found[name] = None
+    return list(found)

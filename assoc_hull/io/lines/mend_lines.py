@@ -1,0 +1,246 @@
+"""Mending lines of points: gaps between loose ends joined, points put in order.
+
+Both cut and digitised lines come as pieces with loose ends. Ends within `Gaps.join` are joined,
+wider gaps up to `Gaps.refuse` are an error. Lines that turn back or cross themselves are put in
+order where one order is plain, and reported else.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.polylines.operations import distinct_points, order_paths, self_crossings
+from assoc_hull.io.lines.slices import GapJoin, Gaps, LinePiece
+from assoc_hull.io.reports import Notebook
+
+__all__ = [
+    "join_pieces",
+    "join_width_text",
+    "nearest_ends",
+    "put_in_order",
+    "report_crossings",
+    "report_joins",
+]
+
+# --------------------------------------------------------------------------------------
+# A plane through a shell: the pieces of the line it cuts, chained across small gaps.
+
+SAME_POINT = 1e-6
+
+
+def join_pieces(
+    name: str, pieces: list[LinePiece], gaps: Gaps
+) -> tuple[list[LinePiece], list[GapJoin]]:
+    """Join loose ends across gaps, the nearest first.
+
+    Parameters
+    ----------
+    name : str
+        The line, for the table of joins.
+    pieces : list of Piece
+        As cut.
+    gaps : Gaps
+        What is joined and what refused.
+
+    Raises
+    ------
+    BadInputError
+        Two loose ends face one another across more than `gaps.join`.
+    """
+    done: list[GapJoin] = []
+    pieces = list(pieces)
+    while True:
+        near = nearest_ends(pieces)
+        if near is None or near[0] > gaps.refuse:
+            return pieces, done
+        gap, (i, end), (j, other) = near
+        place = 0.5 * (_end(pieces[i], end) + _end(pieces[j], other))
+        x, y, z = place.tolist()
+        if gap > gaps.join:
+            raise BadInputError(
+                f"the pieces do not chain: two ends {1e3 * gap:.0f} mm apart at "
+                f"({x:.4g}, {y:.4g}, {z:.4g}) m", f"in {name}",
+                f"mend the mesh there, or give join= of {join_width_text(gap)} m or more",
+            )  # fmt: skip
+        done.append(GapJoin(name, (x, y, z), gap))
+        joined = _join(pieces[i], end, pieces[j], other) if i != j else _close(pieces[i])
+        pieces = [each for k, each in enumerate(pieces) if k not in (i, j)] + [joined]
+
+
+def join_width_text(gap: float) -> str:
+    """Write the width (m) that closes a gap, rounded up to millimetres.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.lines.mend_lines import join_width_text
+    >>> join_width_text(0.1201)
+    '0.121'
+    """
+    return f"{np.ceil(1e3 * gap) / 1e3:.3f}"
+
+
+def _end(piece: LinePiece, end: int) -> FloatArray:
+    return np.asarray(piece.points[-end])
+
+
+def nearest_ends(pieces: list[LinePiece]) -> tuple[float, tuple[int, int], tuple[int, int]] | None:
+    """Give the two loose ends that lie closest: their gap (m), and piece and end of each."""
+    loose = [
+        (i, end)
+        for i, piece in enumerate(pieces)
+        for end in (0, 1)
+        if not piece.closed and piece.ends[end] == "loose"
+    ]
+    if len(loose) < 2:
+        return None
+    place = np.array([_end(pieces[i], end) for i, end in loose])
+    owner = np.array([i for i, _ in loose])
+    short = np.array([len(pieces[i].points) < 4 for i, _ in loose])
+    first, second = np.triu_indices(len(loose), 1)
+    apart = (owner[first] != owner[second]) | ~short[first]
+    first, second = first[apart], second[apart]
+    if not len(first):
+        return None
+    step = place[first] - place[second]
+    gaps = np.sqrt((step * step).sum(axis=1))
+    best = int(gaps.argmin())
+    return float(gaps[best]), loose[int(first[best])], loose[int(second[best])]
+
+
+def _join(first: LinePiece, end: int, second: LinePiece, other: int) -> LinePiece:
+    """Put the second behind the first, each turned so that the given ends meet."""
+    a, b = first if end else first.reversed(), second.reversed() if other else second
+    points = np.concatenate([a.points, b.points])
+    kept = distinct_points(points, SAME_POINT)
+    sine: FloatArray | None = None
+    owner: IntArray | None = None
+    if a.sine is not None and b.sine is not None:
+        sine = np.concatenate([a.sine, b.sine])[kept]
+    if a.owner is not None and b.owner is not None:
+        owner = np.concatenate([a.owner, b.owner])[kept]
+    return LinePiece(points[kept], (a.ends[0], b.ends[1]), sine=sine, owner=owner)
+
+
+def _close(piece: LinePiece) -> LinePiece:
+    points = np.concatenate([piece.points, piece.points[:1]])
+    kept = distinct_points(points, SAME_POINT)
+    sine = None if piece.sine is None else np.append(piece.sine, piece.sine[0])[kept]
+    owner = None if piece.owner is None else np.append(piece.owner, piece.owner[0])[kept]
+    return LinePiece(points[kept], closed=True, sine=sine, owner=owner)
+
+
+# --------------------------------------------------------------------------------------
+# Points out of order, lines that cross themselves, joins and gaps: mended or named.
+
+_BACK = np.cos(np.deg2rad(135.0))
+"""A line that turns by more than this between two points turns back."""
+
+_STEP = 1e-4
+"""Steps shorter than this part of the extent may turn back by noise."""
+
+_MOST = 3000
+"""Longer pieces are not put in order: their points are too many to be compared in pairs."""
+
+
+def put_in_order(name: str, points: FloatArray, book: Notebook) -> FloatArray:
+    """Put the points of a piece in order where the line turns back and one order is plain.
+
+    The order is plain where joining each point with its nearest ones gives a single path that
+    turns back nowhere.
+
+    Parameters
+    ----------
+    name : str
+        The line.
+    points : (n, 3), m
+        As given, none twice in a row.
+    book : Notebook
+        Takes what was mended, or the place where the line turns back.
+    """
+    back = _turns_back(points)
+    if not len(back):
+        return points
+    x, y, z = points[back[0]].tolist()
+    where = f"turned back at ({x:.4g}, {y:.4g}, {z:.4g}) m"
+    order = _path(points) if len(points) <= _MOST else None
+    if order is not None and not len(_turns_back(points[order])):
+        moved = int((order != np.arange(len(points))).sum())
+        what = f"{where}; {moved} of {len(points)} points put in order along the line"
+        book.repair("order", name, what, moved)
+        return np.asarray(points[order])
+    what = (
+        f"{where} and at {len(back) - 1} places more; no one order is plain, left as it is: "
+        "give the points in order along the line, and a piece for each branch"
+    )
+    book.suspect("order", name, what, len(back))
+    return points
+
+
+def _turns_back(points: FloatArray) -> IntArray:
+    """Give the points at which a line turns back."""
+    step = np.diff(points, axis=0)
+    length = np.sqrt((step * step).sum(axis=1))
+    least = _STEP * float(np.ptp(points, axis=0).max(initial=0.0))
+    ahead = step / np.maximum(length, 1e-300)[:, None]
+    cosine = (ahead[1:] * ahead[:-1]).sum(axis=1)
+    long = np.minimum(length[1:], length[:-1]) > least
+    return np.asarray(np.flatnonzero((cosine < _BACK) & long) + 1)
+
+
+def _path(points: FloatArray) -> IntArray | None:
+    """Give the order along the shortest tree that joins all points, if it does not branch."""
+    from scipy.sparse.csgraph import minimum_spanning_tree
+    from scipy.spatial.distance import cdist
+
+    tree = minimum_spanning_tree(cdist(points, points)).tocoo()
+    edges = np.column_stack([tree.row, tree.col]).astype(np.int64)
+    if len(edges) != len(points) - 1 or np.bincount(edges.ravel()).max() > 2:
+        return None
+    ((order, _),) = order_paths(edges, len(points))
+    return order if np.flatnonzero(order == 0)[0] < 0.5 * len(order) else order[::-1].copy()
+
+
+def report_crossings(name: str, pieces: list[LinePiece], axis: int, book: Notebook) -> None:
+    """Tell of a line that crosses itself, with the first place.
+
+    Parameters
+    ----------
+    name : str
+        The line.
+    pieces : list of Piece
+        In the plane where coordinate `axis` is constant.
+    axis : int
+        0, 1 or 2.
+    book : Notebook
+        Takes what was found.
+    """
+    plane = [other for other in range(3) if other != axis]
+    start = np.concatenate([piece.points[:-1, plane] for piece in pieces])
+    end = np.concatenate([piece.points[1:, plane] for piece in pieces])
+    places = self_crossings(start, end)
+    if len(places):
+        letters = " ".join(f"{'xyz'[a]} = {v:.4g}" for a, v in zip(plane, places[0], strict=True))
+        what = f"the line crosses itself {len(places)} times, first at {letters} m"
+        book.suspect("self-crossing", name, what, len(places))
+
+
+def report_joins(joins: list[GapJoin], book: Notebook) -> None:
+    """Tell how many ends were joined across gaps, and the widest of these.
+
+    Parameters
+    ----------
+    joins : list of Join
+        Those that were made.
+    book : Notebook
+        Takes them as one repair.
+    """
+    wide = [join for join in joins if join.gap > 5e-3]
+    if joins:
+        widest = max(joins, key=lambda each: each.gap)
+        what = (
+            f"{len(joins)} joins, {len(wide)} of them over 5 mm, the widest "
+            f"{1e3 * widest.gap:.3g} mm in {widest.line}"
+        )
+        book.repair("join", "the lines", what, widest.gap)

@@ -1,0 +1,361 @@
+"""A closed mesh written as STL, OBJ, PLY or glTF, whole or not at all.
+
+Numbers are rounded as the form rounds them before the mesh is checked: vertices that fall together
+become one, and the mesh stays closed.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import choice, instance, text
+from assoc_hull.errors import MissingExtraError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.surfaces.triangles import Triangles, merge_vertices
+from assoc_hull.io.write_file import form_by_ending, write_whole
+from assoc_hull.surface.cells.closed_mesh import ClosedMesh, examine_mesh, require_closed
+
+__all__ = [
+    "MESH_ENDINGS",
+    "MESH_FORMS",
+    "FiledMesh",
+    "MeshFile",
+    "MeshForm",
+    "mesh_form_of",
+    "write_mesh",
+]
+
+# --------------------------------------------------------------------------------------
+# A closed mesh as files hold it: its numbers rounded as theirs, and its bytes.
+#
+# Two vertices may fall together when they are rounded; then the triangles between them have no
+# area and are left out, on both sides of the same edge, so that the mesh stays closed. That is
+# checked on what is written, not on what it was made of.
+
+_RECORD = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("more", "<u2")])
+_STL_TITLE = 80
+_DECIMALS = 6
+"""Digits behind the point of texts in m: a micrometre."""
+
+
+@attrs.frozen(eq=False)
+class FiledMesh:
+    """A mesh with the numbers that a file will hold.
+
+    Attributes
+    ----------
+    xyz : (v, 3)
+        In the unit of the file.
+    triangle : (f, 3) int
+        Counter-clockwise from outside; those of a group side by side.
+    group : (f,) int
+        A place in `names`.
+    names : tuple of str
+        The groups.
+    title : str
+        What the mesh is, for forms that can say so.
+    """
+
+    xyz: FloatArray
+    triangle: IntArray
+    group: IntArray
+    names: tuple[str, ...]
+    title: str
+
+    @classmethod
+    def of(
+        cls, mesh: ClosedMesh, scale: float, rounded: Callable[[FloatArray], FloatArray], title: str
+    ) -> FiledMesh:
+        """Round a mesh.
+
+        Parameters
+        ----------
+        mesh : ClosedMesh
+            The mesh, m.
+        scale : float
+            Units of the file in a metre.
+        rounded : callable
+            Gives numbers as the file will hold them.
+        title : str
+            What the mesh is.
+
+        Raises
+        ------
+        OpenMeshError
+            It does not close, before or after it was rounded; a half may be open in the centre
+            plane.
+        """
+        order = np.argsort(mesh.group, kind="stable")
+        found = merge_vertices(rounded(mesh.xyz * scale), mesh.triangle[order], order)
+        first, second, third = found.face.T
+        whole = (first != second) & (second != third) & (third != first)
+        face, kept = found.face[whole], order[whole]
+        used, number = np.unique(face, return_inverse=True)
+        xyz, face = found.xyz[used], number.reshape(-1, 3)
+        report = examine_mesh(xyz / scale, face)
+        if report.off_centre if mesh.half else not report.sound:
+            require_closed(report, "a file", mesh.half)
+        return cls(xyz, face, mesh.group[kept], mesh.names, title)
+
+    @property
+    def runs(self) -> list[tuple[str, IntArray]]:
+        """The triangles of each group that has any, (k, 3), with its name."""
+        parts = ((name, self.triangle[self.group == i]) for i, name in enumerate(self.names))
+        return [(name, part) for name, part in parts if len(part)]
+
+    def normals(self) -> FloatArray:
+        """Give the unit normals of the triangles, (f, 3)."""
+        vector = Triangles(self.xyz, self.triangle).area_vectors()
+        size = np.sqrt((vector**2).sum(axis=1))[:, None]
+        return np.asarray(vector / np.where(size > 0.0, size, 1.0))
+
+
+def _stl(mesh: FiledMesh) -> bytes:
+    records = np.zeros(len(mesh.triangle), _RECORD)
+    records["corner"], records["normal"] = mesh.xyz[mesh.triangle], mesh.normals()
+    # A title that begins with "solid" would make it text.
+    title = f"mesh of {mesh.title}".encode("ascii", "replace")[:_STL_TITLE].ljust(_STL_TITLE)
+    return title + len(records).to_bytes(4, "little") + records.tobytes()
+
+
+def _stl_text(mesh: FiledMesh) -> bytes:
+    normals = mesh.normals()
+    rows: list[str] = []
+    for number, name in enumerate(mesh.names):
+        mine = mesh.group == number
+        if not mine.any():
+            continue
+        rows.append(f"solid {_word(name)}")
+        places = mesh.xyz[mesh.triangle[mine]].tolist()
+        for normal, corners in zip(normals[mine].tolist(), places, strict=True):
+            rows.append(" facet normal " + " ".join(f"{each:.6f}" for each in normal))
+            rows.append("  outer loop")
+            rows += ["   vertex " + _numbers(corner) for corner in corners]
+            rows += ["  endloop", " endfacet"]
+        rows.append(f"endsolid {_word(name)}")
+    return "\n".join([*rows, ""]).encode("ascii", "replace")
+
+
+def _obj(mesh: FiledMesh) -> bytes:
+    rows = [f"# {mesh.title}", *("v " + _numbers(each) for each in mesh.xyz.tolist())]
+    for name, part in mesh.runs:
+        rows.append(f"g {_word(name)}")
+        rows += [f"f {a} {b} {c}" for a, b, c in (part + 1).tolist()]
+    return "\n".join([*rows, ""]).encode("ascii", "replace")
+
+
+def _ply(mesh: FiledMesh) -> bytes:
+    names = [f"comment group {number} {name}" for number, name in enumerate(mesh.names)]
+    head = [
+        "ply", "format binary_little_endian 1.0", f"comment {mesh.title}", *names,
+        f"element vertex {len(mesh.xyz)}", "property double x", "property double y",
+        "property double z", f"element face {len(mesh.triangle)}",
+        "property list uchar int vertex_indices", "property uchar group", "end_header", "",
+    ]  # fmt: skip
+    rows = np.zeros(
+        len(mesh.triangle), np.dtype([("many", "u1"), ("corner", "<i4", 3), ("group", "u1")])
+    )
+    rows["many"], rows["corner"], rows["group"] = 3, mesh.triangle, mesh.group
+    return (
+        "\n".join(head).encode("ascii", "replace")
+        + mesh.xyz.astype("<f8").tobytes()
+        + (rows.tobytes())
+    )
+
+
+def _glb(mesh: FiledMesh) -> bytes:
+    """Write a scene with a mesh a group; glTF has y up and looks along -z from ahead."""
+    try:
+        import trimesh
+    except ImportError as error:
+        raise MissingExtraError("trimesh", "mesh") from error
+    scene: Any = trimesh.Scene()
+    turned = np.zeros((4, 4))
+    turned[[0, 1, 2, 3], [1, 2, 0, 3]] = 1.0
+    for name, part in mesh.runs:
+        used, face = np.unique(part, return_inverse=True)
+        one = trimesh.Trimesh(mesh.xyz[used], face.reshape(-1, 3), process=False)
+        scene.add_geometry(one, node_name=name, geom_name=name, transform=turned)
+    out = io.BytesIO()
+    scene.export(out, file_type="glb")
+    return out.getvalue()
+
+
+def _numbers(values: list[float]) -> str:
+    return " ".join(f"{each:.{_DECIMALS}f}" for each in values)
+
+
+def _word(name: str) -> str:
+    """Give a name as one word."""
+    return "_".join(name.split()) or "group"
+
+
+def _single(values: FloatArray) -> FloatArray:
+    return values.astype(np.float32).astype(np.float64) + 0.0
+
+
+def _written(values: FloatArray) -> FloatArray:
+    return np.round(values, _DECIMALS) + 0.0
+
+
+def _exact(values: FloatArray) -> FloatArray:
+    return values + 0.0
+
+
+@attrs.frozen
+class MeshForm:
+    """A form of meshes.
+
+    Attributes
+    ----------
+    about : str
+        What it is, in a few words.
+    endings : tuple of str
+        Names of files that mean it.
+    dumps : callable
+        Gives the bytes of a rounded mesh.
+    rounded : callable
+        Gives numbers as the form holds them.
+    units : tuple of str
+        Units that may be chosen, the default first.
+    groups : bool
+        Whether the form tells deck from shell.
+    """
+
+    about: str
+    endings: tuple[str, ...]
+    dumps: Callable[[FiledMesh], bytes]
+    rounded: Callable[[FloatArray], FloatArray]
+    units: tuple[str, ...] = ("m", "mm")
+    groups: bool = True
+
+
+MESH_FORMS: Mapping[str, MeshForm] = MappingProxyType({
+    "stl": MeshForm("triangles in single precision", (".stl",), _stl, _single, groups=False),
+    "stl-text": MeshForm("triangles as text, a solid a group", (), _stl_text, _written),
+    "obj": MeshForm("vertices and triangles as text", (".obj",), _obj, _written),
+    "ply": MeshForm("vertices and triangles in double precision", (".ply",), _ply, _exact),
+    "glb": MeshForm("a scene for viewers, glTF 2.0", (".glb",), _glb, _single, units=("m",)),
+})  # fmt: skip
+"""The forms by name."""
+
+
+# --------------------------------------------------------------------------------------
+# A closed mesh as a file: STL, OBJ, PLY or glTF, whole or not at all.
+
+MESH_ENDINGS: Mapping[str, str] = MappingProxyType(
+    {ending: name for name, form in MESH_FORMS.items() for ending in form.endings}
+)
+"""The form that the ending of a file means."""
+
+_SCALES = {"m": 1.0, "mm": 1e3}
+_WHERE = "in a mesh file"
+
+
+@attrs.frozen
+class MeshFile:
+    """What was written of a mesh.
+
+    Attributes
+    ----------
+    path, form, unit : str
+        The file; one of `assoc_hull.io.mesh.closed_mesh.MESH_FORMS`; "m" or "mm".
+    half : bool
+        Whether it is the port half, open in the centre plane.
+    vertices, triangles : int
+        As they are in the file, equal vertices counted once.
+    left_out : int
+        Triangles of the mesh that have no area in the numbers of the file.
+    groups : tuple of str
+        Shell, deck, other covers. STL tells them in its text only.
+    volume : float or None, m3
+        What it encloses; None of a half, which encloses nothing.
+    size : int
+        Bytes.
+    """
+
+    path: str
+    form: str
+    unit: str
+    half: bool
+    vertices: int
+    triangles: int
+    left_out: int
+    groups: tuple[str, ...]
+    volume: float | None
+    size: int
+
+
+def mesh_form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
+    """Tell in which form a mesh is to be written: the one asked for, else by the ending.
+
+    Raises
+    ------
+    BadInputError
+        Neither says one.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.mesh.closed_mesh import mesh_form_of
+    >>> mesh_form_of("ship.PLY"), mesh_form_of("ship.stl", "stl-text")
+    ('ply', 'stl-text')
+    """
+    return form_by_ending(path, form, tuple(MESH_FORMS), MESH_ENDINGS, _WHERE)
+
+
+def write_mesh(
+    mesh: ClosedMesh,
+    path: str | os.PathLike[str],
+    form: str | None = None,
+    *,
+    unit: str | None = None,
+    name: str = "hull",
+) -> MeshFile:
+    """Write a mesh.
+
+    Parameters
+    ----------
+    mesh : ClosedMesh
+        Both sides of a hull, or one.
+    path : path
+        The file; what was there is replaced by the whole of it, or stays.
+    form : str or None
+        "stl", "stl-text", "obj", "ply" or "glb"; by the ending of the file if None.
+    unit : {"m", "mm"} or None
+        Of the file, m if None. No form but glTF, which is in m, says which.
+    name : str
+        What the mesh is, for forms that can say so.
+
+    Returns
+    -------
+    MeshFile
+        How much was written.
+
+    Raises
+    ------
+    OpenMeshError
+        The mesh does not close, as it is or in the numbers of the file.
+    BadInputError, MissingExtraError
+        A form or unit that is not known, a file that cannot be written; glTF without trimesh.
+    """
+    instance(mesh, ClosedMesh, "the mesh", _WHERE)
+    chosen = mesh_form_of(path, form)
+    known = MESH_FORMS[chosen]
+    used = known.units[0] if unit is None else choice(unit, "unit", known.units, _WHERE)
+    side = "port half, open in the centre plane; " if mesh.half else ""
+    title = f"{' '.join(text(name, 'the name', _WHERE).split())}: {side}unit {used}"
+    filed = FiledMesh.of(mesh, _SCALES[used], known.rounded, title)
+    data = known.dumps(filed)
+    write_whole(path, data)
+    return MeshFile(
+        os.fspath(path), chosen, used, mesh.half, len(filed.xyz), len(filed.triangle),
+        len(mesh.triangle) - len(filed.triangle), mesh.names,
+        None if mesh.half else mesh.volume, len(data),
+    )  # fmt: skip

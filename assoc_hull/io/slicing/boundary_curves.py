@@ -1,0 +1,511 @@
+"""Boundary curves through marks of neighbouring lines: knuckle lines and borders of flats.
+
+A mark is a place that one line shows, with its doubt. The curve is drawn as smooth as the doubts
+allow; then every line that crosses it gets its corner or tangent point there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch, freeze
+from assoc_hull.geometry.polylines.borders import border_bends, fit_border, order_places
+from assoc_hull.geometry.polylines.corners import Corner
+from assoc_hull.geometry.polylines.flats import fit_plane
+from assoc_hull.geometry.polylines.operations import (
+    cumulative_lengths,
+    project_on_polyline,
+    resample,
+)
+from assoc_hull.geometry.polylines.straight_runs import Onset
+from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.io.lines.slices import AXES
+from assoc_hull.io.slicing.features import (
+    FeatureRules,
+    KnuckleTrace,
+    PieceFeatures,
+    plane_columns,
+    runs_of,
+)
+from assoc_hull.io.slicing.flats import FlatFound, RimMark, find_flats
+from assoc_hull.io.slicing.smooth_lines import in_space
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
+
+__all__ = [
+    "BoundaryCurve",
+    "BoundaryMarks",
+    "draw_borders",
+    "draw_boundary_curve",
+    "draw_flats",
+    "draw_knuckles",
+    "loft_source",
+    "plane_intersections",
+]
+
+# --------------------------------------------------------------------------------------
+# Boundary curves drawn through marks: places that neighbouring lines show one by one.
+
+_OVER = 0.05
+"""By which part of its last step a border is led on beyond its last mark."""
+
+_SURE = 0.2
+"""A border is adopted within this part of the doubt of its marks."""
+
+
+@attrs.frozen(eq=False)
+class BoundaryCurve:
+    """A boundary curve made from what neighbouring lines show.
+
+    Attributes
+    ----------
+    name : str
+        Such as "flat of side" or "knuckle 1".
+    kind : BoundaryKind
+        FLAT or KNUCKLE.
+    lines : tuple of str
+        The lines whose marks it was drawn from, in order along it.
+    places : (n, 3), m
+        The curve at these marks.
+    doubt : (n,), m
+        How far each mark may lie off the border, 2 standard deviations.
+    residual : float, m
+        Largest distance of a mark from the curve.
+    taken : int
+        Tangent or knuckle points of lines that lie on it.
+    """
+
+    name: str
+    kind: BoundaryKind
+    lines: tuple[str, ...]
+    places: FloatArray
+    doubt: FloatArray
+    residual: float
+    taken: int = 0
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.places, self.doubt)
+
+
+@attrs.frozen(eq=False)
+class BoundaryMarks:
+    """Marks in order along a border.
+
+    Attributes
+    ----------
+    lines : tuple of str
+        The lines they are on.
+    places : (n, 3), m
+        Where.
+    doubt : (n,), m
+        How far each may lie off the border.
+    plane : ((3,), float) or None
+        Unit normal and offset (m) of its plane, if it has one.
+    """
+
+    lines: tuple[str, ...]
+    places: FloatArray
+    doubt: FloatArray
+    plane: tuple[FloatArray, float] | None
+
+    def reversed(self) -> BoundaryMarks:
+        """Give the marks the other way round."""
+        return BoundaryMarks(
+            self.lines[::-1], self.places[::-1].copy(), self.doubt[::-1].copy(), self.plane
+        )
+
+
+def draw_boundary_curve(
+    name: str, kind: BoundaryKind, course: BoundaryMarks, rules: FeatureRules, tolerance: float
+) -> tuple[LineSource, BoundaryCurve]:
+    """Draw a boundary curve through marks, from aft, as smooth as their doubt allows.
+
+    Parameters
+    ----------
+    name, kind
+        Of the curve.
+    course : Course
+        The marks.
+    rules : FeatureRules
+        With the turn at which it is split.
+    tolerance : float, m
+        How far the adopted curve may pass it, where it is not less sure itself.
+
+    Returns
+    -------
+    LineSource, Border
+        The source leads on beyond both ends by a little, so that the lines of the first and
+        last mark cross it.
+    """
+    if course.places[0, 0] > course.places[-1, 0]:
+        course = course.reversed()
+    corners = border_bends(course.places, course.doubt, rules.border_deg)
+    xyz = fit_border(course.places, course.doubt, corners)
+    away = np.sqrt(((xyz - course.places) ** 2).sum(axis=1))
+    before, after = xyz[0] - xyz[1], xyz[-1] - xyz[-2]
+    whole = np.concatenate([[xyz[0] + _OVER * before], xyz, [xyz[-1] + _OVER * after]])
+    kinds = np.full(len(whole), int(PointKind.SMOOTH))
+    kinds[np.array(corners, np.int64) + 1] = int(PointKind.KNUCKLE)
+    sure = np.maximum(tolerance, _SURE * course.doubt)
+    source = LineSource.make(
+        "boundary", name, _in_plane(whole, course.plane), plane=course.plane, boundary=kind,
+        kind=kinds.tolist(), tolerance=np.concatenate([sure[:1], sure, sure[-1:]]),
+    )  # fmt: skip
+    return source, BoundaryCurve(name, kind, course.lines, xyz, course.doubt, float(away.max()))
+
+
+def _in_plane(xyz: FloatArray, plane: tuple[FloatArray, float] | None) -> FloatArray:
+    if plane is None:
+        return xyz
+    normal, offset = plane
+    out = xyz + (offset - (xyz * normal).sum(axis=1))[:, None] * normal
+    out[:, normal == 1.0] = offset
+    return np.asarray(out)
+
+
+def loft_source(source: LineSource) -> SplineBatch:
+    """Loft a line through its own points."""
+    return loft(
+        CurveData(
+            np.array([0, len(source.points)]), source.points, source.kind, source.direction,
+            np.array([source.ends.kind], np.int8), np.array([source.ends.vector], np.float64),
+        )
+    )  # fmt: skip
+
+
+def plane_intersections(spline: SplineBatch, part: PieceFeatures) -> FloatArray:
+    """Give the places where a boundary curve crosses the plane of a piece, (k, 3), m."""
+    normal = np.eye(3)[AXES[part.line.group]]
+    return np.asarray(intersect_planes(spline, normal, np.array([part.line.offset])).xyz)
+
+
+# --------------------------------------------------------------------------------------
+# Knuckle lines as boundary curves, on which the lines that cross them are split.
+
+_SAME = 0.1
+"""Two knuckle lines are one where a place of one lies this near (m) to the other."""
+
+_APART = 0.3
+"""Length (m) of a line around a knuckle line in which its corner is looked for; nearer to an end
+of a line there is none."""
+
+_LEAST_DOUBT = 5e-3
+
+
+def draw_knuckles(
+    parts: list[PieceFeatures], knuckles: list[KnuckleTrace], rules: FeatureRules, tolerance: float
+) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
+    """Draw knuckle lines, and let every line that crosses one have its corner there.
+
+    Parameters
+    ----------
+    parts : list of PieceFeatures
+        Pieces of sections, waterlines and buttocks.
+    knuckles : list of KnuckleLine
+        Found on lines of single groups.
+    rules : FeatureRules
+        The thresholds.
+    tolerance : float, m
+        How far the adopted curve may pass the smooth one.
+
+    Returns
+    -------
+    pieces, sources of the boundary curves, borders
+    """
+    out = list(parts)
+    sources: list[LineSource] = []
+    borders: list[BoundaryCurve] = []
+    known = [line for each in knuckles for line in _known(each, rules)]
+    for number, course in enumerate(_courses(known, tolerance), 1):
+        name = f"knuckle {number}"
+        source, border = draw_boundary_curve(name, BoundaryKind.KNUCKLE, course, rules, tolerance)
+        spline, taken = loft_source(source), 0
+        least = float(course.doubt.max()) / (2.0 * rules.onset)
+        for i, part in enumerate(out):
+            for place in plane_intersections(spline, part):
+                # Where a line runs along it nobody can tell where it crosses.
+                if _sine(spline, place, part) < least:
+                    continue
+                split = _split(part, place, tolerance)
+                if split is not None:
+                    part = out[i] = split
+                    taken += 1
+        sources.append(source)
+        borders.append(attrs.evolve(border, taken=taken))
+    return out, sources, borders
+
+
+def _known(line: KnuckleTrace, rules: FeatureRules) -> list[KnuckleTrace]:
+    """Give the parts of a knuckle line whose places are known as well as is asked for.
+
+    On a coarse mesh a corner may lie a metre off, which would move the lines by decimetres.
+    """
+    good = np.append(line.doubt < 2.0 * rules.onset, False)
+    edges = np.flatnonzero(np.diff(np.append(False, good).astype(np.int8)))
+    return [
+        KnuckleTrace(line.group, line.lines[a:b], line.places[a:b].copy(),
+                    line.turn_deg[a:b].copy(), line.doubt[a:b].copy())
+        for a, b in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True)
+        if b - a >= rules.chain.lines
+    ]  # fmt: skip
+
+
+def _courses(knuckles: list[KnuckleTrace], tolerance: float) -> list[BoundaryMarks]:
+    """Put together what groups show of one knuckle line."""
+    groups: list[list[KnuckleTrace]] = []
+    for line in sorted(knuckles, key=lambda each: -len(each.lines)):
+        same = [mine for mine in groups if any(_meets(line, other) for other in mine)]
+        if same:
+            same[0].append(line)
+        else:
+            groups.append([line])
+    return [_course(mine, tolerance) for mine in groups]
+
+
+def _meets(line: KnuckleTrace, other: KnuckleTrace) -> bool:
+    """Tell whether a place of one knuckle line lies between two of another, on the way."""
+    start, step = other.places[:-1], np.diff(other.places, axis=0)
+    away = line.places[:, None, :] - start
+    part = (away * step).sum(axis=2) / (step * step).sum(axis=1)
+    foot = start + np.clip(part, 0.0, 1.0)[:, :, None] * step
+    gap = np.sqrt(((line.places[:, None, :] - foot) ** 2).sum(axis=2))
+    near = np.maximum(_SAME, line.doubt)[:, None] + 0.02 * np.sqrt((step * step).sum(axis=1))
+    return bool((gap <= near).any())
+
+
+def _course(mine: list[KnuckleTrace], tolerance: float) -> BoundaryMarks:
+    names = [name for line in mine for name in line.lines]
+    places = np.concatenate([line.places for line in mine])
+    doubt = np.maximum(np.concatenate([line.doubt for line in mine]), _LEAST_DOUBT)
+    path = order_places(places, doubt, range(len(mine[0].lines)))
+    normal, offset, off = fit_plane(places[path], 0.1 * tolerance)
+    flat = 1.0 in normal.tolist() and off <= 0.1 * tolerance
+    plane = (normal, round(offset, 4) + 0.0) if flat else None
+    return BoundaryMarks(tuple(names[i] for i in path), places[path], doubt[path], plane)
+
+
+def _split(part: PieceFeatures, place: FloatArray, tolerance: float) -> PieceFeatures | None:
+    """Give a piece with its corner at a place of a knuckle line, None where it has none."""
+    if part.piece.closed or part.points.shape[1] != 2:
+        return None
+    here = place[plane_columns(part.line.group)]
+    at = cumulative_lengths(part.points)
+    foot, away = project_on_polyline(part.points, at, here)
+    sine = float(np.interp(foot, at, part.sine))
+    if not _APART < foot < at[-1] - _APART:
+        return None
+    near = [corner for corner in (*part.corners, *part.suggested) if abs(corner.at - foot) < _APART]
+    if not near and away > max(tolerance, 3.0 * part.noise) / sine:
+        return None
+    old = min(near, key=lambda each: abs(each.at - foot)) if near else None
+    new = _turning(part, foot, here) if old is None else attrs.evolve(old, at=foot, place=here)
+    kept = [corner for corner in part.corners if corner is not old]
+    rest = tuple(corner for corner in part.suggested if corner is not old)
+    corners = tuple(sorted([*kept, new], key=lambda corner: corner.at))
+    return attrs.evolve(part, corners=corners, suggested=rest)
+
+
+def _sine(spline: SplineBatch, place: FloatArray, part: PieceFeatures) -> float:
+    """Give the sine of the angle between a knuckle line and the plane of a piece."""
+    at = closest_points(spline, 0, place[None])[0]
+    slope = derivative(spline, np.array([0]), at)[0]
+    return abs(float(slope[AXES[part.line.group]])) / float(np.sqrt(slope @ slope))
+
+
+def _turning(part: PieceFeatures, foot: float, here: FloatArray) -> Corner:
+    """Give a corner where the piece shows none of its own, with the turn of its chords there."""
+    chain = resample(part.points, foot + _APART * np.array([-1.0, 0.0, 1.0]))
+    before, after = np.diff(chain, axis=0)
+    cross = before[0] * after[1] - before[1] * after[0]
+    turn = abs(float(np.rad2deg(np.arctan2(cross, before @ after))))
+    return Corner(foot, here.copy(), turn, np.nan, 2.0 * _APART, np.nan)
+
+
+# --------------------------------------------------------------------------------------
+# Borders of flats as boundary curves: drawn from the ends of straight runs, and taken by lines.
+#
+# A border is drawn from the ends of runs that are known well enough and chain over neighbouring
+# lines. A run of the flat then ends where the border crosses the plane of its line, in a direction
+# that lies in the flat, unless its points leave the flat before.
+
+_NEAR = 0.3
+"""How much farther (m) than its doubt the end of a run may lie from a border that takes it."""
+
+
+def draw_borders(
+    parts: list[PieceFeatures],
+    knuckles: list[KnuckleTrace],
+    rules: FeatureRules,
+    tolerance: float,
+) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
+    """Draw knuckle lines and the borders of flats; lines have their corners and tangents there.
+
+    Parameters
+    ----------
+    parts : list of PieceFeatures
+        Pieces of sections, waterlines and buttocks.
+    knuckles : list of KnuckleLine
+        Found on them.
+    rules : FeatureRules
+        The thresholds.
+    tolerance : float, m
+        How far the adopted curves may pass the smooth ones.
+
+    Returns
+    -------
+    pieces with their runs, sources of the boundary curves, borders
+    """
+    parts = [_measured_again(part) for part in parts]
+    parts, sources, borders = draw_knuckles(parts, knuckles, rules, tolerance)
+    parts = [attrs.evolve(part, runs=runs_of(part, rules)) for part in parts]
+    parts, more, flats = draw_flats(parts, rules, tolerance)
+    return parts, sources + more, borders + flats
+
+
+def _measured_again(part: PieceFeatures) -> PieceFeatures:
+    """Find the corners of a piece again along it, where its end was moved."""
+    if part.moved == 0.0 or not part.corners:
+        return part
+    at = cumulative_lengths(part.points)
+    corners = [
+        attrs.evolve(corner, at=project_on_polyline(part.points, at, corner.place)[0])
+        for corner in part.corners
+    ]
+    return attrs.evolve(part, corners=tuple(corners))
+
+
+def draw_flats(
+    parts: list[PieceFeatures], rules: FeatureRules, tolerance: float
+) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
+    """Draw the borders of flats, and let the runs of the flats end on them.
+
+    Parameters
+    ----------
+    parts : list of PieceFeatures
+        Pieces of sections, waterlines and buttocks, with their runs.
+    rules : FeatureRules
+        The thresholds.
+    tolerance : float, m
+        How far the adopted border may pass the smooth one.
+
+    Returns
+    -------
+    pieces, sources of the boundary curves, borders
+    """
+    out = list(parts)
+    sources: list[LineSource] = []
+    borders: list[BoundaryCurve] = []
+    for flat in find_flats(parts, rules):
+        for course in _borders_courses(flat, parts):
+            source, border = draw_boundary_curve(
+                flat.name, BoundaryKind.FLAT, course, rules, tolerance
+            )
+            taken = _take(out, flat, loft_source(source))
+            sources.append(source)
+            borders.append(attrs.evolve(border, taken=taken))
+    return out, sources, borders
+
+
+def _borders_courses(flat: FlatFound, parts: list[PieceFeatures]) -> Iterator[BoundaryMarks]:
+    """Give the chained marks of a flat in order along its rim, split where they do not go on."""
+    marks = [mark for mark in flat.marks if mark.chain is not None]
+    chains = sorted({mark.chain for mark in marks if mark.chain is not None})
+    members = [[i for i, mark in enumerate(marks) if mark.chain == chain] for chain in chains]
+    doubt = _across(flat, marks, members, parts)
+    places = np.array([mark.place for mark in marks]).reshape(-1, 3)
+    plane = flat.normal, flat.offset
+    while members:
+        first = min(members, key=lambda each: (float(np.median(doubt[each])), each))
+        rest = sorted(i for each in members for i in each)
+        order = order_places(places[rest], doubt[rest], [rest.index(i) for i in first])
+        path = _unbroken([rest[k] for k in order], first, marks, places)
+        lines = tuple(parts[marks[i].part].line.name for i in path)
+        yield BoundaryMarks(lines, places[path], doubt[path], plane)
+        members = [each for each in members if set(path).isdisjoint(each)]
+
+
+def _across(
+    flat: FlatFound, marks: list[RimMark], members: list[list[int]], parts: list[PieceFeatures]
+) -> FloatArray:
+    """Give how far each mark may lie off the border, from its doubt along the run, (n,), m."""
+    out = np.array([mark.doubt for mark in marks])
+    for mine in members:
+        along = np.gradient(np.array([marks[i].place for i in mine]), axis=0)
+        along = along / np.sqrt((along * along).sum(axis=1))[:, None]
+        way = np.array([_ahead(flat, parts[marks[i].part]) for i in mine])
+        cosine = (along * way).sum(axis=1)
+        out[mine] *= np.sqrt(np.maximum(1.0 - cosine * cosine, 0.05**2))
+    return np.asarray(np.maximum(out, _LEAST_DOUBT))
+
+
+def _ahead(flat: FlatFound, part: PieceFeatures) -> FloatArray:
+    """Give the direction of a line that lies in a flat."""
+    way = np.cross(np.eye(3)[AXES[part.line.group]], flat.normal)
+    return np.asarray(way / np.sqrt(way @ way))
+
+
+def _unbroken(
+    path: list[int], first: list[int], marks: list[RimMark], places: FloatArray
+) -> list[int]:
+    """Give the part of a path around its first marks in which no gap is wider than usual."""
+    numbers = [path.index(i) for i in first]
+    gaps = [
+        marks[i].chain != marks[j].chain
+        and float(np.linalg.norm(places[i] - places[j]))
+        > 2.0 * max(marks[i].spacing, marks[j].spacing)
+        for i, j in pairwise(path)
+    ]
+    begin = max([k + 1 for k in range(min(numbers)) if gaps[k]], default=0)
+    end = min([k for k in range(max(numbers), len(gaps)) if gaps[k]], default=len(path) - 1)
+    return path[begin : end + 1]
+
+
+def _take(parts: list[PieceFeatures], flat: FlatFound, spline: SplineBatch) -> int:
+    """Let the runs of a flat end on its border; give how many do."""
+    count = 0
+    for mark in flat.marks:
+        part = parts[mark.part]
+        met = plane_intersections(spline, part)
+        if not len(met):
+            continue
+        along = np.abs((met - mark.place) @ _ahead(flat, part))
+        place = met[int(np.argmin(along))]
+        near = along.min() <= max(1.5 * mark.doubt, _NEAR)
+        if near and _is_flat(part, mark, place, flat):
+            parts[mark.part] = _held(part, mark, place, flat)
+            count += 1
+    return count
+
+
+def _is_flat(part: PieceFeatures, mark: RimMark, place: FloatArray, flat: FlatFound) -> bool:
+    """Tell whether the points of a run lie on the flat up to a place, as near as is smoothed."""
+    at, xyz = cumulative_lengths(part.points), in_space(part, part.points)
+    run = (part.runs or ())[mark.run]
+    middle = 0.5 * (run.begin + run.end)
+    foot = float(at[np.argmin(((xyz - place) ** 2).sum(axis=1))])
+    inside = (at >= min(foot, middle)) & (at <= max(foot, middle))
+    off = np.abs(xyz[inside] @ flat.normal - flat.offset)
+    return bool((off > part.allowed[inside]).sum() <= 0.05 * len(off))
+
+
+def _held(part: PieceFeatures, mark: RimMark, place: FloatArray, flat: FlatFound) -> PieceFeatures:
+    """Let a run begin or end at a place on a border, in a direction that lies in the flat."""
+    columns = plane_columns(part.line.group)
+    runs = list(part.runs or ())
+    run = runs[mark.run]
+    ahead = _ahead(flat, part)[columns]
+    ahead = ahead if ahead @ run.direction > 0.0 else -ahead
+    old = run.after if mark.side else run.before
+    at = old.at + float((place - mark.place)[columns] @ ahead)
+    kind = old.kind if old.kind == "arc" else "border"
+    new = Onset(kind, at, place[columns], old.radius, old.uncertainty)
+    run = attrs.evolve(run, direction=ahead + 0.0)
+    runs[mark.run] = attrs.evolve(run, after=new) if mark.side else attrs.evolve(run, before=new)
+    return attrs.evolve(part, runs=tuple(runs))

@@ -1,0 +1,351 @@
+"""A triangulated hull cut into lines: stations, waterlines, buttocks and boundary curves.
+
+The mesh is repaired, put into ship axes and cut by planes; pieces are joined and ordered. A hull
+whose sections end far from the centre plane has no bottom, which is reported and later refused.
+
+Examples
+--------
+The Wigley hull, as triangles made here rather than read from a file:
+
+>>> import numpy as np
+>>> from assoc_hull.io.slicing.mesh_lines import slice_mesh
+>>> from assoc_hull.geometry.surfaces.triangles import grid_triangles
+>>> x, z = np.meshgrid(np.linspace(0, 100, 41), np.linspace(0, 6.25, 11), indexing="ij")
+>>> y = 5.0 * (1.0 - (x / 50.0 - 1.0) ** 2) * (1.0 - (1.0 - z / 6.25) ** 2)
+>>> mesh = grid_triangles(np.stack([x, y, z], axis=2))
+>>> slices = slice_mesh(mesh, stations=[25.0, 50.0], waterlines=[1.5], buttocks=1)
+>>> for line in slices.lines:
+...     print(line.name, line.pieces[0].ends)
+ST 25 ('profile', 'deck edge')
+ST 50 ('profile', 'deck edge')
+WL 1.5 ('profile', 'profile')
+BTK 2.5 ('deck edge', 'deck edge')
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from assoc_hull.arguments import instance
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.surfaces.triangles import Triangles, check_mesh
+from assoc_hull.io.lines.mend_lines import join_pieces, report_crossings, report_joins
+from assoc_hull.io.lines.slices import AXES, GapJoin, Gaps, HullSlices, LinePiece, SliceLine
+from assoc_hull.io.mesh.frame import place_mesh, scale_mesh
+from assoc_hull.io.mesh.read import read_triangles
+from assoc_hull.io.mesh.repair import facet_depth, mend_mesh
+from assoc_hull.io.mesh.shell import MeshShell, RimKind, cut_shell, make_shell, rim_pieces
+from assoc_hull.io.reports import Notebook, Tell, no_progress
+from assoc_hull.io.slicing.cut_planes import Places, plane_places
+
+__all__ = [
+    "BOTTOM",
+    "cut_placed",
+    "read_mesh",
+    "refuse_bottomless",
+    "report_bottom",
+    "slice_mesh",
+]
+
+# --------------------------------------------------------------------------------------
+# A hull whose bottom is missing: its sections begin far from the centre plane, on no boundary.
+
+BOTTOM = "bottom missing"
+
+_OFF = 0.02
+"""A section that begins this part of the half-breadth off the centre plane does not reach it."""
+
+_MANY = 0.1
+"""One section of ten may do so: a hole, which is told of by itself."""
+
+
+def report_bottom(lines: Sequence[SliceLine], half: float, book: Notebook) -> None:
+    """Tell of sections that do not reach the centre plane.
+
+    Parameters
+    ----------
+    lines : sequence of SliceLine
+        All lines; their loose ends are joined.
+    half : float, m
+        Half the breadth of the hull.
+    book : Notebook
+        Takes what was found.
+    """
+    sections = [line for line in lines if line.group == "sections"]
+    off = {line.name: _gap(line) for line in sections}
+    bad = {name: gap for name, gap in off.items() if gap > _OFF * half}
+    if len(bad) <= _MANY * len(sections):
+        return
+    worst = max(bad, key=lambda name: bad[name])
+    begin = f"{len(bad)} of {len(sections)} begin off the centre plane"
+    what = f"{begin}, by up to {bad[worst]:.4g} m ({worst})"
+    book.suspect(BOTTOM, "the sections", what, bad[worst])
+
+
+def _gap(line: SliceLine) -> float:
+    """Give how far (m) the lower end of a section is off the centre plane; 0 where it has one."""
+    ends = [
+        (float(piece.points[-end, 2]), float(piece.points[-end, 1]), piece.ends[end])
+        for piece in line.pieces
+        if not piece.closed
+        for end in (0, 1)
+    ]
+    if not ends or any(kind == "profile" for _, _, kind in ends):
+        return 0.0
+    _, off, kind = min(ends)
+    return off if kind == "loose" else 0.0
+
+
+def refuse_bottomless(slices: HullSlices) -> None:
+    """Refuse to make a hull of lines whose bottom is missing: its volume would be wrong unseen.
+
+    Raises
+    ------
+    BadInputError
+        The report of the slices tells of it.
+    """
+    found = next((note for note in slices.report.suspicions if note.kind == BOTTOM), None)
+    if found is not None:
+        what = f"the bottom is missing: of the sections {found.what}"
+        raise BadInputError(what, f"in {slices.name}", "export the bottom too, or close the hull")
+
+
+# --------------------------------------------------------------------------------------
+# A triangulated hull cut into lines: stations, waterlines, buttocks and boundary curves.
+
+_PREFIX = {"sections": "ST", "waterlines": "WL", "buttocks": "BTK"}
+
+
+def read_mesh(
+    path: str | Path,
+    *,
+    stations: Places = 41,
+    waterlines: Places = 20,
+    buttocks: Places = 12,
+    scale: float = 1.0,
+    unit: str = "auto",
+    axes: str = "auto",
+    gaps: Gaps | None = None,
+    name: str | None = None,
+    tell: Tell = no_progress,
+) -> HullSlices:
+    """Read a triangulated hull and cut it; arguments as for `slice_mesh`.
+
+    Parameters
+    ----------
+    path : str or Path
+        STL, OBJ or PLY, also ``.gz``.
+
+    Raises
+    ------
+    BadInputError, NoMeetingError
+        As for `slice_mesh`; also a file that holds no mesh.
+    MissingExtraError
+        trimesh is not installed.
+    """
+    file = Path(path)
+    tell("reading the mesh", 0, 0)
+    mesh = read_triangles(file)
+    title = file.name.removesuffix(".gz") if name is None else name
+    return slice_mesh(
+        mesh, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale, unit=unit,
+        axes=axes, gaps=gaps, name=Path(title).stem if name is None else title, tell=tell,
+    )  # fmt: skip
+
+
+def slice_mesh(
+    mesh: Triangles,
+    *,
+    stations: Places = 41,
+    waterlines: Places = 20,
+    buttocks: Places = 12,
+    scale: float = 1.0,
+    unit: str = "auto",
+    axes: str = "auto",
+    gaps: Gaps | None = None,
+    name: str = "hull",
+    tell: Tell = no_progress,
+) -> HullSlices:
+    """Cut a mesh into stations, waterlines, buttocks and boundary curves.
+
+    Parameters
+    ----------
+    mesh : Triangles
+        Whole hull or half.
+    stations, waterlines, buttocks : int or sequence of float, m
+        How many to propose (stations lie closer at the ends of the ship, waterlines at the
+        bottom and buttocks evenly), or their places in ship axes at full scale.
+    scale : float
+        Full scale over model scale.
+    unit : {"auto", "m", "mm", "cm", "ft", "in"}
+        Unit of the file.
+    axes : str
+        "auto", or which axes of the file point forward, to port and up: ``"+x+y+z"``.
+    gaps : Gaps or None
+        What is joined; by default ends up to 60 mm apart.
+    name : str
+        Name of the hull.
+    tell : callable
+        Hears which line is being cut.
+
+    Returns
+    -------
+    Slices
+        Its report tells whatever was found rather than given.
+
+    Raises
+    ------
+    BadInputError
+        A mesh that is no hull, or pieces that do not chain.
+    NoMeetingError
+        A plane that misses the hull.
+    """
+    check_mesh(instance(mesh, Triangles, "mesh", "in slice_mesh"))
+    limits = Gaps() if gaps is None else instance(gaps, Gaps, "gaps", "in slice_mesh")
+    book = Notebook()
+    scaled = scale_mesh(mesh, scale, unit, book)
+    placed = place_mesh(mend_mesh(scaled, book), axes, book)
+    wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
+    return cut_placed(placed, wanted, limits, name, book, tell)
+
+
+def cut_placed(
+    placed: Triangles,
+    wanted: Mapping[str, Places],
+    gaps: Gaps,
+    name: str,
+    book: Notebook,
+    tell: Tell = no_progress,
+) -> HullSlices:
+    """Cut a mesh that lies in ship axes.
+
+    Parameters
+    ----------
+    placed : Triangles
+        In ship axes, m, outward.
+    wanted : mapping of str to int or sequence of float, m
+        Planes of each group: "sections", "waterlines", "buttocks".
+    gaps : Gaps
+        What is joined.
+    name : str
+        Name of the hull.
+    book : Notebook
+        Takes what was found.
+    tell : callable
+        Hears which line is being cut.
+
+    Raises
+    ------
+    BadInputError, NoMeetingError
+        As for `slice_mesh`.
+    """
+    shell = make_shell(placed, book)
+    low, high = shell.mesh.xyz.min(axis=0), shell.mesh.xyz.max(axis=0)
+    joins: list[GapJoin] = []
+    lines: list[SliceLine] = []
+    places = [
+        (group, place)
+        for group, planes in wanted.items()
+        for place in _places(group, planes, low[AXES[group]], high[AXES[group]])
+    ]
+    for i, (group, place) in enumerate(places):
+        tell("cutting lines", i, len(places))
+        lines.append(_cut(shell, group, place, gaps, joins, book))
+    report_joins(joins, book)
+    report_bottom(lines, float(high[1]), book)
+    return HullSlices(
+        name, tuple(lines), tuple(_boundaries(shell, gaps, joins, book)), tuple(joins),
+        book.report(), True, low, high, facet_depth(shell.mesh), gaps,
+    )  # fmt: skip
+
+
+def _places(group: str, wanted: Places, low: float, high: float) -> list[float]:
+    label, dense = ("stations" if group == "sections" else group), group == "sections"
+    return [
+        float(each) for each in plane_places(label, wanted, float(low), float(high), dense=dense)
+    ]
+
+
+def _cut(
+    shell: MeshShell, group: str, place: float, gaps: Gaps, joins: list[GapJoin], book: Notebook
+) -> SliceLine:
+    axis, name = AXES[group], f"{_PREFIX[group]} {place:g}"
+    pieces, made = join_pieces(name, cut_shell(shell, axis, place), gaps)
+    if not pieces:
+        raise BadInputError(
+            f"{name} cuts no triangle", "in the mesh",
+            f"mend the gap there, or give {group} at other places",
+        )  # fmt: skip
+    joins += made
+    _tell_ends(name, pieces, book)
+    report_crossings(name, pieces, axis, book)
+    return SliceLine(group, name, place, tuple(_in_order(pieces, group)))
+
+
+def _in_order(pieces: list[LinePiece], group: str) -> list[LinePiece]:
+    """Turn each piece the usual way round; lowest first, then aftmost."""
+    turned = [_turn(piece, group) for piece in pieces]
+    return sorted(turned, key=lambda each: (each.points[:, 2].min(), each.points[:, 0].min()))
+
+
+def _turn(piece: LinePiece, group: str) -> LinePiece:
+    """Sections run upward (from the lower end), other lines forward."""
+    axis = 2 if group == "sections" else 0
+    first, last = piece.points[0], piece.points[-1]
+    rise = float(last[axis] - first[axis])
+    if piece.ends[0] == piece.ends[1] == "profile" and group == "sections":
+        rise = float(last[2] - first[2])
+    if rise >= 0.0 or piece.closed:
+        return piece
+    return piece.reversed()
+
+
+def _tell_ends(name: str, pieces: list[LinePiece], book: Notebook) -> None:
+    loose = [
+        piece.points[-end]
+        for piece in pieces
+        for end in (0, 1)
+        if piece.ends[end] == "loose" and not piece.closed
+    ]
+    if loose:
+        x, y, z = loose[0].tolist()
+        what = f"{len(loose)} ends lie on no boundary, first ({x:.4g}, {y:.4g}, {z:.4g}) m"
+        book.suspect("loose end", name, what, len(loose))
+
+
+def _boundaries(
+    shell: MeshShell, gaps: Gaps, joins: list[GapJoin], book: Notebook
+) -> list[SliceLine]:
+    """Chain the open edges into profile, deck edge and edge of the transom."""
+    found: list[SliceLine] = []
+    for kind in (RimKind.PROFILE, RimKind.DECK, RimKind.TRANSOM):
+        name = RimKind.NAMES[kind]
+        chains, made = join_pieces(name, rim_pieces(shell, kind), gaps)
+        joins += made
+        if not chains:
+            continue
+        length = [_length(each) for each in chains]
+        longest = max(length)
+        kept = [each for each, size in zip(chains, length, strict=True) if size > 0.02 * longest]
+        if len(kept) < len(chains):
+            what = f"{len(chains) - len(kept)} short pieces left out"
+            book.repair("short piece", name, what, len(chains) - len(kept))
+        found.append(SliceLine("boundary", name, float("nan"), tuple(_forward(kept, kind))))
+    return found
+
+
+def _length(piece: LinePiece) -> float:
+    return float(np.linalg.norm(np.diff(piece.points, axis=0), axis=1).sum())
+
+
+def _forward(pieces: list[LinePiece], kind: int) -> list[LinePiece]:
+    """Let profile and deck edge run from aft forward, the transom from the centre plane."""
+    column = 1 if kind == RimKind.TRANSOM else 0
+    turned = [
+        piece if piece.points[0, column] <= piece.points[-1, column] else piece.reversed()
+        for piece in pieces
+    ]
+    return sorted(turned, key=lambda each: (each.points[:, 0].min(), each.points[:, 2].min()))

@@ -1,0 +1,430 @@
+"""Lines of a hull cut from its surfaces: IGES by our own reader or OpenCASCADE, and STEP.
+
+Surfaces are made triangles once and cut as a mesh is; then each point is put on the surface that
+its triangle stands for, in its plane.
+
+Examples
+--------
+>>> import tempfile
+>>> from pathlib import Path
+>>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
+>>> from assoc_hull.io.surfaces.surface_file import write_surfaces
+>>> from assoc_hull.io.slicing.surface_lines import cad_kind
+>>> plate = SplineSurface.bezier([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], "plate")
+>>> with tempfile.TemporaryDirectory() as folder:
+...     path = Path(folder) / "plate.igs"
+...     write_surfaces([plate], path)
+...     cad_kind(path)
+'iges'
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.errors import BadInputError, MissingExtraError, NeedsCadError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.patches.plane_intersection import intersect_plane
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.geometry.patches.triangulation import Facets
+from assoc_hull.geometry.surfaces.triangles import check_mesh
+from assoc_hull.io.cad.hull_faces import FINE, HullFaces, facets_at_scale, hull_size, model_factor
+from assoc_hull.io.iges.curves import holds_surfaces
+from assoc_hull.io.iges.file import UNITS, IgesFile, looks_like_iges
+from assoc_hull.io.iges.surfaces import surfaces_of_iges
+from assoc_hull.io.lines.slices import AXES, Gaps, HullSlices, LinePiece, SliceLine
+from assoc_hull.io.mesh.frame import place_mesh
+from assoc_hull.io.mesh.repair import mend_mesh
+from assoc_hull.io.reports import Notebook, Tell, no_progress
+from assoc_hull.io.slicing.cut_planes import Places
+from assoc_hull.io.slicing.mesh_lines import cut_placed
+from assoc_hull.io.units import checked_unit
+
+__all__ = [
+    "AxisChange",
+    "cad_kind",
+    "faces_of_file",
+    "project_to_surfaces",
+    "read_surface_lines",
+    "slice_surfaces",
+]
+
+# --------------------------------------------------------------------------------------
+# Points cut from triangles of surfaces, put on the surfaces themselves, each in its plane.
+
+_FAR = 0.02
+"""A place of a surface farther (m) from the triangles is not the one meant."""
+
+_LEAST_SINE = 0.03
+"""Where a plane cuts at a smaller angle (sine), a point stays on its triangle."""
+
+
+@attrs.frozen(eq=False)
+class AxisChange:
+    """From the file to the ship: ``xyz @ turn + shift``; `turn` exchanges and mirrors axes."""
+
+    turn: FloatArray
+    shift: FloatArray
+
+    @classmethod
+    def between(cls, before: FloatArray, after: FloatArray) -> AxisChange:
+        """Tell how vertices were moved."""
+        middle = before.mean(axis=0)
+        turn = np.rint(np.linalg.lstsq(before - middle, after - after.mean(axis=0))[0])
+        return cls(turn + 0.0, np.median(after - before @ turn, axis=0))
+
+    def back(self, xyz: FloatArray) -> FloatArray:
+        """Give places of the file."""
+        return np.asarray((xyz - self.shift) @ self.turn.T)
+
+    def ahead(self, xyz: FloatArray) -> FloatArray:
+        """Give places in ship axes."""
+        return np.asarray(xyz @ self.turn + self.shift)
+
+    def plane(self, axis: IntArray, offset: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Give axis and place in the file of planes across axes of the ship."""
+        column = np.abs(self.turn).argmax(axis=0)
+        sign = self.turn[column, np.arange(3)]
+        return column[axis], (offset - self.shift[axis]) * sign[axis]
+
+
+def project_to_surfaces(
+    xyz: FloatArray,
+    axis: IntArray,
+    offset: FloatArray,
+    owner: IntArray,
+    facets: Facets,
+    surfaces: Sequence[SplineSurface | None],
+    motion: AxisChange,
+) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
+    """Put places that were cut from triangles on their surfaces.
+
+    Parameters
+    ----------
+    xyz : (n, 3), m
+        Places in ship axes.
+    axis : (n,) int
+        The coordinate that is constant on the line of each.
+    offset : (n,), m
+        What it is there.
+    owner : (n,) int
+        The triangle of each.
+    facets : Facets
+        The triangles, in axes of the file.
+    surfaces : sequence of SplineSurface or None
+        What they stand for.
+    motion : Motion
+        From the file to the ship.
+
+    Returns
+    -------
+    (n, 3) m, (n,), (n,) bool
+        Places, the sine of the angle between plane and surface, and which lie on a surface now.
+    """
+    there = motion.back(xyz)
+    uv = _parameters(there, facets.mesh.corners[owner], facets.uv[owner])
+    column, place = motion.plane(axis, offset)
+    centre = xyz[:, 1] == 0.0
+    middle, nil = motion.plane(np.array([1]), np.zeros(1))
+    out, sine, good = xyz.copy(), np.ones(len(xyz)), np.zeros(len(xyz), np.bool_)
+    for number in np.unique(facets.surface[owner]).tolist():
+        rows = np.flatnonzero(facets.surface[owner] == number)
+        second = centre[rows], int(middle[0]), float(nil[0])
+        surface = surfaces[number]
+        if surface is None:
+            continue
+        found = intersect_plane(surface, uv[rows], column[rows], place[rows], second)
+        away = np.sqrt(((found.xyz - there[rows]) ** 2).sum(axis=1))
+        mine = (found.off < 1e-7) & (found.sine > _LEAST_SINE) & (away < _FAR)
+        good[rows] = mine
+        out[rows[mine]] = motion.ahead(found.xyz[mine])
+        sine[rows] = found.sine
+    out[np.arange(len(out)), axis] = offset
+    out[centre, 1] = 0.0
+    return out, sine, good
+
+
+def _parameters(xyz: FloatArray, corner: FloatArray, uv: FloatArray) -> FloatArray:
+    """Give parameters (n, 2) of places on triangles (n, 3, 3), from those of the corners."""
+    b, c, p = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0], xyz - corner[:, 0]
+    bb, bc, cc = ((one * other).sum(axis=1) for one, other in ((b, b), (b, c), (c, c)))
+    pb, pc = (p * b).sum(axis=1), (p * c).sum(axis=1)
+    det = np.maximum(bb * cc - bc * bc, 1e-300)
+    part = np.clip(np.stack([cc * pb - bc * pc, bb * pc - bc * pb], axis=1) / det[:, None], 0, 1)
+    part[np.abs(part) < 1e-9] = 0.0
+    part /= np.maximum(part.sum(axis=1), 1.0)[:, None]
+    first = 1.0 - part.sum(axis=1)
+    return np.asarray(first[:, None] * uv[:, 0] + part[:, :1] * uv[:, 1] + part[:, 1:] * uv[:, 2])
+
+
+# --------------------------------------------------------------------------------------
+# Spline surfaces of a hull cut into lines, whose points lie on the surfaces themselves.
+#
+# Surfaces are made triangles once; these are cut as any mesh is, which tells pieces, ends and
+# boundary curves; then each point is put on the surface that its triangle stands for, in its plane.
+
+_POINTS, _TURN = 100.0, 0.05
+"""A piece keeps so many points, and one more wherever it turns by so much (rad)."""
+
+
+def slice_surfaces(
+    faces: HullFaces,
+    *,
+    stations: Places = 41,
+    waterlines: Places = 20,
+    buttocks: Places = 12,
+    scale: float = 1.0,
+    axes: str = "auto",
+    gaps: Gaps | None = None,
+    name: str = "hull",
+    tell: Tell = no_progress,
+) -> HullSlices:
+    """Cut surfaces into stations, waterlines, buttocks and boundary curves.
+
+    Parameters
+    ----------
+    faces : Faces
+        Whole hull or half.
+    stations, waterlines, buttocks, scale, axes, gaps, name, tell
+        As for `assoc_hull.io.slicing.mesh_lines.slice_mesh`.
+
+    Returns
+    -------
+    Slices
+        Points lie on the surfaces to rounding, but for those its report tells of.
+
+    Raises
+    ------
+    BadInputError, NoMeetingError
+        As for `assoc_hull.io.slicing.mesh_lines.slice_mesh`; or surfaces of no ship's length.
+    """
+    tell("making triangles of the surfaces", 0, 0)
+    book = Notebook()
+    for note in faces.notes:
+        book.assume("file", "the surfaces", note)
+    size = hull_size(faces, scale, book)
+    facets = facets_at_scale(faces, scale, size, book)
+    check_mesh(facets.mesh)
+    mended = mend_mesh(facets.mesh, book)
+    placed = place_mesh(mended, axes, book, 2.0 * FINE * size)
+    motion = AxisChange.between(mended.xyz, placed.xyz)
+    wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
+    limits = _gaps(size) if gaps is None else gaps
+    slices = cut_placed(placed, wanted, limits, name, book, tell)
+    scaled = [_scaled(each, scale) for each in faces.surfaces]
+    waterline = _waterline(motion, slices, book)
+    return attrs.evolve(
+        _settled(slices, facets, scaled, motion, book), waterline=waterline, report=book.report()
+    )
+
+
+def _waterline(motion: AxisChange, slices: HullSlices, book: Notebook) -> float | None:
+    """Give the height of z = 0 of the file, if it cuts the hull, above the new base line."""
+    height = float(motion.shift[2])
+    depth = float(slices.high[2] - slices.low[2])
+    if not 0.1 * depth < height < 0.95 * depth:
+        return None
+    what = f"z = 0 of the file is taken for the waterline: draught {height:.6g} m, unless given"
+    book.assume("waterline", "the surfaces", what, height)
+    return height
+
+
+def _gaps(size: float) -> Gaps:
+    return Gaps(model_factor(size) * Gaps().join, model_factor(size) * Gaps().refuse)
+
+
+def _scaled(surface: SplineSurface | None, scale: float) -> SplineSurface | None:
+    if surface is None or scale == 1.0:
+        return surface
+    return attrs.evolve(surface, net=surface.net * scale)
+
+
+def _settled(
+    slices: HullSlices,
+    facets: Facets,
+    surfaces: Sequence[SplineSurface | None],
+    motion: AxisChange,
+    book: Notebook,
+) -> HullSlices:
+    """Put the points of all lines on their surfaces."""
+    lines = (*slices.lines, *(line for line in slices.boundaries if line.name == "profile"))
+    pieces = [(line, piece) for line in lines for piece in line.pieces]
+    owner = np.concatenate([_owner(piece) for _, piece in pieces])
+    xyz = np.concatenate([piece.points for _, piece in pieces])
+    count = [len(piece.points) for _, piece in pieces]
+    axis = np.repeat([AXES.get(line.group, 1) for line, _ in pieces], count)
+    offset = np.repeat([_place(line) for line, _ in pieces], count)
+    places, sine, good = project_to_surfaces(xyz, axis, offset, owner, facets, surfaces, motion)
+    if not good.all():
+        x, y, z = xyz[np.argmin(good)].tolist()
+        what = (
+            f"{int((~good).sum())} of {len(good)} points stay on triangles, first ({x:.4g}, "
+            f"{y:.4g}, {z:.4g}) m: surfaces end there, or are nearly in the plane of the line"
+        )
+        book.assume("on triangles", "the lines", what, int((~good).sum()))
+    split = np.cumsum(count)[:-1]
+    found = iter(zip(np.split(places, split), np.split(sine, split), strict=True))
+    settled = [_replaced(line, found) for line in lines]
+    rest = [line for line in slices.boundaries if line.name != "profile"]
+    return attrs.evolve(
+        slices, lines=tuple(settled[: len(slices.lines)]),
+        boundaries=tuple([*settled[len(slices.lines) :], *rest]), facets=False, depth=0.0,
+    )  # fmt: skip
+
+
+def _owner(piece: LinePiece) -> IntArray:
+    if piece.owner is None:
+        raise BadInputError("a line has no triangles", "in the surfaces", "report this")
+    return piece.owner
+
+
+def _place(line: SliceLine) -> float:
+    return 0.0 if line.group == "boundary" else line.offset
+
+
+def _replaced(line: SliceLine, found: Iterator[tuple[FloatArray, FloatArray]]) -> SliceLine:
+    """Give a line with the next places, thinned, and sines where it had some."""
+    pieces = []
+    for piece in line.pieces:
+        points, sine = next(found)
+        kept = _thinned(points) if line.group != "boundary" else np.arange(len(points))
+        angle = None if piece.sine is None else sine[kept]
+        owner = None if piece.owner is None else piece.owner[kept]
+        pieces.append(attrs.evolve(piece, points=points[kept], sine=angle, owner=owner))
+    return attrs.evolve(line, pieces=tuple(pieces))
+
+
+def _thinned(points: FloatArray) -> IntArray:
+    """Choose points that stand at equal lengths, closer where the line turns; ends stay.
+
+    Points are exact, so that more of them tell no more.
+    """
+    step = np.diff(points, axis=0)
+    length = np.sqrt((step * step).sum(axis=1))
+    ahead = step / np.maximum(length, 1e-300)[:, None]
+    turn = np.arccos(np.clip((ahead[1:] * ahead[:-1]).sum(axis=1), -1.0, 1.0))
+    way = np.cumsum(length) * (_POINTS / max(float(length.sum()), 1e-300))
+    way[:-1] += np.cumsum(turn) / _TURN
+    way[-1:] += turn.sum() / _TURN
+    place = np.floor(np.append(0.0, way))
+    kept = np.append(True, np.diff(place) > 0.0)
+    kept[-1] = True
+    return np.flatnonzero(kept)
+
+
+# --------------------------------------------------------------------------------------
+# Lines of a hull from a file of its surfaces: IGES by our own reader or OpenCASCADE, and STEP.
+
+_MOST_BYTES = 200_000_000
+_HEAD = 2000
+_WHERE = "as an argument"
+
+
+def cad_kind(path: Path) -> str | None:
+    """Tell by its content what a file of CAD is: "iges", "step", or None for anything else.
+
+    IGES without surfaces is something else: its curves are digitised lines.
+    """
+    try:
+        with path.open("rb") as file:
+            head = file.read(_HEAD).decode("latin-1")
+            if looks_like_iges(head):
+                text = head + file.read(_MOST_BYTES).decode("latin-1")
+                return "iges" if holds_surfaces(text) else None
+    except OSError:
+        return None
+    if head.lstrip("\ufeff\u00ef\u00bb\u00bf \t\r\n").startswith("ISO-10303-21"):
+        return "step"
+    return None
+
+
+def faces_of_file(path: Path, unit: str = "auto") -> HullFaces:
+    """Read the surfaces of a file.
+
+    Untrimmed spline surfaces of IGES need no extra; anything else does.
+
+    Parameters
+    ----------
+    path : Path
+        IGES or STEP.
+    unit : str
+        The unit of its lengths; "auto": as the file says.
+
+    Raises
+    ------
+    BadInputError
+        A file that is damaged or too large, tells no unit, or holds no surface.
+    MissingExtraError
+        It needs OpenCASCADE, which is not installed.
+    """
+    given = None if unit == "auto" else checked_unit(unit, _WHERE)
+    kind = cad_kind(path)
+    text = _text(path)
+    if kind == "step":
+        from assoc_hull.io.cad.kernel import require_opencascade
+        from assoc_hull.io.cad.read import read_faces, require_sound_step, step_unit
+
+        require_opencascade()
+        require_sound_step(text, path.name)
+        return read_faces(path, "step", step_unit(text), given)
+    try:
+        surfaces, used, notes = surfaces_of_iges(text, path.name, given)
+    except NeedsCadError as error:
+        return _through_cad(path, text, given, error)
+    return HullFaces.of(surfaces, used, notes)
+
+
+def _through_cad(path: Path, text: str, unit: str | None, why: NeedsCadError) -> HullFaces:
+    """Read what our own reader leaves to OpenCASCADE; without it, tell why it is needed."""
+    from assoc_hull.io.cad.read import read_faces
+
+    told = UNITS.get(IgesFile.of_text(text, path.name).unit)
+    try:
+        return read_faces(path, "iges", told[0] if told else None, unit)
+    except MissingExtraError as error:
+        raise NeedsCadError(why.what, why.where, f"{why.remedy}: {error}") from error
+
+
+def _text(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            data = file.read(_MOST_BYTES + 1)
+    except OSError as error:
+        what = f"the file cannot be read ({error.strerror or error})"
+        raise BadInputError(what, f"at {path}", "check name and permissions") from error
+    if len(data) > _MOST_BYTES:
+        what = f"the file has more than {_MOST_BYTES / 1e6:g} MB"
+        raise BadInputError(what, f"at {path}", "export the hull only")
+    return data.decode("latin-1")
+
+
+def read_surface_lines(
+    path: Path,
+    *,
+    stations: Places = 41,
+    waterlines: Places = 20,
+    buttocks: Places = 12,
+    scale: float = 1.0,
+    unit: str = "auto",
+    axes: str = "auto",
+    gaps: Gaps | None = None,
+    tell: Tell = no_progress,
+) -> HullSlices:
+    """Read surfaces and cut them; arguments as for `assoc_hull.io.slicing.mesh_lines.read_mesh`.
+
+    Raises
+    ------
+    BadInputError, NoMeetingError, MissingExtraError
+        As for `faces_of_file` and `slice_surfaces`.
+    """
+    tell("reading the surfaces", 0, 0)
+    faces = faces_of_file(path, unit)
+    return slice_surfaces(
+        faces, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale,
+        axes=axes, gaps=gaps, name=path.stem, tell=tell,
+    )  # fmt: skip

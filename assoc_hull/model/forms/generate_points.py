@@ -1,0 +1,613 @@
+"""From definitions to the points of lines: what the update engine asks for.
+
+A generated curve says its layout and its marks: places on the pieces of its shape. There are
+as many as bring the spline through them within 1 mm of the shape, and to its area; the first
+part compares splines with shapes, the second adds marks where the two lie too far apart. What
+comes of one curve does not depend on the others of a batch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Self
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.form_definition import GeneratedCurve, Mark
+from assoc_hull.model.forms.form_values import Forms
+from assoc_hull.model.forms.line_layout import (
+    COURSES,
+    course_shape,
+    deck_shape,
+    ends_for,
+    joints_of,
+    water_points,
+)
+from assoc_hull.model.forms.section_pieces import LineShape
+from assoc_hull.model.forms.sections import parts_at_draught, section_shape
+from assoc_hull.model.tables import Ends
+
+__all__ = [
+    "AREA_WITHIN",
+    "WITHIN",
+    "MarkedSplines",
+    "definitions_read",
+    "first_marks",
+    "generated_points",
+    "marks_for",
+    "marks_suffice",
+    "point_kinds_at",
+    "refine_marks",
+    "within_tolerance",
+]
+
+# --------------------------------------------------------------------------------------
+# How well splines through marked points of shapes keep to the shapes.
+
+_FRACTIONS = np.arange(1, 8) / 8.0
+"""Where, in parts of an interval, its distance is measured."""
+
+_STEPS = 4
+"""Steps of Newton's rule to the nearest place on the shape."""
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
+"""Exact for y dz of two cubics; on an arc beyond all need."""
+
+
+def point_kinds_at(layout: str, marks: Sequence[Mark]) -> tuple[list[int], FloatArray]:
+    """Give kinds, and directions (k, 3), of points at marks.
+
+    Parameters
+    ----------
+    layout : str
+        Of the line.
+    marks : sequence of Mark
+        A joint is named by the piece that begins there.
+
+    Returns
+    -------
+    list of int, (k, 3)
+    """
+    joints = joints_of(layout)
+    kinds, directions = [0] * len(marks), np.zeros((len(marks), 3))
+    for number, (piece, t) in enumerate(marks):
+        if piece and t == 0.0:
+            kinds[number] = int(joints[piece - 1][0])
+            directions[number] = joints[piece - 1][1]
+    return kinds, directions
+
+
+@attrs.frozen(eq=False)
+class MarkedSplines:
+    """Shapes of one layout, and the splines through their points at marks.
+
+    Attributes
+    ----------
+    shape : Shape
+        Of n curves.
+    spline : SplineBatch
+        One of each.
+    row, piece : (k,) int
+        Of each interval of the splines.
+    low, high : (k,)
+        Between which t of the piece.
+    """
+
+    shape: LineShape
+    spline: SplineBatch
+    row: IntArray
+    piece: IntArray
+    low: FloatArray
+    high: FloatArray
+
+    @classmethod
+    def of(
+        cls, shape: LineShape, layout: str, marks: Sequence[Sequence[Mark]], ends: FloatArray | None
+    ) -> Self:
+        """Loft curves through all marks, the first and the last among them.
+
+        Parameters
+        ----------
+        shape : Shape
+            Of n curves.
+        layout : str
+            Of all of them.
+        marks : sequence of n sequences of Mark
+            Of each.
+        ends : (n, 2, 3), m, or None
+            Where the ends lie; on the shape if None.
+        """
+        start = np.concatenate([[0], np.cumsum([len(each) for each in marks])]).astype(np.int64)
+        row = np.repeat(np.arange(len(marks)), np.diff(start))
+        flat = [mark for each in marks for mark in each]
+        piece, t = np.array([mark[0] for mark in flat]), np.array([mark[1] for mark in flat])
+        xyz = shape.at(row, piece, t)
+        if ends is not None:
+            xyz[start[:-1]], xyz[start[1:] - 1] = ends[:, 0], ends[:, 1]
+        kinds, directions = point_kinds_at(layout, flat)
+        finish = ends_for(layout)
+        data = CurveData(
+            start, xyz, np.array(kinds, np.int8), directions,
+            np.tile(np.array(finish.kind, np.int8), (len(marks), 1)),
+            np.tile(np.array(finish.vector), (len(marks), 1, 1)),
+        )  # fmt: skip
+        inner = row[1:] == row[:-1]
+        high = np.where(piece[1:] == piece[:-1], t[1:], 4.0)
+        return cls(
+            shape, loft(data), row[:-1][inner], piece[:-1][inner], t[:-1][inner], high[inner]
+        )
+
+    def deviations(self) -> FloatArray:
+        """Give the largest distance of each interval from its piece, (k,) m."""
+        count = len(self.piece)
+        points = self._spline_at(_FRACTIONS)[0].reshape(-1, 3)
+        size = len(_FRACTIONS)
+        row, piece = np.repeat(self.row, size), np.repeat(self.piece, size)
+        low, high = np.repeat(self.low, size), np.repeat(self.high, size)
+        t = low + (high - low) * np.tile(_FRACTIONS, count)
+        for _ in range(_STEPS):
+            along = self.shape.tangent(row, piece, t)
+            off = points - self.shape.at(row, piece, t)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                step = (off * along).sum(axis=1) / (along * along).sum(axis=1)
+            t = np.clip(t + np.nan_to_num(step), low, high)
+        off = points - self.shape.at(row, piece, t)
+        found = np.sqrt((off * off).sum(axis=1)).reshape(count, -1)
+        return np.asarray(found.max(axis=1))
+
+    def areas(self, last: int) -> tuple[FloatArray, FloatArray]:
+        """Give int y dz over each interval, (k,) m2: of the pieces, and of the spline.
+
+        Parameters
+        ----------
+        last : int
+            The first piece that does not count.
+        """
+        counts = self.piece < last
+        share = 0.5 * (1.0 + _NODES)
+        points, rates = self._spline_at(share)
+        weights = 0.5 * _WEIGHTS
+        spline = (points[..., 1] * rates[..., 2] * weights).sum(axis=1)
+        width = self.high - self.low
+        t = (self.low[:, None] + width[:, None] * share).ravel()
+        row, piece = np.repeat(self.row, len(share)), np.repeat(self.piece, len(share))
+        y = self.shape.at(row, piece, t)[:, 1].reshape(-1, len(share))
+        dz = self.shape.tangent(row, piece, t)[:, 2].reshape(-1, len(share))
+        exact = (y * dz * weights).sum(axis=1) * width
+        return np.where(counts, exact, 0.0), np.where(counts, spline, 0.0)
+
+    def _spline_at(self, share: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give points and derivatives by the share of each interval, (k, len(share), 3)."""
+        one = self.spline
+        begin = np.delete(np.arange(len(one.knot)), one.start[1:] - 1)
+        width = (one.knot[begin + 1] - one.knot[begin])[:, None]
+        start, finish = one.xyz[begin], one.xyz[begin + 1]
+        leave, arrive = width * one.leave[begin], width * one.arrive[begin + 1]
+        c2 = 3.0 * (finish - start) - 2.0 * leave - arrive
+        c3 = 2.0 * (start - finish) + leave + arrive
+        a, b, c, d = (each[:, None] for each in (start, leave, c2, c3))
+        u = share[None, :, None]
+        return a + u * (b + u * (c + u * d)), b + u * (2.0 * c + 3.0 * u * d)
+
+
+# --------------------------------------------------------------------------------------
+# As many points of a shape as bring the spline through them within 1 mm, and to its area.
+#
+# First come the knots of the pieces and the middles of their segments; an interval that passes its
+# piece too far off is halved, then those that miss the area most. So marks are at dyadic fractions,
+# and the same shape always gets the same ones.
+
+WITHIN = 9e-4
+"""So far (m) the spline may pass the pieces where it is measured: between, it stays within 1 mm."""
+
+AREA_WITHIN = 5e-7
+"""By so much, of itself, the area below the draught may be missed; the bilge has the rest."""
+
+_LEAST_AREA = 0.1
+"""A smaller half section (m2) is taken for this large: its area says nothing of the ship."""
+
+_STRAIGHT = ("level", "siding", "upright", "ahead", "up", "down")
+"""Pieces that need no points within."""
+
+_SHORTEST = 1.0 / 64.0
+"""The shortest interval, in t."""
+
+_ROUNDS = 60
+
+
+def first_marks(layout: str) -> list[Mark]:
+    """Give knots and middles of segments of all pieces that are bent, and both ends.
+
+    Parameters
+    ----------
+    layout : str
+        Of the line.
+
+    Returns
+    -------
+    list of Mark
+        In order. A joint is named by the piece that begins there.
+    """
+    tokens = [each.partition(":")[0].rstrip("^") for each in layout.split("+")]
+    found: list[Mark] = []
+    for piece, token in enumerate(tokens):
+        inner = 1 if token in _STRAIGHT else 8
+        found += [(piece, 0.5 * step) for step in range(inner)]
+    return [*found, (len(tokens) - 1, 4.0)]
+
+
+def refine_marks(
+    shape: LineShape,
+    layout: str,
+    marks: Sequence[Mark],
+    ends: FloatArray | None,
+    under: int,
+    where: str,
+) -> list[Mark]:
+    """Add marks until the spline is near enough.
+
+    Parameters
+    ----------
+    shape : Shape
+        Of one curve.
+    layout : str
+        Its layout.
+    marks : sequence of Mark
+        Those to begin with, both ends among them.
+    ends : (1, 2, 3), m, or None
+        Where the ends lie; on the shape if None.
+    under : int
+        The number of pieces below the draught, whose area counts.
+    where : str
+        Names the line in messages.
+
+    Returns
+    -------
+    list of Mark
+
+    Raises
+    ------
+    BadInputError
+        The shape is bent too sharply for a spline with points at a decent distance.
+    """
+    found = list(marks)
+    for _ in range(_ROUNDS):
+        whole = MarkedSplines.of(shape, layout, [found], ends)
+        halved = _to_halve(whole, under)
+        if halved is None:
+            return found
+        halved &= whole.high - whole.low > _SHORTEST
+        if not halved.any():
+            break
+        middle = 0.5 * (whole.low + whole.high)
+        extra = [(int(whole.piece[i]), float(middle[i])) for i in np.flatnonzero(halved)]
+        found = sorted([*found, *extra])
+    raise BadInputError(
+        "the curve is bent too sharply to be held within 1 mm and its area", where,
+        "give smaller curvatures, or tangents nearer to a quarter of the chord",
+    )  # fmt: skip
+
+
+def within_tolerance(whole: MarkedSplines, under: int, count: int) -> NDArray[np.bool_]:
+    """Tell which curves keep to their shapes.
+
+    Parameters
+    ----------
+    whole : Composite
+        The curves.
+    under : int
+        The number of pieces below the draught, whose area counts.
+    count : int
+        The number of curves.
+
+    Returns
+    -------
+    (count,) bool
+    """
+    found = np.ones(count, np.bool_)
+    found[whole.row[whole.deviations() > WITHIN]] = False
+    if under:
+        found &= _enough_area(whole, *whole.areas(under), count)
+    return found
+
+
+def _enough_area(
+    whole: MarkedSplines, exact: FloatArray, spline: FloatArray, count: int
+) -> NDArray[np.bool_]:
+    """Tell which curves have the area of their pieces."""
+    off, area = (np.bincount(whole.row, each, minlength=count) for each in (spline - exact, exact))
+    return np.asarray(np.abs(off) <= AREA_WITHIN * np.maximum(area, _LEAST_AREA))
+
+
+def _to_halve(whole: MarkedSplines, under: int) -> NDArray[np.bool_] | None:
+    """Tell which intervals of one curve to halve; None where all is near enough."""
+    far = whole.deviations() > WITHIN
+    if far.any():
+        return far
+    if not under:
+        return None
+    exact, spline = whole.areas(under)
+    if _enough_area(whole, exact, spline, 1)[0]:
+        return None
+    off = np.where(whole.high - whole.low > _SHORTEST, np.abs(spline - exact), 0.0)
+    return np.asarray(off > 0.5 * off.max())
+
+
+# --------------------------------------------------------------------------------------
+# From definitions to the points of lines: what the update engine asks for.
+#
+# A curve is generated by pieces (its layout) and marks on them. Of a section, the first and the
+# last
+# point are no generated ones: they are where it meets profile and deck edge, and are read. A curve
+# has the same bits alone and in any batch.
+
+_BY_PIECE = {
+    "level": ("flat_of_bottom",),
+    "siding": ("half_siding",),
+    "curve": (
+        "sectional_area", "design_waterline", "centroid", "keel_angle", "keel_curvature",
+        "keel_tangent", "waterline_angle", "waterline_curvature", "waterline_tangent",
+    ),
+    "arc": ("sectional_area", "design_waterline", "bilge_radius"),
+    "upright": ("flat_of_side",),
+    "bulb": ("bulb_area", "bulb_height", "bulb_neck", "bulb_neck_angle"),
+    "upper": (
+        "sectional_area", "design_waterline", "waterline_angle", "waterline_curvature",
+        "waterline_tangent",
+    ),
+    "round": ("bulb_area",),
+    "topside": ("deck_angle", "deck_curvature"),
+    "wall": ("flat_of_side",),
+}  # fmt: skip
+"""Of which definitions each piece of a section is made."""
+
+_SETTLED = {"level": "keel_angle", "upright": "waterline_angle"}
+"""What a flat settles: a definition of that is not read."""
+
+_BY_LINE = {
+    "deck edge": ("deck_side", "deck_height"),
+    "flat of bottom": ("flat_of_bottom", "profile"),
+    "waterline side": ("flat_of_side",),
+    "waterline parallel": ("sectional_area", "design_waterline", "bilge_radius", "profile"),
+}
+"""Of which definitions other lines are made."""
+
+
+def definitions_read(curve: GeneratedCurve) -> tuple[str, ...]:
+    """Give the uses of the definitions that a generated curve depends on.
+
+    Parameters
+    ----------
+    curve : GeneratedCurve
+        Any; for some of these uses there may be no definition.
+
+    Returns
+    -------
+    tuple of str
+        Each once.
+    """
+    if curve.what in ("section", "transom"):
+        tokens = curve.layout.split("+")
+        found = [use for token in tokens for use in _BY_PIECE.get(token, ())]
+        if tokens[0] == "topside":
+            found += ["keel_angle", "keel_curvature", "keel_tangent"]
+        if curve.what == "transom":
+            found += ["profile", "deck_side", "deck_height"]
+        settled = {_SETTLED[token] for token in tokens if token in _SETTLED}
+        return tuple(use for use in dict.fromkeys(found) if use not in settled)
+    if curve.what == "waterline":
+        return _BY_LINE.get(f"waterline {curve.layout}", ())
+    return _BY_LINE.get(curve.what) or ((COURSES[curve.what],) if curve.what in COURSES else ())
+
+
+def marks_for(
+    forms: Forms,
+    what: str,
+    layout: str,
+    place: float,
+    ends: FloatArray | None = None,
+    known: Sequence[Mark] = (),
+) -> tuple[tuple[Mark, ...], tuple[int, ...], FloatArray, Ends]:
+    """Give as many marks as hold a generated curve.
+
+    Parameters
+    ----------
+    forms : Forms
+        The definitions.
+    what, layout : str
+        What is generated, of which pieces.
+    place : float, m
+        x of a section, z of a waterline.
+    ends : (2, 3), m
+        Of a section: where it meets profile and deck edge.
+    known : sequence of Mark
+        Marks that it has already; all of them stay. The same ones come back where they suffice.
+
+    Returns
+    -------
+    marks : tuple of Mark
+        Of the generated points, in order: of a section all but both ends.
+    kinds : tuple of int
+        A `PointKind` per mark.
+    directions : (k, 3)
+        Of its tangent points.
+    ends : Ends
+        The end conditions.
+
+    Raises
+    ------
+    BadInputError
+        A curve that cannot be made, or not be held within 1 mm and 1e-6 of its area.
+    """
+    if what == "waterline":
+        marks: tuple[Mark, ...] = ((0, 0.0), (1, 0.0)) if layout else ()
+        tangent = (int(PointKind.TANGENT),) * len(marks)
+        return marks, tangent, np.tile((1.0, 0.0, 0.0), (len(marks), 1)), Ends()
+    held = None if ends is None or what != "section" else np.asarray(ends, np.float64)[None]
+    shape = _shape(forms, what, layout, np.array([place]), held)
+    under = _under(what, layout)
+    begin = first_marks(layout)
+    start = sorted({begin[0], begin[-1], *known}) if known else begin
+    where = f"on the {what}" + (f" x = {place:g} m" if under else "")
+    found = refine_marks(shape, layout, start, held, under, where)
+    chosen = tuple(found[1:-1] if what == "section" else found)
+    kinds, directions = point_kinds_at(layout, chosen)
+    return chosen, tuple(kinds), directions, ends_for(layout)
+
+
+def generated_points(
+    forms: Forms, curves: Sequence[GeneratedCurve], places: FloatArray, ends: FloatArray
+) -> list[FloatArray]:
+    """Give the points of generated curves at their marks.
+
+    Parameters
+    ----------
+    forms : Forms
+        The definitions.
+    curves : sequence of GeneratedCurve
+        m curves.
+    places : (m,), m
+        x of a section, z of a waterline; without meaning for others.
+    ends : (m, 2, 3), m
+        Where sections meet profile and deck edge; without meaning for others.
+
+    Returns
+    -------
+    list of (k, 3), m
+        The points of each, in the order of its marks.
+
+    Raises
+    ------
+    OutOfRangeError, BadInputError
+        A curve that cannot be made, with its place and what would do.
+    """
+    found: list[FloatArray] = [np.zeros((0, 3))] * len(curves)
+    for (what, layout), numbers in _groups(curves):
+        if what == "waterline":
+            for number in numbers.tolist():
+                found[number] = _on_water(forms, curves[number], float(places[number]))
+            continue
+        shape = _shape(forms, what, layout, places[numbers], ends[numbers])
+        marks = [curves[number].marks for number in numbers.tolist()]
+        row = np.repeat(np.arange(len(numbers)), [len(each) for each in marks])
+        flat = [mark for each in marks for mark in each]
+        piece = np.array([mark[0] for mark in flat], np.int64)
+        points = shape.at(row, piece, np.array([mark[1] for mark in flat], np.float64))
+        for place, number in enumerate(numbers.tolist()):
+            found[number] = points[row == place]
+    return found
+
+
+def marks_suffice(
+    forms: Forms, curves: Sequence[GeneratedCurve], places: FloatArray, ends: FloatArray
+) -> NDArray[np.bool_]:
+    """Tell which generated curves their marks hold: `marks_for` would give no others.
+
+    Parameters
+    ----------
+    forms : Forms
+        The definitions.
+    curves : sequence of GeneratedCurve
+        m curves.
+    places, ends : (m,), (m, 2, 3)
+        As of `generated_points`.
+
+    Returns
+    -------
+    (m,) bool
+
+    Raises
+    ------
+    OutOfRangeError, BadInputError
+        A curve that cannot be made.
+    """
+    found = np.ones(len(curves), np.bool_)
+    for (what, layout), numbers in _groups(curves):
+        if what == "waterline":
+            continue
+        shape = _shape(forms, what, layout, places[numbers], ends[numbers])
+        own = ends[numbers] if what == "section" else None
+        first, *_, last = first_marks(layout)
+        marks = [sorted({first, last, *curves[number].marks}) for number in numbers.tolist()]
+        whole = MarkedSplines.of(shape, layout, marks, own)
+        found[numbers] = within_tolerance(whole, _under(what, layout), len(numbers))
+    return found
+
+
+def _groups(
+    curves: Sequence[GeneratedCurve],
+) -> Iterator[tuple[tuple[str, str], IntArray]]:
+    """Give the numbers of the curves that are made alike."""
+    found: dict[tuple[str, str], list[int]] = {}
+    for number, curve in enumerate(curves):
+        _on_pieces(curve)
+        found.setdefault((curve.what, curve.layout), []).append(number)
+    for kind, numbers in found.items():
+        yield kind, np.array(numbers, np.int64)
+
+
+def _on_pieces(curve: GeneratedCurve) -> None:
+    """Refuse marks that lie on no piece."""
+    count = 2 if curve.what == "waterline" else curve.layout.count("+") + 1
+    for piece, t in curve.marks:
+        if not (0 <= piece < count and 0.0 <= t <= 4.0):
+            raise BadInputError(
+                f"the mark ({piece}, {t:g}) lies on no piece of {curve.layout!r}",
+                f"in the generated curve {curve.key!r}", "correct it",
+            )  # fmt: skip
+
+
+def _under(what: str, layout: str) -> int:
+    """Give the number of pieces below the draught, whose area counts."""
+    return len(parts_at_draught(layout)[0]) if what in ("section", "transom") else 0
+
+
+def _shape(
+    forms: Forms, what: str, layout: str, places: FloatArray, ends: FloatArray | None
+) -> LineShape:
+    """Give the shape of lines of one layout."""
+    if what == "section" and ends is not None:
+        return section_shape(forms, layout, places, ends)
+    if what in ("section", "transom"):
+        return section_shape(forms, layout, places, _own_ends(forms, places))
+    if what == "deck edge":
+        return deck_shape(forms)
+    if what in COURSES:
+        return course_shape(forms, COURSES[what])
+    raise BadInputError(f"{what!r} cannot be generated", "in a net", "generate a section")
+
+
+def _own_ends(forms: Forms, places: FloatArray) -> FloatArray:
+    """Give where sections meet profile and deck edge by the definitions, (n, 2, 3)."""
+    found = np.zeros((len(places), 2, 3))
+    found[:, :, 0] = places[:, None]
+    heights = [forms.contour(float(x)) for x in places]
+    found[:, 0, 2] = [each[0] if each else np.nan for each in heights]
+    found[:, 1, 1] = forms.value("deck_side", places)
+    found[:, 1, 2] = forms.value("deck_height", places)
+    lost = np.isnan(found).reshape(len(found), -1).any(axis=1)
+    for number in np.flatnonzero(lost)[:1].tolist():
+        raise BadInputError(
+            "profile or deck edge do not reach so far",
+            f"at x = {places[number]:g} m",
+            "extend them",
+        )
+    return found
+
+
+def _on_water(forms: Forms, curve: GeneratedCurve, z: float) -> FloatArray:
+    """Give the places where a waterline comes onto a flat and leaves it."""
+    if not curve.layout:
+        return np.zeros((0, 3))
+    points = water_points(forms, curve.layout, z)
+    if not np.isfinite(points).all():
+        raise BadInputError(
+            f"the waterline does not run along the flat ({curve.layout}) any more",
+            f"at z = {z:g} m", "let the flat reach its height",
+        )  # fmt: skip
+    return points[[mark[0] for mark in curve.marks]]

@@ -1,0 +1,181 @@
+"""Curves that come from definitions: which are attached, and where their points lie now.
+
+An attached curve takes its points from the definitions of the hull; a curve that was edited
+by hand is kept and no longer follows. The curves of form parameters are made once for a set
+of definitions and kept with the hull. The index and the update ask here; how points follow
+from a definition is the matter of `assoc_hull.model.forms`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+
+from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.forms.form_values import Forms
+from assoc_hull.model.forms.generate_points import generated_points
+from assoc_hull.model.lofting import same_objects
+from assoc_hull.model.tables import HullState
+
+__all__ = [
+    "attached_curves",
+    "attached_rows",
+    "end_points",
+    "forms_of",
+    "forms_with",
+    "generated_on",
+    "kept_rows",
+    "line_offset",
+    "part_in_line",
+    "points_given",
+    "unmade_rows",
+]
+
+# --------------------------------------------------------------------------------------
+# Which points come from definitions now: those of generated curves that are attached.
+
+_Known = tuple[list[object], Mapping[int, GeneratedCurve], IntArray, IntArray]
+
+
+def attached_curves(state: HullState) -> Mapping[int, GeneratedCurve]:
+    """Give the attached generated curves by the number of the curve, in that order."""
+    return _known(state)[1]
+
+
+def attached_rows(state: HullState) -> IntArray:
+    """Give the points that are computed from definitions, ascending."""
+    return _known(state)[2]
+
+
+def kept_rows(state: HullState) -> IntArray:
+    """Give the points that are computed from definitions, or were until their curve was edited.
+
+    They ride with no other point: what was drawn by hand keeps its shape.
+    """
+    return _known(state)[3]
+
+
+def generated_on(state: HullState, curve: int) -> GeneratedCurve | None:
+    """Give what is known of a curve that comes, or came, from definitions; else None."""
+    found = [each for each in state.generated if each.curve == curve]
+    return found[0] if found else None
+
+
+def unmade_rows(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell for each of some points whether no definition computes it."""
+    mine = attached_rows(state)
+    if not len(mine):
+        return np.ones(len(rows), np.bool_)
+    found: np.typing.NDArray[np.bool_] = ~np.isin(rows, mine)
+    return found
+
+
+def _known(state: HullState) -> _Known:
+    """Look the table through; what was found last holds as long as its objects do."""
+    table = state.produced
+    objects = [
+        curve if alive else None
+        for curve, alive in zip(table.curve.data, table.alive.data.tolist(), strict=True)
+    ]
+    known: _Known | None = state.kept.get("attached")
+    if known is None or not same_objects(known[0], objects):
+        curves = {each.curve: each for each in objects if each is not None and each.attached}
+        rows = np.array(sorted(row for each in curves.values() for row in each.rows), np.int64)
+        every = [row for each in objects if isinstance(each, GeneratedCurve) for row in each.rows]
+        kept = np.array(sorted(every), np.int64)
+        freeze(rows, kept)
+        known = objects, dict(sorted(curves.items())), rows, kept
+        state.kept["attached"] = known
+    return known
+
+
+# --------------------------------------------------------------------------------------
+# What the definitions of a hull give now: the points of generated curves, their layouts.
+#
+# The curves of form parameters are made once for a set of definitions and kept with the hull.
+
+
+def forms_of(state: HullState) -> Forms:
+    """Give the curves of a hull's definitions; the same ones as long as these stay."""
+    return forms_with(state, state.definitions)
+
+
+def forms_with(state: HullState, definitions: Sequence[FormDefinition]) -> Forms:
+    """Give the curves of some definitions of a hull; those of the last two sets are kept."""
+    wanted = tuple(definitions), state.particulars
+    known = state.kept.setdefault("forms", [])
+    for number, (asked, found) in enumerate(known):
+        if asked == wanted:
+            known.insert(0, known.pop(number))
+            made: Forms = found
+            return made
+    forms = Forms.of(wanted[0], wanted[1])
+    known.insert(0, (wanted, forms))
+    del known[2:]
+    return forms
+
+
+def line_offset(state: HullState, curve: int) -> float:
+    """Give where the plane of a curve's line stands, m along its axis; nan for a space curve."""
+    return float(state.lines.offset.data[state.line_of(curve)])
+
+
+def part_in_line(state: HullState, curve: int) -> int:
+    """Tell as which curve of its line one stands, from 0."""
+    mine: Sequence[int] = state.lines.curves.data[state.line_of(curve)]
+    live = [each for each in mine if state.curves.alive.data[each]]
+    return live.index(curve)
+
+
+def end_points(state: HullState, curves: Sequence[int]) -> FloatArray:
+    """Give the first and the last defining point of curves, (m, 2, 3), m."""
+    rows = [state.curves.rows.data[curve][[0, -1]] for curve in curves]
+    found: FloatArray = state.rows.xyz.data[np.array(rows, np.int64).reshape(-1, 2)]
+    return found
+
+
+def points_given(
+    state: HullState, made: Iterable[GeneratedCurve], forms: Forms | None = None
+) -> tuple[IntArray, FloatArray]:
+    """Give the points of generated curves as the definitions have them, ends as they lie now.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables; only read.
+    made : iterable of GeneratedCurve
+        The curves. What comes of one does not depend on the others.
+    forms : Forms or None
+        Those of the hull if None.
+
+    Returns
+    -------
+    (k,) int, (k, 3) float, m
+        Rows, curve by curve, and their places.
+
+    Raises
+    ------
+    AssocHullError
+        A curve that cannot be made; the error names where it stands and what is wrong.
+    """
+    chosen = tuple(made)
+    numbers = [each.curve for each in chosen]
+    if not chosen:
+        return np.zeros(0, np.int64), np.zeros((0, 3))
+    places = np.array([line_offset(state, curve) for curve in numbers])
+    known = forms_of(state) if forms is None else forms
+    try:
+        found = generated_points(known, chosen, places, end_points(state, numbers))
+    except (LookupError, ValueError) as error:
+        if isinstance(error, AssocHullError):
+            raise
+        keys = ", ".join(each.key for each in chosen[:3])
+        what = f"pieces or marks that there are not ({type(error).__name__}: {error})"
+        raise BadInputError(
+            what, f"among {keys}", "take the hull from where it was kept"
+        ) from error
+    rows = np.array([row for each in chosen for row in each.rows], np.int64)
+    return rows, np.ascontiguousarray(np.concatenate([np.zeros((0, 3)), *found])) + 0.0

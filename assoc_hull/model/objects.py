@@ -1,0 +1,807 @@
+"""Points, crossings, curves, lines, groups and features as a designer sees them.
+
+Each is a handle: it holds no geometry, knows the tables of its hull and the number of its
+object, looks everything up when asked, and gives out frozen values. Two handles on one object
+are equal; a handle whose object has gone says so. `handle` gives the object of an address,
+`Points` all points of a hull by address.
+
+Reference: Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
+Associative Geometry Objects", J. SNAK 36(4), 1999.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import ItemsView, Iterable, Iterator, Mapping, ValuesView
+from typing import ClassVar, Self
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.arguments import instance, integer, numbers, word
+from assoc_hull.arguments import place as one_place
+from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError
+from assoc_hull.geometry.curves import FloatArray, PointKind, SplineBatch, freeze
+from assoc_hull.geometry.plane import Plane, as_plane
+from assoc_hull.geometry.splines.arc_length import arc_length
+from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.geometry.splines.evaluation import curvature, evaluate, sample
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.model.address import AddressBook, ResolvedAddress, resolve_address
+from assoc_hull.model.feature_geometry import line_numbers
+from assoc_hull.model.features import Feature, Place
+from assoc_hull.model.gaps import tangents
+from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
+from assoc_hull.model.links import (
+    defines,
+    free_axes,
+    generates_on,
+    latent_curves,
+    point_positions,
+    points_on,
+)
+from assoc_hull.model.named_mapping import NamedMapping
+from assoc_hull.model.tables import HullState
+
+__all__ = [
+    "Crossing",
+    "Curve",
+    "FeatureHandle",
+    "GeneratedPoints",
+    "Group",
+    "Handle",
+    "Line",
+    "Point",
+    "Points",
+    "features_by_name",
+    "handle",
+    "numbers_of",
+]
+
+# --------------------------------------------------------------------------------------
+# What all handles share: they hold no geometry, and know when their object has gone.
+
+
+@attrs.frozen(repr=False)
+class Handle:
+    """A handle on one object of a hull.
+
+    Attributes
+    ----------
+    tables : HullState
+        The tables of the hull.
+    number : int
+        Row of the object in its table.
+    id : str
+        Key of the object; it outlives renaming and shifting.
+    """
+
+    _table: ClassVar[str]
+    tables: HullState
+    number: int
+    id: str
+
+    def __attrs_post_init__(self) -> None:
+        instance(self.tables, HullState, "tables", "in a handle")
+        if not isinstance(self.number, int):
+            integer(self.number, "number", "in a handle", least=0)
+        word(self.id, "id", "in a handle")
+
+    @classmethod
+    def of(cls, tables: HullState, number: int) -> Self:
+        """Give the handle on a row of the table."""
+        table = getattr(instance(tables, HullState, "tables", "in a handle"), cls._table)
+        integer(number, "number", "in a handle", least=0, most=table.count - 1)
+        column = table.name if cls._table == "groups" else table.key
+        return cls(tables, int(number), column.data[int(number)])
+
+    @property
+    def alive(self) -> bool:
+        """Whether the object is still there."""
+        table = getattr(self.tables, self._table)
+        if self.number >= table.count or not table.alive.data[self.number]:
+            return False
+        return self._table == "groups" or bool(table.key.data[self.number] == self.id)
+
+    @property
+    def row(self) -> int:
+        """The number of the object, which is checked to be alive.
+
+        Raises
+        ------
+        ForeignPointError
+            It has gone.
+        """
+        if not self.alive:
+            raise ForeignPointError(f"{type(self).__name__.lower()} {self.id!r}")
+        return self.number
+
+    def __repr__(self) -> str:
+        name = getattr(self, "name", self.id) if self.alive else f"{self.id}, gone"
+        return f"<{type(self).__name__} {name}>"
+
+
+# --------------------------------------------------------------------------------------
+# Handles on points and crossings.
+#
+# The two friend points of a crossing are two handles on one row of the table of points, so
+# they cannot disagree.
+#
+# Reference: Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
+# Associative Geometry Objects", J. SNAK 36(4), 1999.
+
+
+def _curve(tables: HullState, number: int) -> Curve:
+    """Give the handle on a curve; points and curves know one another."""
+    return Curve.of(tables, number)
+
+
+@attrs.frozen(repr=False)
+class Point(Handle):
+    """A point on one curve; a crossing is two of these, each the other's friend.
+
+    Attributes
+    ----------
+    side : int
+        Whether the curve is the crossing's a (0) or b (1).
+
+    Examples
+    --------
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.objects import Line
+    >>> line = Line.of(wigley(), 3)
+    >>> line.curves[0].points[1].free
+    ('y',)
+    """
+
+    _table: ClassVar[str] = "rows"
+    side: int = 0
+
+    @property
+    def name(self) -> str:
+        """The label that was given, else the address, for instance ``WL 0.5 x ST 7``."""
+        label = self.tables.rows.label.data[self.row]
+        return str(label) if label else AddressBook(self.tables).address(self.row, self.side)
+
+    @property
+    def position(self) -> FloatArray:
+        """The place, (3,), m; frozen."""
+        found: FloatArray = point_positions(
+            self.tables, np.array([self.row]), np.array([self.side])
+        )[0]
+        freeze(found)
+        return found
+
+    @property
+    def x(self) -> float:
+        """Coordinate forward from the after perpendicular, m."""
+        return float(self.position[0])
+
+    @property
+    def y(self) -> float:
+        """Coordinate to port from the centre plane, m."""
+        return float(self.position[1])
+
+    @property
+    def z(self) -> float:
+        """Coordinate up from the base line, m."""
+        return float(self.position[2])
+
+    @property
+    def kind(self) -> str:
+        """How its curve passes: ``"smooth"``, ``"tangent"`` or ``"knuckle"``."""
+        return PointKind(int(self.tables.rows.kind.data[self.row, self.side])).name.lower()
+
+    @property
+    def sort(self) -> str:
+        """``"crossing"``, ``"placed"`` or ``"adopted"``."""
+        return Sort(int(self.tables.rows.sort.data[self.row])).name.lower()
+
+    @property
+    def role(self) -> str:
+        """``"defining"`` if its curve is made through it, else ``"derived"``."""
+        return "defining" if defines(self.tables, self.row, self.side) else "derived"
+
+    @property
+    def crossing_role(self) -> str | None:
+        """``"shared"``, ``"drives a"``, ``"drives b"`` or ``"watched"``; None if no crossing."""
+        return None if self.crossing is None else self.crossing.role
+
+    @property
+    def crossing(self) -> Crossing | None:
+        """The crossing this point belongs to, if it does."""
+        if self.tables.rows.sort.data[self.row] != Sort.CROSSING:
+            return None
+        return Crossing(self.tables, self.number, self.id)
+
+    @property
+    def container_curve(self) -> Curve:
+        """The curve it lies on."""
+        return _curve(self.tables, int(self.tables.rows.curve.data[self.row, self.side]))
+
+    @property
+    def parent_curve(self) -> Curve | None:
+        """The curve that generated it; None for a placed or adopted point."""
+        return None if self.friend_point is None else self.friend_point.container_curve
+
+    @property
+    def friend_point(self) -> Point | None:
+        """The same crossing on the parent curve; None for a placed or adopted point."""
+        if self.tables.rows.curve.data[self.row, 1 - self.side] < 0:
+            return None
+        return Point(self.tables, self.number, self.id, 1 - self.side)
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """Coordinates along which it may move; an edit gives exactly these."""
+        return free_axes(self.tables, self.row)
+
+    @property
+    def driver(self) -> Curve | None:
+        """The curve it is computed from, if it is."""
+        driver = int(self.tables.rows.driver.data[self.row])
+        return None if driver < 0 else _curve(self.tables, driver)
+
+    @property
+    def state(self) -> str:
+        """``"clean"``, ``"failed"`` or ``"blocked"``."""
+        return State(int(self.tables.rows.state.data[self.row])).name.lower()
+
+    @property
+    def revision(self) -> int:
+        """Rises by one each time it really moved."""
+        return self.tables.revision_row.get(self.row, 0)
+
+
+@attrs.frozen(repr=False)
+class Crossing(Handle):
+    """One meeting of two associated curves: one value that both read."""
+
+    _table: ClassVar[str] = "rows"
+
+    @property
+    def name(self) -> str:
+        """Its address, the line of higher rank first."""
+        return AddressBook(self.tables).address(self.row)
+
+    @property
+    def points(self) -> tuple[Point, Point]:
+        """The friend points on curve a and on curve b."""
+        first, second = (Point(self.tables, self.row, self.id, side) for side in (0, 1))
+        return first, second
+
+    @property
+    def a(self) -> Curve:
+        """The curve of lower rank."""
+        return self.points[0].container_curve
+
+    @property
+    def b(self) -> Curve:
+        """The curve of higher rank."""
+        return self.points[1].container_curve
+
+    @property
+    def role(self) -> str:
+        """``"shared"``, ``"drives a"``, ``"drives b"`` or ``"watched"``."""
+        return Role(int(self.tables.rows.role.data[self.row])).text
+
+    @property
+    def override(self) -> str | None:
+        """The role the designer gave it in place of the rule's, if so."""
+        role = int(self.tables.rows.override.data[self.row])
+        return None if role < 0 else Role(role).text
+
+    @property
+    def sign(self) -> int:
+        """+1 where a passes to the positive side of b's plane, else -1; 0 if neither."""
+        return int(self.tables.rows.sign.data[self.row])
+
+    @property
+    def birth(self) -> int:
+        """Number of its birth for this pair of lines, from 1."""
+        return int(self.tables.rows.birth.data[self.row])
+
+    @property
+    def gap(self) -> float | None:
+        """How far its curves pass each other along the hull's normal (m), if it is watched."""
+        return self._length("gap")
+
+    @property
+    def limit(self) -> float | None:
+        """The largest gap it may have (m), if it is watched."""
+        return self._length("limit")
+
+    def _length(self, column: str) -> float | None:
+        if self.tables.rows.role.data[self.row] != Role.WATCHED:
+            return None
+        value = float(getattr(self.tables.rows, column).data[self.number])
+        return value if np.isfinite(value) else None
+
+    @property
+    def state(self) -> str:
+        """``"clean"``, ``"failed"`` or ``"blocked"``."""
+        return State(int(self.tables.rows.state.data[self.row])).name.lower()
+
+
+# --------------------------------------------------------------------------------------
+# Handles on curves, and what a curve generates on others.
+#
+# Reference: Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
+# Associative Geometry Objects", J. SNAK 36(4), 1999.
+
+
+@attrs.frozen
+class GeneratedPoints:
+    """What a curve generates on others.
+
+    Attributes
+    ----------
+    actual : tuple of Point
+        The points it has generated on other curves.
+    latent : tuple of Curve
+        The curves it may come to meet.
+    """
+
+    actual: tuple[Point, ...]
+    latent: tuple[Curve, ...]
+
+
+@attrs.frozen(repr=False)
+class Curve(Handle):
+    """One connected curve of a line.
+
+    Examples
+    --------
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.objects import Line
+    >>> line = Line.of(wigley(), 3)
+    >>> line.curves[0].at(0.0)
+    array([10.,  0.,  0.])
+    """
+
+    _table: ClassVar[str] = "curves"
+
+    @property
+    def name(self) -> str:
+        """The name of its line, with a number if it is one of several."""
+        return AddressBook(self.tables).curve_name(self.row)
+
+    @property
+    def line(self) -> Line:
+        """The line it belongs to."""
+        return Line.of(self.tables, self.tables.line_of(self.row))
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """All its points in order along it, those that define it and those that lie on it."""
+        on = points_on(self.tables, self.row)
+        return self._handles(zip(on.row.tolist(), on.side.tolist(), strict=True))
+
+    @property
+    def defining(self) -> tuple[Point, ...]:
+        """The points it is made through, in order."""
+        rows, side = (getattr(self.tables.curves, name).data[self.row] for name in ("rows", "side"))
+        return self._handles(zip(rows.tolist(), side.tolist(), strict=True))
+
+    def _handles(self, places: Iterable[tuple[int, int]]) -> tuple[Point, ...]:
+        keys = self.tables.rows.key.data
+        return tuple(Point(self.tables, row, keys[row], side) for row, side in places)
+
+    @property
+    def touch_objects(self) -> GeneratedPoints:
+        """The points it has generated on other curves, and the curves it may come to meet."""
+        group = self.tables.lines.group.data[self.tables.line_of(self.row)]
+        reach = set(generates_on(self.tables, int(group)).tolist())
+        friends = [point.friend_point for point in self.points]
+        actual = tuple(
+            friend
+            for friend in friends
+            if friend is not None and friend.container_curve.line.group.number in reach
+        )
+        latent = latent_curves(self.tables, self.number).tolist()
+        return GeneratedPoints(actual, tuple(Curve.of(self.tables, curve) for curve in latent))
+
+    @property
+    def spline(self) -> SplineBatch:
+        """The published spline, a batch of one."""
+        return self.tables.spline(self.row)
+
+    @property
+    def length(self) -> float:
+        """Length along the curve, m."""
+        return float(arc_length(self.spline)[0])
+
+    @property
+    def ends(self) -> FloatArray:
+        """First and last point, (2, 3), m; frozen."""
+        found = self.spline.xyz[[0, -1]]
+        freeze(found)
+        return found
+
+    @property
+    def span(self) -> float:
+        """Largest chord parameter, m; the least is 0."""
+        return float(self.spline.knot[-1])
+
+    def at(self, t: ArrayLike) -> FloatArray:
+        """Give the place at chord parameter t (m): (3,), or (k, 3) for k parameters."""
+        many, one = self._parameters(t)
+        return self._shaped(evaluate(self.spline, np.zeros(len(many), np.int64), many), one)
+
+    def tangent(self, t: ArrayLike) -> FloatArray:
+        """Give the unit tangent at chord parameter t (m): (3,) or (k, 3)."""
+        many, one = self._parameters(t)
+        return self._shaped(tangents(self.tables, np.full(len(many), self.row), many), one)
+
+    def curvature(self, t: ArrayLike) -> FloatArray:
+        """Give the curvature vector at chord parameter t (m), 1/m: (3,) or (k, 3)."""
+        many, one = self._parameters(t)
+        place = np.zeros(len(many), np.int64), many
+        return self._shaped(curvature(self.spline, at=place), one)
+
+    def _parameters(self, t: object) -> tuple[FloatArray, bool]:
+        """Take parameters as an array, and tell whether it was but one."""
+        found = numbers(t, "t", f"on {self.name}")
+        return np.atleast_1d(found), found.ndim == 0
+
+    @staticmethod
+    def _shaped(found: FloatArray, one: bool) -> FloatArray:
+        out: FloatArray = np.array(found[0] if one else found)
+        freeze(out)
+        return out
+
+    def closest(self, p: ArrayLike) -> tuple[float, FloatArray, float]:
+        """Give parameter, place (3,) and distance of the point closest to p (3,), m."""
+        place = one_place(p, "p", f"in closest of {self.name}")
+        t, xyz, distance = closest_points(self.spline, 0, place[None])
+        return float(t[0]), xyz[0], float(distance[0])
+
+    def polyline(self, per_segment: int = 8) -> FloatArray:
+        """Give places along the curve for drawing, (n, 3), m; frozen."""
+        where = f"in polyline of {self.name}"
+        return sample(self.spline, integer(per_segment, "per_segment", where, least=1, most=1000))[
+            1
+        ]
+
+    @property
+    def state(self) -> str:
+        """``"clean"``, ``"failed"`` or ``"blocked"``."""
+        return State(int(self.tables.curves.state.data[self.row])).name.lower()
+
+    @property
+    def revision(self) -> int:
+        """Rises by one each time its geometry really changed."""
+        return self.tables.revision_curve.get(self.row, 0)
+
+
+# --------------------------------------------------------------------------------------
+# Handles on lines and groups of lines.
+
+
+@attrs.frozen(repr=False)
+class Line(Handle):
+    """A line: one or more curves in one plane, or one space curve."""
+
+    _table: ClassVar[str] = "lines"
+
+    @property
+    def name(self) -> str:
+        """Its name, unique in its group."""
+        return str(self.tables.lines.name.data[self.row])
+
+    @property
+    def group(self) -> Group:
+        """The group it belongs to."""
+        return Group.of(self.tables, int(self.tables.lines.group.data[self.row]))
+
+    @property
+    def plane(self) -> Plane | None:
+        """The plane it lies in, ``normal . P = offset``; None for a space curve."""
+        table, row = self.tables.lines, self.row
+        return (
+            Plane(table.normal.data[row], table.offset.data[row])
+            if table.planar.data[row]
+            else None
+        )
+
+    @property
+    def position(self) -> float | None:
+        """Offset of its plane (m): x of a section, z of a waterline, y of a buttock."""
+        return None if self.plane is None else self.plane.offset
+
+    @property
+    def boundary(self) -> str | None:
+        """What it does to lines that meet it: ``"end"``, ``"flat"``, ``"knuckle"`` or None."""
+        kind = int(self.tables.lines.boundary.data[self.row])
+        return None if kind < 0 else BoundaryKind(kind).name.lower()
+
+    @property
+    def note(self) -> str:
+        """What was assumed when it was made; empty if nothing."""
+        return str(self.tables.lines.note.data[self.row])
+
+    @property
+    def curves(self) -> tuple[Curve, ...]:
+        """Its curves."""
+        alive = self.tables.curves.alive.data
+        numbers = self.tables.lines.curves.data[self.row]
+        return tuple(Curve.of(self.tables, curve) for curve in numbers if alive[curve])
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The points of all its curves, curve by curve."""
+        return tuple(point for curve in self.curves for point in curve.points)
+
+    def meet(self, plane: Plane | tuple[ArrayLike, float]) -> FloatArray:
+        """Give the places where its curves pass a plane, (k, 3), m; frozen.
+
+        Parameters
+        ----------
+        plane : Plane, or (normal (3,) of unit length, offset m)
+            The plane.
+
+        Examples
+        --------
+        >>> from assoc_hull.shipped.wigley import wigley
+        >>> from assoc_hull.model.objects import Line
+        >>> Line.of(wigley(), 3).meet(((0, 0, 1), 7.0)).round(3).tolist()
+        [[10.0, 1.8, 7.0]]
+        """
+        cut = as_plane(plane)
+        offsets = np.array([cut.offset])
+        found = [intersect_planes(curve.spline, cut.normal, offsets).xyz for curve in self.curves]
+        out = np.concatenate([*found, np.zeros((0, 3))])
+        freeze(out)
+        return out
+
+
+@attrs.frozen(repr=False)
+class Group(Handle):
+    """A group of lines: the unit of associations and of global modifications."""
+
+    _table: ClassVar[str] = "groups"
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return str(self.tables.groups.name.data[self.row])
+
+    @property
+    def family(self) -> str:
+        """The family of its lines, for instance ``"waterlines"``."""
+        return str(self.tables.groups.family.data[self.row])
+
+    @property
+    def lines(self) -> Mapping[str, Line]:
+        """Its lines by name, by position; read-only."""
+        table = self.tables.lines
+        live = self.tables.live("lines")
+        mine = live[table.group.data[live] == self.row]
+        place = np.where(table.planar.data, table.offset.data, np.inf).tolist()
+        order = sorted(mine.tolist(), key=lambda i: (place[i], table.key.data[i]))
+        return NamedMapping("line", {table.name.data[i]: Line.of(self.tables, i) for i in order})
+
+
+# --------------------------------------------------------------------------------------
+# Features as a designer sees them: name, kind, numbers, and the points and lines as handles.
+
+
+@attrs.frozen(repr=False)
+class FeatureHandle:
+    """A feature as it was when it was asked for.
+
+    Attributes
+    ----------
+    tables : HullState
+        The tables of the hull.
+    feature : Feature
+        What the tables hold.
+    """
+
+    tables: HullState
+    feature: Feature
+
+    @property
+    def id(self) -> str:
+        """Its key, which outlives renaming."""
+        return self.feature.key
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return self.feature.name
+
+    @property
+    def kind(self) -> str:
+        """``"circle"``, ``"arc"``, ``"flat"``, ``"straight"``, ``"knuckle"`` or ``"tangent"``."""
+        return self.feature.kind
+
+    @property
+    def parameters(self) -> Mapping[str, float | Place]:
+        """What its kind has, lengths in m: `assoc_hull.model.features.PARAMETERS` lists it."""
+        return self.feature.parameters
+
+    @property
+    def side(self) -> int:
+        """Where centre or region lie, seen against the normal: 1 left of its points, -1 right."""
+        return self.feature.side
+
+    @property
+    def gap(self) -> float:
+        """How far the farthest of its points lay off it when it was found, m."""
+        return self.feature.gap
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """The lines that it lies on."""
+        numbers = line_numbers(self.tables)
+        return tuple(Line.of(self.tables, numbers[key]) for key in self.feature.lines)
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The points that it owns, in order along its line, on the curve that they lie on there."""
+        table, mine = self.tables.rows, set(self.feature.lines)
+        found = []
+        for row in self.feature.points:
+            first = int(table.curve.data[row, 0])
+            side = 0 if self.tables.lines.key.data[self.tables.line_of(first)] in mine else 1
+            found.append(Point(self.tables, row, str(table.key.data[row]), side))
+        return tuple(found)
+
+    def __repr__(self) -> str:
+        return f"<{self.kind} {self.name}, {len(self.feature.points)} points>"
+
+
+def features_by_name(state: HullState) -> NamedMapping[FeatureHandle]:
+    """Give the features of a hull by name, in the order of their keys.
+
+    One whose name features of two lines have is found by group and name, as such lines are.
+    """
+    features = state.features
+    count = Counter(each.name for each in features)
+    title = {
+        state.lines.key.data[line]: state.groups.name.data[int(state.lines.group.data[line])]
+        for line in state.live("lines").tolist()
+    }
+    return NamedMapping(
+        "feature",
+        {
+            each.name if count[each.name] < 2 else f"{title[each.lines[0]]}/{each.name}":
+            FeatureHandle(state, each)
+            for each in features
+        },
+    )  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------
+# Handles: points, curves, lines, groups and crossings as a designer sees them.
+#
+# A handle holds no geometry. It knows the tables of its hull and the number of its object,
+# looks everything up when asked, and gives out frozen values. Two handles on one object are
+# equal; a handle whose object has gone says so.
+#
+# Reference: Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
+# Associative Geometry Objects", J. SNAK 36(4), 1999.
+
+
+def handle(state: HullState, text: str) -> Group | Line | Curve | Point:
+    """Give the handle that an address leads to.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    text : str
+        An address, see `assoc_hull.model.address`, or a key.
+
+    Returns
+    -------
+    Group, Line, Curve or Point
+        The deepest object that the address names.
+
+    Raises
+    ------
+    UnknownNameError
+        Nothing has this address; near ones are named.
+
+    Examples
+    --------
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.objects import handle
+    >>> handle(wigley(), "waterlines"), handle(wigley(), "ST 7 [1]")
+    (<Group waterlines>, <Curve ST 7>)
+    """
+    place = resolve_address(state, text)
+    if place.row >= 0:
+        return Point(state, place.row, state.rows.key.data[place.row], place.side)
+    if place.curve >= 0:
+        return Curve.of(state, place.curve)
+    if place.line >= 0:
+        return Line.of(state, place.line)
+    return Group.of(state, place.group)
+
+
+def numbers_of(thing: Group | Line | Curve | Point | Crossing) -> ResolvedAddress:
+    """Give the numbers of what a handle stands for, as its address would.
+
+    Raises
+    ------
+    ForeignPointError
+        It has gone.
+
+    Examples
+    --------
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.objects import handle, numbers_of
+    >>> numbers_of(handle(wigley(), "sections"))
+    ResolvedAddress(group=1, line=-1, curve=-1, row=-1, side=-1)
+    """
+    number, state = thing.row, thing.tables
+    if isinstance(thing, Group):
+        return ResolvedAddress(number)
+    row = number if isinstance(thing, Point | Crossing) else -1
+    side = thing.side if isinstance(thing, Point) else 0
+    if isinstance(thing, Line):
+        return ResolvedAddress(int(state.lines.group.data[number]), number)
+    curve = number if row < 0 else int(state.rows.curve.data[row, side])
+    line = state.line_of(curve)
+    return ResolvedAddress(
+        int(state.lines.group.data[line]), line, curve, row, side if row >= 0 else -1
+    )
+
+
+# --------------------------------------------------------------------------------------
+# The points of a hull as a mapping by address.
+
+
+class Points(Mapping[str, Point]):
+    """The points of a hull by address; a crossing stands under its line of higher rank.
+
+    Any address leads to a point, also the other way round: ``points["ST 7 x WL 0.5"]``.
+
+    Examples
+    --------
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.objects import Points
+    >>> points = Points(wigley())
+    >>> next(iter(points)), points["ST 7 x WL 2.5"].parent_curve
+    ('ST 1 x profile', <Curve WL 2.5>)
+    """
+
+    def __init__(self, state: HullState) -> None:
+        self._state = state
+
+    def __getitem__(self, address: str) -> Point:
+        found = handle(self._state, address)
+        if isinstance(found, Point):
+            return found
+        raise BadInputError(f"{address!r} names no point", "in points", "ask hull.find for it")
+
+    def __contains__(self, address: object) -> bool:
+        try:
+            return isinstance(address, str) and bool(self[address])
+        except (BadInputError, UnknownNameError):
+            return False
+
+    def items(self) -> ItemsView[str, Point]:
+        """Give addresses with their points."""
+        return dict(self._all()).items()
+
+    def values(self) -> ValuesView[Point]:
+        """Give the points."""
+        return dict(self._all()).values()
+
+    def _all(self) -> Iterator[tuple[str, Point]]:
+        """Give all points by address from one book: a look-up each would make one each."""
+        book, keys = AddressBook(self._state), self._state.rows.key.data
+        for row in self._state.live("rows").tolist():
+            side = book.usual_side(row)
+            yield book.address(row, side), Point(self._state, row, keys[row], side)
+
+    def __iter__(self) -> Iterator[str]:
+        book = AddressBook(self._state)
+        return (book.address(row) for row in self._state.live("rows").tolist())
+
+    def __len__(self) -> int:
+        return len(self._state.live("rows"))

@@ -1,0 +1,456 @@
+"""All that a hull holds, as tables: points, curves, lines and groups; and a copy of them.
+
+Objects are handles on these rows. Coordinates of all points lie in one column; a crossing
+is one row of it, and the two friend points of the crossing are handles on that row. Side 0
+of a row is curve *a* (the line of lower rank, ties by key), side 1 is curve *b*; a placed
+or adopted point has a curve on side 0 only. Tables are written through a `Journal` only;
+a copy is written freely and leaves the hull as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import checked, choice, flag, integer, places, positive, shown, word
+from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.graph.table import ArrayColumn, ListColumn, Table
+from assoc_hull.model.features import Feature
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.kinds import FAMILIES, Family
+from assoc_hull.tolerance import Tolerances
+
+__all__ = [
+    "DECKS",
+    "TABLES",
+    "Association",
+    "CurveIntersections",
+    "Ends",
+    "HasState",
+    "HullState",
+    "Particulars",
+    "copy_into",
+    "copy_state",
+    "curve_node",
+    "form_node",
+    "form_of",
+    "row_node",
+    "state_of",
+]
+
+
+class HasState(Protocol):
+    """A hull."""
+
+    @property
+    def state(self) -> HullState:
+        """Its tables."""
+        ...
+
+
+def state_of(hull: HasState, where: str = "in hydrostatics") -> HullState:
+    """Take a hull, and give its tables; `where` is for the message.
+
+    Raises
+    ------
+    WrongTypeError
+        No hull was given; tables alone are none.
+    """
+    state: object = getattr(hull, "state", None)
+    if not isinstance(state, HullState):
+        # The value itself is not shown: tables are long.
+        what = f"the hull is a {type(hull).__name__}"
+        raise WrongTypeError(what, where, "give a Hull")
+    return state
+
+
+TABLES = ("groups", "lines", "curves", "rows", "featured", "formed", "produced", "settings")
+
+
+# --------------------------------------------------------------------------------------
+# All that a hull holds, as tables: points, curves, lines and groups.
+#
+# Objects are handles on these rows. Coordinates of all points lie in one column; a crossing
+# is one row of it, and the two friend points of the crossing are handles on that row. Side 0
+# of a row is curve *a* (the line of lower rank, ties by key), side 1 is curve *b*; a placed
+# or adopted point has a curve on side 0 only.
+#
+# Tables are written through a `Journal` only; see `assoc_hull.graph.journal`.
+
+DECKS = ("open", "closed")
+"""What may lie between the deck edges to port and starboard: nothing, or a deck."""
+
+
+def _deck(value: object, name: str, where: str) -> None:
+    choice(value, name, DECKS, where)
+
+
+@attrs.frozen
+class Particulars:
+    """Principal dimensions, m, and whether water stays off the deck.
+
+    Attributes
+    ----------
+    name : str
+        Name of the ship.
+    length : float
+        Between perpendiculars, Lpp.
+    breadth, depth, draught : float
+        Moulded; the draught is the design draught.
+    deck : {"open", "closed"}
+        Closed: straight athwartships between the deck edges to port and starboard, so that
+        it may dip into the water. Open: nothing is there, and water above the edge comes in.
+    """
+
+    name: str = attrs.field(validator=checked(word, "in the particulars"))
+    length: float = attrs.field(validator=checked(positive, "in the particulars"))
+    breadth: float = attrs.field(validator=checked(positive, "in the particulars"))
+    depth: float = attrs.field(validator=checked(positive, "in the particulars"))
+    draught: float = attrs.field(validator=checked(positive, "in the particulars"))
+    deck: str = attrs.field(default="open", validator=checked(_deck, "in the particulars"))
+
+
+@attrs.frozen
+class Association:
+    """Lines of group `a` generate points on those of group `b`, and back if `two_way`."""
+
+    a: str = attrs.field(validator=checked(word, "in an association"))
+    b: str = attrs.field(validator=checked(word, "in an association"))
+    two_way: bool = attrs.field(default=True, validator=checked(flag, "in an association"))
+
+
+def _end_kinds(_: object, __: object, value: object) -> None:
+    if not isinstance(value, tuple) or len(value) != 2:
+        remedy = "give an EndKind for the start and one for the finish"
+        raise BadInputError(f"kind is {shown(value)}", "in Ends", remedy)
+    for each in value:
+        EndKind(integer(each, "kind", "in Ends", least=0, most=len(EndKind) - 1))
+
+
+def _two_places(value: object, name: str, where: str) -> None:
+    if not isinstance(value, tuple) or len(places(value, name, where)) != 2:
+        remedy = "give a vector for the start and one for the finish"
+        raise BadInputError(f"{name} is {shown(value)}", where, remedy)
+
+
+@attrs.frozen
+class Ends:
+    """End conditions of a curve: an `EndKind` and a vector at the start and at the finish."""
+
+    kind: tuple[int, int] = attrs.field(default=(0, 0), validator=_end_kinds)
+    vector: tuple[tuple[float, float, float], tuple[float, float, float]] = attrs.field(
+        default=((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), validator=checked(_two_places, "in Ends")
+    )
+
+
+@attrs.frozen(eq=False)
+class CurveIntersections:
+    """Where a curve meets the planes of the lines it is associated with.
+
+    Attributes
+    ----------
+    line : (k,) int
+        The lines whose planes are met, group by group, along each group by plane, then by
+        position along the curve.
+    sign : (k,) int8
+        +1 where the curve passes to the positive side of the plane, else -1.
+    row : (k,) int
+        The crossing there; -1 where the other line does not come: the relation is latent.
+    parameter : (k,), m
+        Chord parameter on the curve.
+    xyz : (k, 3), m
+        The place on the curve.
+    """
+
+    line: IntArray
+    sign: np.typing.NDArray[np.int8]
+    row: IntArray
+    parameter: FloatArray
+    xyz: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.line, self.sign, self.row, self.parameter, self.xyz)
+
+    def take(self, chosen: IntArray | np.typing.NDArray[np.bool_]) -> CurveIntersections:
+        """Give some of the meetings, by index or mask, in that order."""
+        return CurveIntersections(
+            self.line[chosen],
+            self.sign[chosen],
+            self.row[chosen],
+            self.parameter[chosen],
+            self.xyz[chosen],
+        )
+
+    @classmethod
+    def none(cls) -> CurveIntersections:
+        """Give no meetings."""
+        whole = np.zeros(0, np.int64)
+        return cls(whole, np.zeros(0, np.int8), whole.copy(), np.zeros(0), np.zeros((0, 3)))
+
+
+def _no_rows() -> IntArray:
+    rows = np.zeros(0, np.int64)
+    freeze(rows)
+    return rows
+
+
+def row_node(row: IntArray) -> IntArray:
+    """Give the engine's node of a point: even numbers."""
+    return 2 * np.asarray(row, np.int64)
+
+
+def curve_node(curve: IntArray) -> IntArray:
+    """Give the engine's node of a curve: odd numbers."""
+    return 2 * np.asarray(curve, np.int64) + 1
+
+
+def form_node(definition: IntArray) -> IntArray:
+    """Give the engine's node of a definition: even numbers below nil."""
+    return -2 - 2 * np.asarray(definition, np.int64)
+
+
+def form_of(node: IntArray) -> IntArray:
+    """Give the number of the definition that a node below nil stands for."""
+    return -1 - (np.asarray(node, np.int64) >> 1)
+
+
+def _rows() -> Table:
+    return Table(
+        key=(object, ""),
+        alive=(bool, ()),
+        sort=(np.int8, ()),
+        xyz=(float, (3,)),
+        kind=(np.int8, (2,)),
+        direction=(float, (2, 3)),
+        curve=(np.int64, (2,), -1),
+        role=(np.int8, ()),
+        override=(np.int8, (), -1),
+        reader=(np.int64, (2,), -1),
+        driver=(np.int64, (), -1),
+        contact=(bool, ()),
+        sign=(np.int8, ()),
+        birth=(np.int64, ()),
+        limit=(float, (), np.nan),
+        gap=(float, (), np.nan),
+        spot=(float, (2, 3), np.nan),
+        parameter=(float, (2,), np.nan),
+        anchor=(np.int64, (2,), -1),
+        anchor_from=(float, (2, 3)),
+        anchor_weight=(float, ()),
+        base=(float, (3,)),
+        state=(np.int8, ()),
+        label=(object, ""),
+    )
+
+
+def _curves() -> Table:
+    return Table(
+        key=(object, ""),
+        alive=(bool, ()),
+        line=(np.int64, (), -1),
+        rows=(object, _no_rows()),
+        side=(object, _no_rows()),
+        ends=(object, Ends()),
+        spline=(object, None),
+        meets=(object, CurveIntersections.none()),
+        state=(np.int8, ()),
+    )
+
+
+def _lines() -> Table:
+    return Table(
+        key=(object, ""),
+        alive=(bool, ()),
+        name=(object, ""),
+        group=(np.int64, (), -1),
+        planar=(bool, ()),
+        normal=(float, (3,)),
+        offset=(float, (), np.nan),
+        boundary=(np.int8, (), -1),
+        curves=(object, ()),
+        note=(object, ""),
+    )
+
+
+def _featured() -> Table:
+    return Table(alive=(bool, ()), feature=(object, None))
+
+
+def _formed() -> Table:
+    return Table(alive=(bool, ()), definition=(object, None))
+
+
+def _produced() -> Table:
+    return Table(alive=(bool, ()), curve=(object, None))
+
+
+def _settings() -> Table:
+    return Table(
+        associations=(object, ()),
+        births=(object, None),
+        failed=(object, ()),
+        particulars=(object, None),
+    )
+
+
+@attrs.define(eq=False)
+class HullState:
+    """The tables of one hull.
+
+    Attributes
+    ----------
+    particulars : Particulars
+        Principal dimensions, m.
+    tolerances : Tolerances
+        Part of the definition.
+    rows, curves, lines, groups : Table
+        The objects.
+    featured : Table
+        One row per feature, which it holds whole: see `features`.
+    formed : Table
+        One row per definition by form parameters, which it holds whole: see `definitions`.
+    produced : Table
+        One row per curve whose points come from definitions: see `generated`.
+    settings : Table
+        One row: the associations (`associations`) and how many crossings of each pair of
+        lines were ever born (`births`), so that a dead id never comes back; the name may
+        change, so the particulars lie here too.
+    revision_row, revision_curve : list of int
+        Revisions; outside the journal, as they never run backward.
+    kept : dict
+        What higher layers made of the tables, which they check before they use it again. It lies
+        here to go with the hull: a store by hull elsewhere would keep it for ever.
+    """
+
+    _given: Particulars = attrs.field(alias="particulars")
+    tolerances: Tolerances = attrs.field(factory=Tolerances)
+    rows: Any = attrs.field(factory=_rows)
+    curves: Any = attrs.field(factory=_curves)
+    lines: Any = attrs.field(factory=_lines)
+    groups: Any = attrs.field(
+        factory=lambda: Table(name=(object, ""), family=(object, ""), alive=(bool, ()))
+    )
+    featured: Any = attrs.field(factory=_featured)
+    formed: Any = attrs.field(factory=_formed)
+    produced: Any = attrs.field(factory=_produced)
+    settings: Any = attrs.field(factory=_settings)
+    revision_row: dict[int, int] = attrs.field(factory=dict)
+    revision_curve: dict[int, int] = attrs.field(factory=dict)
+    kept: dict[str, Any] = attrs.field(factory=dict, init=False, repr=False)
+
+    def __attrs_post_init__(self) -> None:
+        if not self.settings.count:
+            self.settings.resize(1)
+            self.settings.births.data[0] = {}
+            self.settings.particulars.data[0] = self._given
+
+    @property
+    def particulars(self) -> Particulars:
+        """Name and principal dimensions, m."""
+        found: Particulars = self.settings.particulars.data[0]
+        return found
+
+    @property
+    def associations(self) -> tuple[Association, ...]:
+        """The declared associations."""
+        found: tuple[Association, ...] = self.settings.associations.data[0]
+        return found
+
+    @property
+    def features(self) -> tuple[Feature, ...]:
+        """The features that are alive, by key."""
+        table = self.featured
+        found = [table.feature.data[number] for number in self.live("featured").tolist()]
+        return tuple(sorted(found, key=lambda each: each.key))
+
+    @property
+    def definitions(self) -> tuple[FormDefinition, ...]:
+        """The definitions by form parameters, by key."""
+        table = self.formed
+        found = [table.definition.data[number] for number in self.live("formed").tolist()]
+        return tuple(sorted(found, key=lambda each: each.key))
+
+    @property
+    def generated(self) -> tuple[GeneratedCurve, ...]:
+        """The curves whose points come from definitions, detached ones too, by key."""
+        table = self.produced
+        found = [table.curve.data[number] for number in self.live("produced").tolist()]
+        return tuple(sorted(found, key=lambda each: each.key))
+
+    @property
+    def failed(self) -> tuple[int, ...]:
+        """Curves that could not be lofted and keep their last good shape."""
+        found: tuple[int, ...] = self.settings.failed.data[0]
+        return found
+
+    @property
+    def births(self) -> Mapping[tuple[str, str], int]:
+        """How many crossings each pair of lines has ever had, by the keys of the lines."""
+        found: Mapping[tuple[str, str], int] = self.settings.births.data[0]
+        return found
+
+    def family(self, line: int) -> Family:
+        """Give the family of a line."""
+        return FAMILIES[self.groups.family.data[int(self.lines.group.data[line])]]
+
+    def line_of(self, curve: int) -> int:
+        """Give the line that a curve belongs to."""
+        return int(self.curves.line.data[curve])
+
+    def rank(self, curve: int) -> tuple[int, str, str]:
+        """Give the rank of a curve: by family, then by the keys of line and curve."""
+        line = self.line_of(curve)
+        keys = self.lines.key.data[line], self.curves.key.data[curve]
+        return (self.family(line).rank, *keys)
+
+    def spline(self, curve: int) -> SplineBatch:
+        """Give the published spline of a curve, a batch of one."""
+        found: SplineBatch = self.curves.spline.data[curve]
+        return found
+
+    def curves_of(self, line: int) -> list[int]:
+        """Give the curves of a line that have a shape, in their order."""
+        curves = self.curves
+        return [
+            curve
+            for curve in self.lines.curves.data[line]
+            if curves.alive.data[curve] and curves.spline.data[curve] is not None
+        ]
+
+    def live(self, table: str) -> IntArray:
+        """Give the numbers of the live rows of a table."""
+        return np.flatnonzero(getattr(self, table).alive.data)
+
+
+# --------------------------------------------------------------------------------------
+# A copy of a hull's tables, which can be changed without the hull.
+
+
+def copy_state(state: HullState) -> HullState:
+    """Copy the tables of a hull; row numbers stay, values that never change are shared."""
+    found = HullState(state.particulars, state.tolerances)
+    copy_into(found, state)
+    return found
+
+
+def copy_into(found: HullState, state: HullState) -> None:
+    """Give tables the content of a copy; they stay the same objects, so handles on them hold."""
+    for name in TABLES:
+        _copy(getattr(state, name), getattr(found, name))
+    found.settings.births.data[0] = dict(state.births)
+    found.revision_row, found.revision_curve = dict(state.revision_row), dict(state.revision_curve)
+
+
+def _copy(given: Table, found: Table) -> None:
+    found.resize(given.count)
+    for name, column in given.columns.items():
+        other = found.columns[name]
+        if isinstance(column, ArrayColumn) and isinstance(other, ArrayColumn):
+            other.store[: given.count] = column.data
+            other.writes += 1
+        elif isinstance(column, ListColumn):
+            other.data[:] = column.data

@@ -1,0 +1,449 @@
+"""The three views of a hull: where they lie on a sheet, their straight lines, curves and labels.
+
+The half-breadth plan lies below the profile on the same scale, aligned in x; above both lies the
+body plan on its own, larger scale, beside the block of particulars. The bow is to the right;
+the fore body stands right of the centre line of the body plan, the aft body left of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.plot.lines_plan.drawing import Drawing, PlotLine, pen_of
+from assoc_hull.plot.sheet.labels import LabelledLine, Side, label_above, label_lines, label_row
+from assoc_hull.plot.sheet.paper import AXIS, GRID, HEAVY, MARGIN, WATER, Paper, Pen
+from assoc_hull.plot.sheet.sheet_figure import Sheet
+from assoc_hull.plot.sheet.title_block import BLOCK
+from assoc_hull.plot.sheet.view import View, scale_of
+
+__all__ = [
+    "Grid",
+    "ViewLayout",
+    "Views",
+    "body_halves",
+    "lay_out_views",
+    "scale_of_body",
+]
+
+# --------------------------------------------------------------------------------------
+# Where the three views lie on a sheet, and at which scales.
+
+_SIDE = 17.0  # for labels left and right of a view
+_ABOVE, _BELOW, _CAPTION = 9.0, 9.0, 7.0
+_ABOVE_HALF = 6.5
+_BODY_ABOVE, _BODY_BELOW = 15.0, 12.0
+
+
+@attrs.frozen
+class ViewLayout:
+    """The views, and the block of particulars: its right upper corner, mm.
+
+    Attributes
+    ----------
+    profile, half, body : View
+        The body view is that of the fore body; mirrored it is that of the aft body.
+    low, high : (3,), m
+        Least and greatest coordinates of the hull; y is counted to one side.
+    depth : float, m
+        How far diagonals reach below the centre line of the half-breadth plan.
+    corner : (float, float), mm
+        Right upper corner of the frame.
+    """
+
+    profile: View
+    half: View
+    body: View
+    low: FloatArray
+    high: FloatArray
+    depth: float
+    corner: tuple[float, float]
+
+
+def lay_out_views(drawing: Drawing, paper: Paper) -> ViewLayout:
+    """Choose scales and places for a lines plan.
+
+    The half-breadth plan lies below the profile on the same scale, aligned in x; above both
+    lies the body plan on its own, larger scale, beside the block of particulars.
+    """
+    factor = paper.factor
+    low, high = drawing.bounds
+    low = np.minimum(low, [0.0, 0.0, 0.0])
+    length, breadth, height = (high - low).tolist()
+    depth = _diagonal_reach(drawing)
+    frame = MARGIN * factor
+    scale = scale_of(length, paper.width - 2.0 * frame - 2.0 * _SIDE * factor)
+    unit = 1e3 / scale
+    bands = (_ABOVE_HALF + _ABOVE + 2.0 * (_BELOW + _CAPTION)) * factor
+    lower = unit * (height + breadth + depth) + bands
+    room = paper.height - 2.0 * frame - lower
+    body_room = (
+        paper.width - 2.0 * frame - BLOCK * factor - 2.0 * _SIDE * factor,
+        room - (_BODY_ABOVE + _BODY_BELOW + _CAPTION) * factor,
+    )
+    body_scale = min(scale, scale_of_body(breadth, height, body_room))
+    spare = room - height * 1e3 / body_scale - (_BODY_ABOVE + _BODY_BELOW + _CAPTION) * factor
+    gap = max(spare, 0.0) / 4.0
+    x = 0.5 * (paper.width - unit * length) - unit * low[0]
+    y = frame + gap + (_CAPTION + _BELOW) * factor + unit * depth
+    z = y + unit * breadth + gap + (_ABOVE_HALF + _CAPTION + _BELOW) * factor - unit * low[2]
+    top = z + unit * high[2] + _ABOVE * factor
+    middle = 0.5 * (paper.width - BLOCK * factor)
+    base = top + gap + (_CAPTION + _BODY_BELOW) * factor - low[2] * 1e3 / body_scale
+    return ViewLayout(
+        View("profile", (0, 2), scale, (x, z)),
+        View("half-breadth", (0, 1), scale, (x, y)),
+        View("body", (1, 2), body_scale, (middle, base)),
+        low, high, depth, (paper.width - frame, paper.height - frame),
+    )  # fmt: skip
+
+
+def scale_of_body(breadth: float, height: float, room: tuple[float, float]) -> float:
+    """Give the scale of a body plan: both halves side by side, within a width and height, mm."""
+    return max(scale_of(2.0 * breadth, room[0]), scale_of(height, max(room[1], 1.0)))
+
+
+def _diagonal_reach(drawing: Drawing) -> float:
+    """Give the greatest breadth along the diagonals' planes, m."""
+    reach = [0.0]
+    for line in drawing.of("diagonals"):
+        points = line.points
+        if len(points):
+            start = line.offset / line.normal[2] if line.normal[2] else 0.0
+            reach.append(float(np.hypot(points[:, 1], points[:, 2] - start).max()))
+    return max(reach)
+
+
+# --------------------------------------------------------------------------------------
+# The straight lines of the three views, with their labels.
+
+_OVER = 1.6
+"""How far grid lines reach beyond the hull, mm at A3."""
+
+
+@attrs.frozen
+class Grid:
+    """Draws the planes of the lines that a view shows as straight lines.
+
+    Attributes
+    ----------
+    sheet : Sheet
+        Where to draw.
+    drawing : Drawing
+        The hull.
+    low, high : (3,), m
+        Least and greatest coordinates; y of one side.
+    """
+
+    sheet: Sheet
+    drawing: Drawing
+    low: FloatArray
+    high: FloatArray
+
+    @property
+    def over(self) -> float:
+        """How far grid lines reach beyond the hull, mm."""
+        return _OVER * self.sheet.paper.factor
+
+    @property
+    def sections(self) -> tuple[PlotLine, ...]:
+        """The sections; the frames of a hull that has no sections."""
+        return self.drawing.of("sections") or self.drawing.of("frames")
+
+    def body(self, view: View) -> None:
+        """Draw waterlines and buttocks as straight lines, labelled at their ends."""
+        factor, breadth = self.sheet.paper.factor, self.high[1]
+        left, right = view.across(-breadth) - self.over, view.across(breadth) + self.over
+        self._level_lines(view, left, right)
+        low, high = view.up(self.low[2]) - self.over, view.up(self.high[2]) + self.over
+        below = low - 2.0 * factor
+        ends, words = [], []
+        for line in self.drawing.of("buttocks"):
+            for half in (view, view.mirrored()):
+                x = half.across(line.offset)
+                self.sheet.rule((x, low), (x, high), GRID, f"body/grid/{line.name}")
+                ends.append([x, low])
+                words.append(line.label)
+        label_row(
+            self.sheet, np.array(ends).reshape(-1, 2), words, "below", below,
+            heading="BTK", name="label/body/buttocks",
+        )  # fmt: skip
+        self.sheet.rule((view.across(0.0), low), (view.across(0.0), high), AXIS, "body/grid/CL")
+        for edge in (-breadth, breadth):
+            self.sheet.rule(
+                (view.across(edge), low), (view.across(edge), high), GRID, "body/grid/side"
+            )
+        self._level_labels(view, "left", left)
+        self._level_labels(view, "right", right)
+
+    def stations(self, view: View, low: float, high: float) -> None:
+        """Draw the sections as upright straight lines, labelled below."""
+        bottom, top = view.up(low) - self.over, view.up(high) + self.over
+        ends = [(view.across(line.offset), bottom) for line in self.sections]
+        for line, (x, _) in zip(self.sections, ends, strict=True):
+            self.sheet.rule((x, bottom), (x, top), GRID, f"{view.name}/grid/{line.name}")
+        words = [line.label for line in self.sections]
+        below = bottom - 2.0 * self.sheet.paper.factor
+        ends_ = np.array(ends).reshape(-1, 2)
+        label_row(
+            self.sheet, ends_, words, "below", below,
+            heading="ST", sparse=True, name=f"label/{view.name}/sections",
+        )  # fmt: skip
+
+    def levels(self, view: View, low: float, high: float) -> None:
+        """Draw the waterlines as level straight lines, labelled at both ends.
+
+        Rows above and below the view are written first: names on the left that would reach into
+        them are left out, the body plan has them all.
+        """
+        left, right = view.across(low) - self.over, view.across(high) + self.over
+        self._level_lines(view, left, right)
+        self._level_labels(view, "left", left)
+        self._level_labels(view, "right", right)
+
+    def _level_lines(self, view: View, left: float, right: float) -> None:
+        for line in self.drawing.of("waterlines"):
+            z = view.up(line.offset)
+            self.sheet.rule((left, z), (right, z), GRID, f"{view.name}/grid/{line.name}")
+        for height, pen in ((0.0, HEAVY), (self.drawing.particulars.draught, WATER)):
+            z = view.up(height)
+            self.sheet.rule(
+                (left, z), (right, z), attrs.evolve(pen, width=0.16), f"{view.name}/grid/"
+            )
+
+    def _level_labels(self, view: View, side: Side, end: float) -> None:
+        """Label waterlines by name on the left; design waterline and base line on the right."""
+        draught = self.drawing.particulars.draught
+        marks = [(0.0, "base line"), (draught, "DWL")]
+        if side == "left":
+            marks = [(line.offset, line.name) for line in self.drawing.of("waterlines")]
+        ends = np.array([(end, view.up(height)) for height, _ in marks]).reshape(-1, 2)
+        off = (2.5 if side == "right" else -2.5) * self.sheet.paper.factor
+        words = [name for _, name in marks]
+        name, sparse = f"label/{view.name}/{side}", side == "left" and view.name != "body"
+        label_row(self.sheet, ends, words, side, end + off, sparse=sparse, name=name)
+
+    def lanes(self, view: View, low: float, high: float) -> None:
+        """Draw the buttocks as straight lines along the ship, labelled on the left as `levels`."""
+        left, right = view.across(low) - self.over, view.across(high) + self.over
+        lines = self.drawing.of("buttocks")
+        for line in lines:
+            y = view.up(line.offset)
+            self.sheet.rule((left, y), (right, y), GRID, f"{view.name}/grid/{line.name}")
+        self.sheet.rule((left, view.up(0.0)), (right, view.up(0.0)), AXIS, f"{view.name}/grid/CL")
+        marks = [(0.0, "CL"), *((line.offset, line.name) for line in lines)]
+        ends = np.array([(left, view.up(offset)) for offset, _ in marks])
+        at = left - 2.5 * self.sheet.paper.factor
+        words = [name for _, name in marks]
+        label_row(self.sheet, ends, words, "left", at, sparse=True, name=f"label/{view.name}/left")
+
+    def perpendiculars(self, view: View, low: float, high: float) -> None:
+        """Draw both perpendiculars and the middle between them, named in a row below."""
+        factor, length = self.sheet.paper.factor, self.drawing.particulars.length
+        bottom, top = view.up(low) - self.over, view.up(high) + self.over
+        for x, words in ((0.0, "AP"), (0.5 * length, "Lpp/2"), (length, "FP")):
+            at = view.across(x)
+            self.sheet.rule((at, bottom), (at, top), AXIS, f"{view.name}/grid/{words}")
+            text = self.sheet.text(
+                (at, bottom - 5.2 * factor), words, up="top", name=f"label/{view.name}/{words}"
+            )
+            self.sheet.take(text)
+
+
+# --------------------------------------------------------------------------------------
+# The lines of the three views, and their labels.
+
+_NEAR = 1e-6
+"""Planes within this distance (m) are the same."""
+
+
+@attrs.frozen(eq=False)
+class _Top:
+    """Where a section ends at the head of the body plan: label, place (2,), mm, and rank."""
+
+    label: str
+    place: FloatArray
+    order: tuple[float, float]
+
+
+@attrs.frozen
+class Views:
+    """Draws the views of one hull.
+
+    Attributes
+    ----------
+    sheet : Sheet
+        Where to draw.
+    drawing : Drawing
+        The hull.
+    low, high : (3,), m
+        Least and greatest coordinates; y of one side.
+    tinted : collection of str
+        Names of lines that are to be noticed.
+    """
+
+    sheet: Sheet
+    drawing: Drawing
+    low: FloatArray
+    high: FloatArray
+    tinted: Collection[str] = ()
+
+    @property
+    def grid(self) -> Grid:
+        """Draws the straight lines."""
+        return Grid(self.sheet, self.drawing, self.low, self.high)
+
+    @property
+    def sections(self) -> tuple[PlotLine, ...]:
+        """The sections; the frames of a hull that has no sections."""
+        return self.grid.sections
+
+    @property
+    def middle(self) -> float:
+        """Half the length between perpendiculars, m."""
+        return 0.5 * self.drawing.particulars.length
+
+    def draw(self, view: View, line: PlotLine, pen: Pen | None = None) -> list[FloatArray]:
+        """Draw a line in a view; give its polylines on the sheet."""
+        used = pen or pen_of(line, line.name in self.tinted)
+        found = [view.on_paper(points) for points in line.polylines]
+        for points in found:
+            self.sheet.line(points, used, f"{view.name}/{line.family}/{line.name}")
+        return found
+
+    def profile(self, view: View) -> None:
+        """Draw the sheer plan: buttocks and boundaries over stations and waterlines."""
+        self.grid.stations(view, self.low[2], self.high[2])
+        self.grid.perpendiculars(view, self.low[2], self.high[2])
+        for line in self.drawing.of("boundary"):
+            self.draw(view, line)
+        ends, words = [], []
+        for line in self.drawing.of("buttocks"):
+            for points in self.draw(view, line):
+                tops = [
+                    end for end in (points[0], points[-1]) if end[1] > view.up(self.middle_height)
+                ]
+                ends += tops
+                words += [line.label] * len(tops)
+        top = view.up(self.high[2]) + 3.2 * self.sheet.paper.factor
+        above = np.array(ends).reshape(-1, 2)
+        label_row(
+            self.sheet, above, words, "above", top,
+            upright=True, heading="BTK", name="label/profile/buttocks",
+        )  # fmt: skip
+        self.grid.levels(view, self.low[0], self.high[0])
+
+    @property
+    def middle_height(self) -> float:
+        """Half the height of the hull, m."""
+        return float(0.5 * (self.low[2] + self.high[2]))
+
+    def half_breadth(self, view: View) -> None:
+        """Draw the half-breadth plan: waterlines, boundaries; diagonals below the centre line."""
+        self.grid.stations(view, 0.0, self.high[1])
+        self.grid.perpendiculars(view, 0.0, self.high[1])
+        lettered = []
+        for line in (*self.drawing.of("boundary"), *self.drawing.of("waterlines")):
+            if line is self.drawing.profile:
+                continue
+            label = line.label if line.family == "waterlines" else line.name
+            found = self.draw(view, line)
+            if not self._along_grid(line):
+                lettered += [LabelledLine(label, points, line.name) for points in found]
+        self._diagonals(view)
+        start, end, middle = (view.across(x) for x in (self.low[0], self.high[0], self.middle))
+        wanted = {line.label for line in lettered}
+        for low, high, part in ((start, middle, "aft"), (middle, end, "fore")):
+            wanted -= label_lines(
+                self.sheet, lettered, low, high, name=f"label/half-breadth/{part}"
+            )
+        top = view.up(self.high[1]) + 3.5 * self.sheet.paper.factor
+        label_above(self.sheet, lettered, wanted, top, "label/half-breadth/above")
+        self.grid.lanes(view, self.low[0], self.high[0])
+
+    def _along_grid(self, line: PlotLine) -> bool:
+        """Whether a line is straight along the ship when seen from above."""
+        return bool(abs(line.normal[1]) == 1.0)
+
+    def _diagonals(self, view: View) -> None:
+        """Draw diagonals in true breadth along their planes, mirrored below."""
+        for line in self.drawing.of("diagonals"):
+            start = line.offset / line.normal[2] if line.normal[2] else 0.0
+            for points in line.polylines:
+                true = points.copy()
+                true[:, 1] = -np.hypot(points[:, 1], points[:, 2] - start)
+                pen = pen_of(line, line.name in self.tinted)
+                name = f"{view.name}/{line.family}/{line.name}"
+                self.sheet.line(view.on_paper(true), pen, name)
+
+    def body(self, view: View) -> None:
+        """Draw the body plan: aft body on the left, fore body on the right."""
+        tops: list[_Top] = []
+        for half, sections in zip(
+            (view.mirrored(), view), body_halves(self.sections, self.middle), strict=True
+        ):
+            tops += self._half_body(half, sections)
+            for line in self.drawing.of("boundary"):
+                if line is not self.drawing.profile:
+                    self._half_boundary(half, line)
+            for line in self.drawing.of("diagonals"):
+                self.draw(half, line)
+        tops.sort(key=lambda top: top.order)
+        above = view.up(self.high[2]) + 5.5 * self.sheet.paper.factor
+        label_row(
+            self.sheet, np.array([top.place for top in tops]).reshape(-1, 2),
+            [top.label for top in tops], "above", above, upright=True,
+            heading="ST", name="label/body/top",
+        )  # fmt: skip
+        self.grid.body(view)
+
+    def _half_body(self, view: View, sections: Sequence[PlotLine]) -> list[_Top]:
+        """Draw the sections of one half, labelled on the lines; give their tops."""
+        tops, lettered = [], []
+        for line in sections:
+            found = [points for points in self.draw(view, line) if len(points)]
+            lettered += [LabelledLine(line.label, points) for points in found]
+            if found:
+                # Of a section in several pieces the highest reaches the deck.
+                every = np.concatenate(found)
+                place = every[np.argmax(every[:, 1])]
+                # Those that end at one place: midship outermost.
+                inward = -view.sign * abs(line.offset - self.middle)
+                tops.append(_Top(line.label, place, (round(float(place[0]), 2), inward)))
+        low, edge = view.up(self.low[2]), view.up(self.high[2])
+        part = "aft" if view.sign < 0.0 else "fore"
+        label_lines(self.sheet, lettered, low, edge, axis=1, name=f"label/body/on {part}")
+        return tops
+
+    def _half_boundary(self, view: View, line: PlotLine) -> None:
+        """Draw what of a boundary lies abaft (mirrored) or before the middle."""
+        pen = pen_of(line, line.name in self.tinted)
+        for points in line.polylines:
+            part = _clip(points, self.middle, view.sign)
+            if len(part) > 1:
+                self.sheet.line(view.on_paper(part), pen, f"body/boundary/{line.name}")
+
+
+def body_halves(
+    sections: Sequence[PlotLine], middle: float
+) -> tuple[tuple[PlotLine, ...], tuple[PlotLine, ...]]:
+    """Divide sections into aft and fore body; the one at the middle belongs to both."""
+    aft = tuple(line for line in sections if line.offset <= middle + _NEAR)
+    fore = tuple(line for line in sections if line.offset >= middle - _NEAR)
+    return aft, fore
+
+
+def _clip(points: FloatArray, middle: float, sign: float) -> FloatArray:
+    """Give the part of a polyline before (sign 1) or abaft (-1) a station."""
+    ahead = sign * (points[:, 0] - middle)
+    found = []
+    for i in range(len(points)):
+        if i and ahead[i - 1] * ahead[i] < 0.0:
+            part = ahead[i - 1] / (ahead[i - 1] - ahead[i])
+            found.append(points[i - 1] + part * (points[i] - points[i - 1]))
+        if ahead[i] >= 0.0:
+            found.append(points[i])
+    return np.array(found).reshape(-1, 3)

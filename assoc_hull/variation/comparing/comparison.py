@@ -1,0 +1,549 @@
+"""A parent and a variant of it side by side: lines, numbers, fairness, points, features.
+
+`compare` gives a `HullComparison`. The rows of its tables are the same on a terminal, on paper and
+in the plots; they come second, then the text, then JSON, whose schema is in `io`.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import chain
+from types import MappingProxyType
+from typing import Any
+
+import attrs
+
+from assoc_hull.analysis.form.floating_shape import Screw
+from assoc_hull.arguments import choice, instance, integer
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.features import Place
+from assoc_hull.model.named_mapping import NamedMapping
+from assoc_hull.model.tables import HasState, HullState, Particulars, state_of
+from assoc_hull.variation.comparing.line_comparison import LineComparison, LineShift, compare_lines
+from assoc_hull.variation.comparing.line_fairness import FairnessComparison, LineFairness
+from assoc_hull.variation.comparing.number_comparison import (
+    NumberComparison,
+    compare_numbers,
+    numbers_of,
+)
+from assoc_hull.variation.comparing.object_comparison import (
+    FeatureComparison,
+    PointsComparison,
+    compare_features,
+    compare_points,
+)
+
+__all__ = [
+    "COMPARISON_FORMAT",
+    "LINE_HEAD",
+    "NUMBER_HEAD",
+    "PRINCIPAL",
+    "SCHEMA",
+    "ComparedHull",
+    "HullComparison",
+    "amount",
+    "compare",
+    "comparison_document",
+    "comparison_json",
+    "comparison_text",
+    "counts",
+    "hull_words",
+    "line_cells",
+    "line_words",
+    "number_cells",
+    "object_words",
+    "reason_words",
+]
+
+# --------------------------------------------------------------------------------------
+# A parent and a variant of it side by side: lines, numbers, fairness, points, features.
+
+_WHERE = "in compare"
+
+
+@attrs.frozen
+class ComparedHull:
+    """One of both hulls.
+
+    Attributes
+    ----------
+    particulars : Particulars
+        Name and principal dimensions, m.
+    fingerprint : str
+        SHA-256 of definition and published values.
+    draught : float, m
+        Moulded, at which it was measured, at even keel.
+    doubts : tuple of str
+        What makes its hydrostatics doubtful, or why there are none.
+    """
+
+    particulars: Particulars
+    fingerprint: str
+    draught: float
+    doubts: tuple[str, ...]
+
+
+_BY: Mapping[str, Callable[[LineComparison], float]] = MappingProxyType(
+    {
+        "shift": lambda line: line.length,
+        "course": lambda line: line.course,
+        "comb": lambda line: line.comb_ratio or 0.0,
+        "signs": lambda line: float(line.added),
+    }
+)
+"""By what lines may be sorted, the greatest first."""
+
+
+@attrs.frozen(eq=False)
+class HullComparison:
+    """A parent and a variant side by side; `str` gives it as a table.
+
+    Attributes
+    ----------
+    parent, variant : ComparedHull
+        Which hulls, and at which draughts.
+    lines : tuple of LineComparison
+        Every line of either, in the order of the variant; those that went come last.
+    hydrostatics : tuple of NumberComparison
+        As `assoc_hull.hydrostatics` gives them, under its names.
+    parameters : tuple of NumberComparison
+        All form parameters, in the order of the tables of the catalogue.
+    points : PointsComparison
+        Points that came and went.
+    features : tuple of FeatureComparison
+        Every feature of either.
+    """
+
+    parent: ComparedHull
+    variant: ComparedHull
+    lines: tuple[LineComparison, ...]
+    hydrostatics: tuple[NumberComparison, ...]
+    parameters: tuple[NumberComparison, ...]
+    points: PointsComparison
+    features: tuple[FeatureComparison, ...]
+
+    def line(self, name: str) -> LineComparison:
+        """Give a line by its name.
+
+        Raises
+        ------
+        UnknownNameError
+            Neither hull has it.
+        """
+        return NamedMapping("line", {each.name: each for each in reversed(self.lines)})[name]
+
+    def hydrostatic(self, name: str) -> NumberComparison:
+        """Give a value of the record of hydrostatics by its name.
+
+        Raises
+        ------
+        UnknownNameError
+            There is none.
+        """
+        return NamedMapping("value", {each.symbol: each for each in self.hydrostatics})[name]
+
+    def parameter(self, symbol: str) -> NumberComparison:
+        """Give a form parameter by its symbol.
+
+        Raises
+        ------
+        UnknownNameError
+            There is none.
+        """
+        return NamedMapping("form parameter", {each.symbol: each for each in self.parameters})[
+            symbol
+        ]
+
+    def worst(self, count: int = 10, *, by: str = "shift") -> tuple[LineComparison, ...]:
+        """Give the lines that changed most, the worst first.
+
+        Parameters
+        ----------
+        count : int
+            At most so many.
+        by : {"shift", "course", "comb", "signs"}
+            The largest shift; that beside the shift of the plane; the ratio of the comb
+            integrals; changes of sign of curvature that were added. A line of which this is
+            nil does not come, nor one whose comb has not risen.
+
+        Raises
+        ------
+        BadInputError
+            No such number, or another order.
+        """
+        integer(count, "count", "in worst", least=0)
+        measure = _BY[choice(by, "by", _BY, "in worst")]
+        least = 1.0 if by == "comb" else 0.0
+        found = [line for line in self.lines if line.what == "moved" and measure(line) > least]
+        return tuple(sorted(found, key=lambda line: -measure(line))[:count])
+
+    def of(self, what: str) -> tuple[LineComparison, ...]:
+        """Give the lines that are the same, moved, came or went.
+
+        Raises
+        ------
+        BadInputError
+            Another word.
+        """
+        choice(what, "what", ("same", "moved", "came", "went"), "in of")
+        return tuple(line for line in self.lines if line.what == what)
+
+    @property
+    def fairness(self) -> FairnessComparison:
+        """Changes of sign and comb ratios of the lines of both, and their sums."""
+        told = (line.fairness for line in self.lines)
+        return FairnessComparison(tuple(each for each in told if each is not None))
+
+    @property
+    def is_same(self) -> bool:
+        """Tell whether both hulls have the same fingerprint."""
+        return self.parent.fingerprint == self.variant.fingerprint
+
+    def to_json(self) -> str:
+        """Give everything as JSON text; its schema is `comparison` of ``assoc-hull schema``."""
+        return comparison_json(self)
+
+    def __str__(self) -> str:
+
+        return comparison_text(self)
+
+
+def compare(
+    parent: HasState,
+    variant: HasState,
+    *,
+    draught: float | None = None,
+    screw: Screw | None = None,
+) -> HullComparison:
+    """Compare a variant with its parent, or any two hulls.
+
+    Lines are paired by name, and by key where one was renamed. Of each pair the largest shift
+    is told, measured curve to curve in the plane of the line (see
+    `assoc_hull.variation.comparing.line_comparison`), and how fair it is before and after. All
+    differences are variant less parent: with both exchanged, they change their signs.
+
+    Parameters
+    ----------
+    parent, variant : Hull
+        The hulls; neither is changed.
+    draught : float or None, m
+        Moulded, at even keel, for the numbers of both; each at its design draught if not given.
+    screw : Screw or None
+        For the form parameters that need it.
+
+    Returns
+    -------
+    HullComparison
+        Everything; what has no number has a reason.
+
+    Raises
+    ------
+    OutOfRangeError
+        One of both does not float at the draught that was asked.
+    BadInputError
+        No hull, or a number that cannot be used.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> parent = ah.examples.wigley()
+    >>> found = ah.compare(parent, ah.vary(parent, set={"breadth": 11.0}).hull, draught=5.0)
+    >>> print(f"{found.parameter('BMT').percent:.3f} %")
+    21.000 %
+    """
+    old, new = state_of(parent, _WHERE), state_of(variant, _WHERE)
+    if screw is not None:
+        instance(screw, Screw, "screw", _WHERE)
+    was, now = (numbers_of(hull, draught, screw) for hull in (parent, variant))
+    hydrostatics, parameters = compare_numbers(was, now)
+    return HullComparison(
+        _hull(old, draught, was.doubts),
+        _hull(new, draught, now.doubts),
+        compare_lines(old, new),
+        hydrostatics,
+        parameters,
+        compare_points(old, new),
+        compare_features(old, new),
+    )
+
+
+def _hull(state: HullState, draught: float | None, doubts: Iterable[str]) -> ComparedHull:
+    ship = state.particulars
+    level = ship.draught if draught is None else float(draught)
+    return ComparedHull(ship, fingerprint(state), level, tuple(doubts))
+
+
+# --------------------------------------------------------------------------------------
+# The rows of a comparison as they are printed, on a terminal as on paper.
+
+PRINCIPAL = (
+    "volume", "displacement", "lcb", "lcb_percent", "kb", "kmt", "kml", "waterplane_area", "lcf",
+    "tpc", "mtc", "wetted_surface", "lwl", "bwl", "a_max", "a_midship", "cb", "cm", "cp", "cw",
+)  # fmt: skip
+"""The values of hydrostatics that are printed."""
+
+LINE_HEAD = (
+    "line", "shift mm", "direction", "at x, y, z (m)", "plane mm", "signs", "comb", "points",
+)  # fmt: skip
+"""Over `line_cells`: the largest shift, where it is on the variant, that of the plane alone;
+changes of sign of curvature, ratio of the comb integrals, points that define the line."""
+
+NUMBER_HEAD = ("", "unit", "parent", "variant", "difference", "%")
+"""Over `number_cells`."""
+
+_TOLD = 10
+"""At most so many points are listed."""
+
+_WHATS = ("same", "moved", "came", "went")
+
+
+def hull_words(hull: ComparedHull) -> str:
+    """Tell name and dimensions of a hull, and at which draught it was measured."""
+    ship = hull.particulars
+    sizes = f"Lpp {ship.length:.3f}, B {ship.breadth:.3f}, D {ship.depth:.3f}, T {ship.draught:.3f}"
+    return f"{ship.name}: {sizes} m; measured at {hull.draught:.3f} m"
+
+
+def counts(found: HullComparison) -> str:
+    """Tell how many lines moved, came and went."""
+    return ", ".join(f"{len(found.of(what))} {what}" for what in _WHATS)
+
+
+def line_cells(line: LineComparison) -> list[str]:
+    """Give the row of a line, below `LINE_HEAD`."""
+    shift, fair, ratio = line.shift, line.fairness, line.comb_ratio
+    plane = None if shift is None else shift.plane
+    return [
+        line.name,
+        f"{1e3 * line.length:.1f}",
+        "-" if shift is None else shift.direction,
+        "-" if shift is None else ", ".join(f"{each:.2f}" for each in shift.after),
+        "-" if plane is None else f"{1e3 * plane:+.1f}" if plane else "0",
+        "-" if fair is None else f"{fair.before.sign_changes} > {fair.after.sign_changes}",
+        "-" if ratio is None else f"{ratio:.3f}",
+        f"{line.points[0]} > {line.points[1]}",
+    ]
+
+
+def line_words(found: HullComparison) -> Iterator[str]:
+    """Tell which lines came, went, and were renamed, and how fair all are together."""
+    for what in ("came", "went"):
+        names = ", ".join(each.name for each in found.of(what))
+        if names:
+            yield f"{what}: {names}"
+    for each in found.lines:
+        if each.was not in (None, each.name):
+            yield f"renamed: {each.was} > {each.name}"
+    fair = found.fairness
+    if fair.changed:
+        worst = fair.worst_line
+        yield (
+            f"fairness of {len(fair.changed)} lines that changed: {fair.before} > {fair.after} "
+            f"changes of sign, comb ratio {fair.median:.3f}"
+            + ("" if worst is None else f", worst {fair.worst:.3f} ({worst.name})")
+        )
+
+
+def number_cells(number: NumberComparison) -> list[str]:
+    """Give the row of a number, below `NUMBER_HEAD`."""
+    digits, difference, percent = number.digits, number.difference, number.percent
+    return [
+        number.symbol,
+        number.unit,
+        amount(number.before, digits),
+        amount(number.after, digits),
+        "-" if difference is None else f"{round(difference, digits) + 0.0:+.{digits}f}",
+        "-" if percent is None else f"{round(percent, 3) + 0.0:+.3f}",
+    ]
+
+
+def amount(value: float | None, digits: int) -> str:
+    """Give a number as it is printed; a dash where there is none."""
+    return "-" if value is None else f"{round(value, digits) + 0.0:.{digits}f}"
+
+
+def reason_words(numbers: Sequence[NumberComparison]) -> Iterator[str]:
+    """Tell why numbers are missing, each reason once."""
+    reasons = dict[str, list[str]]()
+    for each in numbers:
+        if each.reason is not None:
+            reasons.setdefault(each.reason, []).append(each.symbol)
+    yield from (f"{', '.join(symbols)}: {reason}" for reason, symbols in reasons.items())
+
+
+def object_words(found: HullComparison) -> Iterator[str]:
+    """Tell which points came and went, and which features changed."""
+    points = found.points
+    yield "points: " + ", ".join(
+        f"{count} > {points.after[sort]} {sort}" for sort, count in points.before.items()
+    )
+    for what, names in (("came", points.came), ("went", points.went)):
+        if names:
+            more = f" and {len(names) - _TOLD} more" if len(names) > _TOLD else ""
+            yield f"{len(names)} {what}: {', '.join(names[:_TOLD])}{more}"
+    for each in found.features:
+        if each.what != "same":
+            yield f"feature {each.name} ({each.kind}) {each.what}{_parameters(each)}"
+
+
+def _parameters(feature: FeatureComparison) -> str:
+    """Tell the parameters of a feature that differ."""
+    old, new = feature.before, feature.after
+    if old is None or new is None:
+        return ""
+    told = [
+        f"{name} {_value(old[name])} > {_value(new[name])}"
+        for name in new
+        if name in old and old[name] != new[name]
+    ]
+    return f": {', '.join(told)}" if told else ""
+
+
+def _value(value: float | Place) -> str:
+    if isinstance(value, tuple):
+        return f"({', '.join(f'{each:g}' for each in value)})"
+    return f"{value:g}"
+
+
+# --------------------------------------------------------------------------------------
+# A comparison of two hulls as a table for a terminal.
+
+
+def comparison_text(found: HullComparison, lines: int = 10) -> str:
+    """Lay out a comparison: lines that moved, numbers, what came and went.
+
+    Parameters
+    ----------
+    found : HullComparison
+        The comparison.
+    lines : int
+        At most so many lines are listed, those that moved farthest.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from assoc_hull.variation.comparing.comparison import comparison_text
+    >>> hull = ah.examples.wigley()
+    >>> print(comparison_text(ah.compare(hull, hull)).splitlines()[3])
+    lines: 31 same, 0 moved, 0 came, 0 went
+    """
+    parts = [
+        _head(found),
+        _lines(found, lines),
+        _numbers("HYDROSTATICS", [found.hydrostatic(name) for name in PRINCIPAL]),
+        _numbers("FORM PARAMETERS", [each for each in found.parameters if not each.is_same]),
+        ("", *object_words(found)),
+    ]
+    return "\n".join(chain.from_iterable(parts))
+
+
+def _head(found: HullComparison) -> Iterator[str]:
+    for title, hull in (("parent", found.parent), ("variant", found.variant)):
+        yield f"{title:9}{hull_words(hull)}"
+        yield from (f"{'':9}{each}" for each in hull.doubts)
+    if found.is_same:
+        yield f"{'':9}the same hull: both have one fingerprint"
+    yield f"lines: {counts(found)}"
+    yield from line_words(found)
+
+
+def _lines(found: HullComparison, count: int) -> Iterator[str]:
+    chosen = found.worst(count)
+    if chosen:
+        yield ""
+        yield f"LINES, the {len(chosen)} that moved farthest of {len(found.of('moved'))}"
+        yield from _laid_out([LINE_HEAD, *map(line_cells, chosen)], "<><<>>>>")
+
+
+def _numbers(title: str, numbers: Sequence[NumberComparison]) -> Iterator[str]:
+    if numbers:
+        yield ""
+        yield title
+        yield from _laid_out([NUMBER_HEAD, *map(number_cells, numbers)], "<<>>>>")
+        yield from reason_words(numbers)
+
+
+def _laid_out(rows: Iterable[Sequence[str]], sides: str) -> Iterator[str]:
+    """Put cells below one another, each column to one side."""
+    cells = [list(row) for row in rows]
+    wide = [max(len(each) for each in column) for column in zip(*cells, strict=True)]
+    for row in cells:
+        told = [f"{each:{side}{room}}" for each, side, room in zip(row, sides, wide, strict=True)]
+        yield "  ".join(told).rstrip()
+
+
+# --------------------------------------------------------------------------------------
+# A comparison of two hulls as JSON. Its schema is `assoc_hull.io.tables.comparison`.
+
+COMPARISON_FORMAT = "assoc-hull comparison"
+SCHEMA = 1
+"""Version of the form."""
+
+
+def comparison_json(found: HullComparison) -> str:
+    """Give a comparison as JSON text; it ends with a newline."""
+    return json.dumps(comparison_document(found), indent=1, allow_nan=False) + "\n"
+
+
+def comparison_document(found: HullComparison) -> dict[str, Any]:
+    """Give a comparison as JSON says it: every number to its last bit, derived ones as well."""
+    return {
+        "format": COMPARISON_FORMAT,
+        "schema": SCHEMA,
+        "parent": _json_hull(found.parent),
+        "variant": _json_hull(found.variant),
+        "lines": [_line(each) for each in found.lines],
+        "hydrostatics": [_number(each) for each in found.hydrostatics],
+        "parameters": [_number(each) for each in found.parameters],
+        "points": _told(found.points),
+        "features": [_told(each) for each in found.features],
+    }
+
+
+def _told(thing: PointsComparison | FeatureComparison) -> dict[str, Any]:
+    """Give the attributes of a thing; mappings that nobody can change become dicts."""
+    told = attrs.asdict(thing, recurse=False)
+    return {
+        name: dict(value) if isinstance(value, Mapping) else value for name, value in told.items()
+    }
+
+
+def _json_hull(hull: ComparedHull) -> dict[str, Any]:
+    return {
+        **attrs.asdict(hull.particulars), "fingerprint": hull.fingerprint,
+        "at_draught": hull.draught, "doubts": list(hull.doubts),
+    }  # fmt: skip
+
+
+def _line(line: LineComparison) -> dict[str, Any]:
+    ratio = line.comb_ratio
+    return {
+        "name": line.name,
+        "was": line.was,
+        "group": line.group,
+        "what": line.what,
+        "shift": None if line.shift is None else _shift(line.shift),
+        "before": _fairness(line.before, line.points[0]),
+        "after": _fairness(line.after, line.points[1]),
+        "comb_ratio": None if ratio is None or math.isinf(ratio) else ratio,
+    }
+
+
+def _shift(shift: LineShift) -> dict[str, Any]:
+    return {
+        **attrs.asdict(shift), "vector": shift.vector, "length": shift.length,
+        "direction": shift.direction,
+    }  # fmt: skip
+
+
+def _fairness(fairness: LineFairness | None, points: int) -> dict[str, Any] | None:
+    if fairness is None:
+        return None
+    return {"points": points, "sign_changes": fairness.sign_changes, "comb": fairness.comb}
+
+
+def _number(number: NumberComparison) -> dict[str, Any]:
+    derived = {"difference": number.difference, "percent": number.percent}
+    return {**attrs.asdict(number), **derived}

@@ -1,0 +1,282 @@
+"""What named parameters are measured on, and what a measurement gives.
+
+`DrawnCurves` offers the lofted curves of a hull to the measures: profile, sections, borders of
+flats, deck, and their intersections. A measurement gives a number, or the reason why the hull has
+no such parameter, and the places on which the fields of a variation hold on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cached_property
+from types import MappingProxyType
+from typing import TypeVar, cast
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
+from assoc_hull.arguments import plain
+from assoc_hull.errors import AbsentParameterError, BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.polylines.flats import fit_plane
+from assoc_hull.geometry.splines.plane_intersections import (
+    PointsOnCurves,
+    coordinate_turns,
+    points_at_coordinate,
+)
+from assoc_hull.model.named_mapping import NamedMapping
+from assoc_hull.model.tables import HullState, Particulars
+
+__all__ = [
+    "DrawnCurves",
+    "MeasuredParameter",
+    "Measures",
+]
+
+# --------------------------------------------------------------------------------------
+# What is measured of a hull for its variation: a number, and the places it was taken at.
+
+
+def _places(value: ArrayLike) -> FloatArray:
+    found = np.array(value, np.float64).reshape(-1, 3)
+    freeze(found)
+    return found
+
+
+def _numbers(value: Mapping[str, float]) -> Mapping[str, float]:
+    return MappingProxyType({name: plain(float(each)) for name, each in value.items()})
+
+
+@attrs.frozen(eq=False)
+class MeasuredParameter:
+    """A named parameter of a hull as it is: what a variation of it holds on to.
+
+    Attributes
+    ----------
+    name : str
+        Of the parameter.
+    unit : {"m", "deg"}
+        Of its value.
+    value : float or None
+        None where the hull has none, for the `reason`.
+    how : str
+        How it was measured.
+    places : (k, 3), m
+        Where it was taken.
+    curves : tuple of str
+        Keys of the curves that it was taken from.
+    numbers : mapping of str to float
+        What else a layout of fields needs, in m or degrees; each measure says what it gives.
+    reason : str or None
+        Why there is no value; lower case, no full stop.
+    """
+
+    name: str
+    unit: str
+    value: float | None
+    how: str = ""
+    places: FloatArray = attrs.field(factory=lambda: np.zeros((0, 3)), converter=_places)
+    curves: tuple[str, ...] = ()
+    numbers: Mapping[str, float] = attrs.field(factory=dict, converter=_numbers)
+    reason: str | None = None
+
+    def __attrs_post_init__(self) -> None:
+        if (self.value is None) == (self.reason is None):
+            raise BadInputError(
+                f"{self.name} has {'neither' if self.value is None else 'both'} value and reason",
+                "in an anchor", "give one of them",
+            )  # fmt: skip
+
+
+class Measures(Mapping[str, float]):
+    """Present values of named parameters by name, of those that a hull has.
+
+    Parameters
+    ----------
+    anchors : iterable of Anchor
+        In order.
+
+    Attributes
+    ----------
+    anchors : mapping of str to Anchor
+        All that were asked for, also those without a value.
+    absent : mapping of str to str
+        Why a hull has no value, for those it has none of.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.parameters.measurement import MeasuredParameter, Measures
+    >>> found = Measures(
+    ...     [
+    ...         MeasuredParameter("draught", "m", 6.25),
+    ...         MeasuredParameter(
+    ...             "bulb_length", "m", None, reason="no profile forward of FP below z=6.250"
+    ...         ),
+    ...     ]
+    ... )
+    >>> dict(found), dict(found.absent)
+    ({'draught': 6.25}, {'bulb_length': 'no profile forward of FP below z=6.250'})
+    """
+
+    def __init__(self, anchors: Iterable[MeasuredParameter]) -> None:
+        given = tuple(anchors)
+        self.anchors: Mapping[str, MeasuredParameter] = NamedMapping(
+            "named parameter", {each.name: each for each in given}
+        )
+        self.absent: Mapping[str, str] = NamedMapping(
+            "absent parameter", {each.name: each.reason for each in given if each.reason}
+        )
+        self._values = {each.name: each.value for each in given if each.value is not None}
+
+    def __getitem__(self, name: str) -> float:
+        reason = self.anchors[name].reason
+        if reason is not None:
+            raise AbsentParameterError(
+                f"cannot measure {name!r}: {reason}", "in measure", "ask for what the hull has"
+            )
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._values
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name} {value:.6g}" for name, value in self._values.items())
+        return f"<Measures: {values}>"
+
+
+# --------------------------------------------------------------------------------------
+# The drawn curves of a hull, as its named parameters are measured on them.
+
+Measured = TypeVar("Measured")
+
+
+@attrs.frozen(eq=False)
+class DrawnCurves:
+    """The curves of a hull.
+
+    Attributes
+    ----------
+    state : HullState
+        Its tables.
+    """
+
+    state: HullState
+    _kept: dict[object, object] = attrs.field(factory=dict, init=False, repr=False)
+
+    def take(self, measure: Callable[[DrawnCurves], Measured]) -> Measured:
+        """Give what a measure says of this hull; it is asked once."""
+        if measure not in self._kept:
+            self._kept[measure] = measure(self)
+        return cast(Measured, self._kept[measure])
+
+    @cached_property
+    def net(self) -> CurveNet:
+        """The curves as arrays."""
+        return gather_net(self.state)
+
+    @property
+    def ship(self) -> Particulars:
+        """The stored particulars."""
+        return self.state.particulars
+
+    @property
+    def length(self) -> float:
+        """Lpp, m: x of FP."""
+        return self.ship.length
+
+    @property
+    def middle(self) -> float:
+        """Where midship is, m from AP."""
+        return 0.5 * self.ship.length
+
+    def one(self, curve: int) -> SplineBatch:
+        """Give a curve of the net."""
+        return self.net.batch.part(curve, curve + 1)
+
+    def some(self, curves: Iterable[int]) -> SplineBatch:
+        """Give curves of the net."""
+        return SplineBatch.join([self.one(curve) for curve in curves])
+
+    def keys(self, curves: Iterable[int]) -> tuple[str, ...]:
+        """Give the keys of curves."""
+        return tuple(str(self.state.curves.key.data[self.net.curve[i]]) for i in curves)
+
+    def across(self, curves: Iterable[int], axis: int, value: float) -> PointsOnCurves:
+        """Give where curves have an x (axis 0), y or z, m; `Places.curve` counts in `curves`."""
+        chosen = list(curves)
+        return points_at_coordinate(self.some(chosen) if chosen else _NOTHING, axis, value)
+
+    def extreme(self, curves: Iterable[int], axis: int, sense: float = 1.0) -> FloatArray:
+        """Give the place, (3,), m, at which curves have the greatest x, y or z; -1: the least."""
+        places = np.concatenate(coordinate_turns(self.some(curves), axis))
+        found: FloatArray = places[int((sense * places[:, axis]).argmax())]
+        return found
+
+    # Which curve is what.
+
+    @cached_property
+    def profile(self) -> list[int]:
+        """The curves of the centre plane at which the hull ends."""
+        return np.flatnonzero(self.net.end & self.net.centre).tolist()
+
+    @cached_property
+    def deck_edge(self) -> list[int]:
+        """The curves at which the hull ends off the centre plane, but for flat ends."""
+        ends = self.net.end & ~self.net.centre & ~np.isfinite(self.net.x)
+        return np.flatnonzero(ends).tolist()
+
+    @cached_property
+    def flats_of_bottom(self) -> list[int]:
+        """The borders of flats that lie level, or nearly."""
+        return [i for i in self._flats if self._outward(i) == 2]
+
+    @cached_property
+    def flats_of_side(self) -> list[int]:
+        """The borders of flats that stand upright along the ship, or nearly."""
+        return [i for i in self._flats if self._outward(i) == 1]
+
+    @property
+    def _flats(self) -> list[int]:
+        return np.flatnonzero(self.net.flat).tolist()
+
+    def _outward(self, curve: int) -> int:
+        """Give the axis that the plane through a curve is most nearly square to."""
+        normal = self.net.normal[curve]
+        if np.isnan(normal).any():
+            normal = fit_plane(self.one(curve).xyz, 0.0)[0]
+        return int(np.abs(normal).argmax())
+
+    @cached_property
+    def waterlines(self) -> IntArray:
+        """The curves of waterlines."""
+        return np.flatnonzero(np.array(self.net.family) == "waterlines")
+
+    @cached_property
+    def sections(self) -> IntArray:
+        """The curves of sections that stand across the ship."""
+        return np.flatnonzero(np.isfinite(self.net.x) & ~self.net.end)
+
+    @cached_property
+    def section_amidships(self) -> int | None:
+        """The longest curve of the section nearest to midship; of two as near, of the aft one."""
+        if not len(self.sections):
+            return None
+        off = np.abs(self.net.x[self.sections] - self.middle)
+        nearest = self.sections[off <= off.min() + 1e-9]
+        x = self.net.x[nearest].min()
+        there: list[int] = nearest[self.net.x[nearest] == x].tolist()
+        return max(there, key=self.net.length)
+
+
+_NOTHING = SplineBatch(
+    np.zeros(1, np.int64), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3))
+)
+"""No curve at all."""

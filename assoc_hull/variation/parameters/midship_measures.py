@@ -1,0 +1,413 @@
+"""Measures of the midship body: bilge, deadrise, flat of bottom, ends of the parallel middle body.
+
+The bilge is sought on the section nearest to midship: between the borders of the flats, or between
+the straight runs of bottom and side. The parallel body is where the borders of all flats run
+level; without them, where sections are as large as the largest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import attrs
+import numpy as np
+from scipy.optimize import brentq
+
+from assoc_hull.analysis.form.form_parameters import shape_of
+from assoc_hull.analysis.form.longitudinal_parts import EQUAL, parallel_body
+from assoc_hull.analysis.net.curve_net import ON_CENTRE
+from assoc_hull.errors import BadInputError, OutOfRangeError
+from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
+from assoc_hull.geometry.floating.sections import areas_at
+from assoc_hull.geometry.numeric.circle_fit import CircleFit, fit_circle
+from assoc_hull.geometry.splines.evaluation import derivative, evaluate
+from assoc_hull.geometry.splines.plane_intersections import points_at_coordinate, points_on_plane
+from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter
+
+__all__ = [
+    "MeasuredBilge",
+    "bilge_radius",
+    "deadrise_deg",
+    "flat_of_bottom",
+    "measure_bilge",
+    "parallel_body_end",
+    "parallel_body_start",
+]
+
+# --------------------------------------------------------------------------------------
+# The bilge of a section: where the bottom ends and the side begins, and how round it is.
+
+_ROUND = 1e-4
+"""Defining points of an arc lie so near to its circle, in parts of the radius."""
+
+_STRAIGHT = 1e-6
+"""A segment whose slopes are those of its chord to this is straight."""
+
+_TURN = 1.0
+"""Bottom and side differ in direction by more than this (radians)."""
+
+_CORNER = 1e-3
+"""A bilge whose ends are nearer (m) is a corner."""
+
+_KNOT = 1e-9
+"""A knot so near (m) to an end of the bilge is that end."""
+
+
+@attrs.frozen(eq=False)
+class MeasuredBilge:
+    """The bilge of a section.
+
+    Attributes
+    ----------
+    section : int
+        The curve of the net.
+    low, high : (3,), m
+        Where the bottom ends, and where the side begins.
+    centre : (2,), m
+        y and z of the centre of its circle.
+    radius : float, m
+        Of the circle.
+    off : float, m
+        The farthest that a defining point of the bilge lies off the circle.
+    arc : bool
+        It is an arc; else the circle passes `low`, `high` and the place half-way between.
+    """
+
+    section: int
+    low: FloatArray
+    high: FloatArray
+    centre: FloatArray
+    radius: float
+    off: float
+    arc: bool
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.low, self.high, self.centre)
+
+
+def measure_bilge(hull: DrawnCurves) -> MeasuredBilge | str:
+    """Give the bilge of the section nearest to midship, or say why there is none."""
+    section = hull.section_amidships
+    if section is None:
+        return "parent has no section across the ship"
+    curve = hull.one(section)
+    found = _between_flats(hull, section) or _between_straights(curve)
+    if found is None:
+        return "parent has no bilge between a flat bottom and a flat side amidships"
+    ends = evaluate(curve, np.zeros(2, np.int64), np.array(found))
+    if np.abs(ends[1] - ends[0]).max() <= _CORNER:
+        return "the bilge of the parent is a corner"
+    within = (curve.knot >= min(found) - _KNOT) & (curve.knot <= max(found) + _KNOT)
+    knots = np.concatenate([ends, curve.xyz[within]])[:, 1:]
+    circle = fit_circle(knots) if within.sum() > 3 else None
+    if circle is not None and _off(circle, knots) <= _ROUND * circle.radius:
+        return _bilge(section, ends, circle, knots, arc=True)
+    three = _through_three(curve, ends, (min(found), max(found)))
+    if three is None:
+        return "the bilge of the parent is not round"
+    return _bilge(section, ends, three, knots, arc=False)
+
+
+def _bilge(
+    section: int, ends: FloatArray, circle: CircleFit, knots: FloatArray, *, arc: bool
+) -> MeasuredBilge:
+    low, high = ends[0].copy(), ends[1].copy()
+    off = _off(circle, knots)
+    return MeasuredBilge(section, low, high, circle.centre.copy(), circle.radius, off, arc)
+
+
+def _off(circle: CircleFit, places: FloatArray) -> float:
+    """Give the farthest that places (n, 2) lie off a circle, m."""
+    off = np.sqrt(((places - circle.centre) ** 2).sum(axis=1)) - circle.radius
+    return float(np.abs(off).max())
+
+
+def _between_flats(hull: DrawnCurves, section: int) -> tuple[float, float] | None:
+    """Give where a section meets the border of the flat of bottom, and lowest that of side."""
+    bottom = _meets(hull, section, hull.flats_of_bottom)
+    side = _meets(hull, section, hull.flats_of_side)
+    if not len(bottom) or not len(side):
+        return None
+    curve = hull.one(section)
+    at_bottom = evaluate(curve, np.zeros(len(bottom), np.int64), bottom)
+    at_side = evaluate(curve, np.zeros(len(side), np.int64), side)
+    low, high = int(at_bottom[:, 1].argmax()), int(at_side[:, 2].argmin())
+    return float(bottom[low]), float(side[high])
+
+
+def _meets(hull: DrawnCurves, section: int, borders: list[int]) -> FloatArray:
+    """Give where a section crosses borders of flats, (k,), m along it."""
+    meets, place = hull.net.meets, hull.net.place
+    found = [
+        place[(meets[:, side] == section) & np.isin(meets[:, 1 - side], borders), side]
+        for side in (0, 1)
+    ]
+    return np.concatenate(found)
+
+
+def _between_straights(curve: SplineBatch) -> tuple[float, float] | None:
+    """Give where the straight run from the keel ends, and where the next of another sense begins.
+
+    Places along the curve, m.
+    """
+    chord = np.diff(curve.xyz, axis=0)
+    ahead = chord / np.sqrt((chord * chord).sum(axis=1))[:, None]
+    straight = np.abs(curve.leave[:-1] - ahead).max(axis=1) <= _STRAIGHT
+    straight &= np.abs(curve.arrive[1:] - ahead).max(axis=1) <= _STRAIGHT
+    begin, end = curve.knot[:-1], curve.knot[1:]
+    if curve.xyz[0, 2] > curve.xyz[-1, 2]:
+        straight, ahead = straight[::-1], -ahead[::-1]
+        begin, end = end[::-1], begin[::-1]
+    if not straight[0]:
+        return None
+    turn = np.arccos(np.clip(ahead @ ahead[0], -1.0, 1.0))
+    bottom = int(np.append(straight & (turn <= _STRAIGHT), False).argmin()) - 1
+    side = np.flatnonzero(straight & (turn > _TURN))
+    return (float(end[bottom]), float(begin[side[0]])) if len(side) else None
+
+
+def _through_three(
+    curve: SplineBatch, ends: FloatArray, within: tuple[float, float]
+) -> CircleFit | None:
+    """Give the circle through the ends of a bilge and the place of it above their middle.
+
+    It takes no notice of where the curve has its defining points, and grows with the bilge if
+    that is enlarged about the corner of bottom and side.
+    """
+    chord = ends[1] - ends[0]
+    length = float(np.sqrt(chord @ chord))
+    ahead, middle = chord / length, 0.5 * (ends[0] + ends[1])
+    found = points_on_plane(curve, ahead, float(ahead @ middle))
+    inside = (found.t > within[0]) & (found.t < within[1])
+    if not inside.any():
+        return None
+    outward = np.array([0.0, ahead[2], -ahead[1]])
+    sagitta = float(((found.xyz[inside] - middle) @ outward).max())
+    if sagitta <= _CORNER * length:
+        return None
+    radius = (0.25 * length * length + sagitta * sagitta) / (2.0 * sagitta)
+    centre = middle + (sagitta - radius) * outward
+    return CircleFit(centre[1:].copy(), radius, 0.0)
+
+
+# --------------------------------------------------------------------------------------
+# Measures of the midship section: bilge, deadrise, flat of bottom.
+
+_LEVEL = 1e-6
+"""So near to the lowest place (m) the bottom is level."""
+
+
+def bilge_radius(hull: DrawnCurves) -> MeasuredParameter:
+    """Give the radius of the bilge at the section nearest to midship.
+
+    `yc`, `zc`: centre; `low_y`, `low_z`, `high_y`, `high_z`: where it leaves bottom and side;
+    `rise_deg`: slope of the bottom; `off`: how far its defining points lie off the circle, m;
+    `corner_y`, `corner_z`: where bottom and side would meet.
+    """
+    bilge = hull.take(measure_bilge)
+    if isinstance(bilge, str):
+        return MeasuredParameter("bilge_radius", "m", None, reason=bilge)
+    slope = _slope(hull, bilge)
+    how = (
+        "circle through the bilge amidships" if bilge.arc
+        else "circle through both ends of the bilge amidships and the place half-way between"
+    )  # fmt: skip
+    low, high = bilge.low, bilge.high
+    return MeasuredParameter(
+        "bilge_radius", "m", bilge.radius, how, [low, high], hull.keys([bilge.section]),
+        {
+            "x": float(low[0]), "yc": float(bilge.centre[0]), "zc": float(bilge.centre[1]),
+            "low_y": float(low[1]), "low_z": float(low[2]),
+            "high_y": float(high[1]), "high_z": float(high[2]),
+            "rise_deg": float(np.degrees(np.arctan(slope))), "off": bilge.off,
+            "corner_y": float(high[1]),
+            "corner_z": float(low[2] + slope * (high[1] - low[1])),
+        },
+    )  # fmt: skip
+
+
+def deadrise_deg(hull: DrawnCurves) -> MeasuredParameter:
+    """Give the slope of the bottom at the section nearest to midship.
+
+    With a bilge it is that of the chord over the outer half of the bottom, which a level keel
+    plate and a rounding beside it do not change; else that of the section at the keel. `keel`:
+    half-breadth of the level part at the keel, nil if all is level; `x`; `edge_y`, `edge_z`: where
+    the bottom ends.
+    """
+    bilge = hull.take(measure_bilge)
+    if isinstance(bilge, str):
+        return _at_keel(hull)
+    slope, low = _slope(hull, bilge), bilge.low
+    place = low - 0.5 * low[1] * np.array([0.0, 1.0, slope])
+    return MeasuredParameter(
+        "deadrise_deg", "deg", float(np.degrees(np.arctan(slope))),
+        "slope of the outer half of the bottom amidships", np.array([place, low]),
+        hull.keys([bilge.section]),
+        {"x": float(low[0]), "keel": _keel(hull, bilge), "edge_y": float(low[1]),
+         "edge_z": float(low[2])},
+    )  # fmt: skip
+
+
+def _slope(hull: DrawnCurves, bilge: MeasuredBilge) -> float:
+    """Give the slope of the bottom over its outer half."""
+    curve, low = hull.one(bilge.section), bilge.low
+    half = points_at_coordinate(curve, 1, 0.5 * float(low[1])).xyz
+    inner = half[int(half[:, 2].argmin())]
+    return float((low[2] - inner[2]) / (low[1] - inner[1]))
+
+
+def _keel(hull: DrawnCurves, bilge: MeasuredBilge) -> float:
+    """Give the half-breadth (m) over which the bottom is level at the keel; 0 if all of it is."""
+    xyz = hull.one(bilge.section).xyz
+    level = xyz[xyz[:, 2] <= xyz[:, 2].min() + _LEVEL, 1].max()
+    return 0.0 if level >= bilge.low[1] - _LEVEL else float(level)
+
+
+def _at_keel(hull: DrawnCurves) -> MeasuredParameter:
+    section = hull.section_amidships
+    if section is None:
+        reason = "parent has no section across the ship"
+        return MeasuredParameter("deadrise_deg", "deg", None, reason=reason)
+    curve = hull.one(section)
+    end = 0 if curve.xyz[0, 2] <= curve.xyz[-1, 2] else -1
+    keel = curve.xyz[end]
+    if abs(keel[1]) > ON_CENTRE:
+        reason = "the section amidships does not reach the centre plane"
+        return MeasuredParameter("deadrise_deg", "deg", None, reason=reason)
+    ahead = derivative(curve, np.zeros(1, np.int64), curve.knot[[end]])[0]
+    value = float(np.degrees(np.arctan2(abs(ahead[2]), abs(ahead[1]))))
+    return MeasuredParameter(
+        "deadrise_deg", "deg", value, "slope of the section amidships at the keel", [keel],
+        hull.keys([section]),
+        {"x": float(keel[0]), "keel": 0.0, "edge_y": 0.0, "edge_z": float(keel[2])},
+    )  # fmt: skip
+
+
+def flat_of_bottom(hull: DrawnCurves) -> MeasuredParameter:
+    """Give the half-breadth of the flat of bottom amidships; `x`, `z`: where its edge is."""
+    xyz = hull.across(hull.flats_of_bottom, 0, hull.middle).xyz
+    if len(xyz):
+        edge = xyz[int(xyz[:, 1].argmax())]
+        return _edge(edge, "border of the flat of bottom amidships", hull, hull.flats_of_bottom)
+    bilge = hull.take(measure_bilge)
+    if isinstance(bilge, str):
+        return MeasuredParameter(
+            "flat_of_bottom", "m", None, reason="parent has no flat of bottom amidships"
+        )
+    return _edge(bilge.low, "end of the straight bottom amidships", hull, [bilge.section])
+
+
+def _edge(place: FloatArray, how: str, hull: DrawnCurves, curves: list[int]) -> MeasuredParameter:
+    return MeasuredParameter(
+        "flat_of_bottom", "m", float(place[1]), how, [place], hull.keys(curves),
+        {"x": float(place[0]), "z": float(place[2])},
+    )  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------
+# Measures of the parallel middle body: where it begins and ends.
+#
+# Where borders of the flats of bottom and side are drawn and run level for a while, the parallel
+# body is where both do. Its ends are then defining points of the borders, which a map carries
+# exactly. Section areas would tell less: they are within 1e-4 of the largest over many metres more,
+# and a waterline that is a millimetre off moves the end of that by as many.
+
+_SHORT = 0.02
+"""Of Lpp: what is level over less is no parallel middle body."""
+
+_NEAR = 1e-4
+"""m: the end of a level stretch of section areas is known so well before it is sought finely."""
+
+
+@attrs.frozen
+class _Ends:
+    """First and last x of the parallel body, m, the curves they were taken from, and how."""
+
+    start: float
+    end: float
+    how: str
+    curves: tuple[int, ...] = ()
+
+
+def parallel_body_start(hull: DrawnCurves) -> MeasuredParameter:
+    """Give the first x of the parallel middle body; `start`, `end`: both of its ends."""
+    return _anchor(hull, "parallel_body_start", 0)
+
+
+def parallel_body_end(hull: DrawnCurves) -> MeasuredParameter:
+    """Give the last x of the parallel middle body; `start`, `end`: both of its ends."""
+    return _anchor(hull, "parallel_body_end", 1)
+
+
+def _anchor(hull: DrawnCurves, name: str, end: int) -> MeasuredParameter:
+    found = hull.take(_ends)
+    if isinstance(found, str):
+        return MeasuredParameter(name, "m", None, reason=found)
+    x = (found.start, found.end)[end]
+    return MeasuredParameter(
+        name, "m", x, found.how, [[x, 0.0, 0.0]], hull.keys(found.curves),
+        {"start": found.start, "end": found.end},
+    )  # fmt: skip
+
+
+def _ends(hull: DrawnCurves) -> _Ends | str:
+    """Give where the parallel body begins and ends, or say why there is none."""
+    return hull.take(_of_flats) or _of_areas(hull)
+
+
+def _of_flats(hull: DrawnCurves) -> _Ends | None:
+    """Give the stretch along which the borders of all flats run level."""
+    bottoms, sides = hull.flats_of_bottom, hull.flats_of_side
+    if not bottoms:
+        return None
+    within = _LEVEL * hull.ship.breadth
+    runs = [_level_run(hull.one(i).xyz, 1, within) for i in bottoms]
+    runs += [_level_run(hull.one(i).xyz, 2, within) for i in sides]
+    start, end = max(run[0] for run in runs), min(run[1] for run in runs)
+    if end - start < _SHORT * hull.length:
+        return None
+    how = "where the borders of the flats of bottom and side run level"
+    return _Ends(start, end, how, (*bottoms, *sides))
+
+
+def _level_run(xyz: FloatArray, axis: int, within: float) -> tuple[float, float]:
+    """Give the longest stretch in x along which y (axis 1) or z (axis 2) of a border stays.
+
+    It need not be the broadest or lowest: a bilge that was made larger is so amidships only.
+    """
+    level = np.concatenate([[False], np.abs(np.diff(xyz[:, axis])) <= within, [False]])
+    step = np.diff(level.astype(np.int8))
+    begin, end = xyz[np.flatnonzero(step == 1), 0], xyz[np.flatnonzero(step == -1), 0]
+    if not len(begin):
+        return 0.0, 0.0
+    longest = int(np.abs(end - begin).argmax())
+    ends = sorted((float(begin[longest]), float(end[longest])))
+    return ends[0], ends[1]
+
+
+def _of_areas(hull: DrawnCurves) -> _Ends | str:
+    """Give the stretch along which sections are as large as the largest but for 1e-4 of it."""
+    try:
+        shape = shape_of(hull)
+        found = parallel_body(shape)
+    except (BadInputError, OutOfRangeError) as error:
+        return f"parent has no section areas: {error}"
+    if found.level is None:
+        return "parent has no parallel middle body"
+    least, spans = (1.0 - EQUAL) * found.largest, shape.body.spans
+
+    def spare(x: float) -> float:
+        return float(areas_at(spans, np.array([x]), shape.planes)[0]) - least
+
+    ends = float(spans.aft.min()), float(spans.fore.max())
+    start, end = (_sought(spare, x, ends) for x in found.level)
+    how = "where section areas below the draught are the largest but for 1e-4 of it"
+    return _Ends(start, end, how)
+
+
+def _sought(spare: Callable[[float], float], x: float, ends: tuple[float, float]) -> float:
+    """Find finely where something becomes nil within a hull, m; x if it does not near there."""
+    low, high = max(x - _NEAR, ends[0]), min(x + _NEAR, ends[1])
+    if spare(low) * spare(high) >= 0.0:
+        return x
+    return float(brentq(spare, low, high, xtol=1e-12, rtol=1e-14))

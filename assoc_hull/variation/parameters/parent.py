@@ -1,0 +1,268 @@
+"""The parent as layouts of fields know it: dimensions, and places measured on its curves.
+
+`parent_of` takes both from the measured parameters of a hull, with a reason for each place that
+the hull has not. A parent can be scaled: local fields are laid out on the scaled one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.hydrostatics.flotation import flotation
+from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.parameters.measurement import MeasuredParameter, Measures
+from assoc_hull.variation.parameters.parameter_measures import measure_all
+
+__all__ = [
+    "Parent",
+    "parent_of",
+]
+
+# --------------------------------------------------------------------------------------
+# What a layout of fields knows of the parent: dimensions, and places measured on its curves.
+
+_MEASURED_AS = {
+    "body start": "parallel_body_start", "body end": "parallel_body_end",
+    "corner": "bilge_radius", "bilge low": "bilge_radius", "bilge high": "bilge_radius",
+    "deck": "depth", "bulb tip": "bulb_height", "bulb top": "bulb_height",
+    "boss": "shaft_height", "boss top": "bossing_radius", "transom": "transom_height",
+}  # fmt: skip
+"""The parameter by whose measure a place is known: if it is missing, that tells why."""
+
+
+@attrs.frozen(eq=False)
+class Parent:
+    """Dimensions and measured places; those of a scaled parent are laid out on.
+
+    Attributes
+    ----------
+    length, breadth, depth, draught : float, m
+    top : float, m
+        Greatest height of the hull.
+    places : mapping of str to (3,) array, m
+        Where parameters are measured, by what lies there: ``"boss"``, ``"bulb tip"`` ...
+    absent : mapping of str to str
+        Parameters that the parent has not, with the reason.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.variation.parameters.parent import Parent
+    >>> ship = Parent(300, 50, 27, 18, 27, {"boss": np.array([6.0, 0.0, 5.0])})
+    >>> ship.at("boss", "shaft_height").tolist()
+    [6.0, 0.0, 5.0]
+    """
+
+    length: float
+    breadth: float
+    depth: float
+    draught: float
+    top: float
+    places: Mapping[str, FloatArray]
+    absent: Mapping[str, str] = attrs.field(factory=dict)
+
+    def at(self, place: str, parameter: str) -> FloatArray:
+        """Give a place that a parameter needs.
+
+        Raises
+        ------
+        BadInputError
+            The parent has none; the message has the reason.
+        """
+        found = self.places.get(place)
+        if found is None or parameter in self.absent:
+            measured = self.absent.get(_MEASURED_AS.get(place, ""), f"the parent has no {place}")
+            raise BadInputError(
+                f"cannot vary '{parameter}': {self.absent.get(parameter, measured)}", "in vary",
+                "leave it out, or give the parent one",
+            )  # fmt: skip
+        return found
+
+    def has(self, place: str) -> bool:
+        """Tell whether the parent has a place."""
+        return place in self.places
+
+    def mapped(self, move: Callable[[FloatArray], FloatArray], **dimensions: float) -> Parent:
+        """Give the parent with its places mapped, and some dimensions that were asked for."""
+        keys = list(self.places)
+        moved = move(np.array([self.places[key] for key in keys]).reshape(-1, 3))
+        places = dict(zip(keys, moved, strict=True))
+        top = float(move(np.array([[0.5 * self.length, 0.0, self.top]]))[0, 2])
+        return Parent(
+            dimensions.get("length", self.length), dimensions.get("breadth", self.breadth),
+            dimensions.get("depth", self.depth), dimensions.get("draught", self.draught),
+            top, places, self.absent,
+        )  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------
+# What a layout needs to know of a hull, taken from its measured anchors.
+
+_LEVEL = 1e-6
+"""So near to the lowest place (m) the keel is level."""
+
+_ALIKE = 1e-6
+"""Areas of two stations differ by less, in parts of the largest."""
+
+_FEWEST = 3
+"""Stations that a hull must have for its areas to tell anything."""
+
+
+def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
+    """Give dimensions and measured places of a hull.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    measures : Measures or None
+        All named parameters, if they have been measured.
+
+    Examples
+    --------
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.variation.parameters.parent import parent_of
+    >>> parent_of(wigley()).at("deck", "depth").tolist()
+    [50.0, 5.0, 9.375]
+    """
+    found = measure_all(state) if measures is None else measures
+    ship = state.particulars
+    every = state.rows.xyz.data[state.live("rows")]
+    places = dict[str, FloatArray]()
+    for anchor in found.anchors.values():
+        if anchor.value is not None:
+            places.update(_PLACES.get(anchor.name, _nothing)(anchor))
+    places.update(_terminals(state))
+    if "body start" not in places:
+        places.update(_largest_stations(state))
+    places.update(_cylinder(state, places.get("boss side")))
+    depth = float(found["depth"]) if "depth" in found else ship.depth
+    breadth = float(found["breadth"]) if "breadth" in found else ship.breadth
+    top = float(every[:, 2].max())
+    return Parent(ship.length, breadth, depth, ship.draught, top, places, dict(found.absent))
+
+
+def _place(x: float, y: float, z: float) -> FloatArray:
+    return np.array([x, y, z], np.float64)
+
+
+def _nothing(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    return {}
+
+
+def _one(name: str, anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    return {name: anchor.places[0]}
+
+
+def _decks(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    names = {"at_AP": "deck aft", "at_midship": "deck", "at_FP": "deck fore"}
+    return {names[key]: anchor.places[i] for i, key in enumerate(anchor.numbers)}
+
+
+def _shaft(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    """Give the centre of the boss end, and its upper side if it is drawn."""
+    found, r = _one("boss", anchor), anchor.numbers.get("r", 0.0)
+    if r:
+        found["boss top"] = anchor.places[0] + _place(0.0, 0.0, r)
+    return found
+
+
+def _bossing(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    r = float(anchor.value or 0.0)
+    return {"boss side": anchor.places[0] + _place(0.0, r, 0.0)}
+
+
+def _cylinder(state: HullState, side: FloatArray | None) -> dict[str, FloatArray]:
+    """Give where the bossing ceases to be the cylinder that it ends as: its foremost circle."""
+    found = [] if side is None else [
+        np.array(each.centre) for each in state.features
+        if each.kind == "circle" and each.centre is not None and each.radius is not None
+        and abs(each.radius - side[1]) <= _LEVEL and abs(each.centre[2] - side[2]) <= _LEVEL
+    ]  # fmt: skip
+    return {"boss fore": max(found, key=lambda place: float(place[0]))} if found else {}
+
+
+def _bulb(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    tip = anchor.places[0]
+    return {"bulb tip": tip, "bulb top": _place(tip[0], 0.0, anchor.numbers["top"])}
+
+
+def _bilge(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    """Give where the bilge begins and ends, and the corner of its tangents."""
+    of = anchor.numbers
+    corner = _place(of["x"], of["corner_y"], of["corner_z"])
+    return {"bilge low": anchor.places[0], "bilge high": anchor.places[1], "corner": corner}
+
+
+def _deadrise(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    """Give the keel's side and two places of the bottom between which its slope is measured."""
+    of, inner = anchor.numbers, anchor.places[0]
+    slope = np.tan(np.radians(float(anchor.value or 0.0)))
+    outer = anchor.places[1] if len(anchor.places) > 1 else inner + _place(0.0, 1.0, slope)
+    keel = _place(of["x"], of["keel"], 0.0)
+    return {"keel side": keel, "bottom": inner, "bottom edge": outer}
+
+
+_PLACES: Mapping[str, Callable[[MeasuredParameter], dict[str, FloatArray]]] = {
+    "depth": lambda anchor: _one("deck", anchor),
+    "deck_height": _decks,
+    "shaft_height": _shaft,
+    "bossing_radius": _bossing,
+    "transom_height": lambda anchor: _one("transom", anchor),
+    "transom_half_breadth": lambda anchor: _one("transom side", anchor),
+    "bulb_height": _bulb,
+    "bulb_half_breadth": lambda anchor: _one("bulb side", anchor),
+    "bilge_radius": _bilge,
+    "deadrise_deg": _deadrise,
+    "flat_of_bottom": lambda anchor: _one("flat edge", anchor),
+    "parallel_body_start": lambda anchor: _one("body start", anchor),
+    "parallel_body_end": lambda anchor: _one("body end", anchor),
+    "stem_rake_deg": lambda anchor: {"stem": anchor.places[0], "stem top": anchor.places[1]},
+}
+
+
+def _terminals(state: HullState) -> dict[str, FloatArray]:
+    """Give where the profile begins to rise; the perpendiculars if it is nowhere level."""
+    length = state.particulars.length
+    boundary = state.lines.boundary.data == BoundaryKind.END
+    found = list[FloatArray]()
+    for curve in state.live("curves").tolist():
+        if boundary[state.line_of(curve)]:
+            xyz = state.rows.xyz.data[state.curves.rows.data[curve]]
+            if len(xyz) and bool((np.abs(xyz[:, 1]) <= _LEVEL).all()):
+                found.append(xyz)
+    aft, fore = 0.0, length
+    if found:
+        profile = np.concatenate(found)
+        level = profile[profile[:, 2] <= profile[:, 2].min() + _LEVEL, 0]
+        if level.max() - level.min() > 0.1 * length:
+            aft, fore = max(0.0, float(level.min())), min(length, float(level.max()))
+    return {"aft terminal": _place(aft, 0.0, 0.0), "fore terminal": _place(fore, 0.0, 0.0)}
+
+
+def _largest_stations(state: HullState) -> dict[str, FloatArray]:
+    """Give the two stations with the largest areas, which stand for the ends of a parallel body.
+
+    If two are second alike, the largest alone stands for both.
+    """
+    level = FloatingPlanes(np.array([state.particulars.draught]), np.zeros(1), np.zeros(1))
+    try:
+        found = flotation(state).stations(level)
+    except AssocHullError:
+        return {}  # what has no areas cannot be shifted by them
+    area = found.area[0]
+    order = np.argsort(-area, kind="stable")
+    if len(order) < _FEWEST:
+        return {}
+    first, second, third = order[:3].tolist()
+    if area[second] - area[third] <= _ALIKE * area[first] < area[first] - area[second]:
+        second = first
+    aft, fore = np.sort(found.x[[first, second]]).tolist()
+    return {"largest aft": _place(aft, 0.0, 0.0), "largest fore": _place(fore, 0.0, 0.0)}

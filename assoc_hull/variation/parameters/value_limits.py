@@ -1,0 +1,211 @@
+"""Between which values a named parameter may be asked for.
+
+Bounds follow from what makes a hull at all (a transom no broader than the ship) and from how far
+fields reach. The interval of a parameter goes from its present value as far as the map is
+certified, or to a bound. The box of a hull, in which maps are certified, is given here as well.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.certificate.admissible_amplitudes import admissible_amplitudes
+from assoc_hull.variation.certificate.fold_check import MARGIN
+from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.compose_map import STEEPEST
+from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.parameters.measurement import Measures
+from assoc_hull.variation.parameters.parent import Parent
+
+__all__ = [
+    "ValueBounds",
+    "admissible_interval",
+    "hull_box",
+    "present_values",
+    "value_bounds",
+]
+
+# --------------------------------------------------------------------------------------
+# Bounds of named parameters that follow from the hull and from how far fields reach.
+#
+# A map may be one to one and yet make no hull: a transom broader than the ship, or a bulb that is
+# drawn out so far that the stem above it overhangs.
+
+_ROUNDING = 1e-9
+"""What lies beyond a bound by no more (m, degrees) was asked for at the bound."""
+
+_SPARE = 1.0 - MARGIN
+"""What is left of a stretch, as of a squeeze, for the margin of minors."""
+
+_BROADEST = 0.999
+"""A transom of so much of the breadth is the broadest part itself: widening it widens the ship."""
+
+
+@attrs.frozen
+class ValueBounds:
+    """Between which values a parameter has a meaning.
+
+    Attributes
+    ----------
+    low, high : float
+        m or degrees; infinite where nothing bounds it.
+    why : str
+        What becomes of the hull beyond.
+    """
+
+    low: float = -math.inf
+    high: float = math.inf
+    why: str = ""
+
+    def hold(self, value: float) -> bool:
+        """Tell whether a value lies between them."""
+        return self.low - _ROUNDING <= value <= self.high + _ROUNDING
+
+
+def value_bounds(name: str, parent: Parent, present: float, layout: Layout) -> ValueBounds:
+    """Give the bounds of a named parameter.
+
+    Parameters
+    ----------
+    name : str
+    parent : Parent
+    present : float
+        Its value now, m or degrees.
+    layout : Layout
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.variation.parameters.value_limits import value_bounds
+    >>> from assoc_hull.variation.parameters.field_layout import Layout
+    >>> from assoc_hull.variation.parameters.parent import Parent
+    >>> ship = Parent(300, 50, 27, 18, 27, {})
+    >>> value_bounds("transom_half_breadth", ship, 12.0, Layout())
+    Bounds(low=0.0, high=25.0, why='makes the transom broader than the ship')
+    """
+    rule = _RULES.get(name)
+    if rule is not None:
+        return rule(parent, present, layout)
+    if name.endswith("_deg"):
+        return ValueBounds(-STEEPEST, STEEPEST, "is too steep")
+    return ValueBounds(0.0) if CATALOGUE[name].positive else ValueBounds()
+
+
+def _transom_half_breadth(parent: Parent, present: float, layout: Layout) -> ValueBounds:
+    half = 0.5 * parent.breadth
+    high = half if present < _BROADEST * half else math.inf
+    return ValueBounds(0.0, high, "makes the transom broader than the ship")
+
+
+def _flat_of_bottom(parent: Parent, present: float, layout: Layout) -> ValueBounds:
+    return ValueBounds(0.0, 0.5 * parent.breadth, "leaves no bilge")
+
+
+def _bulb_length(parent: Parent, present: float, layout: Layout) -> ValueBounds:
+    """Stretch the bow as much as it may be compressed: beyond, frames cross the stem twice."""
+    most = _SPARE * (1.0 - layout.bow_from) * parent.length / layout.curve.steepest
+    why = "stretches the bow nearly twofold, or folds it"
+    return ValueBounds(max(0.0, present - most), present + most, why)
+
+
+def _deadrise_deg(parent: Parent, present: float, layout: Layout) -> ValueBounds:
+    """Let the bottom fall no more than it may rise."""
+    low = float(parent.places["bilge high"][2]) if parent.has("bilge high") else 0.0
+    tall = _SPARE * (layout.deadrise_top * parent.draught - low) / layout.curve.steepest
+    slope, half = math.tan(math.radians(present)), 0.5 * parent.breadth
+    least, most = (math.degrees(math.atan(slope + sign * tall / half)) for sign in (-1.0, 1.0))
+    return ValueBounds(least, most, "turns the bottom too far for the side to take it up")
+
+
+_RULES: Mapping[str, Callable[[Parent, float, Layout], ValueBounds]] = {
+    "transom_half_breadth": _transom_half_breadth, "flat_of_bottom": _flat_of_bottom,
+    "bulb_length": _bulb_length, "deadrise_deg": _deadrise_deg,
+}  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------
+# Between which values a named parameter may be asked for.
+
+_STEP = 0.02
+"""A usual change of a parameter, as a part of its value, and the least one, m or degrees."""
+
+_NEAR = 1e-6
+"""m or degrees: an end so near to a bound is the bound."""
+
+_LARGEST = 1e6
+"""m: no ship is larger, and nothing can be asked that is."""
+
+
+def hull_box(state: HullState, tolerance: float) -> FloatArray:
+    """Give the box of a hull, both sides, grown by a tolerance: (2, 3), m."""
+    xyz = state.rows.xyz.data[state.live("rows")]
+    low, high = xyz.min(axis=0) - tolerance, xyz.max(axis=0) + tolerance
+    low[1] = -high[1]
+    return np.array([low, high])
+
+
+def present_values(measures: Measures, layout: Layout) -> dict[str, float]:
+    """Give measured values by name; the deck's height is taken where the layout sets it."""
+    found = dict(measures)
+    place = {"fore": "at_FP", "aft": "at_AP"}.get(layout.deck)
+    if place is not None and "deck_height" in found:
+        there = measures.anchors["deck_height"].numbers.get(place)
+        if there is None:
+            found.pop("deck_height")
+        else:
+            found["deck_height"] = there
+    return found
+
+
+def admissible_interval(
+    laid: Callable[[float], VariationMap], now: float, rule: ValueBounds, box: FloatArray
+) -> tuple[float, float]:
+    """Give the least and greatest value that a parameter may have.
+
+    Parameters
+    ----------
+    laid : callable
+        Gives the map of a value, m or degrees.
+    now : float
+        The present value.
+    rule : Bounds
+        What bounds it besides folds.
+    box : (2, 3), m
+        Of the hull.
+
+    Raises
+    ------
+    BadInputError
+        The parent has not what the parameter is laid out on.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.variation.parameters.value_limits import ValueBounds
+    >>> from assoc_hull.variation.parameters.compose_map import compose_map
+    >>> from assoc_hull.variation.parameters.field_layout import Layout
+    >>> from assoc_hull.variation.parameters.value_limits import admissible_interval
+    >>> from assoc_hull.variation.parameters.parent import Parent
+    >>> ship = Parent(300, 50, 27, 18, 27, {})
+    >>> box = np.array([[-5.0, -25.0, 0.0], [306.0, 25.0, 27.0]])
+    >>> def laid(value):
+    ...     return compose_map(ship, {"draught": value}, Layout())
+    >>> low, high = admissible_interval(laid, 18.0, ValueBounds(), box)
+    >>> round(low, 2), round(high, 2)
+    (0.9, 39.99)
+    """
+    laid(now)
+    low, high = admissible_amplitudes(laid, box, present=now, first=max(_STEP * abs(now), _STEP))
+    low, high = (
+        each if abs(each) < _LARGEST else math.copysign(math.inf, each) for each in (low, high)
+    )
+    # an end that a bound sets was found only nearly
+    low = rule.low if low <= rule.low + _NEAR else low
+    return low, rule.high if high >= rule.high - _NEAR else high
