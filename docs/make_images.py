@@ -54,14 +54,16 @@ from assoc_hull.analysis.panels.hull_panels import panels
 from assoc_hull.analysis.stability.flooding import FloodingPoint
 from assoc_hull.analysis.stability.stability_report import stability
 from assoc_hull.creation.form_curve import FormCurve
-from assoc_hull.plot import definition_curves, lines_plan, neighbourhood
+from assoc_hull.hull.sources import examples
+from assoc_hull.plot import definition_curves
 from assoc_hull.plot.diagrams.curve_series import curve_series
+from assoc_hull.plot.diagrams.driver_graph import neighbourhood
 from assoc_hull.plot.diagrams.form_curve import form_curve_picture
 from assoc_hull.plot.diagrams.form_report import form_sheets
 from assoc_hull.plot.diagrams.hydrostatics import hydrostatic_curves
 from assoc_hull.plot.diagrams.stability import lever_picture
+from assoc_hull.plot.lines_plan.plan import lines_plan
 from assoc_hull.plot.plates.panel_plan import panel_plan
-from assoc_hull.sources import examples
 
 FOLDER = Path(__file__).parent / "images"
 LARGEST = 150_000

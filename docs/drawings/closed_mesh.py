@@ -36,7 +36,7 @@ def seen(place: Floats) -> tuple[Floats, Floats]:
 def closed_mesh_stern() -> Figure:
     """Draw the stern of the bulk carrier: what closes it is of its own colour."""
     hull = ah.examples.bulk_carrier_207k()
-    mesh = ah.closed_mesh(hull, points=4)
+    mesh = hull.mesh(points=4)
     figure, axes = plt.subplots(figsize=(8.6, 5.6), layout="constrained")
     bare(axes)
     axes.set_aspect("equal")

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 import assoc_hull as ah
 from assoc_hull.model.forms.form_values import Forms
-from assoc_hull.plot import lines_plan
+from assoc_hull.plot.lines_plan.plan import lines_plan
 from assoc_hull.shipped.container_ship_225m import container_ship_225m_design
 from drawings.common import ACCENT, INK, PALE, SHARED, ship
 from drawings.dtc import dtc_ship
@@ -35,7 +35,7 @@ def container_ship_225m_bulb() -> Figure:
     figure, (plan, areas) = plt.subplots(
         1, 2, figsize=(8.6, 4.6), width_ratios=(1.0, 1.35), layout="constrained"
     )
-    for line in _ship().groups["sections"].lines.values():
+    for line in _ship()["sections"].lines.values():
         for curve in line.curves:
             x, y, z = np.array(curve.polyline(16)).T
             if x[0] > 190.0:
@@ -71,7 +71,7 @@ def container_ship_225m_bodies() -> Figure:
 def _body_plan(axes: Axes, hull: ah.Hull, middle: float) -> None:
     """Draw sections in parts of the breadth; those abaft the middle to the left."""
     breadth = hull.particulars.breadth
-    for line in hull.groups["sections"].lines.values():
+    for line in hull["sections"].lines.values():
         for curve in line.curves:
             x, y, z = np.array(curve.polyline(12)).T / breadth
             side = -1.0 if x[0] * breadth < middle else 1.0

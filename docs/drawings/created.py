@@ -6,9 +6,13 @@ from matplotlib.figure import Figure
 
 import assoc_hull as ah
 from assoc_hull.model.forms.form_values import Forms
-from assoc_hull.plot import lines_plan
-from assoc_hull.shipped.bulk_carrier_180m import bulk_carrier_180m_design
-from assoc_hull.shipped.versluis_section_areas import AREAS, MOMENTS, X
+from assoc_hull.plot.lines_plan.plan import lines_plan
+from assoc_hull.shipped.bulk_carrier_180m import (
+    VERSLUIS_AREAS,
+    VERSLUIS_MOMENTS,
+    VERSLUIS_X,
+    bulk_carrier_180m_design,
+)
 from drawings.common import ACCENT, INK, PALE, SHARED
 
 __all__ = ["bulk_carrier_180m", "bulk_carrier_180m_parent"]
@@ -36,14 +40,20 @@ def bulk_carrier_180m_parent() -> Figure:
     )
     x = np.linspace(0.0, 180.0, 721)
     areas.plot(x, forms.value("sectional_area", x), color=ACCENT, label="curve of areas")
-    areas.plot(X, AREAS, "o", color=INK, markersize=3.5, label="Versluis 1977")
+    areas.plot(VERSLUIS_X, VERSLUIS_AREAS, "o", color=INK, markersize=3.5, label="Versluis 1977")
     areas.set(ylabel="area (m2)", ylim=(0.0, 310.0))
     areas.legend(frameon=False, loc="lower center")
     heights.plot(*_centroids(), color=SHARED, label="sections of the net")
-    known = MOMENTS[:-1] / AREAS[:-1]
-    heights.plot(X[:-1], known, "o", color=INK, markersize=3.5, label="Versluis 1977")
+    known = VERSLUIS_MOMENTS[:-1] / VERSLUIS_AREAS[:-1]
+    heights.plot(VERSLUIS_X[:-1], known, "o", color=INK, markersize=3.5, label="Versluis 1977")
     heights.fill_between(
-        X[:-1], 0.98 * known, 1.02 * known, color=PALE, alpha=0.4, linewidth=0.0, label="2 per cent"
+        VERSLUIS_X[:-1],
+        0.98 * known,
+        1.02 * known,
+        color=PALE,
+        alpha=0.4,
+        linewidth=0.0,
+        label="2 per cent",
     )
     heights.set(xlabel="x from AP (m)", ylabel="centroid above base (m)", ylim=(5.0, 10.0))
     heights.legend(frameon=False, loc="upper center")
@@ -54,7 +64,7 @@ def _centroids() -> tuple[list[float], list[float]]:
     """Give x and the height of the centroid of the sections between AP and FP."""
     places, found = [], []
     draught = _ship().particulars.draught
-    for line in _ship().groups["sections"].lines.values():
+    for line in _ship()["sections"].lines.values():
         x, y, z = np.array(line.curves[0].polyline(32)).T
         if 0.0 <= x[0] < 180.0:
             top = np.interp(draught, z, y)

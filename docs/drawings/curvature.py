@@ -10,16 +10,16 @@ from assoc_hull.plot.plates.development import development_figure
 __all__ = ["curvature_lines", "curvature_mixed", "curvature_typical", "plate_flat"]
 
 
-def _inflected() -> ah.SplineSurface:
+def _inflected() -> ah.surface.SplineSurface:
     """Give a plate that is bent one way below and the other way above, and a little along."""
     x, y = np.mgrid[0:7:4j, -1.2:1.2:4j]
     # Control points of 0.004 x**2 and 0.12 y**3 over these spans.
     along = 0.004 * 49.0 * np.array([0.0, 0.0, 1.0 / 3.0, 1.0])[:, None]
     across = 0.12 * 1.2**3 * np.array([-1.0, 1.0, -1.0, 1.0])
-    return ah.SplineSurface.bezier(np.stack([x, y, along + across], axis=-1), "inflected")
+    return ah.surface.SplineSurface.bezier(np.stack([x, y, along + across], axis=-1), "inflected")
 
 
-def _plates() -> dict[str, ah.SplineSurface]:
+def _plates() -> dict[str, ah.surface.SplineSurface]:
     return {plate.name: plate for plate in ah.examples.typical_plates()}
 
 
@@ -27,22 +27,22 @@ def curvature_typical() -> Figure:
     """Draw a convex plate, a saddle, a cylinder and an inflected plate."""
     known = _plates()
     shown = [known[name] for name in ("bulb shoulder", "stern hollow", "bilge")]
-    return curvature_figure(ah.plates([*shown, _inflected()]), title="Four kinds of plates")
+    return curvature_figure(ah.surface.plates([*shown, _inflected()]), title="Four kinds of plates")
 
 
 def curvature_mixed() -> Figure:
     """Draw the flare of a bow, which is convex below and hollow above."""
-    return curvature_figure(ah.plates(_plates()["bow flare"]), title="Bow flare")
+    return curvature_figure(ah.surface.plates(_plates()["bow flare"]), title="Bow flare")
 
 
 def curvature_lines() -> Figure:
     """Draw the curvature of the same plate, with lines of further levels."""
-    found = ah.curvature_regions(_plates()["bow flare"], levels=(-0.006, -0.003, 0.003))
+    found = ah.surface.curvature_regions(_plates()["bow flare"], levels=(-0.006, -0.003, 0.003))
     return curvature_figure(found, views=("plan", "parameters"), quantity="curvature",
                             title="Curvature")  # fmt: skip
 
 
 def plate_flat() -> Figure:
     """Draw the shoulder of a bulb laid flat."""
-    (plate,) = ah.plates(_plates()["bulb shoulder"])
+    (plate,) = ah.surface.plates(_plates()["bulb shoulder"])
     return development_figure(plate.development())

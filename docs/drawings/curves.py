@@ -87,7 +87,7 @@ def completions() -> Figure:
     table = todd_table(0.70)[0]
     stern, stem = end_contours(table)
     profile = curve(ship(), "profile")
-    side, bottom = ship().lines["flat of side"].curves[0], flat_of_bottom(table)
+    side, bottom = ship()["flat of side"].curves[0], flat_of_bottom(table)
     marks = np.array([point.position for point in side.defining])
     points = centre_profile(table)[0]
     figure, (above, below) = plt.subplots(

@@ -7,7 +7,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 import assoc_hull as ah
-from assoc_hull.plot import adoption_deviations, lines_plan
+from assoc_hull.plot.lines_plan.adoption_deviations import adoption_deviations
+from assoc_hull.plot.lines_plan.plan import lines_plan
 
 __all__ = ["dtc", "dtc_report", "dtc_ship"]
 

@@ -9,9 +9,9 @@ from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
+from assoc_hull.hull.sources import examples
 from assoc_hull.io.dxf.lines_plan import plan_drawing
 from assoc_hull.io.reports import ExportBook
-from assoc_hull.sources import examples
 
 
 def lines_plan_dxf() -> Figure:

@@ -21,7 +21,7 @@ def pull() -> Figure:
     with hull.edit("pull") as edit:
         edit.pull("WL 0.75 x ST 17", d=0.2, radius=(20.0, 5.0))
     after = {name: curve(hull, name) for name in before}
-    place = hull.find("WL 0.75 x ST 17").position
+    place = hull["WL 0.75 x ST 17"].position
     hull.undo()
     figure, (body, plan) = plt.subplots(
         1, 2, figsize=(9.4, 4.7), width_ratios=(1.0, 1.35), layout="constrained"
@@ -112,7 +112,7 @@ def _normal_share(hull: ah.Hull, point: str) -> float:
 
 def _breadths(hull: ah.Hull, xs: Floats, zs: Floats) -> tuple[Floats, Floats]:
     """Half-breadths of WL 0.5 at xs and of ST 16 at zs, m."""
-    water, section = hull.lines["WL 0.5"], hull.lines["ST 16"]
+    water, section = hull["WL 0.5"], hull["ST 16"]
     along = [water.meet(((1.0, 0.0, 0.0), x))[0, 1] for x in xs.tolist()]
     girth = [section.meet(((0.0, 0.0, 1.0), z))[0, 1] for z in zs.tolist()]
     return np.array(along), np.array(girth)

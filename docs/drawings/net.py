@@ -41,7 +41,7 @@ def crossing() -> Figure:
         axes.plot(*_window(hull, name).T, color=FAINT, linewidth=1.2)
     for name, color in (("ST 17", SHARED), ("WL 0.5", DRIVEN)):
         axes.plot(*_window(hull, name).T, color=color, linewidth=2.2)
-    point = hull.find("WL 0.5 x ST 17")
+    point = hull["WL 0.5 x ST 17"]
     spot = oblique(np.array([point.position]))[0]
     axes.plot(*spot, "o", color=INK, markersize=8, zorder=7)
     _label_ends(axes, hull)
@@ -116,12 +116,12 @@ def roles() -> Figure:
     """Draw three waterlines of the run, each crossing marked by its role."""
     hull = ship()
     figure, axes = plt.subplots(figsize=(8.6, 5.0), layout="constrained")
-    for line in hull.groups["sections"].lines.values():
+    for line in hull["sections"].lines.values():
         if line.position < 36.0:
             axes.axvline(line.position, color=FAINT, linewidth=0.9, zorder=0)
             if line.name in {"ST 0", "ST 1", "ST 2", "ST 3", "ST 4", "ST 5"}:
                 axes.text(line.position, 9.05, line.name, ha="center", color=PALE, fontsize=9)
-    for line in hull.groups["buttocks"].lines.values():
+    for line in hull["buttocks"].lines.values():
         axes.axhline(line.position, color=FAINT, linewidth=0.9, zorder=0)
         if line.name in {"BTK 0.2", "BTK 0.52", "BTK 0.84"}:
             axes.text(0.15, line.position, line.name, va="center", color=PALE, fontsize=9,
@@ -163,7 +163,7 @@ def levels() -> Figure:
     """Draw the curves that one drag re-lofts, by level; a line is a crossing that drove."""
     hull = ship()
     with hull.edit("drag") as edit:
-        edit.move("WL 0.5 x ST 16", y=hull.find("WL 0.5 x ST 16").y + 0.02)
+        edit.move("WL 0.5 x ST 16", y=hull["WL 0.5 x ST 16"].y + 0.02)
     links, columns = _driven_links(hull), _columns(hull)
     hull.undo()
     figure, axes = plt.subplots(figsize=(9.0, 4.8), layout="constrained")

@@ -6,7 +6,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
-from assoc_hull.production import production_arcs
 from drawings.common import DRIVEN, INK, PALE, SHARED, Floats, ship
 
 __all__ = ["production_arcs_picture"]
@@ -18,7 +17,7 @@ _WITHIN = 0.002
 def production_arcs_picture() -> Figure:
     """Draw the waterline of Series 60 at the draught: the bow to scale, curvature along it."""
     hull = ship()
-    line = production_arcs(hull, _NAME, _WITHIN).lines[0]
+    line = hull.production_arcs(_NAME, _WITHIN).lines[0]
     spline = hull.lines[_NAME].curves[0]
     t = np.linspace(0.0, spline.span, 4000)
     figure, axes = plt.subplots(2, 1, figsize=(9.6, 5.0), layout="constrained")

@@ -7,7 +7,8 @@ from matplotlib.lines import Line2D
 
 import assoc_hull as ah
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
-from assoc_hull.plot import combs_plan, lines_plan
+from assoc_hull.plot import combs_plan
+from assoc_hull.plot.lines_plan.plan import lines_plan
 from drawings.common import ACCENT, INK, PALE, SHARED, Floats
 
 __all__ = ["bulk_carrier", "carrier_combs", "counter"]

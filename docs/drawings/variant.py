@@ -10,7 +10,7 @@ import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.section_areas import section_areas
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
-from assoc_hull.plot import comparison_plan
+from assoc_hull.plot.lines_plan.comparison import comparison_plan
 from drawings.common import ACCENT, FAINT, INK, PALE, Floats
 
 __all__ = ["variant_areas", "variant_plan"]
@@ -23,9 +23,8 @@ def _hulls() -> tuple[ah.Hull, ah.Hull]:
     """Give parent and variant, made once."""
     if not _MADE:
         parent = ah.examples.bulk_carrier_207k()
-        old = ah.hydrostatics(parent, estimate=False)
-        variant = ah.vary(
-            parent,
+        old = parent.hydrostatics(estimate=False)
+        variant = parent.vary(
             set={"shaft_height": 6.0},
             reach={"volume": 1.02 * old.volume, "lcb": old.lcb - 0.9},
             free=["breadth", "fore_shift", "aft_shift"],
@@ -37,7 +36,7 @@ def _hulls() -> tuple[ah.Hull, ah.Hull]:
 def variant_plan() -> Figure:
     """Draw both lines plans over one another."""
     parent, variant = _hulls()
-    return comparison_plan(parent, variant, paper="A4", found=ah.compare(parent, variant))
+    return comparison_plan(parent, variant, paper="A4", found=parent.compare(variant))
 
 
 def variant_areas() -> Figure:
@@ -48,7 +47,7 @@ def variant_areas() -> Figure:
     for hull, colour, wide in zip(_hulls(), (PALE, ACCENT), (1.2, 1.3), strict=True):
         x, area = _areas(hull)
         areas.plot(x, area, color=colour, linewidth=wide)
-        centre = ah.hydrostatics(hull, estimate=False).lcb
+        centre = hull.hydrostatics(estimate=False).lcb
         height = float(np.interp(centre, x, area))
         areas.plot([centre, centre], [0.0, height], color=colour, linewidth=wide, linestyle="--")
         for line in _STERN:
