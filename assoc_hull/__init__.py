@@ -1,263 +1,273 @@
 """Associative ship hull forms: lines that follow one another when one is changed.
 
+What starts from one hull is a method of `Hull`; what these methods take and give, and what starts
+from several hulls or from none, stands in the packages named in `__all__`.
+
 Examples
 --------
 >>> import assoc_hull as ah
 >>> hull = ah.examples.wigley()
->>> hull.points["WL 2.5 x ST 7"].free
+>>> hull["WL 2.5 x ST 7"].free
 ('y',)
 """
 
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING
 
-import assoc_hull.study  # else its first import would bind this name again
-import assoc_hull.surface  # likewise
-
 if TYPE_CHECKING:
-    from assoc_hull.analysis.derivatives.hydrostatic_derivatives import hydrostatic_derivatives
-    from assoc_hull.analysis.fairness.line_fairness import fairness
-    from assoc_hull.analysis.form.curve_transform import curve_transform
-    from assoc_hull.analysis.form.floating_shape import Screw
-    from assoc_hull.analysis.form.form_parameters import form_parameters
-    from assoc_hull.analysis.hydrostatics.floating_body import Appendage
-    from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatic_table, hydrostatics
-    from assoc_hull.analysis.hydrostatics.immersion import immersion
-    from assoc_hull.analysis.panels.hull_panels import panels
-    from assoc_hull.analysis.stability.cross_curves import cross_curves
-    from assoc_hull.analysis.stability.equilibrium import equilibrium
-    from assoc_hull.analysis.stability.flooding import FloodingPoint
-    from assoc_hull.analysis.stability.stability_report import stability
-    from assoc_hull.creation.design import Design
-    from assoc_hull.creation.form_curve import FormCurve
-    from assoc_hull.creation.form_definitions import course, design_waterline, sectional_area
-    from assoc_hull.errors import (
-        AssocHullError,
-        BadInputError,
-        FileBusyError,
-        ForeignPointError,
-        FreedomError,
-        NoMeetingError,
-        OutOfRangeError,
-        PointRoleError,
-        RefusedEditError,
-        RingError,
-        StaleHullError,
-        UnknownNameError,
-        UnreachableError,
-    )
+    from assoc_hull import classical, creation, errors, form, hydro, plot, study, surface, variation
+    from assoc_hull.errors import AssocHullError
     from assoc_hull.geometry.curves import PointKind
-    from assoc_hull.geometry.patches.spline_surface import SplineSurface
     from assoc_hull.geometry.plane import Plane
-    from assoc_hull.hull import Hull
-    from assoc_hull.model.form_definition import FormDefinition
+    from assoc_hull.hull.hull import Hull
+    from assoc_hull.hull.sources import create, examples, open, read
     from assoc_hull.model.kinds import BoundaryKind
     from assoc_hull.model.line_source import LineSource
     from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
     from assoc_hull.model.tables import Association, Ends, Particulars
-    from assoc_hull.plating import plates, read_surfaces
-    from assoc_hull.production import production_arcs
-    from assoc_hull.shell import HullSurface, surface
-    from assoc_hull.shifts import shift_sections, swing
-    from assoc_hull.sources import create, examples, open, read, read_classical
-    from assoc_hull.studies import Study, study
-    from assoc_hull.study.sampling import sample
-    from assoc_hull.surface.cells.closed_mesh import closed_mesh
-    from assoc_hull.surface.plates.hull_seams import HullSeams
-    from assoc_hull.surface.regions.curvature_regions import curvature_regions
     from assoc_hull.tolerance import Tolerances
-    from assoc_hull.variants import vary, vary_by
-    from assoc_hull.variation.comparing.comparison import compare
-    from assoc_hull.variation.parameters.parameter_measures import measure
-    from assoc_hull.variation.sensitivities import sensitivities
 
 __all__ = [
-    "Appendage",
     "AssocHullError",
     "Association",
-    "BadInputError",
     "BoundaryKind",
     "Crossing",
     "Curve",
-    "Design",
     "Ends",
-    "FileBusyError",
-    "FloodingPoint",
-    "ForeignPointError",
-    "FormCurve",
-    "FormDefinition",
-    "FreedomError",
     "Group",
     "Hull",
-    "HullSeams",
-    "HullSurface",
     "Line",
     "LineSource",
-    "NoMeetingError",
-    "OutOfRangeError",
     "Particulars",
     "Plane",
     "Point",
     "PointKind",
-    "PointRoleError",
-    "RefusedEditError",
-    "RingError",
-    "Screw",
-    "SplineSurface",
-    "StaleHullError",
-    "Study",
     "Tolerances",
-    "UnknownNameError",
-    "UnreachableError",
     "__version__",
-    "closed_mesh",
-    "compare",
-    "course",
+    "classical",
     "create",
-    "cross_curves",
-    "curvature_regions",
-    "curve_transform",
-    "design_waterline",
-    "equilibrium",
+    "creation",
+    "errors",
     "examples",
-    "fairness",
-    "form_parameters",
-    "hydrostatic_derivatives",
-    "hydrostatic_table",
-    "hydrostatics",
-    "immersion",
-    "measure",
+    "form",
+    "hydro",
     "open",
-    "panels",
-    "plates",
-    "production_arcs",
+    "plot",
     "read",
-    "read_classical",
-    "read_surfaces",
-    "sample",
-    "sectional_area",
-    "sensitivities",
-    "shift_sections",
-    "stability",
     "study",
     "surface",
-    "swing",
-    "vary",
-    "vary_by",
+    "variation",
 ]
 
 __version__ = "0.1.0"
 
-_HOMES = {
-    "analysis.derivatives.hydrostatic_derivatives": ("hydrostatic_derivatives",),
-    "analysis.fairness.line_fairness": ("fairness",),
-    "analysis.form.curve_transform": ("curve_transform",),
-    "analysis.form.floating_shape": ("Screw",),
-    "analysis.form.form_parameters": ("form_parameters",),
-    "analysis.hydrostatics.floating_body": ("Appendage",),
-    "analysis.hydrostatics.hull_hydrostatics": (
-        "hydrostatic_table",
-        "hydrostatics",
-    ),
-    "analysis.hydrostatics.immersion": ("immersion",),
-    "analysis.panels.hull_panels": ("panels",),
-    "analysis.stability.cross_curves": ("cross_curves",),
-    "analysis.stability.equilibrium": ("equilibrium",),
-    "analysis.stability.flooding": ("FloodingPoint",),
-    "analysis.stability.stability_report": ("stability",),
-    "creation.design": ("Design",),
-    "creation.form_curve": ("FormCurve",),
-    "creation.form_definitions": (
-        "course",
-        "design_waterline",
-        "sectional_area",
-    ),
-    "errors": (
-        "AssocHullError",
-        "BadInputError",
-        "FileBusyError",
-        "ForeignPointError",
-        "FreedomError",
-        "NoMeetingError",
-        "OutOfRangeError",
-        "PointRoleError",
-        "RefusedEditError",
-        "RingError",
-        "StaleHullError",
-        "UnknownNameError",
-        "UnreachableError",
-    ),
-    "geometry.curves": ("PointKind",),
-    "geometry.patches.spline_surface": ("SplineSurface",),
-    "geometry.plane": ("Plane",),
-    "hull": ("Hull",),
-    "model.form_definition": ("FormDefinition",),
-    "model.kinds": ("BoundaryKind",),
-    "model.line_source": ("LineSource",),
-    "model.objects": (
-        "Crossing",
-        "Curve",
-        "Group",
-        "Line",
-        "Point",
-    ),
-    "model.tables": (
-        "Association",
-        "Ends",
-        "Particulars",
-    ),
-    "plating": (
-        "plates",
-        "read_surfaces",
-    ),
-    "production": ("production_arcs",),
-    "shell": (
-        "HullSurface",
-        "surface",
-    ),
-    "shifts": (
-        "shift_sections",
-        "swing",
-    ),
-    "sources": (
-        "create",
-        "examples",
-        "open",
-        "read",
-        "read_classical",
-    ),
-    "studies": (
-        "Study",
-        "study",
-    ),
-    "study.sampling": ("sample",),
-    "surface.cells.closed_mesh": ("closed_mesh",),
-    "surface.plates.hull_seams": ("HullSeams",),
-    "surface.regions.curvature_regions": ("curvature_regions",),
-    "tolerance": ("Tolerances",),
-    "variants": (
-        "vary",
-        "vary_by",
-    ),
-    "variation.comparing.comparison": ("compare",),
-    "variation.parameters.parameter_measures": ("measure",),
-    "variation.sensitivities": ("sensitivities",),
+_PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
+    "": {
+        "errors": ("AssocHullError",),
+        "geometry.curves": ("PointKind",),
+        "geometry.plane": ("Plane",),
+        "hull.hull": ("Hull",),
+        "hull.sources": (
+            "create",
+            "examples",
+            "open",
+            "read",
+        ),
+        "model.kinds": ("BoundaryKind",),
+        "model.line_source": ("LineSource",),
+        "model.objects": (
+            "Crossing",
+            "Curve",
+            "Group",
+            "Line",
+            "Point",
+        ),
+        "model.tables": (
+            "Association",
+            "Ends",
+            "Particulars",
+        ),
+        "tolerance": ("Tolerances",),
+    },
+    "variation": {
+        "hull.results": (
+            "Shifted",
+            "Variation",
+        ),
+        "variation.comparing.comparison": (
+            "HullComparison",
+            "compare",
+        ),
+        "variation.direct.least_change": (
+            "Basis",
+            "CurveTarget",
+            "SurfaceTarget",
+            "pull_curve",
+            "pull_surface",
+        ),
+        "variation.direct.pull_curve_through": (
+            "HeldPlace",
+            "pass_through",
+            "pull_through",
+        ),
+        "variation.fields.batch_displacements": ("FieldPlan",),
+        "variation.fields.bounded_functions": (
+            "BlendChain",
+            "Ramp",
+        ),
+        "variation.fields.field": ("AffinePiece", "Boundary", "StackedField"),
+        "variation.fields.image_intersections": (
+            "intersect_images",
+            "plane_source",
+        ),
+        "variation.fields.layers": (
+            "AdditiveLayer",
+            "CornerLayer",
+            "DeadriseLayer",
+            "FieldLayer",
+        ),
+        "variation.fields.space_map": ("VariationMap",),
+        "variation.parameters.field_layout": ("Layout",),
+        "variation.parameters.measurement": ("Measures",),
+        "variation.sensitivities": ("Sensitivities",),
+        "variation.shifts.shift_hull": ("ShiftReport",),
+        "variation.shifts.shift_terms": ("Terminals",),
+        "variation.vary": ("VariationReport",),
+    },
+    "creation": {
+        "creation.design": ("Design",),
+        "creation.form_curve": ("FormCurve",),
+        "creation.form_definitions": (
+            "course",
+            "design_waterline",
+            "sectional_area",
+        ),
+        "hull.sources": (
+            "create",
+            "read_classical",
+        ),
+        "model.form_definition": ("FormDefinition",),
+    },
+    "surface": {
+        "geometry.patches.spline_surface": ("SplineSurface",),
+        "hull.results": (
+            "HullPlates",
+            "HullSurface",
+            "Plates",
+            "ProductionArcs",
+            "plates",
+        ),
+        "hull.sources": ("read_surfaces",),
+        "surface.cells.closed_mesh": ("ClosedMesh",),
+        "surface.plating.development": ("Development",),
+        "surface.plating.hull_seams": ("HullSeams",),
+        "surface.plating.surface_plates": ("Seams",),
+        "surface.regions.curvature_regions": ("curvature_regions",),
+        "surface.regions.result": ("RegionResult",),
+    },
+    "study": {
+        "hull.results": ("Study",),
+        "study.sampling": ("sample",),
+    },
 }
-"""Modules and what is public of them."""
+"""What each public package offers: modules, and the names that are public of them."""
 
-if not TYPE_CHECKING:
-    # What only lofts and cuts does not wait for the modules of whole hulls.
-    _home = {name: module for module, names in _HOMES.items() for name in names}
-    del assoc_hull, study, surface  # the subpackages; below the names mean other things
+_MOVED = {
+    "Appendage": "assoc_hull.hydro.Appendage",
+    "BadInputError": "assoc_hull.errors.BadInputError",
+    "Design": "assoc_hull.creation.Design",
+    "FileBusyError": "assoc_hull.errors.FileBusyError",
+    "FloodingPoint": "assoc_hull.hydro.FloodingPoint",
+    "ForeignPointError": "assoc_hull.errors.ForeignPointError",
+    "FormCurve": "assoc_hull.creation.FormCurve",
+    "FormDefinition": "assoc_hull.creation.FormDefinition",
+    "FreedomError": "assoc_hull.errors.FreedomError",
+    "HullSeams": "assoc_hull.surface.HullSeams",
+    "HullSurface": "assoc_hull.surface.HullSurface",
+    "NoMeetingError": "assoc_hull.errors.NoMeetingError",
+    "OutOfRangeError": "assoc_hull.errors.OutOfRangeError",
+    "PointRoleError": "assoc_hull.errors.PointRoleError",
+    "RefusedEditError": "assoc_hull.errors.RefusedEditError",
+    "RingError": "assoc_hull.errors.RingError",
+    "Screw": "assoc_hull.form.Screw",
+    "SplineSurface": "assoc_hull.surface.SplineSurface",
+    "StaleHullError": "assoc_hull.errors.StaleHullError",
+    "Study": "assoc_hull.study.Study",
+    "UnknownNameError": "assoc_hull.errors.UnknownNameError",
+    "UnreachableError": "assoc_hull.errors.UnreachableError",
+    "closed_mesh": "hull.mesh(...)",
+    "compare": "hull.compare(variant), or assoc_hull.variation.compare(parent, variant)",
+    "course": "assoc_hull.creation.course",
+    "cross_curves": "hull.cross_curves(...)",
+    "curvature_regions": "assoc_hull.surface.curvature_regions",
+    "curve_transform": "hull.curve_transform(...)",
+    "design_waterline": "assoc_hull.creation.design_waterline",
+    "equilibrium": "hull.equilibrium(...)",
+    "fairness": "hull.fairness(...), or assoc_hull.form.fairness(curve)",
+    "form_parameters": "hull.form_parameters(...)",
+    "hydrostatic_derivatives": "hull.hydrostatic_derivatives(...)",
+    "hydrostatic_table": "hull.hydrostatic_table(...)",
+    "hydrostatics": "hull.hydrostatics(...)",
+    "immersion": "hull.immersion(...)",
+    "measure": "hull.measure(...)",
+    "panels": "hull.panels(...)",
+    "plates": "hull.plates(seams), or assoc_hull.surface.plates(surfaces)",
+    "production_arcs": "hull.production_arcs(...)",
+    "read_classical": "assoc_hull.creation.read_classical",
+    "read_surfaces": "assoc_hull.surface.read_surfaces",
+    "sample": "assoc_hull.study.sample",
+    "sectional_area": "assoc_hull.creation.sectional_area",
+    "sensitivities": "hull.sensitivities(...)",
+    "shift_sections": "hull.shift_sections(...)",
+    "stability": "hull.stability(...)",
+    "swing": "hull.swing(...)",
+    "vary": "hull.vary(...)",
+    "vary_by": "hull.vary_by(...)",
+}
+"""Names that version 0.1 had here, and what to write in their place."""
 
-    def __getattr__(name: str) -> object:
-        """Import a public name when it is first used."""
-        if name not in _home:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        found = getattr(import_module(f"{__name__}.{_home[name]}"), name)
-        globals()[name] = found
-        return found
+_CALLED = {"study": "hull.study(...)", "surface": "hull.surface(...)"}
+"""Packages whose names were functions once."""
 
-    def __dir__() -> list[str]:
-        """Name what is public, whether it has been used or not."""
-        return sorted({*globals(), *__all__})
+_FACES = ("classical", "errors", "form", "hydro", "plot")
+
+
+class _PublicPackage(ModuleType):
+    """A package whose public names are imported when they are first used."""
+
+    __all__: list[str]
+
+    def __getattr__(self, name: str) -> object:
+        package = self.__name__.partition(".")[2]
+        for module, names in _PUBLIC[package].items():
+            if name in names:
+                found = getattr(import_module(f"{__name__}.{module}"), name)
+                setattr(self, name, found)
+                return found
+        if not package and name in _FACES:
+            return import_module(f"{__name__}.{name}")
+        if not package and name in _MOVED:
+            raise AttributeError(f"{__name__}.{name} is {_MOVED[name]} now")
+        raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
+
+    def __dir__(self) -> list[str]:
+        # What is public, for the tab key; machinery and inner packages are importable unseen.
+        return sorted({*(name for name in super().__dir__() if name[:2] == "__"), *self.__all__})
+
+
+class _FormerFunction(_PublicPackage):
+    """A package whose name was that of a function in version 0.1."""
+
+    def __call__(self, *_: object, **__: object) -> object:
+        remedy = _CALLED[self.__name__.partition(".")[2]]
+        raise TypeError(f"{self.__name__} is a package: {remedy} is what it was")
+
+
+for _package, _homes in _PUBLIC.items():
+    # Empty packages: what only lofts and cuts does not wait for the modules of whole hulls.
+    _module = import_module(f"{__name__}.{_package}".rstrip("."))
+    _module.__class__ = _FormerFunction if _package in _CALLED else _PublicPackage
+    if _package:
+        vars(_module)["__all__"] = sorted(name for names in _homes.values() for name in names)
+del _package, _homes, _module

@@ -3,8 +3,7 @@
 Every message says what is wrong, where, how much, and what to do; the same facts are fields
 of the exception, so a program need not read the text. `AssocHullError` is the root; each
 error is also a `ValueError`, `KeyError`, `OSError` or the like. First come those that
-many parts raise, then those of one subject: form-parameter curves, classical curves, aiming,
-meshes, curvature regions.
+many parts raise, then those of one subject.
 """
 
 from __future__ import annotations
@@ -31,6 +30,7 @@ __all__ = [
     "HullFileError",
     "MissingExtraError",
     "NameTakenError",
+    "NeedsCadError",
     "NoMeetingError",
     "NoMiddleVertexError",
     "OpenMeshError",
@@ -46,9 +46,6 @@ __all__ = [
     "UnreachableError",
     "WrongTypeError",
 ]
-
-# --------------------------------------------------------------------------------------
-# The root of the errors, and all of them that no subject has to itself.
 
 
 class AssocHullError(Exception):
@@ -93,7 +90,7 @@ class AbsentParameterError(BadInputError, KeyError):
 
 
 def _span(least: float, most: float, unit: str) -> str:
-    """Give an interval in words; an infinite end is not told."""
+    """Give an interval in words; an infinite end is left out."""
     unit = f" {unit}" if unit else ""
     if math.isinf(most):
         return f"from {least:.8g}{unit} up"
@@ -391,6 +388,7 @@ class FoldError(AssocHullError, ValueError):
         if self.part is not None:
             return f"not beside the others asked for: admissible {100.0 * self.part:.3g} % of each"
         if self.interval is not None:
+            # to three decimals, inward: a value that the message admits must be admitted
             low, high = (
                 inward(1e3 * end) / 1e3 if math.isfinite(end) else end
                 for inward, end in zip((math.ceil, math.floor), self.interval, strict=True)
@@ -411,7 +409,7 @@ class MissingExtraError(AssocHullError, ImportError):
 
 
 # --------------------------------------------------------------------------------------
-# The errors of form-parameter curves: no middle vertex gives what was asked for.
+# Form-parameter curves: no middle vertex gives what was asked for.
 
 
 @attrs.define(slots=False, eq=False)
@@ -471,7 +469,7 @@ class NoMiddleVertexError(AssocHullError, ValueError):
 
 
 # --------------------------------------------------------------------------------------
-# The error of classical curves and definitions: what is given makes no curve.
+# Classical curves and definitions.
 
 
 @attrs.define(slots=False, eq=False)
@@ -505,7 +503,7 @@ class GeometryError(AssocHullError, ValueError):
 
 
 # --------------------------------------------------------------------------------------
-# The errors of aiming: what cannot be reached, and why.
+# Aiming: what cannot be reached, and why.
 
 
 @attrs.define(slots=False, eq=False)
@@ -540,7 +538,7 @@ class DependentTargetsError(AssocHullError, ValueError):
     def __str__(self) -> str:
         if len(self.targets) == 1:
             return f"aim: no free parameter moves {self.targets[0]}; drop it or free another one"
-        size = f"{self.condition:.0e}".replace("e+0", "e").replace("e+", "e")
+        size = f"{self.condition:.0e}".replace("e+0", "e").replace("e+", "e")  # 1e+09 is 1e9
         return (
             f"aim: targets {_in_words(self.targets)} move together (condition {size}); drop one "
             "or free another parameter"
@@ -579,6 +577,7 @@ class UnreachableError(AssocHullError, ValueError):
 
     def __str__(self) -> str:
         unit = f" {self.unit}" if self.unit not in ("", "-") else ""
+        # as many digits as tell the two numbers apart
         digits = next(
             (n for n in (6, 8, 10, 12) if f"{self.asked:.{n}g}" != f"{self.best:.{n}g}"), 17
         )
@@ -604,9 +603,10 @@ def _in_words(names: tuple[str, ...]) -> str:
 
 
 # --------------------------------------------------------------------------------------
-# Errors of meshes of a hull: lines that enclose nothing, triangles that do not close.
+# Meshes of a hull.
 
 _SHOWN = 4
+"""More findings than these are only counted in the message."""
 
 
 @attrs.define(slots=False, eq=False)
@@ -631,8 +631,8 @@ class OpenNetError(AssocHullError, ValueError):
         shown = ", ".join(self.findings[:_SHOWN])
         left = len(self.findings) - _SHOWN
         more = f" and {left} more" if left > 0 else ""
-        told = f": {shown}{more}" if shown else ""
-        return f"the lines do not part the hull into cells: {self.what}{told}; {self.remedy}"
+        listed = f": {shown}{more}" if shown else ""
+        return f"the lines do not part the hull into cells: {self.what}{listed}; {self.remedy}"
 
 
 @attrs.define(slots=False, eq=False)
@@ -665,7 +665,7 @@ class OpenMeshError(AssocHullError, RuntimeError):
 
 
 # --------------------------------------------------------------------------------------
-# The error of curvature regions: a line of the zero set breaks off.
+# Curvature regions.
 
 
 @attrs.define(slots=False, eq=False)

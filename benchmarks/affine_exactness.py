@@ -18,7 +18,7 @@ import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.evaluation import sample
-from assoc_hull.variants import Variation
+from assoc_hull.hull.results import Variation
 from assoc_hull.variation.parameters.compose_map import compose_map
 from assoc_hull.variation.parameters.field_layout import Layout
 from assoc_hull.variation.parameters.parent import parent_of
@@ -100,7 +100,7 @@ def deviation(
     before: ah.Hull, after: ah.Hull, factors: tuple[float, float, float]
 ) -> dict[str, float]:
     """Give by how much of itself what is measured differs from what the factors make of it."""
-    old, new = (ah.hydrostatics(hull, estimate=False) for hull in (before, after))
+    old, new = (hull.hydrostatics(estimate=False) for hull in (before, after))
     found = dict[str, float]()
     for name, power in POWERS.items():
         grown = getattr(old, name) * float(np.prod(np.array(factors) ** power))
@@ -138,8 +138,8 @@ def image_row(hull: ah.Hull, name: str) -> float:
 
 def scaled(hull: ah.Hull, name: str) -> Variation:
     """Scale a net by named parameters."""
-    now = ah.measure(hull)
-    return ah.vary(hull, set={key: now[key] * by for key, by in SCALINGS[name][0].items()})
+    now = hull.measure()
+    return hull.vary(set={key: now[key] * by for key, by in SCALINGS[name][0].items()})
 
 
 def off_image(hull: ah.Hull, found: Variation) -> FloatArray:

@@ -2,7 +2,7 @@
 
 Targets are 1 % more volume, LCB 0.3 % of Lpp further forward, KM_T 0.2 m higher, and, where there
 are five, C_W 0.005 larger and the midship section 0.2 % smaller. Three, five or seven parameters
-are free. Beside the least change stand plain shortest steps. Then one call of `ah.vary` is looked
+are free. Beside the least change stand plain shortest steps. Then one call of `Hull.vary` is looked
 at from outside, and what it says of a volume that is out of reach. Some ten minutes of one core.
 """
 
@@ -40,7 +40,7 @@ _ROUNDING = 1e-13
 
 def targets_of(hull: ah.Hull) -> dict[str, float]:
     """Give the five targets of a hull."""
-    now = ah.hydrostatics(hull)
+    now = hull.hydrostatics()
     return {
         "volume": 1.01 * now.volume, "lcb": now.lcb + 0.003 * hull.particulars.length,
         "kmt": now.kmt + 0.2, "cw": now.cw + 0.005, "a_midship": 0.998 * now.a_midship,
@@ -116,16 +116,16 @@ def table(hull: ah.Hull) -> None:
 
 
 def published(hull: ah.Hull) -> None:
-    """Print what a call of `ah.vary` gives, measured from outside."""
+    """Print what a call of `Hull.vary` gives, measured from outside."""
     targets = targets_of(hull)
     start = time.process_time()
-    variant = ah.vary(hull, reach=targets, free=free_of(hull, 5))
+    variant = hull.vary(reach=targets, free=free_of(hull, 5))
     seconds = time.process_time() - start
-    now = ah.hydrostatics(variant.hull)
+    now = variant.hull.hydrostatics()
     off = max(abs(getattr(now, name) / value - 1.0) for name, value in targets.items())
-    same = ah.vary_by(hull, variant.report.script or {}).hull.fingerprint
+    same = hull.vary_by(variant.report.script or {}).hull.fingerprint
     print(
-        f"ah.vary to five targets: {off:.1e} off on the published hull, {seconds:.0f} s of CPU; "
+        f"Hull.vary to five targets: {off:.1e} off on the published hull, {seconds:.0f} s of CPU; "
         f"its script gives the same hull: {same == variant.hull.fingerprint}"
     )
 
@@ -133,14 +133,14 @@ def published(hull: ah.Hull) -> None:
 def out_of_reach(hull: ah.Hull) -> None:
     """Print what is said of 10 % more volume when stations may move by 2 m only."""
     fingerprint, steps = hull.fingerprint, len(hull.history)
-    volume = ah.hydrostatics(hull).volume
+    volume = hull.hydrostatics().volume
     ends = {"fore_shift": (-2.0, 2.0), "aft_shift": (-2.0, 2.0)}
     try:
-        ah.vary(hull, reach={"volume": 1.1 * volume}, free=list(ends), bounds=ends, in_place=True)
+        hull.vary(reach={"volume": 1.1 * volume}, free=list(ends), bounds=ends, in_place=True)
     except UnreachableError as error:
         print(error)
         shifts = {"fore_shift": 2.0, "aft_shift": -2.0}
-        best = ah.hydrostatics(ah.vary(hull, set=shifts).hull).volume
+        best = hull.vary(set=shifts).hull.hydrostatics().volume
         told = 100.0 * (best - 1.1 * volume) / volume
         same = fingerprint == hull.fingerprint and steps == len(hull.history)
         print(

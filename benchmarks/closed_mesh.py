@@ -42,16 +42,16 @@ def figures(quick: bool = False) -> list[Figure]:
     rounds = 3 if quick else 9
     every = ships()
     jobs: dict[str, Callable[[], object]] = {
-        name: partial(ah.closed_mesh, hull, points=POINTS) for name, hull in every.items()
+        name: partial(ah.Hull.mesh, hull, points=POINTS) for name, hull in every.items()
     }
     grids = [gather_net(ah.examples.wigley(stations=n, waterlines=m).state) for n, m in _GRIDS]
     for i, net in enumerate(grids):
         jobs[f"grid {i}"] = partial(mesh_of_net, net, points=POINTS)
     carrier = every["bulk carrier 207,000 TDW"]
-    mesh = ah.closed_mesh(carrier, points=POINTS)
-    plain = ah.closed_mesh(carrier, points=2)
-    jobs["plain"] = partial(ah.closed_mesh, carrier, points=2)
-    jobs["panels"] = partial(ah.panels, carrier, draught=18.0, count=len(plain.triangle) // 2)
+    mesh = carrier.mesh(points=POINTS)
+    plain = carrier.mesh(points=2)
+    jobs["plain"] = partial(ah.Hull.mesh, carrier, points=2)
+    jobs["panels"] = partial(ah.Hull.panels, carrier, draught=18.0, count=len(plain.triangle) // 2)
     jobs["examined"] = partial(examine_mesh, mesh.xyz, mesh.triangle)
     jobs["trimesh"] = partial(_by_trimesh, mesh.xyz, mesh.triangle)
     found = side_by_side(jobs, rounds)
@@ -81,10 +81,10 @@ def _by_trimesh(xyz: np.ndarray, triangle: np.ndarray) -> tuple[bool, bool, int,
 def _volumes(name: str, hull: Hull) -> list[Figure]:
     """Give volumes and centres below the design draught beside those of the splines."""
     draught, length = hull.particulars.draught, hull.particulars.length
-    wanted = ah.hydrostatics(hull, draught=draught)
+    wanted = hull.hydrostatics(draught=draught)
     found = list[Figure]()
     for points in (2, 4, 8):
-        mesh = ah.closed_mesh(hull, points=points)
+        mesh = hull.mesh(points=points)
         below = mesh.below(draught)
         off = 100.0 * abs(below.volume / wanted.volume - 1.0)
         aside = 100.0 * abs(below.lcb - wanted.lcb) / length
@@ -98,5 +98,5 @@ def _volumes(name: str, hull: Hull) -> list[Figure]:
 
 def _panel_error(hull: Hull, count: int) -> Figure:
     """Give the error of the volume of panels, as their report has it."""
-    report = panel_report(ah.panels(hull, draught=hull.particulars.draught, count=count))
+    report = panel_report(hull.panels(draught=hull.particulars.draught, count=count))
     return Figure(f"{count} panels: volume off by", 100.0 * abs(report.volume_error or 0.0), "%")

@@ -14,13 +14,13 @@ import numpy as np
 from scipy.interpolate import NdBSpline, bisplev
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.arcs import arcs_of
 from assoc_hull.geometry.patches.area_elements import bernstein_values
 from assoc_hull.geometry.patches.areas_by_sign import SignAreas, sign_areas
 from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches
 from assoc_hull.geometry.patches.curvature_functions import gauss_function
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.geometry.patches.zero_set_arcs import arcs_of
 from assoc_hull.surface.regions.curvature_regions import curvature_regions
 from benchmarks.clock import Figure, side_by_side
 from tests.curved_patches import graph_plates, patch, references
@@ -179,7 +179,7 @@ def figures(quick: bool = False) -> list[Figure]:
         Figure("100 x 100 nodes by FITPACK / batch", found["FITPACK"] / found["batch"], "x", 1.0),
         Figure("100 x 100 nodes by basis matrices / batch", found["matrices"] / found["batch"]),
         Figure(
-            "with lines of K = 0 and results (ah.curvature_regions) / batch",
+            "with lines of K = 0 and results (ah.surface.curvature_regions) / batch",
             found["public"] / found["batch"],
         ),
         Figure("tolerance 1e-10 / 1e-6", found["fine"] / found["batch"]),

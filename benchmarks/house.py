@@ -157,12 +157,12 @@ def _pull() -> Act:
 
 def _hydrostatics() -> Act:
     hull = ah.examples.wigley()
-    return lambda: ah.hydrostatics(hull, draught=6.0)
+    return lambda: hull.hydrostatics(draught=6.0)
 
 
 def _vary() -> Act:
     hull = ah.examples.wigley()
-    return lambda: ah.vary(hull, set={"breadth": 10.2})
+    return lambda: hull.vary(set={"breadth": 10.2})
 
 
 TRIPS: dict[str, Callable[[], Act]] = {
@@ -186,13 +186,13 @@ def main() -> None:
     print(f"modules with one importer {len(one)}")
     lost = out_of_reach(graph, trees)
     print(f"modules out of reach {len(lost)}", *lost)
-    homes = {name: where for name, where in public_names(trees).items() if len(where) > 1}
+    homes = {name: where for name, where in public_names(trees).items() if len(set(where)) > 1}
     twice = {
         name: where
         for name, where in homes.items()
-        if max(Counter(module.split(".")[1] for module, _ in where).values()) > 1
+        if max(Counter(module.split(".")[1] for module in {each for each, _ in where}).values()) > 1
     }
-    classes = [name for name, where in homes.items() if sum(kind for _, kind in where) > 1]
+    classes = [name for name, where in homes.items() if sum(kind for _, kind in set(where)) > 1]
     print(f"public names with two homes {len(homes)}, in one package {len(twice)}", *sorted(twice))
     print(f"classes with two homes {len(classes)}", *sorted(classes))
     circles = [sorted(each) for each in nx.strongly_connected_components(graph) if len(each) > 1]

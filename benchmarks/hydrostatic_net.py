@@ -9,12 +9,12 @@ import attrs
 from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.analysis.net.surface_layout import lay_out_surface
 from assoc_hull.geometry.curves import CurveData
+from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
     ImmersedIntegrals,
     integrate_immersed,
 )
-from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.surfaces.coons import CoonsCells, CoonsStrips
 from assoc_hull.model.lofting import curve_data

@@ -18,9 +18,8 @@ from assoc_hull.geometry.curves import CurveData, FloatArray
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.segments import power_coefficients
 from assoc_hull.hull import Hull
+from assoc_hull.hull.sources import examples
 from assoc_hull.model.objects import Line
-from assoc_hull.production import production_arcs
-from assoc_hull.sources import examples
 from benchmarks.clock import Figure, side_by_side
 from tests.arc_optimum import PlaneCurve, fewest_exact, fewest_tilted, fits_one
 from tests.cases.dtc import read_dtc_with_report
@@ -68,7 +67,7 @@ def counts(hull: Hull, names: tuple[str, ...]) -> list[Figure]:
     found = []
     for name in names:
         line = hull.lines[name]
-        ours = production_arcs(hull, name, WITHIN)
+        ours = hull.production_arcs(name, WITHIN)
         curve = PlaneCurve(cubics(line), 8, 6)
         exact = fewest_exact(curve, WITHIN)
         tilted = fewest_tilted(curve, WITHIN, 0.01, 60)
@@ -91,7 +90,7 @@ def figures(quick: bool = False) -> list[Figure]:
     """Measure."""
     hull, names = ship()
     found = counts(hull, names[:1] if quick else names)
-    whole = production_arcs(hull, "waterlines", WITHIN)
+    whole = hull.production_arcs("waterlines", WITHIN)
     found += [
         Figure("all waterlines: arcs", whole.count, ""),
         Figure(
@@ -106,7 +105,7 @@ def figures(quick: bool = False) -> list[Figure]:
     sixteen = np.arange(17) * len(short)
     times = side_by_side(
         {
-            "all": lambda: production_arcs(hull, None, WITHIN),
+            "all": lambda: hull.production_arcs(None, WITHIN),
             "one": lambda: fit_arcs(own, one, WITHIN),
             "naive": lambda: naive(curve),
             "long": lambda: fit_arcs(long, np.array([0, len(long)]), WITHIN),

@@ -51,7 +51,7 @@ def _waterlines(hull: ah.Hull) -> dict[str, LineFairness]:
 def _row(hull: ah.Hull, shape: ShiftShape, asked: dict[str, float]) -> str:
     begin = perf_counter()
     try:
-        found = ah.shift_sections(hull, by=asked, shape=shape)
+        found = hull.shift_sections(by=asked, shape=shape)
     except AssocHullError as error:
         return f"| {shape} | refused: {error} |"
     seconds = perf_counter() - begin
@@ -95,7 +95,7 @@ def _limit_rows(name: str) -> Iterator[str]:
     shapes: tuple[ShiftShape, ...] = ("c2", "lackenby", "1-cp")
     for shape, key, sign in product(shapes, ("cb", "lcb_percent"), (1.0, -1.0)):
         try:
-            ah.shift_sections(hull, by={key: 20.0 * sign}, shape=shape)
+            hull.shift_sections(by={key: 20.0 * sign}, shape=shape)
         except OutOfRangeError as error:
             limit = error.most if sign > 0.0 else error.least
             for part in (0.5, 0.98):
@@ -104,7 +104,7 @@ def _limit_rows(name: str) -> Iterator[str]:
 
 def _limit_row(hull: ah.Hull, shape: ShiftShape, key: str, change: float) -> str:
     try:
-        report = ah.shift_sections(hull, by={key: change}, shape=shape).report
+        report = hull.shift_sections(by={key: change}, shape=shape).report
     except AssocHullError as error:
         return f"| {shape} | {key} {change:+.4f} | refused: {error} |"
     residuals = ", ".join(f"{step.residual:.1e}" for step in report.steps)

@@ -14,14 +14,14 @@ BARE = "import numpy"
 FIRST = """
 import assoc_hull
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from benchmarks.full_reloft import kernel
 from benchmarks.shape import shape
 """
 """The first re-loft is that of the benchmark net; its lines are made here too."""
 EDIT = """
 import assoc_hull
-hull = assoc_hull.shipped.wigley()
+hull = assoc_hull.examples.wigley()
 with hull.edit("move") as edit:
     edit.move("WL 2.5 x ST 7", y=hull.find("WL 2.5 x ST 7").y + 0.01)
 """

@@ -111,12 +111,12 @@ def after_edits(rounds: int) -> list[Figure]:
     found = []
     for name, (maker, point) in PULLS.items():
         hull = getattr(ah.examples, maker)()
-        before = ah.surface(hull)
+        before = hull.surface()
         with pulled(hull, point):
-            after = ah.surface(hull, previous=before)
+            after = hull.surface(previous=before)
             jobs: dict[str, Callable[[], object]] = {
-                "scratch": partial(ah.surface, hull),
-                "follow": partial(ah.surface, hull, previous=before),
+                "scratch": partial(ah.Hull.surface, hull),
+                "follow": partial(ah.Hull.surface, hull, previous=before),
             }  # fmt: skip
             taken = side_by_side(jobs, rounds)
         ratio = taken["scratch"] / taken["follow"]

@@ -21,7 +21,7 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.cli.output import progress_bar
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.studies import Study
+from assoc_hull.hull.results import Study
 
 __all__ = ["beside", "facts", "request"]
 
@@ -33,11 +33,11 @@ _AGAIN = 10
 
 def request(hull: ah.Hull, count: int, seed: int = 1) -> dict[str, Any]:
     """Draw targets within reach of shifts of 15 m: V 1 %, LCB 0.2 % of L, KM_T 0.1 m either way."""
-    now = ah.hydrostatics(hull, estimate=False)
+    now = hull.hydrostatics(estimate=False)
     part = {"volume": 0.01 * now.volume, "lcb": 0.002 * hull.particulars.length, "kmt": 0.1}
     ends = {name: (getattr(now, name) - by, getattr(now, name) + by) for name, by in part.items()}
     bounds = {"fore_shift": (-15.0, 15.0), "aft_shift": (-15.0, 15.0)}
-    return {"reach": ah.sample(ends, count, seed=seed), "free": FREE, "bounds": bounds}
+    return {"reach": ah.study.sample(ends, count, seed=seed), "free": FREE, "bounds": bounds}
 
 
 def beside(hull: ah.Hull, asked: dict[str, Any], variants: int, calls: int) -> tuple[float, float]:
@@ -50,14 +50,14 @@ def beside(hull: ah.Hull, asked: dict[str, Any], variants: int, calls: int) -> t
     begin, spent = [], np.zeros(2)
     for _ in range(2):
         start = time.process_time()
-        ah.study(hull, **one)
+        hull.study(**one)
         begin.append(time.process_time() - start)
     for part in np.array_split(np.arange(variants), calls):
         some = {name: column[part] for name, column in asked["reach"].items()}
         start = time.process_time()
-        ah.study(hull, **{**asked, "reach": some})
+        hull.study(**{**asked, "reach": some})
         middle = time.process_time()
-        ah.vary(hull, **_single(asked, int(part[0])))
+        hull.vary(**_single(asked, int(part[0])))
         spent += middle - start, time.process_time() - middle
     more = variants - calls  # of each part one variant is paid for with what is prepared
     return float((spent[0] - calls * min(begin)) / more), float(spent[1] / calls)
@@ -91,7 +91,7 @@ def _again(found: Study, numbers: Sequence[int]) -> float:
     """Make hulls once more, and give the largest part of a target that these lack."""
     worst: list[float] = []
     for number in numbers:
-        record = ah.hydrostatics(found.hull(number), estimate=False)
+        record = found.hull(number).hydrostatics(estimate=False)
         got: FloatArray = np.array([getattr(record, name) for name in found.design.aims])
         worst.append(float(np.abs(got / found.design.targets[number] - 1.0).max()))
     return max(worst, default=np.nan)
@@ -114,7 +114,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"ratio                          {alone / each:.1f}", flush=True)
     start = time.perf_counter()
     with progress_bar("study", hidden=False) as tell:
-        found = ah.study(hull, **asked, workers=given.workers, progress=tell)
+        found = hull.study(**asked, workers=given.workers, progress=tell)
     print("\n".join(facts(found, time.perf_counter() - start)))
     return 0
 

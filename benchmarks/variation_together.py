@@ -57,7 +57,7 @@ def overlapping(task: Task) -> Iterator[str]:
 
 def together(state: HullState) -> Iterator[str]:
     """Give how six parameters are met together, and what the fold check takes."""
-    parent, now = parent_of(state), ah.measure(ah.Hull(state), only=list(_SIX))
+    parent, now = parent_of(state), ah.Hull(state).measure(only=list(_SIX))
     asked = {
         name: now[name] + part * now[name] + amount for name, (part, amount) in _SIX.items()
         if name in now

@@ -20,8 +20,8 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.hull.results import Variation
 from assoc_hull.model.tables import HullState
-from assoc_hull.variants import Variation
 from assoc_hull.variation.comparing.line_fairness import (
     LineFairness,
     compare_fairness,
@@ -111,14 +111,14 @@ def rows(hull: ah.Hull, sense: float, names: Sequence[str]) -> list[Row]:
 
 
 def _row(hull: ah.Hull, name: str, sense: float, parent: dict[str, LineFairness]) -> Row:
-    measures = ah.measure(hull, only=[name])
+    measures = hull.measure(only=[name])
     if name not in measures:
         return Row(name, trouble=str(measures.absent[name]))
     part, amount = AMOUNTS[name]
     asked = measures[name] + sense * (part * measures[name] + amount)
     start = time.perf_counter()
     try:
-        found = ah.vary(hull, set={name: asked})
+        found = hull.vary(set={name: asked})
     except AssocHullError as error:
         return Row(name, asked, trouble=str(error).replace("|", "/"))
     seconds = time.perf_counter() - start

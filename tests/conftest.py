@@ -13,9 +13,9 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from assoc_hull.hull import Hull
+from assoc_hull.hull.results import HullSurface
+from assoc_hull.hull.sources import Examples, examples
 from assoc_hull.io.slicing.net import SliceReport
-from assoc_hull.shell import HullSurface, surface
-from assoc_hull.sources import Examples, examples
 from tests.cases.dtc import read_dtc_with_report
 from tests.taken_back import taken_back
 from tests.twins import made_once, packed, twin
@@ -192,7 +192,7 @@ def surface_of() -> Callable[[Hull], HullSurface]:
 
     def give(hull: Hull) -> HullSurface:
         if id(hull) not in known:
-            known[id(hull)] = hull, surface(hull)
+            known[id(hull)] = hull, hull.surface()
         return known[id(hull)][1]
 
     return give

@@ -12,8 +12,7 @@ import attrs
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves
 
 __all__ = ["FormStrips", "box", "ellipsoid", "wigley"]
 

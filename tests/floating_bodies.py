@@ -15,12 +15,12 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
 )
 from assoc_hull.analysis.hydrostatics.record import HydrostaticHeader
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
     ImmersedIntegrals,
     integrate_immersed,
 )
-from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
 from tests import exact_hulls
 
 __all__ = ["Box", "StripBody", "Wigley", "box_body", "ellipsoid_body", "head", "wigley_body"]

@@ -44,7 +44,9 @@ WIDTH, OFF, HEIGHT = 4.5, 9.0, 8.0
 """Half the breadth of a skeg at the roof; the distance of its centre plane from the centre line
 at station 1, at this height."""
 
-SCREW = ah.Screw(height=4.25, diameter=6.0, x=12.0, spacing=17.0, boss_diameter=1.2, boss_x=13.0)
+SCREW = ah.form.Screw(
+    height=4.25, diameter=6.0, x=12.0, spacing=17.0, boss_diameter=1.2, boss_x=13.0
+)
 
 _SMOOTH, _TANGENT, _KNUCKLE = (int(kind) for kind in ah.PointKind)
 _INSIDE, _ACROSS = 4, 33

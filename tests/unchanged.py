@@ -176,13 +176,13 @@ def _records(hull: ah.Hull) -> Facts:
     facts = {
         "fingerprint": hull.fingerprint,
         "adoption": _outcome(lambda: str(hull.adoption)),
-        "hydrostatics": _outcome(lambda: ah.hydrostatics(hull)),
+        "hydrostatics": _outcome(lambda: hull.hydrostatics()),
         "hydrostatics, heeled and trimmed": _outcome(
-            lambda: ah.hydrostatics(hull, draughts=trimmed, heel_deg=heel, on_error="report")
+            lambda: hull.hydrostatics(draughts=trimmed, heel_deg=heel, on_error="report")
         ),
-        "form parameters": _outcome(lambda: ah.form_parameters(hull)),
-        "measures": _outcome(lambda: dict(ah.measure(hull))),
-        "panels": _outcome(lambda: ah.panels(hull, on_error="report")),
+        "form parameters": _outcome(lambda: hull.form_parameters()),
+        "measures": _outcome(lambda: dict(hull.measure())),
+        "panels": _outcome(lambda: hull.panels(on_error="report")),
     }
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "ship.hull.json"
@@ -196,7 +196,7 @@ def _stability(hull: ah.Hull) -> Facts:
     """All of the record but its curve, which holds the hull: of that, the heels it is made of."""
     kg = 0.75 * hull.particulars.draught
     try:
-        found = ah.stability(hull, kg=kg, on_error="report")
+        found = hull.stability(kg=kg, on_error="report")
     except ah.AssocHullError as error:
         return {"stability": f"refused {_refusal(error)}"}
     record = [getattr(found, name) for name in _fields(found) if name != "curve"]
@@ -220,13 +220,13 @@ def _surfaces(hull: ah.Hull) -> Facts:
     """The fitted surface and its files, the closed mesh and its file."""
     facts = dict[str, str]()
     try:
-        mesh = ah.closed_mesh(hull)
+        mesh = hull.mesh()
         facts["closed mesh"] = hash_of(mesh)
         facts["file stl"] = hash_of(_written(partial(write_mesh, mesh), ".stl"))
     except ah.AssocHullError as error:
         facts["closed mesh"] = f"refused {_refusal(error)}"
     try:
-        found = ah.surface(hull)
+        found = hull.surface()
     except ah.AssocHullError as error:
         return facts | {"surface": f"refused {_refusal(error)}"}
     facts["surface"] = hash_of(found.document())
@@ -264,10 +264,10 @@ def _carry_out(hull: ah.Hull, act: Act, new: Callable[[], ah.Hull]) -> object:
         case "go":
             hull.go(act["name"])
         case "vary":
-            variant = ah.vary(hull, **asked)
+            variant = hull.vary(**asked)
             return variant.hull.fingerprint, variant.report
         case "shift":
-            shifted = ah.shift_sections(hull, **asked)
+            shifted = hull.shift_sections(**asked)
             return shifted.hull.fingerprint, shifted.report
         case "replay":
             other = new()

@@ -209,7 +209,7 @@ class _Draw:
 
     def wholes(self) -> list[Act]:
         """What concerns the whole hull, or what it was made of; an output that is reached."""
-        volume = ah.hydrostatics(self.hull).volume * self.number(1.001, 1.005)
+        volume = self.hull.hydrostatics().volume * self.number(1.001, 1.005)
         scale = [1.0, self.number(0.995, 1.005), 1.0]
         carried = {"op": "transform", "drivers": ["sections"], "scale": scale, "planes": "follow"}
         away = {"op": "dissociate", "a": "waterlines", "b": "buttocks"}

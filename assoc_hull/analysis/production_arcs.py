@@ -1,7 +1,8 @@
 """Lines of a net as chains of arcs for production, each in its plane.
 
-Lines are laid into their planes and fitted in one batch; what no arcs within the limits can follow
-is refused by name, with the place. `ArcLines` holds the result and what is said of it.
+Lines are laid into their planes and fitted in one batch; a space curve is replaced by two of its
+views. What no arcs within the limits can follow is refused by name, with the place, or left out
+where it was not asked for by name. `ArcLines` holds the result and its report. Lengths in m.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Lines of a hull as chains of arcs, each in its plane, and what is said of them.
+# Results.
 
 
 @attrs.frozen(eq=False)
@@ -52,7 +53,7 @@ class ArcLine:
         whoever looks at it: (y, z) for sections, (x, y) for waterlines, (x, z) for buttocks.
     height : float, m
         Of the plane along the normal.
-    arcs : Arcs
+    arcs : PlaneArcs
         In the plane, in order.
     smooth : (n,) bool
         Whether an arc begins in the direction in which the one before it ends; false for the
@@ -85,7 +86,7 @@ class ArcLine:
         return 1.0 / sharpest if sharpest > 0.0 else float("inf")
 
     def in_space(self, places: FloatArray) -> FloatArray:
-        """Give places of the plane, (n, 2), m, in the axes of the hull, (n, 3), m."""
+        """Give points of the plane, (n, 2), m, in the axes of the hull, (n, 3), m."""
         found: FloatArray = places @ self.axes[:2] + self.height * self.axes[2]
         return found
 
@@ -182,7 +183,7 @@ class ArcLines:
 
 
 # --------------------------------------------------------------------------------------
-# Lines of a net laid into their planes and fitted by arcs, all in one batch.
+# Fitting.
 
 _OFF_PLANE = 0.1
 """A curve that leaves its plane by more than this part of the tolerance is a space curve."""
@@ -205,7 +206,7 @@ class _Laid:
 def arc_lines(
     state: HullState, lines: Sequence[Lines] | Lines | None, within: float, least_radius: float
 ) -> ArcLines:
-    """Make arcs of lines of a net; see `assoc_hull.production.production_arcs`."""
+    """Make arcs of lines of a net (`Hull.production_arcs`)."""
     laid: list[_Laid] = []
     left_out: list[str] = []
     notes: list[str] = []
@@ -283,6 +284,7 @@ def drawing_axes(normal: FloatArray) -> FloatArray:
     >>> drawing_axes(np.array([0.0, 1.0, 0.0])).tolist()
     [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]
     """
+    # The rule of DXF for arbitrary axes: 1/64 is its bound between the two choices of "right".
     main = int(np.argmax(np.abs(normal)))
     wanted = -1.0 if main == 1 else 1.0
     facing = normal if normal[main] * wanted > 0.0 else -normal
@@ -293,7 +295,7 @@ def drawing_axes(normal: FloatArray) -> FloatArray:
 
 
 def _laid(curve: Curve, within: float) -> _Laid:
-    """Lay a curve into its plane: that of its line, else the one that fits best."""
+    """Lay a curve into the nearer of two planes: that of its line, and the one that fits best."""
     cubic = power_coefficients(curve.spline)
     control = _control(cubic)
     plane = curve.line.plane
@@ -323,7 +325,7 @@ def _control(cubic: FloatArray) -> FloatArray:
 
 
 def _line(one: _Laid, fit: ArcFit, number: int) -> ArcLine:
-    """Give a fitted curve with its name; what it is off its plane counts as deviation."""
+    """Make the result of a fitted curve; what it is off its plane counts as deviation."""
     own = slice(int(fit.start[number]), int(fit.start[number + 1]))
     place = fit.place[number] @ one.axes[:2] + one.height * one.axes[2]
     return ArcLine(
@@ -334,7 +336,7 @@ def _line(one: _Laid, fit: ArcFit, number: int) -> ArcLine:
 
 
 def _refused(error: GeometryError, lines: object) -> str:
-    """Tell why a line is left out; if it was asked for by name, that is an error."""
+    """Give why a line is left out; if it was asked for by name, raise that."""
     if lines is not None:
         raise error
     return str(error)

@@ -26,8 +26,9 @@ from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
+from assoc_hull.hull.sources import examples
+from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.model.objects import Curve, Point
-from assoc_hull.sources import examples, open
 
 if TYPE_CHECKING:
     from assoc_hull.plot.lines_plan.drawing import Drawing
@@ -333,7 +334,8 @@ class Demo:
         """Draw the lines plan as PNG and PDF; give the lines as drawn, None without pictures."""
         if not self.pictures:
             return None
-        from assoc_hull.plot import lines_plan, snapshot
+        from assoc_hull.plot import snapshot
+        from assoc_hull.plot.lines_plan.plan import lines_plan
         from assoc_hull.plot.sheet.sheet_figure import save
 
         lines = snapshot(hull)
@@ -356,7 +358,7 @@ class Demo:
         last = hull.fingerprint
         hull.save(self._file("after.hull.json"))
         hull.close()
-        hull = open(ship)
+        hull = open_hull(ship)
         names = [report.name for report in hull.history]
         self.say(f"\n7. {ship.name}, closed and opened again")
         self.say(f"  every edit   {len(names)} steps, each on the disk before it counted as made")

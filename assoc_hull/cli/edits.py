@@ -46,8 +46,8 @@ from assoc_hull.edit.script import carry_out
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError
 from assoc_hull.hull import Hull
+from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.model.address import AddressBook
-from assoc_hull.sources import open
 
 __all__ = [
     "HullToChange",
@@ -108,7 +108,7 @@ def open_to_change(arguments: argparse.Namespace) -> HullToChange:
     check_target(target, HULL_ENDINGS)
     if apart:
         check_hull_target(target, replace=arguments.replace)
-    hull = open(arguments.hull, wait=arguments.wait)
+    hull = open_hull(arguments.hull, wait=arguments.wait)
     if apart:
         hull.detach()
     return HullToChange(hull, target, apart, arguments.replace)
@@ -263,7 +263,7 @@ def _carry_out(arguments: argparse.Namespace, name: str, changes: Changes) -> in
 
 def _try(arguments: argparse.Namespace, name: str, changes: Changes) -> int:
     """Tell what the edit would do; nothing is written."""
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress("updating"), _values_of(str(arguments.edits)):
         found = hull.preview(
             lambda edit: _modify_all(edit, changes, arguments.edits), name=name, why=arguments.why
@@ -408,7 +408,7 @@ def open_with_history(path: Path, wait: float = 0.0) -> Hull:
     BadInputError
         It is text, which holds no history.
     """
-    hull = open(path, wait=wait)
+    hull = open_hull(path, wait=wait)
     if hull.path is None:
         raise BadInputError(
             "this is text, and holds no history", f"at {path}",

@@ -15,9 +15,9 @@ from assoc_hull.cli.arguments import Commands, add_command, add_hull, add_json, 
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target
 from assoc_hull.errors import BadInputError
+from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.io.reports import ExportReport
 from assoc_hull.io.write_file import form_by_ending
-from assoc_hull.sources import open
 
 if TYPE_CHECKING:
     from assoc_hull.hull import Hull
@@ -117,14 +117,13 @@ def _refuse(told: dict[str, bool], name: str, remedy: str) -> None:
 def export_arcs(arguments: argparse.Namespace) -> int:
     """Write the lines that are asked for as arcs, and report them."""
     from assoc_hull.io.export.arcs import arc_form
-    from assoc_hull.production import production_arcs
 
     form = arc_form(arguments.out)
     check_other_target(arguments.out, arguments.hull)
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress(f"fitting arcs for {arguments.out}"):
-        arcs = production_arcs(
-            hull, arguments.lines, arguments.biarcs, arguments.least_radius or 0.0
+        arcs = hull.production_arcs(
+            arguments.lines, arguments.biarcs, arguments.least_radius or 0.0
         )
         arcs.save(arguments.out, arguments.entities or "polylines")
     report = {"path": str(arguments.out), "form": form, **arcs.facts()}
@@ -180,7 +179,7 @@ def export_surface(arguments: argparse.Namespace, form: str) -> int:
     """Write patches for CAD programs, or the closed mesh, and say what was written."""
     from assoc_hull.io.mesh.closed_mesh import MESH_FORMS
 
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     write = _mesh if form in MESH_FORMS else _patches
     report = write(arguments, hull, form)
     emit(arguments, {"export": report}, file_words(report))
@@ -200,10 +199,9 @@ def _mesh(arguments: argparse.Namespace, hull: Hull, form: str) -> MeshFile:
 
 
 def _patches(arguments: argparse.Namespace, hull: Hull, form: str) -> CadReport | MeshFile:
-    from assoc_hull.shell import surface
 
     with progress("fitting the surface"):
-        found = surface(hull)
+        found = hull.surface()
     with progress(f"writing {arguments.out}"):
         return found.write(arguments.out, form, unit=arguments.unit, half=arguments.half)
 
@@ -356,7 +354,7 @@ def _export(arguments: argparse.Namespace) -> int:
         return export_surface(arguments, form)
     from assoc_hull.io.export.write import export_hull
 
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress(f"writing {arguments.out}"):
         report = export_hull(hull.state, arguments.out, form, arguments.unit, scale=arguments.scale)
     emit(arguments, {"export": report}, export_words(report))

@@ -26,7 +26,7 @@ from assoc_hull.cli.arguments import (
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import UsageError, check_other_target, check_target
 from assoc_hull.errors import BadInputError
-from assoc_hull.sources import open
+from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
     from assoc_hull.analysis.form.curve_transform import CurveTransform
@@ -132,7 +132,7 @@ def _report(arguments: argparse.Namespace) -> FormReport:
     from assoc_hull.analysis.form.form_parameters import form_report
 
     screw = screw_of(arguments)
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress("measuring"):
         return form_report(
             hull, draught=arguments.draught, draughts=arguments.draughts, screw=screw,
@@ -347,7 +347,7 @@ def _transform(arguments: argparse.Namespace) -> int:
 
     if arguments.plot is not None:
         check_target(arguments.plot, PICTURE_ENDINGS)
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     span = arguments.span if arguments.span is None else tuple(arguments.span)
     with progress("integrating"):
         found = curve_transform(

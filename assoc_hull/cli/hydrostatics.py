@@ -31,7 +31,7 @@ from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.hull import Hull
-from assoc_hull.sources import open
+from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
     from assoc_hull.analysis.hydrostatics.floating_body import Appendage
@@ -237,7 +237,7 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 def _hydrostatics(arguments: argparse.Namespace) -> int:
 
     _check_targets(arguments)
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress("integrating"):
         table = _table(hull, arguments)
         angle = _deck_edge(hull, table)
@@ -249,7 +249,7 @@ def _hydrostatics(arguments: argparse.Namespace) -> int:
 
 def _deck_edge(hull: Hull, table: HydrostaticTable) -> float | None:
     """Give the heel at which the deck edge goes under; nan where she does not float upright."""
-    from assoc_hull.analysis.hydrostatics.immersion import deck_edge_angle
+    from assoc_hull.analysis.hydrostatics.draughts_from_weight import deck_edge_angle
 
     if len(table) != 1:
         return None
@@ -297,7 +297,7 @@ def _draughts(
     if arguments.table is not None:
         return number_range(arguments.table, "--table"), arguments.trims or (0.0,), False
     if arguments.weight is not None:
-        from assoc_hull.analysis.hydrostatics.immersion import immersion
+        from assoc_hull.analysis.hydrostatics.draughts_from_weight import immersion
 
         found = immersion(
             hull, arguments.weight, lcg=arguments.lcg, kg=arguments.kg, heel_deg=arguments.heel,

@@ -17,7 +17,7 @@ from assoc_hull.cli.hull_words import hull_facts, hull_words
 from assoc_hull.cli.output import can_print, emit, progress, why_document
 from assoc_hull.cli.problems import UsageError, check_other_target, check_target
 from assoc_hull.edit.explain.causes import Why
-from assoc_hull.sources import open
+from assoc_hull.hull.sources import open as open_hull
 
 __all__ = [
     "add_fairness",
@@ -63,13 +63,13 @@ def add_inspection(commands: Commands) -> None:
 
 
 def _info(arguments: argparse.Namespace) -> int:
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     emit(arguments, hull_facts(hull), hull_words(hull, names=True))
     return 0
 
 
 def _check(arguments: argparse.Namespace) -> int:
-    hull = open(arguments.hull, damaged=True)
+    hull = open_hull(arguments.hull, damaged=True)
     with progress("checking"):
         found = hull.check(notes=arguments.notes)
     wrong = sum(each.kind != _NOTE for each in found)
@@ -80,7 +80,7 @@ def _check(arguments: argparse.Namespace) -> int:
 
 
 def _verify(arguments: argparse.Namespace) -> int:
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress("rebuilding"):
         found = hull.verify(arguments.relative)
     lines = [f"{each.key}: {each.field} differs by {each.amount:.3g}" for each in found]
@@ -115,7 +115,7 @@ def add_why(commands: Commands) -> None:
 
 
 def _why(arguments: argparse.Namespace) -> int:
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress("looking through the history"):
         cause = hull.why(arguments.object)
     text = cause.tree(plain=not can_print("│├└─")) if arguments.tree else str(cause)
@@ -160,8 +160,8 @@ def _fairness(arguments: argparse.Namespace) -> int:
     from assoc_hull.analysis.fairness.line_fairness import hull_fairness
 
     lines = arguments.lines or None
-    hull = open(arguments.hull)
-    after = None if arguments.compare is None else open(arguments.compare)
+    hull = open_hull(arguments.hull)
+    after = None if arguments.compare is None else open_hull(arguments.compare)
     with progress("looking at lines"):
         found = hull_fairness(hull, lines, arguments.allowed)
         other = None if after is None else hull_fairness(after, lines, arguments.allowed)
@@ -215,7 +215,7 @@ def _tell(arguments: argparse.Namespace) -> int:
 
     points = [PointMove(each, follow=True) for each in arguments.point]
     by = None if arguments.by is None and not points else [*(arguments.by or ()), *points]
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress("differentiating"):
         found = sensitivities(hull, arguments.of, by, kg=arguments.kg)
     scale = "percent" if arguments.percent else "usual" if arguments.usual else "unit"
@@ -286,7 +286,7 @@ def _graph(arguments: argparse.Namespace) -> int:
     up, down = _hops(arguments)
     if arguments.out is not None:
         check_other_target(arguments.out, arguments.hull)
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress("writing the graph"):
         found = hull.graph(
             around=arguments.around, up=up, down=down, only=arguments.only, edit=arguments.edit
@@ -352,19 +352,19 @@ def add_plot(commands: Commands) -> None:
 
 
 def _plot(arguments: argparse.Namespace) -> int:
-    from assoc_hull.plot import lines_plan
+    from assoc_hull.plot.lines_plan.plan import lines_plan
 
     check_target(arguments.out, PICTURE_ENDINGS)
     if arguments.combs and arguments.view != "lines":
         raise UsageError("--combs needs --view lines, in plot; leave one out")
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress(f"drawing {arguments.out}"):
         if arguments.view == "definitions":
             from assoc_hull.plot import definition_curves
 
             definition_curves(hull.state, arguments.out, paper=arguments.paper)
         elif arguments.combs:
-            from assoc_hull.plot import curvature_combs
+            from assoc_hull.plot.lines_plan.curvature_combs import curvature_combs
 
             curvature_combs(hull, arguments.combs, arguments.out, paper=arguments.paper)
         else:

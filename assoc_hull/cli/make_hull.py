@@ -18,10 +18,11 @@ from assoc_hull.cli.output import emit, plain, progress, progress_bar, say
 from assoc_hull.cli.problems import UsageError, check_hull_target, check_target, is_apart
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
+from assoc_hull.hull.sources import create, examples, read_classical
+from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.io.hull_file.saving import holds_hull
 from assoc_hull.io.reports import Tell
 from assoc_hull.model.tables import DECKS
-from assoc_hull.sources import create, examples, open, read_classical
 
 __all__ = [
     "add_classical",
@@ -193,7 +194,7 @@ def _require_plot() -> None:
 
 def _draw(hull: Hull, path: Path) -> None:
     """Draw the deviations of all lines."""
-    from assoc_hull.plot import adoption_deviations
+    from assoc_hull.plot.lines_plan.adoption_deviations import adoption_deviations
 
     adoption_deviations(hull, path=path)
 
@@ -239,7 +240,7 @@ def _adopt_nothing(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any],
     if arguments.out.exists() and arguments.out.samefile(arguments.file):
         what = "it would be written over itself"
         raise BadInputError(what, f"at {arguments.out}", "give another name after -o")
-    hull = open(arguments.file)
+    hull = open_hull(arguments.file)
     hull.detach()
     return hull, _SCHEMA | {"source": str(arguments.file)}, f"taken from {arguments.file}"
 
@@ -336,7 +337,7 @@ def add_create(commands: Commands) -> None:
 
 def _create(arguments: argparse.Namespace) -> int:
     from assoc_hull.creation.design import Design
-    from assoc_hull.sources import create
+    from assoc_hull.hull.sources import create
 
     if arguments.example:
         return _create_example(arguments)
@@ -397,7 +398,7 @@ def add_classical(commands: Commands) -> None:
 
 
 def _classical(arguments: argparse.Namespace) -> int:
-    from assoc_hull.sources import create, read_classical
+    from assoc_hull.hull.sources import create, read_classical
 
     if arguments.example is not None:
         return _classical_example(arguments)

@@ -17,7 +17,7 @@ from assoc_hull.cli.arguments import (
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.hull import Hull
-from assoc_hull.sources import open as open_hull
+from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
     from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh

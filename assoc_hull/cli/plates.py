@@ -16,8 +16,8 @@ from assoc_hull.cli.problems import HULL_ENDINGS, UsageError, check_target
 from assoc_hull.errors import BadInputError
 
 if TYPE_CHECKING:
+    from assoc_hull.hull.results import HullPlates, Plates
     from assoc_hull.io.surfaces.surface_file import ReadSurfaces
-    from assoc_hull.plating import HullPlates, Plates
 
 __all__ = [
     "add_plates",
@@ -101,8 +101,8 @@ def refuse_seams(arguments: argparse.Namespace) -> None:
 
 def hull_plates(arguments: argparse.Namespace) -> int:
     """Find plates of a hull, write what is asked for, and tell of them."""
+    from assoc_hull.hull.sources import open as open_hull
     from assoc_hull.io.tables.hull_plates import hull_plates_document
-    from assoc_hull.sources import open as open_hull
 
     _refuse_others(arguments)
     hull = open_hull(arguments.file)
@@ -131,8 +131,8 @@ def _refuse_others(arguments: argparse.Namespace) -> None:
 
 def _found(hull: Any, arguments: argparse.Namespace) -> HullPlates:
     """Find the plates, by the options that are given."""
-    from assoc_hull.plating import plates
-    from assoc_hull.surface.plates.hull_seams import HullSeams
+    from assoc_hull.hull.results import plates
+    from assoc_hull.surface.plating.hull_seams import HullSeams
 
     x, z, girth = (
         tuple(place for each in given for place in each)
@@ -303,8 +303,8 @@ def _is_sheet(arguments: argparse.Namespace) -> bool:
 
 def _plates_found(surfaces: ReadSurfaces, arguments: argparse.Namespace) -> Plates:
     """Find the plates, by the options that are given."""
-    from assoc_hull.plating import plates
-    from assoc_hull.surface.plates.surface_plates import Seams
+    from assoc_hull.hull.results import plates
+    from assoc_hull.surface.plating.surface_plates import Seams
 
     names = ("strain_tol", "k0", "delta", "share", "sagitta_tol", "area_tol")
     given: dict[str, Any] = {name: getattr(arguments, name) for name in names}

@@ -23,7 +23,7 @@ from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
-from assoc_hull.sources import open as open_hull
+from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
     from assoc_hull.analysis.stability.cross_curves import CrossCurves
@@ -108,18 +108,23 @@ def _check(arguments: argparse.Namespace) -> None:
     """Refuse, before anything is computed, what could not be done."""
     if arguments.out is not None:
         check_target(arguments.out, _FILES)
+        # What is written must not go over the hull.
         check_other_target(arguments.out, arguments.hull)
     if arguments.plot is not None:
         check_target(arguments.plot, PICTURE_ENDINGS)
+    # KN is about the keel: cross curves need no centre of gravity.
     if arguments.kg is None and not arguments.cross:
         raise BadInputError("--kg is not given", _CALL, "give the centre of gravity, or --cross")
+    # --flooding may be given again, so it is an empty list if not given: hence `or None`.
     wrong: dict[str, Any] = {}
     if arguments.cross:
+        # Cross curves are of no condition: draughts come with --cross itself.
         names: tuple[str, ...] = ("draught", "draughts", "weight", "lcg", "tcg")
         wrong = {name: getattr(arguments, name) for name in names} | {
             "flooding": arguments.flooding or None
         }
     elif arguments.rest:
+        # Position and heel are what --rest looks for, and it makes no table to write or draw.
         names = ("draught", "draughts", "heels", "trim", "out", "plot")
         wrong = {name: getattr(arguments, name) for name in names} | {
             "flooding": arguments.flooding or None

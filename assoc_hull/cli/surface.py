@@ -10,7 +10,7 @@ from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.errors import BadInputError
-from assoc_hull.sources import open as open_hull
+from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
     from assoc_hull.hull import Hull
@@ -49,13 +49,12 @@ def add_surface(commands: Commands) -> None:
 
 
 def _surface(arguments: argparse.Namespace) -> int:
-    from assoc_hull.shell import surface
 
     _check_targets(arguments)
     hull = open_hull(arguments.hull)
     names = every_fourth(hull) if arguments.leave_out == [_FOURTH] else arguments.leave_out
     with progress("fitting the surface"):
-        found = surface(hull, leave_out=names)
+        found = hull.surface(leave_out=names)
     words, saved = [str(found)], []
     document = found.document()
     if arguments.out is not None:
@@ -107,7 +106,7 @@ def every_fourth(hull: Hull) -> list[str]:
     Examples
     --------
     >>> from assoc_hull.cli.surface import every_fourth
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> every_fourth(examples.wigley(stations=11, waterlines=6))
     ['ST 4', 'ST 8', 'WL 5']
     """

@@ -33,11 +33,10 @@ from assoc_hull.cli.output import emit, progress, progress_bar
 from assoc_hull.cli.problems import UsageError, check_other_target, check_target
 from assoc_hull.errors import BadInputError, RefusedEditError, UnknownNameError
 from assoc_hull.hull import Hull
-from assoc_hull.sources import open
+from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
-    from assoc_hull.shifts import Shifted
-    from assoc_hull.studies import Study
+    from assoc_hull.hull.results import Shifted, Study
 
 __all__ = [
     "add_compare",
@@ -173,10 +172,9 @@ def _vary(arguments: argparse.Namespace) -> int:
 
 
 def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
-    from assoc_hull.variants import vary_by
 
     hull, found = vary_into_file(
-        arguments, "varying", lambda hull: vary_by(hull, script, in_place=True)
+        arguments, "varying", lambda hull: hull.vary_by(script, in_place=True)
     )
     report, saved = found.report, str(arguments.out or arguments.hull)
     facts = {
@@ -197,7 +195,7 @@ def _list(arguments: argparse.Namespace) -> int:
     from assoc_hull.variation.parameters.field_layout import Layout
 
     layout = Layout.of(_script(arguments).get("layout"))
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress("looking for what may be asked"):
         found = list_parameters(hull.state, layout)
     emit(arguments, {"parameters": found}, parameter_table(found))
@@ -318,13 +316,12 @@ def _add_swing(commands: Commands) -> None:
 
 
 def _shift(arguments: argparse.Namespace) -> int:
-    from assoc_hull.shifts import shift_sections
 
     to, by = parse_pairs(arguments.to, "to") or None, parse_pairs(arguments.by, "by") or None
 
-    def act(hull: Hull) -> Shifted:
-        return shift_sections(
-            hull, to=to, by=by, shape=arguments.shape, terminals=arguments.terminals,
+    def act(hull: Hull) -> Shifted[Hull]:
+        return hull.shift_sections(
+            to=to, by=by, shape=arguments.shape, terminals=arguments.terminals,
             fade=arguments.fade, tolerance=arguments.tolerance, name=arguments.name, in_place=True,
         )  # fmt: skip
 
@@ -332,18 +329,17 @@ def _shift(arguments: argparse.Namespace) -> int:
 
 
 def _swing(arguments: argparse.Namespace) -> int:
-    from assoc_hull.shifts import swing
 
-    def act(hull: Hull) -> Shifted:
-        return swing(
-            hull, length=arguments.length, breadth=arguments.breadth, draught=arguments.draught,
+    def act(hull: Hull) -> Shifted[Hull]:
+        return hull.swing(
+            length=arguments.length, breadth=arguments.breadth, draught=arguments.draught,
             name=arguments.name, in_place=True,
         )  # fmt: skip
 
     return report_refusal(arguments, lambda: _told(arguments, "swinging", act))
 
 
-def _told(arguments: argparse.Namespace, doing: str, act: Callable[[Hull], Shifted]) -> int:
+def _told(arguments: argparse.Namespace, doing: str, act: Callable[[Hull], Shifted[Hull]]) -> int:
     """Carry out, and tell what came of it."""
     hull, found = vary_into_file(arguments, doing, act)
     report, saved = found.report, str(arguments.out or arguments.hull)
@@ -403,7 +399,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     integer(arguments.lines, "lines", "in --lines", least=0)
     screw = screw_of(arguments)
     _check_target(arguments)
-    parent, variant = open(arguments.parent), open(arguments.variant)
+    parent, variant = open_hull(arguments.parent), open_hull(arguments.variant)
     with progress("comparing"):
         found = compare(parent, variant, draught=arguments.draught, screw=screw)
     saved: list[str] = []
@@ -489,15 +485,14 @@ def _add_design(parser: argparse.ArgumentParser) -> None:
 
 def _study(arguments: argparse.Namespace) -> int:
     from assoc_hull.io.tables.study import study_document
-    from assoc_hull.studies import study
 
     if arguments.out is not None:
         check_target(arguments.out, _ENDINGS)
         check_other_target(arguments.out, arguments.hull)
     asked = _asked(arguments)
-    hull = open(arguments.hull)
+    hull = open_hull(arguments.hull)
     with progress_bar("study", hidden=False) as tell:
-        found = study(hull, workers=arguments.workers, progress=tell, **asked)
+        found = hull.study(workers=arguments.workers, progress=tell, **asked)
     saved = _saved(arguments.out, found)
     document = dict(study_document(found.run, found.rows)) | {
         "interrupted": found.interrupted, "saved": saved,
@@ -522,6 +517,7 @@ def _asked(arguments: argparse.Namespace) -> dict[str, Any]:
         for key, pairs in given.items() for name, value in pairs.items() if isinstance(value, tuple)
     }  # fmt: skip
     if drawn:
+        # One draw spreads all of them evenly together; one name may be set and be reached.
         ranges = {f"{key} {name}": value for (key, name), value in drawn.items()}
         found = sample(ranges, arguments.count, seed=arguments.seed, method=arguments.method)
         for (key, name), column in zip(drawn, found.values(), strict=True):
@@ -532,6 +528,7 @@ def _asked(arguments: argparse.Namespace) -> dict[str, Any]:
     free = _free(arguments.free)
     if free:
         asked["free"] = list(free)
+        # Bounds of the file belong to what it frees, which has been replaced.
         asked["bounds"] = {name: ends for name, ends in free.items() if ends is not None}
     if arguments.outputs:
         asked["outputs"] = arguments.outputs
@@ -578,7 +575,7 @@ def _number(text: str, option: str) -> float:
     return found
 
 
-def _saved(out: Path | None, found: Study) -> str | None:
+def _saved(out: Path | None, found: Study[Hull]) -> str | None:
     if out is None:
         return None
     if out.suffix == ".json":
@@ -588,7 +585,7 @@ def _saved(out: Path | None, found: Study) -> str | None:
     return str(out)
 
 
-def _words(found: Study, saved: str | None) -> list[str]:
+def _words(found: Study[Hull], saved: str | None) -> list[str]:
     """Say what came of it: how many, why not the others, where it is."""
     words = [str(found)]
     words += [f"  variant {row.number}: {row.reason}" for row in found.failed[:_SHOWN]]

@@ -144,22 +144,7 @@ def _row(each: SectionFigures) -> str:
 
 
 def creation_report(state: HullState) -> CreationReport:
-    """Measure a hull beside its definitions.
-
-    Parameters
-    ----------
-    state : HullState
-        A hull with definitions.
-
-    Returns
-    -------
-    CreationReport
-
-    Raises
-    ------
-    BadInputError
-        A hull without definitions.
-    """
+    """Measure a hull beside its definitions; raises BadInputError for one without definitions."""
     if not state.definitions:
         raise BadInputError(
             "the hull has no definitions", state.particulars.name, "create one from a design"
@@ -181,10 +166,10 @@ def _of_areas(
 ) -> list[FormFigure]:
     ship = state.particulars
     closed = coefficients(areas, ship)
-    met = _between(body, plane, areas, ship.length)
-    volume = float(met.volume[0])
+    immersed = _between(body, plane, areas, ship.length)
+    volume = float(immersed.volume[0])
     full = half_number(areas, "full")
-    centre = float(met.moment_x[0]) / volume - 0.5 * ship.length
+    centre = float(immersed.moment_x[0]) / volume - 0.5 * ship.length
     block = volume / (ship.length * ship.breadth * ship.draught)
     assert closed.block is not None
     return [
@@ -199,9 +184,9 @@ def _of_waterline(
 ) -> list[FormFigure]:
     ship = state.particulars
     closed: Coefficients = coefficients(line, ship)
-    met = _between(body, plane, line, ship.length)
-    area = float(met.area[0])
-    centre = float(met.area_x[0]) / area - 0.5 * ship.length
+    immersed = _between(body, plane, line, ship.length)
+    area = float(immersed.area[0])
+    centre = float(immersed.area_x[0]) / area - 0.5 * ship.length
     full = 2.0 * half_number(line, "full")
     return [
         FormFigure("CW", "", closed.fullness, area / (ship.length * full)),

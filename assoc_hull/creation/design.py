@@ -47,8 +47,6 @@ __all__ = [
     "read_design",
 ]
 
-# --------------------------------------------------------------------------------------
-# A design: the data of which a hull is created, and nothing else.
 
 _LEAST = 1e-6
 """Planes of one family closer than this (m) are one plane."""
@@ -178,7 +176,7 @@ class Design:
         Raises
         ------
         BadInputError
-            It cannot be read, or does not hold a design; the place in it is told.
+            It cannot be read, or does not hold a design; the place in it is named.
         OutOfRangeError
             A closure that it asks for has no entrance.
         """
@@ -219,7 +217,7 @@ def _check_apart(title: str, places: Iterable[float], where: str) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# Designs as JSON.
+# JSON:
 #
 #     {"format": "assoc-hull design", "schema": 1,
 #      "particulars": {"name": ..., "length": ..., "breadth": ..., "depth": ..., "draught": ...},
@@ -227,13 +225,10 @@ def _check_apart(title: str, places: Iterable[float], where: str) -> None:
 #        {"use": "sectional_area", "values": {"full": ..., ...}, "close": {"cb": 0.75, "lcb": 2.9}},
 #        {"use": "keel_angle", "rule": "straight", "nodes": [{"label": "AP", "x": 0, "y": 40}]}],
 #      "stations": [...], "waterlines": [...], "buttocks": [...], "transom": null}
-#
-# What is not given is as if it were null. ``close`` asks for the entrance that gives the fullness
-# and the centroid; what is written has the numbers that came of it.
 
 DESIGN_FORMAT = "assoc-hull design"
 SCHEMA = 1
-"""Version of the form."""
+"""Version of the schema."""
 
 _MAYBE = or_none(REAL)
 _HALVES_USES = tuple(use for use, each in USES.items() if each.kind == "halves")
@@ -307,7 +302,7 @@ def design_json(design: Design) -> str:
 
 
 def design_document(design: Design) -> dict[str, Any]:
-    """Give a design as plain values."""
+    """Give a design as plain values; tolerances only where they differ from the usual ones."""
     usual = attrs.asdict(Tolerances())
     found: dict[str, Any] = {
         "format": DESIGN_FORMAT,
@@ -342,6 +337,7 @@ def read_design(source: str | os.PathLike[str]) -> Design:
     try:
         _DESIGN.check(found)
     except WrongValueError as wrong:
+        # The path was gathered from the wrong value outward.
         way = "".join(reversed(wrong.path)).lstrip(".")
         place = f"at {way}, {where}" if way else where
         raise BadInputError(wrong.what, place, "mend it") from None

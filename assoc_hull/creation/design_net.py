@@ -1,8 +1,8 @@
 """Make the net of a design: boundary curves and sections drawn, other lines cut from them.
 
-`DrawnCurve` is a curve of the definitions before it is part of a net. Everything is associated one
-way: boundary curves give ends to all lines, sections give points to waterlines and buttocks,
-waterlines to buttocks. So definitions shape the hull, and no edit runs back against them.
+Everything is associated one way: boundary curves give ends to all lines, sections give points to
+waterlines and buttocks, waterlines to buttocks. So definitions shape the hull, and no edit runs
+back against them. `build_net` is the way in.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from assoc_hull.creation.design import Design
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.followup.adopted_points import insert_defining_point
-from assoc_hull.edit.newline.add_line import add_line
+from assoc_hull.edit.lines.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
@@ -46,6 +46,7 @@ __all__ = [
 # Curves as the definitions draw them: boundary curves, then the sections that end on them.
 
 _ACROSS, _AHEAD = (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)
+
 _NOWHERE = np.full((2, 3), np.nan)
 """The ends of a curve that ends by itself."""
 
@@ -53,7 +54,7 @@ _LEVEL = 1e-9
 """A deck edge whose points lie within this (m) of one height lies in a plane."""
 
 _TOLERANCE = 1e-6
-"""How far (m) a curve may pass a point through which it is made: by rounding."""
+"""How far (m) a curve may pass a point through which it is made: rounding only."""
 
 
 @attrs.frozen(eq=False)
@@ -87,20 +88,7 @@ class DrawnCurve:
 
 
 def boundary_curves(design: Design, forms: Forms) -> list[DrawnCurve]:
-    """Draw profile, deck edge and transom.
-
-    Parameters
-    ----------
-    design : Design
-        The design.
-    forms : Forms
-        Its definitions.
-
-    Returns
-    -------
-    list of Drawn
-        The transom only where there is one.
-    """
+    """Draw profile, deck edge and, where there is one, transom."""
     found = [
         _boundary(forms, "profile", np.nan, (_ACROSS, 0.0)),
         _boundary(forms, "deck edge", np.nan, None),
@@ -137,48 +125,31 @@ def _points(
 def section_curves(
     design: Design, forms: Forms, boundary: Sequence[DrawnCurve]
 ) -> list[DrawnCurve]:
-    """Draw the sections of a design.
+    """Draw the sections of a design, which end on profile and deck edge (`boundary`).
 
-    Parameters
-    ----------
-    design : Design
-        The design.
-    forms : Forms
-        Its definitions.
-    boundary : sequence of Drawn
-        Profile and deck edge, on which sections end.
-
-    Returns
-    -------
-    list of Drawn
-
-    Raises
-    ------
-    BadInputError
-        A station that profile and deck edge do not reach, or that begins and does not end.
-    OutOfRangeError
-        A section of which the definitions ask what no curve can be.
+    Raises BadInputError for a station that these do not reach, or where a section begins and does
+    not end; OutOfRangeError where the definitions ask for a section that is impossible.
     """
     edges = loft(line_curve_data([each.source for each in boundary if each.what != "transom"]))
     found = list[DrawnCurve]()
     for station, x in zip(design.stations, design.station_places, strict=True):
-        for part, ends in enumerate(_pairs(edges, station, x)):
+        for part, ends in enumerate(_section_ends(edges, station, x)):
             found.append(_section(forms, f"ST {station:g}", x, part, ends))
     return found
 
 
-def _pairs(edges: SplineBatch, station: float, x: float) -> list[FloatArray]:
-    """Give the ends of the curves of a section, (2, 3) each, from below."""
-    met = intersect_planes(edges, np.array(_AHEAD), np.array([x])).xyz
+def _section_ends(edges: SplineBatch, station: float, x: float) -> list[FloatArray]:
+    """Give the ends of the curves of a section, (2, 3) each, m, from below."""
+    crossings = intersect_planes(edges, np.array(_AHEAD), np.array([x])).xyz
     where = f"at station {station:g} (x = {x:g} m)"
-    if not len(met):
+    if not len(crossings):
         raise BadInputError("there is no hull", where, "leave it out, or extend the profile")
-    if len(met) % 2:
-        what = f"profile and deck edge pass it {len(met)} times: a section would not end"
+    if len(crossings) % 2:
+        what = f"profile and deck edge pass it {len(crossings)} times: a section would not end"
         raise BadInputError(what, where, "shift it a little, or extend the deck edge")
-    met = met[np.argsort(met[:, 2], kind="stable")] + 0.0
-    met[:, 0] = x
-    return [met[i : i + 2] for i in range(0, len(met), 2)]
+    crossings = crossings[np.argsort(crossings[:, 2], kind="stable")] + 0.0
+    crossings[:, 0] = x
+    return [crossings[i : i + 2] for i in range(0, len(crossings), 2)]
 
 
 def _section(forms: Forms, name: str, x: float, part: int, ends: FloatArray) -> DrawnCurve:
@@ -186,6 +157,7 @@ def _section(forms: Forms, name: str, x: float, part: int, ends: FloatArray) -> 
     marks, kind, direction, conditions = marks_for(forms, "section", layout, x, ends)
     points = _points(forms, "section", layout, marks, x, ends)
     smooth = [int(PointKind.SMOOTH)]
+    # The ends are crossings: they have no direction of their own.
     given = np.zeros((len(points) + 2, 3))
     given[1:-1] = direction
     source = LineSource.make(
@@ -196,23 +168,11 @@ def _section(forms: Forms, name: str, x: float, part: int, ends: FloatArray) -> 
     return DrawnCurve(source, "section", layout, tuple(marks), 1)
 
 
-# --------------------------------------------------------------------------------------
-# Where a waterline runs straight along a flat of the definitions.
-
-
 def straighten_waterline(edit: Transaction, forms: Forms, line: int) -> None:
-    """Give a waterline the two points at which it comes onto its flat and leaves it.
+    """Insert the two points at which a waterline comes onto its flat and leaves it.
 
-    Between them it is straight: they are tangent points, which the definitions generate.
-
-    Parameters
-    ----------
-    edit : Transaction
-        The edit in which the line was cut.
-    forms : Forms
-        The definitions.
-    line : int
-        The waterline.
+    Between them it is straight: they are tangent points, which the definitions generate. `edit` is
+    the one in which the line was cut.
     """
     state = edit.state
     z = float(state.lines.offset.data[line])
@@ -245,6 +205,7 @@ def _drop_near_crossings(edit: Transaction, curve: int, places: FloatArray) -> N
     rows: IntArray = state.curves.rows.data[curve]
     step = state.rows.xyz.data[rows][:, None] - places[None]
     near = np.sqrt((step * step).sum(axis=2)).min(axis=1) < state.tolerances.adopted_spacing
+    # The ends lie on boundary curves: without them the line would not reach these.
     near[[0, -1]] = False
     crowded = rows[near]
     if not len(crowded):
@@ -255,11 +216,7 @@ def _drop_near_crossings(edit: Transaction, curve: int, places: FloatArray) -> N
 
 
 # --------------------------------------------------------------------------------------
-# The net of a design: what the definitions draw, and the lines that are cut from it.
-#
-# Everything is associated one way: boundary curves give ends to all lines, sections give points to
-# waterlines and buttocks, waterlines to buttocks. So definitions shape the hull and nothing that is
-# edited runs back against them.
+# The net.
 
 LINKS = tuple(
     Association(a, b, two_way=False)
@@ -276,24 +233,10 @@ LINKS = tuple(
 
 
 def build_net(design: Design) -> tuple[HullState, AdoptionReport]:
-    """Make the net of a design.
+    """Make the net of a design; also report how its sections and boundary curves were adopted.
 
-    Parameters
-    ----------
-    design : Design
-        The design.
-
-    Returns
-    -------
-    HullState, AdoptionReport
-        The net with its definitions; how its sections and boundary curves were adopted.
-
-    Raises
-    ------
-    BadInputError, OutOfRangeError
-        Definitions of which no section can be made at some station; the error names both.
-    RefusedEditError
-        A waterline or a buttock that cannot be cut.
+    Raises BadInputError or OutOfRangeError where no section can be made at some station (the error
+    names both), RefusedEditError for a waterline or a buttock that cannot be cut.
     """
     forms = Forms.of(design.definitions, design.particulars)
     boundary = boundary_curves(design, forms)
@@ -339,6 +282,7 @@ def _upward_curves(maker: Maker, line: int) -> list[int]:
     """Give the curves of a line from below, and let their order and their keys be this one."""
     state = maker.state
     curves: tuple[int, ...] = state.lines.curves.data[line]
+    # Height of the first point: curves of one section do not overlap.
     foot = [float(state.rows.xyz.data[state.curves.rows.data[curve][0], 2]) for curve in curves]
     ordered = [curve for _, curve in sorted(zip(foot, curves, strict=True))]
     if tuple(ordered) != curves:

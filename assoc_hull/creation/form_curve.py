@@ -1,8 +1,9 @@
 """A form-parameter curve: made from its parameters, changed by its vertices, read back.
 
 A curve has seven vertices and, just as many numbers, fourteen parameters: at both ends a point, an
-angle, a curvature, a tangent length and a stretch; then area and centroid. First what is handed in
-is checked and made into vertices, then comes `FormCurve`, then its numbers and messages in words.
+angle, a curvature, a tangent length and a stretch; then area and centroid. Vertices follow from
+parameters and parameters from vertices, so whoever drags one reads the other. Source: Kim & Kang,
+"Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2), 1992.
 """
 
 from __future__ import annotations
@@ -69,32 +70,33 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What is handed in for a form-parameter curve: checked, and made into vertices.
+# Arguments checked, and made into vertices.
 
 Tangents = Literal["default", "auto"] | tuple[float, float] | None
-"""How tangent lengths are told."""
+"""How tangent lengths are given."""
 
 _WHERE = "in a form-parameter curve"
 _LARGEST, _FARTHEST = 1e12, 1e6
-"""Of areas and the like; of coordinates."""
+"""Greatest area or other parameter; greatest coordinate."""
 
 PARAMETER_NAMES = tuple(f"{n}_deg" if n.endswith("_angle") else n for n in NAMES)
-"""As they are typed: angles in degrees."""
+"""Names of the parameters as they are typed: angles in degrees."""
 
 
 def check_vertices(given: object) -> FloatArray:
-    """Take seven vertices, (7, 2)."""
+    """Take seven vertices, (7, 2), as a new array without negative zeros."""
     try:
         found = np.array(given, np.float64)
     except (TypeError, ValueError, OverflowError):
         found = np.empty(0)
-    if found.shape != (7, 2) or not (np.abs(found) <= _FARTHEST).all() or _as_bool(given):
+    if found.shape != (7, 2) or not (np.abs(found) <= _FARTHEST).all() or _holds_bools(given):
         what = f"the vertices are {shown(given)}"
         raise BadInputError(what, _WHERE, "give seven finite places (x, y)")
     return found + 0.0
 
 
-def _as_bool(given: object) -> bool:
+def _holds_bools(given: object) -> bool:
+    """Tell whether an array is of truth values, which numpy would take as 0 and 1."""
     return np.asarray(given).dtype == bool
 
 
@@ -109,7 +111,7 @@ def check_angles(given: tuple[float, float] | None) -> tuple[float, float] | Non
 
 
 def check_plane_point(given: object, name: str, where: str = _WHERE) -> tuple[float, float]:
-    """Take a place (x, y)."""
+    """Take a point (x, y)."""
     found = numbers(given, name, where)
     if found.shape != (2,):
         raise BadInputError(f"{name} is {shown(given)}", where, "give (x, y)")
@@ -152,7 +154,7 @@ def check_named_parameters(given: object) -> tuple[dict[str, Any], Tangents]:
 def make_vertices(
     values: Mapping[str, Any], tangents: Tangents, energy: str
 ) -> tuple[FloatArray, tuple[FormMessage, ...], tuple[float, float]]:
-    """Make the vertices, (7, 2), what is to be said of them, and the angles at both ends."""
+    """Make the vertices, (7, 2), messages about making them, and the angles (rad) of both ends."""
     known = _checked(values)
     area, centroid = known.integrals()
     start, finish = known.ends()
@@ -175,7 +177,7 @@ def make_vertices(
 
 
 def _checked(values: Mapping[str, Any]) -> FormParameters:
-    """Check the numbers; tangents are none of them."""
+    """Check the numbers; tangents are given apart and stand as 1 here."""
     found = dict[str, float]()
     for name in PARAMETER_NAMES:
         if name.endswith("_tangent"):
@@ -240,15 +242,10 @@ def _bounds(active: list[bool], start: FormEnd, finish: FormEnd) -> list[FormMes
 
 
 # --------------------------------------------------------------------------------------
-# A form-parameter curve: made from its parameters, changed by its vertices, read back.
-#
-# A curve has seven vertices and, just as many numbers, fourteen parameters: at both ends a point,
-# an angle, a curvature, a tangent length and a stretch; then area and centroid. Vertices follow
-# from parameters and parameters from vertices, so whoever drags one reads the other.
-#
-# Kim & Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2), 1992.
+# The curve.
 
 _ENDS = [0, 1, 2, 4, 5, 6]
+"""All vertices but the middle one."""
 
 
 def _frozen(given: object) -> FloatArray:
@@ -269,7 +266,7 @@ class FormCurve:
     notes : tuple of FormMessage
         What is to be said of the making of the curve.
     angles : (float, float), rad
-        Of start and finish, as they are taken where a tangent is nil.
+        Of start and finish, as they are taken where a tangent is zero.
 
     Raises
     ------
@@ -327,14 +324,14 @@ class FormCurve:
             An argument that is no number or no place; ends that coincide; a centroid without
             an area.
         NoMiddleVertexError
-            Area and centroid cannot both be met; the nearest centroid is named.
+            Area and centroid cannot both be had; the nearest centroid is named.
         DegenerateEndsError
             The area does not depend on the middle vertex.
 
         Examples
         --------
         >>> import assoc_hull as ah
-        >>> section = ah.FormCurve.of(
+        >>> section = ah.creation.FormCurve.of(
         ...     (0.0, 0.0), (10.5, 8.0), start_angle_deg=62.0, finish_angle_deg=0.0,
         ...     area=60.0, centroid=6.4,
         ... )
@@ -391,8 +388,8 @@ class FormCurve:
     def parameters(self) -> Mapping[str, float]:
         """The 14 parameters by name; angles in degrees.
 
-        Where a tangent is nil its angle is the last one it had, and its curvature 0; where the
-        area is nil, ``"moment"``, int x y dx, stands instead of ``"centroid"``. Messages say so.
+        Where a tangent is zero its angle is the last one it had, and its curvature 0; where the
+        area is zero, ``"moment"``, int x y dx, stands instead of ``"centroid"``. Messages say so.
         """
         return MappingProxyType(self._values.named)
 
@@ -423,12 +420,12 @@ class FormCurve:
 
     @property
     def centroid(self) -> float:
-        """Int x y dx / area; nan where the area is nil."""
+        """Int x y dx / area; nan where the area is zero."""
         return self._values.known.centroid
 
     @property
     def centroid_height(self) -> float:
-        """1/2 int y^2 dx / area: the ordinate of the centroid; nan where the area is nil."""
+        """1/2 int y^2 dx / area: the ordinate of the centroid; nan where the area is zero."""
         height = float(form_integrals(self.vertices[None]).moment_y[0])
         return height / self.area if not math.isnan(self.centroid) else math.nan
 
@@ -486,25 +483,26 @@ class FormCurve:
             No such vertex, no place, a centroid kept without the area, or the middle vertex
             dragged while both are kept.
         NoMiddleVertexError, DegenerateEndsError
-            What is kept cannot be met.
+            What is kept cannot be had.
 
         Examples
         --------
         >>> import assoc_hull as ah
-        >>> curve = ah.FormCurve.of(
+        >>> curve = ah.creation.FormCurve.of(
         ...     (0.0, 0.0), (4.0, 2.0), start_angle_deg=0.0, finish_angle_deg=45.0, area=3.5
         ... )
         >>> round(curve.drag(1, (0.1, 0.0), keep=("area",)).area, 12)
         3.5
         """
-        number_ = integer(vertex, "vertex", "in drag", least=0, most=6)
-        kept = check_kept(keep, number_)
+        index = integer(vertex, "vertex", "in drag", least=0, most=6)
+        kept = check_kept(keep, index)
         moved = self.vertices.copy()
-        moved[number_] = check_plane_point(to, "to", "in drag")
+        moved[index] = check_plane_point(to, "to", "in drag")
         ends, area = moved[None, _ENDS], np.array([self.area])
         if kept == {"area", "centroid"}:
             moved[3] = required_middle(ends, area, np.array([self.centroid]))[0]
         elif kept == {"area"}:
+            # For its refusals: no place on the line of equal area could be had.
             required_middle(ends, area)
             moved[3] = slide_vertex(ends, moved[None, 3], area)[0]
         known = self._values.known
@@ -537,10 +535,10 @@ class FormCurve:
 
 
 # --------------------------------------------------------------------------------------
-# A form-parameter curve in numbers and words: its parameters by name, and what is to be said.
+# The curve in numbers and words.
 
-_NIL = 1e-14
-"""Of the size of a curve: a smaller number is written as 0."""
+_ZERO = 1e-14
+"""Part of the size of a curve: a smaller number is written as 0."""
 
 _RANK = {"error": 0, "warning": 1, "info": 2}
 
@@ -552,12 +550,12 @@ class CurveValues:
     Attributes
     ----------
     known : FormParameters
-        Where a tangent is nil: with the angle it had last, and no curvature. Where the area is
-        nil the centroid is nan.
+        Where a tangent is zero: with the angle it had last, and no curvature. Where the area is
+        zero the centroid is nan.
     moment : float
         int x y dx.
     still : tuple of str
-        Ends whose tangent is nil.
+        Ends whose tangent is zero.
     """
 
     known: FormParameters
@@ -579,7 +577,7 @@ class CurveValues:
 
 
 def curve_values(vertices: FloatArray, angles: tuple[float, float] | None) -> CurveValues:
-    """Read the parameters of a curve, (7, 2); angles (rad) are for ends whose tangent is nil."""
+    """Read the parameters of a curve, (7, 2); angles (rad) are for ends whose tangent is zero."""
     if angles is None:
         # An end that never had an angle is taken to look along the chord.
         x, y = (vertices[4:] - vertices[:3]).T @ np.array([1.0, 4.0, 1.0])
@@ -623,7 +621,7 @@ def curve_table(curve: FormCurve) -> str:
     lines.append("parameters")
     size = max(1.0, float(np.abs(curve.vertices).max()))
     lines += [
-        f"  {name:20} {value if abs(value) > _NIL * size else 0.0:18.12g}"
+        f"  {name:20} {value if abs(value) > _ZERO * size else 0.0:18.12g}"
         for name, value in curve.parameters.items()
     ]
     lines.append("besides")

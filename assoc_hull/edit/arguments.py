@@ -25,9 +25,6 @@ __all__ = [
     "line_name",
 ]
 
-# --------------------------------------------------------------------------------------
-# Checking what is handed to an edit: what any call checks, names of lines, directions.
-
 
 def line_name(name: object) -> str:
     """Take a name for a line: text that no address could be read from.
@@ -35,8 +32,8 @@ def line_name(name: object) -> str:
     Raises
     ------
     BadInputError
-        No text, blanks at its ends, or what addresses are made with: `` x ``, `` @ ``, ``#``,
-        ``/``, ``[``.
+        No text, blanks at its ends, or what addresses and keys are made with: " x ", " @ ",
+        "#", "/", "[", "]", ":".
     """
     taken = (" x ", " @ ", "#", "/", "[", "]", ":")
     if not isinstance(name, str) or name != name.strip() or not name.isprintable() or not name:
@@ -52,7 +49,7 @@ def line_name(name: object) -> str:
 
 
 def direction_in(state: HullState, curve: int, value: object, name: str) -> FloatArray:
-    """Take a vector in the plane of a curve, (3,); any length but nil.
+    """Take a vector in the plane of a curve, (3,); any length but zero.
 
     Raises
     ------
@@ -74,9 +71,6 @@ def direction_in(state: HullState, curve: int, value: object, name: str) -> Floa
             )
     return found
 
-
-# --------------------------------------------------------------------------------------
-# What a designer gives as a handle or an address, found in the tables of the hull.
 
 _HANDLE = "give a handle or an address"
 
@@ -120,7 +114,7 @@ class GivenObjects:
         try:
             place = self.place(group)
         except UnknownNameError:
-            return str(group)
+            return str(group)  # the edit names the groups there are in its own error
         name = str(self.tables.groups.name.data[place.group])
         if place.line >= 0:
             raise BadInputError(

@@ -1,9 +1,9 @@
 """Fields of displacement normal to the hull, fading along the length and the girth.
 
 Every point in reach moves along its own freedom by the shortest way that gives the normal
-displacement. `NormalField` is what the update runs, in sub-steps where it is large;
-`PullField` is the one of a soft pull, and `unreached` says which pulled point did not arrive.
-The field of a re-shaped curve stands with that modification.
+displacement d: with n the outward normal and U an orthonormal basis of the freedom,
+delta = U U^T n d / |U^T n|^2. The update runs a `NormalField` in sub-steps where it is large;
+`PullField` is the one of a soft pull, that of a re-shaped curve stands with that modification.
 """
 
 from __future__ import annotations
@@ -42,17 +42,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Field edits: a displacement normal to the hull that fades along the length and the girth.
-#
-# Every point in reach moves along its own freedom by the shortest way that gives the normal
-# displacement d: with n the outward normal and U the orthonormal basis of the freedom,
-#
-#     delta = U U^T n d / |U^T n|^2.
-#
-# Shared crossings and adopted points move. Driven ones are computed from their driver,
-# watched ones have no value, placed points stay; a flat is moved as a feature, never dented,
-# and ends on the profile move with the profile only. Re-shaping a curve and letting only its
-# shared crossings follow was measured to leave up to 80 % of the edit as gaps elsewhere.
+# Any field. Shared crossings and adopted points move. Driven ones are computed from their driver,
+# watched ones have no value, placed points stay; a flat is moved as a feature, never dented, and
+# ends on the profile move with the profile only. Re-shaping a curve and letting only its shared
+# crossings follow was measured to leave up to 80 % of the edit as gaps elsewhere.
 
 BoolArray = np.typing.NDArray[np.bool_]
 
@@ -125,7 +118,7 @@ class NormalField(Protocol):
 
     @property
     def strict(self) -> bool:
-        """Whether nothing but its own points may move: no gap is mended, each is told."""
+        """Whether nothing but its own points may move: no gap is mended, each is reported."""
 
     def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
         """Give the displacements for a part (of 1) of the whole field."""
@@ -203,7 +196,7 @@ def flat_distance(state: HullState, places: FloatArray) -> FloatArray:
     for line in _boundary_lines(state, BoundaryKind.FLAT).tolist():
         for curve in state.lines.curves.data[line]:
             border = sample(state.spline(curve), 4)[1]
-            # Coordinate by coordinate: long rows are worked on several times as fast.
+            # coordinate by coordinate: numpy runs several times as fast over long rows
             square = np.zeros((len(places), len(border)))
             for axis in range(3):
                 step = places[:, axis, None] - border[:, axis]
@@ -215,16 +208,9 @@ def flat_distance(state: HullState, places: FloatArray) -> FloatArray:
 
 
 def move_normal(ground: FieldContext, rows: IntArray, amount: FloatArray) -> PointDisplacements:
-    """Move points by the shortest way along their freedom that gives a normal displacement.
+    """Move points (k,) by the shortest way along their freedom that gives a normal displacement.
 
-    Parameters
-    ----------
-    ground : FieldContext
-        Normals.
-    rows : (k,) int
-        The points.
-    amount : (k,), m
-        Displacement along the outward normal.
+    `amount` (k,), m, is positive outward. Points whose freedom is almost tangential stay.
     """
     normal = ground.normal[rows]
     along = free_normals(ground.state, rows, normal)
@@ -283,7 +269,7 @@ def land_points(state: HullState, journal: Journal, fields: list[NormalField]) -
 
 
 def sub_step_count(state: HullState, shift: PointDisplacements) -> int:
-    """Say in how many steps a field is run: while a step exceeds 0.1 m, it is halved."""
+    """Give the number of steps of a field: halved while one exceeds `Tolerances.substep`."""
     largest = float(np.sqrt((shift.delta * shift.delta).sum(axis=1)).max(initial=0.0))
     steps = 1
     while largest / steps > state.tolerances.substep:
@@ -302,7 +288,7 @@ _STEPS = 64
 
 
 # --------------------------------------------------------------------------------------
-# The field of a soft pull, and whether it brought its point where it was asked to go.
+# Soft pulls.
 
 _NEARLY = 0.01
 """A point that came within this part of the way it was pulled is where it was asked to be."""
@@ -325,7 +311,7 @@ class PullField:
     radius : (float, float), m
         r_x along the length, r_g seen along x.
     flat_fade : float, m
-        Towards the border of a flat the field fades to nil within this distance.
+        Towards the border of a flat the field fades to zero within this distance.
     across_flats : bool
         Whether flats are moved too.
     strict : bool

@@ -2,8 +2,8 @@
 
 At a crossing the normal is the cross product of the tangents of its two curves; points on one
 curve get theirs by interpolation between the crossings beside them. Which of the two senses is
-outward is told from the way plane lines run (sections upward, others forward), not from where
-they lie. `free_normals` projects normals on what a point is free to do.
+outward follows from the way plane lines run (a section from the keel up, others from aft forward),
+not from where they lie: near a stern post or in a hollow the skin may face the centre plane.
 """
 
 from __future__ import annotations
@@ -30,34 +30,16 @@ __all__ = [
     "turn_outward",
 ]
 
-# --------------------------------------------------------------------------------------
-# Which of the two senses of a normal points out of the hull.
-#
-# Told from the way a plane line runs, not from where it lies: near a stern post or in a hollow
-# the skin may face the centre plane or the deck. A section runs from the keel up, any other
-# line from aft forward; the hull lies to a known side of it.
-
 _SHORT = 1e-6
 """Ends nearer than this (m) along a curve's course do not tell its direction."""
 
 
 def turn_outward(state: HullState, normal: FloatArray, tangent: FloatArray) -> FloatArray:
-    """Turn normals out of the hull.
+    """Turn unit normals (rows, 3) out of the hull.
 
-    Parameters
-    ----------
-    state : HullState
-        The tables.
-    normal : (rows, 3)
-        Unit normals of either sense; nil where it is not known.
-    tangent : (rows, 2, 3)
-        Unit tangents of the two curves at every point, as the curves are stored.
-
-    Returns
-    -------
-    (rows, 3)
-        The same normals, turned. Where both curves are boundary or space curves, away from
-        the line of the deck in the centre plane.
+    `tangent` (rows, 2, 3) are the unit tangents of the two curves at every point, as the curves
+    are stored; zero where not known. Where both curves are boundary or space curves, normals are
+    turned away from the line of the deck in the centre plane.
 
     Examples
     --------
@@ -70,6 +52,7 @@ def turn_outward(state: HullState, normal: FloatArray, tangent: FloatArray) -> F
     """
     reference = _references(state, tangent)
     cosine = (normal[:, None, :] * reference).sum(axis=2)
+    # of two plane curves, the one to which the normal is less oblique decides
     surer = np.abs(cosine[:, 1]) > np.abs(cosine[:, 0])
     away = np.where(surer, cosine[:, 1], cosine[:, 0])
     unknown = ~(reference != 0.0).any(axis=(1, 2))
@@ -81,11 +64,11 @@ def _references(state: HullState, tangent: FloatArray) -> FloatArray:
     """Give the direction out of the hull in the plane of each curve, (rows, 2, 3)."""
     curve = state.rows.curve.data
     line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], 0)
-    told = (curve >= 0) & state.lines.planar.data[line]
-    told &= state.lines.boundary.data[line] < 0
-    plane = np.where(told[:, :, None], state.lines.normal.data[line], 0.0)
+    known = (curve >= 0) & state.lines.planar.data[line]
+    known &= state.lines.boundary.data[line] < 0
+    plane = np.where(known[:, :, None], state.lines.normal.data[line], 0.0)
     out = np.cross(plane, tangent)
-    sense = np.where(told, _course(state)[np.maximum(curve, 0)], 0.0)
+    sense = np.where(known, _course(state)[np.maximum(curve, 0)], 0.0)
     return np.asarray(out * sense[:, :, None])
 
 
@@ -99,7 +82,7 @@ def _course(state: HullState) -> FloatArray:
             continue
         across = abs(normal[line, 0]) > 0.5
         run = float(xyz[-1, 2] - xyz[0, 2]) if across else float(xyz[-1, 0] - xyz[0, 0])
-        if abs(run) < _SHORT:
+        if abs(run) < _SHORT:  # a closed curve: the sense in which it goes round decides
             run = _turn(xyz, normal[line]) * (1.0 if across else -1.0)
         found[curve] = np.copysign(1.0, -run if across else run)
     return found
@@ -120,15 +103,14 @@ def _from_deck(state: HullState, normal: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# The outward normal of the hull at every point of the net, and how far points are free.
+# Normals at all points.
 
 
 def hull_normals(state: HullState) -> FloatArray:
-    """Give the unit outward normal at every point, (rows, 3); nil where it is not known.
+    """Give the unit outward normal at every point, (rows, 3); zero where it is not known.
 
-    At a crossing it is the cross product of the two tangents; at points that have one curve
-    only it is interpolated along that curve between its crossings. An edit asks for them again
-    and again: they are kept, read-only, until something changes that they are made from.
+    An edit asks for them again and again: they are kept, read-only, until something changes that
+    they are made from.
     """
     stamp = shape_stamp(state)
     known: tuple[Hashable, FloatArray] | None = state.kept.get(_KEPT)
@@ -144,10 +126,9 @@ _KEPT = "hull normals"
 
 
 def shape_stamp(state: HullState) -> Hashable:
-    """Give what is another one when points, curves, or planes have become others.
+    """Give a value that differs when points, curves or planes have changed.
 
-    Arrays tell how often they were written; what the curves hold is never written to, but
-    replaced.
+    Arrays count their writes; what the curves hold is never written to, but replaced.
     """
     rows, curves, lines = state.rows, state.curves, state.lines
     held = (curves.spline, curves.rows, curves.side, curves.meets, curves.ends, lines.curves)
@@ -173,7 +154,7 @@ def _normals(state: HullState) -> FloatArray:
 
 
 def curve_tangents(state: HullState) -> FloatArray:
-    """Give the unit tangents of both curves at every point, (rows, 2, 3); nil where unknown."""
+    """Give the unit tangents of both curves at every point, (rows, 2, 3); zero where unknown."""
     table, curves = state.rows, state.live("curves").tolist()
     found = np.zeros((table.count, 2, 3))
     known = np.zeros((table.count, 2), bool)
@@ -223,9 +204,9 @@ def _interpolate(state: HullState, normal: FloatArray) -> None:
     at = np.concatenate([knot[~own], *(each.parameter for each in meets)])
     values = normal[known]
     good = (known >= 0) & (values != 0.0).any(axis=1)
-    blend, told = interpolate_linear(where[good], at[good], values[good], curve[own], knot[own])
+    blend, found = interpolate_linear(where[good], at[good], values[good], curve[own], knot[own])
     length = np.sqrt((blend * blend).sum(axis=1))
-    normal[rows[own][told]] = blend / np.where(length > 1e-12, length, 1.0)[:, None]
+    normal[rows[own][found]] = blend / np.where(length > 1e-12, length, 1.0)[:, None]
 
 
 @attrs.frozen(eq=False)
@@ -235,21 +216,9 @@ class _Planes:
 
 
 def free_normals(state: HullState, rows: IntArray, normal: FloatArray) -> FloatArray:
-    """Project normals on the freedom of points: U U^T n.
+    """Project normals (k, 3) on the freedom of points (k,): U U^T n.
 
-    Parameters
-    ----------
-    state : HullState
-        The tables.
-    rows : (k,) int
-        The points.
-    normal : (k, 3)
-        A normal each.
-
-    Returns
-    -------
-    (k, 3)
-        Along the line where two planes meet, or in the one plane a point must stay in.
+    That is along the line where two planes meet, or in the one plane a point must stay in.
     """
     free = np.array(normal)
     first, second = (_plane(state, rows, side) for side in (0, 1))

@@ -1,7 +1,7 @@
 """Features under a mapping of space: centres, radii, planes and tangents as it sends them.
 
 A circle keeps to a circle only where the mapping is a similarity on it; a run stays straight only
-where the mapping does not bend it. The images of their points tell.
+where the mapping does not bend it. The images of their points decide.
 
 Examples
 --------

@@ -45,7 +45,7 @@ class TransformedPlanes:
     Attributes
     ----------
     normal : (l, 3)
-        Unit normals; nil for space curves.
+        Unit normals; zero for space curves.
     offset : (l,), m
         Offsets; nan for space curves.
     planar : (l,) bool
@@ -100,6 +100,7 @@ def carry_planes(
     drive, asked = set(drivers.tolist()), levels or {}
     flat = [line for line in state.live("lines").tolist() if planar[line]]
     apart = [line for line in flat if line in asked and line not in drive]
+    # A driver goes where the mapping sends it, whatever is asked of followers.
     offset[apart] = [asked[line] for line in apart]
     going = [line for line in flat if (follow or line in drive) and line not in apart]
     for line, before, after in _samples(state, space, going):
@@ -110,11 +111,13 @@ def carry_planes(
         elif line in drive:
             found = _oblique(state, space, line, before, after)
             if found is None:
+                # Only one side of a hull is stored: what lies in the centre plane may not leave it.
                 _refuse_centre(state, line, spread)
                 bent[line], planar[line] = spread, False
                 normal[line], offset[line] = 0.0, np.nan
             else:
                 normal[line], offset[line] = found
+        # One feature may bend a part of a follower: its plane goes with the rest, or stays.
         elif mostly_in_one_plane(level):
             offset[line] = _centre_kept(state, line, float(level[len(level) // 2]))
     planes = TransformedPlanes(normal, offset, planar, bent)
@@ -216,7 +219,7 @@ def snap_into_planes(
     ----------
     state : HullState
         The tables.
-    planes : Planes
+    planes : TransformedPlanes
         The planes.
     rows : (k,) int
         The points.

@@ -7,8 +7,8 @@ displacements. What is computed from curves follows, and no point comes or goes.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence, Sized
+from typing import Protocol
 
 import attrs
 import numpy as np
@@ -20,9 +20,6 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.model.features import Feature
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import Ends, HullState, Particulars
-
-if TYPE_CHECKING:
-    from assoc_hull.edit.transaction import Transaction
 
 __all__ = ["Nudge", "nudge", "nudged", "write_nudge"]
 
@@ -37,10 +34,10 @@ class Nudge:
         Displacements of all points of the tables; those of computed and watched points are not
         read.
     turn : (rows, 3, 3)
-        At each point: a given direction t becomes t + turn t. Nil along the normals of the planes
+        At each point: a given direction t becomes t + turn t. Zero along the normals of the planes
         that the direction must stay in.
     level : (lines,), m
-        By how much the planes of lines move along their normals; nil for curves in space.
+        By how much the planes of lines move along their normals; zero for curves in space.
     features : mapping of str to mapping of str to float or (3,)
         By the keys of features, what is added to ``centre``, ``radius`` and ``offset`` (m).
     particulars : Particulars
@@ -60,7 +57,33 @@ class Nudge:
         freeze(self.move, self.turn, self.level)
 
 
-def nudge(edit: Transaction, by: Nudge) -> None:
+class _PendingNudge(Protocol):
+    """What `nudge` reads and sets of what an edit asks for, `pending_changes.Pending`."""
+
+    alone: bool
+    nudge: Nudge | None
+
+    @property
+    def values(self) -> Sized: ...
+    @property
+    def fields(self) -> Sized: ...
+    @property
+    def curves(self) -> Sized: ...
+    def not_alone(self, name: str) -> tuple[str, str, str]: ...
+
+
+class _Edit(Protocol):
+    """What `nudge` needs of a `Transaction`, whose update imports this module."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def pending(self) -> _PendingNudge: ...
+    @property
+    def journal(self) -> Journal: ...
+
+
+def nudge(edit: _Edit, by: Nudge) -> None:
     """Move a hull by a little when all else of an edit has run.
 
     Parameters

@@ -22,7 +22,7 @@ class Settings:
 
     Attributes
     ----------
-    policy : Policy
+    policy : FailurePolicy
         What becomes of an edit when a curve cannot be made.
     refuse_gaps : bool
         Whether a watched gap that stays over its limit refuses the edit; else it is kept
@@ -51,7 +51,7 @@ class Pending:
         Whether lines, points, roles or associations came or went.
     moved_curves : set of int
         Curves that the designer edited: births take their value from these.
-    fields : list of Field
+    fields : list of NormalField
         Displacements of the hull; several add.
     born, gone : list of str
         Keys of curves and crossings that the modifications made or unmade.

@@ -32,9 +32,6 @@ __all__ = [
     "settings_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# Edits given as data or as a function, and how they are to be carried out.
-
 Changes = Callable[[Edit], object] | Sequence[Mapping[str, Any]]
 PolicyName = Literal["all_or_nothing", "keep_going"]
 GapsName = Literal["refuse", "report"]
@@ -121,7 +118,7 @@ def _operations(edit: Edit) -> tuple[str, ...]:
 
 
 # --------------------------------------------------------------------------------------
-# The edits of one hull made again on another.
+# Replay.
 
 _UNKNOWN = "it was given a function, or was not made through the public methods: nothing tells it"
 
@@ -151,21 +148,9 @@ class Replayed:
 def replay(
     document: Document, steps: Sequence[Step], *, skip: bool = False
 ) -> tuple[Replayed, ...]:
-    """Make edits again, each as one step, in their order.
+    """Make edits of this or another hull again, each as one step, in their order.
 
-    Parameters
-    ----------
-    document : Document
-        The hull.
-    steps : sequence of Step
-        The edits, of this or another hull; objects are found by their addresses.
-    skip : bool
-        Go on behind an edit that cannot be made; else stop there.
-
-    Returns
-    -------
-    tuple of Replayed
-        One for each edit that was tried.
+    Stops at the first that cannot be made, or goes on behind it if `skip`.
     """
     found: list[Replayed] = []
     for step in tuple(steps):  # on the same hull, the history grows meanwhile

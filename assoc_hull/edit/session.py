@@ -15,6 +15,9 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import choice, flag, number, positive, shown
 from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.lines import add_line as _cut
+from assoc_hull.edit.lines import remove_line as _lines
+from assoc_hull.edit.lines import shift_line as _shift
 from assoc_hull.edit.modifications import associations as _associate
 from assoc_hull.edit.modifications import curve_ends as _ends
 from assoc_hull.edit.modifications import definitions as _reattach
@@ -25,9 +28,6 @@ from assoc_hull.edit.modifications import pull as _pull
 from assoc_hull.edit.modifications import reshape as _reshape
 from assoc_hull.edit.modifications import roles as _renew
 from assoc_hull.edit.modifications import roles as _set_role
-from assoc_hull.edit.newline import add_line as _cut
-from assoc_hull.edit.newline import remove_line as _lines
-from assoc_hull.edit.newline import shift_line as _shift
 from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.recording import recorded
 from assoc_hull.edit.recut import transform as _transform

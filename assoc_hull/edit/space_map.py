@@ -39,7 +39,7 @@ class Affine:
     scale : (3,)
         Factors along x, y and z, above 0.
     shift : (3,), m
-        Added afterwards; along y nil, as the centre plane stays.
+        Added afterwards; along y zero, as the centre plane stays.
 
     Examples
     --------

@@ -31,7 +31,7 @@ class Work:
         What is updated, and how.
     network : HullNetwork
         The hull as the engine sees it.
-    passes : list of Pass
+    passes : list of UpdatePass
         Those that have run.
     born, gone, mended : list of str
         Keys of crossings that came or went, and of curves that were given a point.
@@ -41,7 +41,7 @@ class Work:
         Time per phase.
     failed : dict of int to str
         Nodes that could not be made, and why.
-    wide : Wide or None
+    wide : WideGaps or None
         Gaps over their limit, when they have been measured.
     planned : int
         Curves that could at most be lofted in the main pass.

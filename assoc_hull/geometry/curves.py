@@ -1,8 +1,9 @@
-"""Ragged batches of curves: the data the splines are made from, and the splines.
+"""Ragged batches of curves: data of splines, the splines, and isocurves of surfaces.
 
-Many curves of different lengths lie one behind the other in flat arrays. ``start`` holds
-where each begins: curve ``i`` owns the rows ``start[i]:start[i + 1]``, as in the offsets of
-an Arrow list array. All arrays are frozen (``writeable=False``).
+Many curves of different lengths lie one behind the other in flat arrays. ``start`` holds where each
+begins: curve ``i`` owns the rows ``start[i]:start[i + 1]``, as in the offsets of an Arrow list
+array. All arrays are frozen (``writeable=False``). `Strips` is who gives curves across a surface at
+any parameter v along it: a net of lofted lines, or a hull known by a formula.
 
 Examples
 --------
@@ -18,7 +19,7 @@ import itertools
 from collections.abc import Iterator, Sequence
 from enum import IntEnum
 from functools import lru_cache
-from typing import NoReturn, Self
+from typing import NoReturn, Protocol, Self
 
 import attrs
 import numpy as np
@@ -26,7 +27,24 @@ from numpy.typing import NDArray
 
 from assoc_hull.arguments import no_member
 
-__all__ = ["CurveData", "EndKind", "FloatArray", "IntArray", "PointKind", "SplineBatch", "freeze"]
+__all__ = [
+    "CurveData",
+    "EndKind",
+    "FloatArray",
+    "IntArray",
+    "IsoCurves",
+    "PointKind",
+    "SplineBatch",
+    "Strips",
+    "freeze",
+]
+
+# --------------------------------------------------------------------------------------
+# Ragged batches of curves: the data the splines are made from, and the splines.
+#
+# Many curves of different lengths lie one behind the other in flat arrays. ``start`` holds
+# where each begins: curve ``i`` owns the rows ``start[i]:start[i + 1]``, as in the offsets of
+# an Arrow list array. All arrays are frozen (``writeable=False``).
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -72,7 +90,7 @@ class CurveData:
         A `PointKind` per point; what is said of the first and last point of a curve is
         ignored, its end is governed by `end_kind`.
     direction : (n, 3)
-        Given direction at tangent points (any length but nil, along the sense of the
+        Given direction at tangent points (any length but zero, along the sense of the
         curve); ignored elsewhere.
     end_kind : (m, 2) int8
         An `EndKind` for the first and last point of each curve.
@@ -243,3 +261,65 @@ def _runs(parts: Sequence[SplineBatch]) -> Iterator[SplineBatch]:
                 stop += 1
             yield batch.part(first, first + stop - i)
         i = stop
+
+
+# --------------------------------------------------------------------------------------
+# Curves across a surface: what every integral over a hull is taken on.
+#
+# One half of a hull (port, y >= 0) is a few *strips*: patches ``P(u, v)`` in which u runs up,
+# from keel to deck, and v forward, so that ``P_u x P_v`` points out of the ship. For a fixed v
+# a strip gives one curve, cut into *tiles* along u; on each tile both P and the derivative
+# P_v are cubics in u. In most strips the curve is a section (x is constant); at a raked stem
+# it need not be.
+#
+# Whoever gives such curves at any v is a `Strips`: a net of lofted lines does, and so does a
+# hull known by a formula. The integration is the same for both.
+
+
+@attrs.frozen(eq=False)
+class IsoCurves:
+    """Curves v = const of strips, tile by tile.
+
+    Attributes
+    ----------
+    start : (k + 1,) int
+        Where the tiles of each curve begin; the tiles of one curve follow one another from
+        keel to deck and join without a gap.
+    point : (s, 4, 3), m
+        Coefficients of P in 1, u, u^2, u^3, with u from 0 to 1 along each tile.
+    across : (s, 4, 3), m
+        The same of the derivative P_v.
+    deck : (s,) bool
+        The tile is a closed deck, which is hull for volumes but no part of the shell.
+    """
+
+    start: IntArray
+    point: FloatArray
+    across: FloatArray
+    deck: NDArray[np.bool_]
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.start, self.point, self.across, self.deck)
+
+    @property
+    def count(self) -> int:
+        """Number of curves."""
+        return len(self.start) - 1
+
+
+class Strips(Protocol):
+    """One half of a hull as strips, each with v from 0 to 1."""
+
+    @property
+    def count(self) -> int:
+        """Number of strips."""
+        ...
+
+    @property
+    def order(self) -> IntArray:
+        """How many Gauss points along v each strip wants where nothing happens inside, (count,)."""
+        ...
+
+    def curves(self, strip: IntArray, v: FloatArray) -> IsoCurves:
+        """Give one curve for each pair of a strip and a v, (k,) each, in that order."""
+        ...

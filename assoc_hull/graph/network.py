@@ -2,8 +2,7 @@
 
 A *node* is an integer. A node is evaluated from the nodes it reads; each has a level, above
 that of all it reads. The engine decides which nodes are evaluated, when, and why; the
-network holds the values and does the arithmetic, many nodes at a time. The closure of what
-an edit touches is an upper bound of what a run evaluates.
+network holds the values and does the arithmetic, many nodes at a time.
 """
 
 from __future__ import annotations
@@ -23,13 +22,6 @@ __all__ = [
     "closure",
     "distinct",
 ]
-
-# --------------------------------------------------------------------------------------
-# What the update engine knows of the thing it updates: numbered nodes that read one another.
-#
-# A *node* is an integer. A node is evaluated from the nodes it reads; each has a level, above
-# that of all it reads. The engine decides which nodes are evaluated, when, and why; the
-# network holds the values and does the arithmetic, many nodes at a time.
 
 
 def distinct(nodes: IntArray) -> IntArray:
@@ -107,24 +99,10 @@ class Network(Protocol):
         """Name a node for a message."""
 
 
-# --------------------------------------------------------------------------------------
-# The plan of an update: the closure of what an edit touches, an upper bound of the run.
-
-
 def closure(network: Network, seeds: IntArray) -> IntArray:
-    """Give all nodes that are made from the seeds, at any distance, and the seeds.
+    """Give all nodes that are made from the seeds (k,), at any distance, and the seeds; ascending.
 
-    Parameters
-    ----------
-    network : Network
-        Who reads whom.
-    seeds : (k,) int
-        Nodes that an edit sets or evaluates.
-
-    Returns
-    -------
-    (n,) int
-        Ascending. No run from these seeds evaluates any other node in its main pass.
+    This is an upper bound: no run from these seeds evaluates any other node in its main pass.
     """
     found = front = distinct(seeds)
     while len(front):

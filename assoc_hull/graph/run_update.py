@@ -116,7 +116,7 @@ def run_update(
         Nodes whose values were set by the edit.
     journal : Journal
         Takes every write.
-    policy : Policy
+    policy : FailurePolicy
         What to do when a node cannot be evaluated.
     also : (k,) int
         Nodes to evaluate although nothing they read has changed (their recipe has).
@@ -125,7 +125,7 @@ def run_update(
 
     Returns
     -------
-    Pass
+    UpdatePass
 
     Raises
     ------

@@ -25,7 +25,7 @@ class CauseTree:
         By how much it changed; nan where the edit itself set it, 0 where it did not change.
     seed : bool
         Whether the edit set it.
-    causes : tuple of Trace
+    causes : tuple of CauseTree
         The nodes whose change made it be evaluated, the one that moved most first. None for
         a seed, and for a node whose recipe was changed.
     """

@@ -1,8 +1,9 @@
 """The canonical text of a hull, `.hull.json`, and its JSON Schema.
 
-The same hull gives the same bytes, so that texts can be compared line by line. Reading puts the
-stored values back and compares the fingerprint; nothing is recomputed. The schema is made of the
-tables by which the reader checks a hull, and ships as ``hull_json.schema.json``.
+The same hull gives the same bytes, so that texts can be compared line by line: every group, line,
+curve and point stands on a line of its own, sorted by key, and floats are the shortest decimals
+that read back to the same bits. Reading puts the stored values back and compares the fingerprint;
+nothing is recomputed. The schema ships as ``hull_json.schema.json``.
 """
 
 from __future__ import annotations
@@ -35,21 +36,13 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The canonical text of a hull, `.hull.json`: the same hull gives the same bytes.
-#
-# One JSON document, UTF-8. Every group, line, curve and point stands on a line of its own,
-# sorted by key, so that the difference of two texts shows what an edit changed and no more.
-# Floats are written as the shortest decimal that reads back to the same bits.
-#
-# Top level, in this order::
+# The text: one JSON document, UTF-8, with these keys in this order::
 #
 #     format       "assoc-hull"
 #     schema       version of this form, a whole number; this module reads and writes 1
 #     fingerprint  SHA-256 of definition and published values
 #     definition   see `assoc_hull.model.definition.records.definition`
 #     published    see `assoc_hull.model.definition.records.published`
-#
-# Opening puts the stored values back and compares the fingerprint; nothing is recomputed.
 
 SCHEMA = 1
 """Version of the form that is written and read."""
@@ -253,14 +246,9 @@ def _check_head(document: dict[str, Any], name: str) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# The JSON Schema of `.hull.json`, made of the tables by which the reader checks a hull.
-#
-# It says all that can be said of the form. What it cannot say, the reader still checks: that the
-# fingerprint agrees, that keys refer to something and come once, that lists of one curve are of
-# one length, and that 1.0 is no whole number.
-#
-# The same text ships beside this module as ``hull_json.schema.json``, for programs that take a
-# file; ``assoc-hull schema`` prints it.
+# The schema, made of the tables by which the reader checks a hull. What it cannot say, the reader
+# still checks: that the fingerprint agrees, that keys refer to something and come once, that lists
+# of one curve are of one length, and that 1.0 is no whole number. ``assoc-hull schema`` prints it.
 
 
 def hull_json_schema() -> dict[str, Any]:

@@ -1,8 +1,8 @@
 """What readers and writers report: notes, reports, and how far a long read has come.
 
 A `Notebook` collects what a reader assumes, repairs and suspects; an `ExportBook` does the same for
-a writer, with counts and rounding. `OffsetReport` and `ExportReport` hold the notes frozen.
-`Tell` is the callable that a caller hands in to hear of progress.
+a writer, with counts and rounding. `OffsetReport` and `ExportReport` hold the notes frozen. `Tell`
+is the callable that a caller hands in to hear of progress.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What a reader of offsets assumed, mended and found suspicious, as data.
+# Reading.
 
 
 @attrs.frozen
@@ -112,7 +112,7 @@ class Notebook:
 
 
 # --------------------------------------------------------------------------------------
-# What is written down while a hull is exported: counts, rounding, what was left out.
+# Writing.
 
 
 @attrs.frozen
@@ -132,7 +132,7 @@ class ExportReport:
     largest : float, m
         The largest difference between a number and what was written for it.
     chord : float, m
-        How far the straight line between two points written may leave the curve; nil for tables
+        How far the straight line between two points written may leave the curve; 0 for tables
         and hull files, which say nothing of it.
     left_out : tuple of Note
         What is in the hull and not in the file.
@@ -238,7 +238,7 @@ class ExportBook:
 
 
 # --------------------------------------------------------------------------------------
-# How long work says how far it is: a callable that whoever waits may hand in.
+# Progress.
 
 Tell = Callable[[str, int, int], None]
 """Takes what is being done, how many parts of it are done, and of how many; 0 if unknown."""

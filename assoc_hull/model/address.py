@@ -137,7 +137,7 @@ class AddressBook:
         return short
 
     def resolve(self, text: str) -> ResolvedAddress:
-        """Find what an address leads to; see the function `resolve`."""
+        """Find what an address leads to; see the function `resolve_address`."""
         found = self._lookup(word(text, "the address", "in a look-up").strip())
         if found is None:
             raise UnknownNameError("object", shown_name(text), tuple(self._known(text)))
@@ -300,7 +300,7 @@ def address(state: HullState, row: int, side: int | None = None) -> str:
     Returns
     -------
     str
-        `resolve` leads back to the same point. The key, where names alone do not lead there.
+        `resolve_address` leads back to the same point. The key, where names do not lead there.
 
     Examples
     --------
@@ -325,7 +325,7 @@ def resolve_address(state: HullState, text: str) -> ResolvedAddress:
 
     Returns
     -------
-    Place
+    ResolvedAddress
 
     Raises
     ------

@@ -1,11 +1,10 @@
 """What an edit changed, and no more: enough to take it back and to make it again.
 
-A journal holds every write in turn, and with them the splines of all curves that followed: a
-good thing to go back by at once, and too much to keep. A change holds the net effect. Numbers
-are kept as the exclusive or of the bits before and after, which run both ways; what is no
-number is kept as it was and as it became. Splines are not kept: lofted from their points again
-they have the same bits. Places of crossings along curves are kept, many curves in one batch,
-and never computed again.
+A journal holds every write in turn, and the splines of all curves that followed: good for going
+back at once, too much to keep. A change holds the net effect: numbers as the exclusive or of the
+bits before and after, which runs both ways, other values as they were and became. Splines are
+not kept, as a loft of the same points has the same bits. Positions of crossings along curves are
+kept, many curves in one batch, and never computed again.
 
 Examples
 --------
@@ -53,18 +52,17 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Where crossings lie on curves, many curves in one batch: taken out, and put back.
-#
-# A crossing lies on each of its curves where the curve meets the other line's plane. A few lie on
-# a curve without such a meeting, as the end of a line on a boundary does: these are *stray*. Both
-# together are all that the tables hold of places on curves; nothing of it is ever computed again.
+# Positions of crossings. A crossing lies on each of its curves where the curve intersects the other
+# line's plane. A few lie on a curve without such an intersection, as the end of a line on a
+# boundary does: these are *stray*. Both together are all that the tables hold of places on curves.
 
 _STRAY = -1
+"""Stands for the line of a stray crossing."""
 
 
 @attrs.frozen(eq=False)
 class CrossingPositions:
-    """Places of crossings on curves, curve by curve: meetings first, in their order, then strays.
+    """Places of crossings on curves, curve by curve: intersections in their order, then strays.
 
     Attributes
     ----------
@@ -134,17 +132,7 @@ class EarlierPositions:
 def crossing_positions(
     state: HullState, curves: IntArray, then: EarlierPositions | None = None
 ) -> CrossingPositions:
-    """Take out the places on curves.
-
-    Parameters
-    ----------
-    state : HullState
-        The tables.
-    curves : (m,) int
-        Numbers of the curves, each once.
-    then : Then or None
-        What the columns held at the time that is meant.
-    """
+    """Give the places on curves (m,), each named once; `then` is the time meant, now if None."""
     table = state.rows
     now = EarlierPositions({}, table.curve.data, table.spot.data, table.parameter.data)
     when = then or now
@@ -168,7 +156,7 @@ def crossing_positions(
 
 
 def _join(meets: list[CurveIntersections]) -> tuple[Any, ...]:
-    """Put meetings one behind the other: owner, line, sign, row, place."""
+    """Concatenate intersections: owner, line, sign, row, and (n, 4), m, parameter and place."""
     whole = np.zeros(0, np.int64)
     owner = np.repeat(np.arange(len(meets)), [len(each.line) for each in meets])
     line = np.concatenate([whole, *(each.line for each in meets)])
@@ -182,7 +170,7 @@ def _join(meets: list[CurveIntersections]) -> tuple[Any, ...]:
 def _strays(
     when: EarlierPositions, curves: IntArray, owner: IntArray, met: IntArray
 ) -> tuple[IntArray, IntArray, IntArray]:
-    """Find crossings that lie on curves without a meeting: index of the curve, row, side."""
+    """Find crossings on curves without an intersection: index of the curve, row, side."""
     place = np.full(max(int(when.curve.max(initial=-1)), int(curves.max(initial=-1))) + 2, -1)
     place[curves] = np.arange(len(curves))
     on = place[when.curve]
@@ -218,14 +206,7 @@ def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# What an edit changed, and no more: enough to take it back and to make it again.
-#
-# A journal holds every write in turn, and with them the splines of all curves that followed: a
-# good thing to go back by at once, and too much to keep. A change holds the net effect. Numbers
-# are kept as the exclusive or of the bits before and after, which run both ways; what is no
-# number is kept as it was and as it became. Splines are not kept: they are lofted from their
-# points again, which gives the same bits, since a spline is a pure function of them. Crossings
-# are kept, and never computed again.
+# Changes.
 
 _PLACES = ("curves.meets", "rows.spot", "rows.parameter")
 _OWN_WAY = (*_PLACES, "curves.spline", "settings.births")
@@ -252,7 +233,7 @@ class TableChange:
     moved : (curves, bits)
         Curves (m,) along which the same crossings lie elsewhere, and (n, 32) uint8, curve by
         curve the exclusive or of the bytes of their places, four numbers each.
-    before, after : PlacesOn
+    before, after : CrossingPositions
         Curves along which other crossings lie, as they were and as they are.
     lofted : (k,) int
         Curves that were lofted.
@@ -297,19 +278,7 @@ def _columns(state: HullState) -> Iterator[tuple[str, Any]]:
 
 
 def change_of(state: HullState, journal: Journal) -> TableChange:
-    """Take together what a journal did to the tables, right after it has run forward.
-
-    Parameters
-    ----------
-    state : HullState
-        The tables, as the journal left them.
-    journal : Journal
-        All writes of one edit.
-
-    Returns
-    -------
-    Change
-    """
+    """Give the net effect of a journal on the tables, right after it has run forward."""
     written = {id(column) for column in journal.columns()}
     columns = {name: column for name, column in _columns(state) if id(column) in written}
     sizes = {name: journal.sizes(getattr(state, name)) for name in TABLES}
@@ -322,6 +291,7 @@ def change_of(state: HullState, journal: Journal) -> TableChange:
         if isinstance(column, ArrayColumn):
             found = _bytes(net.old) ^ _bytes(net.new)
             odd = found.any(axis=1)
+            # A row may have been written with the bits that it had, or taken back.
             if odd.any():
                 bits[name] = net.rows[odd], found[odd]
         else:
@@ -343,7 +313,7 @@ def change_of(state: HullState, journal: Journal) -> TableChange:
 
 
 def _bytes(values: NDArray[Any]) -> NDArray[np.uint8]:
-    """Give each row as bytes."""
+    """Give each row as bytes, (k, bytes)."""
     width = values.itemsize * math.prod(values.shape[1:])
     return np.frombuffer(values.tobytes(), np.uint8).reshape(len(values), width)
 
@@ -367,7 +337,7 @@ def _places(
     state: HullState, journal: Journal, columns: dict[str, Any]
 ) -> tuple[tuple[IntArray, NDArray[np.uint8]], CrossingPositions, CrossingPositions]:
     """Compare the places on all curves that may have others than before."""
-    then, curves = _then(state, journal, columns)
+    then, curves = _columns_before(state, journal, columns)
     old, new = crossing_positions(state, curves, then), crossing_positions(state, curves)
     alike = old.alike(new)
     one, two = old.take(alike), new.take(alike)
@@ -377,10 +347,10 @@ def _places(
     return (two.curve, apart), old.take(~alike), new.take(~alike)
 
 
-def _then(
+def _columns_before(
     state: HullState, journal: Journal, columns: dict[str, Any]
 ) -> tuple[EarlierPositions, IntArray]:
-    """Give what places were taken from before, and the curves that may have others now."""
+    """Give the columns of places before, and the curves that may have other places now."""
     table, touched = state.rows, [np.zeros(0, np.int64)]
     was = {name: getattr(table, name).data for name in ("curve", "spot", "parameter")}
     for name, now in was.items():
@@ -426,21 +396,14 @@ def _shapes(
 def apply_change(state: HullState, change: TableChange, *, forward: bool) -> None:
     """Run a change forward or backward over the tables that it was taken from.
 
-    Parameters
-    ----------
-    state : HullState
-        The tables, as they were before the edit (forward), or after it.
-    change : Change
-        The change.
-    forward : bool
-        Make the edit, or take it back.
+    They are as before the edit (forward), or as after it.
 
     Raises
     ------
     ValueError, IndexError, AssocHullError
         The change is none of these tables, which may be spoilt then.
     """
-    if forward:
+    if forward:  # new rows must be there before they are written, and go last on the way back
         _resize(state, change, 1)
     alive = state.curves.alive.data.copy()
     columns = dict(_columns(state))
@@ -451,6 +414,7 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
             columns[name].data[row] = value
     if change.births:
         state.settings.births.data[0] = _counted(state, change.births, forward)
+    # the crossings know their curves now, as both of these need it
     _move(state, change.moved)
     put_crossing_positions(state, change.after if forward else change.before)
     revived = np.flatnonzero(state.curves.alive.data & ~alive)
@@ -490,16 +454,9 @@ def _move(state: HullState, moved: tuple[IntArray, NDArray[np.uint8]]) -> None:
 
 
 def shape_curves(state: HullState, curves: IntArray, kept: dict[int, SplineBatch]) -> None:
-    """Give curves their splines: lofted from their points, or as they were kept.
+    """Give curves (k,) their splines: lofted from their points, or as they were kept.
 
-    Parameters
-    ----------
-    state : HullState
-        The tables.
-    curves : (k,) int
-        The curves; dead ones are left as they are.
-    kept : dict of int to SplineBatch
-        The splines of curves that could not be made.
+    Dead curves are left as they are; `kept` are the splines of curves that could not be made.
     """
     chosen = state.curves.alive.data[curves] & (state.curves.state.data[curves] == State.CLEAN)
     made = curves[chosen]

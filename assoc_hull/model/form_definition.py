@@ -1,9 +1,9 @@
 """Definitions by form parameters: what they are used for, and the values they hold.
 
-A definition is a plain value that a hull holds in its tables, as a feature is. Each use
-(sectional areas, keel angle, profile, ...) stands at most once in a hull. A generated curve
-says which definitions and marks its points come from. The curves that follow from the values
-are made in `assoc_hull.model.forms`; nothing is computed here.
+A definition is a plain value that a hull holds in its tables, but no line: a curve of sectional
+areas does not lie in space. Sections, profile and deck edge read it where they stand. A
+*generated* curve is one whose points, except its ends, are computed from definitions; once a
+designer has edited it, it is *detached*. Nothing is computed here: see `assoc_hull.model.forms`.
 """
 
 from __future__ import annotations
@@ -31,15 +31,13 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What definitions are used for: each use stands once in a hull.
-#
-# A curve that is generated reads the values of these definitions where it stands, and nothing else;
-# that is what the graph of dependencies holds.
+# Uses. A generated curve reads these definitions where it stands, and nothing else: that is what
+# the graph of dependencies holds.
 
 
 @attrs.frozen
 class Use:
-    """What a definition may be used for.
+    """What a definition may be used for; each use stands at most once in a hull.
 
     Attributes
     ----------
@@ -106,13 +104,7 @@ half-breadth over the height: z is its abscissa."""
 
 
 # --------------------------------------------------------------------------------------
-# Definitions: curves of form parameters that generate points on the lines of a hull.
-#
-# A definition is an object of a hull, but no line: a curve of sectional areas does not lie in
-# space. It holds numbers by name; sections, profile and deck edge take from it what they need
-# where they stand (see `assoc_hull.model.form_definition`). A *generated* curve is one whose
-# points,
-# but for its ends, are computed from definitions; once a designer has edited it, it is *detached*.
+# Definitions and generated curves.
 
 FORM_KINDS = ("halves", "course")
 """Halves: a run, a parallel part and an entrance, in the frame of the ship. Course: nodes that are
@@ -249,7 +241,7 @@ class FormDefinition:
 
 @attrs.frozen
 class GeneratedCurve:
-    """A curve whose points, but for its ends, are computed from definitions.
+    """A curve whose points, except its ends, are computed from definitions.
 
     Attributes
     ----------
@@ -260,7 +252,7 @@ class GeneratedCurve:
     what : str
         What is generated: ``"section"``, ``"profile"``, ``"deck edge"``, ``"waterline"`` ...
     layout : str
-        Of which pieces it is made, as `assoc_hull.model.forms.line_layout` names it.
+        The pieces that it is made of, as `assoc_hull.model.forms.line_layout` names them.
     rows : tuple of int
         Row numbers of the generated points, in order along the curve.
     marks : tuple of Mark

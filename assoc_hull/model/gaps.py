@@ -24,7 +24,7 @@ def watched_on(state: HullState, curves: IntArray) -> IntArray:
     met = state.curves.meets.data
     rows = np.concatenate([met[curve].row for curve in curves.tolist()])
     table = state.rows
-    # A meeting without a crossing, -1, reads some row and is then left out.
+    # An intersection without a crossing, -1, reads some row and is then left out.
     watched = table.role.data.take(rows) == Role.WATCHED
     watched &= rows >= 0
     rows = np.sort(rows[watched])
@@ -74,7 +74,7 @@ def _length(vectors: FloatArray) -> FloatArray:
 def crossing_normals(first: FloatArray, second: FloatArray) -> FloatArray:
     """Give unit normals of the hull, (k, 3), from the unit tangents of two curves.
 
-    The sense is arbitrary; nil where the tangents are parallel.
+    The sense is arbitrary; zero where the tangents are parallel.
     """
     normal = np.empty((3, len(first)))
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):

@@ -1,9 +1,9 @@
 """Curves that come from definitions: which are attached, and where their points lie now.
 
-An attached curve takes its points from the definitions of the hull; a curve that was edited
-by hand is kept and no longer follows. The curves of form parameters are made once for a set
-of definitions and kept with the hull. The index and the update ask here; how points follow
-from a definition is the matter of `assoc_hull.model.forms`.
+An attached curve takes its points from the definitions of the hull; one that was edited by hand is
+detached and no longer follows. The curves of form parameters are made once for a set of definitions
+and kept with the hull. How points follow from a definition is the matter of
+`assoc_hull.model.forms`.
 """
 
 from __future__ import annotations
@@ -33,9 +33,6 @@ __all__ = [
     "points_given",
     "unmade_rows",
 ]
-
-# --------------------------------------------------------------------------------------
-# Which points come from definitions now: those of generated curves that are attached.
 
 _Known = tuple[list[object], Mapping[int, GeneratedCurve], IntArray, IntArray]
 
@@ -74,7 +71,10 @@ def unmade_rows(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]
 
 
 def _known(state: HullState) -> _Known:
-    """Look the table through; what was found last holds as long as its objects do."""
+    """Read the table of generated curves; what was found last holds as long as its objects do.
+
+    Gives these objects, attached curves by number, their points, and those of all.
+    """
     table = state.produced
     objects = [
         curve if alive else None
@@ -93,9 +93,7 @@ def _known(state: HullState) -> _Known:
 
 
 # --------------------------------------------------------------------------------------
-# What the definitions of a hull give now: the points of generated curves, their layouts.
-#
-# The curves of form parameters are made once for a set of definitions and kept with the hull.
+# What the definitions of a hull give now.
 
 
 def forms_of(state: HullState) -> Forms:
@@ -124,7 +122,7 @@ def line_offset(state: HullState, curve: int) -> float:
 
 
 def part_in_line(state: HullState, curve: int) -> int:
-    """Tell as which curve of its line one stands, from 0."""
+    """Give the number of a curve among the live ones of its line, from 0."""
     mine: Sequence[int] = state.lines.curves.data[state.line_of(curve)]
     live = [each for each in mine if state.curves.alive.data[each]]
     return live.index(curve)
@@ -142,19 +140,8 @@ def points_given(
 ) -> tuple[IntArray, FloatArray]:
     """Give the points of generated curves as the definitions have them, ends as they lie now.
 
-    Parameters
-    ----------
-    state : HullState
-        The tables; only read.
-    made : iterable of GeneratedCurve
-        The curves. What comes of one does not depend on the others.
-    forms : Forms or None
-        Those of the hull if None.
-
-    Returns
-    -------
-    (k,) int, (k, 3) float, m
-        Rows, curve by curve, and their places.
+    These are rows (k,), curve by curve, and places (k, 3), m; the tables are only read. What comes
+    of one curve does not depend on the others. `forms` are those of the hull if None.
 
     Raises
     ------
@@ -178,4 +165,5 @@ def points_given(
             what, f"among {keys}", "take the hull from where it was kept"
         ) from error
     rows = np.array([row for each in chosen for row in each.rows], np.int64)
+    # -0.0 becomes 0.0: places are compared and fingerprinted by their bits
     return rows, np.ascontiguousarray(np.concatenate([np.zeros((0, 3)), *found])) + 0.0

@@ -90,7 +90,7 @@ def points_on(state: HullState, curve: int) -> PointsOnCurve:
 
     Returns
     -------
-    OnCurve
+    PointsOnCurve
     """
     table = state.rows
     row = np.flatnonzero(table.alive.data & (table.curve.data == curve).any(axis=1))

@@ -1,7 +1,7 @@
-"""From a definition to a hull: loft everything, and find again which meeting is which.
+"""From a definition to a hull: loft everything, and find again which intersection is which.
 
 Used once when a net is made and when lines come or go. Afterwards each curve keeps its
-meetings with their signs and crossings, and the update only checks that they are as before.
+intersections with their signs and crossings, and the update only checks that they are as before.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def loft_all(state: HullState, journal: Journal) -> IntArray:
     Returns
     -------
     (k,) int
-        Crossings that have no meeting on a curve that they need one on.
+        Crossings that have no intersection on a curve that they need one on.
     """
     curves = state.live("curves")
     index = build_index(state)
@@ -63,14 +63,14 @@ def _riding_on(state: HullState, curves: IntArray) -> list[IntArray]:
 def attach_curves(
     state: HullState, curves: IntArray, journal: Journal, line: int | None = None
 ) -> IntArray:
-    """Say which crossing each meeting of the curves is, by sign and least distance.
+    """Match each intersection of the curves to its crossing, by sign and least distance.
 
-    With `line`, of their meetings with the plane of that line alone.
+    With `line`, only those with the plane of that line.
 
     Returns
     -------
     (k,) int
-        Crossings computed from or watched on these curves that found no meeting.
+        Crossings computed from or watched on these curves that found no intersection.
     """
     expected = _expected(state, curves, line)
     missing: list[int] = []

@@ -1,9 +1,10 @@
 """A hull as a graph for people and tools: objects and links, and who drives whom.
 
-`graph` has every group, line, curve, point and link as nodes and edges of networkx;
-`dependencies` has who drives whom now, by curves or by points. Definitions stand in both,
-with an edge to each curve that they generate. Keys are the names of the nodes. Nothing here
-is read by the update.
+An exported view in networkx, which the update never reads: `object_graph` has every group, line,
+curve, point and link, `dependencies` who drives whom now. Keys are the names of the nodes. The
+links (container, parent, friend, what a curve touches actually or latently) are those of Choi &
+Lee, "A Study on the Hull Form Design System on the Basis of the Associative Geometry Objects",
+J. SNAK 36(4), 1999.
 """
 
 from __future__ import annotations
@@ -31,12 +32,7 @@ __all__ = [
     "point_id",
 ]
 
-# --------------------------------------------------------------------------------------
-# Definitions in the graphs of a hull: what generates which curves.
-
 if TYPE_CHECKING:
-    import networkx
-
     Any_Graph = networkx.DiGraph[str] | networkx.MultiDiGraph[str]
 
 
@@ -55,14 +51,7 @@ def generated_by(state: HullState) -> Iterator[tuple[str, str, tuple[str, ...]]]
 def add_definitions(found: Any_Graph, state: HullState, points: bool = False) -> None:
     """Add the definitions of a hull, and an edge ``generates`` to each curve made of them.
 
-    Parameters
-    ----------
-    found : networkx.DiGraph or MultiDiGraph
-        The graph; curves, and points if these are asked for, are in it.
-    state : HullState
-        The tables.
-    points : bool
-        Whether the edges go to the points that are generated.
+    If `points`, the edges go to the points that are generated. Their ends must be in the graph.
     """
     for each in state.definitions:
         found.add_node(each.key, kind="definition", name=each.name)
@@ -72,11 +61,7 @@ def add_definitions(found: Any_Graph, state: HullState, points: bool = False) ->
 
 
 # --------------------------------------------------------------------------------------
-# A hull as a graph for people and tools: objects and links, and who drives whom.
-#
-# An exported view. Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
-# Associative Geometry Objects", J. SNAK 36(4), 1999, name the links: container, parent,
-# friend, and the objects a curve touches, actually or latently.
+# Objects and links.
 
 Reach = Mapping[int, frozenset[int]]
 
@@ -232,6 +217,10 @@ def _add_links(
         if taker in reach.get(giver, ()):
             way = _way(giver in reach.get(taker, ()))
             found.add_edge(keys[parent], here, kind="touch actual", way=way)
+
+
+# --------------------------------------------------------------------------------------
+# Who drives whom.
 
 
 def dependencies(state: HullState, points: bool = False) -> networkx.DiGraph[str]:

@@ -2,8 +2,8 @@
 
 Each is a handle: it holds no geometry, knows the tables of its hull and the number of its
 object, looks everything up when asked, and gives out frozen values. Two handles on one object
-are equal; a handle whose object has gone says so. `handle` gives the object of an address,
-`Points` all points of a hull by address.
+are equal; a handle whose object has gone says so. The two friend points of a crossing are
+handles on one row of the table of points, so they cannot disagree.
 
 Reference: Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
 Associative Geometry Objects", J. SNAK 36(4), 1999.
@@ -58,9 +58,6 @@ __all__ = [
     "handle",
     "numbers_of",
 ]
-
-# --------------------------------------------------------------------------------------
-# What all handles share: they hold no geometry, and know when their object has gone.
 
 
 @attrs.frozen(repr=False)
@@ -123,17 +120,10 @@ class Handle:
 
 
 # --------------------------------------------------------------------------------------
-# Handles on points and crossings.
-#
-# The two friend points of a crossing are two handles on one row of the table of points, so
-# they cannot disagree.
-#
-# Reference: Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
-# Associative Geometry Objects", J. SNAK 36(4), 1999.
+# Points and crossings.
 
 
 def _curve(tables: HullState, number: int) -> Curve:
-    """Give the handle on a curve; points and curves know one another."""
     return Curve.of(tables, number)
 
 
@@ -256,7 +246,7 @@ class Point(Handle):
 
 @attrs.frozen(repr=False)
 class Crossing(Handle):
-    """One meeting of two associated curves: one value that both read."""
+    """One intersection of two associated curves: one value that both read."""
 
     _table: ClassVar[str] = "rows"
 
@@ -325,10 +315,7 @@ class Crossing(Handle):
 
 
 # --------------------------------------------------------------------------------------
-# Handles on curves, and what a curve generates on others.
-#
-# Reference: Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
-# Associative Geometry Objects", J. SNAK 36(4), 1999.
+# Curves, and what a curve generates on others.
 
 
 @attrs.frozen
@@ -392,6 +379,7 @@ class Curve(Handle):
     def touch_objects(self) -> GeneratedPoints:
         """The points it has generated on other curves, and the curves it may come to meet."""
         group = self.tables.lines.group.data[self.tables.line_of(self.row)]
+        # a one-way association generates points on the lines of the other group only
         reach = set(generates_on(self.tables, int(group)).tolist())
         friends = [point.friend_point for point in self.points]
         actual = tuple(
@@ -441,7 +429,7 @@ class Curve(Handle):
         return self._shaped(curvature(self.spline, at=place), one)
 
     def _parameters(self, t: object) -> tuple[FloatArray, bool]:
-        """Take parameters as an array, and tell whether it was but one."""
+        """Take parameters as an array (k,), and tell whether a single number was given."""
         found = numbers(t, "t", f"on {self.name}")
         return np.atleast_1d(found), found.ndim == 0
 
@@ -476,7 +464,7 @@ class Curve(Handle):
 
 
 # --------------------------------------------------------------------------------------
-# Handles on lines and groups of lines.
+# Lines and groups of lines.
 
 
 @attrs.frozen(repr=False)
@@ -578,18 +566,19 @@ class Group(Handle):
         table = self.tables.lines
         live = self.tables.live("lines")
         mine = live[table.group.data[live] == self.row]
+        # space curves have no position and come last
         place = np.where(table.planar.data, table.offset.data, np.inf).tolist()
         order = sorted(mine.tolist(), key=lambda i: (place[i], table.key.data[i]))
         return NamedMapping("line", {table.name.data[i]: Line.of(self.tables, i) for i in order})
 
 
 # --------------------------------------------------------------------------------------
-# Features as a designer sees them: name, kind, numbers, and the points and lines as handles.
+# Features. Unlike the handles above, these do not follow their object through edits.
 
 
 @attrs.frozen(repr=False)
 class FeatureHandle:
-    """A feature as it was when it was asked for.
+    """A feature as it was when it was asked for: name, kind, numbers, its points and lines.
 
     Attributes
     ----------
@@ -675,14 +664,7 @@ def features_by_name(state: HullState) -> NamedMapping[FeatureHandle]:
 
 
 # --------------------------------------------------------------------------------------
-# Handles: points, curves, lines, groups and crossings as a designer sees them.
-#
-# A handle holds no geometry. It knows the tables of its hull and the number of its object,
-# looks everything up when asked, and gives out frozen values. Two handles on one object are
-# equal; a handle whose object has gone says so.
-#
-# Reference: Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
-# Associative Geometry Objects", J. SNAK 36(4), 1999.
+# From addresses to handles and back.
 
 
 def handle(state: HullState, text: str) -> Group | Line | Curve | Point:
@@ -749,10 +731,6 @@ def numbers_of(thing: Group | Line | Curve | Point | Crossing) -> ResolvedAddres
     return ResolvedAddress(
         int(state.lines.group.data[line]), line, curve, row, side if row >= 0 else -1
     )
-
-
-# --------------------------------------------------------------------------------------
-# The points of a hull as a mapping by address.
 
 
 class Points(Mapping[str, Point]):

@@ -47,18 +47,18 @@ class _Piece:
 
 @attrs.frozen(eq=False)
 class PartnerIntersections:
-    """Meetings of a batch of curves, sorted by curve, then as in `Meets`.
+    """Meetings of a batch of curves, sorted by curve, then as in `CurveIntersections`.
 
     Attributes
     ----------
     curve, line : (k,) int
         Place of the curve in the batch, and the line whose plane it meets.
     sign : (k,) int8
-        As in `Meets`.
+        As in `CurveIntersections`.
     segment : (k,) int
         Number of the segment along its curve.
     parameter, xyz : (k,), (k, 3), m
-        As in `Meets`; frozen.
+        As in `CurveIntersections`; frozen.
     bounds : list of int
         Where the meetings of each curve begin; the last entry is k.
     """
@@ -86,7 +86,7 @@ class LastIntersections:
         The objects it wrote; while the tables hold these, all the rest is true.
     batch : SplineBatch
         The splines as one batch.
-    found : Found
+    found : PartnerIntersections
         Their meetings.
     row : (k,) int
         The crossing at each meeting, -1 if none.
@@ -94,7 +94,7 @@ class LastIntersections:
         Meetings that have one; None if all have.
     part : (a,) int
         Where the table of points holds the place of each: twice the row, plus the side.
-    spot, at : Picked
+    spot, at : PickedRows
         What was written there: places and parameters.
     """
 
@@ -132,12 +132,12 @@ def cut_curves(
         The curves.
     splines : sequence of SplineBatch
         Their splines, singly.
-    known : Found or None
+    known : PartnerIntersections or None
         What was found for the same curves before.
 
     Returns
     -------
-    Found
+    PartnerIntersections
         With the arrays `line` and `sign` of `known`, the very objects, where these agree.
     """
     lines = state.curves.line.data[curves]

@@ -3,8 +3,8 @@
 Objects are handles on these rows. Coordinates of all points lie in one column; a crossing
 is one row of it, and the two friend points of the crossing are handles on that row. Side 0
 of a row is curve *a* (the line of lower rank, ties by key), side 1 is curve *b*; a placed
-or adopted point has a curve on side 0 only. Tables are written through a `Journal` only;
-a copy is written freely and leaves the hull as it is.
+or adopted point has a curve on side 0 only. Tables are written through a `Journal` only, see
+`assoc_hull.graph.journal`; a copy is written freely and leaves the hull as it is.
 """
 
 from __future__ import annotations
@@ -72,14 +72,7 @@ TABLES = ("groups", "lines", "curves", "rows", "featured", "formed", "produced",
 
 
 # --------------------------------------------------------------------------------------
-# All that a hull holds, as tables: points, curves, lines and groups.
-#
-# Objects are handles on these rows. Coordinates of all points lie in one column; a crossing
-# is one row of it, and the two friend points of the crossing are handles on that row. Side 0
-# of a row is curve *a* (the line of lower rank, ties by key), side 1 is curve *b*; a placed
-# or adopted point has a curve on side 0 only.
-#
-# Tables are written through a `Journal` only; see `assoc_hull.graph.journal`.
+# Values that the tables hold.
 
 DECKS = ("open", "closed")
 """What may lie between the deck edges to port and starboard: nothing, or a deck."""
@@ -176,7 +169,7 @@ class CurveIntersections:
         freeze(self.line, self.sign, self.row, self.parameter, self.xyz)
 
     def take(self, chosen: IntArray | np.typing.NDArray[np.bool_]) -> CurveIntersections:
-        """Give some of the meetings, by index or mask, in that order."""
+        """Give some of the intersections, by index or mask, in that order."""
         return CurveIntersections(
             self.line[chosen],
             self.sign[chosen],
@@ -187,9 +180,13 @@ class CurveIntersections:
 
     @classmethod
     def none(cls) -> CurveIntersections:
-        """Give no meetings."""
+        """Give no intersections."""
         whole = np.zeros(0, np.int64)
         return cls(whole, np.zeros(0, np.int8), whole.copy(), np.zeros(0), np.zeros((0, 3)))
+
+
+# --------------------------------------------------------------------------------------
+# The tables.
 
 
 def _no_rows() -> IntArray:
@@ -209,16 +206,25 @@ def curve_node(curve: IntArray) -> IntArray:
 
 
 def form_node(definition: IntArray) -> IntArray:
-    """Give the engine's node of a definition: even numbers below nil."""
+    """Give the engine's node of a definition: even numbers below zero."""
     return -2 - 2 * np.asarray(definition, np.int64)
 
 
 def form_of(node: IntArray) -> IntArray:
-    """Give the number of the definition that a node below nil stands for."""
+    """Give the number of the definition that a node below zero stands for."""
     return -1 - (np.asarray(node, np.int64) >> 1)
 
 
 def _rows() -> Table:
+    """Make the table of points; columns of two values have one per side of the row.
+
+    ``curve``: the curves that a point lies on; ``reader``: those that are made through it;
+    ``driver``: the one that it is computed from. ``xyz`` is its one value, ``spot`` and
+    ``parameter`` say where each curve passes it. ``contact``: a is a boundary or space curve, and
+    the line b is always made through the crossing. ``override``: the role by the designer's word.
+    ``gap`` and ``limit`` are of watched crossings. An adopted point rides from ``base`` with the
+    points ``anchor``, which lay at ``anchor_from`` then; the second one counts ``anchor_weight``.
+    """
     return Table(
         key=(object, ""),
         alive=(bool, ()),
@@ -248,6 +254,7 @@ def _rows() -> Table:
 
 
 def _curves() -> Table:
+    """Make the table of curves; ``rows`` and ``side`` are their defining points in order."""
     return Table(
         key=(object, ""),
         alive=(bool, ()),
@@ -319,7 +326,7 @@ class HullState:
         One row: the associations (`associations`) and how many crossings of each pair of
         lines were ever born (`births`), so that a dead id never comes back; the name may
         change, so the particulars lie here too.
-    revision_row, revision_curve : list of int
+    revision_row, revision_curve : dict of int to int
         Revisions; outside the journal, as they never run backward.
     kept : dict
         What higher layers made of the tables, which they check before they use it again. It lies
@@ -427,7 +434,7 @@ class HullState:
 
 
 # --------------------------------------------------------------------------------------
-# A copy of a hull's tables, which can be changed without the hull.
+# Copies.
 
 
 def copy_state(state: HullState) -> HullState:

@@ -68,7 +68,7 @@ class ValueSchema:
     Attributes
     ----------
     check : callable
-        Takes a value and raises `WrongError` if it does not fit.
+        Takes a value and raises `WrongValueError` if it does not fit.
     schema : dict
         The same as a JSON Schema.
     """

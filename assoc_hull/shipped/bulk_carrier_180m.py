@@ -1,13 +1,15 @@
-"""A bulk carrier of 180 m, created from form parameters: no line of it is drawn by hand.
+"""The bulk carrier of 180 m by form parameters, and the published parent it is held against.
 
-The definitions come first: sectional areas and waterline of one parent as printed, all else
-chosen. `bulk_carrier_180m_design` makes the design of them and `bulk_carrier_180m_net` the net
-with its stations, waterlines and buttocks.
+The parent is that of A. Versluis 1977, as Table 3 of S.Y. Kim, S.W. Kang, "Ship Lines Creation by
+B-Spline Form Parameter Method", Trans. SNAK 29(2), 1992, has it; areas in m2, moments in m3.
+Lines of the created ship are chosen by us.
 """
 
 from __future__ import annotations
 
 from typing import Any
+
+import numpy as np
 
 from assoc_hull.creation.design import Design
 from assoc_hull.creation.design_net import build_net
@@ -20,6 +22,12 @@ __all__ = [
     "CB",
     "LCB",
     "SHIP",
+    "VERSLUIS_AREAS",
+    "VERSLUIS_BREADTH",
+    "VERSLUIS_DRAUGHT",
+    "VERSLUIS_LENGTH",
+    "VERSLUIS_MOMENTS",
+    "VERSLUIS_X",
     "bulk_carrier_180m",
     "bulk_carrier_180m_definitions",
     "bulk_carrier_180m_design",
@@ -27,12 +35,67 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The definitions of the 180 m bulk carrier: one parent's areas, all else chosen.
+# Section areas and moments of a bulk carrier, as printed: what the created one is held against.
 #
-# The curve of sectional areas is given: rounded numbers fitted to the section areas of a bulk
-# carrier (A. Versluis 1977) that S.Y. Kim, S.W. Kang print in "Ship Lines Creation by B-Spline Form
-# Parameter Method", Trans. SNAK 29(2), 1992; see `assoc_hull.shipped.versluis_section_areas`. Its
-# entrance
+# The parent is that of A. Versluis 1977, as Table 3 of S.Y. Kim, S.W. Kang, "Ship Lines Creation by
+# B-Spline Form Parameter Method", Trans. SNAK 29(2), 1992, has it. Where the stations are is not
+# printed there: half ones at the ends give the block coefficient 0.75 and the centre of buoyancy
+# 2.90 m forward of midship that are.
+
+VERSLUIS_LENGTH, VERSLUIS_BREADTH, VERSLUIS_DRAUGHT = 180.0, 28.0, 10.5
+"""Main dimensions, m."""
+
+# station (0 = AP), area below the draught in m2, its moment about the base line in m3
+_TABLE = np.array([
+    ( 0.0,   6.08,   59.0),
+    ( 0.5,  16.25,  148.8),
+    ( 1.0,  41.96,  313.1),
+    ( 1.5,  69.92,  484.6),
+    ( 2.0, 100.96,  665.3),
+    ( 3.0, 164.84, 1013.1),
+    ( 4.0, 221.68, 1289.3),
+    ( 5.0, 262.87, 1460.1),
+    ( 6.0, 284.36, 1528.1),
+    ( 7.0, 291.30, 1541.6),
+    ( 8.0, 292.59, 1543.0),
+    ( 9.0, 292.58, 1542.9),
+    (10.0, 292.59, 1542.9),
+    (11.0, 292.59, 1543.0),
+    (12.0, 292.58, 1542.9),
+    (13.0, 292.63, 1543.0),
+    (14.0, 291.95, 1542.3),
+    (15.0, 285.60, 1528.7),
+    (16.0, 261.94, 1433.4),
+    (17.0, 215.92, 1215.1),
+    (18.0, 150.47,  873.3),
+    (18.5, 112.40,  663.9),
+    (19.0,  72.24,  438.5),
+    (19.5,  31.69,  205.9),
+    (20.0,   0.00,    0.0),
+])  # fmt: skip
+
+VERSLUIS_X = _TABLE[:, 0] * VERSLUIS_LENGTH / 20.0
+"""Places of the stations from AP, m; half stations at the ends."""
+
+VERSLUIS_AREAS, VERSLUIS_MOMENTS = _TABLE[:, 1], _TABLE[:, 2]
+"""Areas, m2, and their moments about the base line, m3, of both sides below the draught."""
+
+VERSLUIS_X.flags.writeable = VERSLUIS_AREAS.flags.writeable = VERSLUIS_MOMENTS.flags.writeable = (
+    False
+)
+
+
+# --------------------------------------------------------------------------------------
+# A bulk carrier of 180 m, created from form parameters: no line of it is drawn by hand.
+#
+# The definitions come first: sectional areas and waterline of one parent as printed, all else
+# chosen. `bulk_carrier_180m_design` makes the design of them and `bulk_carrier_180m_net` the net
+# with its stations, waterlines and buttocks.
+
+# --------------------------------------------------------------------------------------
+# The definitions: one parent's areas, all else chosen.
+#
+# The curve of sectional areas is given: rounded numbers fitted to the areas above. Its entrance
 # closes it to CB 0.75 and a centre of buoyancy 2.90 m forward of midship. The midship section, with
 # a bilge radius of 1.8125 m, has their area, 292.59 m2.
 #
@@ -222,9 +285,7 @@ def bulk_carrier_180m_definitions() -> list[FormDefinition]:
 
 
 # --------------------------------------------------------------------------------------
-# A bulk carrier of 180 m, created from form parameters: no line of it is drawn by hand.
-#
-# See `assoc_hull.shipped.bulk_carrier_180m` for the definitions and where they come from.
+# The ship of these definitions: no line of it is drawn by hand.
 
 _STATIONS = (
     -0.4, -0.3, -0.2, -0.1, 0.0, 0.25, 0.5, 0.8, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0,

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.newline.add_line import add_line
+from assoc_hull.edit.lines.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import EndKind, FloatArray, PointKind
 from assoc_hull.model.kinds import BoundaryKind

@@ -13,7 +13,7 @@ from importlib.resources import files
 from assoc_hull.arguments import number
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.newline.add_line import add_line
+from assoc_hull.edit.lines.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.offsets.complete_table import net_from_table

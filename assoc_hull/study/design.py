@@ -91,7 +91,7 @@ class StudyDesign:
         outputs: Sequence[str] = OUTPUTS,
         layout: Mapping[str, Any] | Layout | None = None,
     ) -> StudyDesign:
-        """Take what a designer gives; see `assoc_hull.studies.study`.
+        """Take what a designer gives; see `Hull.study`.
 
         Raises
         ------

@@ -1,7 +1,8 @@
 """The rows of a study: one variant each, made here or in processes side by side, and their table.
 
 A row has the values, the outputs, and the reason where there is no hull. Rows are the same to the
-last bit, whatever the number of processes.
+last bit, whatever the number of processes: each process prepares the hull for itself, from the
+same tables, and each variant begins at the parent.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ __all__ = [
 
 
 def failure_kind(error: AssocHullError) -> str:
-    """Give a word for what went wrong, by which failed variants are counted.
+    """Give the kind of a failure in a word or two, by which failed variants are counted.
 
     Examples
     --------
@@ -62,14 +63,11 @@ def failure_kind(error: AssocHullError) -> str:
     return next((word for kind, word in words if isinstance(error, kind)), "no hull")
 
 
-# --------------------------------------------------------------------------------------
-# The rows of a study: one variant each, here or in processes side by side.
-
 Tell = Callable[[str, int, int], None]
 """Takes what is being done, how many variants are done, and of how many."""
 
 _AHEAD = 4
-"""So many variants a process are handed out before their turn: enough to keep it at work."""
+"""Variants handed out ahead for each process: enough to keep it at work."""
 
 
 @attrs.frozen(eq=False)
@@ -89,7 +87,7 @@ class StudyRow:
     shift : float, m
         The largest movement of a point; nan without a hull.
     residual : float
-        The largest part of a target that is lacking; nan without a hull.
+        The largest residual of a target, in parts of the parent's value; nan without a hull.
     trials : int
         Hulls that were made for it; 0 without one.
     failure, reason : str
@@ -116,9 +114,9 @@ class StudyRun:
 
     Attributes
     ----------
-    design : Design
-    ground : Ground
-    model : Model or None
+    design : StudyDesign
+    ground : StudyParent
+    model : QuadraticModel or None
         Of the outputs that are aimed at, if there are any.
     """
 
@@ -148,7 +146,7 @@ class StudyRun:
 
 
 def make_row(run: StudyRun, number: int) -> StudyRow:
-    """Make one variant, and tell what became of it."""
+    """Make one variant, or give the row that says why there is none."""
     design = run.design
     try:
         found = search_variant(run.ground, run.model, design, number)
@@ -172,14 +170,14 @@ def run_study(
 
     Parameters
     ----------
-    run : Run
+    run : StudyRun
         The hull and the design.
     numbers : sequence of int
         Which variants.
     workers : int
         Processes; with one, all is done in this one. The rows are the same to the last bit.
     tell : callable or None
-        Is told how many are done.
+        Called with "variants", how many are done, and of how many.
 
     Returns
     -------
@@ -213,7 +211,7 @@ def _one_by_one(run: StudyRun, numbers: Sequence[int]) -> Generator[StudyRow]:
 
 
 def _side_by_side(run: StudyRun, numbers: Sequence[int], workers: int) -> Generator[StudyRow]:
-    """Hand variants out to processes, a few at a time, so that no more are held than are worked on.
+    """Hand variants out to processes, a few at a time: no more results wait than are worked on.
 
     Each process prepares the hull for itself, of the same tables: so it has the same bits.
     """
@@ -228,6 +226,7 @@ def _side_by_side(run: StudyRun, numbers: Sequence[int], workers: int) -> Genera
 
 
 def _handed_out(numbers: Sequence[int], workers: int, file: str) -> Generator[StudyRow]:
+    """Yield rows as they are made, in any order."""
     pool = ProcessPoolExecutor(workers, get_context("spawn"), _begin, (file,))
     waiting, running = iter(numbers), set[Future[StudyRow]]()
     try:
@@ -248,6 +247,7 @@ def _handed_out(numbers: Sequence[int], workers: int, file: str) -> Generator[St
 
 
 def _unguarded() -> BadInputError:
+    """Give the error for a process that ended, or began a study itself."""
     return BadInputError(
         "a process of the study began another study, or came to an end", "in study",
         "begin the program under if __name__ == '__main__':, or give workers=1",
@@ -259,7 +259,7 @@ _own: StudyRun | None = None
 
 
 def _begin(file: str) -> None:
-    """Prepare a process; an interrupt is for the one that began it."""
+    """Prepare a process; an interrupt is left to the process that began it."""
     global _own
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     state, design, model = pickle.loads(Path(file).read_bytes())
@@ -267,16 +267,13 @@ def _begin(file: str) -> None:
 
 
 def _row(number: int) -> StudyRow:
+    """Make one row in a process that `_begin` has prepared."""
     assert _own is not None
     return make_row(_own, number)
 
 
-# --------------------------------------------------------------------------------------
-# The rows of a study as columns.
-
-
 def study_columns(design: StudyDesign, rows: Sequence[StudyRow]) -> dict[str, NDArray[Any]]:
-    """Give arrays (n,) by name; see `assoc_hull.studies.Study.table`."""
+    """Give arrays (n,) by name; see `Study.table`."""
     number = np.array([row.number for row in rows], np.int64)
     values = np.array([row.values for row in rows]).reshape(len(rows), len(design.names))
     outputs = np.array([row.outputs for row in rows]).reshape(len(rows), len(design.outputs))

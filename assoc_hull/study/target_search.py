@@ -1,8 +1,9 @@
 """The values of free parameters at which a variant of a study has what is asked of it.
 
 A model of second order near the parent gives the least change that meets all targets; from there
-steps on the hull itself, with the slopes of the model, which each step corrects (Broyden 1965).
-Each trial begins at the parent, so the result does not depend on other variants.
+steps on the hull itself, with the slopes of the model, which each step corrects (C.G. Broyden, "A
+class of methods for solving nonlinear simultaneous equations", Math. Comp. 19, 1965). Each trial
+begins at the parent, so the result depends on nothing but what is asked.
 """
 
 from __future__ import annotations
@@ -27,9 +28,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Outputs of a hull near its parent, to second order: where a search begins, and its slopes.
+# The model, with mu = (values - present) / usual changes:
 #
-#     y(mu) = y0 + G mu + mu^T H mu / 2        mu = (values - present) / usual changes
+#     y(mu) = y0 + G mu + mu^T H mu / 2
 #
 # G and H come of central differences over a part of the usual changes, on hulls of the study. They
 # need not be exact: what a variant reaches is measured on itself.
@@ -49,7 +50,7 @@ class QuadraticModel:
     slope : (m, p)
     bend : (m, p, p)
     size : (m,)
-        By which what an output lacks is measured: its value for the parent, or 1 if that is nil.
+        Residuals are parts of it: the output's value for the parent, or 1 if that is zero.
     """
 
     value: FloatArray
@@ -66,7 +67,7 @@ class QuadraticModel:
 
         Parameters
         ----------
-        ground : Ground
+        ground : StudyParent
             The parent, with what is aimed at.
 
         Raises
@@ -118,13 +119,9 @@ class QuadraticModel:
         return found
 
 
-# --------------------------------------------------------------------------------------
-# Why a variant of a study is none.
-
-
 @attrs.define(slots=False, eq=False)
 class NotReachedError(AssocHullError, ValueError):
-    """Steps towards targets came to no end; the output that is farthest off is named."""
+    """Steps towards targets did not converge; the output that is farthest off is named."""
 
     names: Sequence[str]
     target: FloatArray
@@ -141,26 +138,21 @@ class NotReachedError(AssocHullError, ValueError):
 
 
 # --------------------------------------------------------------------------------------
-# The values of free parameters at which a variant has what is asked of it.
-#
-# On the model of second order the least change is sought at which all targets are met; from there
-# steps on the hull itself, with the slopes of the model, which each step corrects by what it found
-# (C.G. Broyden, "A class of methods for solving nonlinear simultaneous equations", Math. Comp. 19,
-# 1965). Each trial begins at the parent, so what comes out depends on nothing but what is asked.
+# The search: least change on the model, then steps on hulls.
 
 EXACT = 1e-10
-"""A target is met where what is lacking is no more than this part of the parent's value."""
+"""A target is met where its residual is no more than this part of the parent's value."""
 
 _TRIALS, _LAST = 12, 4
-"""Hulls that are tried by the parent's layout, and measured in full at last."""
+"""Most hulls tried: measured by the parent's layout, and then in full."""
 
 _ROUNDS = 60
 _STILL = 1e-13
 _SINGULAR = 1e-10
-"""A smaller part of the largest singular value than this is nil."""
+"""Singular values below this part of the largest count as zero."""
 
 _SLACK = 1e-9
-"""A bound is kept if it is passed by no more usual changes than this."""
+"""A bound holds if it is passed by no more than this part of a usual change."""
 
 
 @attrs.frozen(eq=False)
@@ -175,7 +167,7 @@ class SearchResult:
     outputs : (o,)
         What is measured of it.
     residual : float
-        The largest part of a target that is lacking; 0 without targets.
+        The largest residual, in parts of the parent's values; 0 without targets.
     trials : int
         Hulls that were made.
     """
@@ -235,11 +227,12 @@ class _Search:
         raise NotReachedError(self.design.aims, self.target, values, self.trials)
 
     def _made(self) -> Variant:
+        """Make the hull at `mu`, and count it."""
         self.trials += 1
         return self.ground.variant(self._parameters())
 
     def _learn(self, step: FloatArray, change: FloatArray) -> None:
-        """Correct the slopes by what a step has changed."""
+        """Correct the slopes by what a step has changed: Broyden's update of least change."""
         size = float((step * step).sum())
         if size > 0.0:
             self.slope = self.slope + np.outer(change - self.slope @ step, step) / size
@@ -260,11 +253,11 @@ def search_variant(
 
     Parameters
     ----------
-    ground : Ground
+    ground : StudyParent
         The parent.
-    model : Model or None
+    model : QuadraticModel or None
         Of the outputs that are aimed at; None where nothing is.
-    design : Design
+    design : StudyDesign
         What is asked for.
     number : int
         Which variant.
@@ -316,6 +309,7 @@ def _on_model(
         if not over.max(initial=0.0) > _SLACK:
             return mu, free
         worst = given + int(over.argmax())
+        # one more held would leave fewer parameters than targets
         if len(free) - 1 < len(target):
             values = (ground.present + mu * usual)[given:]
             _require_within(design, values, np.zeros(len(values)))
@@ -325,6 +319,7 @@ def _on_model(
 def _settle_model(
     model: QuadraticModel, mu: FloatArray, free: IntArray, target: FloatArray
 ) -> FloatArray:
+    """Step on the model until the least change settles, (p,)."""
     for _ in range(_ROUNDS):
         slope = model.jacobian(mu)[:, free]
         lacking = target - model.at(mu) + slope @ mu[free]
@@ -337,13 +332,13 @@ def _settle_model(
 
 
 def _least(slope: FloatArray, lacking: FloatArray, size: FloatArray) -> FloatArray:
-    """Give the least change that makes up for what is lacking."""
+    """Give the least change of what is free, (f,), that removes the residuals, (m,)."""
     least = np.linalg.lstsq(slope / size[:, None], lacking / size, rcond=_SINGULAR)[0]
     return np.asarray(least, np.float64)
 
 
 def _require_within(design: StudyDesign, values: FloatArray, slack: FloatArray) -> None:
-    """See that free parameters keep to their bounds."""
+    """Refuse free parameters that leave their bounds."""
     over = np.maximum(design.bounds[:, 0] - values, values - design.bounds[:, 1]) - slack
     if over.max(initial=0.0) > 0.0:
         worst = int(over.argmax())

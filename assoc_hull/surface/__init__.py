@@ -1,7 +1,7 @@
-"""Surfaces of the shell: regions of Gaussian curvature, plates, how they are formed.
+"""Surfaces of a hull: from the net to cells, fitted blocks, regions of curvature and plates.
 
-From the bottom up: `zero_band` (what counts as no curvature), `region_options`, `region_areas`,
-`region_component` and `region_result` (what is found), `solving` (one batch of patches),
-`region_parts` and `previous` (what is kept, and taken from an earlier result), `region_notes`,
-`curvature_regions` (the face of all these); plates rest on them.
+`cells` divides the net into faces and closes the mesh; `blocks` fits spline surfaces to its lines;
+`regions` finds where the Gaussian curvature of surfaces has which sign; `plating` cuts surfaces and
+hulls into shell plates and says how each may be formed. What the package offers to users is filled
+in by `assoc_hull`.
 """

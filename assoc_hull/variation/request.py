@@ -1,8 +1,9 @@
 """What a variation is asked for, checked and frozen; also as data, and as a script file of it.
 
 A request holds set values, targets with what is free to reach them, raw layers, and how lines are
-to be carried. The same parent and the same request give the same hull to the last bit, in whichever
-form and process. The keys of a script are the arguments of `hull.vary`.
+to be carried. The same parent and the same request give the same hull to the last bit, in
+whichever form and process. The keys of a script are the arguments of `hull.vary`; lengths are in
+m.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What a variation is to reach besides what is set, and what is free for it; checked and frozen.
+# Targets, and what is free for them:
 #
 # {"reach": {"volume": 10500.0, "lcb": 61.9},
 #  "free": ["breadth", "fore_shift", {"name": "fuller", "fields": [{"hat": {...}}]}],
@@ -75,7 +76,7 @@ class TargetRequest:
     bounds : mapping of str to (float, float)
         Least and greatest values by the name of what is free: m, deg, or factors on layers.
     exact : bool
-        Whether all targets must be met.
+        Whether all targets must be reached; else they are reached as nearly as can be.
     given : tuple or None
         What is free as it was given, if it was given as data.
     """
@@ -123,7 +124,7 @@ class TargetRequest:
         return tuple(_name(each) for each in self.free)
 
     def limits(self, present: Sequence[float]) -> FloatArray:
-        """Give bounds of amplitudes, (k, 2): of values less the present ones."""
+        """Give bounds of amplitudes, (k, 2), m or deg: of values less the present ones (k,)."""
         none = -math.inf, math.inf
         pairs = [self.bounds.get(name, none) for name in self.names]
         return np.asarray(np.array(pairs) - np.array(present)[:, None])
@@ -139,7 +140,7 @@ class TargetRequest:
 
 
 def is_layer(given: object) -> bool:
-    """Tell a layer from the data of one."""
+    """Tell whether something is a layer, and not the data of one."""
     parts = ("name", "displacement", "jacobian", "regions")
     return not isinstance(given, type) and all(hasattr(given, part) for part in parts)
 
@@ -158,7 +159,7 @@ def _numbers(given: object) -> dict[str, float]:
 
 
 def _target(given: object, name: str) -> float:
-    """Take a finite number: a moment of inertia may be larger than any length."""
+    """Take a finite number, of any size: a moment of inertia may be larger than any length."""
     found = _real(given)
     if not math.isfinite(found):
         raise BadInputError(f"{name} is {shown(given)}", _WHERE, "give a finite number")
@@ -261,21 +262,21 @@ def _pair(given: object, name: str) -> tuple[float, float]:
 
 
 def _open(pair: tuple[float, float]) -> list[float | None]:
+    """Give bounds as JSON has them: null for an end that is open."""
     return [each if math.isfinite(each) else None for each in pair]
 
 
 # --------------------------------------------------------------------------------------
-# What a variation is asked for, checked and frozen; also as data, for a script file.
+# The whole request:
 #
 # {"version": 1, "set": {"shaft_height": 6.0, "bossing_radius": 1.0},
 #  "layout": {"stern": 0.3}, "drivers": ["sections", "buttocks"], "stations": "number",
 #  "planes": "follow", "layers": [[{"hat": {...}}]], "tolerance": 0.002, "name": "larger screw"}
 #
-# No key must be there but ``set``, ``reach`` or ``layers``; ``version`` is that of this form. What
-# belongs to ``reach`` stands in `assoc_hull.variation.request`.
+# No key must be there but ``set``, ``reach`` or ``layers``; ``version`` is that of this form.
 
 TOLERANCE = 2e-3
-"""How far drivers may leave their exact images, m, unless it is said."""
+"""How far drivers may leave their exact images, m, unless the request says so."""
 
 Stations = Literal["number", "x"]
 Planes = Literal["follow", "stay"]
@@ -288,7 +289,7 @@ _KEYS = ("version", "set", "reach", "free", "bounds", "exact", "layers", "layout
 _SPOKEN = {each.short: each.name for each in CATALOGUE.values()} | {
     "pmb_start": "parallel_body_start", "pmb_end": "parallel_body_end", "LPP": "length",
 }  # fmt: skip
-"""What parameters are called in formulas."""
+"""What parameters are called in formulas, to suggest the full name in an error."""
 
 
 @attrs.frozen(eq=False)
@@ -315,7 +316,7 @@ class VariationRequest:
         Of the step in the history.
     given : tuple or None
         The layers as they were given, if they were given as data.
-    reach : AskReach or None
+    reach : TargetRequest or None
         What outputs are to be reached, and what is free for it.
     """
 
@@ -448,11 +449,12 @@ def _layers(given: object) -> tuple[Layer, ...]:
 
 
 def _layout(given: Mapping[str, Any] | Layout | None) -> Layout:
-    """Take reaches by name, or a layout, whose reaches are looked at as well."""
+    """Take reaches by name, or a layout; its reaches are checked as well."""
     return Layout.of(attrs.asdict(given) if isinstance(given, Layout) else given)
 
 
 def _drivers(given: object) -> tuple[Group | Line | str, ...] | None:
+    """Take drivers as a tuple; None lets the map choose them."""
     if given is None:
         return None
     if isinstance(given, str) or not isinstance(given, Sequence):
@@ -463,26 +465,20 @@ def _drivers(given: object) -> tuple[Group | Line | str, ...] | None:
 
 
 def _refuse_both(values: Mapping[str, float], reach: TargetRequest | None) -> None:
-    """Refuse parameters that are set and free."""
+    """Refuse parameters that are both set and free."""
     for name in () if reach is None else reach.names:
         if name in values:
             raise BadInputError(f"'{name}' is set and free", "in vary", "leave it out of one")
 
 
 def _title(values: Mapping[str, float], reach: TargetRequest | None) -> str:
+    """Give the name of the step in the history, from what is asked for."""
     words = ", ".join(f"{name}={value:g}" for name, value in values.items())
     found = f"vary {words}" if words else "vary by fields"
     if reach is None:
         return found
     goal = ", ".join(f"{name}={value:g}" for name, value in reach.targets.items())
     return f"{found} to reach {goal}" if words else f"vary to reach {goal}"
-
-
-# --------------------------------------------------------------------------------------
-# Variations as scripts: what was asked as data, and JSON files of it.
-#
-# The same parent and the same script give the same hull to the last bit, in whichever form and
-# process. A program in Python that calls ``assoc_hull.vary`` is a script of the other form.
 
 
 def read_script(path: str | PathLike[str]) -> dict[str, Any]:
@@ -536,10 +532,10 @@ def script_of(ask: VariationRequest) -> Mapping[str, Any] | None:
     if ask.given:
         found["layers"] = list(ask.given)
     if ask.drivers is not None:
-        found["drivers"] = [_script_name(each) for each in ask.drivers]
+        found["drivers"] = [_driver_name(each) for each in ask.drivers]
     found.update(stations=ask.stations, planes=ask.planes, tolerance=ask.tolerance, name=ask.name)
     return MappingProxyType(found)
 
 
-def _script_name(driver: Group | Line | str) -> str:
+def _driver_name(driver: Group | Line | str) -> str:
     return driver if isinstance(driver, str) else driver.name

@@ -1,7 +1,8 @@
-"""What of a hull changes with what: derivatives of outputs by parameters, as a table.
+"""Derivatives of outputs of a hull by parameters, as a table.
 
 `HullMoves` finds how a hull moves with a named parameter, a layer, a point or its floating
-position. `sensitivities` differentiates outputs by them; `Sensitivities` is the table.
+position. `sensitivities` differentiates outputs by them; `Sensitivities` is the table. Derivatives
+are in the unit of the output per unit of the parameter (m or degrees; 1 for a layer).
 """
 
 from __future__ import annotations
@@ -46,14 +47,11 @@ __all__ = [
     "sensitivities",
 ]
 
-# --------------------------------------------------------------------------------------
-# A table of derivatives of outputs by parameters.
-
-_WHERE = "in a table of sensitivities"
+_TABLE_WHERE = "in a table of sensitivities"
 _DIGITS = 6
 
 
-def _held(given: Mapping[str, str]) -> Mapping[str, str]:
+def _read_only(given: Mapping[str, str]) -> Mapping[str, str]:
     return MappingProxyType(dict(given))
 
 
@@ -90,7 +88,7 @@ class Sensitivities:
     matrix: FloatArray
     usual: FloatArray
     exact: NDArray[np.bool_]
-    absent: Mapping[str, str] = attrs.field(factory=dict, converter=_held)
+    absent: Mapping[str, str] = attrs.field(factory=dict, converter=_read_only)
 
     def __attrs_post_init__(self) -> None:
         freeze(self.values, self.matrix, self.usual, self.exact)
@@ -119,7 +117,7 @@ class Sensitivities:
 
     @property
     def percent(self) -> FloatArray:
-        """The same in percent of the present values, (m, k); nan for a value of nil."""
+        """The same changes in percent of the present values, (m, k); nan where a value is 0."""
         size = np.where(self.values == 0.0, np.nan, np.abs(self.values))
         found: FloatArray = 100.0 * self.per_usual / size[:, None]
         return found
@@ -138,7 +136,7 @@ class Sensitivities:
         BadInputError
             Another scale.
         """
-        shown_as = choice(scale, "scale", ("unit", "usual", "percent"), _WHERE)
+        shown_as = choice(scale, "scale", ("unit", "usual", "percent"), _TABLE_WHERE)
         numbers = {"unit": self.matrix, "usual": self.per_usual, "percent": self.percent}[shown_as]
         marks = ["" if sure else " ~" for sure in self.exact.tolist()]
         head = ["", "per", *(f"{n}{mark}" for n, mark in zip(self.outputs, marks, strict=True))]
@@ -182,17 +180,19 @@ class Sensitivities:
 
 
 def _place(kind: str, name: str, known: Sequence[str]) -> int:
+    """Give the number of a name among known ones."""
     if name not in known:
         raise UnknownNameError(kind, str(name), tuple(known))
     return known.index(name)
 
 
 def _words(number: float) -> str:
+    """Give a number with six digits; a dash for nan."""
     return "-" if np.isnan(number) else f"{number:.{_DIGITS}g}"
 
 
 def _aligned(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Set columns, the first to the left and all others to the right."""
+    """Align columns, the first to the left and all others to the right."""
     wide = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     lines = []
     for first, *others in rows:
@@ -201,10 +201,7 @@ def _aligned(rows: Sequence[Sequence[str]]) -> list[str]:
     return lines
 
 
-# --------------------------------------------------------------------------------------
-# How a hull moves with parameters that it is asked about by name, or otherwise.
-
-_HULL_MOVES_WHERE = "in sensitivities"
+_WHERE = "in sensitivities"
 
 _POSITIONS = {"mean_draught": DRAUGHT, "trim": TRIM}
 """Words for parameters of the floating position."""
@@ -252,7 +249,7 @@ class HullMoves:
             try:
                 found.append(self._named(name))
             except (BadInputError, OutOfRangeError, FoldError) as error:
-                # What cannot be varied stands before the reason.
+                # before the colon stands what cannot be varied, which the table names already
                 words = getattr(error, "what", str(error))
                 absent[name] = words.partition(": ")[2] or words
         return found, absent
@@ -266,14 +263,12 @@ class HullMoves:
             What is no parameter, or none of this hull, or stands twice.
         """
         if isinstance(given, str | bytes) or not isinstance(given, Iterable):
-            raise WrongTypeError(
-                f"parameters is {shown(given)}", _HULL_MOVES_WHERE, "give a list of them"
-            )
+            raise WrongTypeError(f"parameters is {shown(given)}", _WHERE, "give a list of them")
         found = [self._one(each) for each in given]
         names = [each.name for each in found]
         for name in names:
             if names.count(name) > 1:
-                raise BadInputError(f"{name!r} stands twice", _HULL_MOVES_WHERE, "ask for it once")
+                raise BadInputError(f"{name!r} stands twice", _WHERE, "ask for it once")
         return found
 
     def _one(self, given: object) -> MovingParameter:
@@ -288,20 +283,20 @@ class HullMoves:
         if isinstance(given, Layer):
             return self._moving(Freedom.raw(given))
         what = f"an item of parameters is {shown(given)}"
-        raise WrongTypeError(what, _HULL_MOVES_WHERE, "give a name, a layer or a Parameter")
+        raise WrongTypeError(what, _WHERE, "give a name, a layer or a Parameter")
 
     def _named(self, name: str) -> MovingParameter:
         room, absent = self._room()
         if name not in room.present:
             raise BadInputError(
-                f"cannot vary {name!r}: {absent.get(name, 'it has no value')}", _HULL_MOVES_WHERE,
+                f"cannot vary {name!r}: {absent.get(name, 'it has no value')}", _WHERE,
                 "leave it out",
             )  # fmt: skip
         length = self.state.particulars.length
         return self._moving(Freedom.named(name, room.present[name], length))
 
     def _moving(self, free: Freedom) -> MovingParameter:
-        """Find how the hull moves with what is free, alone."""
+        """Find how the hull moves with one freedom, all others at rest."""
         maps = HullMaps(self._room()[0], VariationRequest({}, layout=self.layout), {}, (free,))
         (moves,) = HullProblem(maps, Outputs((), ())).at(np.zeros(1)).moves()
         return MovingParameter(free.name, moves, free.usual)
@@ -318,10 +313,7 @@ class HullMoves:
         return self._kept[0]
 
 
-# --------------------------------------------------------------------------------------
-# What of a hull changes with what: a table of derivatives of outputs by parameters.
-
-_SENSITIVITIES_WHERE = "in sensitivities"
+_CALL_WHERE = "in sensitivities"
 
 USUAL_OUTPUTS = ("volume", "lcb", "kb", "kmt", "cb", "cp", "cm", "cw", "wetted_surface")
 """What is differentiated if nothing is named."""
@@ -337,53 +329,9 @@ def sensitivities(
 ) -> Sensitivities:
     """Differentiate outputs of a hull by parameters of its shape and position.
 
-    The hull floats upright at its design draught, the new one where a parameter changes that.
-
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    outputs : iterable of m str or None
-        Fields of the record of hydrostatics ("volume", "lcb"), symbols of form parameters
-        ("Cpa"), section areas ("A ST 5", "A x=42.5"); None: `USUAL_OUTPUTS`.
-    parameters : iterable of k or None
-        Each the name of a parameter that `vary` knows ("breadth", m or degrees),
-        "mean_draught" or "trim" (m), a raw layer (by its strength), or one of
-        `assoc_hull.analysis.derivatives.parameters` such as a `PointMove`; None: all that `vary`
-        knows and this hull has.
-    kg : float or None, m
-        Centre of gravity above the base line, for metacentric heights.
-    layout : mapping or Layout or None
-        How far the fields of named parameters reach, as for `vary`.
-
-    Returns
-    -------
-    Sensitivities
-        The table. A named parameter changes alone, as in `vary` with it alone: lines, dimensions
-        and features go along, other parameters may change with it.
-
-    Raises
-    ------
-    UnknownNameError
-        No such output or parameter, with the nearest names.
-    BadInputError
-        The hull lacks one; a name that stands twice; a hull that is doubtful.
-    WrongTypeError, OutOfRangeError
-        What is no parameter; a hull that does not float at its design draught.
-
-    Examples
-    --------
-    >>> from assoc_hull.sources import examples
-    >>> from assoc_hull.variation.sensitivities import sensitivities
-    >>> found = sensitivities(examples.wigley(), ["volume", "cb"], ["breadth", "mean_draught"])
-    >>> print(found)
-                  per   volume           cb
-                            m3            -
-    now                2777.45     0.444392
-    breadth         m  277.747  2.97793e-07
-    mean_draught    m  666.625    0.0355574
+    The arguments and what is raised are those of `Hull.sensitivities`.
     """
-    state = state_of(hull, _SENSITIVITIES_WHERE)
+    state = state_of(hull, _CALL_WHERE)
     wanted = Outputs.of(state, USUAL_OUTPUTS if outputs is None else outputs, kg=kg)
     reach = attrs.asdict(layout) if isinstance(layout, Layout) else layout
     known = HullMoves(state, Layout.of(reach))

@@ -1,8 +1,9 @@
 """A variation carried out: lay out, certify, apply, measure, and correct until all is met.
 
-The first part says in words what a designer should know beside the asked values: folds beyond
-the hull, planes that went along, values that changed as well. `vary_document` varies the hull in
-one step, once the map is found beside the published hull whose measured values are the asked ones.
+The map is found beside the published hull: what is missing of the asked values, as measured on a
+lofted trial, is added to what is asked of the map. Then `vary_document` varies the hull in one
+step. The notes of its report say what a designer should know besides: folds beyond the hull,
+planes that went along, values that changed as well.
 """
 
 from __future__ import annotations
@@ -49,14 +50,14 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What a designer should know of a variation beside what was asked for.
+# Notes of the report: what a designer should know besides.
 
 _SEEN = 1e-3
-"""A named value that changes by less (m, degrees) is not told."""
+"""A named value that changes by less (m, degrees) is not reported."""
 
 
 def folds_outside(vmap: VariationMap, state: HullState, tolerance: float) -> tuple[str, ...]:
-    """Tell where a map folds beyond the hull."""
+    """Give a note where a map folds beyond the hull; none where it does not."""
     beyond = fold_outside(vmap, hull_box(state, tolerance))
     if beyond is None:
         return ()
@@ -65,7 +66,7 @@ def folds_outside(vmap: VariationMap, state: HullState, tolerance: float) -> tup
 
 
 def went_along(before: FloatArray, state: HullState) -> tuple[str, ...]:
-    """Tell of waterlines and buttocks that went with the map: names may say where they were.
+    """Give a note on waterlines and buttocks that went with the map, as names may say a height.
 
     Parameters
     ----------
@@ -91,7 +92,7 @@ def went_along(before: FloatArray, state: HullState) -> tuple[str, ...]:
 def also_changed(
     before: Mapping[str, float], after: Mapping[str, float], asked: Mapping[str, float]
 ) -> tuple[str, ...]:
-    """Tell of named values that changed though nobody asked: a field moves all that it reaches.
+    """Give a note on values that changed unasked: a field moves all that it reaches.
 
     Examples
     --------
@@ -112,7 +113,7 @@ def also_changed(
 def shifted_without_body(
     parent: Parent, asked: Iterable[str] = ("fore_shift", "aft_shift")
 ) -> tuple[str, ...]:
-    """Tell what stands for the parallel body where sections shift and there is none.
+    """Give a note on what stands for the parallel body where sections shift and there is none.
 
     Parameters
     ----------
@@ -130,11 +131,7 @@ def shifted_without_body(
 
 
 # --------------------------------------------------------------------------------------
-# A variation carried out: lay out, certify, apply, measure, and correct until all is met.
-#
-# A map moves the measured places exactly; the lines that are lofted again through its images do so
-# within a tolerance. What is missing is added to what is asked, beside the published hull, until
-# the measured values are the asked ones; then the hull is varied, in one step.
+# The variation and its report.
 
 
 @attrs.frozen
@@ -168,7 +165,7 @@ class VariationReport:
     targets : tuple of Target
     rounds : int
         How often the map was laid out until all targets were met.
-    regions : tuple of Region
+    regions : tuple of FieldRegion
         Boxes of the profile plane outside which no map moves anything.
     drivers : tuple of str
         Lines that were carried as they are; all others were cut again.
@@ -181,9 +178,9 @@ class VariationReport:
     notes : tuple of str
         What else there is to know.
     script : mapping or None
-        What was asked for as data: with it, `assoc_hull.variants.vary_by` repeats the variation.
+        What was asked for as data: with it, `Hull.vary_by` repeats the variation.
         None where layers were given that are not data.
-    aim : Aimed or None
+    aim : AimReport or None
         How targets of outputs were reached; None where none were given.
     """
 
@@ -213,7 +210,7 @@ def vary_document(
     ----------
     document : Document
         The hull.
-    ask : Ask
+    ask : VariationRequest
         What is asked for.
 
     Raises

@@ -186,7 +186,7 @@ def run(
         try:
             with hull.edit(kind) as edit:
                 act(edit, row)
-        except ah.RefusedEditError as error:
+        except ah.errors.RefusedEditError as error:
             refused.append(f"{hull.state.rows.key.data[row]}: {error}")
             continue
         report = edit.report

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.variants import Variation
+from assoc_hull.variation import Variation
 from tests.independent import trouble
 
 ASKED = {"shaft_height": 6.0, "bossing_radius": 1.0}
@@ -19,7 +19,7 @@ ASKED = {"shaft_height": 6.0, "bossing_radius": 1.0}
 @pytest.fixture(scope="module")
 def story(bulk_carrier: ah.Hull) -> Variation:
     """The varied carrier, with its report."""
-    return ah.vary(bulk_carrier, set=ASKED)
+    return bulk_carrier.vary(set=ASKED)
 
 
 def test_the_bossing_circle_has_its_new_radius_and_centre(story: Variation) -> None:
@@ -37,7 +37,9 @@ def test_the_bossing_stays_the_cylinder_it_was(story: Variation) -> None:
     """Both stations on it have the same circle; each is a feature still."""
     for name in ("ST 0.45 circle", "ST 0.5 circle"):
         found = story.hull.features[name].parameters
-        assert found["centre"][1:] == pytest.approx((0.0, 6.0), abs=1e-12)  # type: ignore[index]
+        centre = found["centre"]
+        assert isinstance(centre, tuple)
+        assert centre[1:] == pytest.approx((0.0, 6.0), abs=1e-12)
         assert found["radius"] == pytest.approx(1.0, abs=1e-12)
 
 
@@ -127,7 +129,7 @@ def test_lines_cut_anew_keep_their_points_forward_of_the_stern(
 
 def test_the_comparison_tells_what_came_of_it(bulk_carrier: ah.Hull, story: Variation) -> None:
     """Circles by their parameters, the shaft by its own, lines where they moved and no others."""
-    found = ah.compare(bulk_carrier, story.hull)
+    found = bulk_carrier.compare(story.hull)
     changed = {each.name: each for each in found.features if each.what != "same"}
     assert {"bossing end", "ST 0.45 circle", "ST 0.5 circle"} <= set(changed)
     end = changed["bossing end"]
@@ -142,7 +144,7 @@ def test_the_comparison_tells_what_came_of_it(bulk_carrier: ah.Hull, story: Vari
 
 def test_the_bossing_alone_becomes_as_wide(bulk_carrier: ah.Hull) -> None:
     """Two waterlines and a buttock are tangent to it then; the hull is sound, all are met."""
-    alone = ah.vary(bulk_carrier, set={"bossing_radius": 1.0})
+    alone = bulk_carrier.vary(set={"bossing_radius": 1.0})
     assert alone.report.targets[0].reached == pytest.approx(1.0, abs=1e-6)
     assert (alone.hull.check(), alone.hull.verify()) == ((), ())
     assert alone.hull.points["BTK 1 x bossing end"].position.tolist() == [6.0, 1.0, 5.0]

@@ -105,8 +105,8 @@ def test_a_depth_moves_no_point_of_a_net_below_the_draught(
     Crossings that are computed from a line which goes on above T are computed anew.
     """
     parent: Hull = request.getfixturevalue(hull)
-    asked = 0.96 * ah.measure(parent, only=["depth"])["depth"]
-    varied = ah.vary(parent, set={"depth": asked}).hull
+    asked = 0.96 * parent.measure(only=["depth"])["depth"]
+    varied = parent.vary(set={"depth": asked}).hull
     before, after = parent.state, varied.state
     row_of = {str(after.rows.key.data[row]): row for row in after.live("rows").tolist()}
     rows = before.live("rows")
@@ -116,4 +116,4 @@ def test_a_depth_moves_no_point_of_a_net_below_the_draught(
     there = [row_of[str(before.rows.key.data[row])] for row in low]
     assert len(low) > 100
     assert np.array_equal(before.rows.xyz.data[low], after.rows.xyz.data[there])
-    assert ah.measure(varied, only=["depth"])["depth"] == pytest.approx(asked, abs=1e-6)
+    assert varied.measure(only=["depth"])["depth"] == pytest.approx(asked, abs=1e-6)

@@ -68,7 +68,7 @@ def round_box(radius: float = BILGE) -> ah.Hull:
 @pytest.fixture(scope="module")
 def found() -> Mapping[str, FormValue]:
     """Form parameters with a screw that stands in the box, which only numbers mind."""
-    return ah.form_parameters(round_box(), screw=ah.Screw(height=3.0, diameter=2.0, x=1.0))
+    return round_box().form_parameters(screw=ah.form.Screw(height=3.0, diameter=2.0, x=1.0))
 
 
 @pytest.mark.parametrize(
@@ -107,6 +107,6 @@ def test_the_bilge_radius_is_found_both_ways(found: Mapping[str, FormValue]) -> 
 def test_straight_sides_have_no_radius(found: Mapping[str, FormValue]) -> None:
     """Raft: T/2 and 3T/4 are on the side, T/4 in the bilge: a circle; with a small bilge none."""
     assert found["Raft"].number is not None
-    small = ah.form_parameters(round_box(1.0), only=["Raft", "BR"])
+    small = round_box(1.0).form_parameters(only=["Raft", "BR"])
     assert small["Raft"].reason == "the section is straight there"
     assert small["BR"].number == pytest.approx(1.0, abs=1e-5)

@@ -276,7 +276,7 @@ def test_a_profile_that_leaves_a_piece_without_ends_is_refused(path: Path) -> No
     with hull.edit("cut") as edit:
         edit.add_line("waterlines", 5.97, "moved")
     before = hull.fingerprint
-    with pytest.raises(ah.RefusedEditError, match=r"moved \[2\] has no end any more"):
+    with pytest.raises(ah.errors.RefusedEditError, match=r"moved \[2\] has no end any more"):
         raise_bulb(hull, -0.08)
     assert hull.fingerprint == before
 

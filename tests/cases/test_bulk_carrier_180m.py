@@ -115,7 +115,7 @@ def test_section_moments_are_near_those_of_versluis(sums: FloatArray) -> None:
 
 def test_the_net_floats_as_the_closure_says(ship: ah.Hull, curves: dict[float, FloatArray]) -> None:
     """CB within 0.05 per cent and LCB within 0.02 m, abaft AP left out; KB within 0.5 per cent."""
-    found = ah.hydrostatics(ship, draught=DRAUGHT)
+    found = ship.hydrostatics(draught=DRAUGHT)
     x = np.array([-4.5, *(each for each in curves if -4.5 < each <= 0.0)])
     area = np.array([0.0, *(_below(curves[each])[0] for each in x[1:].tolist())])
     tail, lever = np.trapezoid(area, x), np.trapezoid(area * x, x)

@@ -21,7 +21,7 @@ Case = tuple[ah.Hull, ClosedMesh, tuple[str, ...], float]
 def ship(request: pytest.FixtureRequest) -> Case:
     """A hull, its mesh with 4 points to an edge, what closes it, and how good its volume is."""
     hull = request.getfixturevalue(request.param)
-    return hull, ah.closed_mesh(hull), *SHIPS[request.param]
+    return hull, hull.mesh(), *SHIPS[request.param]
 
 
 def test_trimesh_finds_it_closed(ship: Case) -> None:
@@ -44,7 +44,7 @@ def test_volume_and_centre_are_those_of_the_splines(
     """Below the design draught 0.025 % and 0.001 % of Lpp, where 0.15 % and 0.01 % are asked."""
     hull, mesh, _, near = ship
     draught, length = hull.particulars.draught, hull.particulars.length
-    found, wanted = mesh.below(draught), ah.hydrostatics(hull, draught=draught)
+    found, wanted = mesh.below(draught), hull.hydrostatics(draught=draught)
     assert near < 2e-4 + 1.5e-3 * 1600 / mesh.cells
     assert abs(found.volume - wanted.volume) < near * wanted.volume
     assert abs(found.lcb - wanted.lcb) < 1e-5 * length
@@ -68,7 +68,7 @@ def test_triangles_face_as_their_cells_do(
 def test_the_deck_of_the_dtc_is_closed_though_its_particulars_say_open(dtc: ah.Hull) -> None:
     """What covers it is a group of its own, which may be left away; it lies in one plane."""
     assert dtc.particulars.deck == "open"
-    mesh = ah.closed_mesh(dtc, points=2)
+    mesh = dtc.mesh(points=2)
     deck = mesh.triangle[mesh.group == mesh.names.index("deck")]
     assert np.ptp(mesh.xyz[deck, 2]) < 1e-3
     hull = np.unique(mesh.triangle[mesh.group == 0])

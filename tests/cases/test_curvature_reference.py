@@ -22,7 +22,7 @@ ENDED_EARLY = "P07_double_cross"
 def found(area_tol: float) -> RegionResult:
     """The reference patches, all in one call; coordinates are known to their rounding."""
     surfaces = [SplineSurface.bezier(patch(name), name) for name in NAMES]
-    return ah.curvature_regions(surfaces, zero="exact", delta=1e-14, area_tol=area_tol)
+    return ah.surface.curvature_regions(surfaces, zero="exact", delta=1e-14, area_tol=area_tol)
 
 
 def areas_of(name: str, area_tol: float) -> RegionAreas:
@@ -102,9 +102,9 @@ def test_a_cylinder_with_noise_is_developable(noise: float) -> None:
     """Where points are known to the noise, or in a band, all of it has no curvature."""
     net = noisy_cylinder(noise)
     for result in (
-        ah.curvature_regions(net, zero="exact", delta=max(noise, 1e-12)),
-        ah.curvature_regions(net, zero="absolute", k0=1e-4),
-        ah.curvature_regions(net),
+        ah.surface.curvature_regions(net, zero="exact", delta=max(noise, 1e-12)),
+        ah.surface.curvature_regions(net, zero="absolute", k0=1e-4),
+        ah.surface.curvature_regions(net),
     ):
         assert (result.positive, result.negative, result.unresolved) == (0.0, 0.0, 0.0)
         assert abs(result.zero - result.total) <= result.error_estimate <= 1e-6 * result.total
@@ -114,13 +114,13 @@ def test_a_cylinder_with_noise_is_developable(noise: float) -> None:
 @pytest.mark.parametrize("noise", [1e-9, 1e-6, 1e-4])
 def test_without_a_band_noise_decides_the_sign(noise: float) -> None:
     """Taken as exact, the same cylinder is convex and a saddle in turn: what the band is for."""
-    areas = ah.curvature_regions(noisy_cylinder(noise), zero="exact", delta=0.0).areas
+    areas = ah.surface.curvature_regions(noisy_cylinder(noise), zero="exact", delta=0.0).areas
     assert min(areas.positive, areas.negative) > 0.1 * areas.total
 
 
 def test_a_band_leaves_no_double_lines() -> None:
     """x**2 y**2 has K = 0 along two lines that it only touches; at K = -K0 there are four arcs."""
-    result = ah.curvature_regions(patch(ENDED_EARLY), zero="absolute", k0=1e-3)
+    result = ah.surface.curvature_regions(patch(ENDED_EARLY), zero="absolute", k0=1e-3)
     assert [each.kind for each in result.components] == ["open"] * 4
     assert {each.level for each in result.components} == {-1e-3}
     assert (result.unresolved, result.notes) == (0.0, ())
@@ -135,9 +135,9 @@ def test_the_convex_part_shrinks_as_the_level_rises() -> None:
     net = patch("P20_five_arcs")
     above: dict[float, float] = {}
     for width in sorted({abs(level) for level in known} - {0.0}):
-        areas = ah.curvature_regions(net, zero="absolute", k0=width).areas
+        areas = ah.surface.curvature_regions(net, zero="absolute", k0=width).areas
         above |= {width: areas.positive, -width: areas.total - areas.negative}
-    above[0.0] = ah.curvature_regions(net, zero="exact", delta=0.0).positive
+    above[0.0] = ah.surface.curvature_regions(net, zero="exact", delta=0.0).positive
     for level, area in known.items():
         assert above[level] == pytest.approx(area, abs=6e-4), level
     assert np.all(np.diff([above[level] for level in sorted(above)]) < 0.0)
@@ -156,7 +156,7 @@ def saddle_with_a_convex_disc(radius: float, across: float = 0.1) -> FloatArray:
 @pytest.mark.parametrize("radius", [1e-2, 1e-3, 1e-4])
 def test_a_small_loop_is_found(radius: float) -> None:
     """A convex disc of a tenth of a millimetre in a saddle of two metres is closed and measured."""
-    result = ah.curvature_regions(
+    result = ah.surface.curvature_regions(
         saddle_with_a_convex_disc(radius), zero="exact", delta=0.0, area_tol=1e-8
     )
     assert [each.kind for each in result.components] == ["closed"]
@@ -166,14 +166,14 @@ def test_a_small_loop_is_found(radius: float) -> None:
 def test_a_loop_that_touches_a_cut_is_closed() -> None:
     """Where the search cuts first, at u = 0.4871, a line may touch: it is one loop all the same."""
     net = saddle_with_a_convex_disc(0.3, 2.0 * 0.4871 - 1.0 + 0.3)
-    result = ah.curvature_regions(net, zero="exact", delta=0.0)
+    result = ah.surface.curvature_regions(net, zero="exact", delta=0.0)
     assert [each.kind for each in result.components] == ["closed"]
     assert (result.unresolved, result.notes) == (0.0, ())
 
 
 def test_a_loop_below_the_resolution_is_told() -> None:
     """A disc of a hundredth of a millimetre is an unresolved spot, never silently lost."""
-    result = ah.curvature_regions(
+    result = ah.surface.curvature_regions(
         saddle_with_a_convex_disc(1e-5), zero="exact", delta=0.0, area_tol=1e-12
     )
     assert [each.kind for each in result.components] == ["isolated"]
@@ -188,9 +188,9 @@ def test_the_whole_is_the_sum_of_its_patches() -> None:
     net = np.concatenate([net, 0.2 * draw.standard_normal((8, 6, 1))], axis=-1)
     along, across = ([0, 0, 0, *range(count - 2), *[count - 3] * 3] for count in (8, 6))
     surface = SplineSurface("spline", (3, 3), np.array(along), np.array(across), net)
-    whole = ah.curvature_regions(surface, zero="exact")
+    whole = ah.surface.curvature_regions(surface, zero="exact")
     apart = [SplineSurface.bezier(each) for each in surface.patches().net]
-    single = [ah.curvature_regions(each, zero="exact").areas for each in apart]
+    single = [ah.surface.curvature_regions(each, zero="exact").areas for each in apart]
     assert len(single) == 15
     assert RegionAreas.added(attrs.astuple(each) for each in single) == whole.areas
 
@@ -198,7 +198,7 @@ def test_the_whole_is_the_sum_of_its_patches() -> None:
 def test_random_patches_have_no_dangling_ends() -> None:
     """Lines of 120 random plates and 60 random nets all end where lines may end."""
     many = [*graph_plates(120, 1), *random_nets(60, 2)]
-    result = ah.curvature_regions([SplineSurface.bezier(net) for net in many], zero="exact")
+    result = ah.surface.curvature_regions([SplineSurface.bezier(net) for net in many], zero="exact")
     assert len(result.components) > 180
     areas = result.areas
     parts = areas.positive + areas.negative + areas.zero + areas.unresolved

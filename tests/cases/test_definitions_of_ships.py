@@ -65,7 +65,7 @@ def test_a_shift_along_a_level_keel_leaves_the_hull_consistent(
 ) -> None:
     """Ends of sections follow their planes along a profile of which no bit changes."""
     carrier = shipped("bulk_carrier_180m")
-    varied = ah.vary(carrier, set={"fore_shift": 0.5}).hull
+    varied = carrier.vary(set={"fore_shift": 0.5}).hull
     assert varied.verify() == ()
     assert len(varied.check()) == 1  # all detached lines in one finding
     before, after = (hull.lines["ST 14"].position for hull in (carrier, varied))
@@ -78,6 +78,8 @@ def test_no_section_comes_in_another_number_of_curves(shipped: Callable[[str], a
     """Where the bulb would no longer close at a section the edit is refused, with the way out."""
     hull = shipped("container_ship_225m")
     before = hull.fingerprint
-    with pytest.raises(ah.RefusedEditError, match=r"ST 20\.45 would come in 1 curves instead of 2"):
+    with pytest.raises(
+        ah.errors.RefusedEditError, match=r"ST 20\.45 would come in 1 curves instead of 2"
+    ):
         hull.apply("a shorter bulb", [{"op": "set_form", "definition": "profile", "tip_x": 229.5}])
     assert hull.fingerprint == before

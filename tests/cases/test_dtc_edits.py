@@ -138,7 +138,7 @@ def session(dtc: ah.Hull) -> Session:
         try:
             with dtc.edit("pull") as edit:
                 places.pull(dtc, float(amount), REACH)(edit, row)
-        except ah.RefusedEditError:
+        except ah.errors.RefusedEditError:
             accepted.append(False)
             continue
         assert edit.report is not None

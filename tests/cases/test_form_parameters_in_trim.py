@@ -8,12 +8,12 @@ import pytest
 import assoc_hull as ah
 
 LENGTH = 300.0
-SCREW = ah.Screw(height=5.0, diameter=8.6, x=5.2)
+SCREW = ah.form.Screw(height=5.0, diameter=8.6, x=5.2)
 
 
 def numbers(hull: ah.Hull, *symbols: str, draughts: tuple[float, float]) -> list[float]:
     """Values of entries, which must be there."""
-    found = ah.form_parameters(hull, draughts=draughts, screw=SCREW, only=symbols)
+    found = hull.form_parameters(draughts=draughts, screw=SCREW, only=symbols)
     given = [found[symbol].number for symbol in symbols]
     assert None not in given
     return [float(number) for number in given if number is not None]

@@ -97,7 +97,7 @@ def test_a_form_parameter_is_what_the_formula_says(
 ) -> None:
     """The net's value is that of the formula; its lines alone set it apart."""
     ship, hull = SHIPS[name], ships[name]
-    found = ah.form_parameters(hull, draught=ship.draught, screw=ship.screw)[symbol]
+    found = hull.form_parameters(draught=ship.draught, screw=ship.screw)[symbol]
     wanted = truth(name)[symbol]
     off = allowed(name, symbol, wanted, hull.state.particulars.length)
     assert found.number == pytest.approx(wanted, rel=0.0, abs=off)
@@ -130,7 +130,7 @@ def test_run_and_entrance_of_the_carrier_end_at_her_parallel_body(
 ) -> None:
     """PMBs and PMBe are those of her sections; what lies beyond is that of the formula."""
     ship = SHIPS["207k"]
-    found = ah.form_parameters(bulk_carrier, draught=ship.draught, only=[symbol])[symbol]
+    found = bulk_carrier.form_parameters(draught=ship.draught, only=[symbol])[symbol]
     wanted = form_truths.parted(*body_ends)[symbol]
     assert found.number == pytest.approx(
         wanted, rel=0.0, abs=allowed("207k", symbol, wanted, 300.0)
@@ -140,7 +140,7 @@ def test_run_and_entrance_of_the_carrier_end_at_her_parallel_body(
 @pytest.mark.parametrize("symbol", ["Sigma_a", "Sigma_f", "Sigma_a'", "CPR", "CPE", "L_R", "L_E"])
 def test_a_box_has_no_fineness_to_compare(ships: dict[str, ah.Hull], symbol: str) -> None:
     """What divides by nil, or by what rounding leaves of it, has a reason and no number."""
-    found = ah.form_parameters(ships["box"], draught=6.0)[symbol]
+    found = ships["box"].form_parameters(draught=6.0)[symbol]
     assert found.number is None
     assert found.reason
 

@@ -21,7 +21,7 @@ def test_the_published_wigley_surface_becomes_a_net(data_folder: Path) -> None:
     hull = ah.read(path, stations=21, waterlines=12, buttocks=3)
     ship = hull.particulars
     assert (ship.length, ship.draught) == pytest.approx((2.5, 0.15625), rel=1e-9)
-    found = ah.hydrostatics(hull, draught=ship.draught)
+    found = hull.hydrostatics(draught=ship.draught)
     exact = 4.0 * 2.5 * 0.25 * 0.15625 / 9.0
     assert found.volume == pytest.approx(exact, rel=5e-4)
     assert found.lcb == pytest.approx(1.25, abs=2.5e-5)
@@ -33,11 +33,11 @@ def test_a_hull_comes_back_from_its_surface(tmp_path: Path) -> None:
     """A net, its surface in IGES in millimetres, and a net of that: volume and half-breadths."""
     hull = ah.examples.wigley()
     path = tmp_path / "wigley.igs"
-    write_surfaces(ah.surface(hull).patches, path)
+    write_surfaces(hull.surface().patches, path)
     back = ah.read(path, stations=15, waterlines=9, buttocks=2)
     draught = hull.particulars.draught
-    volume = ah.hydrostatics(hull, draught=draught).volume
-    assert ah.hydrostatics(back, draught=draught).volume == pytest.approx(volume, rel=2e-4)
+    volume = hull.hydrostatics(draught=draught).volume
+    assert back.hydrostatics(draught=draught).volume == pytest.approx(volume, rel=2e-4)
     x, z = np.meshgrid(np.linspace(10.0, 90.0, 9), np.linspace(1.0, 6.0, 6))
     off = [
         back.half_breadth(a, b) - hull.half_breadth(a, b)

@@ -13,7 +13,7 @@ from assoc_hull.analysis.form.parameter import FormValue
 @pytest.fixture(scope="module")
 def wigley() -> Mapping[str, FormValue]:
     """Form parameters of Wigley's hull, no screw given."""
-    return ah.form_parameters(ah.examples.wigley(), draught=6.25)
+    return ah.examples.wigley().form_parameters(draught=6.25)
 
 
 @pytest.mark.parametrize(
@@ -60,7 +60,7 @@ def test_a_single_skeg_has_no_tunnel(wigley: Mapping[str, FormValue], symbol: st
 def test_a_draught_to_the_deck_leaves_no_waterplane(symbol: str) -> None:
     """The deck, which is closed and level, lies in the floating plane."""
     hull = ah.examples.wigley()
-    value = ah.form_parameters(hull, draught=hull.particulars.depth, only=[symbol])[symbol]
+    value = hull.form_parameters(draught=hull.particulars.depth, only=[symbol])[symbol]
     assert value.number is None
     assert (value.reason or "").endswith("no waterplane: the deck is in the water")
 

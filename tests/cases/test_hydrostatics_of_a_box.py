@@ -89,8 +89,8 @@ def box() -> ah.Hull:
 def test_the_record_of_a_box_has_the_reference_values(box: ah.Hull, case: str) -> None:
     """All to 1e-9 of their scale; `transom=True` counts both ends as wetted surface."""
     height, slope, heel, *wanted = CASES[case]
-    found = ah.hydrostatics(
-        box, draughts=(height, height + LENGTH * slope), heel_deg=heel, transom=True
+    found = box.hydrostatics(
+        draughts=(height, height + LENGTH * slope), heel_deg=heel, transom=True
     )
     seen = np.array([getattr(found, name) for name in FIELDS])
     np.testing.assert_allclose(seen / SCALES, np.array(wanted) / SCALES, atol=1e-9)
@@ -100,8 +100,8 @@ def test_the_record_of_a_box_has_the_reference_values(box: ah.Hull, case: str) -
 def test_what_is_stated_of_a_box_is_next_to_nothing(box: ah.Hull, case: str) -> None:
     """Fewer lines make the same box: estimates are rounding, and cover what is off."""
     height, slope, heel, *wanted = CASES[case]
-    found = ah.hydrostatics(
-        box, draughts=(height, height + LENGTH * slope), heel_deg=heel, transom=True
+    found = box.hydrostatics(
+        draughts=(height, height + LENGTH * slope), heel_deg=heel, transom=True
     )
     for name, truth, scale in zip(FIELDS, wanted, SCALES.tolist(), strict=True):
         stated = found.error[name]
@@ -113,7 +113,7 @@ def test_what_is_stated_of_a_box_is_next_to_nothing(box: ah.Hull, case: str) -> 
 
 def test_the_ends_of_a_box_count_only_if_asked(box: ah.Hull) -> None:
     """3440 m2 with both ends, 240 m2 less without them."""
-    whole, shell = (ah.hydrostatics(box, draught=6.0, transom=each) for each in (True, False))
+    whole, shell = (box.hydrostatics(draught=6.0, transom=each) for each in (True, False))
     assert whole.wetted_surface == pytest.approx(3440.0, rel=1e-12)
     assert shell.wetted_surface == pytest.approx(3200.0, rel=1e-12)
     assert shell.transom_area == pytest.approx(240.0, rel=1e-12)
@@ -123,14 +123,16 @@ def test_the_ends_of_a_box_count_only_if_asked(box: ah.Hull) -> None:
 @pytest.mark.parametrize("stations", [2, 3, 8])
 def test_a_box_is_the_same_with_any_number_of_sections(stations: int) -> None:
     """Two are enough."""
-    found = ah.hydrostatics(box_net(stations), draughts=(5.0, 7.0), heel_deg=20.0)
+    found = box_net(stations).hydrostatics(draughts=(5.0, 7.0), heel_deg=20.0)
     assert found.volume == pytest.approx(12000.0, rel=1e-12)
     assert found.i_l_proj == pytest.approx(5e6 / 3.0, rel=1e-12)
 
 
 def test_a_heel_that_drowns_an_open_deck_is_refused() -> None:
     """The error names draught and range; closed, the same box floats with a wet deck edge."""
-    with pytest.raises(ah.OutOfRangeError, match=r"8 m drowns the open deck.*from .* to 3\.60900"):
-        ah.hydrostatics(box_net(deck="open"), draught=8.0, heel_deg=40.0)
-    found = ah.hydrostatics(box_net(deck="open"), draught=8.0, heel_deg=20.0)
+    with pytest.raises(
+        ah.errors.OutOfRangeError, match=r"8 m drowns the open deck.*from .* to 3\.60900"
+    ):
+        box_net(deck="open").hydrostatics(draught=8.0, heel_deg=40.0)
+    found = box_net(deck="open").hydrostatics(draught=8.0, heel_deg=20.0)
     assert found.volume == pytest.approx(16000.0, rel=1e-12)

@@ -15,7 +15,7 @@ import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import table_of
 from assoc_hull.analysis.hydrostatics.record import Hydrostatics
-from assoc_hull.geometry.floating.prepared_strips import prepare_strips
+from assoc_hull.geometry.floating.immersed_strips import prepare_strips
 from assoc_hull.model.tables import HullState
 from assoc_hull.shipped.wigley import wigley as shipped_wigley
 from tests import exact_hulls
@@ -101,7 +101,7 @@ def _rows(truth: dict[str, StripBody]) -> Iterator[Row]:
             hull = ah.Hull(make(*size))
             for i, (words, position) in enumerate(POSITIONS.items()):
                 draughts = position.draught_aft, position.draught_fore
-                found = ah.hydrostatics(hull, draughts=draughts, heel_deg=position.heel_deg)
+                found = hull.hydrostatics(draughts=draughts, heel_deg=position.heel_deg)
                 yield Row(family, size, words, found, whole[i])
 
 

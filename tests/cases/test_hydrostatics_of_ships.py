@@ -113,13 +113,13 @@ def test_parts_between_stations_make_up_the_whole() -> None:
         assert total == pytest.approx(getattr(inner, name)[0], rel=1e-12)
     assert inner.volume[0] == pytest.approx(whole.volume[0], rel=1e-3)
     assert inner.volume[0] < whole.volume[0]
-    with pytest.raises(ah.BadInputError, match=r"no station stands at x 1 m.*nearest"):
+    with pytest.raises(ah.errors.BadInputError, match=r"no station stands at x 1 m.*nearest"):
         between_stations(body, 1.0, x[-1], plane)
 
 
 def test_the_adopted_container_ship_displaces_what_its_mesh_does(dtc: ah.Hull) -> None:
     """DTC at 14.5 m: V within .05 %, LCB within .02 % Lpp, S within .3 % of the clipped mesh."""
-    found = ah.hydrostatics(dtc, draught=14.5)
+    found = dtc.hydrostatics(draught=14.5)
     print(f"\nDTC: V {found.volume:.1f} m3, LCB {found.lcb:.4f} m, S {found.wetted_surface:.1f} m2")
     assert len(dtc.groups["sections"].lines) == 41
     assert found.volume == pytest.approx(173398.1, rel=5e-4)
@@ -134,7 +134,7 @@ def test_the_adopted_container_ship_displaces_what_its_mesh_does(dtc: ah.Hull) -
 def test_a_yacht_imported_from_offsets_has_its_published_values(data_folder: Path) -> None:
     """Sysser 1, canoe body, 6.25 times the model: V and Aw within .25 %, LCB within .25 % LWL."""
     hull = ah.read(data_folder / "sysser1" / "sysser01_offsets.csv")
-    found = ah.hydrostatics(hull, draught=0.794)
+    found = hull.hydrostatics(draught=0.794)
     below = flotation(hull.state).measure(level(0.794))
     middle = 0.5 * float(below.x_least[0] + below.x_most[0])
     print(

@@ -103,13 +103,13 @@ def swapped(drawn: FloatArray) -> FloatArray:
 def test_a_section_drawn_wrongly_is_refused_by_name(spoil: Spoil, words: str) -> None:
     """What, where and how much; with `on_error="report"` the numbers come with notes."""
     hull = spoilt_wigley(spoil)
-    with pytest.raises(ah.BadInputError, match=words + r".*on_error='report'"):
-        ah.hydrostatics(hull, draught=5.5)
-    with pytest.raises(ah.BadInputError, match=words):
-        ah.hydrostatics(hull, draught=5.5, estimate=False)
-    table = ah.hydrostatic_table(hull, [4.0, 5.5], on_error="report")
+    with pytest.raises(ah.errors.BadInputError, match=words + r".*on_error='report'"):
+        hull.hydrostatics(draught=5.5)
+    with pytest.raises(ah.errors.BadInputError, match=words):
+        hull.hydrostatics(draught=5.5, estimate=False)
+    table = hull.hydrostatic_table([4.0, 5.5], on_error="report")
     assert "ST 7" in table.notes[0]
-    sound = ah.hydrostatics(spoilt_wigley(None), draught=5.5)
+    sound = spoilt_wigley(None).hydrostatics(draught=5.5)
     assert table[1].volume == pytest.approx(sound.volume, rel=0.02)
 
 
@@ -182,7 +182,7 @@ def agree(hull: ah.Hull, draught: float, name: str) -> None:
     body, ship = flotation(hull.state), hull.particulars
     for trim, heel in ((0.0, 0.0), (0.002 * ship.length, 5.0)):
         draughts = draught + 0.5 * trim, draught - 0.5 * trim
-        found = ah.hydrostatics(hull, draughts=draughts, heel_deg=heel)
+        found = hull.hydrostatics(draughts=draughts, heel_deg=heel)
         tilt = np.array([-trim / ship.length]), np.array([np.tan(np.radians(heel))])
         other = body.by_waterplanes(FloatingPlanes(np.array([draughts[0]]), *tilt))
         volume = float(other.volume[0])
@@ -223,7 +223,7 @@ def test_a_position_that_cannot_be_is_refused_with_the_range(
 ) -> None:
     """The error names the value, and what can be."""
     with pytest.raises(ah.AssocHullError, match=words):
-        ah.hydrostatics(ah.examples.wigley(), **given)
+        ah.examples.wigley().hydrostatics(**given)
 
 
 @pytest.mark.parametrize(
@@ -242,7 +242,7 @@ def test_a_table_that_cannot_be_is_refused_by_name(
 ) -> None:
     """Unsorted and doubled draughts, nan, none, and one that is out of range."""
     with pytest.raises(ah.AssocHullError, match=words):
-        ah.hydrostatic_table(ah.examples.wigley(), draughts, trims)
+        ah.examples.wigley().hydrostatic_table(draughts, trims)
 
 
 def test_a_hull_with_one_section_is_refused() -> None:
@@ -251,8 +251,8 @@ def test_a_hull_with_one_section_is_refused() -> None:
     with hull.edit("one left") as edit:
         for name in list(hull.groups["sections"].lines)[1:]:
             edit.remove_line(hull.groups["sections"].lines[name])
-    with pytest.raises(ah.BadInputError, match=r"1 section.*two sections or more"):
-        ah.hydrostatics(hull, draught=5.0)
+    with pytest.raises(ah.errors.BadInputError, match=r"1 section.*two sections or more"):
+        hull.hydrostatics(draught=5.0)
 
 
 def test_an_open_deck_may_not_go_under() -> None:
@@ -262,6 +262,6 @@ def test_an_open_deck_may_not_go_under() -> None:
     opened_ = spoilt_wigley(None)
     assert opened_.particulars.deck == "closed"
     hull.state.settings.particulars.data[0] = ship
-    with pytest.raises(ah.OutOfRangeError, match=r"drowns the open deck.*heel 60 deg"):
-        ah.hydrostatics(hull, draught=6.0, heel_deg=60.0)
-    assert ah.hydrostatics(opened_, draught=6.0, heel_deg=60.0).volume > 0.0
+    with pytest.raises(ah.errors.OutOfRangeError, match=r"drowns the open deck.*heel 60 deg"):
+        hull.hydrostatics(draught=6.0, heel_deg=60.0)
+    assert opened_.hydrostatics(draught=6.0, heel_deg=60.0).volume > 0.0

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from assoc_hull.analysis.panels.assemble_mesh import DivisionChoices, assemble_mesh, axes_of
 from assoc_hull.analysis.panels.wet_sheets import Waterplane, bands_of_strips
-from assoc_hull.geometry.surfaces.isocurves import Strips
+from assoc_hull.geometry.curves import Strips
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
 from tests.exact_hulls import box, ellipsoid, wigley
 

@@ -14,8 +14,8 @@ from assoc_hull.analysis.panels.mesh_quality import panel_report
 from assoc_hull.analysis.panels.section_points import section_points
 from assoc_hull.errors import AssocHullError, OutOfRangeError
 from assoc_hull.hull import Hull
+from assoc_hull.hull.sources import examples
 from assoc_hull.model.tables import HullState
-from assoc_hull.sources import examples
 from tests.nets import wigley_net
 from tests.twin_skeg import twin_skeg_ship
 

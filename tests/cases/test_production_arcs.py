@@ -9,7 +9,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.segments import power_coefficients
 from assoc_hull.hull import Hull
-from assoc_hull.production import ProductionArcs, production_arcs
+from assoc_hull.hull.results import ProductionArcs
 from tests.arc_optimum import PlaneCurve, fewest_exact
 
 WITHIN = 0.0005
@@ -20,7 +20,7 @@ DENSER = 260
 @pytest.fixture(scope="module")
 def arcs(dtc: Hull) -> ProductionArcs:
     """All lines of the DTC."""
-    return production_arcs(dtc, within=WITHIN)
+    return dtc.production_arcs(within=WITHIN)
 
 
 def curve_of(hull: Hull, name: str) -> tuple[FloatArray, FloatArray]:
@@ -103,16 +103,16 @@ def test_no_chain_of_biarcs_has_fewer_arcs(dtc: Hull, arcs: ProductionArcs, name
 def test_the_least_radius_of_the_dtc_is_kept(dtc: Hull) -> None:
     """1 m: lines that bend more sharply are named with their place, all others keep it."""
     lines = ["WL 4.25", "WL 5.95", "WL 26.35", "WL 33.15", "buttocks"]
-    found = production_arcs(dtc, lines[1:4], WITHIN, 1.0)
+    found = dtc.production_arcs(lines[1:4], WITHIN, 1.0)
     assert found.least_radius >= 1.0
     assert found.deviation <= WITHIN
     with pytest.raises(ValueError, match=r"WL 4.25 has a radius of 0.3397 m at \(9.685, 0.155"):
-        production_arcs(dtc, lines[0], WITHIN, 1.0)
+        dtc.production_arcs(lines[0], WITHIN, 1.0)
 
 
 def test_all_lines_of_series60_come_out(series60_70: Hull) -> None:
     """With a quarter of the arcs of one biarc per interval of the net."""
-    found = production_arcs(series60_70, within=WITHIN)
+    found = series60_70.production_arcs(within=WITHIN)
     assert found.left_out == found.notes == ()
     assert found.deviation <= WITHIN
     assert found.count <= 0.26 * found.one_per_interval

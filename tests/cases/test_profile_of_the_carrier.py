@@ -15,13 +15,13 @@ from assoc_hull.shipped import bulk_carrier_207k_form as form
 
 FP, DRAUGHT, STATION = form.LENGTH, form.DRAUGHT, form.LENGTH / 20.0
 BULB_LOW, BULB_HIGH = form.height_ranges(FP)[0]
-SCREW = ah.Screw(height=form.SHAFT, diameter=6.5, x=3.0)
+SCREW = ah.form.Screw(height=form.SHAFT, diameter=6.5, x=3.0)
 
 
 @pytest.fixture(scope="module")
 def found(bulk_carrier: ah.Hull) -> Mapping[str, FormValue]:
     """Its form parameters at the design draught, with a screw."""
-    return ah.form_parameters(bulk_carrier, screw=SCREW)
+    return bulk_carrier.form_parameters(screw=SCREW)
 
 
 def number(found: Mapping[str, FormValue], symbol: str) -> float:
@@ -74,16 +74,16 @@ def test_the_lateral_area_is_the_contours(found: Mapping[str, FormValue]) -> Non
 
 def test_an_emerging_bulb_is_immersed_in_part(bulk_carrier: ah.Hull) -> None:
     """LIBA follows the floating plane, trimmed too; LBA is that of the design."""
-    part = ah.form_parameters(bulk_carrier, draught=10.0, only=["LIBA", "LBA"])
+    part = bulk_carrier.form_parameters(draught=10.0, only=["LIBA", "LBA"])
     assert number(part, "LIBA") == pytest.approx(before_fp(10.0), rel=2e-5)
     assert number(part, "LBA") == pytest.approx(before_fp(DRAUGHT), rel=2e-6)
     aft, fore = 12.0, 9.0
-    trimmed = ah.form_parameters(bulk_carrier, draughts=(aft, fore), only=["LIBA"])
+    trimmed = bulk_carrier.form_parameters(draughts=(aft, fore), only=["LIBA"])
     z = np.linspace(BULB_LOW, BULB_HIGH, 200_001)
     reach = np.minimum(form.fore_end(z), (z - aft) / (fore - aft) * FP)
     area = np.trapezoid(np.maximum(reach - FP, 0.0), z)
     assert number(trimmed, "LIBA") == pytest.approx(area, rel=1e-4)
-    dry = ah.form_parameters(bulk_carrier, draughts=(12.0, 1.0), only=["LIBA"])
+    dry = bulk_carrier.form_parameters(draughts=(12.0, 1.0), only=["LIBA"])
     assert number(dry, "LIBA") == 0.0
 
 
@@ -156,7 +156,7 @@ def test_a_dry_transom_has_no_immersed_area(found: Mapping[str, FormValue]) -> N
 def test_an_immersed_transom_is_measured_in_the_floating_plane(bulk_carrier: ah.Hull) -> None:
     """ATT, B_tr, TRZ at a trim by the stern, against the formula's half-breadths."""
     aft, fore = 22.0, 17.0
-    part = ah.form_parameters(bulk_carrier, draughts=(aft, fore), only=["ATT", "B_tr", "TRZ"])
+    part = bulk_carrier.form_parameters(draughts=(aft, fore), only=["ATT", "B_tr", "TRZ"])
     level = aft - (fore - aft) / FP * 5.0
     half = float(form.carrier_half_breadth(form.TRANSOM, level))
     low = form.TRANSOM_LOW

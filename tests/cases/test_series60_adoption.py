@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assoc_hull.edit.newline.curve_deviation import deviation
+from assoc_hull.edit.lines.curve_deviation import deviation
 from assoc_hull.geometry.curves import CurveData, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.geometry.splines.distance import closest_points

@@ -111,7 +111,7 @@ def test_the_strict_form_is_refused_with_its_gap_and_can_be_reported(
         try:
             with series60_70.edit("strict") as edit:
                 act(edit, row)
-        except ah.RefusedEditError as error:
+        except ah.errors.RefusedEditError as error:
             if "mm apart at" in str(error):
                 wide += 1
                 assert _reported(series60_70, act, row)
@@ -139,7 +139,7 @@ def test_dragging_a_driven_crossing_names_its_driver(series60_70: ah.Hull) -> No
     driven = int(np.flatnonzero(rows.alive.data & (rows.driver.data >= 0) & ~rows.contact.data)[0])
     point = Point.of(series60_70.state, driven)
     before = series60_70.fingerprint
-    with pytest.raises(ah.PointRoleError) as caught, series60_70.edit("drag") as edit:
+    with pytest.raises(ah.errors.PointRoleError) as caught, series60_70.edit("drag") as edit:
         edit.move(point, **{axis: 0.0 for axis in point.free})
     assert point.driver is not None
     assert caught.value.driver == point.driver.line.name

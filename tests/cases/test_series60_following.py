@@ -44,7 +44,7 @@ def edited(hull: ah.Hull, kind: str, row: int) -> Iterator[EditReport | None]:
     try:
         with hull.edit(kind) as edit:
             act(edit, row)
-    except ah.RefusedEditError:
+    except ah.errors.RefusedEditError:
         yield None
         return
     yield edit.report
@@ -173,7 +173,7 @@ def test_every_drag_puts_its_point_where_it_was_asked(series60_70: ah.Hull, amou
         try:
             with hull.edit("drag") as edit:
                 places.drag(hull, amount)(edit, row)
-        except ah.RefusedEditError:
+        except ah.errors.RefusedEditError:
             continue
         assert np.abs(table.xyz.data[row] - target).max() < 1e-9
         hull.undo()
@@ -189,7 +189,7 @@ def test_every_pull_gives_its_normal_displacement(series60_70: ah.Hull, amount: 
         try:
             with hull.edit("pull") as edit:
                 places.pull(hull, amount)(edit, row)
-        except ah.RefusedEditError:
+        except ah.errors.RefusedEditError:
             continue
         moved = float((table.xyz.data[row] - start) @ normal[row])
         hull.undo()

@@ -63,7 +63,7 @@ def wigley() -> ah.Hull:
 def test_gm_of_a_curve_is_that_of_hydrostatics(wigley: ah.Hull, trim: Any) -> None:
     """The slope at no heel, and GM of the record at the same draught."""
     found = stability(wigley, draught=6.0, kg=4.0, trim=trim, heels=[0.0, 30.0])
-    record = ah.hydrostatics(wigley, draught=6.0, kg=4.0)
+    record = wigley.hydrostatics(draught=6.0, kg=4.0)
     assert found.gm == pytest.approx(record.gmt, abs=1e-9)
     assert found.condition.weight == pytest.approx(record.displacement, rel=1e-12)
 

@@ -8,7 +8,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.hull import Hull
-from assoc_hull.shell import HullSurface
+from assoc_hull.hull.results import HullSurface
 from assoc_hull.surface.blocks.fit_net import share_kept
 from assoc_hull.surface.blocks.net_surface import FittedBlock
 
@@ -36,14 +36,14 @@ class Story:
 def story(bulk_carrier: Hull, surface_of: Callable[[Hull], HullSurface]) -> Iterator[Story]:
     """Before the pull, nothing pulled, then with a cut-off, with none, and from scratch."""
     before = surface_of(bulk_carrier)
-    same = ah.surface(bulk_carrier, previous=before, cutoff=0.0)
+    same = bulk_carrier.surface(previous=before, cutoff=0.0)
     with bulk_carrier.edit("pull") as edit:
         edit.pull("WL 8 x ST 20.175", d=0.02, radius=(4.0, 3.0))
     yield Story(
         before, same,
-        ah.surface(bulk_carrier, previous=before),
-        ah.surface(bulk_carrier, previous=before, cutoff=0.0),
-        ah.surface(bulk_carrier),
+        bulk_carrier.surface(previous=before),
+        bulk_carrier.surface(previous=before, cutoff=0.0),
+        bulk_carrier.surface(),
     )  # fmt: skip
     bulk_carrier.undo()
 
@@ -90,7 +90,7 @@ def test_a_walk_of_edits_never_drifts() -> None:
     Points may have moved by the cut-off since the fit, and control points be off by as much again.
     """
     hull = ah.examples.wigley(stations=5, waterlines=4)
-    found = ah.surface(hull)
+    found = hull.surface()
     fitted = []
     for point, d in (
         ("ST 2", 6e-8),
@@ -101,12 +101,12 @@ def test_a_walk_of_edits_never_drifts() -> None:
     ):
         with hull.edit("walk") as edit:
             edit.pull(f"WL 4.16667 x {point}", d=d, radius=(8.0, 2.0))
-        found = ah.surface(hull, previous=found)
+        found = hull.surface(previous=found)
         fitted.append(bool(found.refitted))
-        scratch = ah.surface(hull)
+        scratch = hull.surface()
         away = [a.net - b.net for a, b in zip(found.patches, scratch.patches, strict=True)]
         assert max(np.abs(each).max() for each in away) < 2e-7
-    exact = ah.surface(hull, previous=found, cutoff=0.0)
+    exact = hull.surface(previous=found, cutoff=0.0)
     assert [bits(b) for b in exact.blocks] == [bits(b) for b in scratch.blocks]
     assert fitted[:3] == [False, True, False]
     assert any(fitted[3:])
@@ -115,14 +115,14 @@ def test_a_walk_of_edits_never_drifts() -> None:
 def test_curvature_regions_follow_to_a_millionth() -> None:
     """Regions are taken over where patches were kept; areas agree with those from scratch."""
     hull = ah.examples.wigley(stations=5, waterlines=4)
-    before = ah.surface(hull)
-    known = ah.curvature_regions(before.patches, zero="absolute", k0=1e-4)
+    before = hull.surface()
+    known = ah.surface.curvature_regions(before.patches, zero="absolute", k0=1e-4)
     with hull.edit("pull") as edit:
         edit.pull("WL 4.16667 x ST 3", d=1e-5, radius=(8.0, 2.0))
-    after, scratch = ah.surface(hull, previous=before), ah.surface(hull)
+    after, scratch = hull.surface(previous=before), hull.surface()
     kept = share_kept(after.patches, before.patches)
-    follows = ah.curvature_regions(after.patches, zero="absolute", k0=1e-4, previous=known)
-    afresh = ah.curvature_regions(scratch.patches, zero="absolute", k0=1e-4)
+    follows = ah.surface.curvature_regions(after.patches, zero="absolute", k0=1e-4, previous=known)
+    afresh = ah.surface.curvature_regions(scratch.patches, zero="absolute", k0=1e-4)
     assert follows.computed == round((1.0 - kept) * afresh.computed) < afresh.computed
     expected = attrs.astuple(afresh.areas)
     assert attrs.astuple(follows.areas) == pytest.approx(expected, abs=1e-6 * afresh.areas.total)

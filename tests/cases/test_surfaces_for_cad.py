@@ -9,7 +9,6 @@ import os
 
 import pytest
 
-import assoc_hull as ah
 from assoc_hull.hull import Hull
 from assoc_hull.io.cad.check_file import area_of
 from assoc_hull.io.cad.write import cad_bytes
@@ -29,7 +28,7 @@ def test_the_whole_hull_is_one_shell(name: str, request: pytest.FixtureRequest) 
     Seams that are open, units, names and normals: the file would be refused.
     """
     hull: Hull = request.getfixturevalue(name)
-    patches = ah.surface(hull).patches
+    patches = hull.surface().patches
     _, found = cad_bytes(patches, "step", unit="mm")
     assert (found.faces, found.shells) == (2 * len(patches), 1)
     assert (found.joined_edges, found.free_edges) == SHIPS[name]

@@ -9,10 +9,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.shell import HullSurface
+from assoc_hull.hull.results import HullSurface
 from assoc_hull.surface.blocks.net_surface import FittedBlock
 
 BODY, ENDS, MEDIAN = 8.0, 15.0, 1.5  # mm
@@ -128,7 +127,7 @@ def along(block: FittedBlock, side: str, at: FloatArray) -> FloatArray:
 def test_it_encloses_what_the_lines_enclose(ship: Hull, surface_of: Fitted) -> None:
     """Volume within .02 %, its centre within .01 % of the length of those of hydrostatics."""
     found = surface_of(ship).below()
-    truth = ah.hydrostatics(ship, estimate=False)
+    truth = ship.hydrostatics(estimate=False)
     assert 2.0 * found.volume == pytest.approx(truth.volume, rel=2e-4)
     lcb = found.moment[0] / found.volume
     assert abs(lcb - truth.lcb) <= 1e-4 * ship.particulars.length
@@ -174,7 +173,7 @@ def test_lines_left_out_of_large_ships_lie_near_them(
 def left_out_within(hull: Hull, first: int, times: float) -> None:
     """Leave lines out, and measure the surface from them."""
     names = every_fourth(hull, first)
-    found = ah.surface(hull, leave_out=names)
+    found = hull.surface(leave_out=names)
     fitted, left_out = found.whole
     assert found.left_out == tuple(names)
     assert left_out.p95 <= times * fitted.p95

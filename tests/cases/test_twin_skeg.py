@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-import assoc_hull as ah
 from assoc_hull.analysis.form.parameter import FormValue
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.section_areas import between_stations, section_areas
@@ -26,7 +25,7 @@ SLOPE = np.degrees(np.arctan(ship.RISE))
 @pytest.fixture(scope="module")
 def found() -> Mapping[str, FormValue]:
     """Her form parameters, with her screws."""
-    return ah.form_parameters(ship.twin_skeg_ship(), screw=ship.SCREW)
+    return ship.twin_skeg_ship().form_parameters(screw=ship.SCREW)
 
 
 def number(found: Mapping[str, FormValue], symbol: str) -> float:
@@ -196,5 +195,5 @@ def test_the_after_body_has_the_volume_of_the_construction() -> None:
 @pytest.mark.parametrize("draughts", [(18.0, 18.0), (8.0, 8.0), (14.0, 9.0)])
 def test_hydrostatics_take_her(draughts: tuple[float, float]) -> None:
     """No line is doubtful, and the number is good, where pieces are immersed apart, too."""
-    found = ah.hydrostatics(ship.twin_skeg_ship(), draughts=draughts)
+    found = ship.twin_skeg_ship().hydrostatics(draughts=draughts)
     assert found.notes == ()

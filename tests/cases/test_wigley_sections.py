@@ -12,13 +12,13 @@ from assoc_hull.analysis.form.parameter import FormValue
 from tests.nets import wigley_net
 
 DRAUGHT, SHAFT, DIAMETER = 6.25, 2.5, 2.5
-SCREW = ah.Screw(height=SHAFT, diameter=DIAMETER)
+SCREW = ah.form.Screw(height=SHAFT, diameter=DIAMETER)
 
 
 @pytest.fixture(scope="module")
 def found() -> Mapping[str, FormValue]:
     """Form parameters of a net of 41 stations and 9 waterlines, whose splines are off by 1e-6."""
-    return ah.form_parameters(ah.Hull(wigley_net(41, 9)), screw=SCREW)
+    return ah.Hull(wigley_net(41, 9)).form_parameters(screw=SCREW)
 
 
 def number(found: Mapping[str, FormValue], symbol: str) -> float:

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
-from assoc_hull.shipped.versluis_section_areas import AREAS, BREADTH, DRAUGHT, LPP, MOMENTS, X
+from assoc_hull.shipped.bulk_carrier_180m import VERSLUIS_AREAS as AREAS
+from assoc_hull.shipped.bulk_carrier_180m import VERSLUIS_BREADTH as BREADTH
+from assoc_hull.shipped.bulk_carrier_180m import VERSLUIS_DRAUGHT as DRAUGHT
+from assoc_hull.shipped.bulk_carrier_180m import VERSLUIS_LENGTH as LPP
+from assoc_hull.shipped.bulk_carrier_180m import VERSLUIS_MOMENTS as MOMENTS
+from assoc_hull.shipped.bulk_carrier_180m import VERSLUIS_X as X
 
 __all__ = ["AREAS", "BREADTH", "DRAUGHT", "LPP", "MOMENTS", "X"]

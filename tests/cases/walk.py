@@ -66,6 +66,6 @@ def _edit(hull: ah.Hull, rng: np.random.Generator) -> EditReport | None:
     try:
         with hull.edit(f"{kind} {1e3 * amount:+.0f} mm") as edit:
             act(edit, row)
-    except ah.RefusedEditError:
+    except ah.errors.RefusedEditError:
         return None
     return edit.report

@@ -15,7 +15,7 @@ from assoc_hull.analysis.form.floating_shape import Screw
 from assoc_hull.analysis.form.form_parameters import form_parameters
 from assoc_hull.analysis.form.parameter import FormValue
 from assoc_hull.errors import OutOfRangeError
-from assoc_hull.sources import examples
+from assoc_hull.hull.sources import examples
 from tests.mapped import scaled, turned
 from tests.twin_skeg import twin_skeg_ship
 

@@ -84,7 +84,7 @@ def test_series_60_is_consistent_before_and_after_edits(series60_70: ah.Hull) ->
         try:
             with hull.edit("act") as edit:
                 act(edit, row)
-        except ah.RefusedEditError:
+        except ah.errors.RefusedEditError:
             continue
         assert list(trouble(hull)) == []
         hull.undo()

@@ -142,7 +142,7 @@ def test_a_drag_on_series_60_is_local(series60_70: ah.Hull, family: str) -> None
         try:
             with hull.edit("drag") as edit:
                 places.drag(hull, 0.003)(edit, row)
-        except ah.RefusedEditError:
+        except ah.errors.RefusedEditError:
             continue
         assert_local(hull, before)
         assert len(relofted(before, hull)) < len(hull.lines) / 2

@@ -37,7 +37,7 @@ def passes() -> Iterator[list[UpdatePass]]:
         heard.append(run(*given, **named))  # type: ignore[arg-type]
         return heard[-1]
 
-    with mock.patch.object(work, "run", listen):
+    with mock.patch.object(work, "run_update", listen):
         yield heard
 
 
@@ -150,7 +150,7 @@ def test_the_lofted_curves_of_series_60_are_those_of_the_walk(series60_70: ah.Hu
             try:
                 with hull.edit("act") as edit:
                     act(edit, row)
-            except ah.RefusedEditError:
+            except ah.errors.RefusedEditError:
                 continue
             report = edit.report
             assert report is not None

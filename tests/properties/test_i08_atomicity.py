@@ -463,7 +463,7 @@ def test_a_failed_nested_edit_takes_the_outer_one_with_it() -> None:
     """Also what is asked for after the failure was caught."""
     hull = smallest()
     before, change = whole(hull), structural(hull)
-    with pytest.raises(ah.RefusedEditError, match="nested"):
+    with pytest.raises(ah.errors.RefusedEditError, match="nested"):
         catch_and_go_on(hull, change)
     assert whole(hull) == before
     with hull.edit("after") as edit:

@@ -224,11 +224,11 @@ def test_a_curve_bent_through_its_own_crossing_the_other_way_is_refused() -> Non
     """
     hull = fresh(10)
     act = Act("insert", 4, 33376, 0.75)
-    text = refused(hull, lambda edit: perform(hull, edit, act), ah.RefusedEditError)
+    text = refused(hull, lambda edit: perform(hull, edit, act), ah.errors.RefusedEditError)
     assert "WL 3.234 x ST 2: ST 2 folds through the plane of WL 3.234" in text
     assert "makes -33.7 degrees with it there" in text
     assert "0.725 m away" in text
-    refused(hull, lambda edit: perform(hull, edit, act), ah.RefusedEditError, "report")
+    refused(hull, lambda edit: perform(hull, edit, act), ah.errors.RefusedEditError, "report")
 
 
 def test_check_finds_a_crossing_that_is_passed_the_other_way() -> None:
@@ -372,7 +372,7 @@ def test_a_handle_on_a_dead_crossing_knows_it() -> None:
     swell(hull, -0.8)
     before = hull.fingerprint
     assert not point.alive
-    with pytest.raises(ah.ForeignPointError), hull.edit("late") as edit:
+    with pytest.raises(ah.errors.ForeignPointError), hull.edit("late") as edit:
         edit.set_role(point, "shared")
     assert hull.fingerprint == before
 

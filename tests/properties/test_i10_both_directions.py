@@ -53,7 +53,7 @@ def move(hull: ah.Hull, to: dict[str, dict[str, float]], side: int = 0) -> bool:
                 handle = point if side == 0 else point.friend_point
                 assert handle is not None
                 edit.move(handle, **value)
-    except ah.RefusedEditError:
+    except ah.errors.RefusedEditError:
         return False
     report = edit.report
     assert report is not None

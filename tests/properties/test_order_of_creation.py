@@ -12,7 +12,7 @@ SHUFFLES = """
 import random, sys
 from importlib import import_module
 import assoc_hull.edit.adoption.adopt_lines as home
-from assoc_hull.model.definition.records import fingerprint
+from assoc_hull.model.definition.fingerprint import fingerprint
 
 seed = int(sys.argv[1])
 plain = home.adopt
@@ -23,7 +23,7 @@ def shuffled(sources, particulars, associations, tolerances=None):
     chance.shuffle(associations)
     return plain(sources, particulars, associations, tolerances)
 
-for name in ("shipped.wigley", "io.offsets.net", "shipped.bulk_carrier"):
+for name in ("shipped.wigley", "io.offsets.net", "shipped.bulk_carrier_207k"):
     import_module(f"assoc_hull.{name}").adopt = shuffled
 wigley = import_module("assoc_hull.shipped.wigley").wigley
 series60 = import_module("assoc_hull.shipped.series60")

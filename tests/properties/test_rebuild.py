@@ -48,15 +48,13 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 # What another process does with definitions: make hulls of them, and name their content.
 FINGERPRINTS = """
 import json, sys
-from assoc_hull.model.definition.canonical_columns import places, point_columns
-from assoc_hull.model.definition.records import fingerprint
+from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.definition.restore import from_definition
 for line in sys.stdin:
     print(fingerprint(from_definition(json.loads(line))))
 """
 EDITED = """
-from assoc_hull.model.definition.canonical_columns import places, point_columns
-from assoc_hull.model.definition.records import fingerprint
+from assoc_hull.model.definition.fingerprint import fingerprint
 from tests.strategies import Move, PinnedEdit, apply_edit, make_document, wigley_sources
 document = make_document(wigley_sources(5, 3, 2))
 for which in range(0, 60, 7):

@@ -31,22 +31,22 @@ class Wish:
 
     def carry_out(self, hull: ah.Hull) -> bool:
         """Vary a hull in place; tell whether that was refused, which leaves it as it was."""
-        measures, before, done = ah.measure(hull, only=NAMED), hull.fingerprint, len(hull.history)
+        measures, before, done = hull.measure(only=NAMED), hull.fingerprint, len(hull.history)
         flush = measures.get("depth", 0.0) <= hull.particulars.draught
         values = {
             name: ratio * measures[name] for name, ratio in self.ratios
             if name in measures and not (name == "depth" and flush)
         }  # fmt: skip
         try:
-            found = ah.vary(
-                hull, set=values, layers=self._layers(hull), stations=_STATIONS[self.stations],
+            found = hull.vary(
+                set=values, layers=self._layers(hull), stations=_STATIONS[self.stations],
                 in_place=True,
             )  # fmt: skip
         except AssocHullError:
             assert hull.fingerprint == before
             assert len(hull.history) == done
             return False
-        again = ah.measure(hull, only=values)
+        again = hull.measure(only=values)
         assert all(abs(again[name] - value) <= 1e-6 for name, value in values.items())
         assert all(abs(each.reached - each.asked) <= 1e-6 for each in found.report.targets)
         return True

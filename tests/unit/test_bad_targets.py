@@ -31,35 +31,35 @@ ROW: dict[str, Any] = {**AIM, "outputs": ["volume"]}
 RAW = {"name": "a", "fields": []}
 
 PLACES: dict[str, Callable[[ah.Hull, Any], object]] = {
-    "reach": lambda hull, bad: ah.vary(hull, reach=bad, free=FREE),
-    "value to reach": lambda hull, bad: ah.vary(hull, reach={"volume": bad}, free=FREE),
-    "free": lambda hull, bad: ah.vary(hull, reach=TARGET, free=bad),
-    "one that is free": lambda hull, bad: ah.vary(hull, reach=TARGET, free=["breadth", bad]),
-    "name of a free layer": lambda hull, bad: ah.vary(
-        hull, reach=TARGET, free=[{**RAW, "name": bad}]
+    "reach": lambda hull, bad: hull.vary(reach=bad, free=FREE),
+    "value to reach": lambda hull, bad: hull.vary(reach={"volume": bad}, free=FREE),
+    "free": lambda hull, bad: hull.vary(reach=TARGET, free=bad),
+    "one that is free": lambda hull, bad: hull.vary(reach=TARGET, free=["breadth", bad]),
+    "name of a free layer": lambda hull, bad: hull.vary(
+        reach=TARGET, free=[{**RAW, "name": bad}]
     ),
-    "field of a free layer": lambda hull, bad: ah.vary(
-        hull, reach=TARGET, free=[{**RAW, "fields": [bad]}]
+    "field of a free layer": lambda hull, bad: hull.vary(
+        reach=TARGET, free=[{**RAW, "fields": [bad]}]
     ),
-    "bounds": lambda hull, bad: ah.vary(hull, **AIM, bounds=bad),
-    "pair of bounds": lambda hull, bad: ah.vary(hull, **AIM, bounds={"breadth": bad}),
-    "lower bound": lambda hull, bad: ah.vary(hull, **AIM, bounds={"breadth": (bad, 11.0)}),
-    "exact": lambda hull, bad: ah.vary(hull, **AIM, exact=bad),
-    "script": lambda hull, bad: ah.vary_by(hull, {**AIM, "bounds": bad}),
-    "to": lambda hull, bad: ah.shift_sections(hull, to=bad),
-    "value to shift to": lambda hull, bad: ah.shift_sections(hull, to={"cb": bad}),
-    "value to shift by": lambda hull, bad: ah.shift_sections(hull, by={"lcb": bad}),
-    "terminals": lambda hull, bad: ah.shift_sections(hull, by={"cb": 0.005}, terminals=bad),
-    "shape": lambda hull, bad: ah.shift_sections(hull, by={"cb": 0.005}, shape=bad),
-    "length": lambda hull, bad: ah.swing(hull, length=bad),
-    "draught to swing to": lambda hull, bad: ah.swing(hull, draught=bad),
-    "values of a study": lambda hull, bad: ah.study(hull, set={"breadth": [10.1, bad]}),
-    "targets of a study": lambda hull, bad: ah.study(hull, **{**ROW, "reach": {"volume": bad}}),
-    "row of a study": lambda hull, bad: ah.study(hull, **{**ROW, "reach": [TARGET, bad]}),
-    "bounds of a study": lambda hull, bad: ah.study(hull, **ROW, bounds={"breadth": (9.0, bad)}),
-    "output of a study": lambda hull, bad: ah.study(hull, **{**ROW, "outputs": [bad]}),
-    "range": lambda hull, bad: ah.sample({"breadth": bad}, 2),
-    "end of a range": lambda hull, bad: ah.sample({"breadth": (bad, 11.0)}, 2),
+    "bounds": lambda hull, bad: hull.vary(**AIM, bounds=bad),
+    "pair of bounds": lambda hull, bad: hull.vary(**AIM, bounds={"breadth": bad}),
+    "lower bound": lambda hull, bad: hull.vary(**AIM, bounds={"breadth": (bad, 11.0)}),
+    "exact": lambda hull, bad: hull.vary(**AIM, exact=bad),
+    "script": lambda hull, bad: hull.vary_by({**AIM, "bounds": bad}),
+    "to": lambda hull, bad: hull.shift_sections(to=bad),
+    "value to shift to": lambda hull, bad: hull.shift_sections(to={"cb": bad}),
+    "value to shift by": lambda hull, bad: hull.shift_sections(by={"lcb": bad}),
+    "terminals": lambda hull, bad: hull.shift_sections(by={"cb": 0.005}, terminals=bad),
+    "shape": lambda hull, bad: hull.shift_sections(by={"cb": 0.005}, shape=bad),
+    "length": lambda hull, bad: hull.swing(length=bad),
+    "draught to swing to": lambda hull, bad: hull.swing(draught=bad),
+    "values of a study": lambda hull, bad: hull.study(set={"breadth": [10.1, bad]}),
+    "targets of a study": lambda hull, bad: hull.study(**{**ROW, "reach": {"volume": bad}}),
+    "row of a study": lambda hull, bad: hull.study(**{**ROW, "reach": [TARGET, bad]}),
+    "bounds of a study": lambda hull, bad: hull.study(**ROW, bounds={"breadth": (9.0, bad)}),
+    "output of a study": lambda hull, bad: hull.study(**{**ROW, "outputs": [bad]}),
+    "range": lambda hull, bad: ah.study.sample({"breadth": bad}, 2),
+    "end of a range": lambda hull, bad: ah.study.sample({"breadth": (bad, 11.0)}, 2),
 }  # fmt: skip
 GOOD = {
     "exact": {"truth"}, "bounds of a study": {"inf"},
@@ -80,9 +80,9 @@ def hull() -> ah.Hull:
 
 
 @pytest.fixture(scope="module")
-def study(hull: ah.Hull) -> ah.Study:
+def study(hull: ah.Hull) -> ah.study.Study:
     """A variant that is made, and one that is refused."""
-    return ah.study(hull, set={"breadth": [10.1, -3.0]}, outputs=["volume"])
+    return hull.study(set={"breadth": [10.1, -3.0]}, outputs=["volume"])
 
 
 def refused(what: str, act: Callable[[], object]) -> None:
@@ -118,8 +118,8 @@ def test_what_is_asked_for_is_good_or_refused(hull: ah.Hull, place: str) -> None
 def test_bounds_are_a_lower_and_an_upper_one(hull: ah.Hull, bounds: Any) -> None:
     """Reversed ones are refused too; as are those of a parameter that is not free."""
     for name, given in (("breadth", bounds), ("draught", (4.0, 6.0))):
-        refused(name, partial(ah.vary, hull, **AIM, bounds={name: given}))
-        refused(name, partial(ah.study, hull, **ROW, bounds={name: given}))
+        refused(name, partial(ah.Hull.vary, hull, **AIM, bounds={name: given}))
+        refused(name, partial(ah.Hull.study, hull, **ROW, bounds={name: given}))
 
 
 @pytest.mark.parametrize(
@@ -137,18 +137,18 @@ def test_bounds_are_a_lower_and_an_upper_one(hull: ah.Hull, bounds: Any) -> None
 )
 def test_a_shift_is_asked_for_once_and_clearly(hull: ah.Hull, given: dict[str, Any]) -> None:
     """Contradictions, other names, and terminals that are not four that rise."""
-    refused("shift", partial(ah.shift_sections, hull, **given))
+    refused("shift", partial(ah.Hull.shift_sections, hull, **given))
 
 
 def test_a_swing_takes_one_dimension_or_two(hull: ah.Hull) -> None:
     """Of three none would be left to give way; none asks for nothing."""
-    refused("none", partial(ah.swing, hull))
-    refused("three", partial(ah.swing, hull, length=100.0, breadth=10.0, draught=5.0))
+    refused("none", partial(ah.Hull.swing, hull))
+    refused("three", partial(ah.Hull.swing, hull, length=100.0, breadth=10.0, draught=5.0))
 
 
 @pytest.mark.parametrize("method", STUDY)
 def test_a_study_gives_its_variants_and_tables_only(
-    study: ah.Study, method: str, tmp_path: Any
+    study: ah.study.Study, method: str, tmp_path: Any
 ) -> None:
     """A number that none has, and a path that is none, are refused."""
     call = getattr(study, method)
@@ -160,7 +160,7 @@ def test_a_study_gives_its_variants_and_tables_only(
                 refused(kind, partial(call, value))
 
 
-def test_a_study_has_no_hull_of_a_refused_variant(study: ah.Study) -> None:
+def test_a_study_has_no_hull_of_a_refused_variant(study: ah.study.Study) -> None:
     """Its reason stands in the row; nor has it one of a number beyond."""
     assert study.rows[1].failure
     for number in (1, 2, -1):
@@ -172,16 +172,16 @@ def test_names_are_text(hull: ah.Hull, kind: str) -> None:
     """Whatever else can be the key of a mapping is refused; as are names of nothing."""
     name = WRONG[kind]
     calls: Mapping[str, Callable[[], object]] = {
-        "reach": lambda: ah.vary(hull, reach={name: 1.0}, free=FREE),
-        "bounds": lambda: ah.vary(hull, **AIM, bounds={name: (9.0, 11.0)}),
-        "shift": lambda: ah.shift_sections(hull, by={name: 1.0}),
-        "set": lambda: ah.study(hull, set={name: 1.0}),
-        "targets": lambda: ah.study(hull, **{**ROW, "reach": {name: 1.0}}),
+        "reach": lambda: hull.vary(reach={name: 1.0}, free=FREE),
+        "bounds": lambda: hull.vary(**AIM, bounds={name: (9.0, 11.0)}),
+        "shift": lambda: hull.shift_sections(by={name: 1.0}),
+        "set": lambda: hull.study(set={name: 1.0}),
+        "targets": lambda: hull.study(**{**ROW, "reach": {name: 1.0}}),
     }
     for what, call in calls.items():
         refused(what, call)
     if not isinstance(name, str):
-        refused("range", lambda: ah.sample({name: (9.0, 11.0)}, 2))
+        refused("range", lambda: ah.study.sample({name: (9.0, 11.0)}, 2))
 
 
 def test_another_hull_is_no_value(hull: ah.Hull) -> None:

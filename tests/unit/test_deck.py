@@ -40,7 +40,7 @@ def test_a_deck_is_open_unless_told() -> None:
 @pytest.mark.parametrize("wrong", ["shut", "Open", "", None, 1, True, ["open"]])
 def test_another_word_is_refused(wrong: object) -> None:
     """The message names the value and the words there are."""
-    with pytest.raises(ah.BadInputError, match=r"^deck is .*; use open or closed"):
+    with pytest.raises(ah.errors.BadInputError, match=r"^deck is .*; use open or closed"):
         ah.Particulars("S", 9.0, 2.0, 1.0, 1.0, wrong)  # type: ignore[arg-type]
 
 
@@ -74,7 +74,7 @@ def test_a_text_with_another_word_is_refused() -> None:
     """The way to it is told."""
     document = json.loads(dumps_hull_json(with_deck("closed")))
     document["definition"]["particulars"]["deck"] = "shut"
-    with pytest.raises(ah.BadInputError, match=r"none of open, closed.*particulars\.deck"):
+    with pytest.raises(ah.errors.BadInputError, match=r"none of open, closed.*particulars\.deck"):
         read_hull_json(json.dumps(document))
 
 
@@ -84,7 +84,7 @@ def test_a_changed_deck_is_another_hull() -> None:
     assert fingerprint(one) != fingerprint(other)
     assert definition(one) != definition(other)
     changed = dumps_hull_json(other).replace('"deck": "closed"', '"deck": "open"')
-    with pytest.raises(ah.BadInputError, match="fingerprint"):
+    with pytest.raises(ah.errors.BadInputError, match="fingerprint"):
         read_hull_json(changed)
 
 
@@ -165,7 +165,7 @@ def test_an_import_is_open_unless_told(exported: Path, tmp_path: Path) -> None:
     """In Python and on the command line, from tables and lines."""
     assert ah.read(exported, draught=6.0).particulars.deck == "open"
     assert ah.read(exported, draught=6.0, deck="closed").particulars.deck == "closed"
-    with pytest.raises(ah.BadInputError, match="deck is 'shut'"):
+    with pytest.raises(ah.errors.BadInputError, match="deck is 'shut'"):
         ah.read(exported, draught=6.0, deck="shut")
     for given, deck in (
         ([], "open"),
@@ -181,7 +181,7 @@ def test_a_saved_hull_has_one_already(tmp_path: Path, capsys: pytest.CaptureFixt
     """Reading it with another one is refused, not ignored."""
     path = tmp_path / "ship.hull.json"
     ah.Hull(with_deck("closed")).save(path)
-    with pytest.raises(ah.BadInputError, match="deck cannot be given"):
+    with pytest.raises(ah.errors.BadInputError, match="deck cannot be given"):
         ah.read(path, deck="open")
     assert main(["import", str(path), "-o", str(tmp_path / "o.hull"), "--deck", "open"]) == 2
     assert "--deck cannot be given" in capsys.readouterr().err

@@ -190,7 +190,7 @@ def test_half_breadths_anywhere(hull: ah.Hull, x: float, z: float, tolerance: fl
 @pytest.mark.parametrize(("x", "z"), [(101.0, 2.0), (50.0, 12.0), (-0.1, 2.0)])
 def test_no_half_breadth_outside(hull: ah.Hull, x: float, z: float) -> None:
     """It is an error that says where to ask."""
-    with pytest.raises(ah.NoMeetingError, match="below the deck"):
+    with pytest.raises(ah.errors.NoMeetingError, match="below the deck"):
         hull.half_breadth(x, z)
 
 

@@ -11,8 +11,7 @@ import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.record import Hydrostatics
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError
 from assoc_hull.geometry.splines.evaluation import sample
-from assoc_hull.shifts import Shifted
-from assoc_hull.variants import vary_by
+from assoc_hull.variation import Shifted
 from assoc_hull.variation.comparing.line_fairness import compare_fairness, measure_fairness
 from assoc_hull.variation.shifts.swing_hull import swung_dimensions
 from tests.conftest import Shipped
@@ -27,7 +26,7 @@ def parent(series60_70: ah.Hull) -> ah.Hull:
 @pytest.fixture(scope="module")
 def fuller(parent: ah.Hull) -> Shifted:
     """Its variant: CB +.02 and LCB +.5 % Lpp together."""
-    return ah.shift_sections(parent, by={"cb": 0.02, "lcb_percent": 0.5})
+    return parent.shift_sections(by={"cb": 0.02, "lcb_percent": 0.5})
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +37,7 @@ def wigley(shipped: Shipped) -> ah.Hull:
 
 def _measured(hull: ah.Hull) -> Hydrostatics:
     """The record, without the estimate of its errors."""
-    return ah.hydrostatics(hull, estimate=False)
+    return hull.hydrostatics(estimate=False)
 
 
 def test_volume_and_centre_are_met_together(parent: ah.Hull, fuller: Shifted) -> None:
@@ -107,15 +106,15 @@ def test_lines_wave_no_more_than_before(parent: ah.Hull, fuller: Shifted) -> Non
 def test_a_script_repeats_the_shift_to_the_last_bit(parent: ah.Hull, fuller: Shifted) -> None:
     """What was done is a variation by raw layers, also as text."""
     script = json.loads(json.dumps(dict(fuller.report.variation.script or {})))
-    assert vary_by(parent, script).hull.fingerprint == fuller.hull.fingerprint
+    assert parent.vary_by(script).hull.fingerprint == fuller.hull.fingerprint
 
 
 def test_it_is_one_step(wigley: ah.Hull) -> None:
     """A copy is shifted, or the hull itself; undo gives the parent back, to the last bit."""
     start, steps = wigley.fingerprint, len(wigley.history)
-    copy = ah.shift_sections(wigley, by={"lcb_percent": -0.4}, name="aft")
+    copy = wigley.shift_sections(by={"lcb_percent": -0.4}, name="aft")
     assert (wigley.fingerprint, len(wigley.history)) == (start, steps)
-    own = ah.shift_sections(wigley, by={"lcb_percent": -0.4}, name="aft", in_place=True)
+    own = wigley.shift_sections(by={"lcb_percent": -0.4}, name="aft", in_place=True)
     assert own.hull is wigley
     assert wigley.fingerprint == copy.hull.fingerprint != start
     assert len(wigley.history) == steps + 1
@@ -125,17 +124,17 @@ def test_it_is_one_step(wigley: ah.Hull) -> None:
 
 def test_bodies_on_their_own(wigley: ah.Hull) -> None:
     """CP of the fore body as asked, that of the after body held; nothing aft of midship moves."""
-    before = ah.form_parameters(wigley, only=["Cpf", "Cpa"])
-    found = ah.shift_sections(wigley, by={"Cpf": 0.01}, shape="c1")
-    after = ah.form_parameters(found.hull, only=["Cpf", "Cpa"])
+    before = wigley.form_parameters(only=["Cpf", "Cpa"])
+    found = wigley.shift_sections(by={"Cpf": 0.01}, shape="c1")
+    after = found.hull.form_parameters(only=["Cpf", "Cpa"])
     gained = [(after[name].number or 0.0) - (before[name].number or 0.0) for name in before]
     assert gained == pytest.approx([0.01, 0.0], abs=1e-10)
 
 
 def test_the_parallel_body_is_lengthened_alone(wigley: ah.Hull) -> None:
     """What stands for it: both its ends move as asked, volume and centre stay to 1e-10."""
-    found = ah.shift_sections(
-        wigley, by={"parallel_body_start": -0.5}, to={"parallel_body_end": 57.0},
+    found = wigley.shift_sections(
+        by={"parallel_body_start": -0.5}, to={"parallel_body_end": 57.0},
         terminals=[0.0, 45.0, 55.0, 100.0],
     )  # fmt: skip
     before, after = _measured(wigley), _measured(found.hull)
@@ -149,9 +148,9 @@ def test_the_parallel_body_is_lengthened_alone(wigley: ah.Hull) -> None:
 def test_a_hull_without_parallel_body_says_what_stands_for_it(wigley: ah.Hull) -> None:
     """Its largest station, for shifts as for the named parameters; both tell it."""
     told = "no parallel middle body: the largest station stands for it, at 50 m"
-    shifted = ah.shift_sections(wigley, by={"cp": 0.005})
+    shifted = wigley.shift_sections(by={"cp": 0.005})
     assert told in shifted.report.notes
-    named = ah.vary(wigley, set={"fore_shift": 1.0, "aft_shift": -0.5})
+    named = wigley.vary(set={"fore_shift": 1.0, "aft_shift": -0.5})
     assert told in named.report.notes
     assert named.map(np.array([[75.0, 1.0, 2.0], [25.0, 1.0, 2.0]]))[:, 0].tolist() == [76.0, 24.5]
 
@@ -186,7 +185,7 @@ def test_what_is_refused(
     """In one line that tells what is wrong and what to do; the hull is unchanged."""
     start, steps = wigley.fingerprint, len(wigley.history)
     with pytest.raises(kind, match=says) as caught:
-        ah.shift_sections(wigley, in_place=True, **given)
+        wigley.shift_sections(in_place=True, **given)
     assert "\n" not in str(caught.value)
     assert (wigley.fingerprint, len(wigley.history)) == (start, steps)
 
@@ -194,16 +193,16 @@ def test_what_is_refused(
 def test_the_range_that_is_told_can_be_had(wigley: ah.Hull) -> None:
     """Just within the refused range a hull comes out, beyond it none."""
     with pytest.raises(OutOfRangeError) as caught:
-        ah.shift_sections(wigley, by={"cb": 0.2})
+        wigley.shift_sections(by={"cb": 0.2})
     most = caught.value.most
     assert 0.08 < most < 0.09
-    found = ah.shift_sections(wigley, by={"cb": 0.999 * most})
+    found = wigley.shift_sections(by={"cb": 0.999 * most})
     assert found.report.shift.least == pytest.approx(0.05, abs=2e-3)
 
 
 def test_a_hull_that_is_swung_keeps_volume_and_coefficients(wigley: ah.Hull) -> None:
     """CB, volume and LCB / Lpp to 1e-10; what was not asked for gives way."""
-    found = ah.swing(wigley, length=121.0)
+    found = wigley.swing(length=121.0)
     before, after = _measured(wigley), _measured(found.hull)
     assert after.volume == pytest.approx(before.volume, rel=1e-10)
     assert after.cb == pytest.approx(before.cb, abs=1e-10)
@@ -244,5 +243,5 @@ def test_what_cannot_be_swung(wigley: ah.Hull, asked: dict[str, Any], says: str)
     """Refused in one line; the hull is unchanged."""
     start = wigley.fingerprint
     with pytest.raises(BadInputError, match=says):
-        ah.swing(wigley, in_place=True, **asked)
+        wigley.swing(in_place=True, **asked)
     assert wigley.fingerprint == start

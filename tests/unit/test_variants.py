@@ -37,7 +37,7 @@ parent, script = ah.open(sys.argv[1]), sys.argv[2]
 given = json.load(open(script))
 del given["version"]
 given["set"] = dict(reversed(given["set"].items()))
-print(ah.vary_by(parent, script).hull.fingerprint, ah.vary(parent, **given).hull.fingerprint)
+print(parent.vary_by(script).hull.fingerprint, parent.vary(**given).hull.fingerprint)
 """
 
 
@@ -50,7 +50,7 @@ def parent(shipped: Callable[[str], ah.Hull]) -> ah.Hull:
 @pytest.fixture(scope="module")
 def variant(parent: ah.Hull) -> ah.Hull:
     """Its variant by the script."""
-    return ah.vary_by(parent, SCRIPT).hull
+    return parent.vary_by(SCRIPT).hull
 
 
 def test_a_script_gives_the_same_hull_in_either_form_and_in_another_process(
@@ -69,17 +69,17 @@ def test_a_script_gives_the_same_hull_in_either_form_and_in_another_process(
 
 def test_a_report_repeats_its_variation(parent: ah.Hull, variant: ah.Hull) -> None:
     """What was asked for, defaults included, goes through JSON and gives the same hull."""
-    report = ah.vary_by(parent, SCRIPT).report
+    report = parent.vary_by(SCRIPT).report
     assert report.script is not None
     kept = json.loads(json.dumps(dict(report.script)))
     assert kept == {**SCRIPT, "stations": "number", "planes": "follow"}
-    assert ah.vary_by(parent, kept).hull.fingerprint == variant.fingerprint
+    assert parent.vary_by(kept).hull.fingerprint == variant.fingerprint
 
 
 def test_layers_that_are_no_data_leave_no_script(parent: ah.Hull) -> None:
     """A program made them; the report does not pretend that a file can."""
     lifted = hat_field("keel", [("keel", 0.0, 0.2), ("T", 6.0, 0.0)], BlendChain.constant(1.0))
-    report = ah.vary(parent, layers=[FieldLayer("lifted", (lifted,))]).report
+    report = parent.vary(layers=[FieldLayer("lifted", (lifted,))]).report
     assert report.script is None
     assert report.edit.name == "vary by fields"
 
@@ -110,7 +110,7 @@ def test_a_bad_script_is_told_in_one_line(parent: ah.Hull, tmp_path: Path, case:
     if text is not None:
         script.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(AssocHullError) as found:
-        ah.vary_by(parent, script, in_place=True)
+        parent.vary_by(script, in_place=True)
     assert says in str(found.value)
     assert "\n" not in str(found.value)
     assert (parent.fingerprint, parent.history) == (before, ())
@@ -119,9 +119,9 @@ def test_a_bad_script_is_told_in_one_line(parent: ah.Hull, tmp_path: Path, case:
 def test_values_that_a_hull_has_change_nothing(bulk_carrier: ah.Hull) -> None:
     """All that is measured, asked for again: no step, no point moved, every target met."""
     apart = ("bilge_radius", "deadrise_deg", "deck_height")
-    now = {name: value for name, value in ah.measure(bulk_carrier).items() if name not in apart}
+    now = {name: value for name, value in bulk_carrier.measure().items() if name not in apart}
     before = bulk_carrier.fingerprint
-    found = ah.vary(bulk_carrier, set=now, in_place=True)
+    found = bulk_carrier.vary(set=now, in_place=True)
     assert (bulk_carrier.fingerprint, bulk_carrier.history) == (before, ())
     assert not found.report.edit.changed
     assert found.map.layers == ()
@@ -132,7 +132,7 @@ def test_a_variation_is_one_step(shipped: Callable[[str], ah.Hull], variant: ah.
     """Undo gives the parent back to the bit, redo the variant."""
     hull = shipped("wigley")
     before, particulars = hull.fingerprint, hull.particulars
-    found = ah.vary_by(hull, SCRIPT, in_place=True)
+    found = hull.vary_by(SCRIPT, in_place=True)
     assert found.hull is hull
     assert [step.name for step in hull.history] == ["more beam"]
     assert hull.fingerprint == variant.fingerprint
@@ -162,7 +162,7 @@ def test_a_variant_is_kept_in_its_file(
     variant.detach()
     opened = ah.open(path)
     assert opened.fingerprint == variant.fingerprint
-    assert dict(ah.measure(opened)) == dict(ah.measure(variant))
+    assert dict(opened.measure()) == dict(variant.measure())
     if ending == ".hull":
         opened.undo()
         assert opened.fingerprint == parent.fingerprint
@@ -171,9 +171,9 @@ def test_a_variant_is_kept_in_its_file(
 
 def test_sections_that_were_bent_are_told_where_they_cannot_serve(parent: ah.Hull) -> None:
     """Named as drivers, they become curves in space; what needs planes across the ship says so."""
-    bent = ah.vary(parent, set={"stem_rake_deg": 4.0}, drivers=["sections"]).hull
-    found = ah.measure(bent)
+    bent = parent.vary(set={"stem_rake_deg": 4.0}, drivers=["sections"]).hull
+    found = bent.measure()
     assert found["stem_rake_deg"] == pytest.approx(4.0, abs=1e-6)
     assert "is a curve in space" in found.absent["parallel_body_start"]
     with pytest.raises(AssocHullError, match="is a curve in space"):
-        ah.hydrostatics(bent)
+        bent.hydrostatics()

@@ -82,7 +82,7 @@ def curve_tangents(
     ----------
     base : Flotation
         The hull.
-    shapes : sequence of k Shape
+    shapes : sequence of k ShapeParameter
         The parameters; computed points follow where they say so.
 
     Raises

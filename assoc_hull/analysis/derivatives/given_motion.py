@@ -75,7 +75,7 @@ class Moves(TitledParameter, ShapeParameter):
     >>> from assoc_hull.analysis.derivatives.hydrostatic_derivatives import hydrostatic_derivatives
     >>> from assoc_hull.analysis.derivatives.given_motion import Moves
     >>> from assoc_hull.analysis.derivatives.parameters import Rates
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> hull = examples.wigley()
     >>> half = hull.state.rows.xyz.data * [0.0, 1.0, 0.0] / hull.particulars.breadth
     >>> wider = Moves("breadth", half, rates=Rates(breadth=1.0), unit="m")

@@ -1,9 +1,11 @@
 """Exact derivatives of hydrostatics: the kernel's own sums, differentiated.
 
 Everything runs through the same code as the values, on arrays that carry tangents
-(`assoc_hull.geometry.dual`): the loft, the surface, its cuts by the plane, the algebra of the
-record. `tangents_by` carries eight parameters at a time; form parameters and variations use it,
-too. Reference: A. Griewank, A. Walther, "Evaluating Derivatives", 2nd ed., SIAM 2008, ch. 3.
+(`assoc_hull.geometry.numeric.dual`): the loft with its chord lengths, the surface, its cuts by the
+plane, the points where the immersed part changes its kind, the algebra of the record. `tangents_by`
+carries eight parameters at a time; form parameters and variations use it, too.
+
+Source: A. Griewank, A. Walther, "Evaluating Derivatives", 2nd ed., SIAM 2008, ch. 3 (forward mode).
 """
 
 from __future__ import annotations
@@ -51,7 +53,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Hydrostatics of a hull that carries tangents by parameters, some at a time.
+# A hull that carries tangents.
 
 _AT_ONCE = 8
 """Tangents that are carried along together, which bounds the memory."""
@@ -69,11 +71,11 @@ class TangentHull:
         How the principal dimensions change.
     draughts : (3, k)
         How T_A (m), T_F (m) and the heel (degrees) change.
-    body : Varied or Flotation
+    body : TangentFlotation or Flotation
         The hull; in plain numbers where only its position changes.
-    moving : Moving or None
+    moving : CurveTangents or None
         How its points move, if they do.
-    planes : Planes
+    planes : FloatingPlanes
         Where it floats.
     header : HydrostaticHeader
         Its dimensions; with tangents where these change.
@@ -104,20 +106,11 @@ def tangents_by(
     *,
     sinks: bool = False,
 ) -> Iterator[TangentHull]:
-    """Carry parameters through hydrostatics, eight at a time; those of the position, cheap, apart.
+    """Carry parameters through hydrostatics at one plane, eight at a time.
 
-    Parameters
-    ----------
-    body : Flotation
-        The hull.
-    plane : Planes
-        Where it floats: one plane.
-    header : HydrostaticHeader
-        Dimensions, water and what counts.
-    wrt : sequence of Parameter
-        The parameters; rates of length and breadth enter coefficients.
-    sinks : bool
-        The plane goes along with the design draught; else draughts at the perpendiculars stay.
+    Those of the position, which are cheap, come apart from those that move points. Rates of length
+    and breadth enter coefficients. `sinks`: the plane goes along with the design draught; else
+    draughts at the perpendiculars stay.
 
     Raises
     ------
@@ -156,7 +149,7 @@ def _draughts(parameter: Parameter, sinks: bool) -> tuple[float, float, float]:
 
 
 def with_tangents(value: float, rates: Sequence[float] | FloatArray) -> float:
-    """Give a number with its tangents; as it is where none of them is other than nil."""
+    """Give a number with its tangents; as it is where all of them are zero."""
     dot = np.array(rates, np.float64)
     return Dual(value, dot) if dot.any() else value  # type: ignore[return-value]
 
@@ -190,14 +183,7 @@ def tangents_of(value: Any, count: int) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Exact derivatives of hydrostatics: the kernel's own sums, differentiated.
-#
-# Everything runs through the same code as the values, on arrays that carry tangents
-# (`assoc_hull.geometry.numeric.dual`): the loft with its chord lengths, the surface, its cuts by
-# the plane, the places where the immersed part changes its kind, and the algebra of the record.
-#
-# Reference: A. Griewank, A. Walther, "Evaluating Derivatives", 2nd ed., SIAM 2008, ch. 3
-# (forward mode).
+# Derivatives of the record.
 
 _WHERE = "in hydrostatic_derivatives"
 
@@ -258,44 +244,7 @@ def hydrostatic_derivatives(
 ) -> Derivatives:
     """Differentiate the hydrostatics of a hull at one floating position.
 
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    wrt : iterable of k parameters
-        By what: `DRAUGHT`, `TRIM`, `DRAUGHT_AFT`, `DRAUGHT_FORE` (m), `HEEL` (degree),
-        `PointMove` (m), `Deformation`; of `assoc_hull.analysis.derivatives.parameters`; or `Moves`.
-    draught, draughts, heel_deg, rho, shell_factor, kg, transom, on_error, appendages
-        As for `hydrostatics`.
-    keel_thickness, draught_to
-        As for `hydrostatics`.
-
-    Returns
-    -------
-    Derivatives
-        The record, and its derivatives.
-
-    Raises
-    ------
-    WrongTypeError, BadInputError, UnknownNameError, FreedomError, PointRoleError
-        A parameter that cannot be used; else as `hydrostatics`.
-
-    Notes
-    -----
-    Draughts, water, KG and appendages stay as they are, and so do Lpp and B but where a parameter
-    has rates for them (`assoc_hull.analysis.derivatives.given_motion.Moves`). The layout of the
-    surface is that of the hull as it stands; where a value has a kink (the largest station changes,
-    a section begins to be wet) the derivative is that to one side.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.derivatives.hydrostatic_derivatives import hydrostatic_derivatives
-    >>> from assoc_hull.analysis.derivatives.parameters import DRAUGHT, PointMove
-    >>> from assoc_hull.sources import examples
-    >>> wrt = [DRAUGHT, PointMove("WL 2.5 x ST 7")]
-    >>> found = hydrostatic_derivatives(examples.wigley(), wrt, draught=6.25)
-    >>> found.of("volume").round(2).tolist(), round(found.value.waterplane_area, 2)
-    ([666.63, 6.25], 666.63)
+    The arguments and what is raised are those of `Hull.hydrostatic_derivatives`.
     """
     terms: dict[str, object] = {
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,

@@ -19,12 +19,12 @@ from assoc_hull.analysis.hydrostatics.flotation import Flotation
 from assoc_hull.analysis.net.curve_net import CurveNet, flat_ends_below, sections_of
 from assoc_hull.analysis.net.moved_layout import move_cells
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
     ImmersedIntegrals,
     integrate_immersed,
 )
-from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.sections import sections_below
 from assoc_hull.geometry.numeric.dual import Dual, as_array, is_plain
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
@@ -44,7 +44,7 @@ class TangentFlotation:
         Its splines: with tangents, complex, or of points that have moved a little.
     points : (n, 3), m
         All points of its tables, in the same arithmetic.
-    moving : Moving or None
+    moving : CurveTangents or None
         What the tangents come from, if these are such.
     """
 
@@ -96,7 +96,7 @@ def tangent_flotation(base: Flotation, shapes: Sequence[ShapeParameter]) -> Tang
     ----------
     base : Flotation
         The hull.
-    shapes : sequence of Shape
+    shapes : sequence of ShapeParameter
         The parameters.
 
     Raises

@@ -1,8 +1,9 @@
 """How fair a curve, the lines of a hull, or all lines of its net are, by five criteria.
 
-A knuckle of the net is a joint that may bend. Offsets of a line are the crossings on it that define
-neither of their lines: their gap, over the limit of the gap. A `FairnessTable` holds the records
-line by line, and compares those before and after an edit.
+A knuckle of the net is a joint that may bend. Offsets of a line are the watched crossings on it,
+those that define neither of their lines: their gap, over the limit of the gap. A `FairnessTable`
+holds a record per curve, and compares those before and after an edit; numbers are never put into
+one score.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Records of fairness of many curves, and of a hull before and after an edit.
+# Tables of records.
 
 _LOOK = ("bending", "variation", "support_jumps", "extrema")
 _HEADS = {
@@ -56,7 +57,7 @@ class FairnessPair:
     after: FairnessRecord
 
     def ratio(self, number: str) -> float | None:
-        """Give after over before of a number of the record; None where it has none or was nil."""
+        """Give after over before of a number of the record; None where it has none or was 0."""
         before, after = getattr(self.before, number), getattr(self.after, number)
         return None if not before or after is None else float(after / before)
 
@@ -190,7 +191,7 @@ def _text(each: FairnessRecord) -> str:
 
 
 def _jump(value: float) -> str:
-    """Write a jump; what is rounding is nil."""
+    """Write a jump; below 1e-11 it is rounding, and written as 0."""
     return f"{value:.2g}" if value > 1e-11 else "0"
 
 
@@ -209,18 +210,9 @@ def _row(each: FairnessRecord) -> dict[str, Any]:
 
 
 # --------------------------------------------------------------------------------------
-# How fair a curve, the lines of a hull, or all lines of its net are, by five criteria.
-#
-# A knuckle of the net is a joint that may bend. Offsets of a line are the crossings on it that
-# define neither of their lines: their gap, over the limit of the gap.
+# Measuring.
 
 if TYPE_CHECKING:
-    from scipy.interpolate import PPoly
-
-    from assoc_hull.geometry.classical.chord_spline import ChordSpline
-    from assoc_hull.geometry.classical.elastica import Elastica
-    from assoc_hull.geometry.classical.truncated_power_spline import TruncatedPower
-
     Single = PPoly | PlaneArcs | ChordSpline | Elastica | TruncatedPower
 
 _WHERE = "in fairness"
@@ -270,7 +262,7 @@ def fairness(
     Examples
     --------
     >>> import assoc_hull as ah
-    >>> found = ah.fairness(ah.examples.wigley())
+    >>> found = ah.form.fairness(ah.examples.wigley())
     >>> found["WL 2.5"][0].failed
     ()
     """
@@ -411,7 +403,7 @@ def _knuckles(state: HullState, curves: Sequence[int]) -> NDArray[np.bool_]:
 
 
 def _watched(state: HullState, curves: IntArray) -> OffsetDeviations:
-    """Give the gaps of watched crossings as offsets of both lines."""
+    """Give the gaps of watched crossings as offsets of both lines, over their limits."""
     rows = watched_on(state, curves)
     gap, limit = state.rows.gap.data[rows], state.rows.limit.data[rows]
     told = np.isfinite(gap) & (limit > 0.0)

@@ -1,5 +1,6 @@
 """Form parameters of a hull: a catalogue of definitions, and their values.
 
-`value` says what an answer is, `parameter` what an entry of the catalogue is, `shape` what is
-measured, `evaluate` puts them together; all other modules hold entries, by subject.
+`parameter` says what an entry of the catalogue and its value are, `floating_shape` what is
+measured, `form_parameters` puts them together; `entries` holds the entries, by subject, `catalogue`
+their order.
 """

@@ -35,7 +35,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The parts of the catalogue of form parameters: their order and their headings.
+# Tables: their order and their headings.
 
 TABLES: tuple[str, ...] = get_args(Table)
 """Parts of the catalogue, in their order."""
@@ -69,9 +69,8 @@ _PLACE = {symbol: place for place, symbol in enumerate(_PAPER.split())}
 def by_table(entries: Iterable[FormParameter]) -> dict[str, list[FormParameter]]:
     """Sort entries into the parts of the catalogue, in the order of the paper's tables.
 
-    What stands in none of them follows, in the order of the catalogue.
-
-    Parts that an entry of a caller's own names come last, parts without entries do not come.
+    What stands in none of them follows, in the order of the catalogue. Parts that only entries of a
+    caller's own name come last; parts without entries do not come.
 
     Examples
     --------
@@ -87,10 +86,7 @@ def by_table(entries: Iterable[FormParameter]) -> dict[str, list[FormParameter]]
 
 
 # --------------------------------------------------------------------------------------
-# All entries of the catalogue of form parameters.
-#
-# Entries stand in modules by subject; whatever entry a part of such a module holds is
-# taken. An entry of one's own is handed to `form_parameters` and needs no change anywhere.
+# All entries: whatever a part of a module of entries holds is taken.
 
 CATALOGUE = NamedMapping(
     "form parameter",

@@ -1,8 +1,11 @@
 """Chebyshev, sine and Fourier coefficients of curves of a hull.
 
 A curve is one coordinate of a line over another, a line closed with its mirror image, or the
-sectional areas over x. A `CurveTransform` holds the series and what it leaves out. Source: H.J.
-Son, H.C. Kim, J. of CAD/CAM (Korea) 13(6), 2008; the series are those of `assoc_hull.geometry`.
+sectional areas over x. A `CurveTransform` holds the series and what it leaves out; abscissas map to
+xi = -1 ... 1 over the range. `assoc_hull.geometry.integrals.series` has the series themselves.
+
+Source: H.J. Son, H.C. Kim, J. of CAD/CAM (Korea) 13(6), 2008 ("hull form parameter modules for
+performance analysis").
 """
 
 from __future__ import annotations
@@ -58,7 +61,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What comes of a transform: a curve as a series, and what the series leaves out.
+# The result.
 
 Kind = Literal["chebyshev", "sine", "fourier"]
 KINDS = ("chebyshev", "sine", "fourier")
@@ -152,7 +155,7 @@ class CurveTransform:
 
 
 # --------------------------------------------------------------------------------------
-# Where the curves of a transform come from: lines, closed lines, the sectional areas.
+# The three kinds of curve.
 
 AREAS = "sectional areas"
 """Stands for the sectional-area curve where a line is asked for."""
@@ -250,10 +253,7 @@ def of_areas(
 
 
 # --------------------------------------------------------------------------------------
-# Chebyshev, sine and Fourier coefficients of curves of a hull.
-#
-# Source: H.J. Son, H.C. Kim, "hull form parameter modules for performance analysis", J. of CAD/CAM
-# (Korea) 13(6), 2008; see `assoc_hull.geometry.integrals.series` for the series themselves.
+# Choosing curve, series and axes.
 
 _FUNCTIONS = {0: (2, 1), 1: (0, 2), 2: (0, 1)}  # from a line's plane: abscissa, ordinate
 _CLOSED = {0: (1, 2), 2: (0, 1)}
@@ -275,52 +275,7 @@ def curve_transform(
 ) -> CurveTransform:
     """Give the coefficients of a curve of a hull as a series.
 
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    curve : Line, Curve or str
-        A line, one of its curves, the address of either, or ``"sectional areas"``.
-    kind : "chebyshev", "sine" or "fourier"
-        Chebyshev or half-range sine series of an ordinate over an abscissa; or Fourier
-        descriptors of a section, or of a line seen from above, closed with its mirror image.
-    terms : int
-        Number of coefficients; of Fourier descriptors, harmonics to each side.
-    along, across : "x", "y" or "z"
-        Abscissa and ordinate. By default half breadth over x; of a section half breadth over z,
-        of a buttock z over x. Fourier descriptors take y as one of the two.
-    span : (float, float), "perpendiculars" or None, m
-        Range of the abscissa: between two places, from AP to FP, or the whole curve (the wetted
-        length, of sectional areas). Beyond the curve the ordinate is nil. Of Fourier
-        descriptors, range of the coordinate that is not y.
-    relative : bool or None
-        Divide by the largest ordinate; None does so for sectional areas only.
-    draught, draughts, heel_deg
-        The floating position of sectional areas, as in `hydrostatics`.
-
-    Returns
-    -------
-    CurveTransform
-        The coefficients and what they leave out.
-
-    Raises
-    ------
-    BadInputError
-        A curve that is not single-valued in the abscissa or has gaps; a number that cannot be
-        used.
-    OutOfRangeError
-        A position in which the hull does not float.
-    UnknownNameError
-        No line has this address.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.form.curve_transform import curve_transform
-    >>> from assoc_hull.sources import examples
-    >>> hull = examples.wigley()
-    >>> found = curve_transform(hull, "sectional areas", terms=3)  # A / Amax = 1 - xi^2
-    >>> (found.coefficients + 0.0).round(3).tolist()
-    [0.5, 0.0, -0.5]
+    The arguments and what is raised are those of `Hull.curve_transform`.
     """
     state = state_of(hull)
     which = _checked_kind(kind)

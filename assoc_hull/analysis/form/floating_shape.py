@@ -1,8 +1,8 @@
 """A hull at its floating position, with its screw, as the entries of the catalogue measure it.
 
-What several entries need is measured once: `FloatingShape.take` keeps what a measure gave. Measures
-are functions of a shape, so that a new one needs no change here. A `Screw` says what the lines do
-not tell of screw and shaft.
+What several entries need is measured once: `FloatingShape.take` keeps what a measure returned.
+Measures are functions of a shape, so that a new one needs no change here. A `Screw` holds what the
+lines do not tell of screw and shaft. Lengths in m, x from the AP.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What the lines of a hull do not tell of its screw and shaft.
+# Screw and shaft.
 
 _WHERE = "in a screw"
 
@@ -83,13 +83,10 @@ class Screw:
 
 
 # --------------------------------------------------------------------------------------
-# A hull at its floating position, as the entries of the catalogue measure it.
-#
-# What several entries need is measured once: `Shape.take` keeps what a measure gave. Measures
-# are functions of a shape, so that a new one needs no change here.
+# The hull.
 
 STATIONS = 20
-"""Of a ship, AP being station 0."""
+"""Station spacings between the perpendiculars, AP being station 0."""
 
 Measured = TypeVar("Measured")
 
@@ -158,7 +155,7 @@ class FloatingShape:
         return table_of(self.body, [self.position], self.header, estimate=False)[0]
 
     def take(self, measure: Callable[[FloatingShape], Measured]) -> Measured:
-        """Give what a measure says of this hull; it is asked once."""
+        """Give what a measure returns for this hull; it is called once."""
         if measure not in self._kept:
             self._kept[measure] = measure(self)
         return cast(Measured, self._kept[measure])

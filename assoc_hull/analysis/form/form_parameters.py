@@ -1,7 +1,8 @@
 """Form parameters of a hull: a value for each entry of the catalogue, and the report of them.
 
-`form_parameters` gives values by symbol, kept until a line of the hull changes. `form_report` puts
-them into parts with headings and notes, and says what they hold good for.
+`form_parameters` gives values by symbol, upright at a draught; they are kept until a line of the
+hull changes. `form_report` puts them into parts with headings and notes, and says what they hold
+good for.
 """
 
 from __future__ import annotations
@@ -40,11 +41,11 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Form parameters of a hull: a value for each entry of the catalogue.
+# Values.
 
 _WHERE = "in form parameters"
 _MOST = 8
-"""So many positions of a hull are kept, until a line changes."""
+"""Number of positions of a hull that are kept, until a line changes."""
 
 _KEPT = "form parameters"
 
@@ -63,46 +64,7 @@ def form_parameters(
 ) -> Mapping[str, FormValue]:
     """Give the form parameters of a hull, upright at a draught.
 
-    Values are computed once: until a line of the hull changes, asking again costs nothing.
-
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    draught : float, m
-        At even keel; or `draughts`. The design draught if neither is given.
-    draughts : (float, float), m
-        T_A and T_F, on the centre line at the perpendiculars.
-    screw : Screw or None
-        Without it, what depends on screw and shaft has no value.
-    rho, shell_factor, transom
-        As for `hydrostatics`.
-    only : iterable of str or None
-        Symbols of the entries wanted; None: all of them.
-    further : iterable of Parameter
-        Entries of one's own, which may need others of the catalogue.
-
-    Returns
-    -------
-    mapping of str to Value
-        By symbol: a number with its unit, or the reason why there is none.
-
-    Raises
-    ------
-    OutOfRangeError
-        A position in which the hull does not float, with the range.
-    UnknownNameError
-        A symbol that is no entry.
-    BadInputError
-        A number that cannot be used; entries that do not fit into the catalogue.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.form.form_parameters import form_parameters
-    >>> from assoc_hull.sources import examples
-    >>> found = form_parameters(examples.wigley(), draught=6.25)
-    >>> round(found["Cb"].number, 3), found["Cb"].unit  # 4/9
-    (0.444, '-')
+    The arguments and what is raised are those of `Hull.form_parameters`.
     """
     shape, known = _shape(hull, draught, draughts, screw, rho, shell_factor, transom)
     own = _entries(further)
@@ -177,13 +139,13 @@ def _shape(
 
 
 # --------------------------------------------------------------------------------------
-# Form parameters of a hull as a report: what they hold good for, parts with headings, notes.
+# The report.
 
 _HEAD = (
     "ship", "design draught", "datum", "water", "shell factor", "wetted surface", "deck", "date",
     "fingerprint",
 )  # fmt: skip
-_REPORT_WHERE = "in a report of form parameters"
+_IN_REPORT = "in a report of form parameters"
 
 
 @attrs.frozen
@@ -192,9 +154,9 @@ class ReportRow:
 
     Attributes
     ----------
-    entry : Parameter
+    entry : FormParameter
         What it is.
-    value : Value
+    value : FormValue
         A number, or the reason why there is none.
     notes : tuple of int
         Numbers of the notes that stand below the report for it, from 1.
@@ -231,9 +193,9 @@ class FormReport:
         Where it floats.
     screw : Screw or None
         If it was given.
-    entries : mapping of str to Parameter
+    entries : mapping of str to FormParameter
         The entries of all values, by symbol.
-    particulars, values : mapping of str to Value
+    particulars, values : mapping of str to FormValue
         Principal particulars, which stand in the head whatever is wanted; what was wanted.
     doubts : tuple of str
         What makes the integrals doubtful.
@@ -326,15 +288,15 @@ def form_report(
     Examples
     --------
     >>> from assoc_hull.analysis.form.form_parameters import form_report
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> report = form_report(examples.wigley(), draught=6.25, only=["V", "Cb"])
     >>> [part.title for part in report.parts]
     ['Principal particulars', 'Hydrostatic values']
     """
     if date is not None:
-        text(date, "date", _REPORT_WHERE)
+        text(date, "date", _IN_REPORT)
     some = (further,) if isinstance(further, FormParameter) else further
-    own = tuple(all_of(some, FormParameter, "further", _REPORT_WHERE))
+    own = tuple(all_of(some, FormParameter, "further", _IN_REPORT))
     entries = {**CATALOGUE, **{each.symbol: each for each in own}}
     place: dict[str, Any] = {"draught": draught, "draughts": draughts, "screw": screw, "rho": rho,
              "shell_factor": shell_factor, "transom": transom}  # fmt: skip
@@ -359,9 +321,9 @@ def _wanted(
     if tables is None:
         return only
     if only is not None:
-        raise BadInputError("only and tables are both given", _REPORT_WHERE, "give one of them")
-    some = (tables,) if isinstance(tables, str) else all_of(tables, str, "tables", _REPORT_WHERE)
-    chosen = [choice(each, "a table", TABLES, _REPORT_WHERE) for each in some]
+        raise BadInputError("only and tables are both given", _IN_REPORT, "give one of them")
+    some = (tables,) if isinstance(tables, str) else all_of(tables, str, "tables", _IN_REPORT)
+    chosen = [choice(each, "a table", TABLES, _IN_REPORT) for each in some]
     return [symbol for symbol, each in entries.items() if each.table in chosen]
 
 

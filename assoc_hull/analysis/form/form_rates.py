@@ -1,9 +1,13 @@
 """How form parameters change with parameters of the hull's shape.
 
 What follows by formulas is differentiated exactly: entries run on a `TangentShape`, as much of a
-hull as carries tangents. An entry that searches for places raises `SearchedForError` there, which
-never leaves this module; it is differentiated by central differences, extrapolated after
-Richardson.
+hull as carries tangents; volumes and waterplanes aft and forward of a station and areas of sections
+count among these. An entry that searches for a place (where the parallel body ends) raises
+`SearchedForError` there, which never leaves this module; it is differentiated by central
+differences.
+
+Source: L.F. Richardson, "The approximate arithmetical solution by finite differences", Phil. Trans.
+A 210 (1911) 307-357.
 """
 
 from __future__ import annotations
@@ -38,10 +42,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# As much of a hull as carries tangents, for the entries of the catalogue.
-#
-# It answers like a `Shape` where it can; an entry that asks for more is told so by
-# `SearchedForError`, and has to be differentiated otherwise.
+# As much of a hull as carries tangents. It answers like a `FloatingShape` where it can.
 
 
 class SearchedForError(Exception):
@@ -61,9 +62,9 @@ class TangentShape(_Unknown):
 
     Attributes
     ----------
-    plain : Shape
+    plain : FloatingShape
         The hull in plain numbers.
-    some : Tangents
+    some : TangentHull
         The hull with tangents.
     record : namespace
         Hydrostatics; None where there is no value.
@@ -115,7 +116,7 @@ class TangentShape(_Unknown):
         return station * self.length / STATIONS
 
     def take(self, measure: object) -> Any:
-        """Give what a measure says of this hull, if that carries tangents; it is asked once."""
+        """Give what a measure returns for this hull, if that carries tangents; called once."""
         if measure not in _MEASURES:
             raise SearchedForError(str(measure))
         if measure not in self._kept:
@@ -125,7 +126,7 @@ class TangentShape(_Unknown):
 
 @attrs.frozen(eq=False, slots=False)
 class _TangentSlices(_Unknown):
-    """Parts of a hull, as `Slices`."""
+    """Parts of a hull, as `ShipSlices`."""
 
     shape: TangentShape
     _kept: dict[object, Any] = attrs.field(factory=dict, init=False, repr=False)
@@ -166,7 +167,7 @@ def _area(shape: TangentShape, x: Any) -> Any:
 
 @attrs.frozen(eq=False, slots=False)
 class _TangentLargest(_Unknown):
-    """The largest section: as its area is greatest, it matters not that its place moves."""
+    """The largest section: an area that is greatest does not change as its place moves."""
 
     largest: Any
 
@@ -187,20 +188,11 @@ _MEASURES: dict[object, Any] = {
 
 
 # --------------------------------------------------------------------------------------
-# How form parameters change with parameters of the hull's shape.
-#
-# What follows from the record of hydrostatics and the principal dimensions by formulas of the
-# catalogue is differentiated exactly: the formulas run on numbers that carry tangents. So are
-# volumes and waterplanes aft and forward of a station, and areas of sections. Other measures look
-# for places (where the parallel body ends, how a waterline runs); they are taken of hulls whose
-# points have moved a little to either side, at two distances, and the differences extrapolated to
-# nil after Richardson.
-#
-# Source: L.F. Richardson, "The approximate arithmetical solution by finite differences", Phil.
-# Trans. A 210 (1911) 307-357.
+# Derivatives. What carries no tangents is taken of hulls whose points have moved a little to either
+# side, at two distances, and the differences extrapolated after Richardson.
 
 _STEP = 2e-5
-"""Of Lpp: so far the point that moves most goes in the longer of the two steps."""
+"""Of Lpp: how far the point that moves most goes in the longer of the two steps."""
 
 _RULE = {2: -1.0 / 12.0, 1: 8.0 / 12.0, -1: -8.0 / 12.0, -2: 1.0 / 12.0}
 """Central differences at h and 2 h, extrapolated: exact up to the fourth power."""
@@ -224,16 +216,9 @@ class FormRates:
 
 
 def form_rates(symbols: Iterable[str], shape: FloatingShape, some: TangentHull) -> FormRates:
-    """Differentiate form parameters.
+    """Differentiate form parameters by k parameters, none of which heels the hull.
 
-    Parameters
-    ----------
-    symbols : iterable of str
-        Entries of the catalogue that the hull has.
-    shape : Shape
-        The hull, upright.
-    some : Tangents
-        The same, with tangents by k parameters, none of which heels it.
+    `shape` is the hull in plain numbers, upright, `some` the same with tangents.
     """
     wanted, count = tuple(symbols), some.count
     found = _Walk(TangentShape.of(shape, some))
@@ -254,7 +239,7 @@ class _Walk:
     known: dict[str, Any] = attrs.field(factory=dict)
 
     def searched(self, symbol: str) -> Iterator[str]:
-        """Give the entries below one that cannot be computed with tangents."""
+        """Give the entries that this one rests on and that cannot be computed with tangents."""
         entry = CATALOGUE[symbol]
         if SHAPE in entry.needs:
             try:
@@ -306,7 +291,7 @@ def _difference(
 
 
 def _step(shape: FloatingShape, some: TangentHull, k: int) -> float:
-    """Give the shorter step of a parameter; nil for one that moves nothing."""
+    """Give the shorter step of a parameter; 0 for one that moves nothing."""
     points = np.zeros(1) if some.moving is None else some.moving.points[k]
     rates = attrs.astuple(some.rates[k])
     most = max(

@@ -1,8 +1,8 @@
 """Half sections anywhere along a hull, and what is measured of them.
 
 At a station or an end the section is the drawn one, elsewhere it is cut from the surface through
-the lines. Half sections are to port, from keel to deck. `section_at` keeps those that a shape was
-asked for.
+the lines. Half sections are to port, from keel to deck, m, x from the AP. `section_at` keeps those
+that a shape was asked for.
 """
 
 from __future__ import annotations
@@ -15,14 +15,13 @@ import numpy as np
 from assoc_hull.analysis.form.floating_shape import FloatingShape
 from assoc_hull.analysis.form.parameter import Absent, MeasuredValue
 from assoc_hull.analysis.hydrostatics.flotation import Flotation
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, SplineBatch
 from assoc_hull.geometry.floating.sections import cross_section
 from assoc_hull.geometry.integrals.area_moments import section_area
 from assoc_hull.geometry.integrals.chains import area_along, clip_cubics, monotone_cubics
 from assoc_hull.geometry.splines.paths import restrict_cubics
 from assoc_hull.geometry.splines.plane_intersections import coordinate_turns, points_at_coordinate
 from assoc_hull.geometry.splines.segments import power_coefficients
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 __all__ = [
     "HalfSection",
@@ -32,27 +31,16 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Half sections anywhere along a hull: as drawn, or cut from the surface through its lines.
+# As drawn, or cut from the surface.
 
 _ON = 1e-4
-"""So near to a station (m) a section is the drawn one."""
+"""A section this near to a station (m) is the drawn one."""
 
 
 def half_section(body: Flotation, x: float) -> SplineBatch | None:
-    """Give the half section at a place, port side.
+    """Give the half section at x (m), one curve for each piece; None where the hull has none.
 
-    Parameters
-    ----------
-    body : Flotation
-        The hull.
-    x : float, m
-        Where, from AP.
-
-    Returns
-    -------
-    SplineBatch or None
-        One curve for each piece, from keel to deck, without a closed deck; None where the hull
-        has no section.
+    A closed deck is no part of it.
 
     Examples
     --------
@@ -68,7 +56,7 @@ def half_section(body: Flotation, x: float) -> SplineBatch | None:
 
 
 def _spline(cubic: FloatArray) -> SplineBatch:
-    """Take cubics one behind the other, (s, 4, 3), as a spline; its knots are their chords."""
+    """Make a spline of cubics one behind the other, (s, 4, 3); its knots are their chords."""
     first, last = cubic[:, 0], cubic[-1:].sum(axis=1)
     xyz = np.concatenate([first, last])
     chord = np.sqrt((np.diff(xyz, axis=0) ** 2).sum(axis=1))
@@ -104,6 +92,7 @@ def _end(body: Flotation, x: float) -> list[FloatArray]:
 
 
 def _upward(cubic: FloatArray) -> FloatArray:
+    """Turn cubics (s, 4, 3) one behind the other to run upward, each from end to beginning."""
     if cubic[0, 0, 2] <= cubic[-1].sum(axis=0)[2]:
         return cubic
     one = np.ones(len(cubic))
@@ -126,7 +115,7 @@ def _pieces(curves: IsoCurves, chosen: IntArray) -> list[FloatArray]:
 
 
 # --------------------------------------------------------------------------------------
-# Measures of half sections anywhere along the ship.
+# Measures.
 
 
 @attrs.frozen(eq=False)
@@ -146,7 +135,7 @@ class HalfSection:
 
     @cached_property
     def lowest(self) -> FloatArray:
-        """Its lowest place, (3,), m; the one nearest to the centre plane if there are several."""
+        """Its lowest point, (3,), m; the one nearest to the centre plane if there are several."""
         places = np.concatenate(coordinate_turns(self.curves, 2))
         low = places[places[:, 2] <= places[:, 2].min() + 1e-9]
         found: FloatArray = low[int(np.abs(low[:, 1]).argmin())]
@@ -213,7 +202,7 @@ def _known(shape: FloatingShape) -> dict[float, HalfSection | None]:
 
 
 def radius_of_three(section: HalfSection | None, draught: float) -> MeasuredValue:
-    """Give the radius through three places at quarters of the draught, m; + if convex."""
+    """Give the radius (m) through three points at quarters of the draught; + if convex."""
     heights = np.array([0.25, 0.5, 0.75]) * draught
     found = [None if section is None else section.half_breadth(z) for z in heights.tolist()]
     breadths = [each for each in found if each is not None]

@@ -1,8 +1,8 @@
-"""Measures of parts of the ship: between planes across it, its largest section, its parallel body.
+"""Measures of parts of the ship: between transverse planes, its largest section, its parallel body.
 
 Parts and single sections are those of the surface, measured once each (`ShipSlices`). The largest
-section may stand between stations; how far others are as large makes the parallel middle body.
-All are asked for by `FloatingShape.take`.
+section may stand between stations; how far others are as large makes the parallel middle body. All
+are measures for `FloatingShape.take`; x is from the AP, m.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.form.floating_shape import FloatingShape
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.raked_strips import StripSpans
 from assoc_hull.geometry.floating.sections import (
@@ -25,7 +25,6 @@ from assoc_hull.geometry.floating.sections import (
 from assoc_hull.geometry.floating.slices import SliceIntegrals, integrate_slice
 from assoc_hull.geometry.floating.tile_intersections import candidate_pairs, cut_tiles, tilt_tiles
 from assoc_hull.geometry.floating.tiles import cubic_powers, tiles_of_curves
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 __all__ = [
     "EQUAL",
@@ -37,7 +36,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Measures of parts of the ship: what lies between two planes across it, and single sections.
+# Parts and single sections.
 
 
 @attrs.frozen(eq=False)
@@ -46,7 +45,7 @@ class ShipSlices:
 
     Attributes
     ----------
-    shape : Shape
+    shape : FloatingShape
         The hull.
     """
 
@@ -84,7 +83,7 @@ class ShipSlices:
         return float(moment.sum() / area.sum())
 
     def half_breadth(self, x: float, plane: FloatingPlanes) -> float | None:
-        """Give the outermost place of a waterline at x, m; None where there is none."""
+        """Give the half-breadth of a waterline at x, m; None where there is none."""
         tiles = tiles_of_curves(self.section(x))
         tilted = tilt_tiles(tiles, plane.tan_trim, plane.tan_heel)
         tile, _ = candidate_pairs(tilted, plane.height)
@@ -100,12 +99,12 @@ class ShipSlices:
 
 
 def ship_slices(shape: FloatingShape) -> ShipSlices:
-    """Give the parts of a hull; to be asked by `Shape.take`."""
+    """Give the parts of a hull; a measure for `FloatingShape.take`."""
     return ShipSlices(shape)
 
 
 # --------------------------------------------------------------------------------------
-# The largest section of the surface, also between stations, and how far others are as large.
+# The largest section, and how far others are as large.
 
 EQUAL = 1e-4
 """Areas of sections of the parallel middle body differ by less, in parts of the largest."""
@@ -116,7 +115,7 @@ _SHORT = 0.02
 _WIDE = 1e-2
 _RATIO = 0.25
 """The top of a parabola that is level to `_WIDE` over some length is level to `EQUAL` over 1/10
-of it; a stretch that is more than so much of it does not come from a rounded top."""
+of it; a stretch that is more than this part of it does not come from a rounded top."""
 
 _SAME = 1e-12
 _COARSE = 4  # parts of each strip, at whose ends it is looked at first
@@ -155,12 +154,12 @@ class LargestSection:
 
 
 def largest_section(shape: FloatingShape) -> LargestSection:
-    """Look along a hull below its floating plane; to be asked by `Shape.take`."""
+    """Look along a hull below its floating plane; a measure for `FloatingShape.take`."""
     return _along(shape, shape.planes)
 
 
 def parallel_body(shape: FloatingShape) -> LargestSection:
-    """Look along a hull at even keel at the mean draught; to be asked by `Shape.take`.
+    """Look along a hull at even keel at the mean draught; a measure for `FloatingShape.take`.
 
     With a trim the sections of a parallel middle body have different areas.
     """
@@ -179,6 +178,7 @@ def _along(shape: FloatingShape, plane: FloatingPlanes) -> LargestSection:
     area = areas(x)
     for _ in range(_ROUNDS):
         tops = _tops(area)
+        # The neighbours of a top bracket it: more samples go between them.
         ends = x[np.maximum(tops - 1, 0)], x[np.minimum(tops + 1, len(x) - 1)]
         more = np.setdiff1d(np.linspace(*ends, _SAMPLES), x)
         order = np.argsort(np.concatenate([x, more]))
@@ -197,7 +197,7 @@ def _along(shape: FloatingShape, plane: FloatingPlanes) -> LargestSection:
 def _samples(strips: StripSpans) -> FloatArray:
     """Give places along the ship from the first section to the last, ascending, m.
 
-    None inside of raked strips, which lie at the ends and must be traced.
+    None inside raked strips, which lie at the ends and whose sections must be traced.
     """
     flat = strips.flat & (strips.fore > strips.aft)
     if not flat.any():
@@ -240,6 +240,7 @@ def _level(
         tried = out[:, None] + (within - out)[:, None] * part
         enough = areas(tried.ravel()).reshape(tried.shape) >= least.repeat(2)[:, None]
         enough[:, 0], enough[:, -1] = False, True
+        # The first sample that is enough, and the one before, are the next bracket.
         k = enough.argmax(axis=1)
         out, within = tried[rows, k - 1], tried[rows, k]
     return [(float(a), float(b)) for a, b in within.reshape(-1, 2)]

@@ -1,9 +1,9 @@
 """A form parameter: its entry in the catalogue, what it gives, and how entries are evaluated.
 
-An entry is a function with a description. `needs` tells what it takes: values of other entries, by
-symbol, or `SHAPE`, the hull at its floating position; so a formula serves a measured hull as well
-as printed values. It gives a number, a `Warned` number, or `Absent` with the reason. `evaluate`
-asks each entry once, after what it needs.
+An entry is a function with a description. `needs` names what it takes: values of other entries, by
+symbol, or `SHAPE`, the hull at its floating position; so a formula is written once and serves a
+measured hull as well as printed values. It gives a number, a `Warned` number, or `Absent` with the
+reason. `evaluate` calls each entry once, after what it needs.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Where definitions stand: papers and the list of symbols of the towing tanks.
+# Sources of definitions.
 
 _SON_KIM = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008"
 
@@ -56,7 +56,7 @@ LEWIS = "E.V. Lewis, ed., Principles of Naval Architecture, vol. I, SNAME 1988, 
 
 
 # --------------------------------------------------------------------------------------
-# What a form parameter gives: a number, or the reason why there is none.
+# What an entry gives.
 
 
 @attrs.frozen
@@ -132,11 +132,7 @@ class FormValue:
 
 
 # --------------------------------------------------------------------------------------
-# An entry of the catalogue of form parameters.
-#
-# An entry is a function with a description. What the function takes is told by `needs`: values of
-# other entries, by symbol, or `SHAPE`, the hull itself at its floating position. So a formula is
-# written once and serves a measured hull as well as printed values of a ship.
+# The entry.
 
 SHAPE = "shape"
 """Among `needs`: the `assoc_hull.analysis.form.floating_shape.FloatingShape`."""
@@ -235,7 +231,7 @@ def entries_in(names: Mapping[str, object]) -> tuple[FormParameter, ...]:
 
 
 # --------------------------------------------------------------------------------------
-# From a catalogue and a hull to values: each entry once, after what it needs.
+# Evaluation.
 
 _WHERE = "in the catalogue of form parameters"
 
@@ -280,23 +276,10 @@ def evaluate(
     shape: object,
     known: dict[str, FormValue],
 ) -> dict[str, FormValue]:
-    """Give the values of entries.
+    """Give the values of wanted entries, by symbol, in that order.
 
-    Parameters
-    ----------
-    entries : mapping of symbol to Parameter
-        The catalogue, checked.
-    wanted : iterable of str
-        Symbols.
-    shape : Shape or None
-        The hull; None: what needs it is absent.
-    known : dict of symbol to Value
-        What is known already, and is not computed again; what is computed is added.
-
-    Returns
-    -------
-    dict of symbol to Value
-        What was wanted, in that order.
+    `entries` is a checked catalogue; without a `shape`, a `FloatingShape`, what needs it is absent.
+    What is `known` is not computed again; what is computed is added to it.
 
     Raises
     ------
@@ -350,7 +333,7 @@ def _computed(
 
 
 def _found(entry: FormParameter, taken: list[object]) -> MeasuredValue:
-    """Ask the entry; a formula may divide by nil, but a measure that does is wrong and raises."""
+    """Call the entry; a formula may divide by zero, but a measure that does is wrong and raises."""
     try:
         return entry.compute(*taken)
     except ZeroDivisionError:
@@ -360,7 +343,7 @@ def _found(entry: FormParameter, taken: list[object]) -> MeasuredValue:
 
 
 def _because(need: str, reason: str) -> str:
-    """Pass a reason on; where it came from is named once."""
+    """Pass a reason on; the entry it came from is named once."""
     return reason if ": " in reason else f"{need}: {reason}"
 
 

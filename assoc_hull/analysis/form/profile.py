@@ -2,7 +2,7 @@
 
 The profile is made of the curves in the centre plane at which the hull ends. Transom and boss end
 are flat ends of the net: the transom across the ship, aft of all lines; the boss end begins and
-ends on the centre plane.
+ends on the centre plane. Points are (3,), m, x from the AP.
 """
 
 from __future__ import annotations
@@ -46,15 +46,15 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Measures of the centre-line profile: where it stands, its bulb, what lies before FP.
+# Profile and bulb.
 
 NO_PROFILE = Absent("no profile drawn")
 
 LEAST_BULB = 1e-3
 """A profile that reaches before FP by less (m) has no bulb."""
 
-_MEET = 1e-4
-"""Ends of curves so near to one another (m) are one place."""
+_JOINED = 1e-4
+"""Ends of curves this near to one another (m) are one point."""
 
 _TURN = 1e-6
 """A profile that runs back by less (m) does not turn."""
@@ -81,10 +81,10 @@ def slope_deg(along: FloatArray) -> float:
 
 
 def bulb_tip(shape: FloatingShape) -> FloatArray | Absent:
-    """Give the foremost place of the bulb, (3,), m.
+    """Give the foremost point of the bulb, (3,), m.
 
-    It is the foremost place before FP and below the design draught from which the profile runs
-    back both ways, and so a root of dx = 0 or a corner.
+    It is the foremost point before FP and below the design draught from which the profile runs back
+    both ways, and so a root of dx = 0 or a corner.
     """
     curves = shape.take(profile_curves)
     if curves is None:
@@ -98,29 +98,25 @@ def bulb_tip(shape: FloatingShape) -> FloatArray | Absent:
 
 
 def tips(curves: SplineBatch, sense: float = 1.0) -> FloatArray:
-    """Give the places of a profile from which it runs back both ways, (k, 3), m.
+    """Give the points of a profile from which it runs back both ways, (k, 3), m.
 
-    Parameters
-    ----------
-    curves : SplineBatch
-        Of the centre plane, in any order and sense; curves that meet at their ends are one.
-    sense : float
-        1: it runs aft from there both ways, as from the nose of a bulb; -1: forward.
+    Curves come in any order and sense; those that join at their ends are one. `sense` 1: it runs
+    aft from there both ways, as from the nose of a bulb; -1: forward.
     """
     return _tips(_chained(list(coordinate_turns(curves, 0))), sense)
 
 
 def _chained(runs: list[FloatArray]) -> list[FloatArray]:
-    """Join runs of places that end where others begin."""
+    """Join runs of points that end where others begin."""
     left, found = list(runs), list[FloatArray]()
     while left:
         run = left.pop(0)
         i = 0
         while i < len(left):
             for other in (left[i], left[i][::-1]):
-                if np.abs(run[-1] - other[0]).max() <= _MEET:
+                if np.abs(run[-1] - other[0]).max() <= _JOINED:
                     run = np.concatenate([run, other[1:]])
-                elif np.abs(run[0] - other[-1]).max() <= _MEET:
+                elif np.abs(run[0] - other[-1]).max() <= _JOINED:
                     run = np.concatenate([other[:-1], run])
                 else:
                     continue
@@ -133,7 +129,7 @@ def _chained(runs: list[FloatArray]) -> list[FloatArray]:
 
 
 def _tips(runs: list[FloatArray], sense: float) -> FloatArray:
-    """Give places, (k, 3), before which a run of turning places advances and then goes back."""
+    """Give points, (k, 3), m, before which a run of turning points advances and then goes back."""
     found = [np.zeros((0, 3))]
     for run in runs:
         moved = np.concatenate([[True], np.abs(np.diff(run[:, 0])) > 0.0])
@@ -156,15 +152,7 @@ def _falls(ahead: FloatArray) -> bool:
 
 
 def area_before_fp(shape: FloatingShape, height: float, tan_trim: float) -> float:
-    """Give the lateral area of the profile before FP and below a waterline, m2.
-
-    Parameters
-    ----------
-    shape : Shape
-        The hull.
-    height, tan_trim : float
-        The waterline z = height + tan_trim x.
-    """
+    """Give the lateral area (m2) of the profile before FP and below z = height + tan_trim x."""
     curves = shape.take(profile_curves)
     if curves is None:
         return 0.0
@@ -182,13 +170,13 @@ def area_before_fp(shape: FloatingShape, height: float, tan_trim: float) -> floa
 
 
 # --------------------------------------------------------------------------------------
-# Measures of the stern: transom, boss end, bottom above the screw, aperture.
+# Stern: transom, boss end, bottom above the screw, aperture.
 
 _AT_END = 1e-3
-"""A flat end so near to the aftmost place of the lines (m) is the transom."""
+"""A flat end this near to the aftmost point of the lines (m) is the transom."""
 
 _LEVEL = 1e-4
-"""Places that differ in height by less (m) are level."""
+"""Points that differ in height by less (m) are level."""
 
 
 def _flat_ends(net: CurveNet, length: float) -> list[int]:
@@ -197,15 +185,7 @@ def _flat_ends(net: CurveNet, length: float) -> list[int]:
 
 
 def transom_curves(net: CurveNet, length: float) -> list[int]:
-    """Give the curves of the transom's edge: a flat end across the ship aft of all lines.
-
-    Parameters
-    ----------
-    net : Net
-        The lines.
-    length : float, m
-        Lpp.
-    """
+    """Give the curves of the transom's edge: a transverse flat end aft of all lines; Lpp in m."""
     aftmost = float(net.batch.xyz[:, 0].min())
     return [i for i in _flat_ends(net, length) if net.x[i] <= aftmost + _AT_END]
 
@@ -240,15 +220,7 @@ class Boss:
 
 
 def boss_curve(net: CurveNet, length: float) -> int | None:
-    """Give the edge of a boss end: a flat end from the centre plane to it, not the transom.
-
-    Parameters
-    ----------
-    net : Net
-        The lines.
-    length : float, m
-        Lpp.
-    """
+    """Give the edge of a boss end: a flat end from the centre plane to it, not the transom."""
     edge = transom_curves(net, length)
     aft = float(net.batch.part(edge[0], edge[0] + 1).xyz[0, 0]) if edge else np.nan
     for i in _flat_ends(net, length):
@@ -266,6 +238,7 @@ def boss(shape: FloatingShape) -> Boss | None:
         return None
     one = net.batch.part(i, i + 1)
     places = sample(one)[1][:, 1:]
+    # With the mirror image, so that the centre lies on the centre plane.
     edge_of = fit_circle(np.concatenate([places, places * [-1.0, 1.0]]))
     top = float(one.xyz[[0, -1], 2].max())
     return Boss(float(net.x[i]), top, float(edge_of.centre[1]), 2.0 * edge_of.radius)
@@ -305,7 +278,7 @@ def bottom_at(shape: FloatingShape, x: float) -> tuple[float, FloatArray] | Abse
 
 
 def height_above(shape: FloatingShape, x: float, y: float, z: float) -> float | Absent:
-    """Give the height of the hull over a place, m: its lowest z there that is above `z`."""
+    """Give the height (m) of the hull over a point: its lowest z there that is above `z`."""
     if y == 0.0:
         places = profile_at(shape, 0, x)
         found = np.zeros(0) if places is None else places.xyz[:, 2]

@@ -1,8 +1,9 @@
 """How far hydrostatics of a net may be off, and which lines make them doubtful.
 
-Numbers are compared with those of other rules, of another route, and of nets with fewer lines;
-each comparison gives a change of every integral. Doubts name a line, a place and an amount: open
-or crossed sections, kinks, crossings that gape, routes that disagree.
+Numbers are compared with those of other rules, of another route, and of nets with fewer lines; each
+comparison gives a change of every integral (`ErrorEstimator.changes`). Doubts are sentences that
+name a line, a place and an amount: open or crossed sections, kinks, crossings that gape, routes
+that disagree.
 """
 
 from __future__ import annotations
@@ -26,12 +27,12 @@ from assoc_hull.analysis.net.curve_net import (
 )
 from assoc_hull.analysis.net.surface_layout import SurfaceLayout, areas_between, lay_out_surface
 from assoc_hull.geometry.curves import FloatArray, PointKind
+from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
     ImmersedIntegrals,
     integrate_immersed,
 )
-from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.sections import sections_below
 from assoc_hull.geometry.numeric.quadrature import bunched_rule
 from assoc_hull.geometry.splines.evaluation import evaluate
@@ -49,32 +50,25 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# How far hydrostatics may be off: other rules, another route, fewer lines.
-#
-# Four comparisons, of which each gives a change of every integral:
-#
-# 1. the Gauss order along the strips doubled: the error of the rule;
-# 2. waterplanes integrated vertically: volume and moments by another route, which agrees only
-#    if the surface is closed and consistent;
-# 3. every other section left out, the even ones and then the odd ones: how much lies between
-#    the sections;
-# 4. every other waterline, buttock and diagonal left out: how much lies between these.
-#
-# For lines twice as far apart an error of third order is eight times as large, so that the
-# difference is seven times the error of the net itself; half of the difference is stated. Where
-# lines are so wide apart that no order shows, the difference itself is large.
-#
-# Source: L.F. Richardson, J.A. Gaunt, "The deferred approach to the limit", Phil. Trans. A
-# 226 (1927).
+# Four comparisons, each a change of every integral: the Gauss order along the strips doubled (the
+# error of the rule); waterplanes integrated vertically (volume and moments by another route, which
+# agrees only if the surface is closed and consistent); every other section left out, the even ones
+# and then the odd ones; every other waterline, buttock and diagonal left out.
 
 _PART = 0.5
-"""Of the difference to the net with half the lines this is stated."""
+"""This part of the difference to the net with half the lines is stated.
+
+For lines twice as far apart an error of third order is eight times as large, so that the difference
+is seven times the error of the net itself. Where lines are so wide apart that no order shows, the
+difference itself is large. Source: L.F. Richardson, J.A. Gaunt, "The deferred approach to the
+limit", Phil. Trans. A 226 (1927).
+"""
 
 _LEVELS, _LEAST = 48, 12
 """Waterplanes of the vertical route, and those of a stretch between two corners at least."""
 
 _STRETCHES = 7
-"""Between so many corners at most the vertical route is parted."""
+"""The vertical route is split into this many stretches at most."""
 
 _NEAR = 1e-3
 """Corners whose heights differ by less, in parts of the whole, are one."""
@@ -86,11 +80,11 @@ class CoarseHull:
 
     Attributes
     ----------
-    net : Net
+    net : CurveNet
         The lines.
-    layout : Layout
+    layout : SurfaceLayout
         How the surface through them is put together.
-    prepared : Prepared
+    prepared : PreparedStrips
         The surface.
     """
 
@@ -105,13 +99,13 @@ class ErrorEstimator:
 
     Attributes
     ----------
-    own : Net
+    own : CurveNet
         The lines.
-    fine : Prepared
+    fine : PreparedStrips
         The same surface with the order along the strips doubled.
-    sections : tuple of Coarse
+    sections : tuple of CoarseHull
         Without the even and without the odd sections.
-    lines : Coarse
+    lines : CoarseHull
         Without every other line along the ship.
     closed : bool
         The deck is closed.
@@ -130,18 +124,10 @@ class ErrorEstimator:
         own: NetSections,
         planes: FloatingPlanes,
     ) -> list[IntegralChange]:
-        """Give the change of each comparison; see the module.
+        """Give the change of each comparison, in the order above, at d planes.
 
-        Parameters
-        ----------
-        known : Immersed
-            What is published.
-        route : Immersed
-            What `by_waterplanes` gives.
-        own : Sections
-            The sections.
-        planes : Planes
-            d planes.
+        `known` is what is published, `route` what `integrate_by_waterplanes` gives, `own` the
+        sections.
         """
         areas = own.per_station(sections_below(own.curves, planes))
         ends = flat_ends_below(self.own, self.closed, planes)
@@ -172,19 +158,7 @@ class ErrorEstimator:
 def error_estimator(
     state: HullState, net: CurveNet, strips: CoonsStrips, closed: bool
 ) -> ErrorEstimator:
-    """Make what a hull is compared with.
-
-    Parameters
-    ----------
-    state : HullState
-        The tables.
-    net : Net
-        The lines.
-    strips : CoonsStrips
-        The surface through them.
-    closed : bool
-        The deck is closed.
-    """
+    """Make the nets that a hull is compared with; `strips` is the surface through its own lines."""
 
     def coarse(without: NDArray[np.bool_]) -> CoarseHull:
         fewer = thinned_net(state, net, without)
@@ -207,26 +181,11 @@ def integrate_by_waterplanes(
     places: FloatArray,
     corners: FloatArray,
 ) -> ImmersedIntegrals:
-    """Integrate waterplanes from the lowest place up: volume and moments by another route.
+    """Integrate waterplanes from the lowest point up: volume and moments by another route.
 
-    Parameters
-    ----------
-    prepared : Prepared
-        The surface.
-    planes : Planes
-        d planes.
-    known : Immersed
-        What is below them; all but volume and moments is taken from it.
-    places : (n, 3), m
-        Among which the lowest is.
-    corners : (c, 3), m
-        At the heights of which the area of the waterplane may bend: each stretch between them
-        has a rule of its own.
-
-    Returns
-    -------
-    Immersed
-        With volume and moments as integrals of the area of the waterplane and its moments.
+    The lowest is among `places` (n, 3), m. At the heights of `corners` (c, 3), m, the area of the
+    waterplane may bend: each stretch between them has a rule of its own. All else is that of
+    `known`.
     """
     lowest = _heights(places, planes).min(axis=1)
     stretches = [
@@ -272,7 +231,11 @@ def _stretches(low: float, high: float, corners: FloatArray) -> FloatArray:
 
 
 def _rule(edge: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give heights and weights between edges, for half-integer powers over a round bottom."""
+    """Give heights and weights between edges.
+
+    Nodes are bunched at the lower end of a stretch: over a round bottom the area grows with
+    half-integer powers of the height.
+    """
     part, weight = bunched_rule(max(_LEVELS // (len(edge) - 1), _LEAST))
     step = np.diff(edge)[:, None]
     return (edge[:-1, None] + step * part).ravel(), (step * weight).ravel()
@@ -296,11 +259,9 @@ def _times(one: ImmersedIntegrals, factor: float) -> ImmersedIntegrals:
 
 
 # --------------------------------------------------------------------------------------
-# What makes the numbers of a hull doubtful: lines named, with place and amount.
-#
-# Looked at are the sections as drawn (open, crossing themselves, bent to and fro), the crossings
-# of the net (two lines that pass one another), and what the estimate compares (a section that
-# its neighbours do not expect, two routes that disagree).
+# Doubts. Looked at are the sections as drawn (open, crossing themselves, bent to and fro), the
+# crossings of the net (two lines that pass one another), and what the estimate compares (a section
+# that its neighbours do not expect, two routes that disagree).
 
 _OPEN = 1e-3
 """A section that ends farther from the centre plane, in half breadths of the ship, is open."""
@@ -327,19 +288,7 @@ _PLACES = 6
 def doubtful_lines(
     net: CurveNet, layout: SurfaceLayout, sections: NetSections, kinds: NDArray[np.int8]
 ) -> list[str]:
-    """Say which lines cannot bound a hull, wherever it floats.
-
-    Parameters
-    ----------
-    net : Net
-        The lines.
-    layout : Layout
-        How the surface through them is put together.
-    sections : Sections
-        The sections as drawn.
-    kinds : (n,) int8
-        The `PointKind` of each defining point of the net.
-    """
+    """Say which lines cannot bound a hull, wherever it floats; `kinds` are of all net points."""
     return [
         *_lost(layout),
         *_crossing(net, sections),
@@ -359,23 +308,16 @@ def doubtful_numbers(
     routes: tuple[FloatArray, FloatArray],
     planes: FloatingPlanes,
 ) -> list[str]:
-    """Say where comparisons disagree by more than lines do on a ship.
+    """Say where comparisons disagree by more than they do on a ship whose lines are sound.
 
-    Parameters
-    ----------
-    sections : Sections
-        The sections as drawn.
-    coarse : sequence of Coarse
-        The hull without some of them.
-    routes : ((d,), (d,)), m3
-        The volume below each plane, by sections and by waterplanes.
-    planes : Planes
-        d planes.
+    `coarse` is the hull without some sections, `routes` the volume (d,), m3, below each plane by
+    sections and by waterplanes.
     """
     return [*_unexpected(sections, coarse, planes), *_routes(*routes)]
 
 
 def _lost(layout: SurfaceLayout) -> Iterator[str]:
+    """Name the curves that bound no strip."""
     for each in layout.lost:
         yield f"{', '.join(each.names)}: between two sections {each.why}"
 
@@ -404,9 +346,9 @@ def _crossing(net: CurveNet, sections: NetSections) -> Iterator[str]:
         tiles = sections.curves.point[a:b][~sections.curves.deck[a:b]]
         place = np.einsum("qc,scx->sqx", power, tiles[:, :, 1:]).reshape(-1, 2)
         place = np.concatenate([place, tiles[-1:, :, 1:].sum(axis=1)])
-        meets = _self_crossing(place)
-        if meets is not None:
-            y, z = meets.tolist()
+        crossing = _self_crossing(place)
+        if crossing is not None:
+            y, z = crossing.tolist()
             yield f"{net.name[curve]} crosses itself at y {y:.3f} m, z {z:.3f} m"
 
 

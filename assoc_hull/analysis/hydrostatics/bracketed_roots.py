@@ -1,7 +1,8 @@
 """Roots of many functions of one variable at once, each within a bracket of its own.
 
 `bracketed_newton` takes rising functions given with their slopes; `sign_changes` takes values only.
-Each root is found with the same bits whichever others are looked for beside it.
+Functions are vectorised: they take places (k,) and the numbers (k,) of the functions asked. Each
+root has the same bits whichever others are looked for beside it.
 """
 
 from __future__ import annotations
@@ -19,10 +20,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Roots of many rising functions at once, each by Newton's rule within a bracket of its own.
+# Rising functions with slopes: Newton's rule.
 
 Rising = Callable[[FloatArray, IntArray], tuple[FloatArray, FloatArray]]
-"""Of places (k,) and of which functions they are, (k,): the values there, and the slopes."""
+"""Takes places (k,) and the numbers of their functions (k,); gives values and slopes there."""
 
 _NEWTON_TRIALS = 100
 _NEWTON_FINE = 1e-13
@@ -39,25 +40,12 @@ def bracketed_newton(
     high: FloatArray,
     fine: float = _NEWTON_FINE,
 ) -> FloatArray:
-    """Find the root of each of n rising functions, given with its slope, in its bracket.
+    """Find the root of each of n rising functions, given with its slope, in its bracket, (n,).
 
-    A root is found when steps are no more than rounding, or small and no longer shrink. The
-    bracket is halved wherever the rule leaves it, and now and then anyway.
-
-    Parameters
-    ----------
-    value : callable
-        Values and slopes of some of the functions; only those not yet done are asked.
-    start, low, high : (n,)
-        First trials and brackets.
-    fine : float
-        The last step is this part of the bracket, or less; what is left is of the order of its
-        square.
-
-    Returns
-    -------
-    (n,)
-        The roots; an end of the bracket where the function does not change its sign.
+    A root is found when steps are no more than rounding, or small and no longer shrink; `fine` is
+    the last step as a part of the bracket, and what is left is of the order of its square. The
+    bracket is halved wherever the rule leaves it, and now and then anyway. Where a function does
+    not change its sign, an end of the bracket is given.
 
     Examples
     --------
@@ -92,14 +80,14 @@ def bracketed_newton(
 
 
 def _step(height: FloatArray, slope: FloatArray) -> FloatArray:
-    """Give Newton's steps; endless ones where the function does not rise."""
+    """Give Newton's steps; infinite ones, which halve the bracket, where nothing rises."""
     rises = (slope > 0.0) & np.isfinite(height)
     step: FloatArray = np.where(rises, -height / np.where(rises, slope, 1.0), np.inf)
     return step
 
 
 # --------------------------------------------------------------------------------------
-# Where functions of the heel change their sign, many at once, without their slopes.
+# Values only: Chandrupatla's rule.
 
 _SIGN_TRIALS = 80
 _SIGN_FINE = 1e-10
@@ -109,22 +97,11 @@ _SIGN_FINE = 1e-10
 def sign_changes(
     value: Callable[[FloatArray, IntArray], FloatArray], low: FloatArray, high: FloatArray
 ) -> FloatArray:
-    """Find where each of n functions changes its sign between two places.
+    """Find where each of n functions changes its sign between two places, (n,), to 1e-10.
 
-    Chandrupatla's rule: inverse quadratic interpolation where it can be trusted, else halving;
-    a bracket stays a bracket, infinite values only halve it.
-
-    Parameters
-    ----------
-    value : callable
-        Of places (k,) and of which functions they are, (k,): the values there.
-    low, high : (n,)
-        Places between which the sign changes.
-
-    Returns
-    -------
-    (n,)
-        The places, to 1e-10.
+    Inverse quadratic interpolation where it can be trusted, else halving; a bracket stays a
+    bracket, infinite values only halve it. Source: T.R. Chandrupatla, Advances in Engineering
+    Software 28 (1997) 145-149.
 
     Examples
     --------
@@ -160,7 +137,7 @@ def sign_changes(
 def _part(
     x: tuple[FloatArray, FloatArray, FloatArray], f: tuple[FloatArray, FloatArray, FloatArray]
 ) -> FloatArray:
-    """Give how far to go from the first place to the second."""
+    """Give the part of the way from the first place to the second; 0.5 where not trusted."""
     (a, b, c), (fa, fb, fc) = x, f
     with np.errstate(all="ignore"):
         xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)

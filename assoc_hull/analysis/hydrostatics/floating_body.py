@@ -1,4 +1,4 @@
-"""A body that floats: its position, between what planes it can, what is measured, its freeboard.
+"""A body that floats: its position and its limits, what is measured of it, its freeboard.
 
 A plane is ``z = T_A + (T_F - T_A) x / Lpp - y tan(heel)``: draughts are those of the centre line,
 moulded (from the base line), heel is + with starboard down. Hydrostatics and stability ask a hull
@@ -40,12 +40,6 @@ __all__ = [
     "rising_numbers",
     "with_appendages",
 ]
-
-# --------------------------------------------------------------------------------------
-# Where a hull floats: draughts at the perpendiculars and heel, and what of them can be.
-#
-# A plane is ``z = T_A + (T_F - T_A) x / Lpp - y tan(heel)``: draughts are those of the centre
-# line, moulded (from the base line), heel is + with starboard down.
 
 _IN_POSITION = "in a floating position"
 
@@ -108,7 +102,7 @@ def planes_of(positions: Sequence[FloatingPosition], length: float) -> FloatingP
 
     Returns
     -------
-    Planes
+    FloatingPlanes
         One per position.
 
     Examples
@@ -130,7 +124,7 @@ class WaterplaneLimits:
     Attributes
     ----------
     bottom : (n, 3)
-        Places of the hull among which the lowest is, at any trim and heel.
+        Points of the hull that include the lowest, at any trim and heel.
     deck : (k, 3)
         The deck edge.
     closed : bool
@@ -154,9 +148,10 @@ class WaterplaneLimits:
 
 
 def _heights(points: FloatArray, planes: FloatingPlanes, up: float) -> FloatArray:
-    """Give the heights at x = y = 0 of planes through points, (d, n).
+    """Give the heights at x = y = 0 of planes through points, (d, n), m.
 
-    Of port and starboard that is taken which lies higher over the water (`up` 1), or deeper (-1).
+    Of each point and its mirror image the one higher over the water counts (`up` 1), or deeper
+    (-1).
     """
     x, y, z = points.T
     side = up * np.abs(planes.tan_heel[:, None]) * np.abs(y)
@@ -173,7 +168,7 @@ def require_afloat(
     ----------
     positions : sequence of d FloatingPosition
         Where the hull floats.
-    limits : Limits
+    limits : WaterplaneLimits
         Of the hull.
     length : float, m
         Between perpendiculars.
@@ -217,13 +212,13 @@ T_F 13 m, heel 0 deg; give one from 0 to 12 m
 
 
 def require_numbers(draughts: object, limits: WaterplaneLimits) -> None:
-    """Refuse draughts of which one is no finite number, with the range at even keel.
+    """Refuse draughts with one that is no finite number; the error has the range at even keel.
 
     Parameters
     ----------
     draughts : float, or (k,), m
         What was given; what is no number at all is left to others.
-    limits : Limits
+    limits : WaterplaneLimits
         Of the hull.
 
     Raises
@@ -271,7 +266,7 @@ def rising_numbers(values: object, name: str, where: str) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Appendages: what is added to a moulded hull by name, or taken from it.
+# Appendages: added to a moulded hull by name, or taken from it.
 
 _IN_APPENDAGE = "in an appendage"
 
@@ -323,14 +318,7 @@ def with_appendages(
 ) -> ImmersedIntegrals:
     """Add appendages to what is measured of a bare hull: to volume, moments and shell.
 
-    Parameters
-    ----------
-    immersed : Immersed
-        Below d planes.
-    appendages : sequence of Appendage
-        Each counts below the planes under which its centroid lies.
-    planes : Planes
-        The planes.
+    Each counts below those of the d planes under which its centroid lies.
     """
     for each in appendages:
         x, y, z = each.centroid
@@ -350,18 +338,7 @@ def with_appendages(
 def require_volume(
     volume: FloatArray, appendages: Sequence[Appendage], planes: FloatingPlanes, where: str
 ) -> None:
-    """Refuse appendages that take away all of the hull.
-
-    Parameters
-    ----------
-    volume : (d,), m3
-        Of hull and appendages, below each plane.
-    appendages : sequence of Appendage
-        They.
-    planes : Planes
-        The planes.
-    where : str
-        For the error.
+    """Refuse appendages that take away all of the hull; `volume` (d,), m3, is of both together.
 
     Raises
     ------
@@ -379,7 +356,7 @@ def require_volume(
 
 
 # --------------------------------------------------------------------------------------
-# What hydrostatics asks of a hull: integrals below planes, areas of stations and transom.
+# What hydrostatics and stability ask of a hull.
 
 
 @attrs.frozen(eq=False)
@@ -410,7 +387,7 @@ class IntegralChange:
 
     Attributes
     ----------
-    immersed : Immersed
+    immersed : ImmersedIntegrals
         Changes of the integrals: what a second rule or route gives, less what is published.
     areas : (d, n), m2, or None
         Changes of the areas of the stations; None: not known.
@@ -472,9 +449,14 @@ class FloatingBody(Measurable, Protocol):
 # --------------------------------------------------------------------------------------
 # Freeboard, and the heel at which the deck edge goes under.
 
-_STEEPEST = 89.0  # degrees
+_STEEPEST = 89.0
+"""Largest heel that is looked at, degrees: at 90 no plane of the form above is left."""
+
 _STEP = 10.0
+"""By how much (degrees) the upper bound of that heel is raised at a time."""
+
 _FINE = 1e-8
+"""To how much (degrees) it is found."""
 
 
 @attrs.frozen
@@ -538,7 +520,7 @@ def deck_edge_heel(
 
     Parameters
     ----------
-    body : Floats
+    body : Floatable
         The hull.
     position : FloatingPosition
         Where it floats upright; its own heel does not count.
@@ -564,6 +546,7 @@ def deck_edge_heel(
     if spare(0.0) <= 0.0:
         return 0.0
     deck = body.limits.deck
+    # A box would submerge its deck edge at this angle: the first upper bound of the search.
     turn = np.arctan2(least_freeboard(deck, upright, length).least, np.abs(deck[:, 1]).max() + 1e-9)
     low, high = 0.0, min(1.2 * float(np.degrees(turn)), _STEEPEST)
     while spare(high) > 0.0:

@@ -1,8 +1,8 @@
 """A hull as what floats: its surface below planes, its stations, its doubts.
 
-The surface goes through the lines of the net (`assoc_hull.analysis.net`). It is kept with the
-tables, and put together again only when a line has changed. Here is also the door from a hull to
-what is measured of it: `body_of`, `header_of`, and the volume at even keel for previews.
+The surface goes through the lines of the net (`assoc_hull.analysis.net`). A `Flotation` is kept
+with the tables, and made again only when a line has changed. `body_of` and `header_of` are the way
+from a hull to what is measured of it.
 """
 
 from __future__ import annotations
@@ -40,12 +40,12 @@ from assoc_hull.analysis.net.curve_net import (
 from assoc_hull.analysis.net.surface_layout import SurfaceLayout, lay_out_surface
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
+from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
     ImmersedIntegrals,
     integrate_immersed,
 )
-from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.raked_strips import StripSpans, strip_spans
 from assoc_hull.geometry.floating.sections import sections_and_moments_below
 from assoc_hull.geometry.splines.evaluation import sample
@@ -67,17 +67,11 @@ __all__ = [
     "header_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# A hull as what floats: its surface below planes, its stations, its doubts.
-#
-# The surface goes through the lines of the net (`assoc_hull.analysis.net`); it is put together
-# anew only when a line has changed.
-
 _KEPT = "flotation"
-"""Under this name what floats of a hull is kept with its tables."""
+"""Key under which the `Flotation` of a hull is kept with its tables."""
 
 _SAMPLES = 8
-"""Places on each segment among which the lowest of the hull is looked for."""
+"""Points on each segment among which the lowest of the hull is looked for."""
 
 
 @attrs.frozen(eq=False)
@@ -88,9 +82,9 @@ class Flotation:
     ----------
     state : HullState
         The tables it was taken from.
-    net : Net
+    net : CurveNet
         The lines.
-    layout : Layout
+    layout : SurfaceLayout
         How the surface is put together.
     strips : CoonsStrips
         The surface.
@@ -125,7 +119,7 @@ class Flotation:
 
     @cached_property
     def spread(self) -> ErrorEstimator:
-        """What tells how far numbers may be off."""
+        """What estimates how far numbers may be off."""
         return error_estimator(self.state, self.net, self.strips, self.closed)
 
     @property
@@ -169,12 +163,7 @@ class Flotation:
     def doubts(self, planes: FloatingPlanes, numbers: bool = True) -> Sequence[str]:
         """Say what is wrong with the hull, line by line; nothing if it can be trusted.
 
-        Parameters
-        ----------
-        planes : Planes
-            Where it floats.
-        numbers : bool
-            Also compare the numbers with those of other routes, which the estimate needs anyway.
+        `numbers` also compares them with those of other routes, which the estimate needs anyway.
         """
         found = [*open_sections(self.net, self.sections, planes), *self._doubtful_lines]
         if numbers and not found:
@@ -216,12 +205,7 @@ class Flotation:
 
 
 def flotation(state: HullState) -> Flotation:
-    """Make what floats of a hull; the same as before if no line has changed.
-
-    Parameters
-    ----------
-    state : HullState
-        The tables.
+    """Give the `Flotation` of a hull; the same as before if no line has changed.
 
     Raises
     ------
@@ -261,7 +245,7 @@ def flotation(state: HullState) -> Flotation:
 
 
 def _stamp(state: HullState) -> Hashable:
-    """Give splines and names themselves, and how often what else the surface depends on changed."""
+    """Give what the surface depends on: splines and names themselves, write counts of the rest."""
     made = [state.spline(curve) for curve in state.live("curves").tolist()]
     return (
         Objects([*made, state.particulars]),
@@ -274,29 +258,20 @@ def _stamp(state: HullState) -> Hashable:
 
 
 # --------------------------------------------------------------------------------------
-# A hull as hydrostatics measures it, and the head of what comes of it.
+# What can be measured of a hull, and the header of the numbers.
 
 
 def body_of(hull: HasState) -> FloatingBody:
     """Make what can be measured of a hull."""
-    # The one place where hydrostatics meets the integrals of a net.
-
+    # The one place where hydrostatics takes the integrals of a net.
     body: FloatingBody = flotation(state_of(hull))
     return body
 
 
 def header_of(hull: HasState, body: FloatingBody, terms: Mapping[str, object]) -> HydrostaticHeader:
-    """Head the numbers: dimensions of the hull, and what the caller chose.
+    """Make the header: dimensions of the hull, and the fields (`terms`) that the caller chose.
 
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    body : FloatingBody
-        What is measured of it.
-    terms : mapping
-        Fields of the header that the caller chose. The fingerprint takes longer than the algebra
-        of one position: who shows none gives an empty one.
+    The fingerprint takes longer than the algebra of one position: who shows none gives "".
     """
     state = state_of(hull)
     ship = state.particulars
@@ -332,14 +307,7 @@ class EvenKeelDisplacement:
 
 
 def even_keel_displacement(state: HullState, draught: float | None = None) -> EvenKeelDisplacement:
-    """Measure volume and LCB at even keel.
-
-    Parameters
-    ----------
-    state : HullState
-        The tables.
-    draught : float or None, m
-        The design draught if None.
+    """Measure volume and LCB at even keel, at the design draught if `draught` (m) is None.
 
     Raises
     ------

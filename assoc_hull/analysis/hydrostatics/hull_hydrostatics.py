@@ -1,10 +1,9 @@
-"""Hydrostatics of a hull, at one floating position or as a table, and their algebra.
+"""Hydrostatics of a hull, at one floating position or as a table.
 
 `hydrostatics` and `hydrostatic_table` choose positions and options; `table_of` measures any
-floating body. Integrals of hull, appendages and stations are brought together
-(`HydrostaticIntegrals`); the rest is algebra (`values_of`) in any arithmetic, so that it carries
-tangents and errors as well. The inclined waterplane lies over its plan by an affine map, derived
-above `values_of`.
+floating body. The integrals of hull, appendages and stations (`HydrostaticIntegrals`) come first;
+every published value is algebra on them (`values_of`), in any arithmetic, so that it carries
+tangents and errors too. All of a record is computed for d planes at once: arrays are (d,), m, t.
 """
 
 from __future__ import annotations
@@ -64,13 +63,12 @@ __all__ = [
     "values_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# The numbers that a record of hydrostatics is computed from, hull and appendages together.
-
 
 @attrs.frozen(eq=False)
 class HydrostaticIntegrals:
-    """Integrals and sections of both sides below each of d planes, all (d,); as `Immersed`.
+    """Integrals and sections of both sides below each of d planes, all (d,).
+
+    As `ImmersedIntegrals`, with the sections and the transom that a record needs.
 
     Attributes
     ----------
@@ -134,19 +132,10 @@ class CountingRule:
 def integrals_of(
     immersed: ImmersedIntegrals, stations: StationAreas, transom: FloatArray, layout: CountingRule
 ) -> HydrostaticIntegrals:
-    """Bring together what is measured of a hull.
+    """Bring together what is measured of a hull; `transom` is its immersed area, (d,), m2.
 
-    Parameters
-    ----------
-    immersed : Immersed
-        The integrals.
-    stations : StationAreas
-        Areas of the stations. The section at Lpp / 2 is the station there; if there is none, the
-        cubic through the four stations next to it.
-    transom : (d,), m2
-        Immersed area of the transom.
-    layout : Layout
-        Where Lpp / 2 is, and what counts.
+    The section at Lpp / 2 is the station there; if there is none, the cubic through the four
+    stations next to it.
     """
     return _joined(immersed, stations, transom, layout, _largest(stations, layout.middle))
 
@@ -154,16 +143,9 @@ def integrals_of(
 def integral_changes(
     change: IntegralChange, stations: StationAreas, layout: CountingRule
 ) -> HydrostaticIntegrals:
-    """Bring together changes of what is measured; nan where they are not known.
+    """Bring together changes of what is measured, as `integrals_of`; nan where they are not known.
 
-    Parameters
-    ----------
-    change : Change
-        The changes.
-    stations : StationAreas
-        The stations, not changed: the largest of them stays the largest.
-    layout : Layout
-        As for `sums_of`.
+    `stations` are not changed: the largest of them stays the largest.
     """
     most = _largest(stations, layout.middle)
     areas = np.full_like(stations.area, np.nan) if change.areas is None else change.areas
@@ -232,7 +214,7 @@ def _cubic(stations: StationAreas, x: float, first: int, count: int) -> FloatArr
 
 
 def lagrange(knots: Sequence[FloatArray], values: Sequence[FloatArray], x: float) -> FloatArray:
-    """Give at x the polynomial that has given values at given places."""
+    """Give at x Lagrange's polynomial through values (d,) at knots, in any arithmetic."""
     found = 0.0 * values[0]
     for i, (knot, value) in enumerate(zip(knots, values, strict=True)):
         weight = 1.0 + 0.0 * knot
@@ -244,24 +226,14 @@ def lagrange(knots: Sequence[FloatArray], values: Sequence[FloatArray], x: float
 
 
 # --------------------------------------------------------------------------------------
-# From integrals to the values of a hydrostatics record: algebra only, for many planes at once.
-#
-# The inclined waterplane lies over its plan (x, y) by an affine map. With n the upward normal,
-# its longitudinal axis is ``e1 = (1, 0, tt) / c``, the direction of the ship's x-axis in the
-# plane; its transverse axis ``e2 = n x e1`` is perpendicular to it in the plane. From the
-# centroid a place in plan (x, y) has in these axes the coordinates
-#
-#     xi = c x - (tt th / c) y,   eta = (s / c) y,   and dA = s dx dy,
-#
-# with tt, th the tangents of trim and heel, ``c^2 = 1 + tt^2``, ``s^2 = 1 + tt^2 + th^2``.
-# For pure heel the transverse second moment is that in plan over the cube of the cosine.
-#
-# Nothing here takes an absolute value or a maximum, so a complex step through it gives exact
-# derivatives: `propagate` turns changes of the integrals into changes of every value.
+# From integrals to the values of a record. Nothing here takes an absolute value or a maximum, so a
+# complex step through it gives exact derivatives: `propagate` turns changes of the integrals into
+# changes of every value.
 
 Values = dict[str, NDArray[Any]]
 
 _STEP = 1e-100
+"""Imaginary step: its square vanishes in double precision, so derivatives have no error of it."""
 
 
 @attrs.frozen
@@ -291,15 +263,6 @@ def values_of(sums: HydrostaticIntegrals, planes: FloatingPlanes, setting: Recor
     """Give every value of the record, (d,) each, by name.
 
     A value that a position does not have (KM when heeled, GM without KG) is nan.
-
-    Parameters
-    ----------
-    sums : Sums
-        The integrals below d planes.
-    planes : Planes
-        The planes.
-    setting : Setting
-        Dimensions, water, KG.
     """
     with np.errstate(invalid="ignore", divide="ignore"):
         found = _draughts(planes, setting) | _buoyancy(sums, setting) | _plan(sums)
@@ -342,7 +305,16 @@ def _plan(sums: HydrostaticIntegrals) -> Values:
 
 
 def _waterplane(found: Values, planes: FloatingPlanes) -> Values:
-    """Map the waterplane from its plan to itself; see above."""
+    """Give area and second moments of the inclined waterplane from those of its plan (x, y).
+
+    It lies over its plan by an affine map. With n the upward normal, its longitudinal axis is
+    ``e1 = (1, 0, tt) / c``, the direction of the ship's x-axis in the plane; its transverse axis
+    ``e2 = n x e1`` is perpendicular to it in the plane. From the centroid a point in plan (x, y)
+    has in these axes the coordinates ``xi = c x - (tt th / c) y``, ``eta = (s / c) y``, and
+    ``dA = s dx dy``, with tt, th the tangents of trim and heel, ``c^2 = 1 + tt^2``,
+    ``s^2 = 1 + tt^2 + th^2``. For pure heel the transverse second moment is that in plan over the
+    cube of the cosine.
+    """
     c2 = 1.0 + planes.tan_trim**2
     s2 = c2 + planes.tan_heel**2
     s, skew = np.sqrt(s2), planes.tan_trim * planes.tan_heel
@@ -364,6 +336,7 @@ def _heights(found: Values, planes: FloatingPlanes, setting: RecordSetting) -> V
     kmt, kml = (found["kb"] + found[each] + upright for each in ("bmt", "bml"))
     kg = np.nan if setting.kg is None else setting.kg
     gml = kml - kg
+    # Without KG, or heeled, there is no GML: BML stands for it in the moment to change trim.
     lever = np.where(np.isnan(gml), found["bml"], gml)
     rho = setting.rho
     return {
@@ -411,23 +384,11 @@ def propagate(
     planes: FloatingPlanes,
     setting: RecordSetting,
 ) -> dict[str, FloatArray]:
-    """Tell by how much every value may be off, to first order.
+    """Give by how much every value may be off, to first order: (d,) by name, nan if not known.
 
-    Parameters
-    ----------
-    sums : Sums
-        The integrals.
-    changes : iterable of Sums
-        Each holds changes of all integrals that come together, with their signs: moments and
-        volume are mostly off together, and the centroid is not. Changes of several items count
-        as if each could have either sign. nan: not known.
-    planes, setting
-        As for `values_of`.
-
-    Returns
-    -------
-    dict of (d,)
-        By name; nan where it is not known.
+    Each item of `changes` holds changes of all integrals that come together, with their signs:
+    moments and volume are mostly off together, and the centroid is not. Amounts of several items
+    add up, as if each could have either sign.
     """
     found: dict[str, FloatArray] = {}
     for change in changes:
@@ -442,7 +403,7 @@ def propagate(
 
 
 # --------------------------------------------------------------------------------------
-# Hydrostatics of a floating body: measured, with appendages, as a table.
+# Tables of a floating body.
 
 
 def table_of(
@@ -501,14 +462,7 @@ def table_of(
 def values_at(body: Measurable, planes: FloatingPlanes, header: HydrostaticHeader) -> Values:
     """Compute every value of the record below planes, (d,) each, in any arithmetic.
 
-    Parameters
-    ----------
-    body : Measurable
-        The hull.
-    planes : Planes
-        Where it floats, which is not checked.
-    header : HydrostaticHeader
-        Dimensions, water, KG, appendages and what counts.
+    Whether the hull floats there is not checked.
     """
     return values_of(_measured(body, planes, header)[1], planes, _terms(header)[0])
 
@@ -536,10 +490,8 @@ def _share(appendage: Appendage, planes: FloatingPlanes, whole: FloatArray) -> A
 
 
 # --------------------------------------------------------------------------------------
-# Hydrostatics of a hull: one floating position, or a table of many.
-#
-# The hull is measured through `assoc_hull.analysis.hydrostatics.flotation`; what is here chooses
-# positions and options.
+# A hull: one floating position, or a table of many. `flotation` measures it; positions and options
+# are chosen here.
 
 _WHERE = "in hydrostatics"
 
@@ -565,57 +517,7 @@ def hydrostatics(
 ) -> Hydrostatics:
     """Compute the hydrostatics of a hull at one floating position.
 
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    draught : float, m
-        At even keel; or `draughts`. The design draught if neither is given.
-    draughts : (float, float), m
-        T_A and T_F, on the centre line at the perpendiculars.
-    heel_deg : float, degrees
-        + starboard down.
-    rho : float, t/m3
-        Density of the water: 1.025 salt, 1.000 fresh.
-    shell_factor : float
-        Displacement over that of the moulded volume.
-    kg : float or None, m
-        Centre of gravity above the base line.
-    transom : bool
-        Count the immersed transom, and other flat ends, as wetted surface.
-    on_error : "refuse" or "report"
-        What to do if the integrals are doubtful: a section that is open or crosses itself, two
-        routes that disagree. What is reported stands in the `notes` of the record.
-    appendages : iterable of Appendage
-        That are added to the moulded hull.
-    keel_thickness : float, m
-        From the base line down to the underside of keel.
-    draught_to : "moulded" or "keel"
-        Whether draughts are given to the base line, or to the underside of keel; the record is
-        always of moulded ones.
-    estimate : bool
-        Estimate how far each value may be off by the integration of these lines. Without, numbers
-        are not compared with those of other routes either: only the lines can make it doubtful.
-
-    Returns
-    -------
-    Hydrostatics
-        The record.
-
-    Raises
-    ------
-    OutOfRangeError
-        A position in which the hull does not float, with the range.
-    BadInputError
-        A number that cannot be used; a doubtful hull.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
-    >>> from assoc_hull.sources import examples
-    >>> hull = examples.wigley()
-    >>> round(hydrostatics(hull, draught=6.25).cb, 3)  # 4/9
-    0.444
+    The arguments and what is raised are those of `Hull.hydrostatics`.
     """
     terms: dict[str, object] = {
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
@@ -647,33 +549,7 @@ def hydrostatic_table(
 ) -> HydrostaticTable:
     """Compute a table of hydrostatics over draughts and trims, all in one go.
 
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    draughts : (n,), m
-        Mean draughts, rising.
-    trims : (k,), m
-        T_A - T_F: + by the stern, rising.
-    heel_deg, rho, shell_factor, kg, transom, on_error, appendages, keel_thickness
-        As for `hydrostatics`.
-    draught_to, estimate
-        As for `hydrostatics`.
-    date : str or None
-        For the head of the table.
-
-    Raises
-    ------
-    OutOfRangeError, BadInputError
-        As `hydrostatics`; also draughts or trims that do not rise.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatic_table
-    >>> from assoc_hull.sources import examples
-    >>> table = hydrostatic_table(examples.wigley(), [2.0, 4.0, 6.0], [0.0, 0.5])
-    >>> table.shape, table[2, 1].trim_by_stern
-    ((3, 2), 0.5)
+    The arguments and what is raised are those of `Hull.hydrostatic_table`.
     """
     terms: dict[str, object] = {
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
@@ -695,7 +571,7 @@ def hydrostatic_table(
 
 
 def _keel(header: HydrostaticHeader, draught_to: str) -> float:
-    """Give what draughts hold more than moulded ones, m."""
+    """Give what has to be taken off draughts to make them moulded ones, m."""
     choice(draught_to, "draught_to", ("moulded", "keel"), _WHERE)
     return header.keel_thickness if draught_to == "keel" else 0.0
 
@@ -707,7 +583,7 @@ def position_of(
     heel_deg: float,
     draught_to: str,
 ) -> FloatingPosition:
-    """Take a floating position, moulded."""
+    """Make a moulded floating position of what was given; the design draught if nothing was."""
     if draught is not None and draughts is not None:
         raise BadInputError("draught and draughts are both given", _WHERE, "give one of them")
     keel = _keel(header, draught_to)

@@ -1,8 +1,9 @@
-"""The record of hydrostatics, the table of records, their head, and what each value is.
+"""The record of hydrostatics, the table of records, their header, and what each value is.
 
-`FIELDS` says symbol, unit, datum, sign and formula of each value, after the ITTC's list and
-Principles of Naval Architecture (vol. I, 1988). A `HydrostaticTable` holds columns over draughts
-and trims; a `Hydrostatics` is one row of it. The header says what the numbers hold good for.
+`FIELDS` holds symbol, unit, datum, sign and formula of each value, after the ITTC's list and
+Principles of Naval Architecture (vol. I, 1988). A `HydrostaticTable` holds columns (d,) over
+draughts and trims; a `Hydrostatics` is one row of it. The header says what the numbers hold good
+for.
 """
 
 from __future__ import annotations
@@ -33,13 +34,11 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What each value of a hydrostatics record is: symbol, unit, datum, sign, formula.
-#
-# Symbols are those of the ITTC's list (ITTC Symbols and Terminology List, version 2021, 2.2.1
-# and 2.2.3), where it has one. Formulas are those of the ship's text books (E.V. Lewis, ed.,
-# Principles of Naval Architecture, vol. I, SNAME 1988, ch. I), for a floating plane that may be
-# trimmed and heeled. L is Lpp, B the moulded breadth, T the mean draught; tt and th are the
-# tangents of trim and heel and ``s = sqrt(1 + tt^2 + th^2)``, ``c = sqrt(1 + tt^2)``.
+# Fields. Symbols are those of the ITTC's list (ITTC Symbols and Terminology List, version 2021,
+# 2.2.1 and 2.2.3), where it has one. Formulas are those of E.V. Lewis, ed., Principles of Naval
+# Architecture, vol. I, SNAME 1988, ch. I, for a floating plane that may be trimmed and heeled. L is
+# Lpp, B the moulded breadth, T the mean draught; tt and th are the tangents of trim and heel and
+# ``s = sqrt(1 + tt^2 + th^2)``, ``c = sqrt(1 + tt^2)``.
 
 
 @attrs.frozen
@@ -147,7 +146,7 @@ FIELDS: Mapping[str, RecordField] = MappingProxyType({each.name: each for each i
 
 
 # --------------------------------------------------------------------------------------
-# The record of a hull's hydrostatics at one floating position.
+# The record.
 
 _MAY_LACK = frozenset({"kmt", "kml", "gmt", "gml"})
 """Values that some positions do not have."""
@@ -162,9 +161,8 @@ class Hydrostatics:
     """Hydrostatics at one floating position, both sides, in ship axes.
 
     x is from AP, + forward; y + to port; z from the base line, up; m, t, m3. `FIELDS` in
-    `assoc_hull.analysis.hydrostatics.record` tells of each value its symbol, unit, datum,
-    sign and
-    formula, in the order of this record. Lpp and moulded breadth stand in every coefficient
+    `assoc_hull.analysis.hydrostatics.record` tells of each value its symbol, unit, datum, sign
+    and formula, in the order of this record. Lpp and moulded breadth stand in every coefficient
     unless it says `_lwl`; the draught in them is the mean one, moulded.
 
     Attributes
@@ -258,16 +256,7 @@ def record_of_row(
     i: int,
     notes: Sequence[str] = (),
 ) -> Hydrostatics:
-    """Give the record of one position.
-
-    Parameters
-    ----------
-    columns, errors : mapping of str to (d,)
-        All values, and how far they may be off; nan where there is none.
-    i : int
-        The position.
-    notes : sequence of str
-        For the record.
+    """Give the record of position i from columns (d,); nan, and a missing error, become None.
 
     Examples
     --------
@@ -290,7 +279,7 @@ def _number(value: float) -> float | None:
 
 
 # --------------------------------------------------------------------------------------
-# The head of a table of hydrostatics: without it nobody can tell what the numbers mean.
+# The header.
 
 SALT, FRESH = 1.025, 1.000
 """Densities of salt and fresh water, t/m3."""
@@ -401,7 +390,7 @@ class HydrostaticHeader:
 
 
 # --------------------------------------------------------------------------------------
-# Hydrostatics at many floating positions: a table over draughts and trims.
+# The table.
 
 
 def _columns(values: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:

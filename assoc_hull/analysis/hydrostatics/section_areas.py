@@ -1,8 +1,8 @@
 """Areas of sections: of stations, anywhere along the hull, as a curve over x, over the draught.
 
 Areas at any x are those of the surface there, not of a curve laid through the stations: inside a
-parallel body they stay what they are. `area_curve` runs from the aftmost wet place to the foremost;
-`bonjean` gives the stations up to level planes.
+parallel body they stay what they are. `area_curve` runs from the aftmost wet point to the foremost;
+`bonjean` gives the stations up to level planes. Areas are of both sides, m2.
 """
 
 from __future__ import annotations
@@ -20,17 +20,16 @@ from assoc_hull.analysis.net.curve_net import station_planes
 from assoc_hull.analysis.net.surface_layout import areas_between, strip_extents
 from assoc_hull.arguments import integer
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, Strips, freeze
+from assoc_hull.geometry.floating.immersed_strips import prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
     ImmersedIntegrals,
     integrate_immersed,
 )
-from assoc_hull.geometry.floating.prepared_strips import prepare_strips
 from assoc_hull.geometry.numeric.polynomials import differentiate, horner
 from assoc_hull.geometry.numeric.roots import unit_roots
 from assoc_hull.geometry.splines.segments import power_coefficients
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves, Strips
 from assoc_hull.model.tables import HasState, state_of
 
 __all__ = [
@@ -45,18 +44,15 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The sectional-area curve between stations, and what lies between two of them.
-#
-# Areas at any x are those of the surface there, not of a curve laid through the stations: inside
-# a parallel body they stay what they are.
+# Areas at any x, and integrals between two stations.
 
 _ON_STATION = 1e-6
-"""So near to a station (m) a place is on it."""
+"""A place this near to a station (m) is on it."""
 
 
 @attrs.frozen(eq=False)
-class _Some:
-    """Some of the strips of a body; implements `Strips`."""
+class _ChosenStrips:
+    """Chosen strips of a body; implements `Strips`."""
 
     whole: Strips
     chosen: IntArray
@@ -84,12 +80,12 @@ def between_stations(
         The hull.
     aft, fore : float, m
         x of the stations, such as those at AP and FP; infinite for an end of the hull.
-    planes : Planes
+    planes : FloatingPlanes
         d planes.
 
     Returns
     -------
-    Immersed
+    ImmersedIntegrals
         Of that part, (d,) each; the two stations are no part of its surface.
 
     Raises
@@ -113,7 +109,7 @@ def between_stations(
     first, last = _station(x, aft), _station(x, fore)
     slab = np.array([frame.slab for frame in body.layout.frames], np.int64)
     chosen = np.flatnonzero((slab > first) & (slab <= last))
-    return integrate_immersed(prepare_strips(_Some(body.strips, chosen)), planes)
+    return integrate_immersed(prepare_strips(_ChosenStrips(body.strips, chosen)), planes)
 
 
 def _station(x: FloatArray, place: float) -> int:
@@ -135,13 +131,13 @@ def section_areas(body: Flotation, x: FloatArray, planes: FloatingPlanes) -> Flo
         The hull.
     x : (n,), m
         Where.
-    planes : Planes
+    planes : FloatingPlanes
         d planes.
 
     Returns
     -------
     (d, n), m2
-        Of both sides; nil beyond the ends of the hull, nan between an end of the hull (a raked
+        Of both sides; zero beyond the ends of the hull, nan between an end of the hull (a raked
         stem, a piece that begins) and the next station, where no curve of the surface lies in
         a plane across the ship.
 
@@ -174,7 +170,7 @@ def section_areas(body: Flotation, x: FloatArray, planes: FloatingPlanes) -> Flo
 
 
 # --------------------------------------------------------------------------------------
-# The sectional-area curve as a function of x, from the aftmost wet place to the foremost.
+# The sectional-area curve as a function of x.
 
 _ON_END = 1e-9  # m above the water is on it
 _SAME = 1e-6  # m between two places along the ship
@@ -220,7 +216,7 @@ class AreaCurve:
     _slabs: tuple[_Slab, ...]
 
     def at(self, x: FloatArray) -> FloatArray:
-        """Give the areas at x (n,), m2; nil beyond the ends."""
+        """Give the areas at x (n,), m2; zero beyond the ends."""
         found = np.zeros(len(x))
         rest = (x >= self.low) & (x <= self.high)
         for slab in self._slabs:
@@ -237,13 +233,13 @@ def area_curve(body: Flotation, planes: FloatingPlanes) -> AreaCurve:
 
     Between stations the areas are those of the surface. Where no curve of the surface lies in a
     plane across the ship (before a raked stem, say) it is a parabola between the areas at both
-    ends, nil at the end of the hull, with the volume of the surface below it.
+    ends, zero at the end of the hull, with the volume of the surface below it.
 
     Parameters
     ----------
     body : Flotation
         The hull.
-    planes : Planes
+    planes : FloatingPlanes
         One plane.
 
     Returns
@@ -288,7 +284,10 @@ def _inside(x: FloatArray, low: float, high: float) -> FloatArray:
 
 
 def _slab(body: Flotation, planes: FloatingPlanes, low: float, high: float) -> _Slab:
-    """Give the parabola of a part in which sections are not known."""
+    """Give the parabola of a part in which sections are not known.
+
+    Its mean is the volume there over the length, so that the curve integrates to the volume.
+    """
     stations = station_planes(body.net)
     near = [np.abs(stations - x).min() <= 1e-6 for x in (low, high)]
     aft, fore = low if near[0] else -np.inf, high if near[1] else np.inf
@@ -310,6 +309,7 @@ def wet_extent(body: Flotation, planes: FloatingPlanes) -> tuple[float, float]:
     height, trim, heel = (
         float(each[0]) for each in (planes.height, planes.tan_trim, planes.tan_heel)
     )
+    # Of port and starboard the deeper side counts. Extremes lie at ends, turns in x, or the water.
     over = cubic[:, :, 2] - trim * cubic[:, :, 0] - abs(heel) * cubic[:, :, 1]
     over[:, 0] -= height
     end = np.ones((len(cubic), 1))
@@ -325,9 +325,8 @@ def wet_extent(body: Flotation, planes: FloatingPlanes) -> tuple[float, float]:
 
 
 # --------------------------------------------------------------------------------------
-# Areas of stations: at one floating position, and over the draught (Bonjean curves).
-#
-# Source: E.V. Lewis, ed., Principles of Naval Architecture, vol. I, SNAME 1988, ch. I.
+# Areas of stations: at one floating position, and over the draught (Bonjean curves). Source: E.V.
+# Lewis, ed., Principles of Naval Architecture, vol. I, SNAME 1988, ch. I.
 
 _WHERE = "in Bonjean curves"
 
@@ -377,21 +376,7 @@ def sectional_areas(hull: HasState, position: FloatingPosition) -> StationAreas:
 def bonjean(hull: HasState, levels: int = 41) -> Bonjean:
     """Give the Bonjean curves of a hull, from the keel to the deck edge.
 
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    levels : int
-        At so many heights: from the lowest place of the hull to the lowest of an open deck edge,
-        or the highest of a closed one.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.hydrostatics.section_areas import bonjean
-    >>> from assoc_hull.sources import examples
-    >>> curves = bonjean(examples.wigley(), 5)
-    >>> curves.stations.area.shape == curves.moment.shape == (5, len(curves.stations.x))
-    True
+    The arguments and what is raised are those of `Hull.bonjean`.
     """
     count = integer(levels, "levels", _WHERE, least=2, most=1000)
     body = flotation(state_of(hull))

@@ -1,8 +1,9 @@
 """The lines of a hull as plain arrays: curves, crossings, sections, and the net with fewer lines.
 
-`gather_net` takes live curves and crossings from the tables; all else here reads its `CurveNet`.
-Sections are those drawn, as curves that planes can cut, not those of the surface through the lines.
-`thinned_net` leaves lines out: what the numbers of such a net differ by tells how far they are off.
+`gather_net` takes live curves and crossings from the tables; all else here reads its `CurveNet`,
+one of m curves, port side, ship axes, m. Sections are those drawn, as curves that planes can cut,
+not those of the surface through the lines. `thinned_net` leaves lines out: what the numbers of such
+a net differ by shows how far they are off.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from assoc_hull.geometry.curves import (
     CurveData,
     FloatArray,
     IntArray,
+    IsoCurves,
     PointKind,
     SplineBatch,
     freeze,
@@ -29,7 +31,6 @@ from assoc_hull.geometry.numeric.dual import real
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.paths import Bit
 from assoc_hull.geometry.splines.segments import power_coefficients
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.tables import HullState
@@ -52,7 +53,7 @@ __all__ = [
 ]
 
 ON_PLANE = 1e-6
-"""So near to a section's plane (m) a boundary curve lies in it."""
+"""A boundary curve this near to a section's plane (m) lies in it."""
 
 
 def station_planes(net: CurveNet) -> FloatArray:
@@ -63,13 +64,13 @@ def station_planes(net: CurveNet) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Take the curves and crossings of a hull from its tables, as plain arrays.
+# Curves and crossings from the tables.
 
 CurvePart = tuple[int, float, float]
 """A curve of the net and the chord parameters (m) between which it is walked, in that sense."""
 
 _SNAP = 1e-9
-"""A parameter so near to a knot (m) is the knot."""
+"""A parameter this near to a knot (m) is the knot."""
 
 
 @attrs.frozen(eq=False)
@@ -138,13 +139,7 @@ class CurveNet:
 
 
 def gather_net(state: HullState) -> CurveNet:
-    """Take all live curves and their crossings from the tables.
-
-    Parameters
-    ----------
-    state : HullState
-        The tables.
-    """
+    """Take all live curves and their crossings from the tables."""
     keys = state.curves.key.data
     curves = np.array(sorted(state.live("curves").tolist(), key=lambda c: str(keys[c])), np.int64)
     lines = state.curves.line.data[curves]
@@ -178,7 +173,7 @@ def gather_net(state: HullState) -> CurveNet:
 def _crossings(
     state: HullState, curves: IntArray, batch: SplineBatch
 ) -> tuple[IntArray, IntArray, FloatArray]:
-    """Give all crossings, which two curves of the net cross there, and where on them.
+    """Give the point of each crossing, its two curves, and where on them it lies (k, 2), m.
 
     Watched crossings count: a surface within their gap is as good as the net itself.
     """
@@ -186,7 +181,7 @@ def _crossings(
     number[curves] = np.arange(len(curves))
     table = state.rows
     place = table.parameter.data[: table.count].copy()
-    # Where a line ends on another it has no meeting, but a defining point: a knot.
+    # Where a line ends on another it has no intersection, but a defining point: a knot.
     row = np.concatenate([state.curves.rows.data[curve] for curve in curves.tolist()])
     side = np.concatenate([state.curves.side.data[curve] for curve in curves.tolist()])
     place[row, side] = batch.knot
@@ -199,7 +194,7 @@ def _crossings(
 
 
 def segments_of_part(net: CurveNet, part: CurvePart) -> list[Bit]:
-    """Give the bits of segments that a part of a curve consists of."""
+    """Give the bits of segments that a part of a curve consists of; backward where it runs so."""
     curve, begin, finish = part
     knot = net.knots[curve]
     low, high = (_snapped(knot, t) for t in (min(begin, finish), max(begin, finish)))
@@ -216,7 +211,7 @@ def segments_of_part(net: CurveNet, part: CurvePart) -> list[Bit]:
 
 
 def _snapped(knot: list[float], t: float) -> float:
-    """Take the knot for a parameter that is as good as there."""
+    """Give the knot for a parameter that is next to one."""
     i = bisect_left(knot, t)
     for near in knot[max(i - 1, 0) : i + 1]:
         if abs(near - t) <= _SNAP:
@@ -225,10 +220,10 @@ def _snapped(knot: list[float], t: float) -> float:
 
 
 # --------------------------------------------------------------------------------------
-# The sections of a net as curves that planes can cut: as drawn, not as the surface has them.
+# Sections as drawn.
 
 ON_CENTRE = 1e-4
-"""A curve that ends so near to the centre plane (m) ends on it."""
+"""A curve that ends this near to the centre plane (m) ends on it."""
 
 
 @attrs.frozen(eq=False)
@@ -259,7 +254,7 @@ class NetSections:
         freeze(self.curve, self.station, self.x)
 
     def per_station(self, values: FloatArray) -> FloatArray:
-        """Add up what belongs to the pieces of each station: (d, k) to (d, n)."""
+        """Sum values of the pieces of each station: (d, k) to (d, n)."""
         member = (self.station[:, None] == np.arange(len(self.x))).astype(np.float64)
         found: FloatArray = values @ member
         return found
@@ -276,7 +271,7 @@ def sections_of(net: CurveNet, closed: bool) -> NetSections:
 
 
 def flat_ends_below(net: CurveNet, closed: bool, planes: FloatingPlanes) -> FloatArray:
-    """Give the area of transom and other ends in planes across the ship, (d,), m2."""
+    """Give the area of transom and other transverse ends, (d,), m2, both sides."""
     chosen = np.flatnonzero(np.isfinite(net.x) & net.end)
     if not len(chosen):
         return np.zeros(len(planes.height))
@@ -285,7 +280,7 @@ def flat_ends_below(net: CurveNet, closed: bool, planes: FloatingPlanes) -> Floa
 
 
 def areas_of_flat_ends(edges: SplineBatch, closed: bool, planes: FloatingPlanes) -> FloatArray:
-    """Give the area inside the edges of ends across the ship, (d,), m2."""
+    """Give the area inside the edges of transverse ends, (d,), m2, both sides."""
     area: FloatArray = sections_below(_curves(edges, closed), planes).sum(axis=1)
     return area
 
@@ -310,7 +305,10 @@ def _curves(batch: SplineBatch, closed: bool) -> IsoCurves:
 
 
 def _upward(cubic: FloatArray) -> FloatArray:
-    """Turn a curve so that it runs from keel to deck: it encloses area to port."""
+    """Turn a curve so that it runs from keel to deck: it encloses area to port.
+
+    The integral of y dz is positive then. Reversed, c(u) becomes c(1 - u), expanded below.
+    """
     first, last = cubic[:, 0], cubic.sum(axis=1)
     swept = (0.5 * (first[:, 1] + last[:, 1]) * (last[:, 2] - first[:, 2])).sum()
     if real(swept) >= 0.0:
@@ -320,10 +318,9 @@ def _upward(cubic: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# The net with fewer lines: what its numbers differ by tells how far they may be off.
-#
-# A line that is left out takes with it the points at which it crossed the others, unless these
-# are ends, knuckles or tangent points; the lines that stay are lofted again without them.
+# The net with fewer lines. A line that is left out takes with it the points at which it crossed the
+# others, unless these are ends, knuckles or tangent points; the lines that stay are lofted again
+# without them.
 
 
 def every_other_section(net: CurveNet, first: int) -> NDArray[np.bool_]:
@@ -356,10 +353,10 @@ def every_other_line(net: CurveNet) -> NDArray[np.bool_]:
 
 
 def _height(net: CurveNet, own: list[int], name: str) -> tuple[float, str]:
-    """Give how far up or in a line runs, to bring lines of a family into order.
+    """Give a key that orders the lines of a family: upward, or inward.
 
-    Diagonals go by how far up the sections they lie on the average: heights and breadths of
-    two that are neighbours may turn round from bottom to side.
+    Diagonals go by how far up the sections they lie on average: heights and breadths of two
+    neighbours may change their order from bottom to side.
     """
     mine = np.array([i for i in own if net.name[i] == name])
     family = net.family[mine[0]]
@@ -378,20 +375,11 @@ def _height(net: CurveNet, own: list[int], name: str) -> tuple[float, str]:
 
 
 def thinned_net(state: HullState, net: CurveNet, without: NDArray[np.bool_]) -> CurveNet:
-    """Give the net without some curves.
-
-    Parameters
-    ----------
-    state : HullState
-        The tables that the net was taken from.
-    net : Net
-        The net.
-    without : (m,) bool
-        The curves to leave out.
-    """
+    """Give the net without the curves chosen by `without` (m,); `state` is its source."""
     data = curve_data(state, net.curve)
     keep = _points(state, net, data, without)
     size = np.add.reduceat(keep, data.start[:-1])
+    # A curve of fewer than two points is none: it keeps them all.
     short = np.repeat(size < 2, np.diff(data.start))
     keep |= short & ~np.repeat(without, np.diff(data.start))
     stay = np.flatnonzero(~without)
@@ -458,7 +446,7 @@ def _places(
     new: IntArray,
     place: FloatArray,
 ) -> FloatArray:
-    """Carry places on curves over: in proportion between the points that stayed."""
+    """Carry parameters on curves over: in proportion between the points that stayed."""
     found = np.empty_like(place)
     start = net.batch.start
     for side in (0, 1):

@@ -45,9 +45,9 @@ def move_cells(
 
     Parameters
     ----------
-    layout : Layout
+    layout : SurfaceLayout
         Of the net.
-    net : Net
+    net : CurveNet
         The lines in plain numbers.
     batch : SplineBatch
         The lines as they have become, in any arithmetic.

@@ -1,9 +1,9 @@
-"""What bounds the hull between two sections: closed runs of sections and boundary curves.
+"""What bounds the hull between two sections: closed loops of sections and boundary curves.
 
-Boundary curves are cut where sections stand (`boundary_arcs`), and the arcs of a slab are followed
-round. A run is taken apart into two *rails* across the ship and two *sides* along it. A rail may
-have several parts: where a section has come apart (a bulb below a stem), the stem between its
-pieces belongs to the rail.
+Boundary curves are cut where sections stand (`boundary_arcs`); the arcs of a slab, the space
+between two neighbouring planes, are followed round (`strip_boundaries`). A loop is split into two
+*rails* across the ship and two *sides* along it. A rail may have several parts: where a section has
+come apart (a bulb below a stem), the stem between its pieces belongs to the rail.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Where sections stand, and the boundary curves cut there.
+# Boundary curves, cut where sections stand.
 
 _SAME = 1e-3
-"""Curves in one plane whose ends lie so near (m) are one."""
+"""Curves in one plane whose ends lie this near (m) are one."""
 
 _KNUCKLE = 1e-9
 """Derivatives that differ by more at a knot have a corner between them."""
@@ -58,7 +58,7 @@ class BoundaryArc:
 
 
 def boundary_arcs(net: CurveNet, x: FloatArray) -> list[BoundaryArc]:
-    """Cut all boundary curves at which the hull ends at the planes; sections are arcs too.
+    """Cut all boundary curves at which the hull ends at the planes x (p,), m; add the sections.
 
     A section that a transom or another end covers is left out: there the hull ends.
     """
@@ -75,7 +75,7 @@ def boundary_arcs(net: CurveNet, x: FloatArray) -> list[BoundaryArc]:
 
 
 def _covering(net: CurveNet) -> FloatArray:
-    """Give first and last places of the ends in planes across the ship, (k, 2, 3), m."""
+    """Give first and last points of the ends in transverse planes, (k, 2, 3), m."""
     chosen = np.flatnonzero(net.end & np.isfinite(net.x))
     start = net.batch.start
     return np.stack([net.batch.xyz[start[chosen]], net.batch.xyz[start[chosen + 1] - 1]], axis=1)
@@ -110,7 +110,10 @@ def _cut(net: CurveNet, curve: int, x: FloatArray) -> list[BoundaryArc]:
 
 
 def _edges(one: SplineBatch, x: FloatArray) -> FloatArray:
-    """Give the parameters at which a curve meets the planes or has a corner, with its ends."""
+    """Give the parameters at which a curve passes the planes or has a corner, with its ends.
+
+    Knots on a plane are taken as they are; roots next to them are the same point, found again.
+    """
     cubic, control = power_coefficients(one)[:, :, 0], bezier_points(one)[:, :, 0]
     low, high = control.min(axis=1), control.max(axis=1)
     segment, plane = np.nonzero((low[:, None] <= x) & (high[:, None] >= x))
@@ -136,17 +139,13 @@ def _x_at(one: SplineBatch, t: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# What bounds the hull between two planes: closed runs of sections and boundary curves.
-#
-# A run is taken apart into two *rails* across the ship and two *sides* along it. A rail may
-# consist of several parts: where a section has come apart (a bulb below a stem), the stem
-# between its pieces belongs to the rail.
+# Loops between two planes, and their rails and sides.
 
 _NEAR = 1e-4
-"""Ends of curves so near to one another, in lengths of the ship, meet."""
+"""Ends of curves this near to one another, in lengths of the ship, are one node."""
 
 _KEEL = 2.0
-"""A boundary curve that runs so many times more forward than up is keel, not stem."""
+"""A boundary curve that runs this many times more forward than up is keel, not stem."""
 
 
 @attrs.frozen
@@ -155,10 +154,10 @@ class StripBoundary:
 
     Attributes
     ----------
-    aft, fore : tuple of Part
+    aft, fore : tuple of CurvePart
         The rails.
-    keel, deck : tuple of Part
-        The sides; none where the rails meet in a point, or nothing is drawn between them.
+    keel, deck : tuple of CurvePart
+        The sides; none where the rails end in one point, or nothing is drawn between them.
     slab : int
         The slab.
     plane : bool
@@ -209,6 +208,7 @@ class _Edge:
     last: FloatArray
 
     def turned(self) -> _Edge:
+        """Give the edge the other way round."""
         curve, t0, t1 = self.part
         return _Edge(
             (curve, t1, t0), self.kind, self.finish, self.begin, self.closing, self.last, self.first
@@ -218,19 +218,7 @@ class _Edge:
 def strip_boundaries(
     net: CurveNet, arcs: Sequence[BoundaryArc], count: int, length: float
 ) -> tuple[list[StripBoundary], list[UnboundedCurves]]:
-    """Find the strips in all slabs.
-
-    Parameters
-    ----------
-    net : Net
-        The curves.
-    arcs : sequence of Arc
-        Of all planes and slabs.
-    count : int
-        Number of planes.
-    length : float, m
-        Of the ship.
-    """
+    """Find the strips in all slabs of `count` planes, and curves that bound none; `length` in m."""
     begin = _places(net, [(arc.part[0], arc.part[1]) for arc in arcs])
     finish = _places(net, [(arc.part[0], arc.part[2]) for arc in arcs])
     found: list[StripBoundary] = []
@@ -267,7 +255,7 @@ def _joined(
     finish: FloatArray,
     near: float,
 ) -> list[_Edge]:
-    """Give the ends of the arcs numbers, the same to ends that lie near one another."""
+    """Give the chosen arcs as edges; ends within `near` (m) of each other share a node."""
     node: list[FloatArray] = []
 
     def number(place: FloatArray) -> int:
@@ -290,11 +278,15 @@ def _joined(
 
 
 def _closes(net: CurveNet, curve: int) -> bool:
+    """Tell whether a curve may close an end of the ship: in the centre plane, or transverse."""
     return bool(net.end[curve] and (net.centre[curve] or np.isfinite(net.x[curve])))
 
 
 def _pruned(edges: list[_Edge]) -> list[_Edge]:
-    """Leave out boundary curves that end nowhere, and join loose ends of sections straight."""
+    """Leave out boundary curves that end nowhere, and join loose ends of sections straight.
+
+    Leaving out one may set another free, hence the loop.
+    """
     edges = edges + _capping(edges, _degrees(edges))
     while True:
         degree = _degrees(edges)
@@ -311,7 +303,7 @@ def _pruned(edges: list[_Edge]) -> list[_Edge]:
 def _capping(edges: Sequence[_Edge], degree: dict[int, int]) -> list[_Edge]:
     """Join a stem or stern that no deck edge reaches to the last section's upper end, straight.
 
-    Else what lies beyond the last section would be lost where no deck edge is drawn.
+    Else the hull beyond the last section would be lost where no deck edge is drawn.
     """
     if {edge.kind for edge in edges} >= {"A", "F"}:
         return []
@@ -344,7 +336,7 @@ def _degrees(edges: Sequence[_Edge]) -> dict[int, int]:
 
 
 def _closing(edges: Sequence[_Edge], degree: dict[int, int]) -> list[_Edge]:
-    """Join loose ends on the two planes pair by pair, the nearest first."""
+    """Join loose ends on the two planes in pairs, the nearest first; upper ends with upper ones."""
     loose: dict[str, list[tuple[int, FloatArray, bool]]] = {"A": [], "F": []}
     for edge in edges:
         if edge.kind == "E":
@@ -372,7 +364,7 @@ def _closing(edges: Sequence[_Edge], degree: dict[int, int]) -> list[_Edge]:
 
 
 def _loops(edges: Sequence[_Edge]) -> list[list[_Edge]]:
-    """Follow the edges round; runs that do not close are given as they are."""
+    """Follow the edges round; runs that do not close, or branch, are given as they are."""
     left = list(range(len(edges)))
     found = []
     while left:
@@ -390,7 +382,8 @@ def _loops(edges: Sequence[_Edge]) -> list[list[_Edge]]:
 
 
 def _frame(net: CurveNet, loop: list[_Edge], slab: int) -> StripBoundary | UnboundedCurves | None:
-    """Take a closed run apart into rails and sides."""
+    """Split a closed loop into rails and sides; None for what bounds nothing."""
+    # Straight joins across gaps are no curves of the net.
     names = tuple(dict.fromkeys(net.name[edge.part[0]] for edge in loop if edge.part[0] >= 0))
     if loop[-1].finish != loop[0].begin:
         if all(edge.kind != "F" for edge in loop) or all(edge.kind != "A" for edge in loop):
@@ -406,6 +399,7 @@ def _frame(net: CurveNet, loop: list[_Edge], slab: int) -> StripBoundary | Unbou
     if parts is None:
         return UnboundedCurves(names, slab, "sections and boundary curves alternate")
     aft, deck, fore, keel = parts
+    # Without a second rail it has no extent along the ship.
     if not aft or not fore:
         return None
     return _upward(net, aft, fore, keel, deck, slab)
@@ -437,6 +431,7 @@ def _at_an_end(
     stands = [i for i, edge in enumerate(loop) if edge.kind == kind]
     size = len(loop)
     gaps = [((j - i - 1) % size, j) for i, j in zip(stands[-1:] + stands[:-1], stands, strict=True)]
+    # The longest run without sections is the end itself; the rail begins behind it.
     begin = max(gaps)[1]
     run = loop[begin:] + loop[:begin]
     last = max(i for i, edge in enumerate(run) if edge.kind == kind)
@@ -449,7 +444,10 @@ def _at_an_end(
 
 
 def _stem(rest: list[_Edge]) -> tuple[list[_Edge], list[_Edge], list[_Edge]]:
-    """Take the sides off the run that closes an end: deck edge and keel."""
+    """Split the run that closes an end into deck edge, stem (or stern, transom) and keel.
+
+    A transverse edge is the rail itself; else it is what closes, without its flat ends.
+    """
     upright = [i for i, edge in enumerate(rest) if edge.closing and _is_upright(edge)]
     if upright:
         return rest[: upright[0]], rest[upright[0] : upright[-1] + 1], rest[upright[-1] + 1 :]
@@ -459,6 +457,7 @@ def _stem(rest: list[_Edge]) -> tuple[list[_Edge], list[_Edge], list[_Edge]]:
             first += 1
         while last > first and not rest[last - 1].closing:
             last -= 1
+    # One edge stays, flat or not: it is the rail.
     while last - first > 1 and _flat(rest[last - 1]):
         last -= 1
     while last - first > 1 and _flat(rest[first]):
@@ -471,6 +470,7 @@ def _is_upright(edge: _Edge) -> bool:
 
 
 def _flat(edge: _Edge) -> bool:
+    """Tell whether an edge runs more along the ship than up."""
     step = np.abs(edge.last - edge.first)
     return bool(step[0] > _KEEL * step[2])
 
@@ -487,7 +487,10 @@ def _upward(
     deck: list[_Edge],
     slab: int,
 ) -> StripBoundary:
-    """Turn a strip so that its rails run from keel to deck: they enclose area to port."""
+    """Turn a strip so that its rails run from keel to deck: they enclose area to port.
+
+    The integral of y dz is positive upward; against that, rails are reversed and sides swapped.
+    """
     swept = sum(_swept(net, edge) for edge in aft + fore)
     if swept < 0.0:
         aft, fore, keel, deck = _turned(aft), _turned(fore), deck, keel

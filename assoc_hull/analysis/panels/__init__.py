@@ -1,6 +1,6 @@
 """Panels of the immersed hull for seakeeping codes.
 
-`bands` joins the strips of the surface to long ones, `levels` chooses and completes the curves
-across them, `sheets` follows what is wet of them, `division` parts it into points, `fill` and
-`caps` put panels between, and `build` is what is called.
+`wet_sheets` joins the strips of the surface to bands and follows what is wet of them,
+`arc_division` divides it by points, `assemble_mesh` puts panels between and closes open ends, and
+`hull_panels` is what is called.
 """

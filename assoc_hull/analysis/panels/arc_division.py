@@ -63,9 +63,9 @@ class DividedSheets:
     ----------
     points : list of list of (n, 3), m
         Of each sheet and level; a single point where an arc is none.
-    arcs : list of Arc
+    arcs : list of SheetArc
         Those at the ends of sheets that are more than a point.
-    pieces : list of Piece
+    pieces : list of ArcPiece
         What they consist of.
     """
 
@@ -81,7 +81,7 @@ def divide_sheets(
 
     Parameters
     ----------
-    every : list of Sheet
+    every : list of WetSheet
         Of all bands and sides.
     panels : int
         How many parts a whole section has.

@@ -1,8 +1,9 @@
 """From divided sheets to a mesh of panels in the axes of seakeeping codes.
 
 Panels are put between the points of neighbouring arcs (`panels_between`), and over what the surface
-leaves open at its ends: transoms, bossing ends (`cap_open_ends`). Then vertices are welded, laid
-exactly on water surface and centre plane, and panels within the hull are dropped.
+leaves open at its ends: transoms, ends of bossings (`cap_open_ends`). Then vertices are welded,
+moved exactly onto water surface and centre plane, and panels within the hull are dropped. Until
+`MeshAxes` turns them, points are in ship axes, m; panels face into the water.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ __all__ = [
 # Panels between the points of neighbouring arcs.
 
 _LEVEL = 0.25
-"""Points of two arcs whose fractions differ by less of a step face one another."""
+"""Points of two arcs face one another where they differ by less than this part of a step."""
 
 
 def panels_between(aft: IntArray, fore: IntArray) -> IntArray:
@@ -79,6 +80,7 @@ def panels_between(aft: IntArray, fore: IntArray) -> IntArray:
 
 
 def _zipped(aft: IntArray, fore: IntArray) -> IntArray:
+    """Join rows of different lengths (m + 1,), (n + 1,), always at the point that is lower."""
     m, n = len(aft) - 1, len(fore) - 1
     near = _LEVEL / max(m, n)
     i = j = 0
@@ -106,7 +108,7 @@ def grid_panels(grid: IntArray) -> IntArray:
 def coons_grid(
     low: FloatArray, right: FloatArray, high: FloatArray, left: FloatArray
 ) -> FloatArray:
-    """Fill four sides with a grid of places, (m, n, 3): Coons's bilinear patch.
+    """Fill four sides with a grid of points, (m, n, 3): Coons's bilinear patch.
 
     `low` and `high` (m, 3) run to the right, `left` and `right` (n, 3) up.
     """
@@ -124,11 +126,9 @@ def coons_grid(
 
 
 # --------------------------------------------------------------------------------------
-# Panels over what the surface leaves open at its ends: transoms, bossing ends.
-#
-# The half face between an arc and the centre plane is a patch of four sides: the arc is cut at the
-# place that lies farthest off its chord, into bottom and side; the waterline and the centre line
-# face them. An arc that does not begin on the centre plane is closed with itself.
+# Open ends. The half face between an arc and the centre plane is a patch of four sides: the arc is
+# cut at the point that lies farthest off its chord, into bottom and side; the waterline and the
+# centre line face them. An arc that does not begin on the centre plane is closed with itself.
 
 
 @attrs.frozen(eq=False)
@@ -175,18 +175,9 @@ class _Open:
 def cap_open_ends(
     every: list[WetSheet], divided: DividedSheets, plane: Waterplane, centre: float
 ) -> list[EndCap]:
-    """Close all open ends.
+    """Close all open ends; points within `centre` (m) of the centre plane lie on it.
 
-    Parameters
-    ----------
-    every : list of Sheet
-        All sheets.
-    divided : Divided
-        Their points.
-    plane : Waterplane
-        The water, as port sees it.
-    centre : float, m
-        Places so near to the centre plane lie on it.
+    `plane` is the water as port sees it.
     """
     found = []
     left = _open(every, divided, centre)
@@ -208,7 +199,7 @@ def cap_open_ends(
 
 
 def _open(every: list[WetSheet], divided: DividedSheets, centre: float) -> list[_Open]:
-    """Find what is open at the ends of bands."""
+    """Find what is open at the ends of bands, runs of one face joined."""
     found: list[_Open] = []
     for arc in divided.arcs:
         sheet = every[arc.sheet]
@@ -225,7 +216,7 @@ def _open(every: list[WetSheet], divided: DividedSheets, centre: float) -> list[
 
 
 def _alone(sheet: WetSheet, arc: SheetArc, divided: DividedSheets, centre: float) -> list[_Open]:
-    """Find the runs of pieces off the centre plane that no other sheet has."""
+    """Find the runs of pieces off the centre plane that no other sheet has at that end."""
     pieces = [divided.pieces[each] for each in arc.pieces]
     alone = [
         len(piece.users) == 1 and bool((np.abs(piece.places[:, 1]) > centre).any())
@@ -259,7 +250,7 @@ def _faces(one: _Open, other: _Open, near: float) -> bool:
 
 
 def _corner(places: FloatArray) -> int:
-    """Give the point that lies farthest off the chord: between bottom and side."""
+    """Give the number of the point farthest off the chord, between bottom and side; no end."""
     chord = places[-1] - places[0]
     way = places - places[0]
     size = float((chord**2).sum())
@@ -270,7 +261,7 @@ def _corner(places: FloatArray) -> int:
 
 
 def _top(each: _Open, partner: _Open | None, plane: Waterplane) -> FloatArray:
-    """Give the upper end of the centre line."""
+    """Give the upper end of the centre line of a face: where the waterline crosses y = 0."""
     last: FloatArray = each.places[-1]
     if not each.water:
         return last
@@ -321,13 +312,13 @@ def _line(first: FloatArray, last: FloatArray, count: int) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# From bands to a mesh in the axes of seakeeping codes.
+# From bands to a mesh.
 
 _WELD = 1e-7
-"""Vertices so near to one another, in lengths of the ship, are one."""
+"""Vertices this near to one another, in lengths of the ship, are one."""
 
 _CENTRE = 1e-5
-"""Vertices so near to the centre plane, in lengths of the ship, lie on it: a millimetre or so, by
+"""Vertices this near to the centre plane, in lengths of the ship, lie on it: a millimetre or so, by
 which ends of drawn lines may miss it."""
 
 
@@ -472,7 +463,7 @@ def _close(
 def _finished(
     vertices: _Vertices, panel: IntArray, axes: MeshAxes, length: float, half: bool
 ) -> tuple[FloatArray, IntArray]:
-    """Weld the vertices, put them on water surface and centre plane, drop panels within it."""
+    """Weld vertices, move them onto water surface and centre plane, drop panels within the hull."""
     places, near = np.concatenate(vertices.places), _WELD * length
     places[np.abs(places[:, 1]) <= _CENTRE * length, 1] = 0.0
     xyz, corners, number = weld_vertices(places, panel, near)
@@ -503,7 +494,7 @@ def _within(corners: IntArray, middle: NDArray[np.bool_], half: bool) -> NDArray
 
 
 def _marked(number: IntArray, flag: NDArray[np.bool_], count: int) -> NDArray[np.bool_]:
-    """Tell which vertices any of those with a flag has become."""
+    """Tell which welded vertices, (count,), came from any with a flag; negative: it is gone."""
     found = np.zeros(count, np.bool_)
     found[number[flag & (number >= 0)]] = True
     return found

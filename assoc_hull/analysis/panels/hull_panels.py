@@ -1,7 +1,7 @@
 """Panels of the immersed hull for seakeeping codes: what is called.
 
-`panels` takes a hull, a position and how fine panels shall be; it chooses the places of columns
-along the ship and the rows across, and gives a `PanelMesh`.
+`panels` takes a hull, a position and how fine panels shall be; it chooses where columns stand along
+the ship and the number of rows across, and gives a `PanelMesh`. x is from the AP, m.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Where along the ship panels begin and end.
+# Columns and rows.
 
 _SAMPLES = 8
 """Curves per strip on which the waterline is looked at."""
 
 _ASPECT = 2.0
-"""A panel is by so much longer than high where number and shape are left to us."""
+"""Length over height of a panel where number and shape are left to us."""
 
 ImmersedExtent = tuple[FloatArray, FloatArray, float]
 """x (k,) and half breadth (k,) along the waterline, and the greatest girth of a half; m."""
@@ -70,7 +70,7 @@ def immersed_extent(every: list[Band], plane: Waterplane) -> ImmersedExtent:
         afloat = ~wet.top
         x.append(wet.chains.ends[1][afloat, 0])
         y.append(np.abs(wet.chains.ends[1][afloat, 1]))
-        # A bulb reaches beyond the waterline: there its breadth is nil.
+        # A bulb reaches beyond the waterline: there no breadth is known.
         reach = np.array([wet.chains.cubic[:, 0, 0].min(), wet.chains.cubic[:, 0, 0].max()])
         ends = wet.chains.cubic.sum(axis=1)[:, 0]
         reach = np.array([min(reach[0], ends.min()), max(reach[1], ends.max())])
@@ -82,7 +82,7 @@ def immersed_extent(every: list[Band], plane: Waterplane) -> ImmersedExtent:
 
 
 def _waterline(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Put places of waterlines in order; ends of the wet part get the breadth there, or none."""
+    """Put points of waterlines in order of x; ends of the wet part beyond get the end breadth."""
     known = np.isfinite(y)
     if not known.any():
         ends = np.array([x.min(), x.max()])
@@ -98,16 +98,9 @@ def _waterline(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def column_places(found: ImmersedExtent, columns: int, spacing: str) -> FloatArray:
-    """Give places along the ship that part it into columns, (columns + 1,), m.
+    """Give x (columns + 1,), m, between columns.
 
-    Parameters
-    ----------
-    found : Extent
-        The waterline.
-    columns : int
-        How many.
-    spacing : "arc" or "cosine"
-        Equal lengths along the waterline, or close together at both ends.
+    "arc": at equal lengths along the waterline; "cosine": close together at both ends.
     """
     x, y, _ = found
     if spacing == "cosine":
@@ -119,7 +112,7 @@ def column_places(found: ImmersedExtent, columns: int, spacing: str) -> FloatArr
 
 
 def columns_and_rows(found: ImmersedExtent, count: int) -> tuple[int, int]:
-    """Choose how many columns and rows give so many panels of a pleasing shape on one half."""
+    """Choose columns and rows for `count` panels of a pleasing shape on one half."""
     x, y, girth = found
     length = float(np.hypot(np.diff(x), np.diff(y)).sum())
     ideal = math.sqrt(count * _ASPECT * girth / length)
@@ -132,7 +125,7 @@ def columns_and_rows(found: ImmersedExtent, count: int) -> tuple[int, int]:
 
 
 # --------------------------------------------------------------------------------------
-# Panels of a hull: what is called.
+# The panels of a hull.
 
 Spacing = Literal["arc", "cosine"]
 Side = Literal["half", "full"]
@@ -140,7 +133,7 @@ Side = Literal["half", "full"]
 _WHERE = "in panels"
 _POINTS, _MOST, _MOST_POINTS = 20, 200_000, 2_000
 _OFF = 1e-6
-"""m: a station so far beyond the end of what is wet stands at its end."""
+"""A station this far (m) beyond the end of what is wet stands at its end."""
 
 _LEAST = 8
 _HEADER: dict[str, object] = {
@@ -166,62 +159,7 @@ def panels(
 ) -> PanelMesh:
     """Divide the immersed hull into panels, for seakeeping codes.
 
-    Half sections are parted into equal lengths from keel to waterline, and neighbouring ones
-    joined by quadrilaterals, by triangles where a section is a point. The mesh follows the
-    surface that hydrostatics integrates; it is closed but for the water surface.
-
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    draught : float, m
-        At even keel; or `draughts`. The design draught if neither is given.
-    draughts : (float, float), m
-        T_A and T_F, on the centre line at the perpendiculars.
-    heel_deg : float, degrees
-        + starboard down.
-    count : int or None
-        How many panels to aim at, of the half or the full mesh; instead of `stations` and
-        `points`, or with one of them.
-    stations : int, (k,) m, or None
-        How many sections to join, or at which x; sections at which the hull ends, branches or
-        joins are added. By the shape of the panels if not given.
-    points : int or None
-        On a half section, both ends counted; 20 if neither this nor `count` is given.
-    spacing : "arc" or "cosine"
-        Sections by equal lengths along the waterline, or close together at both ends.
-    side : "half", "full" or None
-        Port only, to be mirrored by the code, or both sides. None: half if upright.
-    knuckle_deg : float or None
-        Put points on knuckles that turn by more; the lengths between share the panels by the
-        largest remainder. None: points are spaced equally throughout.
-    transom : bool
-        Close immersed transoms and other ends of the surface by panels.
-    origin : float or None, m
-        x from AP of the origin of the mesh; midship, Lpp / 2, if None.
-    on_error : "refuse" or "report"
-        What to do if lines make the surface doubtful.
-
-    Returns
-    -------
-    PanelMesh
-        With the water surface at z = 0, x forward in it, y to port.
-
-    Raises
-    ------
-    OutOfRangeError
-        A position in which the hull does not float, or a station beyond what is wet of it, with
-        the range.
-    BadInputError
-        A number that cannot be used; half of a heeled hull; a doubtful hull.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.panels.hull_panels import panels
-    >>> from assoc_hull.sources import examples
-    >>> mesh = panels(examples.wigley(), stations=41, points=11)
-    >>> mesh.count, mesh.mirror_y, round(float(mesh.volumes[0]), 1)  # exactly 2777.8
-    (400, True, 2768.2)
+    The arguments and what is raised are those of `Hull.panels`.
     """
     state = state_of(hull)
     body = flotation(state)
@@ -284,11 +222,13 @@ def _places(
     found = immersed_extent(every, plane)
     if not len(found[0]):
         raise BadInputError("nothing of the hull is wet", _WHERE, "give a deeper draught")
+    # Points count both ends, so there is one panel less.
     rows = None if points is None else integer(points, "points", _WHERE, least=3,
                                                most=_MOST_POINTS) - 1  # fmt: skip
     wanted = None
     if count is not None:
         whole = integer(count, "count", _WHERE, least=_LEAST, most=_MOST)
+        # Columns and rows are chosen on one half.
         wanted = whole if half else (whole + 1) // 2
     if stations is not None and not isinstance(stations, int | np.integer):
         x = _given(stations, found[0])
@@ -301,6 +241,7 @@ def _places(
         columns, rows = columns_and_rows(found, wanted)
     elif columns is None:
         rows = _POINTS - 1 if rows is None else rows
+        # Two at least: three stations are the fewest that may be asked for.
         columns = _columns(found, rows) if wanted is None else max(2, round(wanted / rows))
     else:
         rows = _rows(rows, wanted, columns)
@@ -331,7 +272,7 @@ def _given(stations: object, wet: FloatArray) -> FloatArray:
 
 
 def _columns(found: tuple[FloatArray, FloatArray, float], rows: int) -> int:
-    """Give so many columns that panels are of the shape that `columns_and_rows` aims at."""
+    """Give the number of columns that makes panels of the shape that `columns_and_rows` aims at."""
     x, y, girth = found
     length = float(np.hypot(np.diff(x), np.diff(y)).sum())
     return max(2, round(0.5 * length * rows / girth))

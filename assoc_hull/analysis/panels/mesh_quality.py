@@ -81,12 +81,12 @@ class PanelReport:
         Of the whole.
     buoyancy : (float, float, float), m
         Its centre of volume.
-    aspect : Spread
+    aspect : PanelStatistics
         Of each panel the longer over the shorter mean of opposite sides; of a triangle the
         longest side over the height on it.
-    warp : Spread
+    warp : PanelStatistics
         Distance of corners from the mean plane, over the root of the area.
-    size : Spread, m
+    size : PanelStatistics, m
         Root of the area.
     diagonal : float, m
         The largest of all panels.
@@ -236,7 +236,7 @@ def panel_report(mesh: PanelMesh) -> PanelReport:
     --------
     >>> from assoc_hull.analysis.panels.hull_panels import panels
     >>> from assoc_hull.analysis.panels.mesh_quality import panel_report
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> report = panel_report(panels(examples.wigley(), count=500))
     >>> report.watertight, report.outward, round(100 * report.volume_error, 2)
     (True, True, -0.31)

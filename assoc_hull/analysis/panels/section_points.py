@@ -30,42 +30,7 @@ def section_points(
 ) -> FloatArray:
     """Part immersed half sections of an upright hull into equal lengths.
 
-    All pieces of a section (bulb and stem, bossing and counter) are one length, one after the
-    other from below; the way from one to the next does not count.
-
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    x : float or (k,), m
-        Where the sections are, from AP.
-    points : int
-        On each, from the keel to the waterline, both ends counted.
-    draught : float, m
-        At even keel; or `draughts`. The design draught if neither is given.
-    draughts : (float, float), m
-        T_A and T_F, on the centre line at the perpendiculars.
-
-    Returns
-    -------
-    (k, points, 3), m
-        Port side, in the axes of the ship; nan where nothing is wet. Beyond the last stations
-        the curves of the surface lean: there they are those whose place is x by proportion.
-
-    Raises
-    ------
-    OutOfRangeError
-        A position in which the hull does not float, with the range.
-    BadInputError
-        A number that cannot be used.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.panels.section_points import section_points
-    >>> from assoc_hull.sources import examples
-    >>> found = section_points(examples.bulk_carrier_207k(), 150.0, points=4)
-    >>> found[0, :, 1:].round(3).tolist()
-    [[0.0, 0.0], [13.99, 0.0], [25.0, 4.01], [25.0, 18.0]]
+    The arguments and what is raised are those of `Hull.section_points`.
     """
     state = state_of(hull)
     body = flotation(state)

@@ -1,8 +1,9 @@
 """The wet surface as pieces without holes: bands of strips, cut at levels, followed as sheets.
 
-A *band* is a run of strips without a branch, with a parameter q along it. *Levels* are the curves
-across a band between which panels are put: those wanted, and those at which the wet part of the
-section changes its kind. A *sheet* is a run of levels whose wet part is one arc each.
+A *band* is a run of strips without a branch, with a parameter q along it: strip number and v, from
+0 to the number of strips. *Levels* are the curves across a band between which panels are put: those
+wanted, and those at which the wet part of the section changes its kind. A *sheet* is a run of
+levels whose wet part is one arc each, from keel or waterline to waterline or deck.
 """
 
 from __future__ import annotations
@@ -14,10 +15,9 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.hydrostatics.flotation import Flotation
 from assoc_hull.analysis.net.curve_net import CurvePart
 from assoc_hull.analysis.net.strip_boundaries import StripBoundary
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, Strips, freeze
 from assoc_hull.geometry.floating.wetted_curves import WetRuns, wet_runs
 from assoc_hull.geometry.splines.arc_length import CubicChains
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves, Strips
 
 __all__ = [
     "Band",
@@ -31,16 +31,12 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Strips that follow one another without a branch, joined to long ones.
-#
-# Between two stations of a net the surface has one strip, or several where the hull has come apart
-# (bulb and stem, bossing and counter). Where the rail of one strip is that of the next the two are
-# one *band*; a band ends where the hull ends, branches or joins.
-#
-# Along a band runs the parameter q: strip number and v, from 0 to the number of strips.
+# Bands. Between two stations of a net the surface has one strip, or several where the hull has come
+# apart (bulb and stem, bossing and counter). Where the rail of one strip is that of the next the
+# two are one band; a band ends where the hull ends, branches or joins.
 
 _SAME = 1e-6
-"""Parameters of one curve so near to one another (m) are one."""
+"""Parameters of one curve this near to one another (m) are one."""
 
 
 @attrs.frozen
@@ -127,7 +123,7 @@ def bands_of_strips(surface: Strips, plane: Waterplane) -> list[Band]:
 
 
 def _followers(frames: tuple[StripBoundary, ...], deck: list[bool]) -> dict[int, int]:
-    """Say which strip each is followed by along its whole rail."""
+    """Give the strip that follows each along its whole rail, by number."""
     after: dict[int, int] = {}
     for i, aft in enumerate(frames):
         for j, fore in enumerate(frames):
@@ -144,7 +140,7 @@ def _same(one: tuple[CurvePart, ...], other: tuple[CurvePart, ...]) -> bool:
 
 
 def _band(surface: Strips, run: list[int], plane: Waterplane) -> Band:
-    """Make a band; where its strips begin and end is seen on their curves."""
+    """Make a band; where its strips begin and end is read off their curves, of both sides."""
     bare = Band(surface, np.array(run, np.int64), np.zeros(len(run) + 1))
     q = np.arange(len(run) + 1.0)
     reach = [_extents(bare, q, plane), _extents(bare, q, plane.on_starboard())]
@@ -167,6 +163,7 @@ def _extents(band: Band, q: FloatArray, plane: Waterplane) -> tuple[FloatArray, 
         c = cubic[:, :, 0]
         x = ((c[:, 3] * part[:, 0] + c[:, 2]) * part[:, 0] + c[:, 1]) * part[:, 0] + c[:, 0]
         for run, number in enumerate(curve.tolist()):
+            # In the second round whole curves count, where nothing of them was wet.
             if cubic is curves.point and np.isfinite(low[number]):
                 continue
             piece = x[:, start[run] : start[run + 1]]
@@ -176,22 +173,20 @@ def _extents(band: Band, q: FloatArray, plane: Waterplane) -> tuple[FloatArray, 
 
 
 # --------------------------------------------------------------------------------------
-# The curves across a band between which panels are put.
-#
-# To the places that are wanted come those at which the wet part of the section changes its kind: it
-# appears or vanishes, parts or joins, reaches the end of the curve or leaves it. Such a place is
-# found by halving; its level has two sides, the last curve before and the first behind it, which
-# differ by rounding only.
+# Levels. To the places that are wanted come those at which the wet part of the section changes its
+# kind: it appears or vanishes, splits or joins, reaches the end of the curve or leaves it. Such a
+# place is found by halving; its level has two sides, the last curve before and the first behind it,
+# which differ by rounding only.
 
 _ROUNDS = 12
-"""So many changes are found between two levels at most."""
+"""At most this many changes are found between two levels."""
 
 _HALVINGS = 70
 _ONE = 1e-6
-"""Changes that lie so near to one another in q are one."""
+"""Changes this near to one another in q are one."""
 
 _CROWDED = 0.3
-"""A level that was not asked for by its place is left out so near to a change or end, in steps."""
+"""A level that was not asked for is left out this near (in steps) to a change or end."""
 
 WetKind = tuple[tuple[bool, bool], ...]
 """Of each run of a curve: it begins where the curve does, it ends where the curve does."""
@@ -220,18 +215,10 @@ class BandLevels:
 
 
 def band_levels(band: Band, planes: list[Waterplane], x: FloatArray, fixed: bool) -> BandLevels:
-    """Choose the levels of a band.
+    """Choose the levels of a band: at its ends, at x (n,), m, and at changes between these.
 
-    Parameters
-    ----------
-    band : Band
-        The band.
-    planes : list of Waterplane
-        As the halves see the water; both get the same levels, so that they meet.
-    x : (n,), m
-        Places along the ship that are asked for, ascending; those off the band do not matter.
-    fixed : bool
-        Keep all of these, however near to a change or an end they lie.
+    `planes` are as the halves see the water; both get the same levels, so that they join. `fixed`
+    keeps all x, however near to a change or an end they lie; those off the band do not matter.
     """
     q = np.concatenate([[0.0], band.q_at(x), [float(band.count)]])
     q = q[np.append(True, np.diff(q) > 1e-9)]
@@ -256,7 +243,7 @@ def _merged(aft: FloatArray, fore: FloatArray) -> BandLevels:
 
 
 def _kinds(wet: WetRuns, count: int) -> list[WetKind]:
-    """Say of what kind the wet part of each of so many curves is."""
+    """Give the kind of the wet part of each of `count` curves."""
     found: list[list[tuple[bool, bool]]] = [[] for _ in range(count)]
     ends = zip(wet.curve.tolist(), wet.bottom.tolist(), wet.top.tolist(), strict=True)
     for curve, bottom, top in ends:
@@ -274,7 +261,7 @@ def _changing(band: Band, planes: list[Waterplane], low: FloatArray, high: Float
 
 
 def _change(band: Band, planes: list[Waterplane], low: float, high: float) -> tuple[float, float]:
-    """Find the first change of kind behind `low`: the last q before it and the first behind."""
+    """Find the first change of kind after `low`: the last q before it and the first behind."""
     first = [_kinds(band.wet(np.array([low]), plane), 1)[0] for plane in planes]
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
@@ -296,11 +283,7 @@ def _thinned(band: Band, found: BandLevels, x: FloatArray) -> BandLevels:
 
 
 # --------------------------------------------------------------------------------------
-# What is wet of a band, followed from level to level: pieces of surface without holes.
-#
-# A *sheet* is a run of levels between which the wet part of the section is one arc, from keel or
-# waterline to waterline or deck. It ends where the band does, and where arcs appear, vanish, part
-# or join.
+# Sheets. One ends where the band does, and where arcs appear, vanish, split or join.
 
 
 @attrs.frozen(eq=False)
@@ -313,7 +296,7 @@ class WetSheet:
         Number of its band.
     port : bool
         It lies on the port side; what lies to starboard has its own y, below 0.
-    chains : Chains
+    chains : CubicChains
         One arc per level, k, from aft forward, each from keel to deck.
     afloat : (k, 2) bool
         The first, the last place of the arc lies on the waterplane.
@@ -338,20 +321,10 @@ class WetSheet:
 def wet_sheets(
     band: Band, found: BandLevels, plane: Waterplane, who: tuple[int, bool], length: float
 ) -> list[WetSheet]:
-    """Follow what is wet of one half of a band.
+    """Follow what is wet of one half of a band, cut at the levels `found`.
 
-    Parameters
-    ----------
-    band : Band
-        The band.
-    found : Levels
-        Where it is cut.
-    plane : Waterplane
-        As this half sees it, y away from the centre plane.
-    who : (int, bool)
-        Number of the band, and whether this is its port half.
-    length : float, m
-        Of the ship.
+    `plane` is as this half sees it, y away from the centre plane; `who` the number of the band, and
+    whether this is its port half; `length` (m) that of the ship.
     """
     gaps = found.count - 1
     wet = band.wet(np.concatenate([found.fore[:-1], found.aft[1:]]), plane)
@@ -372,7 +345,7 @@ def _followed(
         going = []
         left = list(alive)
         for first, last in zip(begin.tolist(), finish.tolist(), strict=False):
-            same = [each for each in left if _meet(wet, each[1][-1], first, near)]
+            same = [each for each in left if _have_same_ends(wet, each[1][-1], first, near)]
             if same:
                 left.remove(same[0])
                 same[0][1].append(last)
@@ -384,12 +357,13 @@ def _followed(
     return done + alive
 
 
-def _meet(wet: WetRuns, one: int, other: int, near: float) -> bool:
+def _have_same_ends(wet: WetRuns, one: int, other: int, near: float) -> bool:
     """Tell whether two arcs have the same ends."""
     return all(float(np.abs(end[one] - end[other]).max()) <= near for end in wet.chains.ends)
 
 
 def _sheet(wet: WetRuns, run: tuple[int, list[int]], who: tuple[int, bool], gaps: int) -> WetSheet:
+    """Make a sheet of arcs; those to starboard are mirrored here, and only here."""
     first, arcs = run
     chosen = np.array(arcs, np.int64)
     chains = wet.chains.take(chosen)

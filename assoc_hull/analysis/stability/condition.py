@@ -1,7 +1,7 @@
 """The condition of a ship: what she weighs, where its centre lies, and how she floats upright.
 
-Also the checks of what callers of stability, cross curves and equilibrium give: heels, what to do
-about doubts.
+Also the checks of what callers of stability, cross curves and equilibrium give: heels (degrees),
+and what to do about doubts.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from typing import Literal, get_args
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.hydrostatics.draughts_from_weight import Load, position_under_load
 from assoc_hull.analysis.hydrostatics.floating_body import (
     FloatingBody,
     FloatingPosition,
@@ -21,7 +22,6 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
     rising_numbers,
 )
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import position_of
-from assoc_hull.analysis.hydrostatics.immersion import Load, position_under_load
 from assoc_hull.analysis.hydrostatics.record import HydrostaticHeader
 from assoc_hull.analysis.stability.righting_lever import StabilityCase, TrimRule
 from assoc_hull.analysis.stability.sinkage_and_trim import DisplacingHull
@@ -43,7 +43,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Checks of what is asked of stability.
+# Checks of arguments.
 
 _WHERE = "in stability"
 
@@ -94,12 +94,12 @@ def doubts_of(body: FloatingBody, planes: FloatingPlanes, on_error: str) -> tupl
 
 
 # --------------------------------------------------------------------------------------
-# The condition of a ship: what she weighs, where its centre lies, and how she floats upright.
+# Conditions.
 
 
 @attrs.frozen
 class ConditionRequest:
-    """What a caller tells of the condition; all as for `stability`."""
+    """What a caller says of the condition; all as for `stability`."""
 
     weight: float | None = None
     draught: float | None = None
@@ -136,17 +136,10 @@ class Condition:
 def condition_of(
     body: FloatingBody, header: HydrostaticHeader, asked: ConditionRequest
 ) -> Condition:
-    """Work out a condition.
+    """Work out a condition from what was asked, and from dimensions, water and appendages.
 
-    Parameters
-    ----------
-    body : FloatingBody
-        The hull.
-    header : HydrostaticHeader
-        Its dimensions, water, shell factor and appendages.
-    asked : Asked
-        A weight (at even keel, or trimmed by its `lcg`), or draughts, whose centre of buoyancy
-        then tells where gravity is; the design draught if nothing is given.
+    Given is a weight (at even keel, or trimmed by its `lcg`), or draughts, whose centre of buoyancy
+    then shows where gravity is; the design draught if nothing is given.
 
     Raises
     ------
@@ -171,6 +164,7 @@ def condition_of(
     lcg = asked.lcg
     if lcg is None:
         lift = 0.0 if asked.kg is None else float(found.moment_z[0]) / volume - asked.kg
+        # G stands above B at right angles to the water, not to the base line.
         lcg = float(found.moment_x[0]) / volume + lift * float(planes.tan_trim[0])
     weight = volume * header.rho * header.shell_factor if asked.weight is None else asked.weight
     return Condition(weight, volume, lcg, asked.tcg, asked.kg, upright)

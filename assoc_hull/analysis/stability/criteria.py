@@ -115,7 +115,7 @@ def intact_criteria(judged: CriteriaInput) -> tuple[Criterion, ...]:
 
     Parameters
     ----------
-    judged : Judged
+    judged : CriteriaInput
         The ship.
 
     Returns

@@ -109,41 +109,7 @@ def cross_curves(
 ) -> CrossCurves:
     """Compute KN over displacement and heel, all in one go.
 
-    Parameters
-    ----------
-    hull : Hull
-        The hull; its `particulars.deck` tells whether the deck is open or closed.
-    weights : (n,), t
-        Displacements at even keel, rising; or `draughts`.
-    draughts : (n,), m
-        Mean draughts upright, rising.
-    heels : (k,), degrees
-        Rising, + starboard down, from -90 to 90.
-    trim_by_stern : float, m
-        Of the draughts, upright.
-    trim : "fixed" or "free"
-        Keep the trim that she has upright, or find that of equilibrium at each heel, with the
-        centre of gravity where it balances her upright.
-    kg : float or None, m
-        Where it lies above the base line, for the trim of equilibrium; None: at each heel as
-        high as the centre of buoyancy.
-    rho, shell_factor, appendages, on_error, date
-        As for `stability`.
-
-    Raises
-    ------
-    OutOfRangeError
-        A displacement that she does not carry, or a draught at which she does not float.
-    BadInputError
-        Neither weights nor draughts, or both; a number that cannot be used; a doubtful hull.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.stability.cross_curves import cross_curves
-    >>> from assoc_hull.sources import examples
-    >>> found = cross_curves(examples.wigley(), draughts=[5.0, 6.25], heels=[10, 30])
-    >>> found.kn.shape, found.kn[1].round(3).tolist()
-    ((2, 2), [0.918, 2.694])
+    The arguments and what is raised are those of `Hull.cross_curves`.
     """
     terms: dict[str, object] = {
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "appendages": appendages, "date": date,

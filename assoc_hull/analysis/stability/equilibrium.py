@@ -13,6 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.hydrostatics.bracketed_roots import sign_changes
+from assoc_hull.analysis.hydrostatics.draughts_from_weight import weight_in_tons
 from assoc_hull.analysis.hydrostatics.floating_body import (
     Appendage,
     FloatingBody,
@@ -20,7 +21,6 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
     planes_of,
 )
 from assoc_hull.analysis.hydrostatics.flotation import body_of, header_of
-from assoc_hull.analysis.hydrostatics.immersion import weight_in_tons
 from assoc_hull.analysis.hydrostatics.record import SALT, HydrostaticHeader
 from assoc_hull.analysis.stability.condition import (
     Condition,
@@ -105,37 +105,7 @@ def equilibrium(
 ) -> Equilibrium:
     """Find the draughts and the heel at which a ship comes to rest from upright.
 
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    weight : float, t
-        All of it.
-    lcg, tcg, kg : float, m
-        Centre of gravity from AP, to port, and above the base line.
-    rho, shell_factor, appendages, on_error
-        As for `stability`.
-
-    Returns
-    -------
-    Equilibrium
-        Position, and how stable it is.
-
-    Raises
-    ------
-    OutOfRangeError
-        A weight that she does not carry, with the range.
-    BadInputError
-        A number that cannot be used; she does not come to rest before 85 degrees, or before the
-        edge of her open deck goes under.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.stability.equilibrium import equilibrium
-    >>> from assoc_hull.sources import examples
-    >>> found = equilibrium(examples.wigley(), 2847.0, lcg=51.0, tcg=-0.1, kg=4.0)
-    >>> found.kind, round(found.position.heel_deg, 2)
-    ('list', 4.46)
+    The arguments and what is raised are those of `Hull.equilibrium`.
     """
     terms: dict[str, object] = {
         "rho": rho, "shell_factor": shell_factor, "kg": number(kg, "kg", _WHERE),

@@ -125,7 +125,7 @@ def open_deck_limit(case: StabilityCase, condition: Condition, side: int) -> flo
 
     Parameters
     ----------
-    case, condition : Case, Condition
+    case, condition : StabilityCase, Condition
         The ship.
     side : int
         To which side she heels.

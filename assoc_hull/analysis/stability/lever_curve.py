@@ -35,9 +35,9 @@ class LeverCurve:
 
     Attributes
     ----------
-    case : Case
+    case : StabilityCase
         Of what.
-    heels : Heeled
+    heels : HeeledShip
         The computed ones, rising.
     side : int
         Towards which side the ship is judged: 1 starboard, -1 port.
@@ -155,7 +155,7 @@ def lever_curve(case: StabilityCase, heel_deg: FloatArray, side: int) -> LeverCu
 
     Parameters
     ----------
-    case : Case
+    case : StabilityCase
         The ship; one displacement.
     heel_deg : (k,), degrees
         Rising; those at which she does not float are left out.

@@ -13,7 +13,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.hydrostatics.immersion import trim_lever
+from assoc_hull.analysis.hydrostatics.draughts_from_weight import trim_lever
 from assoc_hull.analysis.stability.sinkage_and_trim import (
     EXACT,
     DisplacingHull,
@@ -34,12 +34,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Righting levers of a ship below planes, and how they grow with the heel.
-#
-# With the tangents tt of trim and th of heel the water's normal is n = (-tt, th, 1) / N, the
-# direction along the ship e1 = (1, 0, tt) / M, and e2 = n x e1 = (th tt, 1 + tt^2, -th) / (N M).
-# The righting lever is GZ = (G - B).e2, positive where it rights a heel to starboard. With
-# K = (x_G, 0, 0) it is KN + KG e2_z + y_G e2_y, KN = (K - B).e2.
+# Levers below planes. With the tangents tt of trim and th of heel the water's normal is n = (-tt,
+# th, 1) / N, the direction along the ship e1 = (1, 0, tt) / M, and e2 = n x e1 = (th tt, 1 + tt^2,
+# -th) / (N M). The righting lever is GZ = (G - B).e2, positive where it rights a heel to starboard.
+# With K = (x_G, 0, 0) it is KN + KG e2_z + y_G e2_y, KN = (K - B).e2.
 
 TrimRule = Literal["fixed", "free"]
 
@@ -50,7 +48,7 @@ class StabilityCase:
 
     Attributes
     ----------
-    afloat : Afloat
+    afloat : DisplacingHull
         The hull.
     volume : (n,), m3
         Displaced.
@@ -82,19 +80,7 @@ class StabilityCase:
 def levers_of(
     case: StabilityCase, lcg: FloatArray, planes: FloatingPlanes, f: ImmersedIntegrals
 ) -> tuple[FloatArray, ...]:
-    """Give kn, gz, growth, energy, normal and distance, as a heeled ship has them.
-
-    Parameters
-    ----------
-    case : Case
-        The ship.
-    lcg : (d,), m
-        Centres of gravity from AP.
-    planes : Planes
-        Where she floats.
-    f : Immersed
-        Below them.
-    """
+    """Give kn, gz, growth, energy, normal and distance, as `HeeledShip` has them; `lcg` (d,), m."""
     tt, th, one = planes.tan_trim, planes.tan_heel, np.ones(len(lcg))
     b = np.stack([f.moment_x, f.moment_y, f.moment_z], axis=1) / f.volume[:, None]
     across = np.stack([th * tt, 1.0 + tt * tt, -th], axis=1)
@@ -146,18 +132,14 @@ def _dot(one: FloatArray, other: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# A ship at constant displacement, heeled: righting levers and how they grow.
-#
-# There are no draughts on the centre line of a ship on her side. At fixed trim, heels nearer to
-# 90 degrees than a quarter degree are read from a cubic through 89, 89.25, 89.5 and 89.75 degrees.
-# At free trim nothing is computed beyond 85 degrees, for there e1 turns upright with the least
-# trim.
+# Heeled positions.
 
 _STEEP = 89.75
 FREE_MOST = 85.0
-"""Degrees: the largest heel at free trim."""
+"""Degrees: the largest heel at free trim, beyond which e1 turns upright with the least trim."""
 
 _KNOTS = np.array([89.0, 89.25, 89.5, 89.75])
+"""Degrees: at fixed trim, heels beyond the last are read from a cubic through these."""
 
 
 @attrs.frozen(eq=False)
@@ -214,23 +196,10 @@ def float_at_heels(
     row: IntArray | None = None,
     near: HeeledShip | None = None,
 ) -> HeeledShip:
-    """Float a ship at heels.
+    """Float a ship at heels (d,), degrees, from -90 to 90, in their order.
 
-    Parameters
-    ----------
-    case : Case
-        The ship.
-    heel_deg : (d,), degrees
-        From -90 to 90.
-    row : (d,) or None
-        Which of the displacements; the first if None.
-    near : Heeled or None
-        Where the first displacement is known to float, for the first trials.
-
-    Returns
-    -------
-    Heeled
-        At these heels, in their order.
+    `row` says which of the displacements, the first if None; `near` where the first displacement is
+    known to float, for the first trials.
     """
     row = np.zeros(len(heel_deg), np.int64) if row is None else row
     steep = (np.abs(heel_deg) > _STEEP) & (case.trim == "fixed")
@@ -243,7 +212,7 @@ def float_at_heels(
 
 
 def _extended(found: HeeledShip, heel_deg: FloatArray, steep: NDArray[np.bool_]) -> HeeledShip:
-    """Put in the place of the knots what the cubics through them give."""
+    """Replace the knots by what the cubics through them give."""
     plain = int((~steep).sum())
     weight = _lagrange(np.abs(heel_deg[steep]))
     fields = []
@@ -302,7 +271,11 @@ def _direct(
 
 
 def _start(heel_deg: FloatArray, near: HeeledShip) -> tuple[FloatArray, FloatArray]:
-    """Guess mean draughts and trims from those at other heels."""
+    """Guess mean draughts and trims from those at other heels.
+
+    Times the cosine they change little: draughts on the centre line grow without end towards 90
+    degrees.
+    """
     known = np.argsort(near.heel_deg)
     known = known[np.isfinite(near.mean[known])]
     at = near.heel_deg[known]

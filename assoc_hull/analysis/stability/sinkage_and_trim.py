@@ -1,8 +1,8 @@
 """Draughts, and trim, at which a heeled hull displaces given volumes, all in one go.
 
 `draughts_of_volumes` keeps the inclination; `balance_trim` also looks for the trim at which
-buoyancy lies below gravity, by Newton's rule in both unknowns, and in a bracket where that does not
-arrive.
+buoyancy lies below gravity, by Newton's rule in both unknowns, and in a bracket where that fails.
+All arrays are (d,): volumes in m3, mean draughts in m, tangents of trim and heel.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.hydrostatics.bracketed_roots import bracketed_newton
+from assoc_hull.analysis.hydrostatics.draughts_from_weight import STEEPEST, trim_lever
 from assoc_hull.analysis.hydrostatics.floating_body import Appendage, Floatable, with_appendages
-from assoc_hull.analysis.hydrostatics.immersion import STEEPEST, trim_lever
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 
@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# A hull that is to displace given volumes: the draughts at given inclinations, all in one go.
+# Draughts of given volumes, at given inclinations.
 
 EXACT = 1e-9
 """Part of the volume by which it may be missed."""
@@ -41,7 +41,7 @@ class DisplacingHull:
 
     Attributes
     ----------
-    body : Floats
+    body : Floatable
         The hull.
     length : float, m
         Between perpendiculars.
@@ -67,7 +67,7 @@ class DisplacingHull:
         return self.body.limits.mean_draughts(level, self.length)
 
     def most(self, slope: FloatArray, heel: FloatArray) -> FloatArray:
-        """Give what the hull displaces at the deepest; nil where no draught is admissible."""
+        """Give what the hull displaces at the deepest, m3; 0 where no draught is admissible."""
         low, high = self.range(slope, heel)
         found = np.zeros(len(slope))
         some = np.flatnonzero(low < high)
@@ -83,24 +83,10 @@ def draughts_of_volumes(
     heel: FloatArray,
     start: FloatArray | None = None,
 ) -> FloatArray:
-    """Find the mean draughts at which given volumes are displaced, at given inclinations.
+    """Find the mean draughts (d,), m, at which given volumes are displaced, at given inclinations.
 
-    Parameters
-    ----------
-    afloat : Afloat
-        The hull.
-    volume : (d,), m3
-        What is to be displaced.
-    slope, heel : (d,)
-        Tangents of trim and heel.
-    start : (d,), m, or None
-        First trials.
-
-    Returns
-    -------
-    (d,), m
-        Mean draughts; nan where an open deck would be drowned. Where a hull is too small, or an
-        appendage gets wet just there, the nearest that there is.
+    `start` are first trials. Nan where an open deck would be drowned; where a hull is too small, or
+    an appendage gets wet just there, the nearest that there is.
     """
     low, high = afloat.range(slope, heel)
     mean = 0.5 * (low + high)
@@ -122,22 +108,12 @@ def draughts_of_volumes(
 
 # --------------------------------------------------------------------------------------
 # Draught and trim together: at a given heel, the plane of a volume below a centre of gravity.
-#
-# Newton's rule in the mean draught t and the tangent tt of the trim, with X = x - Lpp / 2 and
-# z = h + tt x - th y on the plane:
-#
-#     dV = A dt + A_X dtt
-#     d(M_x + tt M_z) = (A_x + tt Z) dt + (A_xX + tt Z_X + M_z) dtt,   Z = int z dA, Z_X = int z X
-# dA
-#
-# less x_G and tt z_G times the same of the volume. Where it does not arrive, the trim is looked
-# for in a bracket, with the draught solved anew for each.
 
 _TRIALS = 25
 _STEP = 0.05
 """Tangent of the largest change of trim in one step, along the ship."""
 
-_FREE_TRIM_FINE, _SMALL = 1e-9, 1e-7
+_LAST_STEP, _SMALL = 1e-9, 1e-7
 """Of the range of draughts: steps after which rounding is left, and small ones."""
 
 _OFF = 1e-8
@@ -183,23 +159,10 @@ def balance_trim(
     slope: FloatArray,
     thorough: NDArray[np.bool_],
 ) -> tuple[FloatArray, FloatArray]:
-    """Find mean draughts and trims at which buoyancy lies below gravity.
+    """Find mean draughts (m) and tangents of trim, (d,), at which buoyancy lies below gravity.
 
-    Parameters
-    ----------
-    afloat : Afloat
-        The hull.
-    sought : Sought
-        Volumes, centres and heels.
-    mean, slope : (d,), m and 1
-        First trials: mean draughts, nan where none is to be found, and tangents of trim.
-    thorough : (d,) bool
-        Where a trim is looked for in a bracket if Newton's rule does not arrive.
-
-    Returns
-    -------
-    mean, slope : (d,), m and 1
-        Nan where there is no such plane.
+    `mean` (nan where none is to be found) and `slope` are first trials. Where `thorough`, a trim is
+    looked for in a bracket if Newton's rule fails. Nan where there is no such plane.
     """
     mean, slope = mean.copy(), slope.copy()
     slope[~np.isfinite(mean)] = np.nan
@@ -245,11 +208,12 @@ def _together(
         of = sought.some(rows)
         low, high = afloat.range(slope[rows], of.heel)
         step, turn = _step(afloat, of, mean[rows], slope[rows])
+        # A trim that would change by more than `_STEP` is cut back, and the draught with it.
         part = np.minimum(1.0, _STEP / np.maximum(np.abs(turn) * of.cosine, 1e-300))
         size = np.maximum(np.abs(step), np.abs(turn) * afloat.length) / (high - low)
         slope[rows] += part * turn
         mean[rows] = _inside(afloat, of, mean[rows], part * step, slope[rows])
-        done = (size <= _FREE_TRIM_FINE) | ((size <= _SMALL) & (size >= 0.5 * last[rows]))
+        done = (size <= _LAST_STEP) | ((size <= _SMALL) & (size >= 0.5 * last[rows]))
         last[rows] = size
         lost = ~(np.isfinite(mean[rows]) & (np.abs(slope[rows]) * of.cosine < STEEPEST))
         mean[rows[lost]] = np.nan
@@ -264,9 +228,9 @@ def _inside(
     step: FloatArray,
     slope: FloatArray,
 ) -> FloatArray:
-    """Take steps of mean draughts, half way to the end of what is admissible at the new trims.
+    """Take steps of mean draughts, at most half way to an end of the admissible ones.
 
-    Nan where nothing is.
+    These are those at the new trims; nan where there are none.
     """
     low, high = afloat.range(slope, sought.heel)
     within = (low < mean) & (mean < high)
@@ -279,7 +243,12 @@ def _inside(
 def _step(
     afloat: DisplacingHull, sought: TrimTarget, mean: FloatArray, slope: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Give the steps of mean draught and slope."""
+    """Give Newton's steps of mean draught t (m) and slope tt.
+
+    With X = x - Lpp / 2 and z = h + tt x - th y on the plane, dV = A dt + A_X dtt and d(M_x + tt
+    M_z) = (A_x + tt Z) dt + (A_xX + tt Z_X + M_z) dtt, Z = int z dA, Z_X = int z X dA; less x_G and
+    tt z_G times the same of the volume.
+    """
     planes = afloat.planes(mean, slope, sought.heel)
     f, half = afloat.measure(planes), 0.5 * afloat.length
     x, h, th, g = sought.lcg, planes.height, planes.tan_heel, sought.kg

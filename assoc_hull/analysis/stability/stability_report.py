@@ -1,8 +1,9 @@
 """Stability of a hull in a condition: righting levers, angles, criteria, and the report of them.
 
 `stability` takes a hull, `stability_of` a floating body. Levers are computed at all heels asked and
-every 5 degrees, to where an open deck is flooded. Notes say what is not evaluated, and which heels
-have no lever and why.
+every 5 degrees, to where an open deck is flooded. Heels are in degrees, + starboard down; levers in
+m, + where they right a heel to starboard. Notes say what is not evaluated, and which heels have no
+lever and why.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.hydrostatics.draughts_from_weight import weight_in_tons
 from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingBody, planes_of
 from assoc_hull.analysis.hydrostatics.flotation import body_of, header_of
-from assoc_hull.analysis.hydrostatics.immersion import weight_in_tons
 from assoc_hull.analysis.hydrostatics.record import SALT, HydrostaticHeader
 from assoc_hull.analysis.stability.condition import (
     HEELS,
@@ -59,7 +60,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What is found of the stability of a condition: levers, angles, criteria.
+# Results.
 
 SIDES = {1: "starboard", -1: "port"}
 
@@ -108,7 +109,7 @@ class Stability:
         Weight, its centre, and how she floats upright.
     trim : str
         "fixed" or "free".
-    heels : Heeled
+    heels : HeeledShip
         Levers and floating positions at the heels that were asked.
     curve : LeverCurve
         Levers at any heel between, areas, and the side to which she is judged.
@@ -232,18 +233,13 @@ def _verdict(stability: Stability) -> str:
 
 
 # --------------------------------------------------------------------------------------
-# What a report of stability says besides its numbers.
+# Notes.
 
 
 def why_it_ends(end: float, limit: float | None) -> str:
-    """Say why a curve of levers ends.
+    """Say why a curve of levers ends at `end` degrees.
 
-    Parameters
-    ----------
-    end : float, degrees
-        Where it does.
-    limit : float or None, degrees
-        Where the edge of an open deck goes under; None: the deck is closed, or its edge stays dry.
+    `limit` is where the edge of an open deck goes under; None: the deck is closed, or stays dry.
     """
     if limit is not None:
         return f"GZ stops at {limit:.2f} deg, where the edge of the open deck goes under"
@@ -255,16 +251,7 @@ def stability_notes(
 ) -> tuple[str, ...]:
     """Say whether the deck is open, what is not evaluated, and which heels have no lever.
 
-    Parameters
-    ----------
-    at : Heeled
-        The heels that were asked.
-    case : Case
-        The ship.
-    limit : float or None, degrees
-        As for `why_it_ends`.
-    side : int
-        To which side the ship is judged: 1 starboard, -1 port.
+    `limit` as for `why_it_ends`; `side` to which the ship is judged: 1 starboard, -1 port.
     """
     deck = "closed" if case.afloat.body.limits.closed else "open"
     notes = [f"the deck is {deck}" + (f": {why_it_ends(0.0, limit)}" if limit is not None else "")]
@@ -275,7 +262,7 @@ def stability_notes(
 
 
 def _other_side(at: HeeledShip, side: int) -> list[str]:
-    """Tell that all heels of the table are to the side on which the ship is not judged."""
+    """Note that all heels of the table are to the side on which the ship is not judged."""
     towards = side * at.heel_deg
     if (towards > 0.0).any() or not (towards < 0.0).any():
         return []
@@ -298,12 +285,12 @@ def _missing(at: HeeledShip, case: StabilityCase, limit: float | None) -> list[s
 
 
 # --------------------------------------------------------------------------------------
-# Stability of a hull: righting levers in a condition, and whether they satisfy the code.
+# Computing them.
 
 _WHERE = "in stability"
-_STEP = 5.0
+_STEP = 5.0  # degrees
 _LEAST = 40.0
-"""The curve goes at least so far (degrees), for the criteria."""
+"""The curve goes at least to this heel (degrees), for the criteria."""
 
 _RIM = 1e-6
 """Degrees by which the curve stays short of the edge of an open deck."""
@@ -329,50 +316,7 @@ def stability(
 ) -> Stability:
     """Compute the righting levers of a ship in a condition, and judge them.
 
-    Parameters
-    ----------
-    hull : Hull
-        The hull; its `particulars.deck` tells whether the deck is open or closed.
-    kg : float, m
-        Centre of gravity above the base line, corrected for free surfaces by the caller.
-    weight : float, t
-        All of it; or `draught`, or `draughts`; the design draught if none is given.
-    draught, draughts : float or (float, float), m
-        At even keel, or T_A and T_F: upright, moulded.
-    lcg : float or None, m
-        With `weight`: centre of gravity from AP. Without, she is at even keel upright.
-    tcg : float, m
-        Centre of gravity to port.
-    trim : "fixed" or "free"
-        Keep the trim that she has upright, or find that of equilibrium at each heel.
-    heels : (d,), degrees
-        For the table: rising, + starboard down, from -90 to 90.
-    flooding : iterable of FloodingPoint
-        Openings through which water comes in.
-    rho, shell_factor, appendages, on_error
-        As for `hydrostatics`.
-    date : str or None
-        For the head.
-
-    Returns
-    -------
-    Stability
-        Levers, angles and criteria.
-
-    Raises
-    ------
-    OutOfRangeError
-        A weight that she does not carry, draughts at which she does not float, with the range.
-    BadInputError
-        A number that cannot be used; a doubtful hull.
-
-    Examples
-    --------
-    >>> from assoc_hull.analysis.stability.stability_report import stability
-    >>> from assoc_hull.sources import examples
-    >>> found = stability(examples.wigley(), draught=6.25, kg=4.0, heels=[0, 10, 20, 30])
-    >>> found.kn.round(3).tolist()
-    [0.0, 0.918, 1.82, 2.694]
+    The arguments and what is raised are those of `Hull.stability`.
     """
     terms: dict[str, object] = {
         "rho": rho, "shell_factor": shell_factor, "kg": number(kg, "kg", _WHERE),
@@ -408,29 +352,14 @@ def stability_of(
     heels: FloatArray,
     points: Sequence[FloodingPoint] = (),
 ) -> Stability:
-    """Compute the stability of a floating body; as `stability`, of which it is the inner part.
-
-    Parameters
-    ----------
-    body : FloatingBody
-        The hull.
-    header : HydrostaticHeader
-        Dimensions, water and appendages.
-    asked : Asked
-        The condition.
-    trim : "fixed" or "free"
-        What becomes of the trim.
-    heels : (d,), degrees
-        For the table.
-    points : sequence of FloodingPoint
-        Openings.
-    """
+    """Compute the stability of a floating body: the inner part of `stability`."""
     condition = condition_of(body, header, asked)
     case = case_of(body, header, [condition], trim)
     upright = float_at_heels(case, np.zeros(1))
     if not np.isfinite(upright.gz[0]):
         remedy = "give another condition"
         raise BadInputError("she does not float upright", _WHERE, remedy)
+    # Positive upright, the lever turns her to port: she is judged to the side she lists to.
     side = -1 if upright.gz[0] > 1e-12 else 1
     limit = None if body.limits.closed else open_deck_limit(case, condition, side)
     curve = lever_curve(case, _nodes(heels, side, _end(limit)), side)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Protocol
 from assoc_hull.arguments import shown
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.newline.add_line import add_line
+from assoc_hull.edit.lines.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.line_source import LineSource

@@ -35,7 +35,7 @@ __all__ = ["LewisHull"]
 
 _LEVEL = ((0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
 _HALVINGS = 52
-"""Of the angle, until a level is met to the last bits."""
+"""Of the angle, until the level is reached to the last bits."""
 
 
 @attrs.frozen(eq=False)
@@ -199,7 +199,7 @@ class LewisHull:
         return np.column_stack([self.x, y, np.full(len(y), height)])
 
     def _section(self, x: float, places: FloatArray) -> LineSource:
-        """From the keel, level there, up; a tangent point where the upright side begins."""
+        """Run from the keel, level there, up; a tangent point where the upright side begins."""
         top = [[places[-1, 0], self.depth]]
         points = np.vstack([places, top])
         kind = np.zeros(len(points), int)

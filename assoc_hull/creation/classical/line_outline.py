@@ -1,8 +1,9 @@
 """Plane curves of a classical definition as the points of a line of the net.
 
-`PlaneOutline` puts straight, circular and smooth pieces together: where two meet in one direction
-the line has a tangent point, else a knuckle. `point_kinds_along` does the same for bare points of
-any line in space; straight runs stay straight.
+`PlaneOutline` puts straight, circular and smooth pieces together: where two join in one direction
+the line has a tangent point, else a knuckle. A straight piece stays straight; a circular one gets
+as many points as its deviation asks for. `point_kinds_along` gives kinds to bare points of any line
+in space.
 """
 
 from __future__ import annotations
@@ -31,8 +32,6 @@ __all__ = [
     "straight_piece",
 ]
 
-# --------------------------------------------------------------------------------------
-# How a line through given points passes each of them: straight runs stay straight.
 
 _STRAIGHT = 1e-7
 """Neighbouring chords that differ by this angle, rad, are one straight run."""
@@ -44,17 +43,8 @@ def point_kinds_along(points: ArrayLike, corner: float) -> tuple[IntArray, Float
     Three points in a row on a straight line are a straight run. Where a run goes over into a curve,
     the curve is tangent to it; where two runs meet, or chords turn sharply, there is a knuckle.
 
-    Parameters
-    ----------
-    points : (n, 3), m
-        No two neighbours the same.
-    corner : float, degrees
-        A sharper turn from chord to chord is a knuckle.
-
-    Returns
-    -------
-    (n,) int, (n, 3)
-        Kinds; directions, nil where none is given.
+    Neighbouring points (n, 3), m, differ; a turn from chord to chord of more than `corner`
+    (degrees) is a knuckle. Directions (n, 3) are zero where none is given.
     """
     at = np.asarray(points, np.float64)
     step = np.diff(at, axis=0)
@@ -72,6 +62,7 @@ def point_kinds_along(points: ArrayLike, corner: float) -> tuple[IntArray, Float
     straight[1:] |= level
     inner = np.arange(1, len(at) - 1)
     before, after = straight[:-1], straight[1:]
+    # Between two runs that are not one the line has a corner, however small.
     sharp = (turn > np.radians(corner)) | (before & after & ~level)
     tangent = (before ^ after) & ~sharp
     kind[inner[sharp]] = int(PointKind.KNUCKLE)
@@ -82,10 +73,7 @@ def point_kinds_along(points: ArrayLike, corner: float) -> tuple[IntArray, Float
 
 
 # --------------------------------------------------------------------------------------
-# A plane curve of pieces as the points of a line: straight, circular, smooth through points.
-#
-# Where two pieces meet in one direction the line has a tangent point, else a knuckle. A straight
-# piece stays straight; a circular one gets as many points as its deviation asks for.
+# Outlines of pieces.
 
 CLOSE = 1e-6
 """Tolerance (m) of lines whose pieces are straight or circular."""
@@ -106,7 +94,7 @@ class OutlinePiece:
     points : (n, 2), m
         In order along it, its ends among them.
     start, finish : float or None, rad
-        Its direction at either end; None where the points alone tell it.
+        Its direction at either end; None where it follows from the points alone.
     """
 
     points: FloatArray
@@ -130,16 +118,9 @@ def smooth_piece(
 
 
 def circular_piece(arcs: PlaneArcs, index: int = 0, within: float = 1e-5) -> OutlinePiece:
-    """Give an arc.
+    """Give one of `arcs`; with a curvature of 0 it is straight.
 
-    Parameters
-    ----------
-    arcs : Arcs
-        Arcs.
-    index : int
-        Which of them; one of nil curvature is straight.
-    within : float, m
-        How far the kernel's curve through its points may leave it.
+    The kernel's curve through its points leaves it by at most `within` (m).
 
     Examples
     --------
@@ -172,7 +153,7 @@ class PlaneOutline:
     kind : (n,) int8
         A `PointKind` each.
     direction : (n, 2)
-        Unit vectors at tangent points, nil elsewhere.
+        Unit vectors at tangent points, zero elsewhere.
     ends : (float or None, float or None), rad
         Directions at the two ends, None where they are free.
     """
@@ -231,7 +212,7 @@ class PlaneOutline:
         place : float, m
             Where the plane stands.
         kind : BoundaryKind
-            What it does to the lines that meet it.
+            What it does to the lines that end on it.
         tolerance : float, m
             How far the adopted curve may pass the points.
         """

@@ -1,8 +1,9 @@
 """The midship section of a few numbers, and a parallel middle body that has it throughout.
 
 `Midship` is made of half-breadth, flat of bottom, rise of floor and bilge radius, with exact area
-and moment. `MiddleBody` is the thinnest of classical definitions, whose net has an exact volume to
-be held against. SEAKING takes the same section for its parallel part.
+and moment; SEAKING takes it for its parallel part. `MiddleBody` is the simplest of classical
+definitions: its net can be checked against an exact volume. y outward from the centre line, z up
+from the base line, m.
 """
 
 from __future__ import annotations
@@ -32,15 +33,15 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The midship section of a half-breadth, a flat of bottom, a rise of floor and a bilge radius.
+# The midship section.
 #
-# From the centre line it is level to the edge of the flat, rises straight to the bilge, turns on a
-# circle that floor and side touch, and goes straight up. Source: Kim & Chang, "Some Representations
-# of Ship Hulls by Mathematical Method for Design and Production", J. SNAK; the rise of floor is
-# measured at the side.
+# From the centre line the section is level to the edge of the flat, rises straight to the bilge,
+# turns on a circle that floor and side touch, and goes straight up. Source: Kim & Chang, "Some
+# Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK; the rise
+# of floor is measured at the side.
 
 _HIGHEST = 1e6
-"""No draught (m) reaches up to here."""
+"""m: no draught reaches up to here."""
 
 
 def _number(value: object) -> float:
@@ -62,7 +63,7 @@ class Midship:
     radius : float, m
         Of the bilge; 0 is a chine.
     depth : float or None, m
-        Height of the side, if it is to be looked whether the bilge ends below it.
+        Height of the side, if the bilge is to be checked to end below it.
 
     Raises
     ------
@@ -144,6 +145,7 @@ class Midship:
         )
         a, b, top = self.half_breadth, self.flat, self.centre[1]
         if level >= top:
+            # The rectangle less the triangle below the floor, and less what the bilge cuts off.
             turn = 0.5 * math.pi - self.floor_angle
             corner = self.radius**2 * (math.tan(0.5 * turn) - 0.5 * turn)
             return 2.0 * (a * level - 0.5 * self.rise * (a - b) - corner)
@@ -180,7 +182,7 @@ class Midship:
     def half_breadths(self, z: ArrayLike) -> FloatArray:
         """Give half-breadths (m) at heights (m) not below 0, of the same shape.
 
-        At nil it is the outer edge of what is level there.
+        At 0 it is the outer edge of what is level there.
 
         Raises
         ------
@@ -206,10 +208,7 @@ def _least(name: str, value: float, *, above: bool = False) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# A parallel middle body: one midship section over a length, between flat ends.
-#
-# The thinnest of classical definitions, and the one whose net has an exact volume to be held
-# against.
+# The middle body: its section over a length, between flat ends.
 
 
 def midship_outline(midship: Midship, depth: float) -> PlaneOutline:
@@ -244,7 +243,7 @@ class MiddleBody:
     midship : Midship
         Its section.
     length, depth, draught : float, m
-        Of the body, of its side, and to which its volume is told.
+        Length of the body, height of its side, and the draught that its volume is reported for.
     stations : int
         Sections between the two ends.
     name : str

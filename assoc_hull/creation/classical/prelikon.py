@@ -1,8 +1,9 @@
 """A ship by main types (PRELIKON): sections of lines and arcs, decks, boundaries, boxes, houses.
 
 `Prelikon` is the definition; its lines come from `prelikon_lines`. Volumes are exact areas of
-sections integrated by parabolas along the ship. Notes and report follow the class: what the net
-leaves out, and the definition's own numbers beside those of a net.
+sections integrated by parabolas along the ship, without appendages. x from AP, y outward, z up from
+the base line, m. Source: the PRELIKON system in Kim & Chang, "Some Representations of Ship Hulls by
+Mathematical Method for Design and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -71,7 +72,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The main types of a PRELIKON job, and which of them needs which.
+# Main types, and which of them needs which.
 
 MAIN_TYPES: Mapping[int, str] = MappingProxyType({
     1: "general",
@@ -94,27 +95,10 @@ _NEEDS = {4: (2, 3), 8: (2, 3, 4)}
 
 
 def require_types(given: Iterable[object]) -> tuple[int, ...]:
-    """Check that a job has the main types that it needs.
+    """Check that a job has the main types that it needs; give them sorted, each once.
 
     Origin and units (1) and transverse sections (5) must be there; a deck (4) needs sheer and
-    camber, a deck house (8) those and a deck. After the PRELIKON system in Kim & Chang, "Some
-    Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
-
-    Parameters
-    ----------
-    given : iterable of int
-        Numbers of main types, in any order.
-
-    Returns
-    -------
-    tuple of int
-        They, sorted, each once.
-
-    Raises
-    ------
-    GeometryError
-        ``"main type {t}: unknown"``, ``"main type {t} is required"``,
-        ``"main type {t} needs main type {u}"``.
+    camber, a deck house (8) those and a deck. Raises GeometryError with the type that is missing.
     """
     try:
         listed = list(given)
@@ -146,7 +130,7 @@ def _known(each: object) -> int:
 
 
 # --------------------------------------------------------------------------------------
-# Volumes and centres of a hull of sections: exact areas, parabolas along the ship.
+# Volumes and centres.
 
 _ABOVE = 1e6
 """A height (m) above all hulls."""
@@ -195,12 +179,8 @@ def integrate_along(x: ArrayLike, values: ArrayLike) -> LongitudinalIntegral:
 
     With an odd number of stations at equal distances this is Simpson's first rule; where
     distances differ the parabolas are those through unequal steps, and an even number of stations
-    has its last interval under the parabola of the last three. Two stations make a trapezium.
-
-    Parameters
-    ----------
-    x, values : (m,)
-        Two stations or more, x increasing.
+    has its last interval under the parabola of the last three. Two stations make a trapezium;
+    `x`, (m,), increases.
     """
     at, given = finite_array(x, "stations", (None,)), finite_array(values, "stations", (None,))
     total = float(simpson(given, x=at))
@@ -238,7 +218,7 @@ def volume_below(
     """Give what lies below a height (m): exact areas, parabolas along the ship.
 
     The integral runs between the places where the profile is farthest out below that height; areas
-    go to nil there, unless the hull ends flat.
+    go to zero there, unless the hull ends flat.
     """
     area, moment = np.array([_areas_below(each, draught) for each in stations]).T
     return _hull_volume(stations, profile, draught, area, moment)
@@ -258,7 +238,7 @@ def volume_to_deck(
 
 
 def _areas_below(station: Station, level: float) -> tuple[float, float]:
-    """Give area and moment of half a section below a level: what is open above is closed there."""
+    """Give area (m2) and moment (m3, about z = 0) of half a section, closed at the level (m)."""
     area, _, moment = station.curve.moments_below(level)
     return area, moment
 
@@ -267,9 +247,11 @@ def _hull_volume(
     stations: Sequence[Station], profile: CentrelineProfile, draught: float, area: FloatArray,
     moment: FloatArray,
 ) -> HullVolume:  # fmt: skip
+    """Integrate areas and moments of halves of sections between the ends of the profile below."""
     x = np.array([each.x for each in stations])
     level = min(draught, _ABOVE)
     after, fore = profile.aftermost(level), profile.foremost(level)
+    # A station at an end of the profile counts with its area: the hull ends flat there.
     within = (x > after + SAME_PLACE) & (x < fore - SAME_PLACE)
     ends = [np.abs(x - place) <= SAME_PLACE for place in (after, fore)]
     sides = [np.concatenate([area[at][:1], np.zeros(1)])[0] for at in ends]
@@ -288,10 +270,7 @@ def _hull_volume(
 
 
 # --------------------------------------------------------------------------------------
-# A ship by main types: sections of lines and arcs, decks, boundaries, boxes and deck houses.
-#
-# Source: the PRELIKON system in Kim & Chang, "Some Representations of Ship Hulls by Mathematical
-# Method for Design and Production", J. SNAK.
+# The definition.
 
 _WHERE = "in a ship of main types"
 
@@ -316,7 +295,7 @@ class Prelikon:
         Deck houses (8).
     curves : tuple of SpaceCurve
         Space curves (9).
-    profile : Profile
+    profile : CentrelineProfile
         Stern, keel and stem.
     cuts : mapping of str to tuple of float, m
         Heights of waterlines, half-breadths of buttocks that the net is cut by.
@@ -410,7 +389,7 @@ class Prelikon:
 
     @property
     def appendages(self) -> tuple[Appendage, ...]:
-        """The appendage boxes as `ah.hydrostatics` takes them: whole, by their centroids."""
+        """The appendage boxes as `Hull.hydrostatics` takes them: whole, by their centroids."""
         return tuple(
             Appendage(each.name, each.volume, each.centroid, each.surface) for each in self.boxes
         )
@@ -469,10 +448,10 @@ def _require_decks(
 
 
 # --------------------------------------------------------------------------------------
-# What a ship of main types says beside its numbers, and where its net is cut by itself.
+# Notes, and the planes that the net is cut by.
 
 _REPORTED_TURN = 1e-4
-"""Jumps of direction (rad) that are told."""
+"""Jumps of direction (rad) above this are reported."""
 
 
 def prelikon_cuts(stations: Sequence[Station], draught: float) -> dict[str, tuple[float, ...]]:
@@ -490,10 +469,7 @@ def prelikon_cuts(stations: Sequence[Station], draught: float) -> dict[str, tupl
 def checked_cuts(cuts: object) -> dict[str, tuple[float, ...]]:
     """Take heights of waterlines and half-breadths of buttocks as they are asked for, m.
 
-    Raises
-    ------
-    GeometryError
-        No mapping, another family of lines, or places that are no finite numbers.
+    Raises GeometryError for another family of lines and for places that are no finite numbers.
     """
     if cuts is None:
         return {}
@@ -517,7 +493,7 @@ def prelikon_notes(
     boxes: Sequence[AppendageBox],
     houses: Sequence[DeckHouse],
 ) -> tuple[str, ...]:
-    """Tell what the net leaves out, and how what it leaves out lies to the sections."""
+    """Report what the net leaves out, and how far that lies off the sections."""
     found = _joint_notes(stations)
     found += [note for each in curves if (note := _curve_notes(each, stations))]
     found += [_boundary_notes(each, stations) for each in boundaries if each.name not in ENDS]
@@ -530,7 +506,7 @@ def prelikon_notes(
 
 
 def _joint_notes(stations: Sequence[Station]) -> list[str]:
-    """Tell of the corners between mean circles that the net passes smoothly."""
+    """Report the corners between mean circles that the net passes smoothly."""
     passed = [
         abs(float(turn))
         for each in stations
@@ -547,28 +523,28 @@ def _joint_notes(stations: Sequence[Station]) -> list[str]:
 
 
 def _curve_notes(curve: SpaceCurve, stations: Sequence[Station]) -> str:
-    """Tell of a space curve that is no line of the net."""
-    lying = section_contact(curve, stations)
+    """Report a space curve that is no line of the net; empty where it is one."""
+    contact = section_contact(curve, stations)
     title = f'space curve "{curve.name}" is not in the net'
-    if lying.is_knuckle:
+    if contact.is_knuckle:
         return ""
-    if lying.count < 2:
-        return f"{title}: it passes {lying.count} section(s)"
-    if lying.distance > SAME_PLACE:
-        off = f"{digits(round(lying.distance, 4))} m at x={digits(lying.where)}"
+    if contact.count < 2:
+        return f"{title}: it passes {contact.count} section(s)"
+    if contact.distance > SAME_PLACE:
+        off = f"{digits(round(contact.distance, 4))} m at x={digits(contact.where)}"
         return f"{title}: it leaves the sections by up to {off}"
     return f"{title}: it lies on the sections, of which not all have a corner there"
 
 
 def _boundary_notes(boundary: ArcBoundary, stations: Sequence[Station]) -> str:
-    """Tell how a boundary curve in another plane lies to the sections."""
+    """Report how far a boundary curve in another plane lies off the sections."""
     title = f'boundary "{boundary.name}" is not in the net'
     worst, where = -1.0, np.nan
     for each in stations:
         given = boundary.curve.where(0, each.x)[:, 1]
-        met = each.curve.where(0, boundary.y)[:, 1]
-        if len(given) and len(met):
-            off = float(np.abs(given[:, None] - met).min(axis=1).max())
+        crossings = each.curve.where(0, boundary.y)[:, 1]
+        if len(given) and len(crossings):
+            off = float(np.abs(given[:, None] - crossings).min(axis=1).max())
             if off > worst:
                 worst, where = off, each.x
     if worst < 0.0:
@@ -579,22 +555,14 @@ def _boundary_notes(boundary: ArcBoundary, stations: Sequence[Station]) -> str:
 
 
 # --------------------------------------------------------------------------------------
-# The numbers of a ship of main types, and those of a net of it beside them.
+# The report.
 
 _STEP = 0.1
 """Distance (m) of the places of a section that are sought in the net."""
 
 
 def prelikon_report(ship: Prelikon, state: HullState | None) -> ClassicalReport:
-    """Tell volumes and centres of hull, boxes and houses.
-
-    Parameters
-    ----------
-    ship : Prelikon
-        The ship.
-    state : HullState or None
-        A net of it.
-    """
+    """Give volumes and centres of hull, boxes and houses, beside those of a net if there is one."""
     hull, notes = with_net_figures(partial(_hull_figures, ship), state)
     figures = (*hull, *_box_figures(ship), *_house_figures(ship))
     away = () if state is None else departures(state, _defined_sections(ship))

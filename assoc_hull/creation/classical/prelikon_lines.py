@@ -1,8 +1,8 @@
 """The lines of a ship of main types (PRELIKON): sections, profile, deck edge, knuckle lines.
 
-A curve of lines and arcs becomes the pieces of an outline: lines stay straight, an arc that meets
-its neighbour in one direction stays an arc, mean circles become one smooth curve. Stations are cut
-off at the upper deck, stern, keel and stem are one profile, and `prelikon_lines` gives all lines.
+Sections and boundaries are chains of lines and circular arcs (`ArcCurve`). Stations are cut off at
+the upper deck; stern, keel and stem are one profile; `prelikon_lines` gives all lines for the net.
+x forward from AP, y outward, z up from the base line, m.
 """
 
 from __future__ import annotations
@@ -58,11 +58,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The pieces of a curve of lines and arcs, as an outline of the net takes them.
-#
-# Lines stay straight. An arc that meets a line or another arc in one direction stays an arc, within
-# 0.01 mm. Where arcs meet at small angles, as mean circles do, the kernel's own smooth curve runs
-# through the given points; where a curve turns sharply, or a knuckle is given, it has a corner.
+# From lines and arcs to the pieces of an outline. Lines stay straight. An arc that meets a line or
+# another arc in one direction stays an arc, within 0.01 mm. Where arcs meet at small angles, as
+# mean circles do, the kernel's own smooth curve runs through the given points; where a curve turns
+# sharply, or a knuckle is given, it has a corner.
 
 CORNER = np.radians(5.0)
 """A curve that turns by more (rad) from one piece to the next has a corner there."""
@@ -86,18 +85,7 @@ class ArcJoint(IntEnum):
 
 
 def arc_joints(curve: ArcCurve) -> tuple[ArcJoint, ...]:
-    """Tell how the net passes the joints between the pieces of a curve.
-
-    Parameters
-    ----------
-    curve : ArcCurve
-        Of n pieces.
-
-    Returns
-    -------
-    tuple of Joint
-        n - 1 of them.
-    """
+    """Tell how the net passes the n - 1 joints between the n pieces of a curve."""
     turn, curved = np.abs(curve.turns()), curve.arcs.curvature != 0.0
     found = []
     for k, angle in enumerate(turn.tolist()):
@@ -106,18 +94,13 @@ def arc_joints(curve: ArcCurve) -> tuple[ArcJoint, ...]:
         elif angle <= _ONE or curved[k] != curved[k + 1]:
             found.append(ArcJoint.TANGENT)
         else:
+            # Two lines at an angle make a corner, two arcs a smooth curve.
             found.append(ArcJoint.SMOOTH if curved[k] else ArcJoint.CORNER)
     return tuple(found)
 
 
 def outline_pieces(curve: ArcCurve) -> list[OutlinePiece]:
-    """Give the pieces of a curve for an outline.
-
-    Parameters
-    ----------
-    curve : ArcCurve
-        A section, or a boundary curve.
-    """
+    """Give the pieces of a section or boundary curve for an outline."""
     joints, arcs = arc_joints(curve), curve.arcs
     starts = [0, *(k + 1 for k, each in enumerate(joints) if each != ArcJoint.SMOOTH)]
     found = [
@@ -132,7 +115,7 @@ def outline_pieces(curve: ArcCurve) -> list[OutlinePiece]:
 def _piece_of_run(
     curve: ArcCurve, first: int, last: int, joints: tuple[ArcJoint, ...]
 ) -> OutlinePiece:
-    """Give the piece of the curve from one piece up to another."""
+    """Give the outline's piece of the curve's pieces `first` to `last`, the latter excluded."""
     arcs, ends = curve.arcs, curve.joints()
     if last - first > 1:
         angles = float(arcs.angle[first]), float(arcs.end_angles()[last - 1])
@@ -154,7 +137,7 @@ def _piece_of_run(
 
 
 def _graded_steps(step: float) -> FloatArray:
-    """Give places (m) that approach nil: a spline with a free end does not bend there."""
+    """Give places (m) that approach zero: a spline with a free end does not bend there."""
     count = max(int(np.floor(np.log2(max(step / _NEAREST, 1.0)))), 0)
     return np.asarray(step * 0.5 ** np.arange(1, count + 1))
 
@@ -162,7 +145,7 @@ def _graded_steps(step: float) -> FloatArray:
 def _aligned_pieces(
     pieces: list[OutlinePiece], joints: list[ArcJoint], is_line: np.typing.NDArray[np.bool_]
 ) -> list[OutlinePiece]:
-    """Give pieces whose directions agree where they are tangent; a line keeps its own."""
+    """Let directions agree where pieces are tangent; a line keeps its own, an arc follows it."""
     found = list(pieces)
     for k, joint in enumerate(joints):
         if joint != ArcJoint.TANGENT:
@@ -181,7 +164,7 @@ SAME_PLACE = 1e-3
 """Places nearer than this (m) are taken for one: a section that ends so near a deck reaches it."""
 
 _SAMPLES = 33
-"""Of each piece of a section, where its meeting with a deck is looked for."""
+"""Places of each piece of a section at which its intersection with a deck is looked for."""
 
 
 @attrs.frozen(eq=False)
@@ -206,12 +189,9 @@ class Station:
 
 
 def sorted_stations(stations: Sequence[Station]) -> tuple[Station, ...]:
-    """Give stations from aft forward, each checked to begin on the centre line.
+    """Give stations from aft forward; raises GeometryError for two at one place.
 
-    Raises
-    ------
-    GeometryError
-        Two sections at one place, or one that begins elsewhere.
+    Each is checked to begin on the centre line.
     """
     found = sorted(stations, key=lambda each: each.x)
     for one, two in itertools.pairwise(found):
@@ -233,29 +213,15 @@ def upper_deck(decks: Sequence[Deck]) -> Deck | None:
 
 
 def deck_edge_at(station: Station, deck: Deck) -> tuple[int, float]:
-    """Find where a section meets a deck, the first time on its way up.
+    """Find the first intersection of a section with a deck on its way up.
 
-    Parameters
-    ----------
-    station : Station
-        The section.
-    deck : Deck
-        The deck; x in the same datum.
-
-    Returns
-    -------
-    int, float
-        Number of the piece of the section, and the arc length (m) from its start.
-
-    Raises
-    ------
-    GeometryError
-        A section that ends below the deck, or begins above it; ``"deck {n}: sheer does not
-        cover x={x}"``; ``"camber: y={y} beyond reference half-breadth {B}"``.
+    Gives the number of the piece and the arc length (m) from its start. Raises GeometryError for a
+    section that ends below the deck or begins above it, or lies beyond its sheer or camber.
     """
     arcs, centre = station.curve.arcs, float(deck.centre(station.x))
     camber = deck.camber
 
+    # With a local scale the camber has its whole drop at the section's own edge, wherever it is.
     def above(points: FloatArray) -> FloatArray:
         y = np.abs(points[:, 0])
         if camber.scale == "local":
@@ -272,6 +238,7 @@ def deck_edge_at(station: Station, deck: Deck) -> tuple[int, float]:
             f"the deck lies at z={digits(centre)} on the centre line",
             {"x": station.x, "deck": deck.number},
         )  # fmt: skip
+    # A section that ends less than SAME_PLACE below the deck reaches it with its end.
     if over.max() < 0.0:
         number, t = len(arcs) - 1, float(arcs.length[-1])
     else:
@@ -284,6 +251,7 @@ def deck_edge_at(station: Station, deck: Deck) -> tuple[int, float]:
                 float(along[k - 1]), t, xtol=1e-12,
             )  # fmt: skip
     if camber.scale == "fixed":
+        # `above` took places beyond the reference half-breadth as on it: refuse them here.
         camber.drop(arcs.at(np.array([number]), [t])[0, 0])
     return number, t
 
@@ -296,7 +264,7 @@ def trim_station(station: Station, deck: Deck | None) -> Station:
 
 
 # --------------------------------------------------------------------------------------
-# The centre-line profile of a hull of sections: stern, keel and stem, and where it ends flat.
+# The centre-line profile.
 
 ENDS = ("stern", "stem")
 """Names of the boundary curves that are parts of the profile."""
@@ -367,22 +335,11 @@ class CentrelineProfile:
 def make_profile(
     stations: Sequence[Station], boundaries: Sequence[ArcBoundary], deck: Deck | None
 ) -> CentrelineProfile:
-    """Put a profile together.
+    """Put a profile together of the boundaries named ``"stern"`` and ``"stem"``, and the keel.
 
-    Parameters
-    ----------
-    stations : sequence of Station
-        From aft forward; the keel runs through their first points, where stern and stem are not.
-    boundaries : sequence of ArcBoundary
-        Those named ``"stern"`` and ``"stem"`` are used, given in either direction.
-    deck : Deck or None
-        At which stern and stem are cut off.
-
-    Raises
-    ------
-    GeometryError
-        A section that does not begin on it; a stern or stem that does not reach the deck, or
-        reaches it beyond sections.
+    They may be given in either direction and are cut off at the deck; between them the keel runs
+    through the first points of `stations` (from aft forward). Raises GeometryError for a section
+    that begins off the profile, and a stern or stem that ends below the deck or within sections.
     """
     named = {each.name: each.curve for each in boundaries if each.name in ENDS}
     curves, flat = _profile_ends(named, stations, deck)
@@ -452,6 +409,7 @@ def _cut_at_deck(curve: ArcCurve, deck: Deck, name: str) -> ArcCurve:
         )  # fmt: skip
     end = arcs.at(np.array([number]), [t])[0]
     if not least - SAME_PLACE <= end[0] <= most + SAME_PLACE:
+        # Beyond the sheer, which `above` continued level: this raises.
         deck.centre(end[0])
     return curve.cut(number, t)
 
@@ -464,6 +422,7 @@ def _reversed_curve(curve: ArcCurve) -> ArcCurve:
         arcs.ends()[back].copy(), (arcs.end_angles() + np.pi)[back].copy(),
         -arcs.curvature[back], arcs.length[back].copy(),
     )  # fmt: skip
+    # A knuckle is numbered by the piece that begins there.
     knuckles = frozenset(len(arcs) - k for k in curve.knuckles)
     return ArcCurve(turned, curve.points[back].copy(), curve.name, knuckles)
 
@@ -510,7 +469,7 @@ def _keel(points: FloatArray) -> list[OutlinePiece]:
 
 
 # --------------------------------------------------------------------------------------
-# The lines of a hull of sections: profile, deck edge, flat ends, sections, knuckle lines.
+# Lines for the net.
 
 AFT, FORE = "aft end", "fore end"
 """Lines that bound a hull where it ends flat."""
@@ -584,16 +543,9 @@ def _turn_at(station: Station, yz: FloatArray) -> float | None:
 def deck_edge(
     stations: Sequence[Station], profile: CentrelineProfile, deck: Deck | None
 ) -> LineSource:
-    """Join the upper ends of sections; with a knuckle where the sheer has one.
+    """Join the upper ends of sections and of the profile; with a knuckle where the sheer has one.
 
-    Parameters
-    ----------
-    stations : sequence of Station
-        Cut off at the deck.
-    profile : Profile
-        Its ends are those of the deck edge where the hull does not end flat.
-    deck : Deck or None
-        The deck.
+    Stations are cut off at the deck; where the hull ends flat the profile adds no point.
     """
     points = [[each.x, *each.curve.arcs.ends()[-1].tolist()] for each in stations]
     after, fore = profile.ends
@@ -617,7 +569,7 @@ def deck_edge(
 
 
 def _with_sheer(places: FloatArray, deck: Deck) -> tuple[FloatArray, np.typing.NDArray[np.bool_]]:
-    """Add a point at each break of the sheer; tell which points are breaks."""
+    """Insert a point at each break of the sheer; tell which points are breaks."""
     slope = np.diff(deck.sheer.rise) / np.diff(deck.sheer.x)
     breaks = deck.sheer.x[1:-1][np.abs(np.diff(slope)) > 1e-9]
     breaks = breaks[(breaks > places[0, 0] + SAME_PLACE) & (breaks < places[-1, 0] - SAME_PLACE)]
@@ -650,16 +602,8 @@ def prelikon_lines(
 ) -> tuple[LineSource, ...]:
     """Give all lines of a hull.
 
-    Parameters
-    ----------
-    stations : sequence of Station
-        Cut off at the deck, from aft forward.
-    profile : Profile
-        Centre line.
-    deck : Deck or None
-        The upper deck.
-    knuckles : sequence of SpaceCurve
-        Those at which the sections have corners.
+    Stations are cut off at the upper deck and go from aft forward; `knuckles` are the space curves
+    at which sections have corners.
     """
     found = [profile.outline.boundary("profile", 1, 0.0), deck_edge(stations, profile, deck)]
     found += [_knuckle(each, stations) for each in knuckles]
@@ -677,8 +621,8 @@ def prelikon_lines(
 
 def _knuckle(curve: SpaceCurve, stations: Sequence[Station]) -> LineSource:
     """Draw a knuckle line through its own points and its places on the sections."""
-    met = [curve.where(0, each.x) for each in stations]
-    points = np.concatenate([curve.points, *met])
+    crossings = [curve.where(0, each.x) for each in stations]
+    points = np.concatenate([curve.points, *crossings])
     points = points[np.argsort(points[:, 0], kind="stable")]
     apart = np.ones(len(points), bool)
     apart[1:] = np.linalg.norm(np.diff(points, axis=0), axis=1) > SAME_PLACE

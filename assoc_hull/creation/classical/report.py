@@ -88,7 +88,7 @@ class ClassicalReport:
     ----------
     kind, title : str
         Kind of definition, name of the ship.
-    figures : tuple of Figure
+    figures : tuple of ReportFigure
         Its numbers.
     notes : tuple of str
         What was moved, left out or looked odd.
@@ -196,14 +196,9 @@ def measure_net(state: HullState, height: float) -> NetMeasure:
 def with_net_figures(
     figures: Callable[[HullState | None], Iterable[ReportFigure]], state: HullState | None
 ) -> tuple[tuple[ReportFigure, ...], tuple[str, ...]]:
-    """Give figures with those of a net beside them; a note in their place if it has none.
+    """Give figures with those of a net beside them; a note instead if the net cannot be measured.
 
-    Parameters
-    ----------
-    figures : callable
-        Gives the figures of a definition, and those of a net where it is handed one.
-    state : HullState or None
-        The net.
+    `figures` gives the figures of a definition, and those of a net where it is handed one.
     """
     try:
         return tuple(figures(state)), ()
@@ -234,14 +229,9 @@ class DefinedSection:
 
 
 def departures(state: HullState, sections: Sequence[DefinedSection]) -> tuple[Departure, ...]:
-    """Tell how far the lines of a net leave the curves of a definition.
+    """Report how far the lines of a net leave the curves of a definition.
 
-    Parameters
-    ----------
-    state : HullState
-        The net.
-    sections : sequence of Section
-        Of the definition; those whose line the net lacks are left out.
+    Sections whose line the net lacks are left out.
     """
     names = {state.lines.name.data[line]: line for line in state.live("lines").tolist()}
     found = []

@@ -1,8 +1,9 @@
 """A ship by boundary data (SEAKING): no section is given, all are built from lines along the ship.
 
-`Seaking` cuts its lines where a frame is asked for, and passes a section through them. Volumes are
-exact areas of such sections, integrated between the corners of the curve of areas. Lines for the
-net, notes and report follow the class.
+Contour and flat of bottom, waterlines, knuckle lines and the deck side are curves over x; where a
+frame is asked for they are cut and a section goes through. Over a parallel part the section is the
+midship section, if there is one. Source: Kim & Chang, "Some Representations of Ship Hulls by
+Mathematical Method for Design and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -73,14 +74,6 @@ __all__ = [
     "seaking_sums",
 ]
 
-# --------------------------------------------------------------------------------------
-# A ship by boundary data: no section is given, all are built from lines along the ship.
-#
-# Contour and flat of bottom, waterlines, knuckle lines and the deck side are curves over x; where
-# a frame is asked for, they are cut and a section goes through. Over a parallel part the section is
-# the midship section, if there is one. Source: Kim & Chang, "Some Representations of Ship Hulls by
-# Mathematical Method for Design and Production", J. SNAK.
-
 
 def _places(given: ArrayLike) -> FloatArray:
     return finite_array(given, "frames", (None,))
@@ -120,17 +113,17 @@ class Seaking:
         Contour, level keel, flat of bottom.
     waterlines : tuple of ParallelWaterline
         At ascending heights.
-    deck : KnuckleLine
+    deck : CodedKnuckleLine
         The deck side: half-breadths and heights over the length of the contour.
     frames : (n,), m
         Where frames stand.
-    parallel : Parallel or None
+    parallel : ParallelPart or None
         The midship section and its part of the ship.
     knuckles : tuple of Knuckle
         Further lines at which frames have a corner.
     camber : DeckCamber
         Of the deck.
-    appendages : tuple of Attached
+    appendages : tuple of AttachedAppendage
         What is added to or taken from the hull.
     buttocks : tuple of float, m
         Where the net is cut.
@@ -242,7 +235,7 @@ class Seaking:
 
 
 def _over(at: object, ends: tuple[float, float], place: FloatArray) -> FloatArray:
-    """Take values of a line where it reaches, nan elsewhere."""
+    """Give values of a line over x where it reaches, nan elsewhere."""
     there = (place >= ends[0]) & (place <= ends[1])
     found = at(np.clip(place, *ends))  # type: ignore[operator]
     found = np.array(found, np.float64)
@@ -251,11 +244,9 @@ def _over(at: object, ends: tuple[float, float], place: FloatArray) -> FloatArra
 
 
 # --------------------------------------------------------------------------------------
-# Volumes of a ship by boundary data: exact areas of sections, integrated along the ship.
-#
-# The curve of areas has corners wherever a line has a point, begins or ends, or where the keel
-# passes a waterline. Between these places it is smooth, and rules of Gauss of two orders tell how
-# far it is off; where they differ too much the interval is halved.
+# Volumes. The curve of areas has corners wherever a line has a point, begins or ends, or where the
+# keel passes a waterline. Between these places it is smooth, and two rules of Gauss show how far
+# it is off; where they differ too much the interval is halved.
 
 _LESS, _MORE = np.polynomial.legendre.leggauss(4), np.polynomial.legendre.leggauss(7)
 """Nodes and weights of the two rules."""
@@ -267,7 +258,9 @@ _ENOUGH = 1e-8
 """Each interval is halved until it is off by no more than this part of the whole."""
 
 _HALVINGS = 8
+
 _SAME_BREAK = 1e-9
+"""Places of corners (m) that differ by less are one."""
 
 
 @attrs.frozen
@@ -294,14 +287,9 @@ class SeakingSums:
 
 
 def seaking_sums(ship: Seaking, levels: Sequence[float | None]) -> tuple[SeakingSums, ...]:
-    """Integrate below heights (m), or all of a hull; sections are built once for all of them.
+    """Integrate below heights (m), None for the whole, decks included.
 
-    Parameters
-    ----------
-    ship : Seaking
-        The definition.
-    levels : sequence of float or None, m
-        Above the base line; None for the whole, its decks included.
+    Sections are built once for all heights.
     """
     heights = [_ABOVE if each is None else float(each) for each in levels]
     places = area_breaks(ship, heights)
@@ -311,6 +299,7 @@ def seaking_sums(ship: Seaking, levels: Sequence[float | None]) -> tuple[Seaking
     for turn in range(_HALVINGS + 1):
         fine, coarse = (_gauss_rule(ship, low, high, heights, each) for each in (_MORE, _LESS))
         off = np.abs(fine[..., 0] - coarse[..., 0])
+        # Later turns hold halved intervals only: the first sum stays the whole.
         whole = np.maximum(whole, fine[..., 0].sum(axis=0))
         done = (off <= _ENOUGH * whole).all(axis=1) | (turn == _HALVINGS)
         total += fine[done].sum(axis=0)
@@ -358,18 +347,23 @@ def _measured_sections(built: Sequence[SeakingSection], level: float) -> FloatAr
     found = np.empty((len(built), 4))
     frames = [i for i, each in enumerate(built) if isinstance(each, FrameSection)]
     for i, each in enumerate(built):
+        # A midship section is no run of such pieces: it measures itself.
         if not isinstance(each, FrameSection):
             found[i] = each.area(level), each.x, each.moment(level), each.half_breadth(level)
     if not frames:
         return found
     chosen = [each for each in built if isinstance(each, FrameSection)]
+    # A deck straight across adds nothing: along it z does not change.
     parts = [[each.side] if each.deck is None else [each.side, each.deck] for each in chosen]
     joined = Quadratics.join([part for several in parts for part in several])
     count = np.array([sum(len(part) for part in several) for several in parts])
     first = np.cumsum(count) - count
+    # Twice: the pieces are of one side.
     area, moment = (2.0 * np.add.reduceat(each, first) for each in joined.each_below(level))
+    # `fmax` passes over nan, which stands where a piece does not come to the level.
     widest = np.fmax.reduceat(np.fmax.reduce(joined.crossings(level), axis=1), first)
     for i, each in enumerate(chosen):
+        # The arc is no quadratic: it comes by itself, between side and deck.
         if each.corner is not None:
             arc, centre = each.corner.arc(), each.corner.centre
             area[i] += 2.0 * arc_area(arc, centre, level)
@@ -408,14 +402,13 @@ def _level_intersections(line: FloatArray, heights: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# The lines of a ship by boundary data, as the net takes them up.
-#
-# Points of the definition are points of lines. Frames are smooth from knuckle to knuckle; contour
-# and
-# straight intervals of knuckle lines keep their corners; waterlines follow the definition's splines
-# closely, their parallel part is straight. Flat ends are transoms.
+# Lines for the net. Points of the definition are points of lines. Frames are smooth from knuckle to
+# knuckle; contour and straight intervals of knuckle lines keep their corners; waterlines follow the
+# definition's splines closely, their parallel part is straight. Flat ends are transoms.
 
 _SAME_POINT = 1e-6
+"""Places (m) that differ by less are one."""
+
 _DENSE = 4
 """Chords between two points of a waterline."""
 
@@ -439,13 +432,7 @@ def frame_name(x: float) -> str:
 
 
 def seaking_lines(ship: Seaking) -> tuple[LineSource, ...]:
-    """Give all lines of a definition.
-
-    Raises
-    ------
-    GeometryError
-        A frame that cannot be built.
-    """
+    """Give all lines of a definition: boundaries, transoms, sections, waterlines."""
     first, last = ship.ends
     ends = [x for x in (first, last) if float(ship.deck.at(x)[0]) > _SAME_POINT]
     inner = ship.frames[(ship.frames > first + _SAME_POINT) & (ship.frames < last - _SAME_POINT)]
@@ -472,7 +459,7 @@ def seaking_lines(ship: Seaking) -> tuple[LineSource, ...]:
 
 
 def _profile(ship: Seaking) -> LineSource:
-    """From the transom, or the deck, along the keel to the stem head."""
+    """Run from the transom, or the deck, along the keel to the stem head."""
     rows = np.concatenate([ship.keel.aft, ship.keel.forward])
     (half, top), (breadth, head) = ship.deck.at(ship.ends).tolist()
     # Below a flat end the contour has nothing to draw: that is the middle of the transom.
@@ -500,6 +487,7 @@ def _space_line(
     On parabolas it has a point at each frame as well: frames end there.
     """
     rows: list[tuple[float, FloatArray, bool]] = []
+    # Codes of intervals: 0 a step, 1 straight, above 1 a parabola; only those are smooth at ends.
     hard = np.concatenate([[True], line.code <= 1, [True]])
     for i, x in enumerate(line.x.tolist()):
         if i and line.code[i - 1] == 0 and x > line.x[i - 1]:
@@ -561,14 +549,14 @@ def _intermediate_places(x: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# What is to be said of a ship by boundary data: odd data, and what its net leaves out.
+# Notes and report.
 
 _NOTED_DISTANCE = 1e-3
-"""A waterline that lies farther (m) than this from the midship section is told."""
+"""A waterline that lies farther (m) than this from the midship section is reported."""
 
 
 def seaking_notes(ship: Seaking) -> tuple[str, ...]:
-    """Give all notes of a definition, a sentence each."""
+    """Say of a definition what is odd, and what its net leaves out, a sentence each."""
     built = ship.sections(ship.frames)
     of_frames = [each for section in built for each in section.notes]
     return (
@@ -578,7 +566,7 @@ def seaking_notes(ship: Seaking) -> tuple[str, ...]:
 
 
 def corrugation(sections: list[SeakingSection]) -> tuple[str, ...]:
-    """Tell the largest tangent jump of frames that are built of parabolas, if there are any."""
+    """Report the largest tangent jump of frames that are built of parabolas, if there are any."""
     built = [each for each in sections if isinstance(each, FrameSection)]
     if not built:
         return ()
@@ -602,7 +590,7 @@ def _grouped_notes(notes: list[str]) -> list[str]:
 
 
 def _midship_notes(ship: Seaking) -> list[str]:
-    """Tell of waterlines that miss the midship section, and of the jump of area at its ends."""
+    """Report waterlines and the edge of the flat that miss the midship section, and knuckles."""
     if ship.parallel is None:
         return []
     first, last = ship.parallel.first, ship.parallel.last
@@ -636,7 +624,7 @@ def _midship_notes(ship: Seaking) -> list[str]:
 
 
 def _omission_notes(ship: Seaking) -> list[str]:
-    """Tell what the net does not hold."""
+    """Report what the net does not hold."""
     found = []
     if len(ship.camber.rise) or len(ship.camber.corner):
         found.append(
@@ -652,10 +640,6 @@ def _omission_notes(ship: Seaking) -> list[str]:
         names = ", ".join(each.name for each in ship.appendages)
         found.append(f"appendages are not in the net: {names}")
     return found
-
-
-# --------------------------------------------------------------------------------------
-# The own numbers of a ship by boundary data, beside those of its net.
 
 
 def seaking_report(ship: Seaking, state: HullState | None) -> ClassicalReport:

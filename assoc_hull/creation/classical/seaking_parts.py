@@ -1,8 +1,8 @@
 """What a ship by boundary data (SEAKING) is made of, and its sections.
 
-Knuckles, parallel part, appendages and deck camber are its parts besides keel and waterlines. A
-section is a frame or the midship section; the functions give it as an outline, as points and as an
-area. Last stand the checks of what must go together: heights, ends, the midship section.
+Its parts besides keel and waterlines are knuckles, parallel part, appendages and deck camber. A
+section is a frame or, over the parallel part, the midship section. x forward from AP, y outward,
+z up from the base line, m.
 """
 
 from __future__ import annotations
@@ -59,11 +59,9 @@ __all__ = [
     "section_samples",
 ]
 
-# --------------------------------------------------------------------------------------
-# What a ship by boundary data is made of besides its lines: midship section, deck, appendages.
 
 WHERE = "in a ship by boundary data"
-"""What errors of type say of the place."""
+"""Where errors of type say that they occurred."""
 
 
 def instance_validator(kind: type) -> Callable[[object, attrs.Attribute[Any], object], None]:
@@ -150,10 +148,10 @@ class DeckCamber:
 
 
 # --------------------------------------------------------------------------------------
-# Sections of a ship by boundary data, as the net and the report need them.
+# Sections.
 
 _DRAWN = 64
-"""Chords that stand for a bilge in a comparison."""
+"""Chords that a bilge is drawn by for a comparison."""
 
 
 @attrs.frozen
@@ -211,12 +209,12 @@ class MidshipSection:
 
     @property
     def largest_jump(self) -> float:
-        """Nil: what corners it has are meant, rad."""
+        """0 rad: the corners that it has are meant."""
         return 0.0
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """None."""
+        """There are none."""
         return ()
 
     def area(self, level: float | None = None) -> float:
@@ -236,6 +234,7 @@ class MidshipSection:
 
     @property
     def _side(self) -> float:
+        """Height (m) up to which the side is upright: the deck side, or where the corner begins."""
         return self.depth if self.corner is None else self.corner.side_point[1]
 
     def half_breadth(self, level: float) -> float:
@@ -287,7 +286,7 @@ def half_area(section: SeakingSection) -> float:
 
 
 # --------------------------------------------------------------------------------------
-# What of a ship by boundary data must go together: heights, ends, the midship section.
+# Checks of what must go together.
 
 _SAME = 1e-6
 """Places (m) that differ by less are one."""
@@ -304,7 +303,7 @@ def check_heights(waterlines: Sequence[ParallelWaterline]) -> None:
 
 
 def check_deck(deck: CodedKnuckleLine, keel: KeelOutline) -> None:
-    """Refuse a deck side that is too short, below nil or below the keel."""
+    """Refuse a deck side that is too short, of negative half-breadth or below the keel's ends."""
     if deck.single:
         what = "deck side: has one column of values"
         raise GeometryError(what, "give half-breadths and heights", {})

@@ -1,8 +1,9 @@
 """A ship of portions (SFOLDS), each a row of sections given by ordinates.
 
-`Sfolds` is the definition. Sections of its net pass all given ordinates; only corners sharper than
-a limit stay corners. By itself the net is cut on the planes its widest section is given on. Notes
-and report follow: what is odd, and the definition's own numbers beside those of a net.
+`Sfolds` is the definition; x from AP, heights from the base line, m. Sections of its net pass all
+given ordinates; where no planes are asked for, the net is cut on those that the widest section is
+given on. Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design
+and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -47,12 +48,6 @@ __all__ = [
     "sfolds_notes",
     "sfolds_report",
 ]
-
-# --------------------------------------------------------------------------------------
-# A ship of portions, each a row of sections given by ordinates.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK.
 
 CORNER = 10.0
 """Degrees; sections of the net keep corners of the definition that are sharper."""
@@ -152,7 +147,7 @@ class Sfolds:
         return float(sum(each.volume_below(z) for each in self.portions if each.is_main))
 
     def lines(self) -> tuple[LineSource, ...]:
-        """Give the lines of the main body; see `lines_of_portions`.
+        """Give the lines of the main body; see `sfolds_lines`.
 
         Raises
         ------
@@ -169,7 +164,7 @@ class Sfolds:
 
 
 def _checked_cuts(cuts: object) -> dict[str, tuple[float, ...]]:
-    """Take planes that are asked for, by group."""
+    """Take the planes of the net by group; m."""
     found: dict[str, tuple[float, ...]] = {}
     if cuts is None:
         return found
@@ -185,11 +180,9 @@ def _checked_cuts(cuts: object) -> dict[str, tuple[float, ...]]:
 
 
 # --------------------------------------------------------------------------------------
-# The lines of a ship of portions: sections, what bounds them, and where the hull ends flat.
-#
-# Sections pass all given ordinates. A portion is smooth along itself as the ordinates tell; the
-# definition bends at every second of them, by a few degrees in a good table, and the spline of the
-# kernel runs smoothly through. Only corners sharper than a limit stay corners.
+# Lines for the net. A portion is smooth along itself as the ordinates are; a section bends at every
+# second of them, by a few degrees in a good table, and the spline of the kernel runs smoothly
+# through. Only corners sharper than a limit stay corners.
 
 AFT, FORE = "aft end", "fore end"
 """Lines that bound a hull where it ends flat."""
@@ -204,7 +197,7 @@ _PASSED = 1e-5
 """Lines pass the given points within this, m."""
 
 _NO_CORNER = 1e-6
-"""Degrees; by rounding."""
+"""Degrees; a turn by no more is rounding."""
 
 _BETWEEN = 3
 """Where corners stay, so many points are added to each step: areas are kept within 1e-5."""
@@ -226,15 +219,8 @@ class PortionFrame:
 def portion_frames(portions: Sequence[Portion]) -> tuple[PortionFrame, ...]:
     """Give the sections of the main body from aft forward, those at joints once.
 
-    Parameters
-    ----------
-    portions : sequence of Portion
-        That do not overlap; those beyond the main body are left out.
-
-    Raises
-    ------
-    GeometryError
-        Two portions with different sections where they join, or a portion of areas alone.
+    Raises GeometryError for two portions with different sections where they join, and for a
+    portion of areas alone.
     """
     main = sorted((each for each in portions if each.is_main), key=lambda each: each.stations[0])
     found: list[PortionFrame] = []
@@ -260,25 +246,11 @@ def _require_same(one: OrdinateSection, two: OrdinateSection, x: float) -> None:
 
 
 def sfolds_lines(portions: Sequence[Portion], corner: float) -> tuple[LineSource, ...]:
-    """Give the lines of the main body.
+    """Give profile, deck edge, flat ends and sections of the main body.
 
-    Parameters
-    ----------
-    portions : sequence of Portion
-        As checked.
-    corner : float, degrees
-        Sections keep corners of the definition that are sharper; at 0 all of them, with more
-        points of its parabolas between.
-
-    Returns
-    -------
-    tuple of LineSource
-        Profile, deck edge, flat ends as boundaries; sections.
-
-    Raises
-    ------
-    GeometryError
-        As `frames_of`; fewer than two sections with a breadth, or one without between others.
+    Sections keep corners of the definition that are sharper than `corner` (degrees); at 0 all of
+    them, with more points of its parabolas between. Raises GeometryError for fewer than two
+    sections with a breadth, or one without between others.
     """
     frames = portion_frames(portions)
     wide = [frame for frame in frames if not frame.is_point]
@@ -335,6 +307,7 @@ def _section(frame: PortionFrame, corner: float, name: str) -> LineSource:
     """Draw a section; where the hull ends flat it bounds the hull."""
     outline, kind = section_points(frame.section, corner)
     points = np.column_stack([np.full(len(outline), frame.x), outline])
+    # Straight runs only: at 180 degrees nothing is a knuckle, those come from the section itself.
     straight, direction = point_kinds_along(points, 180.0)
     tangent = (straight == int(PointKind.TANGENT)) & (kind == int(PointKind.SMOOTH))
     kind = np.where(tangent, straight, kind)
@@ -354,12 +327,7 @@ def _section(frame: PortionFrame, corner: float, name: str) -> LineSource:
 def section_points(section: OrdinateSection, corner: float) -> tuple[FloatArray, IntArray]:
     """Give the points of a section, (n, 2) as y, z in m, and a `PointKind` each.
 
-    Parameters
-    ----------
-    section : OrdinateSection
-        The section.
-    corner : float, degrees
-        See `lines_of_portions`.
+    `corner` (degrees) as for `sfolds_lines`.
     """
     steps = section.steps()
     before, after = (steps[:-1, 1] + 2.0 * steps[:-1, 2]), steps[1:, 1]
@@ -379,27 +347,20 @@ def section_points(section: OrdinateSection, corner: float) -> tuple[FloatArray,
 
 
 # --------------------------------------------------------------------------------------
-# By which planes the net of a ship of portions is cut: those its widest section is given on.
+# Planes that the net is cut by.
 
 _MOST = 12
 """More lines of a family than this are thinned out."""
 
 _APART = 0.05
-"""A waterline nearer to the draught than this part of it stands for it."""
+"""No waterline is inserted at a draught that one is nearer to than this part of it."""
 
 
 def sfolds_cuts(portions: Sequence[Portion], draught: float) -> dict[str, tuple[float, ...]]:
-    """Give half-breadths of buttocks and heights of waterlines, m.
+    """Give half-breadths of buttocks and heights of waterlines, m, by the widest section.
 
     Buttocks come first: where the bottom rises slowly, as at a broad stern, they run along it and
     waterlines turn sharply. So the net gets its shape there from the lines that are smooth.
-
-    Parameters
-    ----------
-    portions : sequence of Portion
-        Those of the main body count.
-    draught : float, m
-        Has a waterline of its own where none is near.
     """
     sections = [each for portion in portions if portion.is_main for each in portion.sections]
     if not sections:
@@ -407,6 +368,7 @@ def sfolds_cuts(portions: Sequence[Portion], draught: float) -> dict[str, tuple[
     widest = max(sections, key=lambda each: each.area)
     top = min(each.hd for each in sections)
     heights = widest.side.places[1:]
+    # The last given waterline may lie so near the deck that nothing is left between.
     heights = heights[heights < top - 0.25 * widest.sw]
     if draught < top and np.abs(heights - draught).min(initial=np.inf) > _APART * draught:
         heights = np.sort(np.append(heights, draught))
@@ -428,7 +390,7 @@ def _thinned_places(places: Sequence[float]) -> tuple[float, ...]:
 
 
 # --------------------------------------------------------------------------------------
-# What is to be said of a ship of portions beside its numbers.
+# Notes and report.
 
 
 def sfolds_notes(portions: Sequence[Portion]) -> tuple[str, ...]:
@@ -450,23 +412,12 @@ def sfolds_notes(portions: Sequence[Portion]) -> tuple[str, ...]:
     return tuple(found)
 
 
-# --------------------------------------------------------------------------------------
-# The numbers of a ship of portions, and those of a net of it beside them.
-
 _SAMPLES = 16
 """Places on each step of a section that are sought in the net."""
 
 
 def sfolds_report(ship: Sfolds, state: HullState | None) -> ClassicalReport:
-    """Tell the volumes and centres of a ship of portions.
-
-    Parameters
-    ----------
-    ship : Sfolds
-        The ship.
-    state : HullState or None
-        A net of it.
-    """
+    """Give volumes and centres of portions and of the whole, beside those of a net of them."""
     figures = [*_portion_figures(ship), *_whole_figures(ship)]
     notes: tuple[str, ...] = ()
     if any(each.is_main and each.sections for each in ship.portions):
@@ -506,7 +457,7 @@ def _whole_figures(ship: Sfolds) -> list[ReportFigure]:
 
 
 def _volumes_below(ship: Sfolds, state: HullState | None) -> list[ReportFigure]:
-    """Tell the volume of the main body below draught and deck, and of the net."""
+    """Give the volume of the main body below draught and deck, and that of the net."""
     main = [each for each in ship.portions if each.is_main]
     if not all(each.sections for each in main):
         return []

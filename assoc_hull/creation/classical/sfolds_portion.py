@@ -141,12 +141,12 @@ class Portion:
 
     @property
     def centre_x(self) -> float:
-        """Of the volume, m; nan where that is nil."""
+        """Of the volume, m; nan where that is 0."""
         return self.moment_x / self.volume if self.volume else float("nan")
 
     @property
     def centre_z(self) -> float:
-        """Of the volume, m above base; nan where that is nil, or areas alone are given."""
+        """Of the volume, m above base; nan where that is 0, or areas alone are given."""
         return self.moment_z / self.volume if self.volume else float("nan")
 
     def area(self, x: ArrayLike) -> FloatArray:
@@ -216,22 +216,9 @@ def _stations(number: object, stations: ArrayLike, count: int) -> FloatArray:
 
 
 def require_portions_apart(portions: Sequence[Portion]) -> tuple[str, ...]:
-    """Refuse portions of the main body that overlap, and tell the gaps between them.
+    """Refuse portions of the main body that overlap, and report the gaps, a sentence for each.
 
-    Parameters
-    ----------
-    portions : sequence of Portion
-        In any order; those beyond the main body are not looked at.
-
-    Returns
-    -------
-    tuple of str
-        A sentence for each gap.
-
-    Raises
-    ------
-    GeometryError
-        ``"portions {i} and {j} of the main body overlap in x: [{a},{b}]"``.
+    Portions may come in any order; those beyond the main body are not looked at.
 
     Examples
     --------
@@ -258,19 +245,7 @@ def require_portions_apart(portions: Sequence[Portion]) -> tuple[str, ...]:
 
 
 def three_eighths_rule(values: ArrayLike, step: float) -> float:
-    """Integrate four values at equal steps by Simpson's second rule, 3 s (f0+3f1+3f2+f3) / 8.
-
-    Parameters
-    ----------
-    values : (4,)
-        Values.
-    step : float, m
-        Spacing.
-
-    Raises
-    ------
-    GeometryError
-        Other than four finite values.
+    """Integrate four values at equal steps (m) by Simpson's second rule, 3 s (f0+3f1+3f2+f3) / 8.
 
     Examples
     --------

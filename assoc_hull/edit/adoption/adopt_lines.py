@@ -1,9 +1,9 @@
 """Make a net of given lines, and report how closely it holds them.
 
-The lines are lofted through their own points (the references), their crossings are found and given
-roles by the role rule, and points are added only where crossings alone do not hold the shape within
-the tolerance. The order in which lines are handed in plays no part. The report says curve by curve
-how far it passes its line, with how many points, and how fair it is.
+The lines are lofted through their own points (the *references*), their crossings are found and
+given roles by the role rule, and points are added only where crossings alone do not hold the shape
+within the tolerance. The order in which lines are handed in plays no part: they are sorted first.
+The report says per curve how far it passes its line, with how many points, and how fair it is.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What adoption made of given lines: per curve how closely, with how many points, how fair.
+# The report.
 
 
 @attrs.frozen
@@ -78,7 +78,7 @@ class LineReport:
     tolerance_used : float
         The largest part of what is allowed, at any place: up to 1 the curve is within.
     inflections_given, inflections : int
-        Of the given line and of the curve; nil for a space curve, whose curvature has no sign.
+        Of the given line and of the curve; 0 for a space curve, whose curvature has no sign.
     """
 
     curve: str
@@ -131,13 +131,7 @@ class AdoptionReport:
 
 
 def report_lines(net: ReferenceNet) -> tuple[LineReport, ...]:
-    """Compare the curves of a net with the lines it was adopted from.
-
-    Parameters
-    ----------
-    net : Net
-        The given lines, their references, and the net that was made of them.
-    """
+    """Compare the curves of a net with the lines it was adopted from."""
     curves = net.state.curves
     splines = SplineBatch.join([curves.spline.data[i] for i in range(len(net.sources))])
     normals = np.array(
@@ -194,12 +188,7 @@ def _sorts(state: HullState, rows: IntArray) -> tuple[int, int, int]:
 
 
 # --------------------------------------------------------------------------------------
-# Adoption: a net from given lines.
-#
-# The lines are lofted through their own points (the *references*), their crossings found,
-# each crossing given its role by the role rule, and points added only where crossings alone
-# do not hold the shape within the tolerance. The order in which lines are handed in plays no
-# part: they are sorted first.
+# Adoption.
 
 _OVER = 1.05
 """Between its points a curve may pass its line by this part more than at them."""
@@ -264,18 +253,10 @@ def match_lines(
 ) -> tuple[SplineBatch, tuple[LineIntersection, ...]]:
     """Find where given lines meet, without adopting them.
 
-    Parameters
-    ----------
-    sources : sequence of LineSource
-        The lines; curves of the answer are numbered in their order.
-    associations : sequence of Association
-        Which groups meet.
-
-    Returns
-    -------
-    SplineBatch, tuple of Meeting
-        The splines through the given points, and their meetings.
+    Gives the splines through their points, numbered in the order of the lines, and the
+    intersections of those whose groups are associated.
     """
+    # the particulars are placeholders: crossings do not depend on them
     state = HullState(Particulars("lines", 1.0, 1.0, 1.0, 1.0), Tolerances())
     _make_lines(Maker(state, Journal()), sources, associations)
     reference = loft(line_curve_data(sources), list(state.curves.key.data))
@@ -368,13 +349,13 @@ def _left_note(net: ReferenceNet, left: OmittedPoint) -> str:
 
 
 def _over_notes(net: ReferenceNet, thinned: ThinnedNet, lines: Sequence[LineReport]) -> list[str]:
-    """Name the densely drawn lines that are passed too far off and of which no point says so."""
-    told = {each.curve for each in thinned.left}
+    """Name the densely drawn lines that are passed too far off and have no note for a point."""
+    noted = {each.curve for each in thinned.left}
     return [
         f"{line.line} is passed by {line.tolerance_used:.2f} times what is allowed at some place: "
         "no point could be adopted there, another stands too close"
         for number, line in enumerate(lines)
-        if line.tolerance_used > _OVER and net.sources[number].dense and number not in told
+        if line.tolerance_used > _OVER and net.sources[number].dense and number not in noted
     ]
 
 

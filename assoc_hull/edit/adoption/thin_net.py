@@ -1,8 +1,9 @@
 """Choose which crossings define which curves of an adopted net, and where points are added.
 
-The role rule chooses; then, as long as a given point lies too far from its curve, the thinned
-crossing there is taken back in, or the point itself is adopted. At last adopted points of dense
-curves are moved or dropped that give their curve an inflection which its line lacks.
+The role rule chooses; then, as long as a given point lies farther from its curve than the
+tolerance, the thinned crossing there is taken back in, or the point itself is adopted, unless it
+stands so close beside another point that the curve would have to turn between them. At last adopted
+points of dense curves are moved or dropped that give an inflection which the given line lacks.
 """
 
 from __future__ import annotations
@@ -45,11 +46,8 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The last touch on densely drawn curves: adopted points that bend them too often.
-#
-# An adopted point may give its curve an inflection that its line lacks. A neighbouring given
-# point often does as well without it; else the point is dropped where the curve still passes its
-# line by less than twice the tolerance, and the line is reported.
+# Added inflections. A neighbouring given point often does as well without one; else the adopted
+# point is dropped where the curve still passes its line by less than `_MOST`, and that is reported.
 
 _MOST = 2.0
 """A point is dropped for an inflection where the line is passed by less than this many times
@@ -70,7 +68,7 @@ class _Change:
 
 @attrs.frozen
 class _Shape:
-    """How a curve stands to its line: inflections too many, and the part of the tolerance."""
+    """A curve against its line: inflections too many, and the largest part of the tolerance."""
 
     excess: int
     part: float
@@ -81,19 +79,8 @@ def remove_added_inflections(
 ) -> tuple[list[list[CurveItem]], list[OmittedPoint]]:
     """Move or drop adopted points of dense plane curves that add inflections.
 
-    Parameters
-    ----------
-    work : Work
-        Points that take the place of others are added to it.
-    orders : list of list of Item
-        What defines each curve.
-
-    Returns
-    -------
-    orders : list of list of Item
-        With the changes.
-    left : list of Left
-        Given points passed farther off than the tolerance for it.
+    Points that take the place of others are added to `work`. Gives what defines each curve with
+    the changes, and the given points passed farther off than the tolerance for it.
     """
     out, left = list(orders), []
     for curve, source in enumerate(work.net.sources):
@@ -182,6 +169,7 @@ def _shape(work: ThinningState, curve: int, order: list[CurveItem], goal: int) -
 def _part(
     work: ThinningState, curve: int, order: list[CurveItem], splines: SplineBatch, number: int
 ) -> float:
+    """Give the largest distance of a given point from a curve in parts of its tolerance."""
     away = distances(work, [curve], [order], splines, [number])[0][0]
     return float((away / work.net.sources[curve].tolerance).max())
 
@@ -195,11 +183,7 @@ def _left(work: ThinningState, curve: int, order: list[CurveItem]) -> OmittedPoi
 
 
 # --------------------------------------------------------------------------------------
-# Which crossings define which curves of an adopted net, and where points must be added.
-#
-# The role rule chooses; then, as long as a given point lies farther from its curve than the
-# tolerance, the thinned crossing there is taken back in, or else the point itself is adopted,
-# unless it would stand so close beside another point that the curve had to turn between them.
+# The choice.
 
 
 def thin_net(net: ReferenceNet) -> ThinnedNet:
@@ -214,6 +198,7 @@ def thin_net(net: ReferenceNet) -> ThinnedNet:
         orders = _orders(work, roles)
         splines = loft_orders(work, range(len(orders)), orders)
         worst, left = find_worst(net, splines, orders, work)
+        # gaps come last, when every curve holds its own points
         worst = worst or find_wide(net, splines, orders, work, roles)
         if not worst:
             break
@@ -268,7 +253,7 @@ def _outcome(
 
 
 def _collect(work: ThinningState) -> None:
-    """Put contacts, meetings and points that stand by themselves on their curves."""
+    """Put contacts, intersections and points that stand by themselves on their curves."""
     net = work.net
     held: set[tuple[int, int]] = set()
     for index, contact in enumerate(net.contacts):

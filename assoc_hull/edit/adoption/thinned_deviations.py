@@ -1,8 +1,8 @@
 """Where thinned curves pass what was given too far off, and which given point would mend it.
 
 Three faults are looked for: a given point farther off than the tolerance, a watched gap between two
-densely drawn lines, and chords of a dense line that would fold. A dense line takes a point from the
-middle of an interval, never beside another point; where an interval has no room, none.
+densely drawn lines, and chords of a dense line that would fold. Parameters are those (m) of the
+lines as given. `ThinningState` has what was given, `CurveItem` one defining point of a trial.
 """
 
 from __future__ import annotations
@@ -39,11 +39,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Where a densely given line takes another point: amid an interval, never beside a point.
-#
-# A digitised line has many more points than should define a curve. Taken where the curve passes
-# them worst, they would come to lie in close pairs; so one is taken from the middle of the
-# interval in question, and none where the interval is short.
+# Dense lines. A digitised line has many more points than should define a curve. Taken where the
+# curve passes them worst, they would come to lie in close pairs; so one is taken from the middle
+# of the interval in question, and none where the interval is short.
 
 BoolArray = np.typing.NDArray[np.bool_]
 
@@ -55,16 +53,10 @@ _SHORTEST = 0.02
 
 
 def has_room(edges: FloatArray, at: FloatArray, spacing: float) -> BoolArray:
-    """Say which given points lie in an interval that has room for another point.
+    """Tell which given points, at (n,) m, lie in an interval that has room for another point.
 
-    Parameters
-    ----------
-    edges : (k,), m
-        Parameters of the defining points, ascending.
-    at : (n,), m
-        Parameters of the given points.
-    spacing : float, m
-        Least length of an interval.
+    `edges` (k,), m, are the parameters of the defining points, ascending; `spacing` (m) is the
+    least length of an interval.
 
     Examples
     --------
@@ -78,23 +70,10 @@ def has_room(edges: FloatArray, at: FloatArray, spacing: float) -> BoolArray:
 
 
 def sharp_turn(known: FloatArray, edges: FloatArray, at: FloatArray, knuckle: BoolArray) -> int:
-    """Give a given point beside a smooth place where the chords turn so much as to fold.
+    """Give a given point, at (n,) m, beside a smooth place where the chords fold; -1 if none do.
 
-    Parameters
-    ----------
-    known : (k, 3), m
-        The defining points.
-    edges : (k,), m
-        Their parameters.
-    at : (n,), m
-        Parameters of the given points.
-    knuckle : (k,) bool
-        Which of the defining points may turn as they like.
-
-    Returns
-    -------
-    int
-        -1 if the chords turn nowhere so much.
+    `known` (k, 3) and `edges` (k,), m, are the defining points and their parameters; those at a
+    `knuckle` (k,) may turn as they like.
     """
     step = np.diff(known, axis=0)
     step = step / np.maximum(np.linalg.norm(step, axis=1), 1e-12)[:, None]
@@ -109,23 +88,10 @@ def sharp_turn(known: FloatArray, edges: FloatArray, at: FloatArray, knuckle: Bo
 
 
 def point_amid_interval(edges: FloatArray, at: FloatArray, point: int) -> tuple[int, float, float]:
-    """Give a given point for the interval of one that is passed badly.
+    """Give a given point for the interval of one, `point`, that is passed badly.
 
-    Parameters
-    ----------
-    edges : (k,), m
-        Parameters of the defining points.
-    at : (n,), m
-        Parameters of the given points.
-    point : int
-        The given point that is passed badly.
-
-    Returns
-    -------
-    point : int
-        The given point nearest to it in the middle part of the interval.
-    target, reach : float, m
-        Where a point is wanted; a crossing within the reach will do as well.
+    That is the one nearest to it in the middle part of the interval. Also given are `target` and
+    `reach`, m: where a point is wanted, and how near to it a crossing will do as well.
     """
     here = float(at[point])
     low = float(edges[edges <= here].max(initial=-np.inf))
@@ -141,16 +107,7 @@ def point_amid_interval(edges: FloatArray, at: FloatArray, point: int) -> tuple[
 def point_near(edges: FloatArray, at: FloatArray, place: float, spacing: float) -> int:
     """Give a given point by which a curve can be held at a place; -1 if there is no room.
 
-    Parameters
-    ----------
-    edges : (k,), m
-        Parameters of the defining points, ascending.
-    at : (n,), m
-        Parameters of the given points.
-    place : float, m
-        Parameter of the place.
-    spacing : float, m
-        Least length of an interval.
+    Arguments as of `has_room`; `place` is the parameter of the place, m.
     """
     above = int(np.searchsorted(edges, place).clip(1, len(edges) - 1))
     low, high = float(edges[above - 1]), float(edges[above])
@@ -161,39 +118,24 @@ def point_near(edges: FloatArray, at: FloatArray, place: float, spacing: float) 
 
 
 def _inside(at: FloatArray, low: float, high: float) -> np.typing.NDArray[np.int64]:
+    """Give the given points in the middle half of an interval."""
     quarter = 0.25 * (high - low)
     return np.flatnonzero((at > low + quarter) & (at < high - quarter))
 
 
 # --------------------------------------------------------------------------------------
-# Watched crossings whose curves, thinned, pass each other too far off.
-#
-# Two densely drawn lines that meet may each keep within its tolerance, one on this side and one
-# on the other; the gap between them is then twice as large. Where it exceeds a part of the
-# adoption tolerance, the curve that passes its own line farther there needs another point.
+# Watched gaps. Two densely drawn lines that meet may each keep within its tolerance, one on this
+# side and one on the other; the gap between them is then twice as large.
 
 
 def wide_gaps(
     reference: SplineBatch, trial: SplineBatch, meetings: Sequence[LineIntersection], limit: float
 ) -> list[tuple[int, float]]:
-    """Find the curves that need another point because of gaps, the widest first.
+    """Find the curves that need another point because of gaps over a limit (m), the widest first.
 
-    Parameters
-    ----------
-    reference : SplineBatch
-        The lines as given.
-    trial : SplineBatch
-        The curves as they are thinned so far.
-    meetings : sequence of Meeting
-        Crossings that define neither curve.
-    limit : float, m
-        How wide a gap may be.
-
-    Returns
-    -------
-    list of (int, float)
-        A curve and the parameter (m) of the crossing on its reference; the curve that passes
-        its own line farther off comes first, the other of the pair after it.
+    `reference` are the lines as given, `trial` the curves as thinned so far, `meetings` crossings
+    that define neither curve. Gives curves with the parameter of the crossing on their reference;
+    the curve that passes its own line farther off comes first, the other of the pair after it.
     """
     if not meetings:
         return []
@@ -253,21 +195,25 @@ def find_worst(
     found: list[tuple[int, int]] = []
     left: list[OmittedPoint] = []
     numbers = [[item.number for item in order] for order in orders]
-    # A curve made through the same points as when it held its line holds it still.
+    # a curve made through the same points as when it held its line holds it still
     todo = [i for i, order in enumerate(numbers) if work.held.get(i) != order]
     measured = distances(work, todo, [orders[i] for i in todo], splines, todo)
     for curve, (away, beside) in zip(todo, measured, strict=True):
         source = net.sources[curve]
         for point in np.flatnonzero(away > source.tolerance).tolist():
             close = beside[point] < net.state.tolerances.adopted_spacing
+            # `distances` has looked at the room on dense lines; a crossing there can be let in.
             if close and not source.dense and thinned_at(work, curve, point) is None:
                 left.append(OmittedPoint(curve, point, float(away[point]), float(beside[point])))
+                # Else it would hide the worst of those that can be taken in.
                 away[point] = 0.0
+        # In parts of the tolerance, which may differ from point to point.
         worst = int((away / source.tolerance).argmax())
         if not (away > source.tolerance).any():
             worst = _sharp(work, curve, orders[curve]) if source.dense else -1
         if worst >= 0:
             found.append((curve, worst))
+        # Points that cannot be taken in are told of the last round only: it is measured again.
         elif not any(each.curve == curve for each in left):
             work.held[curve] = numbers[curve]
     return found, left
@@ -315,26 +261,11 @@ def distances(
     splines: SplineBatch,
     numbers: Sequence[int],
 ) -> list[tuple[FloatArray, FloatArray]]:
-    """Give how far curves pass the given points, and how far those are from defining ones.
+    """Give, per curve, distances (n,), m, of its given points from it and from defining points.
 
-    Parameters
-    ----------
-    work : Work
-        What was given.
-    curves : (m,) int
-        The curves.
-    orders : (m,) list of Item
-        What defines each.
-    splines, numbers : SplineBatch, (m,) int
-        A batch with the curves lofted through them, and which of its curves they are.
-
-    Returns
-    -------
-    (m,) pairs
-        away : (n,), m
-            Nil at a defining point; of a dense line, also where there is no room for one more.
-        beside : (n,), m
-            From the nearest defining point.
+    `orders` are what defines each of the m curves, `numbers` (m,) which curves of `splines` they
+    are. The first distance is zero at a defining point; of a dense line, also where there is no
+    room for one more.
     """
     pairs = list(zip(curves, orders, strict=True))
     measured = [_beside(work, curve, order) for curve, order in pairs]
@@ -359,7 +290,10 @@ def distances(
 
 
 def _beside(work: ThinningState, curve: int, order: list[CurveItem]) -> tuple[IntArray, FloatArray]:
-    """Find the given points of a curve that define it not, and how far all are from those."""
+    """Find the given points that do not define a curve, and how far all are from defining ones.
+
+    The distances are (n,), m.
+    """
     known = work.given.xyz[work.numbers(order)]
     step = work.net.sources[curve].points[:, None, :] - known[None, :, :]
     there = np.flatnonzero(np.abs(step).max(axis=2).min(axis=1) > SAME_PLACE)
@@ -367,7 +301,7 @@ def _beside(work: ThinningState, curve: int, order: list[CurveItem]) -> tuple[In
 
 
 def _close_off(work: ThinningState, curve: int, order: list[CurveItem], away: FloatArray) -> None:
-    """Pass over the points of a dense line where there is no room for one more."""
+    """Set the distance of points of a dense line to zero where there is no room for one more."""
     if work.net.sources[curve].dense:
         edges = np.array([item.at for item in order])
         spacing = work.net.state.tolerances.adopted_spacing

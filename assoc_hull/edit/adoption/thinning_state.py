@@ -138,9 +138,9 @@ class ThinningState:
 
     Attributes
     ----------
-    net : Net
+    net : ReferenceNet
         What was given.
-    items : list of list of Item
+    items : list of list of CurveItem
         By curve, in order along it.
     chosen : list of set of int
         By curve, the numbers of the crossings that define it.
@@ -148,7 +148,7 @@ class ThinningState:
         Points by themselves.
     held : dict of int to list of int
         By curve, the numbers through which it was last found to hold its line.
-    given : Given
+    given : NumberedItems
         All that has a number, as columns.
     fixed_count : int
         Number of contacts and meetings; points are counted after them.

@@ -1,8 +1,8 @@
-"""Look a whole hull over: what is wrong, each finding with its place and number.
+"""Check a whole hull: what is wrong, each finding with its place and number.
 
-`check` runs every look in a fixed order and goes on past one that stumbles over damaged tables.
-The small looks stand here too: points off their features, lines detached from the definitions,
-gaps over their limit, curves that failed, driven links in a ring.
+`check` runs every look in a fixed order. `find_tables` comes first: where it finds damage, a
+later look that fails over it is reported as unfinished; on a sound hull such a failure is raised.
+The looks of one page stand here too; those on links, shapes and tables have modules of their own.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from assoc_hull.edit.checks.finding import Finding, row_finding
 from assoc_hull.edit.checks.link_findings import find_associations, find_links, find_roles
 from assoc_hull.edit.checks.shape_findings import bounded, find_sense, find_shape
 from assoc_hull.edit.checks.table_findings import find_tables
-from assoc_hull.edit.document import Document
 from assoc_hull.errors import RingError
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.feature_geometry import ROUNDING, line_numbers, places_off
@@ -32,15 +31,12 @@ __all__ = [
     "find_off_features",
 ]
 
-# --------------------------------------------------------------------------------------
-# Findings on features: points that lie off them, and references that lead nowhere.
-#
-# An edit never leaves any behind: it dissolves what it bends. A file that other hands have written
-# may hold them, and so does a hull between a mapping and the making anew of its features.
-
 
 def find_off_features(state: HullState, book: AddressBook) -> Iterator[Finding]:
-    """Tell, feature by feature, the point that lies farthest off where one lies too far off.
+    """Report, per feature, the farthest point off it, and references that lead nowhere.
+
+    No edit leaves any behind, as it dissolves what it bends. A file written by another program
+    may hold some, and so does a hull between a mapping and the making anew of its features.
 
     Examples
     --------
@@ -72,19 +68,17 @@ def _off(state: HullState, book: AddressBook, feature: Feature) -> Iterator[Find
         yield row_finding(state, book, feature.points[worst], "feature", text, float(off[worst]))
 
 
-# --------------------------------------------------------------------------------------
-# Findings on definitions: lines that keep a shape of their own, against what defines them.
-#
-# Nothing is wrong with such a line; but who changes a definition must know that it stays.
+_MOST_DETACHED = 10
+"""More detached lines than these are reported in one finding."""
 
-_MOST = 10
-"""More lines than these are told in one finding."""
-
-_TOLD = 3
+_NAMED_DETACHED = 3
+"""So many further lines are named in that finding."""
 
 
 def find_detached(state: HullState, book: AddressBook) -> Iterator[Finding]:
-    """Tell, line by line, which are detached from the definitions; many of them at once.
+    """Report the lines that are detached from the definitions; many of them in one finding.
+
+    Nothing is wrong with such a line, but whoever changes a definition must know that it stays.
 
     Examples
     --------
@@ -99,10 +93,10 @@ def find_detached(state: HullState, book: AddressBook) -> Iterator[Finding]:
     lost = [made for made in state.generated if not made.attached and made.curve in live]
     lines = {state.line_of(made.curve) for made in lost}
     names = sorted(book.line_name(line) for line in lines)
-    if len(names) > _MOST:
-        told = ", ".join(names[1 : 1 + _TOLD])
+    if len(names) > _MOST_DETACHED:
+        named = ", ".join(names[1 : 1 + _NAMED_DETACHED])
         text = (
-            f"and {len(names) - 1} other lines ({told} ...) are detached from the definitions: "
+            f"and {len(names) - 1} other lines ({named} ...) are detached from the definitions: "
             "their shape was edited since; edit.reattach returns one"
         )
         yield Finding("detached", names[0], None, float(len(names)), text)
@@ -115,24 +109,24 @@ def find_detached(state: HullState, book: AddressBook) -> Iterator[Finding]:
 
 
 # --------------------------------------------------------------------------------------
-# What is wrong with a hull, each finding with its place and number; empty if nothing is.
+# All looks, in their order.
 
 
-def check(source: Document | HullState, notes: bool = False) -> tuple[Finding, ...]:
-    """Look a whole hull over.
+def check(state: HullState, notes: bool = False) -> tuple[Finding, ...]:
+    """Report what is wrong with a hull; empty if nothing is.
 
     Parameters
     ----------
-    source : Document or HullState
-        The hull.
+    state : HullState
+        The tables of the hull.
     notes : bool
-        Whether to tell also what is not wrong: crossings that define a curve and that the
+        Whether to report also what is not wrong: crossings that define a curve and that the
         role rule would not choose any more.
 
     Returns
     -------
     tuple of Finding
-        In the order of their kinds, each kind by the keys of the objects.
+        Those on the tables first, then look by look, each sorted by kind and object.
 
     Examples
     --------
@@ -141,7 +135,6 @@ def check(source: Document | HullState, notes: bool = False) -> tuple[Finding, .
     >>> check(wigley())
     ()
     """
-    state = source.state if isinstance(source, Document) else source
     book = AddressBook(state)
     found = list(find_tables(state, book))
     damaged = bool(found)
@@ -158,10 +151,11 @@ def check(source: Document | HullState, notes: bool = False) -> tuple[Finding, .
 
 
 _STUMBLES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+"""What a look raises over damaged tables."""
 
 
 def _left_out(look: str, error: Exception) -> Finding:
-    """Say that a look could not be finished over the damage that is told before."""
+    """Report that a look could not be finished over the damage that was reported before."""
     title = look.strip("_").removeprefix("find_")
     text = f"could not be checked to the end ({type(error).__name__}): mend the tables first"
     return Finding("tables", title, None, None, text)
@@ -188,6 +182,7 @@ _BROKEN = {
 
 
 def _of_curve(state: HullState, book: AddressBook, curve: int) -> Finding:
+    """Make a finding, without kind and message, at the first defining point of a curve."""
     rows = state.curves.rows.data[curve]
     place = tuple(state.rows.xyz.data[int(rows[0])].tolist()) if len(rows) else None
     return Finding("", book.curve_name(curve), place, None, "")
@@ -196,6 +191,7 @@ def _of_curve(state: HullState, book: AddressBook, curve: int) -> Finding:
 def _gaps(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Watched crossings whose curves pass each other farther apart than they may."""
     rows = watched_on(state, state.live("curves"))
+    # crossings without places, and damaged splines, are reported by other looks
     rows = rows[np.isfinite(state.rows.parameter.data[rows]).all(axis=1)]
     lofted = np.array([bounded(spline) for spline in state.curves.spline.data], bool)
     rows = rows[lofted[state.rows.curve.data[rows]].all(axis=1)]

@@ -33,9 +33,6 @@ __all__ = [
     "role_words",
 ]
 
-# --------------------------------------------------------------------------------------
-# Findings on links: roles against readers and drivers, orphans, twins.
-
 
 def find_links(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Give all findings on links between points, curves, lines and groups.
@@ -60,7 +57,7 @@ def find_links(state: HullState, book: AddressBook) -> Iterator[Finding]:
 
 
 def expected_links(state: HullState, rows: IntArray) -> tuple[IntArray, IntArray]:
-    """Give the readers (k, 2) and drivers (k,) that follow from the roles of points."""
+    """Give the readers (k, 2) and drivers (k,), curves, that follow from the roles; -1 for none."""
     curve, role = state.rows.curve.data[rows], state.rows.role.data[rows]
     crossing = state.rows.sort.data[rows] == Sort.CROSSING
     first = ~crossing | (role == Role.SHARED) | (role == Role.DRIVES_A)
@@ -162,7 +159,7 @@ def _twins(state: HullState, book: AddressBook) -> Iterator[Finding]:
         contact = bool(state.rows.contact.data[row])
         for side, curve in enumerate(state.rows.curve.data[row].tolist()):
             if curve not in known or (contact and side == 1):
-                continue
+                continue  # a contact is no intersection of the line that ends there
             reads = bool((state.rows.reader.data[row] == curve).any())
             if row not in known[curve] and not (contact and reads):
                 name = book.curve_name(curve)
@@ -204,7 +201,7 @@ def _foreign(state: HullState, book: AddressBook) -> Iterator[Finding]:
 
 
 # --------------------------------------------------------------------------------------
-# Findings on associations: whether they are of groups there are, and crossings agree with them.
+# Associations: whether their groups exist, and whether crossings agree with them.
 
 
 def find_associations(state: HullState, book: AddressBook) -> Iterator[Finding]:
@@ -299,15 +296,15 @@ def _latent_meetings(state: HullState) -> dict[tuple[int, int], FloatArray]:
 
 
 # --------------------------------------------------------------------------------------
-# Notes on roles: crossings that define a curve and that the role rule would not choose today.
-#
-# An edit of shape never changes a role. So after many edits a crossing may define a curve
-# that it now crosses too flatly, or too near to another one; it is noted only with 3 degrees
-# or a fifth of the spacing to spare. The other way round says nothing: a crossing that could
-# define a curve may have been left out because the curve would have moved.
+# Notes on roles. After many edits a crossing may define a curve that it now crosses too flatly,
+# or too near to another one. The other way round says nothing: a crossing that could define a
+# curve may have been left out because the curve would have moved.
 
 _ANGLE = 3.0
+"""Degrees below the least angle of the role rule before a crossing is noted."""
+
 _PART = 0.2
+"""Part of the least spacing of the role rule, likewise."""
 
 
 def find_roles(state: HullState, book: AddressBook) -> Iterator[Finding]:
@@ -337,7 +334,10 @@ def find_roles(state: HullState, book: AddressBook) -> Iterator[Finding]:
 
 
 def _may_define(state: HullState) -> dict[tuple[int, int], set[bool]]:
-    """Say for each crossing and curve what the rule may choose, within the margins."""
+    """Say for each crossing and curve what the rule chooses with stricter and looser limits.
+
+    ``{False}``: it is left out even within the margins.
+    """
     strict, loose = _margin(state.tolerances, 1.0), _margin(state.tolerances, -1.0)
     found: dict[tuple[int, int], set[bool]] = {}
     for curve in state.live("curves").tolist():
@@ -361,7 +361,10 @@ def _margin(tolerances: Tolerances, sense: float) -> Tolerances:
 
 
 def _candidates(state: HullState, curve: int, on: PointsOnCurve) -> Candidates:
-    """Give the crossings of a curve as the role rule sees them."""
+    """Give the points of a curve as the role rule sees them; angles in degrees.
+
+    An adopted point that is not fixed gets angle 0, so the rule never chooses it.
+    """
     other = state.rows.curve.data[on.row, 1 - on.side]
     crossing = other >= 0
     fixed = (state.rows.sort.data[on.row] == Sort.PLACED) | state.rows.contact.data[on.row]

@@ -1,9 +1,8 @@
 """Findings on shape: what is wrong with curves and points as geometry.
 
-Numbers that are not finite, folds, points too close to one another, crossings off their curves
-or out of their planes; and crossings that a curve no longer passes in the sense it did: the sign
-of a crossing is its identity, so a curve bent the other way there is another topology.
-`find_turned` serves the update as well, the others the check of a whole hull.
+Numbers that are not finite, folds, points too close to one another, points off their curves or
+out of their planes; and crossings that a curve no longer passes in the sense it did.
+`find_turned` serves the update, `find_sense` and `find_shape` the check of a whole hull.
 """
 
 from __future__ import annotations
@@ -30,9 +29,6 @@ __all__ = [
     "find_turned",
     "turned_crossings",
 ]
-
-# --------------------------------------------------------------------------------------
-# Findings on shape: numbers, folds, points too close, crossings off their curves or planes.
 
 
 def find_shape(state: HullState, book: AddressBook) -> Iterator[Finding]:
@@ -149,11 +145,9 @@ def _off_planes(state: HullState, book: AddressBook) -> Iterator[Finding]:
 
 
 # --------------------------------------------------------------------------------------
-# Whether curves still pass, at the crossings they are made through, in the sense they did.
-#
-# A crossing is one meeting and keeps its sign: the curve enters the half space of its partner
-# there, or leaves it. A curve bent so far that it passes there the other way, or not at all,
-# is another topology: its meeting of that sign lies elsewhere now, and the crossing would
+# Whether curves pass, at the crossings they are made through, in the sense they did. A crossing
+# keeps its sign: the curve enters the half space of its partner there, or leaves it. Bent the other
+# way there, the curve has its intersection of that sign elsewhere, or none: the crossing would
 # stand for two places at once.
 
 
@@ -175,12 +169,12 @@ class TurnedCrossings:
 
 
 def turned_crossings(state: HullState, curves: IntArray) -> TurnedCrossings:
-    """Find the crossings of curves that are not their meetings where they lie.
+    """Find the crossings of curves that are not their intersections where they lie.
 
-    A meeting has the sign its crossing was born with, so one that lies where the crossing
-    does, within the length below which two points are one, says that the sense is kept. Left
-    out is where a line ends, turns or leaves a flat; and a boundary curve may run in the
-    plane of a line that ends on it.
+    An intersection has the sign its crossing was born with, so one that lies where the crossing
+    does, within `Tolerances.coincident`, says that the sense is kept. Contacts are left out on
+    the side of the line that ends, turns or leaves a flat there; on that of the boundary curve
+    where it has no intersection, as it may run in the plane of the line.
     """
     if not len(curves):
         return TurnedCrossings(curves, curves, np.zeros(0))
@@ -208,13 +202,13 @@ def _positions(known: IntArray, wanted: IntArray) -> IntArray:
 
 
 def _parts(state: HullState, row: IntArray, curve: IntArray) -> IntArray:
-    """Give twice the point, plus the side on which the curve stands."""
+    """Give one number for point and curve: twice the point, plus the side of the curve."""
     found: IntArray = 2 * row + (state.rows.curve.data[row, 0] != curve)
     return found
 
 
 def _met(state: HullState, curves: IntArray) -> tuple[IntArray, FloatArray]:
-    """Give the crossings that meetings of curves are, as parts, and where these lie."""
+    """Give the crossings that curves have intersections at, as `_parts`, and their places, m."""
     meets: list[CurveIntersections] = [state.curves.meets.data[curve] for curve in curves.tolist()]
     row = np.concatenate([each.row for each in meets])
     owner = np.repeat(curves, [len(each.row) for each in meets])
@@ -224,7 +218,7 @@ def _met(state: HullState, curves: IntArray) -> tuple[IntArray, FloatArray]:
 
 
 def find_turned(state: HullState, curves: IntArray) -> tuple[str, ...]:
-    """Say where curves pass a plane in another sense than their crossing there has."""
+    """Say for the update where curves pass a plane in another sense than their crossing has."""
     found = turned_crossings(state, curves)
     if not len(found.row):
         return ()
@@ -237,7 +231,7 @@ def find_turned(state: HullState, curves: IntArray) -> tuple[str, ...]:
 
 
 def find_sense(state: HullState, book: AddressBook) -> Iterator[Finding]:
-    """Give the findings of this kind on a whole hull."""
+    """Give the findings on the sense of crossings of a whole hull."""
     live = state.live("curves")
     lofted = [state.curves.spline.data[curve] is not None for curve in live.tolist()]
     for row, curve, apart in _each(turned_crossings(state, live[lofted])):

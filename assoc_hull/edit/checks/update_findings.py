@@ -1,9 +1,7 @@
 """What must hold after an update, before it is published.
 
 Each function looks at the curves that the update has evaluated and gives findings as text; all
-are collected before the edit is refused. Gaps are measured and stored on the way. A line that
-ends on a boundary curve must keep its end: an edit that would take it is refused, and new
-meetings of a boundary curve, where a line has no piece, are only noted.
+are collected before the edit is refused. Gaps of watched crossings are stored on the way.
 """
 
 from __future__ import annotations
@@ -37,9 +35,6 @@ __all__ = [
     "plane_normals",
     "splines_of",
 ]
-
-# --------------------------------------------------------------------------------------
-# What must hold after an update, before it is published; all findings are collected.
 
 _CENTRE = 1e-6
 """How far (m) a point may lie beyond the centre plane by rounding."""
@@ -95,6 +90,7 @@ def find_folds(
         curve = int(curves[local])
         mine = found.curve == local
         old = before.get(curve)
+        # a hull that was taken in with folds may be edited, but gets no more of them
         if old is not None and len(curve_folds(old).curve) >= int(mine.sum()):
             continue
         x, y, z = batch.xyz[batch.start[local] + found.knot[mine][0]].tolist()
@@ -141,9 +137,9 @@ def find_beyond(state: HullState, curves: IntArray, batch: SplineBatch | None) -
 
 
 def _held_at_contact(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
-    """Tell which contacts a boundary curve is made through.
+    """Tell which contacts a boundary curve is made through: it may run in the line's plane there.
 
-    Where it runs in the plane of the line, it need not pass that plane.
+    Such a contact needs no intersection on the boundary curve.
     """
     made = state.rows.reader.data[rows, 0] == state.rows.curve.data[rows, 0]
     return np.asarray(state.rows.contact.data[rows] & made)
@@ -183,6 +179,7 @@ def measure_gaps(
     known = index.guess if index is not None and len(index.guess) == state.rows.count else None
     gap = gap_at(state, rows, known)
     journal.put(state.rows.gap, rows, gap)
+    # a watched crossing is published where it lies on curve a
     journal.put(state.rows.xyz, rows, state.rows.spot.data[rows, 0])
     limit = state.rows.limit.data.take(rows)
     wide = gap > limit
@@ -199,6 +196,7 @@ def _watched(state: HullState, curves: IntArray, index: Index) -> IntArray:
 
 
 def _to_mend(state: HullState, rows: IntArray, part: FloatArray) -> IntArray:
+    """Give `WideGaps.mend` from the gaps in parts of their limits, (n,)."""
     giving = state.rows.curve.data[rows, 1]
     chosen = (part > 0.5) & np.isin(giving, giving[part > 1.0])
     keys = state.rows.key.data
@@ -217,14 +215,14 @@ def plane_normals(state: HullState, curves: IntArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Boundary curves that come to meet the plane of a line more or fewer times than before.
-#
-# A line has a piece between every two meetings of its plane with the boundary curves that it
-# ends on. An edit of such a curve makes and unmakes no pieces: a new pair of meetings stays
-# latent, and is told; an edit by which a piece would lose its end is refused.
+# Boundary curves that come to meet the plane of a line more or fewer times than before. A line has
+# a piece between every two intersections of its plane with the boundary curves that it ends on.
+# An edit of such a curve makes and unmakes no pieces: a new pair of intersections stays latent and
+# is noted; an edit by which a piece would lose its end is refused.
 
 
 def _bounding(state: HullState, alignments: Sequence[Alignment]) -> list[Alignment]:
+    """Select the alignments of boundary curves on which lines end."""
     kind = state.lines.boundary.data
     return [each for each in alignments if kind[state.line_of(each.curve)] == BoundaryKind.END]
 
@@ -251,7 +249,7 @@ def find_endless(state: HullState, ends: Sequence[tuple[int, int]]) -> tuple[str
 
 
 def note_new_ends(state: HullState, alignments: Sequence[Alignment]) -> list[str]:
-    """Tell where boundary curves have come to meet planes of lines that have no piece there."""
+    """Note where boundary curves have come to meet planes of lines that have no piece there."""
     notes: list[str] = []
     for each in _bounding(state, alignments):
         meets: CurveIntersections = state.curves.meets.data[each.curve]

@@ -35,11 +35,12 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The answer to why an object is as it is: a tree of causes, as lines and as a drawn tree.
+# The answer, as text and as a drawn tree.
 
-_TOLD = 4
+_STOPS = 4
 """So many of the places where a change stopped are named in the text."""
 
+# what goes on beside a branch, below the last one, at a branch, at the last one
 _INDENT = ("  ", "  ", "  ", "  ")
 _BRANCH = ("│  ", "   ", "├─ ", "└─ ")
 _PLAIN = ("|  ", "   ", "|- ", "`- ")
@@ -114,19 +115,18 @@ class Why:
         return "\n".join([*head, *self._lines(marks, "", "", set())])
 
     def _lines(
-        self, marks: tuple[str, str, str, str], here: str, below: str, told: set[str]
+        self, marks: tuple[str, str, str, str], here: str, below: str, seen: set[str]
     ) -> Iterator[str]:
-        """Give the lines of this part of the tree.
+        """Give the lines of this part of the tree; objects `seen` before are not opened again.
 
-        `marks` are what goes on beside a branch, below the last one, at a branch, at the
-        last one; `here` stands before the first line, `below` before all others.
+        `here` stands before the first line, `below` before all others.
         """
         amount = "" if self.moved is None else f", moved {1e3 * self.moved:.3f} mm"
-        again = self.object in told and bool(self.causes)
+        again = self.object in seen and bool(self.causes)
         yield f"{here}{self.name}: {self.what}{amount}" + (" (see above)" if again else "")
         if again:
             return
-        told.add(self.object)
+        seen.add(self.object)
         beside, after, branch, last = marks
         if self.stopped:
             mark = branch if self.causes else last
@@ -134,15 +134,15 @@ class Why:
         for cause in self.causes:
             final = cause is self.causes[-1]
             mark, rest = (last, after) if final else (branch, beside)
-            yield from cause._lines(marks, below + mark, below + rest, told)
+            yield from cause._lines(marks, below + mark, below + rest, seen)
 
     def _stops(self) -> str:
-        more = f" and {len(self.stopped) - _TOLD} more" if len(self.stopped) > _TOLD else ""
-        return ", ".join(self.stopped[:_TOLD]) + more
+        more = f" and {len(self.stopped) - _STOPS} more" if len(self.stopped) > _STOPS else ""
+        return ", ".join(self.stopped[:_STOPS]) + more
 
 
 # --------------------------------------------------------------------------------------
-# Why an object is as it is: the edit, the objects through which it came, and where it stopped.
+# The question.
 
 Thing = Group | Line | Curve | Point | Crossing
 
@@ -194,9 +194,9 @@ def why_after(state: HullState, steps: Sequence[Step], node: int) -> Why:
     if _is_watched(state, node):
         return _watched(state, steps, book, node)
     for number in range(len(steps), 0, -1):
-        teller = _Teller(state, book, steps[number - 1], number)
-        if teller.tracer.knows(node):
-            return teller.tell(teller.tracer.trace(node))
+        traces = _NamedTraces(state, book, steps[number - 1], number)
+        if traces.tracer.knows(node):
+            return traces.name(traces.tracer.trace(node))
     return Why(_key(state, node), _name(book, node), None, 0, None, _still(state, node))
 
 
@@ -299,8 +299,8 @@ def _state(state: HullState, node: int) -> State:
     return State(int(table.state.data[node >> 1])) if node >> 1 < table.count else State.CLEAN
 
 
-def _told(causes: Sequence[CauseTree], made: Collection[int]) -> list[CauseTree]:
-    """Leave out generated points but the one that moved most: they come of the same definitions."""
+def _without_alike(causes: Sequence[CauseTree], made: Collection[int]) -> list[CauseTree]:
+    """Of generated points of the same definitions keep only the one that moved most, the first."""
     found, known = list[CauseTree](), set[tuple[int, ...]]()
     for each in causes:
         roots = tuple(sorted(cause.node for cause in each.causes))
@@ -311,7 +311,7 @@ def _told(causes: Sequence[CauseTree], made: Collection[int]) -> list[CauseTree]
     return found
 
 
-class _Teller:
+class _NamedTraces:
     """Puts the traces of one step into names."""
 
     def __init__(self, state: HullState, book: AddressBook, step: Step, number: int) -> None:
@@ -320,20 +320,20 @@ class _Teller:
         self._done: dict[int, Why] = {}
         self._made = frozenset((2 * attached_rows(state)).tolist())
 
-    def tell(self, trace: CauseTree) -> Why:
-        """Put a trace into names."""
+    def name(self, trace: CauseTree) -> Why:
+        """Put a trace into names; each node once, as many readers share it."""
         node = trace.node
         if node not in self._done:
             self._done[node] = Why(
                 _key(self.state, node), _name(self.book, node), self.step.name, self.number,
                 None if np.isnan(trace.moved) else trace.moved, self._what(trace),
-                tuple(self.tell(each) for each in _told(trace.causes, self._made)),
+                tuple(self.name(each) for each in _without_alike(trace.causes, self._made)),
                 self._stopped(node),
             )  # fmt: skip
         return self._done[node]
 
     def _stopped(self, node: int) -> tuple[str, ...]:
-        """Name where a change stopped; of a definition the lines of which it moved no point."""
+        """Name where a change stopped; for a definition, the curves of which it moved no point."""
         quiet = self.tracer.cut_off(node)
         if node >= 0:
             return tuple(_name(self.book, each) for each in quiet)
@@ -356,5 +356,5 @@ class _Teller:
     def _values(self, node: int) -> str:
         """Say which values of a definition the edit set."""
         name = _form(self.state, node).name
-        told = [change_text(each) for each in self.step.report.definitions if each[0] == name]
-        return ", ".join(told)
+        texts = [change_text(each) for each in self.step.report.definitions if each[0] == name]
+        return ", ".join(texts)

@@ -1,8 +1,8 @@
 """Two states of a hull side by side: which lines differ, how far, and the principal numbers.
 
-Lines are told apart by their keys. A state of the history is reached by walking: the writes of
-steps are run backward and forward over the tables, and at the end these are as they were, whatever
-happens in between; the document learns nothing of it.
+Lines are matched by their keys. A state of the history is reached by walking: the writes of steps
+are run backward and forward over the tables of the hull, and at the end these are as they were,
+whatever happens in between. The document is not changed.
 """
 
 from __future__ import annotations
@@ -32,9 +32,6 @@ __all__ = [
     "state_at",
     "walk_states",
 ]
-
-# --------------------------------------------------------------------------------------
-# Two states of a hull side by side: which lines differ, how far, and the principal numbers.
 
 
 @attrs.frozen
@@ -94,14 +91,14 @@ class Comparison:
     def __str__(self) -> str:
         many = "1 line differs" if len(self.lines) == 1 else f"{len(self.lines)} lines differ"
         head = f"{self.states[0]} -> {self.states[1]}: {many}"
-        told = [head, *(f"  {line}" for line in self.lines)]
+        text = [head, *(f"  {line}" for line in self.lines)]
         for name, (old, new) in self.numbers.items():
             change = "" if old is None or new is None else f" ({new - old:+.6g})"
-            told.append(f"  {name}: {_plain(old)} -> {_plain(new)}{change}")
+            text.append(f"  {name}: {_plain(old)} -> {_plain(new)}{change}")
         for name, (was, now) in (("name", self.names), ("deck", self.decks)):
             if was != now:
-                told.append(f"  {name}: {was} -> {now}")
-        return "\n".join(told)
+                text.append(f"  {name}: {was} -> {now}")
+        return "\n".join(text)
 
 
 def _plain(number: float | None) -> str:
@@ -109,19 +106,7 @@ def _plain(number: float | None) -> str:
 
 
 def compare_states(before: HullState, after: HullState, states: tuple[str, str]) -> Comparison:
-    """Compare two states of a hull, or two hulls; lines are told apart by their keys.
-
-    Parameters
-    ----------
-    before, after : HullState
-        The tables.
-    states : (str, str)
-        What they are called.
-
-    Returns
-    -------
-    Comparison
-    """
+    """Compare two states of a hull, or two hulls; `states` is what they are called."""
     old, new = (_lines(state) for state in (before, after))
     found = [LineDifference(old[key][0], "removed") for key in old if key not in new]
     found += [LineDifference(new[key][0], "added") for key in new if key not in old]
@@ -177,13 +162,13 @@ def _numbers(state: HullState) -> dict[str, float | None]:
 
 
 # --------------------------------------------------------------------------------------
-# The hull as it was after any step, beside the hull as it is.
+# States of the history.
 
 PRESENT_STATE = "the present state"
 
 
 class StateWalk:
-    """Brings the tables of a hull from one state to another; the document learns nothing of it."""
+    """Brings the tables of a hull from one state of its history to another, step by step."""
 
     def __init__(self, document: Document) -> None:
         self.document = document

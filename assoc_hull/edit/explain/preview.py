@@ -1,7 +1,7 @@
-"""Look at an edit before it is made: everything runs, nothing is published.
+"""Preview of an edit: everything runs, nothing is published.
 
-The update runs on the hull itself and is taken back by its journal. Before that, what is to be
-known is read off: the report, which lines change and how far, the volume, and why an object moves.
+The update runs on the hull itself and is taken back by its journal. Before that, its outcome is
+read: the report, which lines change and how far, the volume, and why an object moves.
 `line_changes` works on any committed step as well.
 """
 
@@ -37,7 +37,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Which lines an edit changes, how far each moves, and where.
+# Changes of lines.
 
 _PER_SEGMENT = 8
 """So many places of each segment are measured, where no point of the curve has moved."""
@@ -68,24 +68,15 @@ class LineChange:
 
 
 def line_changes(state: HullState, step: Step | None) -> tuple[LineChange, ...]:
-    """Tell which lines a step has changed.
+    """Give the lines that a step has changed, for the tables as the step leaves them.
 
-    Parameters
-    ----------
-    state : HullState
-        The tables as the step leaves them.
-    step : Step or None
-        The step; None if nothing changed.
-
-    Returns
-    -------
-    tuple of LineChange
-        Group by group in the order of the ranks, along each group by plane, then by name.
+    Group by group in the order of the ranks, along each group by plane, then by name.
     """
     if step is None:
         return ()
-    told = ((step.changed & 1) == 0) & np.isfinite(step.moved)
-    rows, away = step.changed[told] >> 1, step.moved[told]
+    # nodes of points are even, see `row_node`; a point whose movement is not known counts for none
+    known = ((step.changed & 1) == 0) & np.isfinite(step.moved)
+    rows, away = step.changed[known] >> 1, step.moved[known]
     alive = state.rows.alive.data[rows]
     found = _Movements(state, AddressBook(state), step, rows[alive], away[alive])
     curves: dict[int, list[int]] = {}
@@ -128,7 +119,7 @@ class _Movements:
         return LineChange(group, name, off, None, place)
 
     def _between(self, curve: int) -> tuple[float | None, tuple[float, float, float] | None]:
-        """Give how far a curve lies from where it was, and where that is most."""
+        """Give how far a curve lies from where it was, m, and where that is most; None if new."""
         fairness = self.step.report.fairness
         old: SplineBatch | None = None if fairness is None else fairness.before.get(curve)
         if old is None:
@@ -141,7 +132,7 @@ class _Movements:
 
 
 # --------------------------------------------------------------------------------------
-# Looking at an edit before it is made: everything runs, nothing is published.
+# Previews.
 
 
 @attrs.frozen
@@ -203,7 +194,7 @@ def preview(
     name : str
         Name of the edit, for its report.
     why : sequence of objects or addresses
-        Objects of which to tell why they would change.
+        Objects whose causes are reported: why they would change.
 
     Returns
     -------
@@ -229,7 +220,7 @@ def preview(
 
 @attrs.frozen
 class _After:
-    """What is to be known of a hull before an edit is taken back."""
+    """What is read of a hull before an edit is taken back."""
 
     displaced: EvenKeelDisplacement | None
     lines: tuple[LineChange, ...]

@@ -26,19 +26,11 @@ __all__ = [
     "rebase_adopted_points",
 ]
 
-# --------------------------------------------------------------------------------------
-# Putting a point among those that define a curve.
-
 
 def insertion_index(xyz: FloatArray, place: FloatArray) -> int:
     """Give the index before which a place belongs: the least detour from neighbour to neighbour.
 
-    Parameters
-    ----------
-    xyz : (n, 3), m
-        The points of a curve, in order.
-    place : (3,), m
-        The new point.
+    `xyz` (n, 3), m, are the points of a curve in order, `place` (3,), m, is the new one.
 
     Examples
     --------
@@ -71,12 +63,10 @@ def insert_defining_point(maker: Maker, curve: int, row: int) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# Adopted points ride: when a driven neighbour moves, the shape between goes along.
-#
-# An adopted point holds a shape that crossings alone cannot. Its place is its base plus a
-# linear blend of the displacements of its nearest driven neighbours since they were last
-# linked; so there and back is exact. A generated point does not ride, and none that was one:
-# definitions place it, or a designer did.
+# Riding. An adopted point holds a shape that crossings alone cannot. Its place is its base plus a
+# linear blend of the displacements of its nearest driven neighbours since they were last linked;
+# so there and back is exact. A generated point does not ride, and none that was one: definitions
+# place it, or a designer did.
 
 
 def link_adopted_points(state: HullState, curves: IntArray, journal: Journal) -> None:
@@ -109,7 +99,7 @@ def link_adopted_points(state: HullState, curves: IntArray, journal: Journal) ->
 def _weights(
     state: HullState, rows: IntArray, adopted: IntArray, pair: IntArray
 ) -> np.typing.NDArray[np.float64]:
-    """Give the part of the way from the first to the second neighbour, by chords."""
+    """Give the part of the way from the first to the second neighbour, by chords, (k,)."""
     step = np.diff(state.rows.xyz.data[rows], axis=0)
     chord = np.concatenate([[0.0], np.cumsum(np.sqrt((step * step).sum(axis=1)))])
     low, high = chord[np.maximum(pair[:, 0], 0)], chord[np.maximum(pair[:, 1], 0)]
@@ -121,7 +111,7 @@ def _weights(
 
 
 def rebase_adopted_points(state: HullState, rows: IntArray, journal: Journal) -> None:
-    """Take the present places of adopted points and of their neighbours as the base."""
+    """Make the present places of adopted points, and of their neighbours, those they ride from."""
     if not len(rows):
         return
     anchor = state.rows.anchor.data[rows]
@@ -131,10 +121,8 @@ def rebase_adopted_points(state: HullState, rows: IntArray, journal: Journal) ->
 
 
 # --------------------------------------------------------------------------------------
-# Mending a watched gap: one curve gets a point where the other passes.
-#
-# The curve of higher rank gives way, unless a crossing or a border holds it just there. One that
-# comes from definitions never does.
+# Mending a watched gap: the curve of higher rank gets a point where the other passes, unless a
+# crossing or a border holds it just there.
 
 _NEAR = 0.15
 """An adopted point as near as this (m) is moved instead of setting another beside it."""
@@ -143,27 +131,16 @@ _NEAR = 0.15
 def mend_gaps(
     maker: Maker, rows: IntArray, on: IntArray | None = None
 ) -> tuple[IntArray, IntArray]:
-    """Close gaps over their limit, the widest first on each stretch.
+    """Close gaps over their limit at watched crossings (k,), in the given order.
 
-    Parameters
-    ----------
-    maker : Maker
-        Writes the points.
-    rows : (k,) int
-        Watched crossings, in the order in which they are mended.
-    on : (k,) int or None
-        The curve that is to give way at each; the one of higher rank, else the other, if None.
-
-    Returns
-    -------
-    curves, points : (c,) int, (p,) int
-        Curves whose recipe changed, and points that were moved.
+    `on` (k,) are the curves that are to give way; the one of higher rank, else the other, if None.
+    Gives the curves whose recipe changed, and the points that were moved.
     """
     state, curves, moved = maker.state, set[int](), set[int]()
     giving = state.rows.curve.data[rows, 1] if on is None else on
     for row, curve in zip(rows.tolist(), giving.tolist(), strict=True):
         pair: list[int] = state.rows.curve.data[row].tolist()
-        # Where a fixed point beside the crossing holds one curve, the other gives way.
+        # where a fixed point beside the crossing holds one curve, the other gives way
         other = pair[1 - pair.index(curve)]
         for yielding in (curve,) if on is not None else (curve, other):
             place = state.rows.spot.data[row, 1 - pair.index(yielding)].copy()

@@ -1,9 +1,9 @@
 """Crossings that come and go when a plane meets a curve more or fewer times than before.
 
 A crossing exists only where both curves reach each other's plane at one place; elsewhere the
-relation stays latent. `settle_crossings` takes out and makes crossings after each pass;
-`rejoin_crossings` puts watched ones back whose two curves were aligned apart. The role of a new
-crossing is what the role rule gives there now.
+relation stays latent: the curve has an intersection with the plane, its `row` is -1. The role of a
+new crossing is what the role rule gives there now. `settle_crossings` runs after each pass of an
+update.
 """
 
 from __future__ import annotations
@@ -35,11 +35,8 @@ __all__ = [
     "settle_crossings",
 ]
 
-# --------------------------------------------------------------------------------------
-# Crossings that come and go when a plane meets a curve more or fewer times than before.
-
 ONE_PLACE = 2.0
-"""Meetings farther apart than this (m) are not one place, whatever the gap between them."""
+"""Intersections farther apart than this (m) are not one place, whatever the gap between them."""
 
 
 @attrs.frozen
@@ -52,12 +49,9 @@ class CrossingChange:
 
 
 def latent_intersections(state: HullState, curves: IntArray) -> list[tuple[int, int]]:
-    """Give the meetings of curves at which the other line did not pass so far.
+    """Give the intersections of curves at which the other line did not pass so far.
 
-    Returns
-    -------
-    list of (int, int)
-        Curve, and index of the meeting on it.
+    Each is a curve, and the index of the intersection on it.
     """
     met = [state.curves.meets.data[curve].row for curve in curves.tolist()]
     if not met or np.concatenate(met).min(initial=0) >= 0:
@@ -74,8 +68,8 @@ def settle_crossings(
 ) -> CrossingChange:
     """Take out crossings that have no place any more, and make those that have come.
 
-    A crossing exists only where both curves reach each other's plane at one place; where
-    only one does, the relation stays latent, until the curves come near one another there.
+    `latent` are intersections as of `latent_intersections`, `edited` curves that the designer
+    edited. In the order of keys, so that the outcome does not depend on row numbers.
     """
     born: list[str] = []
     gone: list[str] = []
@@ -100,7 +94,7 @@ def _holds(state: HullState, row: int, curve: int) -> bool:
 
 
 def _remove(maker: Maker, row: int) -> set[int]:
-    """Take a crossing out of the curves it defines and of the meetings of both."""
+    """Take a crossing out of the curves it defines and of the intersections of both."""
     state = maker.state
     touched: set[int] = set()
     for curve in state.rows.reader.data[row].tolist():
@@ -116,7 +110,7 @@ def _remove(maker: Maker, row: int) -> set[int]:
 
 
 def make_latent(maker: Maker, curve: int, row: int) -> None:
-    """Make the meeting of a curve at a crossing latent."""
+    """Make the intersection of a curve at a crossing latent."""
     meets: CurveIntersections = maker.state.curves.meets.data[curve]
     if (meets.row == row).any():
         left = np.where(meets.row == row, -1, meets.row)
@@ -126,23 +120,10 @@ def make_latent(maker: Maker, curve: int, row: int) -> None:
 def make_crossing(
     maker: Maker, curve: int, spot: int, edited: set[int], *, watch: bool = False
 ) -> int | None:
-    """Make the crossing at a new meeting, if the other line passes there too.
+    """Make the crossing at intersection `spot` of a curve; None if the other line is not there.
 
-    Parameters
-    ----------
-    maker : Maker
-        Writes it.
-    curve, spot : int
-        The curve, and the index of the meeting on it.
-    edited : set of int
-        Curves that the designer edited; a birth takes its value from these.
-    watch : bool
-        Whether it is to define neither curve, whatever the role rule says.
-
-    Returns
-    -------
-    int or None
-        The new point; None while the relation stays latent.
+    Its value comes from a curve of `edited`, those that the designer edited, if one is. If
+    `watch`, it defines neither curve, whatever the role rule says.
     """
     state = maker.state
     meets: CurveIntersections = state.curves.meets.data[curve]
@@ -167,7 +148,10 @@ def make_crossing(
 def intersection_gap(
     state: HullState, one: tuple[int, int], other: tuple[int, int]
 ) -> tuple[float, float]:
-    """Give the gap along the hull's normal, and how far the places lie apart, m."""
+    """Give the gap along the hull's normal, and the distance of the two places, m.
+
+    Each is a curve, and the index of the intersection on it.
+    """
     places, slopes = [], []
     for curve, spot in (one, other):
         meets: CurveIntersections = state.curves.meets.data[curve]
@@ -191,7 +175,7 @@ def _write_crossing(
     edited: set[int],
     watch: bool,
 ) -> int:
-    """Make a crossing of two meetings, with the role the rule gives it now."""
+    """Make a crossing of two intersections, with the role the rule gives it now."""
     state = maker.state
     (a, spot_a), (b, spot_b) = sorted((one, other), key=lambda each: state.rank(each[0]))
     meets_a: CurveIntersections = state.curves.meets.data[a]
@@ -212,6 +196,7 @@ def _write_crossing(
     for curve in (a, b):
         if (state.rows.reader.data[row] == curve).any():
             insert_defining_point(maker, curve, row)
+    # at birth the gap may be at its limit already: it has half as much again
     maker.journal.put(state.rows.limit, [row], [max(2.0 * state.tolerances.adoption, 1.5 * gap)])
     maker.journal.put(state.rows.gap, [row], [gap])
     maker.journal.put(state.rows.parameter, [row], [at])
@@ -258,7 +243,7 @@ def _may_define(state: HullState, curve: int, partner: int, at: float, row: int 
     """Apply the role rule to one crossing; what else defines the curve already stays."""
     knots, rows = state.spline(curve).knot, state.curves.rows.data[curve]
     if len(knots) == len(rows):
-        # A point adopted where the crossing is stands in for it, and goes when it defines.
+        # a point adopted where the crossing is stands in for it, and goes when it defines
         adopted = state.rows.sort.data[rows] == Sort.ADOPTED
         stands_in = adopted & (np.abs(knots - at) < 1e-3) & (row >= 0)
         knots = knots[(rows != row) & ~stands_in]
@@ -276,15 +261,13 @@ def _may_define(state: HullState, curve: int, partner: int, at: float, row: int 
 
 
 # --------------------------------------------------------------------------------------
-# Watched crossings whose two curves were aligned apart: each by itself, at different branches.
-#
-# The meetings of a curve are aligned with those it had, curve by curve. Where several come at
-# once, the least displacements on one curve and on the other may take a crossing to different
-# places. One of the two curves then passes at the place of the other too, in the same sense and
-# unclaimed: that is the crossing.
+# Watched crossings aligned apart. The intersections of a curve are aligned with those it had, curve
+# by curve. Where several come at once, the least displacements on one curve and on the other may
+# take a crossing to different places. One of the two curves then passes at the place of the other
+# too, in the same sense and unclaimed: that is the crossing.
 
-_Meeting = tuple[int, int]
-"""A curve, and the index of a meeting on it."""
+_Intersection = tuple[int, int]
+"""A curve, and the index of an intersection on it."""
 
 
 def rejoin_crossings(maker: Maker, alignments: list[Alignment]) -> None:
@@ -301,7 +284,7 @@ def rejoin_crossings(maker: Maker, alignments: list[Alignment]) -> None:
 def _rejoin_crossing(maker: Maker, row: int) -> None:
     """Move a crossing on one of its curves, if that brings its two places together."""
     state = maker.state
-    here = [_meeting_of(state, curve, row) for curve in state.rows.curve.data[row].tolist()]
+    here = [_intersection_of(state, curve, row) for curve in state.rows.curve.data[row].tolist()]
     if here[0] is None or here[1] is None or _one_place(state, here[0], here[1]) is not None:
         return
     found: list[tuple[float, int, int, int]] = []
@@ -316,27 +299,27 @@ def _rejoin_crossing(maker: Maker, row: int) -> None:
         _attach(maker, row, side, spot, other)
 
 
-def _meeting_of(state: HullState, curve: int, row: int) -> _Meeting | None:
+def _intersection_of(state: HullState, curve: int, row: int) -> _Intersection | None:
     spots = np.flatnonzero(state.curves.meets.data[curve].row == row)
     return (curve, int(spots[0])) if len(spots) else None
 
 
 def _unclaimed_like(state: HullState, curve: int, spot: int) -> list[int]:
-    """Give the meetings of a curve with the same plane in the same sense, of no crossing."""
+    """Give the intersections of a curve with the same plane and sign that are of no crossing."""
     meets: CurveIntersections = state.curves.meets.data[curve]
     like = (meets.line == meets.line[spot]) & (meets.sign == meets.sign[spot]) & (meets.row < 0)
     return list(np.flatnonzero(like).tolist())
 
 
-def _one_place(state: HullState, one: _Meeting, other: _Meeting) -> float | None:
-    """Say how well two meetings fit one another; None if they are not one place."""
+def _one_place(state: HullState, one: _Intersection, other: _Intersection) -> float | None:
+    """Give how far two intersections are from fitting, m; None if they are not one place."""
     gap, apart = intersection_gap(state, one, other)
     near = gap <= 2.0 * state.tolerances.adoption and apart <= ONE_PLACE
     return gap + 0.01 * apart if near else None
 
 
 def _attach(maker: Maker, row: int, side: int, spot: int, other: int) -> None:
-    """Let another meeting of a curve be the crossing; the one it was becomes latent."""
+    """Let another intersection of a curve be the crossing; the one it was becomes latent."""
     table, curve = maker.state.rows, int(maker.state.rows.curve.data[row, side])
     meets: CurveIntersections = maker.state.curves.meets.data[curve]
     rows = meets.row.copy()

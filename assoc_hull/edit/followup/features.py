@@ -33,18 +33,13 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# On which side of its points a feature lies, seen against the normal of its plane.
+# Sides of features: left (1) or right (-1) of their points, seen against the plane's normal.
 
 
 def circle_side(xyz: FloatArray, centre: FloatArray, normal: FloatArray) -> int:
     """Tell whether the centre lies left of an arc, 1, or right of it, -1.
 
-    Parameters
-    ----------
-    xyz : (n, 3), m
-        Its points in order.
-    centre, normal : (3,)
-        Centre, m, and unit normal.
+    `xyz` (n, 3), m, are its points in order, `normal` is of unit length.
     """
     left = np.cross(normal, xyz[1] - xyz[0])
     return 1 if float((left * (centre - xyz[0])).sum()) > 0.0 else -1
@@ -53,19 +48,8 @@ def circle_side(xyz: FloatArray, centre: FloatArray, normal: FloatArray) -> int:
 def flat_side(state: HullState, edge: IntArray, normal: FloatArray, offset: float) -> int:
     """Tell on which side of its edge a flat lies, by the other points of the hull in its plane.
 
-    Parameters
-    ----------
-    state : HullState
-        The tables.
-    edge : (n,) int
-        The points of the edge in order.
-    normal, offset : (3,), float
-        The plane, normal . place = offset, m.
-
-    Returns
-    -------
-    int
-        1 left, -1 right; 0 where no point lies in the plane, or as many on either side.
+    `edge` (n,) are the points of the edge in order; the plane is normal . place = offset (m).
+    Gives 0 where no point lies in the plane, or as many on either side.
     """
     rows = np.setdiff1d(state.live("rows"), edge)
     xyz = state.rows.xyz.data
@@ -80,11 +64,8 @@ def flat_side(state: HullState, edge: IntArray, normal: FloatArray, offset: floa
 
 
 # --------------------------------------------------------------------------------------
-# The features of a net: found once, when it is adopted, where kinds of points say they are.
-#
-# A curve is taken apart at its tangent points and knuckles. A piece is a straight run or an arc if
-# its points say so and its tangents agree; a free end proves nothing, for any three points lie on
-# some circle.
+# Finding features, where kinds of points say they are. A free end of a curve proves nothing, for
+# any three points lie on some circle.
 
 LOOSE = 1e-3
 """Points of a straight run lie this near to it (m), those of an arc within its line's tolerance."""
@@ -182,7 +163,7 @@ def _make(state: HullState, line: int, kind: str, rows: IntArray, **more: object
         name = title if whole else f"{title} {kind}"
         key = f"{key} {kind} @ ({x:.4f}, {y:.4f}, {z:.4f})"
     made = Feature(key, kind, name, (state.lines.key.data[line],), rows.tolist(), **more)  # type: ignore[arg-type]
-    # In whole nanometres: another machine's last bit must not show in it.
+    # in whole nanometres: another machine's last bit must not show in it
     off = float(places_off(made, state.rows.xyz.data[rows]).max())
     return attrs.evolve(made, gap=round(off, 9))
 
@@ -223,6 +204,7 @@ def _of_curve(state: HullState, line: int, curve: int, tolerance: float) -> Iter
 
 
 def _pieces(state: HullState, line: int, curve: int) -> Iterator[_Piece]:
+    """Divide a curve at tangent points and knuckles; no pieces without tangent or held start."""
     rows, side = state.curves.rows.data[curve], state.curves.side.data[curve]
     kind = state.rows.kind.data[rows, side]
     if not (kind == PointKind.TANGENT).any() and not _held(state, curve, 0):
@@ -291,7 +273,7 @@ def _tangent(piece: _Piece) -> list[bool]:
 
 
 # --------------------------------------------------------------------------------------
-# A feature after its line has changed: its points anew, its plane that of its line.
+# Features after their lines have changed.
 
 
 def followed_feature(
@@ -300,23 +282,10 @@ def followed_feature(
     numbers: Mapping[str, int],
     places: Mapping[int, FloatArray] | None = None,
 ) -> Feature | None:
-    """Give a feature as it lies on its line now.
+    """Give a feature as it lies on its line now; None if its line, an end or too much has gone.
 
-    Parameters
-    ----------
-    state : HullState
-        The tables.
-    feature : Feature
-        As it was; its points may have gone.
-    numbers : mapping of str to int
-        The live lines, by key.
-    places : mapping of int to (3,), m, or None
-        Where a mapping has sent points that may have gone; as in the tables if None.
-
-    Returns
-    -------
-    Feature or None
-        None if its line, one of its ends or too much of it has gone.
+    `numbers` are the live lines by key; `places` (3,), m, by point, are where a mapping has sent
+    points that may have gone, as in the tables if None.
     """
     lines = [numbers[key] for key in feature.lines if key in numbers]
     if len(lines) < len(feature.lines):
@@ -346,7 +315,7 @@ def _between_ends(
 
 
 def _stands(state: HullState, rows: IntArray, row: int, places: Mapping[int, FloatArray]) -> int:
-    """Tell where a point stands among those of a curve, or what took its place; -1 if nowhere."""
+    """Give the index among a curve's points of a point, or of what took its place; -1 if none."""
     at = np.flatnonzero(rows == row)
     if not len(at) and not state.rows.alive.data[row]:
         away = state.rows.xyz.data[rows] - places.get(row, state.rows.xyz.data[row])
@@ -355,12 +324,9 @@ def _stands(state: HullState, rows: IntArray, row: int, places: Mapping[int, Flo
 
 
 def feature_in_plane(state: HullState, feature: Feature, line: int) -> Feature | None:
-    """Lay a feature into the plane of its line; turn a join as its point is turned.
+    """Put a feature into the plane of its line; turn a join as its point is turned.
 
-    Returns
-    -------
-    Feature or None
-        None for a join whose point is no tangent point any more.
+    None for a join whose point is no tangent point any more.
     """
     if feature.kind == "tangent":
         return _turned(state, feature)

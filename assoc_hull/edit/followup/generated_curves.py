@@ -1,8 +1,8 @@
 """Points of a curve that comes from definitions, made anew from a recipe.
 
-It happens when the pieces of the curve are others than before, when it needs more points, or when
-a line is returned to its definitions. Points whose mark stays keep their identity, so that nothing
-that reads them is torn off.
+That happens when the pieces of the curve are others than before, when it needs more points, or
+when a line is returned to its definitions. Points whose mark stays keep their identity, so that
+nothing that reads them loses them.
 """
 
 from __future__ import annotations
@@ -32,9 +32,6 @@ __all__ = [
     "recipe_for",
     "remake_points",
 ]
-
-# --------------------------------------------------------------------------------------
-# Which curves of a line may come from definitions.
 
 
 def attachable_curves(state: HullState, line: int) -> list[GeneratedCurve]:
@@ -67,16 +64,14 @@ def _is_section(state: HullState, line: int) -> bool:
 
 
 # --------------------------------------------------------------------------------------
-# The points of a generated curve made anew: when its pieces are others, or it needs more points.
-#
-# Points whose mark stays keep their identity, so that nothing that reads them is torn off.
+# Recipes.
 
 Vector = tuple[float, float, float]
 
 
 @attrs.frozen
 class CurveRecipe:
-    """Of what a generated curve is to be made.
+    """What a generated curve is to be made of.
 
     Attributes
     ----------
@@ -135,19 +130,7 @@ def recipe_for(state: HullState, made: GeneratedCurve, layout: str) -> CurveReci
 def remake_points(maker: Maker, made: GeneratedCurve, recipe: CurveRecipe) -> GeneratedCurve:
     """Give a curve the points of a recipe, its own ends before and behind them.
 
-    Parameters
-    ----------
-    maker : Maker
-        Writes structure.
-    made : GeneratedCurve
-        The curve as it is known.
-    recipe : Recipe
-        What it is to be.
-
-    Returns
-    -------
-    GeneratedCurve
-        Attached; the caller puts it into the table.
+    The result is attached; the caller puts it into the table.
     """
     state, journal = maker.state, maker.journal
     rows, fresh = _rows(maker, made, recipe)
@@ -179,7 +162,7 @@ def _rows(maker: Maker, made: GeneratedCurve, recipe: CurveRecipe) -> tuple[IntA
         if same and state.rows.alive.data[row]
     }
     missing = [mark for mark in recipe.marks if mark not in known]
-    # A key tells where its point first lay: the place must be known before the point is.
+    # a key is of the place where its point first lay: that must be known before the point is made
     bare = made.evolve(layout=recipe.layout, marks=tuple(missing), rows=(-1,) * len(missing))
     places = points_given(state, [bare])[1]
     specs = [PointSpec(made.curve, place, Sort.ADOPTED) for place in places]
@@ -201,6 +184,7 @@ def _thread(maker: Maker, made: GeneratedCurve, new: GeneratedCurve) -> None:
         every = np.concatenate([rest, rows])
         maker.define(made.curve, every[np.argsort(state.rows.xyz.data[every, 0], kind="stable")])
         return
+    # ends that are no generated points stay: there a section meets profile and deck edge
     first, last = rest[rest == old[0]], rest[rest == old[-1]]
     left = rest[(rest != old[0]) & (rest != old[-1])]
     maker.define(made.curve, np.concatenate([first, rows, last]))

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.arguments import flag, word
+from assoc_hull.edit.lines.plane_intersections import intersect_groups, remove_planes
+from assoc_hull.edit.lines.remove_line import replace_crossings
 from assoc_hull.edit.modifications.roles import change_role
-from assoc_hull.edit.newline.plane_intersections import intersect_groups, remove_planes
-from assoc_hull.edit.newline.remove_line import replace_crossings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray

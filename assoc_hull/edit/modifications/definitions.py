@@ -35,9 +35,6 @@ __all__ = [
     "set_form",
 ]
 
-# --------------------------------------------------------------------------------------
-# Giving a definition other values: whatever is generated from it follows.
-
 CLOSED: Mapping[str, tuple[str, ...]] = {
     "sectional_area": ("cb", "cp", "lcb"), "design_waterline": ("cw", "lcf"),
 }  # fmt: skip
@@ -66,7 +63,7 @@ def definition_named(state: HullState, name: FormDefinition | str) -> FormDefini
 
 
 def definition_meant(state: HullState, thing: object) -> FormDefinition | None:
-    """Give the definition that is asked for by itself, its key, name or use; None if none is.
+    """Give the definition that a key, name, use or definition asks for; None if none is.
 
     A line, curve or point of that name comes first.
     """
@@ -146,23 +143,15 @@ def _with(
 
 
 # --------------------------------------------------------------------------------------
-# Letting a curve that comes from definitions drive the lines that it crosses.
-#
-# A line that was cut, or shifted, passes the others where these lie: it may be watched there, or
-# even driven. Once it comes from definitions it gives the value, and points that the other lines
-# adopted close by, in its place, go.
+# Driving other lines. A line that was cut, or shifted, passes the others where these lie: it may be
+# watched there, or even driven. Once it comes from definitions it gives the value.
 
 
 def drive_others(edit: Transaction, curve: int) -> None:
     """Let a curve drive those on which its group alone generates points.
 
-    Parameters
-    ----------
-    edit : Transaction
-        The edit.
-    curve : int
-        A curve. Crossings whose role was set by hand keep it; so do those with a point that the
-        other curve cannot do without close by, which are watched.
+    Crossings whose role was set by hand keep it; those with a point close by that the other curve
+    cannot do without are watched.
     """
     state, table = edit.state, edit.state.rows
     mine = table.alive.data & (table.sort.data == Sort.CROSSING) & ~table.contact.data
@@ -195,7 +184,7 @@ def _make_room(edit: Transaction, curve: int, row: int) -> bool:
 
 
 # --------------------------------------------------------------------------------------
-# Returning lines to the definitions: what was drawn by hand gives way, at the designer's wish.
+# Returning lines to the definitions.
 
 
 def reattach(edit: Transaction, line: int) -> None:
@@ -241,7 +230,7 @@ def _refuse_others(state: HullState, made: GeneratedCurve) -> None:
     """Refuse where a point defines the curve that the definitions know nothing of."""
     rows: IntArray = state.curves.rows.data[made.curve]
     if made.what == "waterline":
-        return
+        return  # definitions give only the ends of its flat: other points may stand beside them
     for row in rows[1:-1].tolist():
         if row in made.rows:
             continue

@@ -21,7 +21,7 @@ def rename(edit: Transaction, what: ResolvedAddress, name: object) -> None:
     ----------
     edit : Transaction
         The edit.
-    what : Place
+    what : ResolvedAddress
         A line, its only curve, or a point: both friends of a crossing then have the name.
     name : str
         The name; nothing that could be read as an address.

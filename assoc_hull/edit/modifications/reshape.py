@@ -1,9 +1,9 @@
 """Re-shape a curve: it takes the designer's new shape, and the hull around it follows.
 
 The designer gives points within a span. Between them, and out to its ends, their displacements are
-blended (quintic, curvature-continuous) and added to the present shape, so the curve keeps what it
-had of detail. `ReshapeField` lets the other points take the curve's normal change, fading with the
-distance; lines of a group that takes nothing from the curve's group stay.
+blended (quintic, curvature-continuous) and added to the present shape, so the curve keeps its
+detail. `ReshapeField` lets the other points take the curve's normal change, fading with the
+distance; what defines lines of a group that takes nothing from the curve's group stays.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ from assoc_hull.edit.displacement_field import (
 )
 from assoc_hull.edit.followup.adopted_points import insertion_index
 from assoc_hull.edit.hull_normals import hull_normals
+from assoc_hull.edit.lines.line_planes import checked_in_planes
 from assoc_hull.edit.modifications.points import pin
-from assoc_hull.edit.newline.line_planes import checked_in_planes
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
@@ -47,12 +47,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The field of a re-shaped curve: how the hull around it follows.
-#
-# For a waterline or a buttock the other points take the curve's normal change at the same x,
-# fading with the distance seen along x; for a section the change at its nearest point seen
-# along x, fading along the length. What defines lines of a group that takes nothing from the
-# curve's, by a one-way association, stays.
+# The field. For a waterline or a buttock the other points take the curve's normal change at the
+# same x, fading with the distance seen along x; for a section the change at its nearest point seen
+# along x, fading along the length.
 
 
 @attrs.frozen(eq=False)
@@ -197,12 +194,8 @@ def _defines(state: HullState, rows: IntArray, groups: IntArray) -> np.typing.ND
 
 
 # --------------------------------------------------------------------------------------
-# Re-shaping a curve: it takes the designer's new shape, the hull around it follows.
-#
-# The designer gives points the curve is to pass. Between them, and out to the ends of the
-# span, their displacements are blended smoothly (quintic, curvature-continuous) and added to
-# the present shape, so what the curve had of detail it keeps. The curve's own shared points
-# take the exact meeting of this new shape with the partner planes.
+# The curve itself. Its own shared points take the exact intersections of the new shape with the
+# planes of their other lines.
 
 _NEAR = 0.5
 """A point of the new shape as near as this (m) to a crossing, in its plane, is that crossing."""
@@ -235,7 +228,7 @@ class _Design:
     shape_at: FloatArray
 
     def at_parameters(self, parameters: FloatArray) -> FloatArray:
-        """Blend the displacements, (k, 3), m; nil outside the stretch."""
+        """Blend the displacements, (k, 3), m; zero outside the stretch."""
         index = np.clip(np.searchsorted(self.at, parameters, side="right") - 1, 0, len(self.at) - 2)
         low, high = self.at[index], self.at[index + 1]
         part = (parameters - low) / np.where(high > low, high - low, 1.0)
@@ -350,6 +343,7 @@ def _slide(state: HullState, curve: int, old: SplineBatch, moved: FloatArray) ->
             continue
         normal = state.lines.normal.data[other]
         along = float(slopes[i] @ normal)
+        # a curve that runs along the plane would slide far
         if abs(along) > 0.1 * float(np.sqrt((slopes[i] * slopes[i]).sum())):
             out[i] = moved[i] - slopes[i] * (float(moved[i] @ normal) / along)
     return out
@@ -375,10 +369,10 @@ def _design(
     low = float(before.max()) if len(before) else float(old.knot[0]) - free[0] * reach[0]
     high = float(after.min()) if len(after) else float(old.knot[-1]) + free[1] * reach[1]
     first, last = int(at[0] > low), int(at[-1] < high)
-    nil = np.zeros((1, 3))
+    zeros = np.zeros((1, 3))
     return _Design(
         np.concatenate([np.full(first, low), at, np.full(last, high)]),
-        np.concatenate([nil[:first], shape - foot, nil[:last]]),
+        np.concatenate([zeros[:first], shape - foot, zeros[:last]]),
         shape,
         at,
     )
@@ -437,23 +431,23 @@ def _own_rows(
 def _goals(
     state: HullState, curve: int, rows: IntArray, displaced: FloatArray, new: SplineBatch
 ) -> FloatArray:
-    """Give where own points go: crossings to the new shape's meeting with their plane."""
+    """Give where own points go, (k, 3), m: crossings where the new shape meets their plane."""
     order: IntArray = state.curves.rows.data[curve]
     index = {row: i for i, row in enumerate(order.tolist())}
     goals = np.array([displaced[index[row]] for row in rows.tolist()]).reshape(-1, 3)
     for i, row in enumerate(rows.tolist()):
         if state.rows.sort.data[row] == Sort.CROSSING:
-            goals[i] = _meeting(state, curve, row, goals[i], new)
+            goals[i] = _nearest_intersection(state, curve, row, goals[i], new)
     line = state.line_of(curve)
     if state.lines.planar.data[line]:
         goals[:, state.lines.normal.data[line] == 1.0] = state.lines.offset.data[line]
     return goals
 
 
-def _meeting(
+def _nearest_intersection(
     state: HullState, curve: int, row: int, place: FloatArray, new: SplineBatch
 ) -> FloatArray:
-    """Give the meeting of the new shape with the other line's plane that is nearest."""
+    """Give the intersection of the new shape with the other line's plane nearest to a place."""
     pair = state.rows.curve.data[row]
     other = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))
     if not state.lines.planar.data[other]:
@@ -471,6 +465,7 @@ def _meeting(
 
 
 def _radius(state: HullState, fade: Fade, shape: FloatArray) -> tuple[float, float] | None:
+    """Give the radii of the fade, m: by default three spacings of sections, and of points."""
     if fade is None:
         return None
     if isinstance(fade, str) and fade == "auto":
@@ -481,6 +476,7 @@ def _radius(state: HullState, fade: Fade, shape: FloatArray) -> tuple[float, flo
 
 
 def _station_spacing(state: HullState) -> float:
+    """Give the median spacing of lines across the ship, m; Lpp / 20 of fewer than two."""
     lines = state.live("lines")
     across = lines[state.lines.planar.data[lines] & (state.lines.normal.data[lines, 0] == 1.0)]
     offsets = np.sort(state.lines.offset.data[across])

@@ -14,7 +14,7 @@ import numpy as np
 from assoc_hull.arguments import word
 from assoc_hull.edit.followup.adopted_points import insert_defining_point, link_adopted_points
 from assoc_hull.edit.followup.crossings import role_by_rule
-from assoc_hull.edit.newline.remove_line import prune_points
+from assoc_hull.edit.lines.remove_line import prune_points
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, PointRoleError
 from assoc_hull.geometry.curves import IntArray
@@ -28,9 +28,6 @@ __all__ = [
     "renew_roles",
     "set_role",
 ]
-
-# --------------------------------------------------------------------------------------
-# Overriding the role rule at one crossing, and giving it back to the rule.
 
 _SAME = 1e-3
 """An adopted point as near as this (m) stood in for the crossing that now defines."""
@@ -88,6 +85,7 @@ def change_role(edit: Transaction, row: int, new: Role) -> None:
         return
     edit.refuse_moved(np.array([row]))
     if old is Role.WATCHED:
+        # its curves pass it in two places: the value is that of the curve that gives it now
         side = int(new is Role.DRIVES_A)
         edit.journal.put(state.rows.xyz, [row], state.rows.spot.data[row, side][None])
     edit.maker.roles(np.array([row]), np.array([int(new)]))
@@ -133,10 +131,6 @@ def _drop_stand_in(edit: Transaction, curve: int, row: int) -> None:
     if len(gone):
         edit.maker.define(curve, rows[~np.isin(rows, gone)])
         edit.maker.remove_rows(gone)
-
-
-# --------------------------------------------------------------------------------------
-# Applying the role rule again, as a modification of its own.
 
 
 def renew_roles(edit: Transaction, lines: Sequence[int]) -> int:

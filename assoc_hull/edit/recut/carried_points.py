@@ -13,6 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.followup.tangencies import PlaneTangency
+from assoc_hull.edit.lines.kept_runs import KeptRuns
 from assoc_hull.edit.mapped_planes import (
     IN_PLANE,
     TransformedPlanes,
@@ -20,7 +21,6 @@ from assoc_hull.edit.mapped_planes import (
     plane_heights,
     snap_into_planes,
 )
-from assoc_hull.edit.newline.kept_runs import KeptRuns
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray
@@ -71,7 +71,7 @@ class TransformationState:
         Writes structure.
     space : SpaceMap
         The mapping.
-    planes : Planes
+    planes : TransformedPlanes
         Where the planes of the lines come to.
     driver : (l,) bool
         Which lines drive.
@@ -87,7 +87,7 @@ class TransformationState:
         Whether `value` is final.
     slid : (r,) bool
         Whether a crossing was found where an image or a follower meets a plane.
-    made : dict of int to Through
+    made : dict of int to DefiningPoints
         Curves whose points are chosen.
     gone : set of int
         Points that have no place any more.
@@ -99,12 +99,12 @@ class TransformationState:
         Followers with new crossings with boundary curves.
     anew : dict of int to dict of (int, int) to int
         Followers that come to end elsewhere on boundary curves: they are cut wholly anew.
-        Crossings with drivers by the driver and the meeting, counted along it.
-    stays : dict of int to Stays
+        Crossings with drivers by the driver and the intersection, counted along it.
+    stays : dict of int to KeptRuns
         What of followers that are cut wholly anew stays as it was, nevertheless.
     held : set of int
         All points that stay so.
-    touches : dict of (int, int) to Touch
+    touches : dict of (int, int) to PlaneTangency
         Where planes are tangent to features, by the curve of the feature and the line.
     fine : dict of int to float, m
         Drivers that are features, and how far they may leave their exact shape.
@@ -260,11 +260,11 @@ def curve_data_through(
 
     Parameters
     ----------
-    work : Carried
+    work : TransformationState
         The transformation.
     curves : sequence of int
         The curves; one may come again with other points.
-    parts : sequence of Through or None
+    parts : sequence of DefiningPoints or None
         Their points; None for those that are chosen.
     """
     state = work.state

@@ -1,11 +1,10 @@
 """A mapping carries a net point by point: its structure stays as it is.
 
 Every point goes to its image, or slides back into the planes of its lines over the image of the
-hull (`assoc_hull.edit.recut.slide_into_planes`); then all lines are lofted again. No point comes
-or goes, so lines
-leave their exact images between their points as they will, and a hull so carried is a smooth
-function of the mapping. `assoc_hull.edit.recut.transform` holds lines to their images and cuts
-others anew instead.
+hull (`assoc_hull.edit.recut.slide_into_planes`); then all lines are lofted again. No point comes or
+goes, so lines leave their exact images between their points as they will, and a hull so carried is
+a smooth function of the mapping. `assoc_hull.edit.recut.transform` holds lines to their images and
+cuts others anew instead.
 """
 
 from __future__ import annotations
@@ -44,7 +43,7 @@ class NetMap:
         The mapping.
     drivers : (d,) int
         Lines whose planes go along with the mapping, boundary curves among them.
-    planes : Planes
+    planes : TransformedPlanes
         Where the planes of all lines go.
     features : tuple of Feature
         With the numbers that they get.
@@ -74,7 +73,7 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
 
     Returns
     -------
-    Carried
+    TransformationState
         Where the points go; those that are computed from curves follow when the edit ends.
 
     Raises

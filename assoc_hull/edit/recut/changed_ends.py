@@ -1,9 +1,9 @@
-"""Followers that come to end elsewhere on boundary curves.
+"""Followers of a transformation that come to end elsewhere on boundary curves.
 
-First it is told which these are, from the intersections of the images of boundary curves. Where
-there are as many ends as before, each lost one is handed over to one that is won. Else the line is
-taken out while the others are carried and cut, and then cut wholly anew, as a shifted line; runs
-of its points that the mapping leaves where they are stay with all that they define.
+Which these are follows from the intersections of the images of boundary curves with the planes of
+followers. Where there are as many ends as before, each lost one is handed over to one that is
+gained. Else the line is taken out while the others are carried and cut, and then cut wholly anew,
+as a shifted line; runs of its points that the mapping leaves still stay with all they define.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from assoc_hull.edit.followup.tangencies import (
     tangency_rows,
     without_double_roots,
 )
-from assoc_hull.edit.newline.kept_runs import NO_KEPT_RUNS, KeptRun, KeptRuns, suspend_roles
-from assoc_hull.edit.newline.marks import find_marks, with_tangencies
-from assoc_hull.edit.newline.plane_intersections import remove_line_plane
-from assoc_hull.edit.newline.shift_line import crossings_and_placed, recut_line
+from assoc_hull.edit.lines.kept_runs import NO_KEPT_RUNS, KeptRun, KeptRuns, suspend_roles
+from assoc_hull.edit.lines.marks import find_marks, with_tangencies
+from assoc_hull.edit.lines.plane_intersections import remove_line_plane
+from assoc_hull.edit.lines.shift_line import crossings_and_placed, recut_line
 from assoc_hull.edit.recut.carried_points import TransformationState
 from assoc_hull.edit.recut.driver_image import ImageIntersections
 from assoc_hull.edit.transaction import Transaction
@@ -51,9 +51,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Followers that come to end elsewhere on boundary curves: which these are, and what stays known.
-#
-# Such a line has another course there than its image, so it is cut wholly anew.
+# Which followers these are. Such a line has another course there than its image.
 
 _ALONG = 0.02
 """A curve that rises through a plane by a smaller part of its length runs along it."""
@@ -62,7 +60,11 @@ _ALONG = 0.02
 def aligned_pairs(
     work: TransformationState, curve: int, line: int, local: int, roots: ImageIntersections
 ) -> tuple[IntArray, IntArray, list[tuple[int, int]]]:
-    """Align the old meetings of a driver with a plane with the new ones of its image."""
+    """Align the old intersections of a driver with a plane and the new ones of its image.
+
+    `local` is the number of the driver in `roots`. Gives the old ones by their place in the
+    driver's `meets`, the new ones by theirs in `roots`, and pairs of places in these two.
+    """
     meets: CurveIntersections = work.state.curves.meets.data[curve]
     old = np.flatnonzero(meets.line == line)
     new = np.flatnonzero(roots.curve == local)
@@ -73,9 +75,9 @@ def aligned_pairs(
 
 
 def double_root_crossings(state: HullState, curve: int, line: int) -> set[int]:
-    """Give the crossings at double roots: they have no meeting.
+    """Give the crossings at double roots: they have no intersection of the curve with the plane.
 
-    A line may end squarely on a meeting of sign 0 as well.
+    An intersection of sign 0 is none of these: a line may end squarely on it.
     """
     meets: CurveIntersections = state.curves.meets.data[curve]
     return set(tangency_rows(state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
@@ -118,7 +120,7 @@ def runs_along_plane(
 def recognise_crossings(
     work: TransformationState, curve: int, line: int, local: int, roots: ImageIntersections
 ) -> None:
-    """Note which crossings of a line that is cut anew are which meetings of a driver."""
+    """Store in `work.anew` which crossings of a line are which intersections of a driver."""
     meets: CurveIntersections = work.state.curves.meets.data[curve]
     old, _, pairs = aligned_pairs(work, curve, line, local, roots)
     for one, other in pairs:
@@ -131,10 +133,8 @@ def recognise_crossings(
 
 
 # --------------------------------------------------------------------------------------
-# Followers that come to end on other boundary curves than before, as often as before.
-#
-# Each end that is lost is handed over to a meeting that is won, so the line need not be cut anew:
-# what the mapping leaves still along it keeps its bits.
+# As many ends as before, on other boundary curves: the line need not be cut anew, and what the
+# mapping leaves still along it keeps its bits.
 
 _FAR = 0.1
 """No end is handed over farther than this part of the piece's length."""
@@ -150,37 +150,31 @@ def hand_over_ends(
     line: int,
     roots: ImageIntersections,
 ) -> bool:
-    """Say which meeting takes the place of which end; tell whether that can be said.
+    """Match each lost end of a follower with a gained intersection; False if that is not clear.
 
-    Parameters
-    ----------
-    work : Carried
-        The transformation; `work.ends` takes the meetings.
-    curves : (m,) int
-        The drivers.
-    some : (k,) int
-        Those that are cut with the plane of the line, by place among them.
-    line : int
-        The follower.
-    roots : Roots
-        Where their images meet its plane.
+    `curves` (m,) are the drivers, `some` (k,) the places among them of those that are cut with
+    the plane of the line, `roots` where their images meet it. `work.ends` takes the matches.
     """
     lost, won = list[int](), list[int]()
     for local in some.tolist():
         curve = int(curves[local])
+        # Lines end on curves of this kind only.
         if work.state.lines.boundary.data[work.state.line_of(curve)] != BoundaryKind.END:
             continue
         meets: CurveIntersections = work.state.curves.meets.data[curve]
+        # A touch has no intersection that it could be matched by.
         if double_root_crossings(work.state, curve, line) or any(
             touched == curve for touched, _ in work.touches
         ):
             return False
         old, new, pairs = aligned_pairs(work, curve, line, local, roots)
         gained = np.delete(new, [other for _, other in pairs])
+        # There an end stands anywhere along the touch, as rounding has it.
         if runs_along_plane(work, curve, line, roots.t[gained]).any():
             return False
         lost += meets.row[np.delete(old, [one for one, _ in pairs])].tolist()
         won += gained.tolist()
+    # Where no crossing was, no line ended.
     lost = [row for row in lost if row >= 0]
     ends = [_end_of(work, line, row) for row in lost]
     if not lost or len(lost) != len(won) or len(lost) > _MOST or None in ends:
@@ -192,6 +186,7 @@ def hand_over_ends(
         length = float(work.state.spline(end[0]).knot[-1])
         if float(np.sqrt((step * step).sum())) > _FAR * length:
             return False
+    # Not before all are seen to be near: if refused, `work` stays as it was.
     for end, root in zip(ends, order, strict=True):
         assert end is not None
         work.ends[int(curves[roots.curve[won[root]]]), won[root]] = end
@@ -209,14 +204,14 @@ def _end_of(work: TransformationState, line: int, row: int) -> tuple[int, int] |
 
 
 def _nearest(before: FloatArray, after: FloatArray) -> tuple[int, ...]:
-    """Pair places with the least total distance: the place after of each one before."""
+    """Pair places (k, 3), m, by the least total distance: the place after of each one before."""
     away = np.sqrt(((before[:, None] - after[None]) ** 2).sum(axis=2))
     every = np.arange(len(before))
     return min(permutations(every.tolist()), key=lambda order: float(away[every, order].sum()))
 
 
 # --------------------------------------------------------------------------------------
-# Which points of lines that are cut wholly anew a mapping leaves where they are.
+# Points of lines that are cut wholly anew which the mapping leaves where they are.
 
 _SHORTEST = 2
 """A run has at least so many points."""
@@ -259,7 +254,7 @@ def _spans(work: TransformationState, line: int) -> list[KeptRun]:
 
 
 def _passed(work: TransformationState, curve: int, span: tuple[float, float]) -> IntArray:
-    """Give the crossings within a span of a curve that do not define it, and stay."""
+    """Give the crossings within a span (chord parameters, m) that do not define it, and stay."""
     meets: CurveIntersections = work.state.curves.meets.data[curve]
     inside = (meets.parameter >= span[0]) & (meets.parameter <= span[1]) & (meets.row >= 0)
     rows = np.setdiff1d(meets.row[inside], work.state.curves.rows.data[curve])
@@ -286,10 +281,8 @@ def _roles(state: HullState, rows: set[int], line: int) -> dict[int, int]:
 
 
 # --------------------------------------------------------------------------------------
-# Followers that come to end elsewhere on boundary curves: cut wholly anew, as a shifted line.
-#
-# Such a line is taken out while the others are carried and cut; when they are lofted, its
-# plane is met with them, and crossings with drivers that are still there keep their identity.
+# Cut wholly anew: the line comes back when the others are lofted, and crossings with drivers that
+# are still there keep their identity.
 
 
 def take_out_lines(edit: Transaction, work: TransformationState, *, may_go: bool = False) -> None:
@@ -299,7 +292,7 @@ def take_out_lines(edit: Transaction, work: TransformationState, *, may_go: bool
     """
     state, put = edit.state, edit.journal.put
     keys = state.lines.key.data
-    # Those of lower rank come back first, as the others are cut from them too.
+    # those of lower rank come back first, as the others are cut from them too
     for line in sorted(work.anew, key=lambda each: (state.family(each).rank, str(keys[each]))):
         mine = np.array(state.lines.curves.data[line], np.int64)
         stays = work.stays[line]
@@ -330,13 +323,12 @@ def bring_back_line(
 ) -> None:
     """Cut a line that was taken out from the others as they are now; what stays joins the cut.
 
-    Where the hull does not reach its plane any more the line goes if it may, and the report says
-    so.
+    Where the hull does not reach its plane any more, the line goes if it may, with a note.
 
     Raises
     ------
     NoMeetingError
-        So it is, and the line may not go, or the designer has placed points on it.
+        The hull does not reach the plane, and the line may not go or has placed points.
     """
     state, put = edit.state, edit.journal.put
     edit.document.refresh()
@@ -374,7 +366,7 @@ def _let_go(edit: Transaction, line: int, error: NoMeetingError) -> None:
 
 
 def _bounds(state: HullState, touch: PlaneTangency) -> bool:
-    """Tell whether a touch is of a boundary curve that lines end on."""
+    """Tell whether a tangency is of a boundary curve that lines end on."""
     kind = state.lines.boundary.data[state.line_of(touch.curve)]
     return bool(kind == BoundaryKind.END)
 
@@ -382,7 +374,7 @@ def _bounds(state: HullState, touch: PlaneTangency) -> bool:
 def _still_there(
     edit: Transaction, line: int, known: dict[tuple[int, int], int]
 ) -> dict[tuple[int, int], int]:
-    """Leave out crossings with curves that, lofted, meet the plane otherwise than their image."""
+    """Leave out crossings with curves that, lofted, meet the plane fewer times than their image."""
     table = edit.state.lines
     plane = table.normal.data[line].copy(), table.offset.data[[line]].copy()
     count = {curve: intersect_planes(edit.state.spline(curve), *plane).count for curve, _ in known}

@@ -1,9 +1,8 @@
-"""Drivers under a mapping: bent out of their planes, cut with those of the followers.
+"""Drivers of a transformation: bent out of their planes, and cut with the planes of followers.
 
 A driver is made through the images of its own points and the places where its image meets the
-planes of followers; adopted points hold it where the spline through these would leave the image.
-A driver that is bent out of its plane becomes a space curve: it has no plane to cut others with,
-and its crossings lie where it meets the planes of the other lines.
+planes of followers; adopted points hold it where the spline through these would leave the image by
+more than the tolerance. A driver that is bent out of its plane becomes a space curve.
 """
 
 from __future__ import annotations
@@ -11,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.edit.followup.tangencies import tangency_rows
+from assoc_hull.edit.lines.plane_intersections import remove_line_plane
 from assoc_hull.edit.mapped_planes import IN_PLANE, snap_into_planes
-from assoc_hull.edit.newline.plane_intersections import remove_line_plane
 from assoc_hull.edit.recut.carried_points import (
     DefiningPoints,
     TransformationState,
@@ -44,11 +43,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Drivers that a mapping bends out of their planes: they become curves in space.
-#
-# A space curve has no plane that other lines could be cut with. What it crosses passes
-# through it as through a knuckle line without a knuckle: the crossing lies on the space curve
-# where that meets the other line's plane, with two freedoms, and always defines the line.
+# Bent drivers. A space curve has no plane that other lines could be cut with. What it crosses
+# passes through it as through a knuckle line without a knuckle: the crossing lies on the space
+# curve where that meets the other line's plane, with two freedoms, and always defines the line.
 
 _SAME = 1e-3
 """Two points of a boundary curve as near as this (m) are one."""
@@ -78,7 +75,7 @@ def bend_lines(work: TransformationState) -> None:
 
 
 def _bent(work: TransformationState) -> list[int]:
-    """Give the lines that become space curves, but for boundary curves, by key."""
+    """Give the lines that become space curves, except boundary curves, by key."""
     lines = work.state.lines
     inner = [line for line in work.planes.bent if lines.boundary.data[line] < 0]
     return sorted(inner, key=lambda line: str(lines.key.data[line]))
@@ -143,13 +140,11 @@ def drop_bent_planes(edit: Transaction, work: TransformationState) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# Drivers under a mapping: their exact images are cut with the planes of the followers.
-#
-# A driver is made through the images of its own points and through the places where its
-# image meets the planes of the followers. Where the spline through these leaves the image by
-# more than the tolerance, adopted points hold it.
+# Cutting the exact images of drivers, and holding drivers to them.
 
 _ROUNDS = 8
+"""Rounds of adding points; each halves the intervals that are too far off."""
+
 _LEAST = 0.1
 """Least interval (m) that is given a point: at keel and stem parents turn as sharply."""
 
@@ -208,7 +203,10 @@ def _cut_with(
     work: TransformationState, image: CurveImages, curves: IntArray, some: IntArray, line: int,
     slid: dict[int, float],
 ) -> None:  # fmt: skip
-    """Cut the images with the plane of one follower, where that is not as it was."""
+    """Cut the images with the plane of one follower, where that has changed.
+
+    `slid` takes the new parameters (m) of crossings on their drivers.
+    """
     planes, table = work.planes, work.state.lines
     normal, offset = planes.normal[line], float(planes.offset[line])
     new = image.changed(normal, float(table.offset.data[line]), offset, IN_PLANE)
@@ -245,7 +243,7 @@ def _match(
     roots: ImageIntersections,
     slid: dict[int, float],
 ) -> None:
-    """Say which crossing each meeting of one image with one plane is."""
+    """Match the intersections of one image with one plane to the crossings there."""
     meets: CurveIntersections = work.state.curves.meets.data[curve]
     old, new, pairs = aligned_pairs(work, curve, line, local, roots)
     if (curve, line) in work.touches:
@@ -262,23 +260,23 @@ def _match(
     lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
     work.gone |= set(meets.row[old[lost]].tolist()) - {-1}
     for other in np.setdiff1d(np.arange(len(new)), [other for _, other in pairs]).tolist():
-        _win(work, curve, line, roots, int(new[other]))
+        _add_intersection(work, curve, line, roots, int(new[other]))
 
 
-def _win(
+def _add_intersection(
     work: TransformationState, curve: int, line: int, roots: ImageIntersections, at: int
 ) -> None:
-    """Note a place at which a driver has come to meet a follower's plane.
+    """Store a place at which a driver has come to meet a follower's plane.
 
     At the border of a flat and at a knuckle line the follower gets a contact.
     """
     if work.state.lines.boundary.data[work.state.line_of(curve)] < 0:
         work.come.append((line, roots.xyz[at]))
     else:
-        _touch(work, curve, line, roots, at)
+        _add_contact(work, curve, line, roots, at)
 
 
-def _touch(
+def _add_contact(
     work: TransformationState, curve: int, line: int, roots: ImageIntersections, at: int
 ) -> None:
     """Make a contact of a follower with a boundary curve that has come to it."""
@@ -315,7 +313,7 @@ def _touch(
 def _order(
     work: TransformationState, curve: int, knots: FloatArray, slid: dict[int, float]
 ) -> None:
-    """Put the points of a driver in the order in which its image passes them."""
+    """Order the points of a driver as its image passes them; leave out those in one place."""
     state = work.state
     more = work.extra.get(curve, [])
     rows = np.append(state.curves.rows.data[curve], [row for _, row in more]).astype(np.int64)
@@ -325,16 +323,19 @@ def _order(
         if row not in work.gone and row not in apart:
             _settle(work, curve, row)
     kept = [
+        # Points at one parameter keep the order of before.
         (slid.get(row, t), i, row)
         for i, (row, t) in enumerate(zip(rows.tolist(), knots.tolist(), strict=True))
         if row not in work.gone and row not in apart
     ]
     kept.sort()
     order = [row for _, _, row in kept]
+    # Where nothing slid the points stand to one another as they did before.
     drop = _crowded(state, work, order) if any(row in slid for row in order) else set[int]()
     work.gone |= drop
     kept = [each for each in kept if each[2] not in drop]
     if any(row in slid for row in order):
+        # After the drop: a crossing whose neighbour has just gone can still define the driver.
         held = _doubled(work, curve, [row for _, _, row in kept], slid)
         kept = [each for each in kept if each[2] not in held]
     work.made[curve] = DefiningPoints(

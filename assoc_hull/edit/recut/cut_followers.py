@@ -1,8 +1,9 @@
 """Followers of a transformation: cut again from the drivers, then from one another by rank.
 
-Where a mapping keeps a part of a follower's plane, its image there is exact and gives crossings
-with other followers. Adopted points that stand in for a crossing go where it goes. Where another
-part of the hull comes to lie in the plane, the points are found by `follower_points`.
+A follower is made through its crossings with drivers and with the followers cut before it. Where
+the mapping keeps its plane, its own points are carried as they are. Where another part of the hull
+comes to lie in the plane, placed points slide there along the hull, adopted ones that held the
+old shape go, and `follower_points` finds new ones that hold the new shape.
 """
 
 from __future__ import annotations
@@ -49,10 +50,8 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Points that stand in for crossings which define their line no more, or never did.
-#
-# Where a crossing is watched, an adopted point may lie at its place and define the line instead.
-# When a mapping carries the drivers, such a point goes where the crossing goes.
+# Stand-ins: where a crossing is watched, an adopted point may lie at its place and define the line
+# instead. When a mapping carries the drivers, it goes where the crossing goes.
 
 _SAME = 1e-3
 """A point as near as this (m) to a crossing stands in for it."""
@@ -85,7 +84,7 @@ def _own(work: TransformationState, curve: int) -> IntArray:
 
 
 def _settled(work: TransformationState, curve: int) -> IntArray:
-    """Give the crossings on a follower that do not define it and have come to their places."""
+    """Give the crossings on a follower that do not define it and whose new places are known."""
     meets: CurveIntersections = work.state.curves.meets.data[curve]
     rows = meets.row[meets.row >= 0]
     rows = rows[work.known[rows] & ~(work.state.rows.reader.data[rows] == curve).any(axis=1)]
@@ -93,11 +92,9 @@ def _settled(work: TransformationState, curve: int) -> IntArray:
 
 
 # --------------------------------------------------------------------------------------
-# Followers whose planes a mapping keeps for a part: there their images are exact.
-#
-# A line follows as a whole as soon as the mapping bends its plane anywhere, be it round one
-# feature. Elsewhere its image lies in its plane, to rounding, and is the hull itself: crossings
-# with other followers are taken from it, not from what these come to be between their drivers.
+# Exact parts of followers. A line follows as a whole as soon as the mapping bends its plane
+# anywhere, be it round one feature. Elsewhere its image lies in its plane, to rounding, and is the
+# hull itself: crossings with other followers are taken from it, not from curves between drivers.
 
 
 def cut_kept(work: TransformationState) -> None:
@@ -160,18 +157,13 @@ def _settle(
 
 
 # --------------------------------------------------------------------------------------
-# Followers of a transformation: cut again from the drivers, then from one another by rank.
-#
-# A follower is made through its crossings with drivers and with the followers cut before it.
-# Where its plane is kept by the mapping, its own points are carried as they are. Where not,
-# another part of the hull comes to lie in the plane: placed points are brought there along
-# the hull, adopted ones that held the old shape go, and new ones hold the new shape where a
-# line that is cut before passes without defining.
+# All followers by rank.
 
 _NEAR = 0.15
 """No point is added as near as this (m) to another one."""
 
 _ROUNDS = 6
+"""Rounds of adding points to hold a follower; each adds at most one to a segment."""
 
 
 def cut_followers(work: TransformationState) -> None:
@@ -206,7 +198,7 @@ def _crossings(work: TransformationState, curve: int) -> list[int]:
 
 
 def _check_cut(work: TransformationState, curve: int) -> None:
-    """See that a follower is defined by a driver, or by a follower cut before it."""
+    """Require that a follower is defined by a driver, or by a follower cut before it."""
     state = work.state
     boundary = state.lines.boundary.data >= 0
     inner = [
@@ -272,10 +264,12 @@ def _points(work: TransformationState, curve: int) -> DefiningPoints:
     order = _ordered(work, curve)
     if not _slides(work, curve):
         return DefiningPoints(order, [work.value[row].copy() for row in order], [])
+    # `_give` has ordered some curves before: what it put aside is open again.
     work.watched -= set(order)
     loose = loose_points(work, curve, order)
     order = [row for row in order if row not in set(loose)]
     new = [row for _, row in work.contacts if curve in state.rows.curve.data[row]]
+    # Those that are ends stand in the order already.
     new = [row for row in new if row not in work.new_ends.values()]
     base = _base(work, curve, order)
     found = DefiningPoints(base, [work.value[row].copy() for row in base], [])
@@ -283,10 +277,12 @@ def _points(work: TransformationState, curve: int) -> DefiningPoints:
         insert_by_detour(found, row, work.value[row])
     for place in _coming(work, curve):
         insert_by_detour(found, -1, into_curve_plane(work, curve, place), least=_NEAR)
+    # Not before all stand in order: the sense follows from the neighbours.
     for row in new:
         _direct(work, curve, found, row)
     own = [row for row in loose if state.rows.sort.data[row] == Sort.ADOPTED]
     ties = [row for row in loose if row not in set(own)]
+    # Before own points: where these slip to is less certain.
     tie_to_crossings(work, curve, found, ties)
     options = _hold(work, curve, found)
     tie_to_own_points(work, curve, found, own)
@@ -310,9 +306,9 @@ def _smooth(
 
 
 def _hold(work: TransformationState, curve: int, found: DefiningPoints) -> list[OptionalPoint]:
-    """Hold a follower where lines cut before it pass its plane without defining it.
+    """Add points that hold a follower where lines cut before it pass its plane undefined by it.
 
-    Give the places at which they do, as it passed them before.
+    Gives these places, less the gaps at which it passed them before, each with its tolerance.
     """
     rows = _passed(work, curve)
     if not len(rows):
@@ -357,7 +353,7 @@ def _as_before(
 def _share(
     work: TransformationState, curve: int, rows: IntArray, spline: SplineBatch, at: FloatArray
 ) -> FloatArray:
-    """Give how much less than usual a follower may pass off places that it drives, (k,).
+    """Give the share of the usual tolerance by which a follower may miss places, (k,); 1 at most.
 
     Where it runs along the plane of the line there, a little off is far along that line.
     """
@@ -372,7 +368,7 @@ def _share(
 
 
 def _passed(work: TransformationState, curve: int) -> IntArray:
-    """Give the crossings at which lines cut before a follower pass its plane unheard."""
+    """Give the crossings at which lines cut before a follower pass it without defining it."""
     table, meets = work.state.rows, work.state.curves.meets.data[curve]
     rows = meets.row[meets.row >= 0]
     rows = rows[work.known[rows] & ~(table.reader.data[rows] == curve).any(axis=1)]
@@ -398,7 +394,7 @@ def _direct(work: TransformationState, curve: int, found: DefiningPoints, row: i
 
 
 def _coming(work: TransformationState, curve: int) -> list[FloatArray]:
-    """Give the places at which drivers have come to meet the plane of a follower's piece."""
+    """Give the new places (3,), m, at which drivers have come to meet the plane of a piece."""
     line = work.state.line_of(curve)
     places = [place for other, place in work.come if other == line]
     if len(work.state.lines.curves.data[line]) == 1:
@@ -425,7 +421,7 @@ def _ordered(work: TransformationState, curve: int) -> list[int]:
 
 
 def _base(work: TransformationState, curve: int, order: list[int]) -> list[int]:
-    """Give the points of a curve that keep their order: ends, and the family that cuts most."""
+    """Give the points of a curve that keep their order: ends, and the group with most crossings."""
     state = work.state
     group = {
         row: int(state.lines.group.data[state.line_of(work.other(row, curve))])
@@ -463,7 +459,7 @@ def _give(work: TransformationState, curve: int) -> None:
 def _cut_one(
     work: TransformationState, curve: int, spline: SplineBatch, line: int, wanted: set[int]
 ) -> None:
-    """Cut one follower with the plane of one after it, and say which crossing is which."""
+    """Cut one follower with the plane of one after it, and match the crossings to the places."""
     meets: CurveIntersections = work.state.curves.meets.data[curve]
     old = np.flatnonzero(meets.line == line)
     met = intersect_planes(spline, work.planes.normal[line], work.planes.offset[[line]])

@@ -131,7 +131,7 @@ def image_misfit(
 
     Parameters
     ----------
-    image : Image
+    image : CurveImages
         The images.
     curve : (m,) int
         Which of them each curve of `batch` is to be.

@@ -1,9 +1,9 @@
-"""Which points a follower is made through when its plane slides over the hull.
+"""The points that a follower is made through when its plane slides over the hull.
 
-Lines of two families agree where they cross and within the tolerance of adoption between them, so
-a line through new crossings with both would waver. It is made through those with one family and
-tied to other places only where it would pass them too far off; among what it may pass or leave,
-those are chosen that make it as fair as it was.
+Lines of two families agree where they cross, and within the tolerance of adoption between, so a
+line through new crossings with both would waver. It is made through those with one family, and tied
+to other places (crossings with drivers that rank behind, its own adopted points) only where it
+would pass them too far off. Among optional places, those are taken that make it as fair as it was.
 """
 
 from __future__ import annotations
@@ -46,16 +46,13 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Which of the points that a follower may pass or leave make it as fair as it was.
-#
-# A follower that slides over the hull is made through what it must pass. Of other places it is
-# known how far it may pass them off: which of these it is made through is free, and decides
-# whether it waves. They are chosen one after the other, each time the one that helps most.
+# Optional points, chosen one after the other, each time the one that makes the curve fairest.
 
 _COMB = 1.5
 """A comb integral may grow to so many times what it was."""
 
 _ROUNDS = 12
+"""Rounds of choosing, and trials looked at in each; rounds of tying, too."""
 
 _NEAR = 0.15
 """No option is taken as near as this (m) to a point of the follower."""
@@ -77,7 +74,7 @@ class OptionalPoint:
     limit : float, m
         How far the follower may pass it off where it is not made through it.
     near : float, m
-        Not taken where a point of the follower is as near as this, or nearly so; nil: anywhere.
+        Not taken where a point of the follower is as near as this, or nearly so; 0: anywhere.
     """
 
     row: int
@@ -97,7 +94,7 @@ class _Trial:
 def is_too_near(places: FloatArray, index: int, place: FloatArray, least: float) -> bool:
     """Tell whether a place is too near to points of a curve to come before the one at an index.
 
-    Two points near to each other and a little off wave more than the curve strays without one.
+    A curve through two near points that are a little off waves more than it strays without one.
     """
     away = np.sqrt(((places - place) ** 2).sum(axis=1))
     step = places[index] - places[index - 1]
@@ -111,21 +108,8 @@ def choose_fair_options(
 ) -> tuple[int, ...]:
     """Take and leave options until a follower is as fair as it was, or none helps any more.
 
-    Parameters
-    ----------
-    work : Carried
-        The transformation.
-    curve : int
-        The follower.
-    found : Through
-        Its points, options among them; changed in place.
-    options : sequence of Option
-        Places that it may pass.
-
-    Returns
-    -------
-    tuple of int
-        The options that it is made through now, by place in the sequence.
+    `found` are its points, options among them; changed in place. Gives the options that it is
+    made through now, by their index.
     """
     best = _Trial(found, frozenset(i for i, each in enumerate(options) if _is_in(found, each)))
     normal = work.planes.normal[work.state.line_of(curve)]
@@ -195,7 +179,10 @@ def _costs(
     work: TransformationState, curve: int, trials: Sequence[_Trial], normal: FloatArray,
     was: tuple[IntArray, FloatArray],
 ) -> list[tuple[int, float]]:  # fmt: skip
-    """Give how much less fair trials are than the follower was: nil where they are not."""
+    """Give how much less fair trials are than the follower was: (0, 0.0) where they are not.
+
+    First counts the changes of sign of the curvature that are more, then the comb integral.
+    """
     if not trials:
         return []
     batch = loft(curve_data_through(work, [curve] * len(trials), [each.points for each in trials]))
@@ -220,16 +207,10 @@ def _may(
 
 
 # --------------------------------------------------------------------------------------
-# What a follower whose plane slides over the hull is tied to, beside the family it is cut from.
-#
-# Lines of two families agree where they cross, and within the tolerance of adoption between. A
-# line through new crossings with both would waver between them. So it is made through those with
-# one family, and through other places only where it would pass them too far off: crossings with
-# drivers that rank behind, and its own adopted points, which slip over the hull as the crossings
-# beside them do.
+# Ties, beside the family that a follower is cut from.
 
 _DOUBTS = (1.0, 0.3, 0.0)
-"""How much of the doubt about where own points slip to is minded, first to last."""
+"""Parts of the doubt about where own points slip to that are added to the tolerance, in turn."""
 
 _STEPS = 2.0
 """An end that is handed over changes the course up to so many times the way between the two."""
@@ -238,9 +219,9 @@ _STEPS = 2.0
 def insert_by_detour(
     found: DefiningPoints, row: int, place: FloatArray, least: float = 0.0
 ) -> bool:
-    """Put a point where it makes the least detour, unless one is nearer than `least` (m).
+    """Insert a point where it makes the least detour; False if it is too near to another one.
 
-    Nor is it put where it would lie too near to one for the chord it comes into.
+    `least` (m) is as of `is_too_near`; 0 for anywhere.
     """
     places = np.array(found.place)
     index = insertion_index(places, place)
@@ -261,7 +242,7 @@ def _adopted(work: TransformationState, curve: int) -> IntArray:
 
 
 def slide_own_points(work: TransformationState, curve: int) -> None:
-    """Let the own points of a follower slip over the hull as the crossings beside them."""
+    """Let the own points of a follower slip over the hull as the crossings beside them do."""
     state = work.state
     rows: IntArray = state.curves.rows.data[curve]
     own = rows[state.rows.sort.data[rows] != Sort.CROSSING]
@@ -307,7 +288,7 @@ def _handed(work: TransformationState, curve: int, side: int) -> float:
 
 
 def round_turns(work: TransformationState, curve: int, found: DefiningPoints) -> None:
-    """Give a follower a point on either side of where it would turn by more than 90 degrees."""
+    """Give a follower a point on either side of where it would fold: turn by over 90 degrees."""
     state = work.state
     knot = dict(
         zip(state.curves.rows.data[curve].tolist(), state.spline(curve).knot.tolist(), strict=True)

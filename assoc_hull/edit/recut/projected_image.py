@@ -153,7 +153,7 @@ def gaps_across(
 
     Parameters
     ----------
-    work : Carried
+    work : TransformationState
         The transformation.
     curve : int
         The follower.

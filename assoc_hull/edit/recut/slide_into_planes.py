@@ -41,7 +41,7 @@ def slide_over(work: TransformationState) -> IntArray:
 
     Parameters
     ----------
-    work : Carried
+    work : TransformationState
         The mapping under way; its `value` is changed.
 
     Returns

@@ -1,7 +1,9 @@
 """Appendages that are added to a hull or taken from it: bodies through sections, and boxes.
 
 `LoftedAppendage` runs through one, two or three closed sections along x (SEAKING). `AppendageBox`
-has faces parallel to the axes (PRELIKON). Both know volume and centre exactly, with a sign.
+has faces parallel to the axes (PRELIKON). Both know volume and centre exactly, with a sign: 1 adds,
+-1 takes away. Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for
+Design and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -23,20 +25,16 @@ __all__ = [
     "LoftedAppendage",
 ]
 
-# --------------------------------------------------------------------------------------
-# An appendage through one, two or three sections: a prism, a ruled body, a parabolic one.
-#
-# Sections have the same number of points, in the same order, and are closed from the last to the
-# first; between them each point runs along x on a straight line or a parabola. Source: Kim & Chang,
-# "Some Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
-
-_LOOKS = 17
-"""Stations at which it is looked whether a section crosses itself, ends among them."""
+_CHECKED_STATIONS = 17
+"""Stations, ends among them, at which a section is checked for crossing itself."""
 
 
 @attrs.frozen(eq=False)
 class LoftedAppendage:
-    """An appendage.
+    """A prism through one section, a ruled body through two, a parabolic one through three.
+
+    Sections have the same number of points, in the same order, and are closed from the last to
+    the first; between them each point runs along x on a straight line or a parabola.
 
     Attributes
     ----------
@@ -57,7 +55,7 @@ class LoftedAppendage:
 
     @classmethod
     def make(cls, sections: Sequence[ArrayLike], x: ArrayLike, sign: float = 1) -> Self:
-        """Check what is handed in; arguments as the attributes.
+        """Check the arguments, which are as the attributes.
 
         Raises
         ------
@@ -86,7 +84,7 @@ class LoftedAppendage:
             what = "appendage: x must be strictly increasing"
             raise GeometryError(what, "give the places from aft forward", {"x": places.tolist()})
         made = cls(np.stack(drawn), places, int(one_of(sign, (1, -1), "appendage: sign is")))
-        made._look()
+        made._refuse_crossing()
         return made
 
     def at(self, x: ArrayLike) -> FloatArray:
@@ -131,7 +129,7 @@ class LoftedAppendage:
         return place, half * weight * self.area(place)
 
     def _weights(self, t: FloatArray) -> FloatArray:
-        """Give what each section counts at parts of the length, (..., k)."""
+        """Give Lagrange's weights of the sections at parts of the length, (..., k)."""
         if len(self.sections) == 1:
             return np.ones((*t.shape, 1))
         if len(self.sections) == 2:
@@ -142,13 +140,13 @@ class LoftedAppendage:
         ]  # fmt: skip
         return np.stack(parts, axis=-1)
 
-    def _look(self) -> None:
+    def _refuse_crossing(self) -> None:
         """Refuse sections that turn round or cross themselves anywhere."""
         signs = np.sign(_shoelace(self.sections))
         if (signs != signs[0]).any():
             remedy = "draw all of them in the same sense of rotation"
             raise GeometryError("appendage: sections have opposite orientation", remedy, {})
-        places = np.union1d(np.linspace(self.x[0], self.x[-1], _LOOKS), self.x)
+        places = np.union1d(np.linspace(self.x[0], self.x[-1], _CHECKED_STATIONS), self.x)
         bad = np.flatnonzero(_self_intersects(self.at(places)))
         if len(bad):
             place = float(places[bad[0]])
@@ -162,6 +160,7 @@ def _shoelace(points: FloatArray) -> FloatArray:
 
 
 def _sweeps(points: FloatArray) -> FloatArray:
+    """Give twice the signed area that each side spans with the origin, (..., m)."""
     after = np.roll(points, -1, axis=-2)
     return np.asarray(points[..., 0] * after[..., 1] - after[..., 0] * points[..., 1])
 
@@ -178,6 +177,7 @@ def _centres(points: FloatArray) -> FloatArray:
 def _self_intersects(points: FloatArray) -> NDArray[np.bool_]:
     """Tell which polygons (k, m, 2) have two sides that cross one another."""
     one, other = np.triu_indices(points.shape[-2], 2)
+    # Neighbouring sides share a point: the first and the last are such a pair too.
     apart = ~((one == 0) & (other == points.shape[-2] - 1))
     a, b = points, np.roll(points, -1, axis=-2)
     p, q, r, s = a[:, one[apart]], b[:, one[apart]], a[:, other[apart]], b[:, other[apart]]
@@ -192,7 +192,7 @@ def _turn(p: FloatArray, q: FloatArray, r: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# A box with faces parallel to the axes, added to a hull or taken from it.
+# Boxes.
 
 Limits = tuple[float, float]
 
@@ -231,7 +231,7 @@ class AppendageBox:
         symmetric: bool = False,
         name: str = "appendage box",
     ) -> Self:
-        """Check what is handed in; arguments as the attributes.
+        """Check the arguments, which are as the attributes.
 
         Raises
         ------

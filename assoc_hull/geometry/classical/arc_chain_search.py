@@ -1,9 +1,9 @@
 """Search chains of few arcs that keep within a tolerance of plane curves.
 
-Curves are cut at corners and straight runs into `FitPieces`. Along each piece a beam search
-keeps a few states (place and direction), tries single arcs and biarcs from each, and goes on with
-the farthest. All pieces are searched at once, so arrays have a row per piece.
-`arc_fit` makes arcs of the chains that are found, and measures them.
+Curves are composite cubics, cut at corners and straight runs into `FitPieces`. A parameter w on
+them is the number of the cubic and the part of it: 7.25 lies a quarter along the eighth cubic of
+the batch. All pieces are searched at once, so arrays have a row per piece. `arc_fit` makes arcs of
+the chains that are found, and measures them.
 """
 
 from __future__ import annotations
@@ -34,15 +34,12 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Plane curves cut at corners and straight runs into pieces, each to become arcs.
-#
-# A piece is a run of cubics without a corner, or one straight line. Its parameter is the number of
-# the cubic and the part of it: 7.25 lies a quarter along the eighth cubic of the batch. At a corner
-# the pieces on both sides keep their own directions. A run of cubics that leave its chord by no
-# more than `flat` is a straight line, and what goes on from it begins in the direction of the line.
+# Pieces: runs of cubics without a corner, or one straight line each. At a corner the pieces on both
+# sides keep their own directions.
 
 _EXACT = 1e-9  # m
-CORNER = 1e-10  # rad: a curve that turns by more at a point has a corner there
+CORNER = 1e-10
+"""rad: a curve that turns by more at a point has a corner there."""
 
 
 @attrs.frozen(eq=False)
@@ -82,16 +79,10 @@ class FitPieces:
 
     @classmethod
     def of(cls, cubic: FloatArray, start: IntArray, flat: float) -> Self:
-        """Cut curves into pieces.
+        """Cut curves into pieces, their cubics (p, 4, 2), m, in order; `start` (m + 1,) per curve.
 
-        Parameters
-        ----------
-        cubic : (p, 4, 2), m
-            Cubics of all curves, in order.
-        start : (m + 1,) int
-            Where those of each curve begin.
-        flat : float, m
-            How far a straight run may be off its chord.
+        Cubics that leave their common chord by no more than `flat` (m) are a straight line; what
+        goes on smoothly from it begins in the direction of the line.
         """
         leave, arrive = _directions(cubic)
         turn = wrap_angle(leave[1:] - arrive[:-1])
@@ -141,6 +132,7 @@ class FitPieces:
         return np.asarray(cross / (first * first).sum(axis=-1) ** 1.5)
 
     def _split(self, piece: IntArray, w: FloatArray) -> tuple[IntArray, FloatArray]:
+        # The end of a piece is u = 1 of its last cubic, not u = 0 of the next piece.
         number = np.minimum(np.asarray(w, np.float64).astype(np.int64), self.stop[piece] - 1)
         return number, w - number
 
@@ -236,16 +228,17 @@ def _table(cubic: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Arcs and biarcs tried on stretches of curves: how far they leave them.
-#
-# Distances come without centres, so that radii of any size lose no digits.
+# Arcs and biarcs tried on stretches of curves, and how far they leave them. Distances are taken
+# without centres, so that radii of any size lose no digits.
 
 _WIDEST = 1.5
 """rad: an end of a candidate turns no farther from its chord."""
 
 _RATIOS = np.linspace(0.14, 0.86, 7)
+"""Parts of the first chord that are tried."""
+
 _CLOSER = np.linspace(-0.09, 0.09, 6)
-"""Parts of the first chord that are tried, and how far around the best of them then."""
+"""Steps of the ratio around the best of `_RATIOS` that are tried next."""
 
 
 @attrs.frozen
@@ -287,18 +280,10 @@ def try_biarcs(
     pieces: FitPieces, piece: IntArray, low: FloatArray, high: FloatArray, angle: FloatArray,
     limits: ArcLimits,
 ) -> BiarcTrials:  # fmt: skip
-    """Find for stretches of curves, (c,), the biarcs that leave them least.
+    """Find the biarcs that deviate least from stretches of curves, (c,).
 
-    Parameters
-    ----------
-    pieces : Pieces
-        The curves.
-    piece : (c,) int
-        The piece of each stretch.
-    low, high : (c,)
-        Its parameters.
-    limits : Limits
-        Curvature and samples.
+    A stretch runs on its piece from parameter `low` to `high`; a biarc begins in the direction
+    `angle` (rad) and ends in that of the curve. `limits.within` is left to the caller.
     """
     places = _sample_stretches(pieces, piece, low, high, limits.samples)
     begin = places[:, 0]
@@ -312,18 +297,19 @@ def try_biarcs(
         cosine, sine = np.cos(way[ok])[:, None], np.sin(way[ok])[:, None]
         x = cosine * away[..., 0] + sine * away[..., 1]
         y = cosine * away[..., 1] - sine * away[..., 0]
-        ratio[ok], off[ok] = _best(x, y, chord[ok], alpha[ok], beta[ok], limits.bend)
+        ratio[ok], off[ok] = _best_ratio(x, y, chord[ok], alpha[ok], beta[ok], limits.bend)
     return BiarcTrials(ratio, off)
 
 
-def _best(
+def _best_ratio(
     x: FloatArray, y: FloatArray, chord: FloatArray, alpha: FloatArray, beta: FloatArray,
     bend: float,
 ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
     """Give ratio and deviation (m) of the best of many biarcs to each row of places."""
     cosines, sines = (np.stack([f(alpha), f(beta)])[:, :, None] for f in (np.cos, np.sin))
     ahead = np.stack([x, x - chord[:, None]])
-    # Of the two circles, in axes of the tangents at the ends: twice the way left, the square.
+    # Of the two circles, in axes of the tangents at the ends: twice the offset to the left, and
+    # the squared distance from the point of tangency.
     left = 2.0 * (cosines * y - sines * ahead)
     square = ahead * ahead + y * y
     seen = x, y, left, square
@@ -352,6 +338,7 @@ def _biarc_deviation(
     curved = made.bend[..., None]
     off = _circle_deviation(curved, square[:, :, None], left[:, :, None])
     cosine, sine = np.cos(made.tau)[..., None], np.sin(made.tau)[..., None]
+    # A place belongs to the first arc as long as it lies behind the normal at the join.
     before = cosine * (x[:, None] - made.join[0][..., None]) < sine * (
         made.join[1][..., None] - y[:, None]
     )
@@ -364,21 +351,10 @@ def try_single_arcs(
     pieces: FitPieces, piece: IntArray, low: FloatArray, high: FloatArray, angle: FloatArray,
     limits: ArcLimits,
 ) -> tuple[FloatArray, NDArray[np.bool_]]:  # fmt: skip
-    """Lay single arcs through the ends of stretches, (c,), in given directions.
+    """Lay single arcs through the ends of stretches, (c,), that begin in directions `angle` (rad).
 
-    Parameters
-    ----------
-    pieces, piece, low, high, limits
-        As for `trials`.
-    angle : (c,), rad
-        Directions at the beginnings.
-
-    Returns
-    -------
-    (c,), rad
-        Directions at the ends.
-    (c,) bool
-        Which keep the limits.
+    Stretches as for `try_biarcs`. Gives the directions at their ends (c,), rad, and which keep the
+    limits (c,).
     """
     places = _sample_stretches(pieces, piece, low, high, limits.samples)
     step = places[:, -1] - places[:, 0]
@@ -404,9 +380,10 @@ def _sample_stretches(
 
 
 def _circle_deviation(bend: FloatArray, square: FloatArray, left: FloatArray) -> FloatArray:
-    """Give the way (m) off circles, by squared way from a point of theirs, twice that to the left.
+    """Give the distance (m) of points from whole circles of curvature `bend` (1/m).
 
-    As in `Arcs.distance`, on the whole circle.
+    `square` is the squared distance from a point of the circle, `left` twice the offset to the
+    left of the tangent there; the formula of `PlaneArcs.distance`.
     """
     across = bend * square - left
     found: FloatArray = np.abs(across) / (1.0 + np.sqrt(np.maximum(1.0 + bend * across, 0.0)))
@@ -414,11 +391,12 @@ def _circle_deviation(bend: FloatArray, square: FloatArray, left: FloatArray) ->
 
 
 # --------------------------------------------------------------------------------------
-# States of a search for chains of arcs: places on curves, the directions there, how they came.
-#
-# Arrays are (a, s): s states of each of a pieces. One that is none lies at -inf.
+# States of the search: places on curves, the directions there, how they came. Arrays are (a, s):
+# s states of each of a pieces; w = -inf marks an empty state.
 
 _COUNT = 24
+"""Ranges of tilt, each of which keeps one state."""
+
 _MOST_TILT = 24.0
 """Widest tilt that is kept, in units of the tolerance over the longest arc now."""
 
@@ -481,7 +459,7 @@ class SearchStates:
 
 @attrs.frozen(eq=False)
 class ArcCandidates:
-    """Ends that were tried, (a, n): as in `States`, and whether they keep the limits.
+    """Ends that were tried, (a, n): as in `SearchStates`, and whether they keep the limits.
 
     Attributes
     ----------
@@ -510,11 +488,13 @@ class ArcCandidates:
         """Keep for each range of tilts the end that is farthest; `within` in m.
 
         A wide tilt makes the next arcs short, and no single arc makes it less. So ranges are finer
-        about nil, and what lags behind with all that may be hoped for is left out.
+        about zero, and what lags behind with all that may be hoped for is left out.
         """
         long = np.where(self.good, self.way, 1e-300).max(axis=1, keepdims=True)
         most = _MOST_TILT * within / long
         size = np.abs(self.tilt)
+        # A chain that is tilted leaves the tolerance after some within / size: so far, and not
+        # farther than the longest arc now, may the next one reach.
         hope = self.t + np.minimum(long, 4.0 * within / np.maximum(size, 1e-12))
         good = self.good & (size <= most)
         best = np.where(good, hope, -np.inf).max(axis=1, keepdims=True)
@@ -526,6 +506,7 @@ class ArcCandidates:
             [np.argmax(np.where(number == b, far, -np.inf), axis=1) for b in range(_COUNT)], axis=1
         )
         row = np.arange(len(far))[:, None]
+        # argmax gives 0 where a range is empty: then the column is of another range.
         real = number[row, column] == np.arange(_COUNT)
         w, angle, way, parent, ratio = (
             each[row, column] for each in (self.w, self.angle, self.way, self.parent, self.ratio)
@@ -537,26 +518,31 @@ class ArcCandidates:
 
 
 # --------------------------------------------------------------------------------------
-# Chains of few arcs: a search along pieces of curves, of all pieces at once.
-#
-# Each arc begins where the one before ends, in its direction, and ends on the curve: its end says
-# all of it. What an end leaves free is how far the direction there is tilted from that of the
-# curve, and the tilt decides how far the next arc reaches. So from each of a few states (place and
-# direction, of different tilts) ends are tried in order of length; of all that keep within the
-# tolerance the farthest for each range of tilts go on. Biarcs that end in the direction of the
-# curve
-# are tried besides, as nothing else brings a tilt back to nil. A piece is done when from one of its
-# states a biarc reaches its end, and the direction there.
+# The beam search. Each arc begins where the one before ends, in its direction, and ends on the
+# curve, so its end says all of it: the place, and the tilt against the curve, which decides how far
+# the next arc reaches. From each state ends are tried in order of length. Only biarcs that end in
+# the direction of the curve bring a tilt back to zero.
 
 _LADDER = 2.2 ** np.linspace(-2.0, 1.6, 12)
+"""Lengths of arcs that are tried first, over the length of the last one."""
+
 _FINE = np.array([0.35, 0.5, 0.62, 0.74, 0.84, 0.92, 0.97, 1.03, 1.07, 1.12, 1.17, 1.23])
+"""Lengths that are tried next, over the longest of `_LADDER` that kept the limits."""
+
 _PAIRS = np.array([0.7, 1.1, 1.4, 1.7, 2.0, 2.3])
+"""Lengths of biarcs that are tried, over that of the last arc."""
+
 _ROOTS = 4
 """States from which biarcs are tried."""
 
 _SHORTER = 10
+"""So many times arcs of an eighth of the length are tried where none goes on."""
+
 _IDLE = 20
+"""A piece that comes no farther in more rounds than this is given up."""
+
 _NEAR = 3.0
+"""The end of a piece is tried from states that lie within so many lengths of their last arc."""
 
 
 @attrs.frozen(eq=False)
@@ -591,16 +577,9 @@ _Trail = list[tuple[IntArray, SearchStates]]
 def search_chains(
     pieces: FitPieces, rows: IntArray, limits: ArcLimits
 ) -> list[ArcChain | ArcSearchFailure]:
-    """Give the chain of each of some pieces, or where none goes on.
+    """Give the chain of each of the pieces `rows`, (k,), or where none goes on.
 
-    Parameters
-    ----------
-    pieces : Pieces
-        The curves.
-    rows : (k,) int
-        The pieces.
-    limits : Limits
-        What arcs keep.
+    A piece is done when a biarc from one of its states reaches its end, and the direction there.
     """
     span = _spans(pieces)
     found: list[ArcChain | ArcSearchFailure] = [ArcSearchFailure(0.0)] * len(rows)
@@ -665,7 +644,7 @@ def _trace_back(
 def _finish(
     pieces: FitPieces, rows: IntArray, state: SearchStates, span: FloatArray, limits: ArcLimits
 ) -> tuple[NDArray[np.bool_], IntArray, FloatArray]:
-    """Tell which pieces a biarc finishes, from which state and with which ratio."""
+    """Give which pieces a biarc finishes, from which state and with which ratio."""
     stop = pieces.stop[rows]
     left = span[stop][:, None] - _distance_along(span, state.w)
     i, j = np.nonzero(np.isfinite(state.w) & (left < _NEAR * state.way))
@@ -687,9 +666,9 @@ def _advance(
     limits: ArcLimits,
 ) -> SearchStates:
     """Give the states an arc further; where no arc will do, ever shorter ones are tried."""
-    found = _singles(pieces, rows, state, span, limits)
+    found = _single_candidates(pieces, rows, state, span, limits)
     if older is not None:
-        found = found.join(_pairs(pieces, rows, older, span, limits))
+        found = found.join(_biarc_candidates(pieces, rows, older, span, limits))
     next_ = found.choose(limits.within)
     shorter = state
     for _ in range(_SHORTER):
@@ -697,24 +676,24 @@ def _advance(
         if not len(none):
             break
         shorter = attrs.evolve(shorter, way=shorter.way / 8.0)
-        again = _singles(pieces, rows[none], shorter.of(none), span, limits)
+        again = _single_candidates(pieces, rows[none], shorter.of(none), span, limits)
         next_ = next_.put(none, again.choose(limits.within))
     return next_
 
 
-def _singles(
+def _single_candidates(
     pieces: FitPieces, rows: IntArray, state: SearchStates, span: FloatArray, limits: ArcLimits
 ) -> ArcCandidates:
     """Try single arcs from all states: first of very different lengths, then near the longest."""
     rough = state.way[..., None] * _LADDER
-    one = _tried(pieces, rows, state, rough, span, limits)
+    one = _try_lengths(pieces, rows, state, rough, span, limits)
     good = one.good.reshape(rough.shape)
     most = np.where(good, rough, 0.0).max(axis=-1)
     most = np.where(most == 0.0, 0.3 * rough[..., 0], most)
-    return one.join(_tried(pieces, rows, state, most[..., None] * _FINE, span, limits))
+    return one.join(_try_lengths(pieces, rows, state, most[..., None] * _FINE, span, limits))
 
 
-def _tried(
+def _try_lengths(
     pieces: FitPieces, rows: IntArray, state: SearchStates, ways: FloatArray, span: FloatArray,
     limits: ArcLimits,
 ) -> ArcCandidates:  # fmt: skip
@@ -728,10 +707,10 @@ def _tried(
         pieces, rows[i], state.w[i, j], end[i, j, k], state.angle[i, j], limits
     )
     parent = np.broadcast_to(np.arange(state.w.shape[1])[:, None], real.shape)
-    return _found(pieces, rows, span, (end, ways, parent), (i, j, k), (angle, fits, np.nan))
+    return _as_candidates(pieces, rows, span, (end, ways, parent), (i, j, k), (angle, fits, np.nan))
 
 
-def _pairs(
+def _biarc_candidates(
     pieces: FitPieces, rows: IntArray, state: SearchStates, span: FloatArray, limits: ArcLimits
 ) -> ArcCandidates:
     """Try biarcs that end in the direction of the curve, from the most hopeful states."""
@@ -746,12 +725,13 @@ def _pairs(
     own = pieces.direction(rows[i], end[i, j, k])
     parents = np.broadcast_to(parent[..., None], end.shape)
     fits = made.off <= limits.within
-    return _found(
+    # The last arc of a biarc has about half its length.
+    return _as_candidates(
         pieces, rows, span, (end, 0.5 * ways, parents), (i, j, k), (own, fits, made.ratio)
     )
 
 
-def _found(
+def _as_candidates(
     pieces: FitPieces, rows: IntArray, span: FloatArray,
     tried: tuple[FloatArray, FloatArray, IntArray], at: tuple[IntArray, ...],
     made: tuple[FloatArray, NDArray[np.bool_], FloatArray | float],

@@ -1,8 +1,9 @@
 """Plane curves of straight lines and circular arcs, as PRELIKON draws sections and boundaries.
 
 `ArcCurve` is a chain that is evaluated, intersected, cut and measured exactly. `through_points`
-and `round_corners` make one from points. `ArcBoundary` is such a curve in a plane along the ship:
-stern, stem or a buttock.
+passes all points and may turn sharply at each; `round_corners` rounds the corners of a polygon and
+passes the ends only. Curvatures are positive where a curve turns left. Source: Kim & Chang, "Some
+Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -29,17 +30,14 @@ __all__ = [
     "through_points",
 ]
 
-# --------------------------------------------------------------------------------------
-# A plane curve of straight lines and circular arcs: evaluated, met, measured.
-
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 """Integrals over arcs that turn by up to half a circle are exact to rounding with so many."""
 
 _MOST = 1_000_000
-"""So many points of a curve are enough."""
+"""More points of a sampled curve than this are a mistake."""
 
 _TOLERANCE = 1e-9
-"""Of places, as a part of the diagonal of the bounding box."""
+"""Distance of points that are one, as a part of the diagonal of the bounding box."""
 
 
 @attrs.frozen(eq=False)
@@ -48,7 +46,7 @@ class ArcCurve:
 
     Attributes
     ----------
-    arcs : Arcs
+    arcs : PlaneArcs
         Its pieces, in order.
     points : (n, 2), m
         The given points: the ends of the pieces, or the corners of the polygon.
@@ -129,7 +127,7 @@ class ArcCurve:
         return np.vstack([inner, self.arcs.ends()[-1:]])
 
     def meet(self, axis: int, value: float) -> tuple[IntArray, FloatArray]:
-        """Find where one coordinate has a value: all places, in order along the curve.
+        """Intersect the curve with a line parallel to an axis: all places, in order along it.
 
         Parameters
         ----------
@@ -155,7 +153,7 @@ class ArcCurve:
         arcs, slack, value = self.arcs, self.tolerance, float(finite_array(value, self.name, ()))
         every = np.arange(len(arcs))
         # t = 2 atan(k p) / k, and k (cos a - k d / 2) p^2 + sin a p - d / 2 = 0: no digits are
-        # lost as k goes to nil.
+        # lost as k goes to zero. For axis 0 the curve is turned by a right angle.
         turned = arcs.angle if axis == 1 else arcs.angle + 0.5 * np.pi
         away = value - arcs.start[:, axis]
         square = arcs.curvature * (np.cos(turned) - 0.5 * arcs.curvature * away)
@@ -165,6 +163,7 @@ class ArcCurve:
         t = np.where(
             arcs.curvature[:, None] == 0.0, 2.0 * roots, 2.0 * np.arctan(bend * roots) / bend
         )
+        # Ends are compared themselves: rounding must not let a joint slip between its pieces.
         ends = np.column_stack([np.zeros(len(every)), arcs.length])
         at_ends = np.stack([arcs.start[:, axis], arcs.ends()[:, axis]], axis=1)
         ends = np.where(np.abs(at_ends - value) <= slack, ends, np.nan)
@@ -172,7 +171,7 @@ class ArcCurve:
         found = np.isfinite(t) & (t >= -slack) & (t <= arcs.length[:, None] + slack)
         piece, column = np.nonzero(found)
         along = np.clip(t[piece, column], 0.0, arcs.length[piece])
-        return self._once(piece, along)
+        return self._sort_distinct(piece, along)
 
     def where(self, axis: int, value: float) -> FloatArray:
         """Give all points (k, 2), m, at which a coordinate has a value, sorted by the other.
@@ -245,6 +244,7 @@ class ArcCurve:
         if shown(level) not in ("inf", "np.float64(inf)"):
             level = float(finite_array(level, self.name, ()))
             piece, low, high = self._parts(level)
+        # A part between two intersections lies on one side of the level, so its middle tells which.
         middle = arcs.at(piece, 0.5 * (low + high))
         under = middle[:, 1] < level
         piece, low, high = piece[under], low[under], high[under]
@@ -261,7 +261,7 @@ class ArcCurve:
         )
 
     def _parts(self, level: float) -> tuple[IntArray, FloatArray, FloatArray]:
-        """Cut pieces where they meet a level: number of the piece, from, to."""
+        """Cut pieces at their intersections with a level: number of the piece, from, to (m)."""
         piece, along = self.meet(1, level)
         every = np.arange(len(self.arcs))
         number = np.concatenate([every, every, piece])
@@ -271,8 +271,8 @@ class ArcCurve:
         same = (number[1:] == number[:-1]) & (place[1:] > place[:-1])
         return number[:-1][same], place[:-1][same], place[1:][same]
 
-    def _once(self, piece: IntArray, t: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Sort places along the curve and drop those that are the place before."""
+    def _sort_distinct(self, piece: IntArray, t: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Sort places along the curve, and keep one of those that are the same point."""
         s = self.starts[piece] + t
         order = np.argsort(s, kind="stable")
         s, piece, t = s[order], piece[order], t[order]
@@ -284,7 +284,7 @@ class ArcCurve:
 def _roots(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
     """Solve a p^2 + b p + c = 0, (n, 2); nan where there is no root, inf for one far away."""
     disc = b * b - 4.0 * a * c
-    # A line that touches an arc from outside by rounding touches it.
+    # An arc that misses the line by no more than rounding touches it.
     disc = np.where((disc < 0.0) & (disc > -1e-14), 0.0, disc)
     with np.errstate(divide="ignore", invalid="ignore"):
         root = np.sqrt(disc)
@@ -293,34 +293,19 @@ def _roots(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Curves through points, or round the corners of a polygon, by lines and arcs; the mean circle.
+# Curves through points, or round the corners of a polygon.
 
 _STRAIGHT = 1e-12
 """A curvature times a chord below this is a line."""
 
 _ROUNDING = 1e-12
-"""By so much, as a part, a radius may be below half its chord."""
+"""A radius may be smaller than half its chord by this part."""
 
 
 def three_point_curvatures(points: ArrayLike, *, name: str = "section") -> FloatArray:
-    """Give the signed curvature (1/m) of the circle through each three points in a row.
+    """Give the signed curvature (1/m) of the circle through each three points in a row, (n - 2,).
 
-    Parameters
-    ----------
-    points : (n, 2), m
-        In order.
-    name : str
-        For messages.
-
-    Returns
-    -------
-    (n - 2,), 1/m
-        Positive turns left; 0 where three points are in line.
-
-    Raises
-    ------
-    GeometryError
-        ``"section: coincident points {i},{i+1}"``.
+    Left turns are positive; 0 where three points are in line. `points` are (n, 2), m, in order.
 
     Examples
     --------
@@ -341,31 +326,14 @@ def three_point_curvatures(points: ArrayLike, *, name: str = "section") -> Float
 def mean_curvatures(
     points: ArrayLike, knuckles: Collection[int] = (), *, name: str = "section"
 ) -> FloatArray:
-    """Give the curvature (1/m) of the mean circle of each interval.
+    """Give the curvature (1/m) of the mean circle of each interval, (n - 1,).
 
     It is the mean of the curvatures of the circles through three points at its two ends; at an
-    end of the curve and at a knuckle the one that there is, 0 where there is none. Curvatures
-    are meant, not radii: so it is known for points in line and at inflections, and it is exact on
-    circles. The rule of Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method
-    for Design and Production", J. SNAK, as it is read here.
-
-    Parameters
-    ----------
-    points : (n, 2), m
-        In order.
-    knuckles : collection of int
-        Indices of points across which nothing is looked at.
-    name : str
-        For messages.
-
-    Returns
-    -------
-    (n - 1,), 1/m
-
-    Raises
-    ------
-    GeometryError
-        ``"section: coincident points {i},{i+1}"``.
+    end of the curve and at a knuckle (an index of `points`, (n, 2), m) the one that there is, 0
+    where there is none. The mean is that of curvatures, not of radii: so it is known for points in
+    line and at inflections, and it is exact on circles. The rule of Kim & Chang, "Some
+    Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK, as it
+    is read here.
     """
     given = _points(points, name)
     at = np.full(len(given), np.nan)
@@ -432,6 +400,7 @@ def through_points(
     sine = 0.5 * bend * chord
     _require_circles(sine, free, radii, chord, name)
     bend = np.where(np.abs(2.0 * sine) < _STRAIGHT, 0.0, bend)
+    # The tangent of an arc leaves its chord by half the angle it turns by, to the outside.
     half = np.arcsin(np.clip(0.5 * bend * chord, -1.0, 1.0))
     arcs = PlaneArcs(given[:-1].copy(), way - half, bend, chord / sinc(half))
     return ArcCurve(arcs, given, name, frozenset(_indices(knuckles, len(given), name)))
@@ -509,7 +478,7 @@ def _rounded(
 
 
 def _reaches(radii: FloatArray, turn: FloatArray, legs: FloatArray, name: str) -> FloatArray:
-    """Give the tangent length (m) of each corner."""
+    """Give the tangent length (m) of each corner; half the shorter leg where no radius is given."""
     wrong = np.flatnonzero((np.abs(turn) > _STRAIGHT) & (radii * turn < 0.0))
     if len(wrong):
         corner = int(wrong[0]) + 1
@@ -608,10 +577,6 @@ def _indices(knuckles: object, count: int, name: str) -> list[int]:
 
 def _listed(value: object) -> TypeGuard[Sequence[Any]]:
     return isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim > 0)
-
-
-# --------------------------------------------------------------------------------------
-# A boundary curve of lines and arcs in a plane along the ship: stern, stem, a buttock.
 
 
 @attrs.frozen(eq=False)

@@ -1,8 +1,9 @@
 """Fit plane curves by few arcs within a tolerance, with tangents that do not break.
 
-`fit_arcs` searches chains (`arc_chain_search`), makes arcs of them (`ArcLinks`), and measures the
-distance between arcs and curves both ways on ten times as many places as the search used. A piece
-that does not keep the tolerance there is searched again with more places.
+Curves are cut at corners and straight runs into pieces, pieces become chains (both in
+`arc_chain_search`), chains become arc records (`ArcLinks`), and the distance between arcs and
+curves is measured both ways on ten times as many places as the search used. A piece that does not
+keep the tolerance there is searched again with more places.
 """
 
 from __future__ import annotations
@@ -34,15 +35,16 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Single arcs and biarcs of chains as arc records; neighbours of one circle become one arc.
-#
-# A link is what a chain is made of: a straight line, an arc or a biarc over a stretch of a piece.
+# Links: what a chain is made of, a straight line, an arc or a biarc over a stretch of a piece.
 
 _SAME = 1e-10
 """m, rad: arcs that one arc replaces may leave it, and turn from it, by no more."""
 
-_STRAIGHT_TURN = 1e-11  # rad
-_MOST_TURN = 3.0  # rad: a longer arc is not told by its ends well
+_STRAIGHT_TURN = 1e-11
+"""rad: an arc that turns by less is a straight line."""
+
+_MOST_TURN = 3.0
+"""rad: the ends of a longer arc determine it poorly."""
 
 
 @attrs.frozen(eq=False)
@@ -55,7 +57,7 @@ class ArcLinks:
         The piece of each.
     low, high : (n,)
         Parameters of the piece.
-    arcs : Arcs
+    arcs : PlaneArcs
         Their arcs.
     arc : (n, 2) int
         First and last arc of each, the same one but for biarcs.
@@ -74,12 +76,7 @@ class ArcLinks:
     def of(cls, pieces: FitPieces, chains: dict[int, ArcChain]) -> Self:
         """Make the records of chains by piece; straight pieces need none.
 
-        Parameters
-        ----------
-        pieces : Pieces
-            The curves.
-        chains : dict of int to Chain
-            Of pieces that are not straight; those without are left out.
+        Pieces that are neither straight nor in `chains` are left out.
         """
         rows = [i for i in range(len(pieces)) if pieces.straight[i] or i in chains]
         parts = [chains[i] if i in chains else _line(pieces, i) for i in rows]
@@ -136,21 +133,9 @@ def _records(
 
 
 def merge_arcs(arcs: PlaneArcs, group: IntArray) -> tuple[PlaneArcs, IntArray]:
-    """Put neighbours that lie on one circle or line together.
+    """Join neighbours that lie on one circle or line; arcs of different groups (n,) stay apart.
 
-    Parameters
-    ----------
-    arcs : Arcs
-        In order.
-    group : (n,) int
-        Arcs of different groups stay apart.
-
-    Returns
-    -------
-    arcs : Arcs
-        Fewer, or as many.
-    first : (k,) int
-        The first of the given arcs in each.
+    Gives the arcs, and the first of the given arcs in each, (k,).
 
     Examples
     --------
@@ -168,6 +153,7 @@ def merge_arcs(arcs: PlaneArcs, group: IntArray) -> tuple[PlaneArcs, IntArray]:
     ends, turned = arcs.ends(), arcs.end_angles()
     both = arcs.length[:-1] + arcs.length[1:]
     step = np.abs(np.diff(arcs.curvature)) * both
+    # A step of curvature k over the length l leaves the middle by k l^2 / 8.
     same = (np.diff(group) == 0) & (step < _SAME) & (step * both < 8.0 * _SAME)
     same &= np.abs(wrap_angle(turned[:-1] - arcs.angle[1:])) < _SAME
     first = np.flatnonzero(np.append(True, ~same))
@@ -196,12 +182,12 @@ def merge_arcs(arcs: PlaneArcs, group: IntArray) -> tuple[PlaneArcs, IntArray]:
 
 
 # --------------------------------------------------------------------------------------
-# How far chains of arcs and the curves they stand for lie apart, both ways, densely sampled.
-#
-# What is given is never too small: the distance to a link is that to its own arcs, and a place on
-# an arc is as far from the curve as from the foot that was found.
+# Deviation of arcs and curves, both ways, densely sampled. What is given is never too small: the
+# distance to a link is that to its own arcs, and a place on an arc is as far from the curve as from
+# the foot that was found.
 
 _STEPS = 4
+"""Steps of Newton's rule towards the foot on the curve."""
 
 
 @attrs.frozen(eq=False)
@@ -232,7 +218,7 @@ class ArcDeviation:
 
 
 def measure_deviation(pieces: FitPieces, links: ArcLinks, samples: int) -> ArcDeviation:
-    """Measure links against their stretches of the curves, at so many places each way."""
+    """Measure links against their stretches of the curves, at `samples` places each way."""
     if not len(links.piece):
         return ArcDeviation(np.zeros(0), np.zeros(0), np.zeros(0))
     w = _link_parameters(links, samples)
@@ -291,6 +277,7 @@ def _from_curve(
         [np.zeros((len(w), 1)), np.cumsum(np.hypot(step[..., 0], step[..., 1]), axis=1)], axis=1
     )
     run /= run[:, -1:]
+    # Shifted by 2 for each link, so that one call serves all of them.
     shift = 2.0 * np.arange(len(w))[:, None]
     part = (t / whole[:, None] + shift).ravel()
     foot = np.interp(part, (run + shift).ravel(), w.ravel()).reshape(t.shape)
@@ -312,15 +299,14 @@ def _from_curve(
 
 
 # --------------------------------------------------------------------------------------
-# Plane curves as chains of few arcs within a tolerance, tangents without a break.
-#
-# Curves are cut at corners and straight runs (`arc_pieces`), pieces become chains (`arc_beam`),
-# these arc records (`arc_links`), and every chain is measured against its curve both ways on ten
-# times as many places as the search used (`arc_check`). A piece that does not keep the tolerance
-# there is searched again with more places.
+# The fit.
 
 _SAMPLES = 24
+"""Places along a candidate in the first search."""
+
 _DENSER = 10
+"""Places of the measurement for each of the search."""
+
 _MARGIN = 0.98
 """The search keeps this part of the tolerance; the rest is for what lies between its places."""
 
@@ -331,6 +317,7 @@ _FLATTEST = 1e-5
 """and m: what is straight does not depend on how coarse arcs may be."""
 
 _AGAIN = 4
+"""So many times a piece is searched; what is too far off then is reported as it is."""
 
 
 @attrs.frozen(eq=False)
@@ -339,7 +326,7 @@ class ArcFit:
 
     Attributes
     ----------
-    arcs : Arcs
+    arcs : PlaneArcs
         Of all curves, in order.
     start : (m + 1,) int
         Where those of each curve begin.
@@ -405,6 +392,7 @@ def fit_arcs(
     if within == 0.0:
         raise GeometryError("arcs: within is 0", "give a tolerance above 0, m", {"within": 0.0})
     pieces = FitPieces.of(cubic, start, min(_FLAT * within, _FLATTEST))
+    # An arc of the least radius itself must not be refused by rounding.
     bend = np.inf if least_radius <= 0.0 else (1.0 + 1e-12) / least_radius
     made, links, off = _searched_links(pieces, ArcLimits(_MARGIN * within, bend, _SAMPLES), within)
     curve = pieces.curve[links.piece]
@@ -442,6 +430,7 @@ def _checked_cubics(cubic: FloatArray, start: IntArray) -> tuple[FloatArray, Int
 
 
 def _positive_length(value: float, name: str) -> float:
+    """Take a length, m, 0 or more; `name` stands in the message."""
     found = float(finite_array(value, f"arcs: {name}", ()))
     if found < 0.0:
         raise GeometryError(f"arcs: {name} is {digits(found)}", "give a length in m", {name: found})
@@ -477,7 +466,7 @@ def _searched_links(
 def _largest(
     pieces: FitPieces, links: ArcLinks, off: ArcDeviation, count: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Give deviations and places of whole curves."""
+    """Give deviations (count, 2), m, and farthest places (count, 2), m, of whole curves."""
     deviation, place = np.zeros((count, 2)), np.full((count, 2), np.nan)
     curve = pieces.curve[links.piece]
     np.maximum.at(deviation[:, 0], curve, off.curve)
@@ -498,7 +487,7 @@ def _joined(
     curves = np.concatenate([curve, curve[last != first]])
     order = np.argsort(numbers, kind="stable")
     numbers, curves = numbers[order], curves[order]
-    # Groups end where pieces meet in a corner or a curve ends.
+    # Groups end at corners between pieces and at ends of curves.
     old = links.arcs
     ends = old.end_angles()
     turned = np.abs(np.angle(np.exp(1j * (old.angle[numbers[1:]] - ends[numbers[:-1]]))))
@@ -511,7 +500,7 @@ def _joined(
 
 
 def _sharpest(pieces: FitPieces, rows: list[int]) -> FloatArray:
-    """Give place and radius (m) where some pieces are bent most."""
+    """Give the place (m) and the radius (m) where some pieces are bent most, (3,)."""
     best = np.array([np.nan, np.nan, np.inf])
     for row in rows:
         w = np.linspace(

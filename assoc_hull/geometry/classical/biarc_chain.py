@@ -1,8 +1,10 @@
 """A line through points as a chain of biarcs.
 
-First tangents are estimated at the points, part by part between ends and knuckles; straight runs
-keep their direction. Then two arcs are laid in each interval. The chain has a tangent everywhere
-but at its knuckles; its curvature jumps.
+First tangents are estimated at the points, part by part between ends and knuckles; then two arcs
+are laid in each interval. The chain has a tangent everywhere but at its knuckles; its curvature
+jumps. Its distance from a smooth curve falls with the third power of the spacing. Source: Kim and
+Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and Production",
+J. SNAK.
 """
 
 from __future__ import annotations
@@ -38,27 +40,13 @@ __all__ = [
     "collinear_runs",
 ]
 
-# --------------------------------------------------------------------------------------
-# Straight runs among points, and where a line of points turns back.
-
 
 def collinear_runs(unit: FloatArray, sine: float, offset: int = 0) -> list[tuple[int, int]]:
     """Give the first and last points of all straight runs of three points or more.
 
-    Parameters
-    ----------
-    unit : (n - 1, 2)
-        Unit chords between n points.
-    sine : float
-        Largest sine of the angle between chords that lie in a row.
-    offset : int
-        Number of the first point, for messages.
-
-    Raises
-    ------
-    GeometryError
-        ``"biarc: curve reverses at point {i}"``; ``"biarc: point {i} belongs to two different
-        straight runs; mark it as a knuckle"``.
+    `unit` (n - 1, 2) are unit chords; chords lie in a row where the sine of the angle between them
+    is at most `sine`. `offset` is the number of the first point in messages. Raises GeometryError
+    where the curve reverses, and for a point of two straight runs.
     """
     before, behind = unit[:-1], unit[1:]
     across = np.abs(before[:, 0] * behind[:, 1] - before[:, 1] * behind[:, 0])
@@ -66,6 +54,7 @@ def collinear_runs(unit: FloatArray, sine: float, offset: int = 0) -> list[tuple
     level = across <= sine
     _refuse(level & ~ahead, "curve reverses at point {}", "mark it as a knuckle", offset)
     row = level & ahead
+    # A point that is in no row, between two that are, ends one run and begins another.
     twice = np.zeros_like(row)
     twice[1:-1] = row[:-2] & row[2:] & ~row[1:-1]
     what = "point {} belongs to two different straight runs; mark it as a knuckle"
@@ -83,20 +72,23 @@ def _refuse(bad: NDArray[np.bool_], what: str, remedy: str, offset: int) -> None
 
 
 # --------------------------------------------------------------------------------------
-# Tangents of one part of a line, between its ends or knuckles; `biarc_tangents` has the equations.
+# Tangents at points that have none: slopes of parabolas through three points each. In chord length
+# (the default) the parabola is one in the plane, the same in every frame; interior tangents of
+# points on a circle are exact. ``form="graph"`` is the literal y(x) of the source. With unit chords
+# s of lengths h:
+#
+#     inside      T_i = (h_i s_(i-1) + h_(i-1) s_i) / (h_(i-1) + h_i)
+#     first       T_0 = 2 s_0 - T_1, the last likewise
+#     where one end of a chord has a known direction t: 2 (t.s) s - t at the other
+#
+# Three points in a row belong to a straight run: they take its direction.
 
 TangentForm = Literal["chord", "graph"]
 KnownTangent = FloatArray | None
 
 
 def check_tangent_form(form: object) -> TangentForm:
-    """Take the name of a form.
-
-    Raises
-    ------
-    GeometryError
-        No such form.
-    """
+    """Take the name of a form; raises GeometryError for another."""
     what = "biarc: no form of tangents is called"
     return cast(TangentForm, one_of(form, get_args(TangentForm), what))
 
@@ -129,10 +121,7 @@ class TangentPart:
     def of(cls, points: FloatArray, offset: int, form: object, collinear: float) -> Self:
         """Look at points (n, 2), m, none twice in a row; `offset` is the number of the first.
 
-        Raises
-        ------
-        GeometryError
-            As `biarc_tangents` says; numbers of points count from the start of the line.
+        Raises GeometryError as `biarc_tangents`; points are numbered from the start of the line.
         """
         step = np.diff(points, axis=0)
         length = np.hypot(step[:, 0], step[:, 1])
@@ -145,15 +134,8 @@ class TangentPart:
     def tangents(self, begin: ArrayLike | None, finish: ArrayLike | None) -> FloatArray:
         """Give unit tangents at all points, (n, 2).
 
-        Parameters
-        ----------
-        begin, finish : (2,) or None
-            Directions of travel at both ends, where they are known.
-
-        Raises
-        ------
-        GeometryError
-            ``"biarc: given end tangent points backwards"``, and as `biarc_tangents` says.
+        `begin` and `finish` are directions of travel (2,) at both ends, where they are known.
+        Raises GeometryError for one that points backwards.
         """
         first = None if begin is None else self._given(begin, self.chord[0])
         last = None if finish is None else self._given(finish, self.chord[-1])
@@ -162,6 +144,7 @@ class TangentPart:
         else:
             found = self._of_more(first, last)
         if self.graph:
+            # (1, slope) points to greater x; the line may run the other way.
             found = found * np.sign(self.width[0])
         return np.asarray(found / np.hypot(found[:, :1], found[:, 1:]))
 
@@ -217,11 +200,11 @@ class TangentPart:
         return np.asarray(2.0 * weight * chord - known)
 
     def _outward(self, chord: FloatArray, inner: FloatArray, exact: bool) -> FloatArray:
-        """Give the tangent of a free end; an estimate inside is of no unit length."""
+        """Give the tangent of a free end; an estimate inside is not of unit length."""
         return self._over(chord, inner) if exact else np.asarray(2.0 * chord - inner)
 
     def _given(self, direction: ArrayLike, chord: FloatArray) -> FloatArray:
-        """Take a direction that was handed in."""
+        """Take a direction of travel; for a graph as (1, slope)."""
         found = finite_array(direction, "biarc", (2,))
         size = float(np.hypot(*found))
         way = chord * np.sign(self.width[0])
@@ -250,24 +233,11 @@ def _refuse_graph(width: FloatArray, offset: int) -> None:
         )  # fmt: skip
 
 
-# --------------------------------------------------------------------------------------
-# Tangents at points that have none: slopes of parabolas through three points each.
-#
-# In chord length (the default) the parabola is one in the plane, the same in every frame; interior
-# tangents of points on a circle are exact. ``form="graph"`` is the literal y(x) of the source, Kim
-# and Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and Production",
-# J. SNAK. With unit chords s of lengths h:
-#
-#     inside      T_i = (h_i s_(i-1) + h_(i-1) s_i) / (h_(i-1) + h_i)
-#     first       T_0 = 2 s_0 - T_1, the last likewise
-#     where one end of a chord has a known direction t: 2 (t.s) s - t at the other
-#
-# Three points in a row belong to a straight run: they take its direction.
-
 _TOLERANCE = 1e-9
-"""Points as near as this part of the size of all coincide."""
+"""Points as near as this part of the extent of all coincide."""
 
 _SMALLEST = 1e-150
+"""m: squares of shorter chords would be lost below the smallest number."""
 
 
 @attrs.frozen(eq=False)
@@ -392,11 +362,7 @@ def _breaks(knuckles: object, count: int) -> list[int]:
 
 
 # --------------------------------------------------------------------------------------
-# A line through points as a chain of biarcs: tangents first, then two arcs for each interval.
-#
-# The chain has a tangent everywhere but at its knuckles; its curvature jumps. Its distance from a
-# smooth curve falls with the third power of the spacing. Source: Kim and Chang, "Some
-# Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
+# The chain.
 
 _BLOCK = 200_000
 """Distances that are held at once."""

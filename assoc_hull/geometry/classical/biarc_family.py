@@ -1,9 +1,10 @@
 """Every biarc between two points with their directions, and closed forms for its radii.
 
 A biarc is two arcs that are tangent where they join; two points and two directions leave one
-freedom, the ratio of both chords. First come the equations of the family by this ratio, then the
-closed forms for biarcs of one bend (C) and for those with an inflection (S). Nothing is chosen
-here: `biarcs` chooses, and `arc_chain_search` tries many.
+freedom, the ratio of both chords. Nothing is chosen here: `biarcs` chooses, and `arc_chain_search`
+tries many. Angles are taken from the chord of the whole, positive to the left. Source: Kim and
+Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and Production",
+J. SNAK.
 """
 
 from __future__ import annotations
@@ -39,13 +40,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Every biarc between two points with their directions, by how its two chords share the way.
-#
-# A biarc is two arcs of circles, tangent where they join. Seen from the chord of the whole, with
-# the directions alpha at its start and beta at its end, the chords of the two arcs always differ in
-# direction by (beta - alpha) / 2, wherever they join: all joins lie on one circle through both
-# points. So the ratio of these chords is the one freedom that is left, for curves of one bend
-# as for those of two:
+# The family. With the directions alpha at its start and beta at its end, both from the chord of the
+# whole, the chords of the two arcs always differ in direction by (beta - alpha) / 2, wherever they
+# join: all joins lie on one circle through both points. So the ratio of these chords is the one
+# freedom that is left, for curves of one bend as for those of two:
 #
 #     delta = (beta - alpha) / 2,     f1 + f2 = 1, shares of the two chords
 #     phi1  = -arg(f1 + f2 exp(i delta)),     phi2 = phi1 + delta
@@ -53,15 +51,13 @@ __all__ = [
 #     tau   = 2 phi1 - alpha, the direction of the join from the chord
 #
 # Nothing of it is a quotient of small numbers, whether tangents are parallel or lie along the
-# chord.
-#
-# The biarcs are those of Kim and Chang, "Some Representations of Ship Hulls by Mathematical Method
-# for Design and Production", J. SNAK.
+# chord. By the direction of the join instead the parallel case would be singular.
 
 _BACK = np.pi - 1e-9
-"""End angles from here on: the tangent points back along the chord."""
+"""rad: an end angle from here on points back along the chord."""
 
-_NIL = 4.0 * np.finfo(np.float64).eps
+_ZERO_CHORD = 4.0 * np.finfo(np.float64).eps
+"""A chord is zero below this part of the coordinates."""
 _SMALLEST, _LARGEST = 1e-150, 1e150
 """Of chords and coordinates, m: squares of what lies beyond have no digits."""
 
@@ -72,13 +68,7 @@ def biarc_label(index: int, count: int) -> str:
 
 
 def biarc_points(points: ArrayLike, count: int | None = None) -> FloatArray:
-    """Take points (n, 2), m, of a count if one is given.
-
-    Raises
-    ------
-    GeometryError
-        Another shape, a number that is not finite, or one beyond 1e150.
-    """
+    """Take points (n, 2), m, of a count if one is given; raises GeometryError beyond 1e150."""
     found = finite_array(points, "biarc", (count, 2))
     large = np.argwhere(np.abs(found) > _LARGEST)
     if len(large):
@@ -138,9 +128,9 @@ class BiarcChords:
         step = last - first
         chord = np.hypot(step[:, 0], step[:, 1])
         size = np.maximum(np.abs(first), np.abs(last)).max(axis=1, initial=0.0)
-        nil = np.flatnonzero(chord <= np.maximum(_NIL * size, _SMALLEST))
-        if len(nil):
-            index = int(nil[0])
+        zero = np.flatnonzero(chord <= np.maximum(_ZERO_CHORD * size, _SMALLEST))
+        if len(zero):
+            index = int(zero[0])
             raise GeometryError(
                 "biarc: zero chord", "give two different points",
                 {"index": index, "chord": float(chord[index])}, biarc_label(index, len(first)),
@@ -177,25 +167,9 @@ def biarc_elements(
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Give what biarcs are made of, from arrays that are broadcast; nothing is checked.
 
-    Parameters
-    ----------
-    chord : (...), m
-        Distance of both points.
-    alpha, beta : (...), rad
-        Directions at both ends, from the chord.
-    first, second : (...)
-        Lengths of both chords in any common unit.
-
-    Returns
-    -------
-    tau : (...), rad
-        Direction at the join, from the chord.
-    phi : (...), rad
-        Direction of the first chord, from the whole.
-    chord : (2, ...), m
-        Lengths of both chords.
-    half : (2, ...), rad
-        Half of what each arc turns, to the left.
+    `first` and `second` are lengths of both chords in any common unit. Gives tau (...), the
+    direction at the join, and phi (...), that of the first chord, both rad from the whole chord;
+    lengths of both chords (2, ...), m; half of what each arc turns to the left (2, ...), rad.
     """
     f1, f2 = first / (first + second), second / (first + second)
     delta = 0.5 * (beta - alpha)
@@ -210,21 +184,9 @@ def biarc_elements(
 def biarcs_of_shares(
     chords: BiarcChords, first: FloatArray, second: FloatArray
 ) -> tuple[PlaneArcs, FloatArray]:
-    """Give the biarcs whose two chords are as `first` to `second`.
+    """Give the biarcs whose two chords are as `first` to `second`, in any unit, above 0, (n,).
 
-    Parameters
-    ----------
-    chords : BiarcChords, n of them
-        What is spanned.
-    first, second : (n,)
-        Lengths of both chords in any common unit, above 0.
-
-    Returns
-    -------
-    arcs : Arcs, 2 n of them
-        In order along each biarc.
-    tau : (n,), rad
-        Direction at the join, from the chord.
+    2 n arcs in order along each biarc; and tau (n,), rad, the direction at the join from the chord.
     """
     tau, phi, chord, half = biarc_elements(chords.chord, chords.alpha, chords.beta, first, second)
     way = chords.way + phi
@@ -239,15 +201,10 @@ def biarcs_of_shares(
 
 
 def one_sided_shares(chords: BiarcChords) -> tuple[FloatArray, FloatArray]:
-    """Give between which shares of the first chord a biarc bends no more often than it must.
+    """Give between which shares of the first chord, (n,) each, a biarc bends no more than it must.
 
-    With one bend the join direction lies within the smaller end angle m on either side of the
-    chord; with two bends every share from 0 to 1 will do.
-
-    Returns
-    -------
-    least, most : (n,)
-        Neither belongs to the range.
+    With one bend the join direction lies within the smaller end angle on either side of the chord;
+    with two bends every share from 0 to 1 will do. The limits do not belong to the range.
     """
     a, b = np.abs(chords.alpha), np.abs(chords.beta)
     low, apart = np.sin(np.minimum(a, b)), np.sin(0.5 * np.abs(a - b))
@@ -258,32 +215,14 @@ def one_sided_shares(chords: BiarcChords) -> tuple[FloatArray, FloatArray]:
 
 
 def directions_to_shares(chords: BiarcChords, tau: FloatArray) -> FloatArray:
-    """Give the share of the first chord where the join is to have a direction.
+    """Give the share of the first chord, (n,), where the join is to have the direction `tau`, rad.
 
-    Parameters
-    ----------
-    chords : BiarcChords, n of them
-        Those whose tangents are parallel have one such direction only and no answer: NaN.
-    tau : (n,), rad
-        From the chord.
-
-    Returns
-    -------
-    (n,)
-        Outside 0 to 1 there is no such biarc.
+    tau (n,) is taken from the chord. Outside 0 to 1 there is no such biarc; where tangents are
+    parallel only one direction is possible, and there is no answer: nan.
     """
     one, other = np.sin(0.5 * (tau + chords.beta)), -np.sin(0.5 * (tau + chords.alpha))
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(one / (one + other))
-
-
-# --------------------------------------------------------------------------------------
-# Biarcs by the ratio of their two chords: every biarc between two points and directions, once.
-#
-# Two directions and two points leave one freedom. With the direction of the join as the free number
-# the parallel case is singular; with the part r that the chord of the first arc has of both it is
-# not: for any directions less than a half turn from the chord every r between 0 and 1 gives one
-# biarc without a loop, and r = 1/2 the one of equal chords. `biarc_family` has the equations.
 
 
 @attrs.frozen(eq=False)
@@ -314,21 +253,11 @@ class RatioBiarcs:
 def biarcs_by_ratio(
     chord: FloatArray, alpha: FloatArray, beta: FloatArray, ratio: FloatArray
 ) -> RatioBiarcs:
-    """Give biarcs; the arguments are broadcast.
+    """Give biarcs by the part of the first chord, between 0 and 1; the arguments are broadcast.
 
-    Parameters
-    ----------
-    chord : (...), m
-        Distance of the two points, above 0.
-    alpha, beta : (...), rad
-        Directions at the first and the last point, from the chord to the left, less than pi.
-    ratio : (...)
-        The part of the first chord, between 0 and 1.
-
-    Returns
-    -------
-    RatioBiarcs
-        Where no such biarc is, curvatures are not finite.
+    `alpha` and `beta` (rad, to the left) are less than a half turn from the chord (m); then every
+    ratio gives one biarc without a loop, and 1/2 the one of equal chords. Where there is no such
+    biarc, curvatures are not finite.
 
     Examples
     --------
@@ -344,36 +273,28 @@ def biarcs_by_ratio(
 
 
 # --------------------------------------------------------------------------------------
-# Biarcs that bend one way: closed forms in the absolute end angles a, b, mirrored to a above nil.
-#
-# With sigma = (a + b) / 2 and the direction tau of the join, both measured from the chord P,
+# Biarcs that bend one way, in the absolute end angles a, b, mirrored so that a is positive. With
+# sigma = (a + b) / 2 and the direction tau of the join, both measured from the chord P,
 #
 #     R1 = P sin((b - tau)/2) / (2 sin sigma sin((a - tau)/2))
 #     R2 = P sin((a + tau)/2) / (2 sin sigma sin((b + tau)/2))
 #
 # are the biarcs without loops of P^2 - 2 P (R1 sin a + R2 sin b) + 2 B R1 R2 = 0,
-# B = 2 sin(sigma)^2. Both radii are above nil where abs(tau) is below the smaller angle.
+# B = 2 sin(sigma)^2. Both radii are positive where abs(tau) is below the smaller angle.
 #
-# The paper (Kim and Chang, "Some Representations of Ship Hulls by Mathematical Method for Design
-# and
-# Production", J. SNAK) takes the biarc at which R1 - R2 is stationary. It has tau = (a - b) / 2;
-# both arcs turn by sigma. The sign of the root that the paper picks is right, though the other
-# root has the smaller difference: that one runs through a whole loop. Radii are above nil where the
-# angles differ by less than a factor of three.
+# The paper takes the biarc at which R1 - R2 is stationary. It has tau = (a - b) / 2; both arcs turn
+# by sigma. The sign of the root that the paper picks is right, though the other root has the
+# smaller difference: that one runs through a whole loop. Radii are positive where the angles differ
+# by less than a factor of three.
 
 
 def one_bend_radii(
     chord: FloatArray, a: FloatArray, b: FloatArray, tau: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Give both radii (m) of biarcs that join at a direction.
+    """Give both radii (m) of biarcs that join at the direction `tau` (n,), rad, from the chord.
 
-    Parameters
-    ----------
-    chord : (n,), m
-    a, b : (n,), rad
-        Absolute end angles to the chord.
-    tau : (n,), rad
-        Of the join, from the chord, on the side to which the start leads.
+    `a` and `b` (n,), rad, are absolute end angles; tau is positive on the side to which the start
+    leads.
     """
     double = 2.0 * np.sin(0.5 * (a + b))
     first = chord * np.sin(0.5 * (b - tau)) / (double * np.sin(0.5 * (a - tau)))
@@ -384,7 +305,7 @@ def one_bend_radii(
 def stationary_chords(a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Give the chords of both arcs, in any unit, at which R1 - R2 is stationary.
 
-    Not above nil where one angle is three times the other, or more.
+    Not positive where one angle is three times the other, or more.
     """
     return np.sin(0.25 * (3.0 * b - a)), np.sin(0.25 * (3.0 * a - b))
 
@@ -408,21 +329,18 @@ def direction_of_radius(
 
 
 # --------------------------------------------------------------------------------------
-# Biarcs with an inflection: closed forms in the absolute end angles a, b, mirrored to a above nil.
-#
-# With the chord P they fulfil P^2 - 2 P (R1 sin a + R2 sin b) - 4 R1 R2 sin((a - b)/2)^2 = 0. For a
+# Biarcs with an inflection, in the absolute end angles a, b, mirrored so that a is positive. With
+# the chord P they fulfil P^2 - 2 P (R1 sin a + R2 sin b) - 4 R1 R2 sin((a - b)/2)^2 = 0. For a
 # given ratio q = R2 / R1, E = sin a + q sin b and D = -2 q sin((a - b)/2)^2,
 #
 #     R1 = P / (E + sqrt(E^2 - 2 D)),   R2 = q R1
 #
-# which keeps its digits where the printed quotient of small numbers does not: D is nil, not below
-# it, where the tangents are parallel.
+# which keeps its digits where the printed quotient of small numbers does not: D is zero, not
+# negative, where the tangents are parallel.
 #
-# The paper (Kim and Chang, "Some Representations of Ship Hulls by Mathematical Method for Design
-# and
-# Production", J. SNAK) says twice that radii are inversely proportional to the angles, q = a / b,
-# and prints the opposite, q = b / a. The text agrees with its aim, a small jump of curvature. The
-# least jump of all is
+# The paper says twice that radii are inversely proportional to the angles, q = a / b, and prints
+# the opposite, q = b / a. The text agrees with its aim, a small jump of curvature. The least jump
+# of all is
 #
 #     1/R1 = 2 (sin a + sin((a + b)/2)) / P,   1/R2 = 2 (sin b + sin((a + b)/2)) / P
 #
@@ -434,13 +352,7 @@ def ratio_radii(
 ) -> tuple[FloatArray, FloatArray]:
     """Give both radii (m), the second q times the first; q = 1 gives the largest smaller one.
 
-    Parameters
-    ----------
-    chord : (n,), m
-    a, b : (n,), rad
-        Absolute end angles to the chord; not both nil.
-    q : (n,)
-        Above 0.
+    `a` and `b` (n,), rad, are absolute end angles to the chord, not both zero; q is positive.
     """
     e = np.sin(a) + q * np.sin(b)
     first = chord / (e + np.sqrt(e * e + 4.0 * q * np.sin(0.5 * (a - b)) ** 2))

@@ -1,7 +1,10 @@
 """Biarcs between points with directions: two circular arcs each, many at once.
 
-What two arcs leave free is settled by a rule (`BiarcRule`); radii below the least that can be made
-are repaired, the smaller one first. The equations stand in `biarc_family`.
+What two arcs leave free is settled by a rule (`BiarcRule`), where none applies by equal chords;
+radii below the least that can be made are repaired, the smaller one first. All end as the ratio of
+two chords, of which `biarc_family` makes the arcs; closed forms stand there too. Source: Kim and
+Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and Production",
+J. SNAK.
 """
 
 from __future__ import annotations
@@ -42,10 +45,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Which biarc of the family is taken: by rule, and where none applies.
-#
-# Source: Kim and Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK. Closed forms are in `biarc_c` and `biarc_s`.
+# Which biarc of the family is taken.
 
 BiarcRule = Literal["inverse", "as_printed", "min_jump", "equal_chord"]
 
@@ -53,25 +53,19 @@ BoolArray = NDArray[np.bool_]
 StrArray = NDArray[np.str_]
 
 _LEAST_ANGLE = 1e-11
-"""An angle below this (rad) is none."""
+"""rad: an end angle below this is zero."""
 
 
 def check_rule(rule: object) -> BiarcRule:
-    """Take the name of a rule.
-
-    Raises
-    ------
-    GeometryError
-        No such rule.
-    """
+    """Take the name of a rule; raises GeometryError for another."""
     return cast(BiarcRule, one_of(rule, get_args(BiarcRule), "biarc: no rule is called"))
 
 
 def biarc_kinds(chords: BiarcChords) -> StrArray:
     """Tell "line", "circle", "C" (one bend) or "S" (an inflection), for each of n.
 
-    An angle below 1e-11 rad is none, and two of the same side that differ by less are one circle.
-    Where one angle is none and the other is not, it is an "S".
+    An angle below 1e-11 rad counts as 0, and two of the same side that differ by less are one
+    circle. Where one angle is 0 and the other is not, it is an "S".
     """
     a, b = np.abs(chords.alpha), np.abs(chords.beta)
     bent = chords.one_bend
@@ -90,14 +84,9 @@ def biarc_kinds(chords: BiarcChords) -> StrArray:
 def chords_by_rule(
     chords: BiarcChords, kind: StrArray, rule: BiarcRule
 ) -> tuple[FloatArray, FloatArray, BoolArray]:
-    """Give the chords of both arcs, in any unit, by a rule.
+    """Give the chords of both arcs (n,), in any unit, by a rule.
 
-    Returns
-    -------
-    first, second : (n,)
-        Chords.
-    fallback : (n,) bool
-        Where the rule would need a radius below nil, and equal chords stand in for it.
+    The last array tells where the rule would need a negative radius, and equal chords replace it.
     """
     first, second = np.ones((2, len(chords)))
     fallback = np.zeros(len(chords), bool)
@@ -117,28 +106,20 @@ def chords_by_rule(
 
 
 # --------------------------------------------------------------------------------------
-# Biarcs whose radii are at least what can be made: the smaller one takes that, the other follows.
-#
-# Source: Kim and Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, whose repair of radii below nil this is.
+# Radii that are at least what can be made: the smaller one becomes that, the other follows. The
+# paper repairs negative radii in this way.
 
 ChordPair = tuple[FloatArray, FloatArray]
 
 _SLACK = 1e-12
-"""So much of a radius is rounding."""
+"""Part of a radius that is rounding."""
 
 _LEAST = 1e-12
-"""So much of a chord is none."""
+"""A length below this part of a chord is zero."""
 
 
 def least_radii(radius: ArrayLike, chords: BiarcChords) -> FloatArray:
-    """Take one radius for all, or one each, m; 0 asks for none.
-
-    Raises
-    ------
-    GeometryError
-        Not finite, below 0, of another count, or too small to be seen beside the chord.
-    """
+    """Take one radius for all, or one each, m, 0 asks for none; raises GeometryError for others."""
     count = len(chords)
     flat = not isinstance(radius, list | tuple) and np.ndim(radius) == 0
     found = np.broadcast_to(finite_array(radius, "biarc", () if flat else (count,)), (count,))
@@ -174,31 +155,11 @@ def _balanced(chord: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
 def repaired_chords(
     chords: BiarcChords, kind: StrArray, rows: IntArray, radius: FloatArray, at_start: BoolArray
 ) -> ChordPair:
-    """Give the chords (m) of both arcs where the smaller radius is given.
+    """Give the chords (k,), m, of both arcs of biarcs `rows` (k,) whose smaller radius is given.
 
-    Parameters
-    ----------
-    chords : BiarcChords, n of them
-        What is spanned.
-    kind : (n,) str
-        By `biarc_kinds`.
-    rows : (k,)
-        Which of them; no lines.
-    radius : (n,), m
-        The smaller radius.
-    at_start : (n,) bool
-        Whether it is the first of the two, where there is an inflection. Where there is none, it
-        is the one at the larger angle.
-
-    Returns
-    -------
-    first, second : (k,), m
-        Chords.
-
-    Raises
-    ------
-    GeometryError
-        ``"biarc: r_min={} not attainable, limit {}"``.
+    `radius` (n,) is in m. With an inflection `at_start` tells whether it is the first of the two
+    radii; without one it is that at the larger angle. `rows` holds no lines. Raises GeometryError
+    for a radius that cannot be had.
     """
     _refuse_unattainable(chords, kind, rows, radius)
     a, b = np.abs(chords.alpha[rows]), np.abs(chords.beta[rows])
@@ -208,15 +169,16 @@ def repaired_chords(
     begin = at_start[rows]
     far = other_radius(chord, np.where(begin, a, b), np.where(begin, b, a), least)
     radii = np.where(begin, least, far), np.where(begin, far, least)
-    wound = chords_of_radii(chord, a, b, *radii)
+    inflected = chords_of_radii(chord, a, b, *radii)
     winds = kind[rows] == "S"
-    return np.where(winds, wound[0], bent[0]), np.where(winds, wound[1], bent[1])
+    return np.where(winds, inflected[0], bent[0]), np.where(winds, inflected[1], bent[1])
 
 
 def _refuse_unattainable(
     chords: BiarcChords, kind: StrArray, rows: IntArray, radius: FloatArray
 ) -> None:
     limit = radius_limits(chords, kind)
+    # Only with an inflection the limit itself can be had.
     reached = np.where(kind == "S", radius <= limit * (1.0 + _SLACK), radius < limit)
     bad = rows[~reached[rows]]
     if len(bad):
@@ -230,14 +192,10 @@ def _refuse_unattainable(
 
 
 # --------------------------------------------------------------------------------------
-# Biarcs between points with directions: two arcs of circles each, many at once.
-#
-# What two arcs still leave free is settled by a rule, after Kim and Chang, "Some Representations of
-# Ship Hulls by Mathematical Method for Design and Production", J. SNAK. The closed forms stand in
-# `biarc_c` (one bend) and `biarc_s` (with an inflection); all end as the ratio of two chords, of
-# which `biarc_family` makes the arcs.
+# The biarcs.
 
 _SHARP = 1.0 + 1e-12
+"""Factor by which a curvature or an angle is beyond its limit, not only by rounding."""
 
 
 @attrs.frozen(eq=False)
@@ -246,14 +204,14 @@ class Biarcs:
 
     Attributes
     ----------
-    arcs : Arcs, 2 n of them
+    arcs : PlaneArcs, 2 n of them
         First and second arc of each biarc, in order.
     tau : (n,), rad
         Direction at the join, from the chord.
     kind : (n,) str
         "line", "circle", "C" (one bend) or "S" (an inflection), by the end angles.
     fallback : (n,) bool
-        Where equal chords stand in for a rule that would need a radius below nil. Such a biarc
+        Where equal chords replace a rule that would need a negative radius. Such a biarc
         has an inflection although its end angles need none.
     repaired : (n,) bool
         Where the smaller radius is the least one that was asked for.
@@ -400,7 +358,7 @@ def free_biarcs(
 
 
 def _straightened(chords: BiarcChords, kind: StrArray) -> BiarcChords:
-    """Let lines run along their chord: no curvature at all is left to rounding."""
+    """Let lines run along their chord, so that rounding leaves them no curvature."""
     line = kind == "line"
     if not line.any():
         return chords

@@ -2,7 +2,9 @@
 
 `KeelOutline` is the contour in the centre plane with the flat of bottom, `CodedKnuckleLine` a deck
 side or knuckle over x whose intervals say how they are interpolated (both SEAKING). `SpaceCurve` is
-a polyline or natural spline in space (PRELIKON). None needs another.
+a polyline or natural spline in space (PRELIKON). None needs another. x forward, z up from the base
+line, m. Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design
+and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -26,12 +28,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The keel of a ship: its contour in the centre plane, and the edge of the flat of bottom.
-#
-# The contour is given abaft and ahead of the level keel; over the level keel the flat of bottom has
-# a half-width. All run in straight lines between given points. Source: Kim & Chang, "Some
-# Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK; part III
-# is taken for the second of the two that have a contour.
+# Keel. The contour is given abaft and ahead of the level keel; over the level keel the flat of
+# bottom has a half-width. All run in straight lines between given points. Part III of the source is
+# taken for the second of the two that have a contour.
 
 _SAME = 1e-9
 """Places (m) that differ by less are one."""
@@ -68,7 +67,7 @@ class KeelOutline:
     def make(
         cls, x_a: float, x_b: float, aft: ArrayLike, forward: ArrayLike, tangent: ArrayLike
     ) -> Self:
-        """Check what is handed in; arguments as the attributes.
+        """Check the arguments, which are as the attributes.
 
         Raises
         ------
@@ -103,6 +102,7 @@ class KeelOutline:
             ``"contour: x={x} outside [{a}, {b}]"``, as from all of these.
         """
         place = within_range(x, "contour", *self.ends)
+        # Both limits belong to the level keel.
         return np.asarray(1 + (place >= self.x_a) + (place > self.x_b), np.int64)
 
     def height(self, x: ArrayLike) -> FloatArray:
@@ -146,9 +146,9 @@ def _contour(rows: ArrayLike, part: int, end: float) -> FloatArray:
 
 
 def _graph(contour: FloatArray, outer: int) -> FloatArray:
-    """Give the rows of which a height is a function of x: of upright ends one row each.
+    """Give the rows that make height a function of x: one row for each upright end.
 
-    At the outer end the lowest row counts; at the inner one the highest: the keel there has the
+    At the outer end that is the lowest; at the inner one the highest, as the keel there has the
     level keel for its lower end.
     """
     x, low, high = contour[:, 0], contour[outer, 0], contour[-1 - outer, 0]
@@ -180,7 +180,7 @@ def _tangent(rows: ArrayLike, first: float, last: float) -> FloatArray:
 
 
 def _steps(tangent: FloatArray, first: float, last: float) -> tuple[str, ...]:
-    """Tell of steps in the flat of bottom, where it should close."""
+    """Report steps in the flat of bottom, where it should close."""
     return tuple(
         f"bottom tangent line: b={digits(width)} at x={digits(x)}, where the level keel {does}: "
         "the flat of bottom has a step there"
@@ -190,10 +190,8 @@ def _steps(tangent: FloatArray, first: float, last: float) -> tuple[str, ...]:
 
 
 # --------------------------------------------------------------------------------------
-# A deck side or knuckle line through points, each interval with its own way to interpolate.
-#
-# With h the length of interval i, c the straight line over it, and d- and d+ the divided
-# differences over points i-1, i, i+1 and i, i+1, i+2:
+# Deck sides and knuckle lines. With h the length of interval i, c the straight line over it, and d-
+# and d+ the divided differences over points i-1, i, i+1 and i, i+1, i+2:
 #
 # ==== =============================================================
 # code value at x
@@ -205,10 +203,9 @@ def _steps(tangent: FloatArray, first: float, last: float) -> tuple[str, ...]:
 # 4    c + (d- + d+)/2 (x - x_i) (x - x_i+1): the mean of the two
 # ==== =============================================================
 #
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK. Two decisions: a step falls at the end of its interval, and code 4 is the
-# mean parabola, the same rule as on frames. ``blend="overhauser"`` is ours: it weighs d- and d+ of
-# code 4 by the distance from either end, which makes neighbouring intervals meet in one tangent.
+# Two decisions: a step falls at the end of its interval, and code 4 is the mean parabola, the same
+# rule as on frames. ``blend="overhauser"`` is ours: it weighs d- and d+ of code 4 by the distance
+# from either end, which makes neighbouring intervals meet in one tangent.
 
 
 @attrs.frozen(eq=False)
@@ -243,7 +240,7 @@ class CodedKnuckleLine:
         cls, x: ArrayLike, v: ArrayLike, code: ArrayLike,
         blend: Literal["overhauser"] | None = None,
     ) -> Self:  # fmt: skip
-        """Check what is handed in.
+        """Check the arguments.
 
         Parameters
         ----------
@@ -330,6 +327,7 @@ class CodedKnuckleLine:
     def _interval(self, place: FloatArray, side: Literal["left", "right"]) -> IntArray:
         """Tell the interval that a limit is taken in; never one of no length."""
         number = np.searchsorted(self.x, place, side=side) - 1
+        # Limits at a step or an end fall in the neighbour that has a length.
         long = np.flatnonzero(np.diff(self.x) > 0.0)
         if not len(long):
             return np.zeros(place.shape, np.int64)
@@ -378,7 +376,7 @@ def _columns(v: ArrayLike, count: int) -> FloatArray:
 
 
 def _second_difference(x: FloatArray, v: FloatArray, first: IntArray) -> FloatArray:
-    """Give [x_i, x_i+1, x_i+2] v; what a line of two points has stands for nothing."""
+    """Give [x_i, x_i+1, x_i+2] v, (..., k), 1/m; 0 for a line of two points and across a step."""
     if len(x) < 3:
         return np.zeros((*np.shape(first), v.shape[1]))
     a, b, c = (x[first + k][..., None] for k in range(3))
@@ -399,11 +397,14 @@ def _check(x: FloatArray, code: FloatArray) -> None:
     for i, c in enumerate(code.tolist()):
         told = {"interval": i, "code": c}
         name = f"knuckle line: code {digits(c)} at interval {i}"
+        # Codes come as floats: `in range` refuses fractions too.
         if c not in range(5):
             raise GeometryError(f"{name} not in 0..4", "give one of these", told)
+        # All others divide by the length of the interval.
         if step[i] == 0.0 and c != 0:
             what = f"knuckle line: zero-length interval {i} allowed only with code 0"
             raise GeometryError(what, "give code 0 or move a point", told)
+        # By the next point (2), by the one before (3), by both (4).
         ahead, behind = c in (2, 4), c in (3, 4)
         if ahead and i == len(code) - 1:
             what = f"{name} needs point {i + 2}; use code 3"
@@ -411,13 +412,14 @@ def _check(x: FloatArray, code: FloatArray) -> None:
         if behind and i == 0:
             what = f"{name} needs point {i - 1}; use code 2"
             raise GeometryError(what, "it is the first interval", told)
+        # The divided difference would be over a length of nil.
         if (ahead and step[i + 1] == 0.0) or (behind and step[i - 1] == 0.0):
             remedy = "use the parabola of the other side, or a straight line"
             raise GeometryError(f"{name} reaches across a step", remedy, told)
 
 
 # --------------------------------------------------------------------------------------
-# A curve in space through given points: straight between them, or a natural spline.
+# Curves in space.
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 
@@ -454,7 +456,7 @@ class SpaceCurve:
 
     @classmethod
     def make(cls, points: ArrayLike, *, kind: str = "polyline", name: str = "space curve") -> Self:
-        """Check what is handed in; arguments as the attributes.
+        """Check the arguments, which are as the attributes.
 
         Raises
         ------

@@ -1,7 +1,10 @@
 """Camber of decks, in the two ways of the papers.
 
-`Camber` gives the rise from the side to the centre line over x (SEAKING). `CamberKind` gives the
-drop below the centre line over the half-breadth, in four kinds (PRELIKON); a deck is made of it.
+`Camber` gives the rise from the side to the centre line over x (SEAKING): with t the part of the
+half-breadth a parabola z = zs + c (1 - t t), or a straight line z = zs + c (1 - t). `CamberKind`
+gives the drop below the centre line over the half-breadth, in four kinds (PRELIKON); a deck is made
+of it. Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design
+and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -29,12 +32,6 @@ __all__ = [
     "CamberKind",
 ]
 
-# --------------------------------------------------------------------------------------
-# Camber of decks, hatches and deck houses by its rise from the side to the centre line.
-#
-# With t the part of the half-breadth: a parabola z = zs + c (1 - t t), or a straight line
-# z = zs + c (1 - t). Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical
-# Method for Design and Production", J. SNAK.
 
 KINDS = ("line", "parabola")
 """What a camber is between side and centre line."""
@@ -56,7 +53,7 @@ class Camber:
     kind : {"line", "parabola"}
         Its curve athwartships.
     notes : tuple of str
-        A rise below nil.
+        A negative rise.
     """
 
     x: FloatArray
@@ -74,7 +71,7 @@ class Camber:
         cls, x: ArrayLike, half_breadth: ArrayLike, side_height: ArrayLike, rise: ArrayLike,
         kind: str = "parabola",
     ) -> Self:  # fmt: skip
-        """Check what is handed in.
+        """Check the arguments.
 
         Parameters
         ----------
@@ -154,6 +151,7 @@ def _each(value: ArrayLike, count: int) -> FloatArray:
 
 
 def _hollow(x: FloatArray, rise: FloatArray) -> tuple[str, ...]:
+    """Report the first negative rise: the deck is lower at the centre line than at the side."""
     below = np.flatnonzero(rise < 0.0)
     if not len(below):
         return ()
@@ -165,7 +163,7 @@ def _hollow(x: FloatArray, rise: FloatArray) -> tuple[str, ...]:
 
 
 # --------------------------------------------------------------------------------------
-# Camber by the drop below the centre line, in four kinds.
+# Camber by the drop below the centre line.
 
 _LARGEST = 1e6
 """No half-breadth (m) is larger."""
@@ -325,6 +323,7 @@ class CamberKind:
         most = float(finite_array(y, "camber", ()))
         if not most > 0.0:
             raise GeometryError(f"camber: mean up to y={digits(most)}", "give y above 0")
+        # For its refusals.
         self.drop(most, half_breadth)
         inner = self.y
         if self.scale == "local":

@@ -1,4 +1,4 @@
-"""Check what is handed in to a classical curve; every refusal is a GeometryError.
+"""Check the arguments of classical curves; every refusal is a GeometryError.
 
 The functions take what a caller gave and give back an array, a number, a word or a list.
 Each takes the name of the curve, with which its message begins. `arguments` checks what users
@@ -39,9 +39,6 @@ __all__ = [
     "wrap_angle",
 ]
 
-# --------------------------------------------------------------------------------------
-# What every classical curve asks of its input: finite numbers, in the shape that is wanted.
-
 
 def argument_text(name: object) -> str:
     """Write what was handed in for a name, for a message of one line.
@@ -56,7 +53,7 @@ def argument_text(name: object) -> str:
 
 
 def digits(value: float) -> str:
-    """Write a number for a message: up to ten digits, no trailing noughts.
+    """Write a number for a message: up to ten digits, no trailing zeros.
 
     Examples
     --------
@@ -68,26 +65,10 @@ def digits(value: float) -> str:
 
 
 def finite_array(values: ArrayLike, name: str, shape: tuple[int | None, ...] | None) -> FloatArray:
-    """Take finite numbers of a shape; None in the shape stands for any size.
+    """Take finite numbers of a shape as a writeable copy; None in the shape stands for any size.
 
-    Parameters
-    ----------
-    values : array_like
-        As handed in.
-    name : str
-        Of the curve, for the message.
-    shape : tuple of (int or None), or None
-        Wanted; None is any shape.
-
-    Returns
-    -------
-    array of the shape
-        A copy, writeable.
-
-    Raises
-    ------
-    GeometryError
-        ``"{name}: expected shape {s}, got {t}"``, ``"{name}: non-finite value at index {i}"``.
+    Raises GeometryError, which begins with the `name` of the curve, for another shape (None as the
+    whole shape allows any) and for numbers that are not finite.
 
     Examples
     --------
@@ -136,23 +117,10 @@ def _numbers(values: ArrayLike, name: str, wanted: str) -> FloatArray:
 def within_range(
     x: ArrayLike, name: str, least: float, most: float, slack: float = 0.0
 ) -> FloatArray:
-    """Take places within a range of definition; nothing is extrapolated.
+    """Take places (m) of any shape within a range of definition; nothing is extrapolated.
 
-    Parameters
-    ----------
-    x : array_like, m
-        Of any shape.
-    name : str
-        Of the curve, for the message.
-    least, most : float, m
-        The range.
-    slack : float, m
-        So far outside counts as the end, by rounding.
-
-    Raises
-    ------
-    GeometryError
-        ``"{name}: x={x} outside [{a}, {b}]"``; or a value that is no finite number.
+    What lies no more than `slack` (m) outside counts as the end. Raises GeometryError for a place
+    outside, and for values that are no finite numbers.
 
     Examples
     --------
@@ -175,18 +143,6 @@ def within_range(
 
 def require_broadcast(name: str, first: FloatArray, second: FloatArray) -> None:
     """Check that two arrays of places fit one another, as they stand or broadcast.
-
-    Parameters
-    ----------
-    name : str
-        Of the curve, for the message.
-    first, second : array
-        Of any shapes.
-
-    Raises
-    ------
-    GeometryError
-        ``"{name}: expected shape {s}, got {t}"``.
 
     Examples
     --------
@@ -219,33 +175,22 @@ def wrap_angle(angle: ArrayLike) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Words and signs that a curve is told by: one of a few, or an error that names them.
+# Words and heights.
 
 Choice = TypeVar("Choice", str, int)
 
 _HIGHEST = 1e6
-"""No hull reaches up or down to here (m)."""
+"""m: no hull reaches up or down to here."""
 
 
 def bounded_height(value: object, name: str) -> float:
-    """Take a height, m; one beyond any hull counts as a million metres.
-
-    Raises
-    ------
-    GeometryError
-        Anything that is no finite number.
-    """
+    """Take a height, m; one beyond any hull counts as a million metres."""
     found = float(finite_array(value, name, ()))  # type: ignore[arg-type]
     return min(max(found, -_HIGHEST), _HIGHEST)
 
 
 def one_of(value: object, known: Sequence[Choice], what: str) -> Choice:
     """Take one of a few words or whole numbers; `what` begins the message.
-
-    Raises
-    ------
-    GeometryError
-        Anything else.
 
     Examples
     --------
@@ -268,11 +213,11 @@ def one_of(value: object, known: Sequence[Choice], what: str) -> Choice:
 
 
 # --------------------------------------------------------------------------------------
-# Input of a size that arithmetic can bear, whole numbers, lists and mappings, or an error.
+# Numbers of a size that arithmetic can bear, whole numbers, lists and mappings.
 
-_MOST, _NIL = 1e30, 1e-30
+_MOST, _LEAST = 1e30, 1e-30
 """Beyond the first a number is no measure of a ship, and its powers overflow; below the other it is
-nil, and quotients do."""
+taken as 0, since quotients would overflow."""
 
 LEAST_EXTENT, MOST_EXTENT = 1e-50, 1e50
 """m: between an atom and the universe with room to spare."""
@@ -283,10 +228,7 @@ Item = TypeVar("Item")
 def numbers(values: ArrayLike, name: str, shape: tuple[int | None, ...]) -> FloatArray:
     """Take numbers of a shape; None in it stands for any size.
 
-    Raises
-    ------
-    GeometryError
-        As `checks.finite`; ``"{name}: {v} is beyond measure"``.
+    Raises GeometryError as `finite_array`, and for a number beyond 1e30; tiny ones become 0.
     """
     return _measured(finite_array(values, name, shape), name)
 
@@ -302,13 +244,7 @@ def number_array(values: ArrayLike, name: str) -> FloatArray:
 
 
 def broadcast_numbers(values: Iterable[ArrayLike], name: str) -> tuple[FloatArray, ...]:
-    """Take arrays that go together in one shape.
-
-    Raises
-    ------
-    GeometryError
-        As `numbers`; shapes that do not.
-    """
+    """Take arrays that broadcast to one shape; raises as `numbers`."""
     given = [number_array(each, name) for each in values]
     try:
         return tuple(np.broadcast_arrays(*given))
@@ -318,12 +254,7 @@ def broadcast_numbers(values: Iterable[ArrayLike], name: str) -> tuple[FloatArra
 
 
 def check_magnitude(values: FloatArray, name: str) -> FloatArray:
-    """Take coordinates of any shape, m, whose squares and cubes are numbers.
-
-    Raises
-    ------
-    GeometryError
-        The largest amount is beyond the bounds; points that are all nil pass.
+    """Take coordinates of any shape, m, whose squares and cubes are numbers; all may be 0.
 
     Examples
     --------
@@ -343,13 +274,7 @@ def check_magnitude(values: FloatArray, name: str) -> FloatArray:
 
 
 def whole_number(value: object, name: str, least: int, most: int) -> int:
-    """Take a whole number of a range.
-
-    Raises
-    ------
-    GeometryError
-        Anything else.
-    """
+    """Take a whole number from `least` to `most`; bool is none."""
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
         shown = str(value) if isinstance(value, int) and abs(value) < 1e9 else argument_text(value)
         raise GeometryError(f"{name} {shown}", f"give a whole number from {least} to {most}")
@@ -357,26 +282,14 @@ def whole_number(value: object, name: str, least: int, most: int) -> int:
 
 
 def checked_mapping(value: object, name: str) -> Mapping[object, object]:
-    """Take a mapping.
-
-    Raises
-    ------
-    GeometryError
-        Anything else.
-    """
+    """Take a mapping; raises GeometryError for anything else."""
     if not isinstance(value, Mapping):
         raise GeometryError(f"{name}: {argument_text(value)}", "give a mapping of names")
     return value
 
 
 def checked_list(value: Iterable[Item], name: str) -> list[Item]:
-    """Take a sequence as a list.
-
-    Raises
-    ------
-    GeometryError
-        What cannot be gone through, and text.
-    """
+    """Take a sequence as a list; raises GeometryError for text and what cannot be gone through."""
     if isinstance(value, str | bytes) or not isinstance(value, Iterable):
         raise GeometryError(f"{name}: {argument_text(value)}", "give a list")
     try:
@@ -386,13 +299,7 @@ def checked_list(value: Iterable[Item], name: str) -> list[Item]:
 
 
 def positive_weights(weights: ArrayLike | None, count: int, name: str) -> FloatArray:
-    """Take weights above 0, (count,); ones if None.
-
-    Raises
-    ------
-    GeometryError
-        ``"{name}: weights must be positive"``.
-    """
+    """Take weights above 0, (count,); ones if None."""
     if weights is None:
         return np.ones(count)
     found = numbers(weights, name, (count,))
@@ -406,10 +313,11 @@ def positive_weights(weights: ArrayLike | None, count: int, name: str) -> FloatA
 
 
 def _measured(found: FloatArray, name: str) -> FloatArray:
+    """Refuse numbers that are too large, and take tiny ones as 0."""
     size = np.abs(found)
     if size.size and size.max() > _MOST:
         value = float(found.flat[int(size.argmax())])
         raise GeometryError(
             f"{name}: {digits(value)} is beyond measure", "give metres", {"value": value}
         )
-    return np.where(size < _NIL, 0.0, found)
+    return np.where(size < _LEAST, 0.0, found)

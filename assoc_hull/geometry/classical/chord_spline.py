@@ -1,8 +1,10 @@
 """The mechanical spline: a batten on supports, its deflection measured from each chord.
 
-Only the slope to each chord must be small, so the curve may turn by any angle in all. First come
-the equations for the directions at the points, one banded system for many splines; then what is
-refused of points; last `ChordSpline`, the curve itself, a composite cubic.
+Its bending moment is continuous at the supports and linear between them. As the deflection is
+measured from the chord of each interval, only the slope to the chord must be small; the curve may
+turn by any angle in all. Splines are solved many at once, lengths in m, angles in rad. Source: Kim
+& Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and Production",
+J. SNAK, eqs 1 to 7.
 """
 
 from __future__ import annotations
@@ -50,18 +52,13 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The directions of chord splines at their points: Newton's rule on one banded system.
-#
-# On chord i, of length l and direction th, let m0 and m1 be the slopes of the spline to the chord
-# at its ends. Moments over the stiffness are Ms = -(4 m0 + 2 m1) / l at its start and
+# Directions at the points. On chord i, of length l, let m0 and m1 be the slopes of the spline to
+# the chord at its ends. Moments over the stiffness are Ms = -(4 m0 + 2 m1) / l at its start and
 # Me = (2 m0 + 4 m1) / l at its end. At an inner point the moments of both chords agree, or the
 # curvatures, Me / (1 + m1^2)^1.5 and Ms / (1 + m0^2)^1.5. A free end has no moment, a clamped one
 # a given direction. The slopes are tangents of angles, so this is not linear, but each equation
-# knows its neighbours only. Many splines are solved as one system: nothing couples them, and
-# each has the same bits as alone.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, eqs 1 to 7.
+# knows its neighbours only. Many splines are solved as one system: nothing couples them, and each
+# has the same bits as alone.
 
 Mode = Literal["moment", "curvature"]
 
@@ -110,19 +107,9 @@ def chord_slopes(chords: Chords, phi: FloatArray) -> tuple[FloatArray, FloatArra
 
 
 def solve_directions(chords: Chords, mode: Mode) -> FloatArray:
-    """Find the directions at all points, (n,), rad.
+    """Find the directions at all points, (n,), rad, by Newton's rule on one banded system.
 
-    Parameters
-    ----------
-    chords : Chords
-        Of one or many splines.
-    mode : "moment" or "curvature"
-        What is continuous at inner points.
-
-    Raises
-    ------
-    GeometryError
-        ``"spline: Newton did not converge"``.
+    `mode` says what is continuous at inner points. Raises GeometryError where it does not converge.
 
     Examples
     --------
@@ -160,10 +147,11 @@ def _no_convergence(spline: int) -> GeometryError:
 
 
 def _first_guess(chords: Chords) -> FloatArray:
-    """Give the directions of circles through three points, roughly; ends mirror theirs."""
+    """Give about the directions of circles through three points; free ends mirror theirs."""
     first, last = chords.ends
     phi = np.zeros(len(chords.owner))
     inner = _inner(chords)
+    # Each spline has one chord fewer than points, so numbers of chords lag by those before it.
     before, after = inner - chords.owner[inner] - 1, inner - chords.owner[inner]
     length, angle = chords.length, chords.angle
     phi[inner] = (length[after] * angle[before] + length[before] * angle[after]) / (
@@ -195,10 +183,10 @@ def _end_chords(chords: Chords) -> tuple[IntArray, IntArray]:
 
 def _step(chords: Chords, phi: FloatArray, mode: Mode) -> FloatArray:
     """Give one step of Newton's rule, (n,), rad."""
-    rest, table = _equations(chords, phi, mode)
+    residual, table = _equations(chords, phi, mode)
     try:
         with np.errstate(all="ignore"):
-            found = np.asarray(solve_banded((1, 1), table, -rest, check_finite=False))
+            found = np.asarray(solve_banded((1, 1), table, -residual, check_finite=False))
     except LinAlgError:
         raise _no_convergence(0) from None
     if not np.isfinite(found).all():
@@ -207,8 +195,8 @@ def _step(chords: Chords, phi: FloatArray, mode: Mode) -> FloatArray:
 
 
 def _equations(chords: Chords, phi: FloatArray, mode: Mode) -> tuple[FloatArray, FloatArray]:
-    """Give what is left of each equation, (n,), and its derivatives as bands, (3, n)."""
-    rest, table = np.zeros(len(phi)), np.zeros((3, len(phi)))
+    """Give the residual of each equation, (n,), and its derivatives as bands, (3, n)."""
+    residual, table = np.zeros(len(phi)), np.zeros((3, len(phi)))
     m0, m1 = chord_slopes(chords, phi)
     turn0, turn1 = 1.0 + m0 * m0, 1.0 + m1 * m1
     start, by0_start, by1_start = _bend(m0, m1, chords.length, mode)
@@ -216,20 +204,20 @@ def _equations(chords: Chords, phi: FloatArray, mode: Mode) -> tuple[FloatArray,
     end, by1_end, by0_end = (-each for each in _bend(m1, m0, chords.length, mode))
     inner = _inner(chords)
     before, after = inner - chords.owner[inner] - 1, inner - chords.owner[inner]
-    rest[inner] = end[before] - start[after]
+    residual[inner] = end[before] - start[after]
     table[2, inner - 1] = (by0_end * turn0)[before]
     table[1, inner] = (by1_end * turn1)[before] - (by0_start * turn0)[after]
     table[0, inner + 1] = -(by1_start * turn1)[after]
     first, last = chords.ends
     opening, closing = _end_chords(chords)
     free = np.isnan(chords.clamp)
-    rest[first] = np.where(free[:, 0], 2.0 * m0[opening] + m1[opening], 0.0)
+    residual[first] = np.where(free[:, 0], 2.0 * m0[opening] + m1[opening], 0.0)
     table[1, first] = np.where(free[:, 0], 2.0 * turn0[opening], 1.0)
     table[0, first + 1] = np.where(free[:, 0], turn1[opening], 0.0)
-    rest[last] = np.where(free[:, 1], m0[closing] + 2.0 * m1[closing], 0.0)
+    residual[last] = np.where(free[:, 1], m0[closing] + 2.0 * m1[closing], 0.0)
     table[1, last] = np.where(free[:, 1], 2.0 * turn1[closing], 1.0)
     table[2, last - 1] = np.where(free[:, 1], turn0[closing], 0.0)
-    return rest, table
+    return residual, table
 
 
 def _bend(
@@ -246,13 +234,13 @@ def _bend(
 
 
 # --------------------------------------------------------------------------------------
-# What a chord spline asks of its points: apart, in no sharp turn, near their chords.
+# What is refused of points: coincident, in a sharp turn, far from their chords.
 
 _STEEP = 0.35
-"""Slope to a chord beyond which a batten is no longer bent but little."""
+"""Slope to a chord beyond which a batten is bent more than a little."""
 
 _SAME = 1e-9
-"""Of the extent of the points: what lies closer is one point."""
+"""Part of the extent of the points: neighbours that lie closer coincide."""
 
 
 def curve_label(number: int, count: int) -> str:
@@ -285,7 +273,7 @@ def clamp_direction(angle: float | None) -> float:
 
 
 def make_chords(points: Sequence[FloatArray], clamp: FloatArray) -> Chords:
-    """Take the chords of splines; clamped directions are turned next to their chord."""
+    """Make the chords of splines; clamped directions are wrapped to within pi of their chord."""
     sizes = np.array([len(each) for each in points])
     start = np.concatenate([[0], np.cumsum(sizes)])
     owner = np.repeat(np.arange(len(points)), sizes)
@@ -334,7 +322,7 @@ def check_clamps(chords: Chords) -> None:
 
 
 def check_slopes(chords: Chords, phi: FloatArray) -> list[tuple[str, ...]]:
-    """Refuse slopes above 1, and tell of those above .35, spline by spline."""
+    """Refuse slopes above 1; report those above .35, a tuple of notes for each spline."""
     size = np.zeros(len(phi))
     for node in (chords.begin, chords.begin + 1):
         np.maximum.at(size, node, _steepness(phi[node] - chords.angle))
@@ -369,16 +357,9 @@ def _refuse_steep(chords: Chords, size: FloatArray) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# The mechanical spline: a batten on supports, its deflection measured from each chord.
-#
-# The bending moment of a batten is continuous at its supports and linear between them. As the
-# deflection is measured from the chord of each interval, only the slope to the chord must be
-# small; the curve may turn by any angle in all. With u from 0 to 1 along a chord of length l, the
-# deflection is l (m0 u - (2 m0 + m1) u^2 + (m0 + m1) u^3), m0 and m1 the slopes to the chord at
-# its ends. A chord spline is thus a composite cubic, with a direction of its own at each point.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, eqs 1 to 7.
+# The curve. With u from 0 to 1 along a chord of length l, the deflection is
+# l (m0 u - (2 m0 + m1) u^2 + (m0 + m1) u^3), m0 and m1 the slopes to the chord at its ends: a
+# composite cubic with a direction of its own at each point.
 
 _UP = np.array([0.0, 0.0, 1.0])
 
@@ -467,7 +448,7 @@ class ChordSpline:
         >>> half_wave.at(0.5).round(4).tolist()
         [0.5, 0.0380]
         """
-        made = _made([points], [(angle0, angle1)], mode)
+        made = _solved([points], [(angle0, angle1)], mode)
         return cls(*made[0])
 
     @cached_property
@@ -594,17 +575,17 @@ def chord_splines(
     >>> [len(each.points) for each in both]
     [3, 2]
     """
-    each = _each(curves)
-    given = [(None, None)] * len(each) if ends is None else _pairs(ends)
+    each = _as_list(curves)
+    given = [(None, None)] * len(each) if ends is None else _as_pairs(ends)
     if len(given) != len(each):
         raise GeometryError(
             f"spline: {len(given)} pairs of end directions for {len(each)} curves",
             "give one pair a curve", {"ends": len(given), "curves": len(each)},
         )  # fmt: skip
-    return tuple(ChordSpline(*made) for made in _made(each, given, mode))
+    return tuple(ChordSpline(*made) for made in _solved(each, given, mode))
 
 
-def _each(curves: object) -> list[ArrayLike]:
+def _as_list(curves: object) -> list[ArrayLike]:
     """Take curves one by one."""
     many = isinstance(curves, Sequence) and not isinstance(curves, str | bytes)
     if many or (isinstance(curves, np.ndarray) and curves.ndim):
@@ -613,7 +594,7 @@ def _each(curves: object) -> list[ArrayLike]:
     raise GeometryError(what, "give a list of points for each")
 
 
-def _pairs(ends: object) -> list[tuple[float | None, float | None]]:
+def _as_pairs(ends: object) -> list[tuple[float | None, float | None]]:
     """Take pairs of directions."""
     if isinstance(ends, Sequence) and all(
         isinstance(each, Sequence) and not isinstance(each, str | bytes) and len(each) == 2
@@ -623,12 +604,12 @@ def _pairs(ends: object) -> list[tuple[float | None, float | None]]:
     raise GeometryError(f"spline: ends are {shown(ends)}", "give a pair of directions a curve")
 
 
-def _made(
+def _solved(
     curves: Sequence[ArrayLike],
     ends: Sequence[tuple[float | None, float | None]],
     mode: Mode,
 ) -> list[tuple[FloatArray, FloatArray, Mode, tuple[str, ...]]]:
-    """Check points, solve for directions, check slopes; what each spline is made of."""
+    """Check points, solve for directions, check slopes; give the arguments of each spline."""
     one_of(mode, ("moment", "curvature"), "spline: no mode")
     if not curves:
         return []
@@ -658,7 +639,7 @@ def _extent(cubics: FloatArray) -> tuple[float, float]:
 
 
 def _roots(cubics: FloatArray, values: FloatArray) -> tuple[IntArray, IntArray, FloatArray]:
-    """Find which value lies where: its number, the segment, and the place on it."""
+    """Find where cubics (s, 4) take values (k,): number of the value, segment, u on it."""
     table = np.repeat(cubics[None], len(values), axis=0)
     table[:, :, 0] -= values[:, None]
     flat = table.reshape(-1, 4)

@@ -33,19 +33,17 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Circular arcs and straight lines as one record, many at once.
+# Arcs and straight lines.
 #
-# An arc is stored by its start, direction, signed curvature and length, never by centre and radius:
-# these lose their digits where the radius is large, and a straight line has none. With
-# h = k t / 2, the point at arc length t is p0 + t sinc(h) (cos(angle + h), sin(angle + h)), stable
-# as k goes to nil. Positive curvature turns left.
+# With h = k t / 2, the point at arc length t is p0 + t sinc(h) (cos(angle + h), sin(angle + h)),
+# stable as k goes to zero. Positive curvature turns left.
 
 _STRAIGHT = 1e-290
-"""A turn (rad) below this has lost digits of its own."""
+"""rad: a turn below this has lost digits of its own."""
 
 
 def sinc(h: ArrayLike) -> FloatArray:
-    """Give sin(h) / h, 1 at nil; h in rad.
+    """Give sin(h) / h, 1 at 0; h in rad.
 
     Examples
     --------
@@ -88,7 +86,7 @@ class PlaneArcs:
     def make(
         cls, start: ArrayLike, angle: ArrayLike, curvature: ArrayLike, length: ArrayLike
     ) -> Self:
-        """Check what is handed in; arguments as the attributes.
+        """Check the arguments, which are as the attributes.
 
         Raises
         ------
@@ -198,7 +196,7 @@ class PlaneArcs:
     def _abreast(
         bend: FloatArray, length: FloatArray, along: FloatArray, left: FloatArray
     ) -> NDArray[np.bool_]:
-        """Whether the foot on the circle lies on the arc, seen in axes of the tangent."""
+        """Tell whether the foot on the circle lies on the arc, seen in axes of the tangent."""
         turn = np.sign(bend) * np.arctan2(bend * along, 1.0 - bend * left)
         turn = np.where(turn < 0.0, turn + 2.0 * np.pi, turn)
         straight = (along >= 0.0) & (along <= length)
@@ -207,23 +205,16 @@ class PlaneArcs:
 
 
 # --------------------------------------------------------------------------------------
-# Area and moment beside a circular arc that turns left and rises, as far as a level.
+# Areas and moments beside an arc that turns left and rises, as the corner of a deck does.
 
 _GAUSS = np.polynomial.legendre.leggauss(24)
 """Nodes and weights, over a quarter of a circle at most: moments to rounding."""
 
 
 def arc_area(arc: PlaneArcs, centre: tuple[float, float], level: float) -> float:
-    """Give the integral of y dz over an arc up to a level (m), m2.
+    """Give the integral of y dz over one arc up to a level (m), infinite for all of it, m2.
 
-    Parameters
-    ----------
-    arc : Arcs
-        One arc, of positive curvature, that rises to at most the top of its circle.
-    centre : (float, float), m
-        Of its circle, (y, z).
-    level : float, m
-        Height at which it is cut off; infinite for all of it.
+    The arc has positive curvature and rises to at most the top of its circle; `centre` is (y, z).
     """
     radius, first, last = _angles(arc, centre, level)
 
@@ -260,13 +251,9 @@ def _angles(
 
 
 # --------------------------------------------------------------------------------------
-# Circles by three points, by a point with its tangent and another, and by least squares.
-#
-# ``(y - A)^2 + (u - B)^2 = r^2`` is a circle in true lengths only: where u is a fraction of a
-# length, go to lengths first.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK.
+# Circles through points. ``(y - A)^2 + (u - B)^2 = r^2`` is a circle in true lengths only: where u
+# is a fraction of a length, go to lengths first. Source: Kim & Chang, "Some Representations of Ship
+# Hulls by Mathematical Method for Design and Production", J. SNAK.
 
 _FLAT = 1e-12
 """Sine of the angle between two chords up to which three points are on one line."""
@@ -283,7 +270,7 @@ class TrueCircle:
     curvature : float, 1/m
         Positive where the points, in their order, turn left.
     residual : float, m
-        Root of the mean square of the distances of fitted points; 0 where they are met.
+        Root mean square of the distances of fitted points; 0 where it passes through them.
     """
 
     centre: FloatArray
@@ -336,7 +323,7 @@ def tangent_curvature(start: ArrayLike, direction: ArrayLike, end: ArrayLike) ->
     start, end : (2,), m
         Points apart.
     direction : (2,)
-        Of the arc at its start, of any length but nil.
+        Of the arc at its start, of any length but zero.
 
     Returns
     -------
@@ -346,7 +333,7 @@ def tangent_curvature(start: ArrayLike, direction: ArrayLike, end: ArrayLike) ->
     Raises
     ------
     GeometryError
-        Coincident points, or a direction that is nil.
+        Coincident points, or a direction of zero length.
 
     Examples
     --------

@@ -2,7 +2,9 @@
 
 `combined_waterline` makes one waterline from its three abscissae and offsets. `WaterlineRegions`
 holds boundary curves in the side plan and the formula between each two; `joined_pieces` makes the
-waterline through the regions that it cuts. The pieces themselves stand in `pieced_curve`.
+waterline through the regions that it cuts. The pieces themselves stand in `pieced_curve`. Source:
+Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and Production",
+J. SNAK, eqs 22 to 44.
 """
 
 from __future__ import annotations
@@ -54,23 +56,17 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# A polynomial of degree five by least squares, its end values and end slopes held.
-#
-# With u from 0 to 1 and slopes by u (that by x times the length),
+# The quintic. With u from 0 to 1 and slopes by u (that by x times the length),
 #
 #     y = S(u) + q(u) (r0 + r1 (2u - 1) + ...),        q = u^2 (1 - u)^2,
 #
-# S is the cubic through both end values with both slopes, q and its multiples change neither.
-# Where a
-# slope is not given, its factor is of first order only, S is of a lower degree, and one more
+# S is the cubic through both end values with both slopes, q and its multiples change neither. Where
+# a slope is not given, its factor is of first order only, S is of a lower degree, and one more
 # coefficient is free. What is printed as a4 u^2 (1-u)^2 + a5 u^2 (1-u)^2 (u+2), with the normal
 # equations of a4 and a5, is the same space of polynomials in a basis of worse condition:
-# a4 = r0 - 5 r1, a5 = 2 r1.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, eqs 22 to 31. Errors of print there: S has y1 u in place of the slope at 0
-# times u, and the last formula of a4 has a product of two sums where their
-# difference belongs.
+# a4 = r0 - 5 r1, a5 = 2 r1. Errors of print in the source, eqs 22 to 31: S has y1 u in place of the
+# slope at 0 times u, and the last formula of a4 has a product of two sums where their difference
+# belongs.
 
 _SHAPES = ([1.0], [-1.0, 2.0], [1.0, -6.0, 6.0], [-1.0, 12.0, -30.0, 20.0])
 """Legendre's polynomials of 2u - 1 in ascending powers of u."""
@@ -85,7 +81,7 @@ class Quintic:
     coefficients : (6,), m
         Ascending powers of u.
     rms : float, m
-        Root of the (weighted) mean square of what the data are off.
+        Root of the (weighted) mean square of the residuals.
     """
 
     coefficients: FloatArray
@@ -122,11 +118,11 @@ def fit_quintic(
     u : (n,)
         Places from 0 to 1.
     y : (n,), m
-        Values there; approximated, not met.
+        Values there; approximated.
     y0, y1 : float, m
-        Values at u = 0 and u = 1, met.
+        Values at u = 0 and u = 1, interpolated.
     d0, d1 : float or None, m
-        Slopes dy/du at both ends, met: dy/dx times (x_end - x_start). None leaves a slope to
+        Slopes dy/du at both ends, kept: dy/dx times (x_end - x_start). None leaves a slope to
         the data, and wants one more of them.
     weights : (n,) or None
         Above 0; 1 if None.
@@ -209,30 +205,26 @@ def _base(
 
 
 # --------------------------------------------------------------------------------------
-# A waterline of a straight part, a quintic and a conic.
-#
-# From the end of the parallel side x0 to the change x1 runs a polynomial of degree five that begins
-# in the direction of the side; from x1 to the end x2 a conic with an upright tangent at its end.
-# With
-# v = (x2 - x)/(x2 - x1), Y = y - A, Y1 = y1 - A and the slope s = dy/dv at v = 1 of the quintic,
+# A waterline of a straight part, a quintic and a conic. From the end of the parallel side x0 to the
+# change x1 runs a quintic that begins in the direction of the side; from x1 to the end x2 a conic
+# with an upright tangent at its end. With v = (x2 - x)/(x2 - x1), Y = y - A, Y1 = y1 - A and the
+# slope s = dy/dv at v = 1 of the quintic,
 #
 #     Y^2 = b1 v + b2 v^2,    b1 = 2 (Y1^2 - Y1 s),    b2 = 2 Y1 s - Y1^2.
 #
 # The conic is an ellipse where s < Y1/2, a parabola where s = Y1/2, a hyperbola beyond, and for
 # s = Y1 the straight line to the end. Value and slope agree at both joins, curvature does not: a
-# cubic conic as the last piece makes it agree.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, eqs 32 to 44.
+# cubic conic as the last piece makes it agree (eqs 32 to 44).
 
 
 def quintic_notes(curve: Quintic) -> tuple[str, ...]:
-    """Tell where a quintic does not go one way only, by the extremes of its slope."""
+    """Report where a quintic does not go one way only, by the extremes of its slope."""
     slope = polyder(curve.coefficients)
     turns = polyroots(np.trim_zeros(polyder(slope), "b")) if polyder(slope).any() else np.zeros(0)
     real = turns.real[(np.abs(turns.imag) < 1e-9) & (turns.real > 0.0) & (turns.real < 1.0)]
     u = np.concatenate([[0.0, 1.0], real])
     rise = polyval(u, slope)
+    # The way from its first value to its last: values at u = 0 and 1.
     way = -1.0 if curve.coefficients.sum() <= curve.coefficients[0] else 1.0
     worst = int(np.argmin(way * rise))
     if way * rise[worst] >= -1e-12 * float(np.abs(curve.coefficients).max()):
@@ -317,6 +309,7 @@ def combined_waterline(
         nose = conic(b, c, change, slope1, level)
     else:
         nose = cubic_conic(b, c, change, slope1, second, level)
+    # The conic's slope is by v, which runs from the end toward the join: the sign changes.
     notes = quintic_notes(middle) + conic_notes(-slope1 * (c - b))
     straight = (
         FormulaPiece("line", begin, a, np.array([top + rise * (begin - a), rise * (a - begin)])),
@@ -342,15 +335,10 @@ def _check_ranges(
 
 
 # --------------------------------------------------------------------------------------
-# Regions of a half hull: boundary curves in the side plan, and a formula between each two.
-#
-# Boundary curves (flat of side, beginning of the conic, stem ...) are drawn in the side plan as x
-# over z, straight from point to point. On a waterline z they are evaluated and put in order; the
-# formula of the region between neighbours makes the piece there. Where two boundaries coincide, the
-# region between them has no length and its piece is dropped.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, the combined method.
+# Regions. Boundary curves (flat of side, beginning of the conic, stem ...) are drawn in the side
+# plan as x over z, straight from point to point. On a waterline z they are evaluated and put in
+# order; the formula of the region between neighbours makes the piece there. Where two boundaries
+# coincide, the region between them has no length and its piece is dropped.
 
 _COINCIDE = 1e-9
 """Boundaries nearer than this, in parts of the extent of all, are one."""
@@ -499,6 +487,7 @@ class WaterlineRegions:
         z = np.union1d(a[:, 0], b[:, 0])
         z = np.union1d(z[(z >= low) & (z <= high)], [low, high])
         ahead = np.interp(z, b[:, 0], b[:, 1]) - np.interp(z, a[:, 0], a[:, 1])
+        # Boundaries may touch: only a change of sign beyond the touch is a crossing.
         ahead[np.abs(ahead) <= self.tolerance] = 0.0
         sides = np.flatnonzero(ahead)
         for k, m in pairwise(sides.tolist()):
@@ -525,16 +514,12 @@ def _polyline(name: str, given: ArrayLike) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# The pieces of a waterline through its regions, each going on from the one before it.
-#
-# A *line* runs straight between the half-breadths at its boundaries; a *quintic* begins with the
-# slope of the piece before it, ends with that of a line after it, and takes what is left from
-# offsets; a *circle* goes on tangentially to its end; a *conic* goes on with value and slope, a
-# *cubic conic* with the second derivative too, and both stand upright at their end. The first piece
-# goes on from a parallel side: level and straight.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, the combined method. There a circle is written with abscissae from 0 to 1,
+# The pieces of a waterline through its regions, each going on from the one before it. A *line* runs
+# straight between the half-breadths at its boundaries; a *quintic* begins with the slope of the
+# piece before it, ends with that of a line after it, and takes what is left from offsets; a
+# *circle* goes on tangentially to its end; a *conic* goes on with value and slope, a *cubic conic*
+# with the second derivative too, and both stand upright at their end. The first piece goes on from
+# a parallel side: level and straight. In the source a circle is written with abscissae from 0 to 1,
 # which makes it an ellipse in true lengths; here abscissae are true.
 
 
@@ -545,8 +530,8 @@ def joined_pieces(
 
     Parameters
     ----------
-    regions : sequence of Region
-        Of one waterline, in order of x (`Regions.at`).
+    regions : sequence of WaterlineRegion
+        Of one waterline, in order of x (`WaterlineRegions.at`).
     heights : mapping of str to float, m
         Half-breadth on each boundary; at the last one that at the end of the ship.
     offsets : (n, 2), m

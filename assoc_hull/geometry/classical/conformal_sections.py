@@ -29,12 +29,12 @@ from assoc_hull.geometry.curves import FloatArray, freeze
 __all__ = ["ConformalSections", "fit_conformal", "lewis_sections"]
 
 _CHECKED = 181
-"""So many angles are looked at for folds: every half degree, and exactly for two terms."""
+"""Angles at which folds are looked for: every half degree, and exactly for two terms."""
 
 _TRIALS = 100
 """Of the angles of offsets; a section takes ten to forty."""
 
-_NIL = 1e-9
+_ROUNDING = 1e-9
 """Less than this part of the scale on the wrong side is rounding."""
 
 
@@ -108,9 +108,9 @@ class ConformalSections:
         """Tell which are neither folded nor cross centre line or waterline, (k,)."""
         t = np.linspace(0.0, 0.5 * np.pi, _CHECKED)
         place, rate = _image(self.scale, self.terms, t), _image(self.scale, self.terms, t, 1)
-        nil = _NIL * self.scale[:, None]
-        inward, down = rate[..., 0] < -nil, rate[..., 1] > nil
-        outside = (place < -nil[..., None]).any(axis=(1, 2))
+        slack = _ROUNDING * self.scale[:, None]
+        inward, down = rate[..., 0] < -slack, rate[..., 1] > slack
+        outside = (place < -slack[..., None]).any(axis=(1, 2))
         good = np.asarray(~outside & ~(inward & down).any(axis=1))
         # Without both there is no loop; with both, there may be none.
         for k in np.flatnonzero(good & inward.any(axis=1) & down.any(axis=1)):
@@ -260,12 +260,12 @@ def fit_conformal(offsets: ArrayLike, terms: int) -> tuple[ConformalSections, Fl
             off, begin, bounds=(0.0, high), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=_TRIALS
         )
         start = whole(found.x)
-    linear, rest = _linear(points, start, terms)
+    linear, residual = _linear(points, start, terms)
     if linear[0] <= 0.0:
         what = f"conformal section: not simple (scale {digits(linear[0])})"
         raise GeometryError(what, "give offsets from keel to waterline", {"scale": linear[0]})
     section = ConformalSections(linear[:1].copy(), (linear[1:] / linear[0])[None, :]).checked()
-    return section, np.hypot(*rest.reshape(2, -1))
+    return section, np.hypot(*residual.reshape(2, -1))
 
 
 def _crosses_itself(points: FloatArray) -> bool:
@@ -292,8 +292,8 @@ def _linear(points: FloatArray, t: FloatArray, terms: int) -> tuple[FloatArray, 
     columns = np.vstack([across, down])
     wanted = points.T.ravel()
     found = np.asarray(np.linalg.lstsq(columns, wanted, rcond=None)[0], np.float64)
-    rest: FloatArray = columns @ found - wanted
-    return found, rest
+    residual: FloatArray = columns @ found - wanted
+    return found, residual
 
 
 def _image(scale: FloatArray, terms: FloatArray, t: FloatArray, rate: int = 0) -> FloatArray:

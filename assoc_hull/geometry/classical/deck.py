@@ -1,7 +1,9 @@
 """Decks: a height at the centre line, sheer along and camber across; and houses on them.
 
 `Sheer` is a polyline over x, `Deck` the surface z(x, y), `DeckHouse` a block whose roof is parallel
-to its deck. Volumes and areas are exact.
+to its deck. Volumes and areas are exact. x in the datum of whoever gives it, heights from the base
+line, m. All are those of the PRELIKON system in Kim & Chang, "Some Representations of Ship Hulls by
+Mathematical Method for Design and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -30,9 +32,6 @@ __all__ = [
     "Sheer",
     "require_decks_apart",
 ]
-
-# --------------------------------------------------------------------------------------
-# A sheer of straight lines in the centre-line plane.
 
 
 @attrs.frozen(eq=False)
@@ -127,9 +126,6 @@ class Sheer:
         return type(self)(self.x + step, self.rise.copy())
 
 
-# --------------------------------------------------------------------------------------
-# A deck: a height at the centre line, sheer along and camber across.
-
 _ACROSS = 65
 """Two decks are compared at so many half-breadths of each station."""
 
@@ -160,7 +156,7 @@ class Deck:
 
     @classmethod
     def make(cls, number: int, height: float, sheer: Sheer, camber: CamberKind) -> Self:
-        """Check what is handed in; arguments as the attributes.
+        """Check the arguments, which are as the attributes.
 
         Raises
         ------
@@ -221,20 +217,10 @@ class Deck:
 
 
 def require_decks_apart(decks: Sequence[Deck], x: ArrayLike, half_breadth: ArrayLike) -> None:
-    """Check at stations that no two decks meet.
+    """Check at stations x (m,), m, that no two decks intersect; raises GeometryError where they do.
 
-    Parameters
-    ----------
-    decks : sequence of Deck
-        In any order.
-    x, half_breadth : (m,), m
-        Stations, and how far out the decks are looked at there; no farther than both cambers
-        are given.
-
-    Raises
-    ------
-    GeometryError
-        ``"decks {i} and {j} intersect near x={x}"``.
+    `half_breadth` (m,), m, is how far out the decks are compared there; no farther than both
+    cambers are given.
     """
     places = finite_array(x, "decks", (None,))
     widths = finite_array(half_breadth, "decks", (len(places),))
@@ -247,9 +233,10 @@ def require_decks_apart(decks: Sequence[Deck], x: ArrayLike, half_breadth: Array
                 for deck in (first, second)
             ]
             above = heights[0] - heights[1]
-            met = (above * above[:1, :1] <= 0.0).any(axis=1)
-            if met.any():
-                at = float(places[np.argmax(met)])
+            # All places must lie on the side of the first: a change of sign is an intersection.
+            crossed = (above * above[:1, :1] <= 0.0).any(axis=1)
+            if crossed.any():
+                at = float(places[np.argmax(crossed)])
                 raise GeometryError(
                     f"decks {first.number} and {second.number} intersect near x={digits(at)}",
                     "change a height, a sheer or a camber",
@@ -264,10 +251,6 @@ def _reach(first: Deck, second: Deck, widths: FloatArray) -> FloatArray:
         if deck.camber.scale == "fixed":
             reach = np.minimum(reach, deck.camber.half_breadth)
     return reach
-
-
-# --------------------------------------------------------------------------------------
-# A deck house: a block on a deck, its roof parallel to it.
 
 
 @attrs.frozen(eq=False)
@@ -311,7 +294,7 @@ class DeckHouse:
         name: str = "deck house",
         deck_half_breadth: float | None = None,
     ) -> Self:
-        """Check what is handed in.
+        """Check the arguments.
 
         Parameters
         ----------
@@ -342,6 +325,7 @@ class DeckHouse:
                 raise GeometryError(
                     f"deck house: {size} {digits(value)}", "give one above 0", {size: value}
                 )
+        # Both raise where deck or camber do not reach as far as the house.
         found.centre([low, high])
         found.camber.mean(0.5 * width, deck_half_breadth)
         return cls(found, (low, high), width, tall, str(name), deck_half_breadth)

@@ -1,8 +1,10 @@
 """The elastica, a thin rod bent by forces at its ends, and the one through two tangents.
 
-`Elastica` is a segment in closed form by elliptic integrals. `fit_elastica` lays one between two
-points with given tangents; a free length, a modulus or a length closes the problem. The amplitudes
-are found by Newton's rule on chords of unit length; a length is found along a family of moduli.
+`Elastica` is a segment in closed form by elliptic integrals; `fit_elastica` lays one between two
+points with given tangents. Two points and two end angles are four data, an elastica has five
+unknowns: a free length, a modulus or a length closes the problem. Lengths in m, angles in rad.
+Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
+Production", J. SNAK, eq. 9.
 """
 
 from __future__ import annotations
@@ -41,7 +43,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The elastica: a thin rod bent by forces at its ends, in closed form by elliptic integrals.
+# A segment of an elastica.
 #
 # With modulus k, amplitude phi and rate beta (1/m), F and E the elliptic integrals of the first
 # and second kind of parameter k^2, an inflecting elastica is, in axes along its force and from
@@ -56,9 +58,6 @@ __all__ = [
 #
 # its curvature 2 B D. Along both the second derivative of the direction is -beta^2 sin psi, with
 # B p for beta.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, eq. 9.
 
 Family = Literal["inflecting", "not inflecting"]
 
@@ -67,13 +66,7 @@ _MOST_TURNS = 1e6
 
 
 def check_modulus(k: float) -> float:
-    """Take a modulus between 0 and 1, neither included.
-
-    Raises
-    ------
-    GeometryError
-        ``"elastica: modulus k must lie in (0,1)"``.
-    """
+    """Take a modulus between 0 and 1, neither included; raises GeometryError for others."""
     found = float(finite_array(k, "elastica", ()))
     if not 0.0 < found < 1.0:
         raise GeometryError(
@@ -86,16 +79,9 @@ def check_modulus(k: float) -> float:
 def force_frame(
     phi0: FloatArray, phi1: FloatArray, k: FloatArray | float, family: Family = "inflecting"
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Give xi, eta and s from one amplitude to another at unit rate, any shape.
+    """Give xi, eta and s from one amplitude (rad) to another at unit rate, any shape.
 
-    Parameters
-    ----------
-    phi0, phi1 : (...), rad
-        Amplitudes.
-    k : (...) or float
-        Modulus; for the family without inflections its inverse, p.
-    family : "inflecting" or "not inflecting"
-        Which.
+    For the family without inflections k is the inverse of the modulus, p.
     """
     m = np.asarray(k * k)
     first, second = (
@@ -286,20 +272,18 @@ class Elastica:
 
 
 # --------------------------------------------------------------------------------------
-# The amplitudes of elastica with given end angles on chords of unit length, many at once.
-#
-# With psi the direction at an amplitude and w that of the chord, both from the line of the force,
-# psi - w is to be the given angle at either end. Newton's rule begins at the amplitudes whose
-# curvature, and slope of it, at the middle are those of the cubic of small deflections; a step
-# that does not help is made shorter. Where it fails, the angles are approached in 20 steps.
+# Amplitudes of given end angles on chords of unit length. With psi the direction at an amplitude
+# and w that of the chord, both from the line of the force, psi - w is to be the given angle at
+# either end: two equations for the first amplitude and the span of amplitudes.
 
 FREE_MODULUS = float(np.sqrt(0.5))
-"""The modulus of an elastica whose length adjusts itself."""
+"""The modulus of an elastica whose length adjusts itself without friction: the energy of bending
+is stationary there."""
 
-_AGREED = 1e-14
+_AGREED = 1e-14  # rad: Newton's rule stops here
 _MOST_STEPS = 60
 _MOST_STEP = 0.5  # rad
-_MET = 1e-10  # rad: end angles that agree so far are met
+_SOLVED = 1e-10  # rad: residuals of end angles up to this count as a solution
 _TRIED = 1.0  # rad: end angles up to this are known to have a solution
 
 
@@ -314,45 +298,33 @@ def fit_amplitudes(
     k: FloatArray | float,
     near: tuple[FloatArray, FloatArray] | None = None,
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Find amplitudes for many pairs of end angles, on chords of unit length.
+    """Find first amplitudes and spans (rad) for pairs of end angles; last, which were found, (n,).
 
-    Parameters
-    ----------
-    alpha, beta : (n,), rad
-        Directions at start and end, from the chord; not both nil.
-    k : (n,) or float
-        Moduli.
-    near : ((n,), (n,)), rad, optional
-        First amplitudes and spans to begin at; nothing else is then tried.
-
-    Returns
-    -------
-    phi0 : (n,), rad
-        Amplitudes at the start.
-    span : (n,), rad
-        What the amplitude grows by.
-    found : (n,) bool
-        Where both directions are met.
+    `alpha`, `beta` (n,), rad, are directions from the chord, not both zero. Newton's rule begins at
+    amplitudes and spans `near`, and nothing else is then tried; without it, at the cubic of small
+    deflections, and where that fails the angles are approached in 20 steps.
     """
     modulus = np.broadcast_to(np.asarray(k, np.float64), alpha.shape)
     if near is not None:
         return _newton(alpha, beta, modulus, *near)
-    phi0, span, met = _newton(alpha, beta, modulus, *_first_guess(alpha, beta, modulus))
-    lost = np.flatnonzero(~met)
+    phi0, span, solved = _newton(alpha, beta, modulus, *_first_guess(alpha, beta, modulus))
+    lost = np.flatnonzero(~solved)
     if len(lost):
-        phi0[lost], span[lost], met[lost] = _continued(alpha[lost], beta[lost], modulus[lost])
-    return phi0, span, met
+        phi0[lost], span[lost], solved[lost] = _approach_angles(
+            alpha[lost], beta[lost], modulus[lost]
+        )
+    return phi0, span, solved
 
 
-def _continued(
+def _approach_angles(
     alpha: FloatArray, beta: FloatArray, k: FloatArray
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
     """Walk from small end angles to those wanted, in the same proportion."""
     phi0, span = _first_guess(0.05 * alpha, 0.05 * beta, k)
-    met = np.ones(len(alpha), np.bool_)
+    solved = np.ones(len(alpha), np.bool_)
     for part in np.linspace(0.05, 1.0, 20):
-        phi0, span, met = _newton(part * alpha, part * beta, k, phi0, span)
-    return phi0, span, met
+        phi0, span, solved = _newton(part * alpha, part * beta, k, phi0, span)
+    return phi0, span, solved
 
 
 def _first_guess(
@@ -379,17 +351,17 @@ def _first_guess(
 def _newton(
     alpha: FloatArray, beta: FloatArray, k: FloatArray, phi0: FloatArray, span: FloatArray
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Improve amplitudes until the directions agree, or do so no better."""
+    """Improve amplitudes until directions agree to `_AGREED`, or no shorter step helps either."""
     phi0, span = phi0.copy(), span.copy()
-    rest, table = _equations(alpha, beta, k, phi0, span)
-    size = np.abs(rest).max(axis=0)
+    residual, table = _equations(alpha, beta, k, phi0, span)
+    size = np.abs(residual).max(axis=0)
     alive = np.isfinite(size)
     for _ in range(_MOST_STEPS):
         alive &= size > _AGREED
         work = np.flatnonzero(alive)
         if not len(work):
             break
-        step = _solve_pairs(table[:, :, work], -rest[:, work])
+        step = _solve_pairs(table[:, :, work], -residual[:, work])
         step *= np.minimum(1.0, _MOST_STEP / np.maximum(np.abs(step).max(axis=0), 1e-300))
         better = np.zeros(len(work), np.bool_)
         for factor in (1.0, 0.5, 0.25, 0.1, 0.02):
@@ -399,14 +371,15 @@ def _newton(
             who = work[todo]
             at = phi0[who] + factor * step[0, todo], span[who] + factor * step[1, todo]
             new, slopes = _equations(alpha[who], beta[who], k[who], *at)
+            # The amplitude must grow along the curve: a span of the other sign is another curve.
             gain = (np.abs(new).max(axis=0) < size[who]) & (at[1] > 0.0)
             kept = who[gain]
             phi0[kept], span[kept] = at[0][gain], at[1][gain]
-            rest[:, kept], table[:, :, kept] = new[:, gain], slopes[:, :, gain]
+            residual[:, kept], table[:, :, kept] = new[:, gain], slopes[:, :, gain]
             size[kept] = np.abs(new).max(axis=0)[gain]
             better[todo[gain]] = True
         alive[work[~better]] = False
-    return phi0, span, size <= _MET
+    return phi0, span, size <= _SOLVED
 
 
 def _solve_pairs(table: FloatArray, right: FloatArray) -> FloatArray:
@@ -422,24 +395,26 @@ def _solve_pairs(table: FloatArray, right: FloatArray) -> FloatArray:
 def _equations(
     alpha: FloatArray, beta: FloatArray, k: FloatArray, phi0: FloatArray, span: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Give what directions miss, (2, n) rad, and its derivatives by first amplitude and span."""
+    """Give the residuals of directions, (2, n) rad, and derivatives by first amplitude and span."""
     phi1 = phi0 + span
     xi, eta, _ = force_frame(phi0, phi1, k)
     chord2 = xi * xi + eta * eta
     way = np.arctan2(eta, xi)
-    rest = np.stack([
+    residual = np.stack([
         wrap_angle(frame_direction(phi, k) - way - wanted)
         for phi, wanted in ((phi0, alpha), (phi1, beta))
     ])  # fmt: skip
     with np.errstate(invalid="ignore", divide="ignore"):
-        turns, sways = zip(*(_rates(phi, k, xi, eta, chord2) for phi in (phi0, phi1)), strict=True)
+        turns, sways = zip(
+            *(_amplitude_rates(phi, k, xi, eta, chord2) for phi in (phi0, phi1)), strict=True
+        )
     # The chord's direction grows with the last amplitude and falls with the first.
     by_first = np.stack([turns[0] + sways[0], sways[0]])
     by_last = np.stack([-sways[1], turns[1] - sways[1]])
-    return rest, np.stack([by_first + by_last, by_last], axis=1)
+    return residual, np.stack([by_first + by_last, by_last], axis=1)
 
 
-def _rates(
+def _amplitude_rates(
     phi: FloatArray, k: FloatArray, xi: FloatArray, eta: FloatArray, chord2: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Give how direction and the chord's direction go with an amplitude."""
@@ -460,19 +435,18 @@ def no_elastica_error(alpha: float, beta: float, k: float) -> GeometryError:
 
 
 # --------------------------------------------------------------------------------------
-# The modulus at which an elastica with given end angles has a given length.
-#
-# Along the family that begins at the free length (k^2 = 1/2) the length falls as the modulus
-# rises. Towards a modulus of 1 it nears its least; towards small moduli the family ends where it
-# folds back, at its greatest length. Longer ones exist, with further waves; they are not sought.
+# The modulus of a given length. Along the family that begins at the free length (k^2 = 1/2) the
+# length falls as the modulus rises. Towards a modulus of 1 it nears its least; towards small moduli
+# the family ends where it folds back, at its greatest length. Longer ones exist, with further
+# waves; they are not sought.
 
 _PARTS = np.array([
     1e-9, 1e-6, 1e-4, 1e-3, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5,
     0.55, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 0.999, 0.9999, 1.0 - 1e-6,
 ])  # fmt: skip
-"""Where the family is looked at, between the least modulus and 1."""
+"""Moduli at which the family is solved, as parts of the way from the least modulus to 1."""
 
-_HALVINGS = 20
+_HALVINGS = 20  # leave a millionth of a step of the modulus before the fold
 _JUMP = 1.1  # rad: a span that changes by more belongs to another family
 
 
@@ -489,27 +463,10 @@ class _Member:
 def elastica_of_length(
     alpha: float, beta: float, ratio: float, chord: float
 ) -> tuple[float, float, float]:
-    """Find the elastica of a length.
+    """Find modulus, first amplitude (rad) and span (rad) of the elastica of a length over chord.
 
-    Parameters
-    ----------
-    alpha, beta : float, rad
-        End angles from the chord, not both nil.
-    ratio : float
-        Length over chord.
-    chord : float, m
-        For the message.
-
-    Returns
-    -------
-    float, float, float
-        Modulus, amplitude at the start and span of amplitudes.
-
-    Raises
-    ------
-    GeometryError
-        ``"elastica: length {L} outside the attainable range [{lo},{hi}]"``, or no solution for
-        these angles at the free length.
+    End angles from the chord, rad, not both zero; the chord (m) is for the message. Raises
+    GeometryError for a length out of reach, and where the angles have no solution at the free one.
 
     Examples
     --------
@@ -533,6 +490,7 @@ def elastica_of_length(
         return _member_between(low, high, k, alpha, beta).ratio - ratio
 
     k = low.k
+    # The root is bracketed by members that are known: either may have the length itself.
     if missing(high.k) == 0.0:
         k = high.k
     elif missing(low.k) != 0.0:
@@ -568,12 +526,12 @@ def _family(alpha: float, beta: float) -> list[_Member]:
         raise no_elastica_error(alpha, beta, FREE_MODULUS)
     least = least_modulus(alpha, beta)
     k = least + (1.0 - least) * _PARTS
-    up = _walk(alpha, beta, home, k[k > FREE_MODULUS])
-    down = _walk(alpha, beta, home, k[k < FREE_MODULUS][::-1])
+    up = _follow_family(alpha, beta, home, k[k > FREE_MODULUS])
+    down = _follow_family(alpha, beta, home, k[k < FREE_MODULUS][::-1])
     return [*down[::-1], home, *up]
 
 
-def _walk(alpha: float, beta: float, home: _Member, moduli: FloatArray) -> list[_Member]:
+def _follow_family(alpha: float, beta: float, home: _Member, moduli: FloatArray) -> list[_Member]:
     """Follow the family from one modulus to the next, to its end."""
     members = [home]
     for k in moduli.tolist():
@@ -591,6 +549,7 @@ def _next_member(alpha: float, beta: float, last: list[_Member], k: float) -> _M
     part = (k - at.k) / (at.k - before.k) if at is not before else 0.0
     begin = (
         at.phi0 + part * (at.phi0 - before.phi0),
+        # A span that is extrapolated to nothing would have no chord.
         max(at.span + part * (at.span - before.span), 0.1 * at.span),
     )
     new = _member_of_modulus(alpha, beta, k, begin)
@@ -611,16 +570,7 @@ def _extend_to_fold(alpha: float, beta: float, members: list[_Member], out: floa
 
 
 # --------------------------------------------------------------------------------------
-# Elastica through two points with given tangents: free length, modulus or length given.
-#
-# Two points and two end angles are four data; an elastica has five unknowns. What closes it is
-# chosen: a length that adjusts itself without friction, which has k^2 = 1/2 (the energy of
-# bending is stationary there), a modulus, or a length. In the frame of the unit chord only the
-# first amplitude and the span of amplitudes are to be found, by Newton's rule for many at once,
-# from the curvatures that the cubic of small deflections has at its ends.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, eq. 9.
+# Elastica through two points with given tangents.
 
 
 def fit_elastica(
@@ -648,7 +598,7 @@ def fit_elastica(
     Returns
     -------
     Elastica
-        A straight line where both angles are nil.
+        A straight line where both angles are zero.
 
     Raises
     ------
@@ -677,10 +627,12 @@ def fit_elastica(
         _check_straight(length, k, chord)
         return Elastica.straight(first, last)
     if length is None:
-        return _placed(first, step, a, b, FREE_MODULUS if k is None else check_modulus(k))
+        return _solve_for_modulus(
+            first, step, a, b, FREE_MODULUS if k is None else check_modulus(k)
+        )
     wanted = float(finite_array(length, "elastica", ()))
     modulus, *near = elastica_of_length(a, b, wanted / chord, chord)
-    return _laid(first, step, modulus, *near)
+    return _place_on_chord(first, step, modulus, *near)
 
 
 def _check_straight(length: float | None, k: float | None, chord: float) -> None:
@@ -697,15 +649,19 @@ def _check_straight(length: float | None, k: float | None, chord: float) -> None
         )  # fmt: skip
 
 
-def _placed(first: FloatArray, step: FloatArray, a: float, b: float, k: float) -> Elastica:
+def _solve_for_modulus(
+    first: FloatArray, step: FloatArray, a: float, b: float, k: float
+) -> Elastica:
     """Solve for amplitudes of one modulus."""
-    phi0, span, met = fit_amplitudes(np.array([a]), np.array([b]), k)
-    if not met[0]:
+    phi0, span, solved = fit_amplitudes(np.array([a]), np.array([b]), k)
+    if not solved[0]:
         raise no_elastica_error(a, b, k)
-    return _laid(first, step, k, float(phi0[0]), float(span[0]))
+    return _place_on_chord(first, step, k, float(phi0[0]), float(span[0]))
 
 
-def _laid(first: FloatArray, step: FloatArray, k: float, phi0: float, span: float) -> Elastica:
+def _place_on_chord(
+    first: FloatArray, step: FloatArray, k: float, phi0: float, span: float
+) -> Elastica:
     """Turn and scale a segment from the frame of its force onto its chord."""
     ends = np.array(phi0), np.array(phi0 + span)
     xi, eta, _ = (float(each) for each in force_frame(*ends, k))

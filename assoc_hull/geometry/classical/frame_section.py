@@ -1,9 +1,10 @@
 """A frame: the section of a hull where its longitudinal lines are cut at one x.
 
 From below: the flat of bottom, parabolas over the chords between given points, a rounded corner,
-the camber of the deck. First come the pieces (`Quadratics`, `DeckCorner`), then the order of the
-points and the bends between them, last `FrameSection`, which is made of all. It passes all points
-and turns sharply at each; these jumps are reported.
+the camber of the deck; y outward, z up, m, areas exact. The frame passes all points and is
+continuous only: its direction jumps at each, and these jumps are reported. They fall with about
+the square of the spacing of waterlines on smooth data. Source: Kim & Chang, "Some Representations
+of Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -46,16 +47,14 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Pieces of plane curves whose two coordinates are quadratic in the length along their chord.
-#
-# Lines, parabolas over chords, and cambers are such; their area against the axis is exact, also
-# below a level.
+# Pieces whose two coordinates are quadratic in the length along their chord: lines, parabolas over
+# chords, cambers.
 
 _FAR = 1e9
-"""Beyond this level (m) nothing lies."""
+"""A level (m) beyond all that is integrated; infinite ones are brought here."""
 
 _SLACK = 1e-12
-"""So far (as a part of the length) beyond an end is the end."""
+"""A place so far beyond an end (as a part of the length) is the end."""
 
 _GAUSS = np.polynomial.legendre.leggauss(3)
 
@@ -189,11 +188,8 @@ class Quadratics:
 
 
 # --------------------------------------------------------------------------------------
-# The rounded corner between the side of a frame and the camber of its deck.
-#
-# The centre of the arc lies by the radius below the camber and by the radius inside the side.
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK.
+# Deck: the camber, and the arc that rounds its corner with the side. The centre of the arc lies by
+# the radius below the camber and by the radius inside the side.
 
 
 @attrs.frozen
@@ -229,28 +225,11 @@ def deck_corner(
     half_breadth: float, side_height: float, rise: float, radius: float, *,
     side_angle: float = 0.5 * math.pi, kind: str = "parabola", name: str = "frame",
 ) -> DeckCorner:  # fmt: skip
-    """Round the corner of deck and side.
+    """Round the corner (y, z) = (half_breadth, side_height) of deck and side, m.
 
-    Parameters
-    ----------
-    half_breadth, side_height : float, m
-        The corner (y, z) as it is without the arc.
-    rise : float, m
-        Of the camber, from the side to the centre line.
-    radius : float, m
-        Of the arc, above 0.
-    side_angle : float, rad
-        Direction of the side there, upward, from the outward horizontal; the side is taken
-        as straight.
-    kind : {"line", "parabola"}
-        Of the camber.
-    name : str
-        What the frame is called in messages.
-
-    Raises
-    ------
-    GeometryError
-        ``"frame x={x}: corner radius {r} does not fit"``.
+    `rise` (m) is that of the camber from the side to the centre line, `side_angle` (rad) the upward
+    direction of the side from the outward horizontal; the side is taken as straight. Raises
+    GeometryError for a radius that does not fit.
     """
     one_of(kind, KINDS, f"{name}: camber kind is")
     numbers = (half_breadth, side_height, rise, radius, side_angle)
@@ -287,18 +266,9 @@ def deck_corner(
 def deck_pieces(
     top: FloatArray, rise: float, kind: str = "parabola", corner: DeckCorner | None = None
 ) -> Quadratics:
-    """Give the camber from the side, or from the corner, to the centre line.
+    """Give the camber from the side `top` (y, z), m, or from the corner, to the centre line.
 
-    Parameters
-    ----------
-    top : (2,), m
-        (y, z) of the side.
-    rise : float, m
-        From there to the centre line.
-    kind : {"line", "parabola"}
-        Its curve.
-    corner : DeckCorner or None
-        Where it begins.
+    `rise` (m) is counted from the side, also where the camber begins at a corner.
 
     Examples
     --------
@@ -318,7 +288,7 @@ def deck_pieces(
 
 
 # --------------------------------------------------------------------------------------
-# The points of a frame in order: from the bottom past waterlines and knuckles to the deck side.
+# Points in order from the bottom past waterlines and knuckles to the deck side.
 
 MOST_RATIO = 4.0
 """Beyond this ratio of neighbouring spacings of waterlines a frame bends badly."""
@@ -340,24 +310,11 @@ class FrameRun:
 def frame_runs(
     first: FloatArray, water: FloatArray, knuckles: FloatArray, top: FloatArray, name: str
 ) -> tuple[FrameRun, ...]:
-    """Put points in order and part them at knuckles.
+    """Put points (y, z), m, in order and part them at knuckles; `name` stands in messages.
 
-    Parameters
-    ----------
-    first, top : (2,), m
-        The lowest point, and the deck side.
-    water, knuckles : (n, 2), (k, 2), m
-        Points (y, z) of waterlines and knuckle lines; only those above the first and below the
-        deck side count, and of knuckles also those level with either.
-    name : str
-        What the frame is called in messages.
-
-    Raises
-    ------
-    GeometryError
-        ``"{name}: fewer than 2 points on the section"``, ``"{name}: section points not increasing
-        in z at {z}"``: two points at one height that are not both knuckle, edge of the flat or
-        deck side.
+    `first` is the lowest point, `top` the deck side. Of `water` (n, 2) only what lies between them
+    counts, of `knuckles` (k, 2) also what is level with either. Raises GeometryError for two points
+    at one height that are not both knuckle, edge of the flat or deck side.
     """
     water = water[(water[:, 1] > first[1] + _SAME) & (water[:, 1] < top[1] - _SAME)]
     inner = (knuckles[:, 1] >= first[1] - _SAME) & (knuckles[:, 1] <= top[1] + _SAME)
@@ -384,7 +341,7 @@ def frame_runs(
 
 
 def _distinct(points: FloatArray) -> np.typing.NDArray[np.bool_]:
-    """Tell which points are none of those before them."""
+    """Tell which points coincide with none before them."""
     return np.array([not _near(points[:i], each) for i, each in enumerate(points)], bool)
 
 
@@ -395,10 +352,7 @@ def _near(points: FloatArray, place: FloatArray) -> bool:
 def spacing_notes(
     water: FloatArray, first: FloatArray, top: FloatArray, name: str
 ) -> tuple[str, ...]:
-    """Tell of neighbouring waterlines whose spacings differ too much.
-
-    Between the first point and the deck side; ``"{name}: waterline spacing ratio {r} exceeds 4"``.
-    """
+    """Report neighbouring waterlines, bottom to deck side, whose spacings differ too much."""
     inner = np.unique(water[(water[:, 1] > first[1]) & (water[:, 1] < top[1]), 1])
     gap = np.diff(inner)
     if len(gap) < 2:
@@ -414,43 +368,21 @@ def spacing_notes(
 
 
 # --------------------------------------------------------------------------------------
-# How far the pieces of a frame bend between given points: means of parabolas with neighbours.
+# Bends of the pieces between given points.
 #
 # Over each chord stands q = K/2 p (p - l), p along the chord of length l, q to its left. A parabola
 # through both ends and a neighbour at (p_n, q_n) has K = 2 q_n / (p_n (p_n - l)); the mean of the
 # two neighbours is taken, or the only one at an end, or with a given direction at the start
-# K = -2 tan(alpha) / l, alpha from the chord to it. Source: Kim & Chang, "Some Representations of
-# Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
-#
-# The curve passes all points and turns sharply at each of them: a frame is corrugated, however
-# little, and never fair.
+# K = -2 tan(alpha) / l, alpha from the chord to it.
 
 
 def run_bends(
     points: ArrayLike, start_angle: float | None = None, name: str = "frame"
 ) -> tuple[FloatArray, tuple[str, ...]]:
-    """Give the bend of each piece of a run.
+    """Give the bend K (1/m) of each piece of a run (n,), 0 where nothing tells, and notes.
 
-    Parameters
-    ----------
-    points : (n + 1, 2) array_like, m
-        From one knuckle, or end, to the next.
-    start_angle : float or None, rad
-        Direction at the start, if it is known.
-    name : str
-        What it is called in messages.
-
-    Returns
-    -------
-    bend : (n,), 1/m
-        K of each; 0 where nothing tells.
-    notes : tuple of str
-        Neighbours that were left out, as they lie beside the chord.
-
-    Raises
-    ------
-    GeometryError
-        Fewer than two points, or two that coincide.
+    `points` (n + 1, 2), m, lead from one knuckle or end to the next; `start_angle` (rad) is the
+    direction at the start, if it is known. Notes name neighbours that lie beside a chord.
     """
     place = finite_array(points, name, (None, 2))
     if len(place) < 2:
@@ -489,7 +421,7 @@ def run_bends(
 def _with_neighbour(
     neighbour: FloatArray, foot: FloatArray, along: FloatArray, length: FloatArray, *, ahead: bool
 ) -> tuple[FloatArray, np.typing.NDArray[np.bool_]]:
-    """Give K by a neighbour of each chord, nan where it does not lie beyond it; and where not."""
+    """Give K by a neighbour of each chord, nan where that lies beside it; and where it does."""
     away = neighbour - foot
     p = (away * along).sum(axis=1)
     q = along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]
@@ -516,13 +448,7 @@ def tangent_jumps(pieces: Quadratics) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# A frame: the section of a hull where its longitudinal lines are cut at one x.
-#
-# From the bottom up: the flat of bottom, a run of parabolas to each knuckle and to the deck side, a
-# rounded corner, the camber of the deck. The frame passes all points of the lines and is continuous
-# only: its direction jumps at each of them. These jumps, the corrugation, are told; they fall with
-# about the square of the spacing of waterlines on smooth data. Source: Kim & Chang, "Some
-# Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
+# The frame itself.
 
 
 @attrs.frozen(eq=False)
@@ -535,7 +461,7 @@ class FrameSection:
         Where it stands.
     flat : float, m
         Half-width of the flat of bottom, 0 without one.
-    runs : tuple of Run
+    runs : tuple of FrameRun
         Points from the bottom to the first knuckle, from there to the next, up to the deck side.
     side : Quadratics
         The pieces of all runs; the last one ends where the corner begins, if there is one.
@@ -609,6 +535,7 @@ class FrameSection:
         level = flat is not None
         start = keel if flat is None else flat
         foot, radius = (float(finite_array(each, name, ())) for each in (start, corner_radius))
+        # `foot` is a half-width on the base line, or a height on the centre line.
         first = np.array([foot, 0.0] if level else [0.0, foot])
         rise = None if camber is None else float(finite_array(camber, name, ()))
         top = finite_array(deck_side, name, (2,))
@@ -617,16 +544,20 @@ class FrameSection:
         notes = list(spacing_notes(water, first, top, name))
         pieces, jumps = [], []
         for number, run in enumerate(runs):
+            # Only the lowest run begins at the flat, which the frame leaves horizontally.
             lean = 0.0 if level and not number else None
             bend, told = run_bends(run.points, lean, name)
             pieces.append(Quadratics.over(run.points, bend))
             jumps.append(tangent_jumps(pieces[-1]))
             notes += told
         if level:
+            # The flat itself has the direction 0.
             jumps.insert(0, pieces[0].angles()[0][:1])
+        # The whole is kept for its area: the corner shortens the last piece.
         side = whole = Quadratics.join(pieces)
         corner = None
         if radius:
+            # A deck straight across is rounded as a camber without rise.
             side, corner = _rounded(side, top, rise or 0.0, radius, camber_kind, name)
         deck = None if rise is None else deck_pieces(top, rise, camber_kind, corner)
         return cls(

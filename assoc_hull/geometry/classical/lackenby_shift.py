@@ -9,7 +9,7 @@ to come out, dx = (1 - x) dphi/(1 - phi).
 
 Sources: H. Lackenby, "On the systematic geometrical variation of ship forms", Trans. INA 92, 1950;
 Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and Production",
-J. SNAK. A hull is shifted by `assoc_hull.shift_sections`, which has more shapes and closes on both
+J. SNAK. A hull is shifted by `Hull.shift_sections`, which has more shapes and closes on both
 coefficient and centre.
 """
 

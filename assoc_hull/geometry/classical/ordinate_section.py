@@ -1,8 +1,10 @@
 """A section given by ordinates: heights on buttocks below, half-breadths on waterlines above.
 
-`PairedParabolas` is the curve that Simpson's first rule integrates, a parabola on each two steps.
-Both parts of an `OrdinateSection` are such curves, so that its areas are Simpson's values. The
-curve bends at every second ordinate; it is not fair.
+Both parts of an `OrdinateSection` are `PairedParabolas`, the curve that Simpson's first rule
+integrates, so that its areas are Simpson's values. A straight line joins the parts, a parabola is
+the camber. The curve bends at every second ordinate; it is not fair. Heights in m from the base
+line, half-breadths of one side. Source: Kim & Chang, "Some Representations of Ship Hulls by
+Mathematical Method for Design and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -32,20 +34,18 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The curve that Simpson's first rule integrates: a parabola on each pair of equal steps.
+# Parabolas on pairs of steps.
 #
 # On the nodes 2j, 2j + 1, 2j + 2 and with t from 0 to 2 the curve is
-# f0 (t - 1)(t - 2) / 2 - f1 t (t - 2) + f2 t (t - 1) / 2. It passes all nodes and bends at those of
-# even number, where two parabolas meet. Its exact integral is Simpson's value; over a first step
-# alone it is s (5 f0 + 8 f1 - f2) / 12. A last step without a partner has the parabola of the last
-# three nodes. Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for
-# Design and Production", J. SNAK.
+# f0 (t - 1)(t - 2) / 2 - f1 t (t - 2) + f2 t (t - 1) / 2; it bends at nodes of even number, where
+# two parabolas meet. Its exact integral is Simpson's value; over a first step s alone it is
+# s (5 f0 + 8 f1 - f2) / 12. A last step without a partner takes the parabola of the last three.
 
 _PLACES, _WEIGHTS = (0.5 * part for part in np.polynomial.legendre.leggauss(3))
 """Three places over a step are exact to the fifth degree: squares of parabolas, times x."""
 
 _SLACK = 1e-9
-"""So far beyond an end, in steps, is the end by rounding."""
+"""A place so far beyond an end, in steps, is the end by rounding."""
 
 
 @attrs.frozen(eq=False)
@@ -72,7 +72,7 @@ class PairedParabolas:
 
     @classmethod
     def make(cls, name: str, first: float, step: float, values: ArrayLike) -> Self:
-        """Check what is handed in; arguments as the attributes.
+        """Check the arguments, which are as the attributes.
 
         Raises
         ------
@@ -195,24 +195,16 @@ class PairedParabolas:
 
 
 # --------------------------------------------------------------------------------------
-# The area of a section of ordinates below any height, in closed form.
+# Areas and curve of a section, from its two parts.
 
 
 def area_below(
     bottom: PairedParabolas | None, side: PairedParabolas, level: float, hb: float
 ) -> float:
-    """Give the area of one side below a height, m2.
+    """Give the area (m2) of one side below the height `level` (m), in closed form.
 
-    Parameters
-    ----------
-    bottom : PairedParabolas or None
-        Height over y, m.
-    side : PairedParabolas
-        Half-breadth over z, m.
-    level : float, m
-        Up to here, not beyond the last waterline.
-    hb : float, m
-        Where the bottom part ends.
+    `bottom` is height over y and ends at the height `hb`; `side` is half-breadth over z, and
+    `level` is not beyond its last waterline.
     """
     above = side.integral(None, level) if level > side.first else 0.0
     if bottom is None:
@@ -220,6 +212,7 @@ def area_below(
     wet = min(level, hb)
     under = _area_under(bottom, wet)
     foot, wide = float(bottom.values[-1]), float(side.values[0]) - bottom.last
+    # The triangle under the straight line that joins bottom and side.
     if wet > foot and hb > foot:
         under += 0.5 * (wet - foot) ** 2 / (hb - foot) * wide
     return under + above
@@ -253,9 +246,6 @@ def _level_intersections(curve: PairedParabolas, level: float) -> FloatArray:
     return found
 
 
-# --------------------------------------------------------------------------------------
-# The curve of a section of ordinates, from the centre line up, step by step as parabolas.
-
 _NOTHING = 1e-9
 """A step shorter than this, m, is none."""
 
@@ -263,23 +253,10 @@ _NOTHING = 1e-9
 def outline_steps(
     bottom: PairedParabolas | None, side: PairedParabolas, deck: float, keel: float
 ) -> FloatArray:
-    """Give the steps from one given point to the next, (k, 3, 2): p(u) = c0 + c1 u + c2 u^2.
+    """Give the steps from one given point to the next, up to the height `deck` (m).
 
-    Parameters
-    ----------
-    bottom : PairedParabolas or None
-        Height over y, m.
-    side : PairedParabolas
-        Half-breadth over z, m.
-    deck : float, m
-        Height at which the side ends.
-    keel : float, m
-        Height on the centre line.
-
-    Returns
-    -------
-    (k, 3, 2)
-        Coefficients of (y, z) in m, with u from 0 to 1; the joining line has no c2.
+    (k, 3, 2): coefficients of (y, z) in m, p(u) = c0 + c1 u + c2 u^2 with u from 0 to 1. Without a
+    bottom the curve begins on the centre line at the height `keel`.
 
     Examples
     --------
@@ -315,7 +292,7 @@ def _side_steps(side: PairedParabolas, deck: float) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# What is refused of a section of ordinates, and what is only remarked.
+# What is refused of a section, and what is only remarked.
 
 FORMS = ("bottom+main+camber", "main+camber", "bottom+camber")
 """The general form; without a part on buttocks; without a main part."""
@@ -346,11 +323,6 @@ class OrdinateSizes:
 
 def read_sizes(*values: float) -> OrdinateSizes:
     """Take hb, sb, sw, hd, bd, cam (m): finite, spacings above 0, no negative breadth.
-
-    Raises
-    ------
-    GeometryError
-        A value that is none of these.
 
     Examples
     --------
@@ -384,21 +356,8 @@ def check_section(
 ) -> str:
     """Refuse what makes no section, and give its form.
 
-    Parameters
-    ----------
-    sizes : Sizes
-        As read.
-    zb, yw : (nb + 1,), (nw,), m
-        Heights and half-breadths.
-    counts : (int, int)
-        nb and nw.
-    form : str or None
-        One of `FORMS`, or to be told by the counts.
-
-    Raises
-    ------
-    GeometryError
-        What is wrong.
+    `zb` (nb + 1,) and `yw` (nw,) in m; `counts` are nb and nw as they were given. The form follows
+    from them where it is None.
     """
     nb, nw = _counts(zb, yw, *counts)
     shape = _form(sizes, nb) if form is None else shown_name(form)
@@ -423,7 +382,7 @@ def check_section(
 
 
 def _form(sizes: OrdinateSizes, nb: int) -> str:
-    """Tell the form of a section by what is given of it."""
+    """Give the form of a section by what is given of it."""
     if nb:
         return FORMS[0]
     return FORMS[1] if sizes.hb < sizes.hd else FORMS[2]
@@ -481,17 +440,7 @@ def _heights(sizes: OrdinateSizes, zb: FloatArray, nw: int, form: str) -> None:
 def section_notes(
     sizes: OrdinateSizes, bottom: PairedParabolas | None, side: PairedParabolas
 ) -> tuple[str, ...]:
-    """Say what is unusual about a section, a sentence each.
-
-    Parameters
-    ----------
-    sizes : Sizes
-        Its values.
-    bottom : PairedParabolas or None
-        Height over y.
-    side : PairedParabolas
-        Half-breadth over z.
-    """
+    """Say what is unusual about a section, a sentence each."""
     found = [] if bottom is None else _bottom_notes(sizes, bottom)
     if bottom is not None and side.values[0] < bottom.last - 1e-9 * sizes.sb:
         found.append(
@@ -528,14 +477,7 @@ def _refuse(what: str, remedy: str, **values: object) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# A section of a ship given directly: heights on buttocks below, half-breadths on waterlines above.
-#
-# The bottom part is given by heights at equal steps of y from the centre line, the main part by
-# half-breadths at equal steps of z from the top of the bottom part. Both are parabolas on pairs of
-# steps, so that areas are those of Simpson's rule; a straight line joins them, a parabola is the
-# camber. The curve bends at every second ordinate; it is not fair, and is not said to be.
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK.
+# The section itself.
 
 
 @attrs.frozen(eq=False)

@@ -1,7 +1,10 @@
 """A waterline with end points of its own and a parallel part: two splines and a line between.
 
-First come its three kinds of pieces: level line, cubic y(x), batten bent over its chords. A spline
-is a cubic where every chord rises less than it runs, else a batten.
+One spline over shoulder and parallel part would swing beyond the half-breadth. Both splines leave
+the parallel part in its direction; their other end is free, without second derivative, or has a
+given slope. A spline is a cubic y(x) where every chord rises less than it runs, else a batten over
+its chords. x forward, y outward, m. Source: Kim & Chang, "Some Representations of Ship Hulls by
+Mathematical Method for Design and Production", J. SNAK.
 """
 
 from __future__ import annotations
@@ -27,7 +30,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Pieces of a waterline: the cubic y(x), the level line, the batten bent over its chords.
+# The three kinds of pieces.
 
 
 @attrs.frozen
@@ -99,29 +102,23 @@ class ChordedPiece:
         GeometryError
             The batten passes an x more than once.
         """
-        met = self.spline.where("x", x)
-        if len(met) != len(x):
-            twice = np.flatnonzero(np.bincount(met.index, minlength=len(x)) > 1)
+        intersections = self.spline.where("x", x)
+        if len(intersections) != len(x):
+            twice = np.flatnonzero(np.bincount(intersections.index, minlength=len(x)) > 1)
             place = float(x[twice[0]])
             what = f"{self.name}: the batten turns back and passes x={place:.10g} more than once"
             raise GeometryError(what, "give more points near the end", {"x": place})
         if order:
-            return np.asarray(np.tan(self.spline.direction(met.t)))
-        return np.asarray(met.points[:, 1])
+            return np.asarray(np.tan(self.spline.direction(intersections.t)))
+        return np.asarray(intersections.points[:, 1])
 
 
 WaterlinePiece = LevelPiece | GraphPiece | ChordedPiece
-"""Any of them."""
+"""A piece of any kind."""
 
 
 # --------------------------------------------------------------------------------------
-# A waterline with end points of its own and a parallel part: two splines and a line between.
-#
-# Without the parting, one spline over shoulder and parallel part swings beyond the half-breadth.
-# Both splines leave the parallel part in its direction; their other end is free, without second
-# derivative, or has a given slope. Where every chord rises less than it runs, a spline is the cubic
-# y(x); blunter ends are bent as a batten over their chords. Source: Kim & Chang, "Some
-# Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK.
+# The waterline.
 
 Method = Literal["graph", "chord"]
 
@@ -129,7 +126,7 @@ _SAME = 1e-9
 """Places (m) that differ by less are one."""
 
 _BLUNT = 1.0
-"""From this slope of a chord on a piece is a batten over its chords."""
+"""A spline with a chord of this slope or more is a batten over its chords."""
 
 
 @attrs.frozen(eq=False)
@@ -142,7 +139,7 @@ class ParallelWaterline:
         Its height.
     points : (n, 2), m
         All points that it passes, rows (x, y), ends among them.
-    pieces : tuple of Piece
+    pieces : tuple of WaterlinePiece
         From aft forward: cubic, level or bent over chords.
     parallel : (float, float) or None, m
         Where the parallel part begins and ends.

@@ -2,7 +2,9 @@
 
 `FormulaPiece` is one formula between two abscissae, `PiecedCurve` a row of them. The other
 functions make the pieces that go on from a curve with its value and slope: a conic, a cubic conic,
-which agrees in curvature too, and a circle. Conics stand upright at their end.
+which agrees in curvature too, and a circle. Conics stand upright at their end. Source: Kim & Chang,
+"Some Representations of Ship Hulls by Mathematical Method for Design and Production", J. SNAK, the
+combined method.
 """
 
 from __future__ import annotations
@@ -46,16 +48,9 @@ _STRAIGHT_CONIC = 1e-12
 
 
 def conic_coefficients(height: ArrayLike, slope: ArrayLike) -> FloatArray:
-    """Give b1 and b2 of many conics.
+    """Give b1 and b2 of many conics (y - A)^2 = b1 v + b2 v^2, (..., 2), m2.
 
-    Parameters
-    ----------
-    height, slope : (...), m
-        Y1 = y - A and s = dy/dv at v = 1.
-
-    Returns
-    -------
-    (..., 2), m2
+    v runs from 0 at the end to 1 at the join; `height` is y - A and `slope` dy/dv there, m.
 
     Examples
     --------
@@ -81,7 +76,7 @@ def conic(first: float, last: float, y: float, slope: float, end: float = 0.0) -
 
     Returns
     -------
-    Piece
+    FormulaPiece
         A line, if the slope is that of the straight line to the end.
 
     Raises
@@ -119,7 +114,7 @@ def conic(first: float, last: float, y: float, slope: float, end: float = 0.0) -
 
 
 def conic_notes(slope: float) -> tuple[str, ...]:
-    """Tell if a conic bulges beyond its beginning; slope is dy/dv at v = 1, m."""
+    """Report a conic that bulges beyond its beginning; slope is dy/dv at v = 1, m."""
     s = number(slope, "waterline")
     return () if s >= 0.0 else (f"waterline: y1'<0: conic bulges beyond y1 (y1' = {digits(s)}).",)
 
@@ -169,7 +164,7 @@ def circle_piece(first: float, last: float, y: float, slope: float, end: float) 
 
 
 # --------------------------------------------------------------------------------------
-# Curves y(x) made of pieces: polynomials, and roots of polynomials (conics, circles).
+# Pieces, and curves made of them.
 #
 # A piece runs from `first` to `last` in x. It is a polynomial in u = (x - first)/(last - first),
 # which is a line or a quintic, or stands upright at a level A = `base`,
@@ -177,14 +172,11 @@ def circle_piece(first: float, last: float, y: float, slope: float, end: float) 
 #     (y - A)^2 = b0 + b1 v + b2 v^2 + b3 v^3,      v = (last - x)/(last - first),
 #
 # which is a conic (b0 = b3 = 0), a cubic conic (b0 = 0) or a circle.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, the combined method.
 
 Formula = Literal["line", "quintic", "conic", "cubic conic", "circle"]
 
 _SLACK = 1e-12
-"""So far outside, in parts of the length, an abscissa counts as the end."""
+"""An abscissa so far outside, in parts of the length, counts as the end."""
 
 
 @attrs.frozen(eq=False)
@@ -236,6 +228,7 @@ class FormulaPiece:
 
     def _root(self, v: FloatArray, order: int) -> FloatArray:
         assert self.base is not None
+        # Derivatives by x: v falls as x rises.
         under, step = self.coefficients, -self.length
         height = np.sqrt(np.maximum(polyval(v, under), 0.0))
         if not order:
@@ -266,7 +259,7 @@ class FormulaPiece:
 
 @attrs.frozen
 class PieceJoin:
-    """How two pieces meet.
+    """What value, slope and second derivative do where two pieces join.
 
     Attributes
     ----------
@@ -290,7 +283,7 @@ class PiecedCurve:
 
     Attributes
     ----------
-    pieces : tuple of Piece
+    pieces : tuple of FormulaPiece
         In order; each begins where the one before ends.
     notes : tuple of str
         What is to be known: warnings, each a whole sentence.
@@ -352,7 +345,7 @@ class PiecedCurve:
         return found
 
     def joins(self) -> tuple[PieceJoin, ...]:
-        """Tell of each join by how much value and slope differ, and both second derivatives."""
+        """Give for each join by how much value and slope differ, and both second derivatives."""
         found = list[PieceJoin]()
         for one, other in pairwise(self.pieces):
             ends = [(float(one.at(one.last, k)), float(other.at(one.last, k))) for k in range(3)]
@@ -371,7 +364,7 @@ class PiecedCurve:
 
 
 # --------------------------------------------------------------------------------------
-# A conic with one more term: it joins what is before it with the same curvature.
+# Cubic conics have one term more, so that they join what is before them with the same curvature,
 #
 #     (y - A)^2 = b1 v + b2 v^2 + b3 v^3,      v from 0 at the end to 1 at the join.
 #
@@ -379,24 +372,13 @@ class PiecedCurve:
 # z = Y1^2, z' = 2 Y1 s, z'' = 2 (s^2 + Y1 c):
 #
 #     b3 = z - z' + z''/2,    b2 = z''/2 - 3 b3,    b1 = z - b2 - b3.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK.
 
 
 def cubic_conic_coefficients(height: ArrayLike, slope: ArrayLike, bend: ArrayLike) -> FloatArray:
-    """Give b1, b2, b3 of many cubic conics.
+    """Give b1, b2, b3 of many cubic conics, (..., 3), m2.
 
-    Parameters
-    ----------
-    height : (...), m
-        Y1 = y - A at the join.
-    slope, bend : (...), m
-        dy/dv and d2y/dv2 there; d2y/dv2 is d2y/dx2 times the square of the length.
-
-    Returns
-    -------
-    (..., 3), m2
+    `height` is y - A at the join, `slope` and `bend` are dy/dv and d2y/dv2 there, m; d2y/dv2 is
+    d2y/dx2 times the square of the length.
 
     Examples
     --------
@@ -427,7 +409,7 @@ def cubic_conic(
 
     Returns
     -------
-    Piece
+    FormulaPiece
         Joins with continuous second derivative.
 
     Raises
@@ -530,6 +512,7 @@ def _held(
 
 
 def _checked(first: float, last: float, b: FloatArray, level: float) -> FormulaPiece:
+    """Make the piece of b1, b2, b3 (m2); refuse one that is not real all the way."""
     b1, b2, b3 = b.tolist()
     if b1 <= 0.0:
         what = f"cubic conic: b1 <= 0 at the end (b1 = {digits(b1)})"

@@ -3,6 +3,8 @@
 Three ways, none of which needs another: polynomials that satisfy conditions (Taylor's quintic,
 Chapman's parabola, Weinblum's product); series of Legendre's or Chebyshev's polynomials in x and z
 by least squares; and a polynomial for each waterline whose coefficients are functions of draught.
+Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
+Production", J. SNAK, Table 1, which names them; the equations are the well-known ones.
 """
 
 from __future__ import annotations
@@ -47,20 +49,15 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Half waterlines and curves of areas as polynomials of form parameters: Taylor, Benson, others.
-#
-# D.W. Taylor's quintic runs from the end of the ship (x = 0) to midship (x = 1),
+# Polynomials of form parameters. D.W. Taylor's quintic runs from the end of the ship (x = 0) to
+# midship (x = 1),
 #
 #     y = t x + a x^2 + b x^3 + c x^4 + d x^5,     y(1) = 1, y'(1) = 0, y''(1) = p, area C;
 #
 # t is the angle of the end, p the bend amidships, C the fullness. Any other set of linear
-# conditions
-# on any powers is `form_polynomial`. Products and parabolas stand at the end: Chapman's 1 - x^n,
-# Weinblum's and Thieme's (1 - sum a_n |x|^n)(1 - sum b_m zeta^m), x from amidships, zeta from the
-# waterline downward.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, Table 1, which names them; the equations are the well-known ones.
+# conditions on any powers is `form_polynomial`. Products and parabolas stand at the end: Chapman's
+# 1 - x^n, Weinblum's and Thieme's (1 - sum a_n |x|^n)(1 - sum b_m zeta^m), x from amidships, zeta
+# from the waterline downward.
 
 Condition = tuple[Literal["value", "slope", "bend", "area", "moment"], float, float]
 
@@ -94,8 +91,8 @@ def taylor_quintic(t: ArrayLike, p: ArrayLike, c: ArrayLike) -> FloatArray:
     power = np.arange(2.0, 6.0)
     rows = np.stack([np.ones(4), power, power * (power - 1.0), 1.0 / (power + 1.0)])
     right = np.stack([1.0 - end, -end, bend, full - 0.5 * end], axis=-1)
-    rest = np.linalg.solve(rows, right[..., None])[..., 0]
-    return np.concatenate([np.stack([np.zeros_like(end), end], axis=-1), rest], axis=-1)
+    solved = np.linalg.solve(rows, right[..., None])[..., 0]
+    return np.concatenate([np.stack([np.zeros_like(end), end], axis=-1), solved], axis=-1)
 
 
 def form_polynomial(powers: Sequence[int], conditions: Sequence[Condition]) -> FloatArray:
@@ -141,6 +138,7 @@ def form_polynomial(powers: Sequence[int], conditions: Sequence[Condition]) -> F
     rows = np.empty((len(power), len(power)))
     for row, (kind, _, _), place in zip(rows, kinds, x, strict=True):
         row[:] = _row(kind, float(place[0]), power)
+    # Rows are scaled before the rank is taken: powers far from x = 1 differ by many orders.
     size = np.abs(rows).max(axis=1, keepdims=True)
     if not (size > 0.0).all() or np.linalg.matrix_rank(rows / size) < len(power):
         what = "form polynomial: the conditions do not make one polynomial"
@@ -218,7 +216,7 @@ def _condition(given: Condition) -> Condition:
 
 
 def _row(kind: str, x: float, power: FloatArray) -> FloatArray:
-    """Give what each power contributes to a condition."""
+    """Give what each power contributes to a condition at x, or from 0 to x."""
     match kind:
         case "value":
             row = x**power
@@ -234,16 +232,13 @@ def _row(kind: str, x: float, power: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Curves and surfaces as series of Legendre's or Chebyshev's polynomials, by least squares.
+# Series, by least squares (Kerwin, Lidbro, Martin, Kantorowitz):
 #
 #     y(x) = sum c_k P_k(xi),      y(x, z) = sum c_kl P_k(xi) P_l(zeta),
 #
 # xi and zeta run from -1 to 1 over the range. Further columns may be added, such as the root of the
-# distance from an end where waterlines are round. `linear_fits` has fits with bounds, with edges
-# held, and in discrete orthogonal polynomials, for the matrix of `series_columns`.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, Table 1 (Kerwin, Lidbro, Martin, Kantorowitz).
+# distance from an end where waterlines are round. `linear_least_squares` has fits with bounds, with
+# edges held, and in discrete orthogonal polynomials, for the matrix of `series_columns`.
 
 Basis = Literal["legendre", "chebyshev"]
 Column = Callable[[FloatArray, FloatArray], FloatArray]
@@ -298,12 +293,9 @@ def fit_series(
 def series_columns(
     x: ArrayLike, degree: int, basis: Basis = "legendre", span: tuple[float, float] = (-1.0, 1.0)
 ) -> FloatArray:
-    """Give the values of the polynomials of a series, (n, degree + 1).
+    """Give the values of the polynomials of a series at x (n,), (n, degree + 1).
 
-    Raises
-    ------
-    GeometryError
-        x outside the span, an unknown basis.
+    Raises GeometryError for x outside the span and for an unknown basis.
 
     Examples
     --------
@@ -330,7 +322,7 @@ class SeriesHull:
     columns : tuple of callable
         Further columns, each of x and z.
     rms : float, m
-        Root of the mean square of what the offsets are off.
+        Root mean square of the residuals at the offsets.
     """
 
     coefficients: FloatArray
@@ -480,19 +472,11 @@ def _known(basis: Basis) -> Basis:
 
 
 # --------------------------------------------------------------------------------------
-# Coefficients of a formula as functions of draught: the old way from waterlines to a hull.
-#
-# A waterline formula (Taylor's quintic, a polynomial of least squares, an expansion) has
-# coefficients
-# c_k. Each is fitted on its own over the draught, by a spline through its values or by a
-# polynomial;
-# formula and functions are then a surface. This is not the surface that fits the offsets best:
-# errors of different coefficients add up where the formula amplifies them.
-#
-# The same works for sections over the length: levels are then stations.
-#
-# Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
-# Production", J. SNAK, Table 1 (Taylor, Taggart, Williams, Miller and Kuo; Pien for sections).
+# Draft functions, the old way from waterlines to a hull (Taylor, Taggart, Williams, Miller and Kuo;
+# Pien for sections over the length: levels are then stations). A waterline formula has coefficients
+# c_k; each is fitted on its own over the draught, by a spline or by a polynomial. This is not the
+# surface that fits the offsets best: errors of different coefficients add up where the formula
+# amplifies them.
 
 _NOTE = (
     "draft functions: each coefficient is fitted over the levels on its own, which is not the same"
@@ -593,7 +577,7 @@ class PolynomialHull:
     span : (float, float)
         The range of x.
     rms : (n,), m
-        Of each waterline at its own level, before draft functions.
+        Root mean square residual of each waterline at its own level, before draft functions.
     """
 
     functions: DraftFunctions
@@ -666,6 +650,7 @@ def fit_polynomial_hull(
 
 
 def _unit(z: FloatArray, levels: FloatArray) -> FloatArray:
+    """Map the range of levels (m) to 0 ... 1."""
     return np.asarray((z - levels[0]) / (levels[-1] - levels[0]))
 
 

@@ -154,7 +154,7 @@ def power_columns(x: ArrayLike) -> FloatArray:
 def solve_truncated_powers(x: ArrayLike, y: ArrayLike) -> FloatArray:
     """Solve for the coefficients a, b, c, A_0, A_1 ... of powers of x itself, (n + 2,).
 
-    For comparison only: it loses digits where x is far from nil or points are many.
+    For comparison only: it loses digits where x is far from 0 or points are many.
 
     Raises
     ------

@@ -1,9 +1,9 @@
 """Curvature along curves: combs for the eye, and numbers for how unfair a comb is.
 
 `comb_teeth` gives the teeth of a drawing. `curvature_sign_changes`, `greatest_curvatures` and
-`comb_integrals` say the same in numbers, before and after a curve was varied: curvature within a
-dead band has no sign. That is another count than `inflections`, which looks at how far the tangent
-turns.
+`comb_integrals` say the same in numbers, before and after a curve was varied: so they forgive
+what nobody sees, curvature within a dead band. That is another count than `inflections`, which
+looks at how far the tangent turns: a long flat wave turns much and bends little.
 """
 
 from __future__ import annotations
@@ -31,9 +31,6 @@ __all__ = [
     "curvature_sign_changes",
     "greatest_curvatures",
 ]
-
-# --------------------------------------------------------------------------------------
-# Curvature combs: teeth along curves that show how they bend.
 
 
 def comb_teeth(
@@ -108,12 +105,7 @@ def _teeth(first: FloatArray, second: FloatArray, normal: FloatArray) -> FloatAr
 
 
 # --------------------------------------------------------------------------------------
-# How unfair curves are: curvature that changes its sign, and how fast curvature changes.
-#
-# Both are asked of a curve before and after it was varied, so they need to be the same for the
-# same bits and to forgive what nobody sees: curvature within a dead band has no sign. That is
-# another count than `assoc_hull.geometry.fairness.inflections.inflections`, which looks at how far
-# the tangent turns: a long flat wave turns much and bends little.
+# How unfair curves are, in numbers.
 
 DEAD_BAND = 2e-3
 """Curvature, 1/m, that nobody sees: a radius of 500 m."""
@@ -156,8 +148,8 @@ def curvature_sign_changes(batch: SplineBatch, normals: ArrayLike, band: float) 
     value = _sampled(batch, normals)
     curve = np.repeat(segment_curve(batch), _SAMPLES)
     # The comparison is false for nan, which drops curves that have no plane, and cusps.
-    told = np.flatnonzero(np.abs(value) > band)
-    sign, owner = value[told] > 0.0, curve[told]
+    beyond = np.flatnonzero(np.abs(value) > band)
+    sign, owner = value[beyond] > 0.0, curve[beyond]
     changed = (sign[1:] != sign[:-1]) & (owner[1:] == owner[:-1])
     count: IntArray = np.bincount(owner[1:][changed], minlength=batch.count)
     freeze(count)

@@ -151,7 +151,7 @@ class FairnessRecord:
         J3; None of arcs.
     extrema : int
         Extremes of curvature.
-    limits : Limits
+    limits : FairnessLimits
         What is passed or failed by.
     """
 
@@ -211,7 +211,7 @@ def criteria(
 
     Parameters
     ----------
-    pieces : Pieces
+    pieces : PiecewiseCurves
         The curves, m of them.
     names : sequence of m str, optional
         What they are called.
@@ -219,9 +219,9 @@ def criteria(
         For each piece but the last, whether it ends at a knuckle.
     allowed : int or (m,) int
         Inflections that are wanted.
-    offsets : Offsets, optional
+    offsets : OffsetDeviations, optional
         Points that the curves are meant to pass.
-    limits : Limits
+    limits : FairnessLimits
         Of the criteria.
 
     Raises
@@ -331,7 +331,7 @@ class _Jumps:
 
 
 def _sign_changes(value: FloatArray, owner: IntArray, count: int, least: FloatArray) -> IntArray:
-    """Count changes of sign of values (p, k) along each curve, those near nil left out."""
+    """Count changes of sign of values (p, k) along each curve, those near zero left out."""
     line = np.repeat(owner, value.shape[1])
     flat = value.ravel()
     greatest = np.zeros(count)

@@ -1,7 +1,7 @@
-"""Fairness of curves: inflections counted exactly, and the five criteria as numbers.
+"""Inflections of curves, counted exactly.
 
-The five criteria (`criteria`, `FairnessRecord`) are computed in
-`assoc_hull.geometry.fairness.criteria`; curvature combs in `assoc_hull.geometry.fairness.combs`.
+The five criteria of fairness are computed in `assoc_hull.geometry.fairness.criteria`; curvature
+combs in `assoc_hull.geometry.fairness.combs`.
 
 The numerator of the signed curvature of a cubic, ``n . (P' x P'')``, is a quadratic in the
 segment's parameter: of the products of P' (degree 2) and P'' (degree 1) the term of degree 3
@@ -85,7 +85,7 @@ def inflections(
     -------
     count : (m,) int
         Inflections of each curve.
-    places : Places
+    places : InflectionPoints
         Where they are. Between two lobes that a straight stretch parts, its middle.
 
     Raises

@@ -23,9 +23,6 @@ __all__ = [
     "row_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# Points that a surface is fitted to, with the parameters they are thought to have.
-
 
 @attrs.frozen(eq=False)
 class Samples:
@@ -68,21 +65,7 @@ class Samples:
         line: IntArray | None = None,
         held: NDArray[np.bool_] | None = None,
     ) -> Self:
-        """Give samples of copies of these; all of one line and free unless told otherwise.
-
-        Parameters
-        ----------
-        uv : (k, 2), m
-            Parameters.
-        point : (k, 3), m
-            Points.
-        weight : (k,) or number, m
-            Lengths they stand for.
-        line : (k,) int, optional
-            Numbers of their lines.
-        held : (k, 2) bool, optional
-            Parameters that stay.
-        """
+        """Give samples of copies of these; all of one line, and free, unless given otherwise."""
         count = len(point)
         return cls(
             np.array(uv, np.float64).reshape(count, 2),
@@ -92,9 +75,6 @@ class Samples:
             np.zeros((count, 2), np.bool_) if held is None else np.array(held, np.bool_),
         )
 
-
-# --------------------------------------------------------------------------------------
-# Coordinates of control points that a fit may not change.
 
 SIDES = ("u0", "u1", "v0", "v1")
 """The sides of a surface: where u is least, where it is greatest, and so for v."""
@@ -122,7 +102,7 @@ class HeldControls:
     mask : (nu, nv, 3) bool
         Which are given.
     value : (nu, nv, 3), m
-        What they are; nil where nothing is given.
+        What they are; zero where nothing is given.
     """
 
     mask: NDArray[np.bool_]

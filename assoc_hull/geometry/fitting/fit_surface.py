@@ -1,7 +1,7 @@
 """A smooth surface through points of lines: solve, correct the parameters, refine the knots.
 
 Each round solves for the control points and moves the parameters to the nearest places.
-Spans whose points stay further off than the tolerance are halved, and the fit begins again.
+Spans whose points stay further off than the tolerance are halved; the fit goes on from there.
 """
 
 from __future__ import annotations
@@ -33,8 +33,6 @@ __all__ = [
     "subdivide_bays",
 ]
 
-# --------------------------------------------------------------------------------------
-# Where spans of a fitted surface meet: from given places, and more where it does not follow.
 
 _SHARE = 0.95
 """The part of the points of a span that must be within the tolerance."""
@@ -70,19 +68,9 @@ def even_breaks(low: float, high: float, spans: int) -> FloatArray:
 
 
 def subdivide_bays(places: FloatArray, parts: int | IntArray) -> FloatArray:
-    """Divide each bay between places in equal parts.
+    """Divide each bay between rising places (b,), m, in equal parts, one number or (b - 1,).
 
-    Parameters
-    ----------
-    places : (b,), m
-        Rising places.
-    parts : int or (b - 1,) int
-        Parts of each bay, at least 1.
-
-    Returns
-    -------
-    (sum of parts + 1,), m
-        Breaks; the places are among them to the last bit.
+    The places are among the breaks to the last bit.
     """
     counts = np.broadcast_to(np.asarray(parts, np.int64), len(places) - 1)
     bay = np.repeat(np.arange(len(counts)), counts)
@@ -98,21 +86,10 @@ def halve_spans(breaks: FloatArray, which: NDArray[np.bool_]) -> FloatArray:
 def spans_to_halve(
     breaks: FloatArray, at: FloatArray, residual: FloatArray, tolerance: float
 ) -> NDArray[np.bool_]:
-    """Say which spans do not follow their points and have points in both halves.
+    """Say which spans (b - 1,) of breaks (b,), m, do not follow their points.
 
-    Parameters
-    ----------
-    breaks : (b,), m
-        Breaks of one parameter.
-    at, residual : (k,), (k,), m
-        That parameter of points, and how far they are from the surface.
-    tolerance : float, m
-        What 95 % of the points of a span may be off.
-
-    Returns
-    -------
-    (b - 1,) bool
-        Spans.
+    That is where they have points in both halves and more than 5 % of the points, `residual` (k,) m
+    off at parameters `at` (k,), are off by more than the tolerance, m.
     """
     count = len(breaks) - 1
     span = np.clip(np.searchsorted(breaks, at, "right") - 1, 0, count - 1)
@@ -125,11 +102,14 @@ def spans_to_halve(
 
 
 # --------------------------------------------------------------------------------------
-# A smooth surface through points of lines: solve, correct the parameters, and again.
+# The fit on given breaks.
 
 ROUNDS = 4
+"""How often a fit solves and then corrects the parameters."""
+
 START = 30.0
 STIFF = 2
+"""In so many first rounds the penalty is `START` times as large."""
 
 
 @attrs.frozen(eq=False)
@@ -197,7 +177,7 @@ def fit_surface(
 
     Returns
     -------
-    Fit
+    SurfaceFit
         The surface and the corrected points; the same bits for the same bits given.
 
     Raises
@@ -244,14 +224,9 @@ def solve_once(
     held: HeldControls | None = None,
     steps: int = STEPS,
 ) -> SurfaceFit:
-    """Solve once with the parameters as they are, then correct them.
+    """Solve once with the parameters as they are, then correct them; see `fit_surface`.
 
-    Parameters
-    ----------
-    name, samples, breaks, smoothing, held
-        As of `fit_surface`; `breaks` those of both parameters.
-    steps : int
-        Steps of the correction.
+    `breaks` are those of both parameters, `steps` those of the correction.
     """
     knots = clamped_knots(breaks[0]), clamped_knots(breaks[1])
     where = f"in the fit of {name!r}"
@@ -262,9 +237,10 @@ def solve_once(
 
 
 # --------------------------------------------------------------------------------------
-# More knots where a fitted surface does not follow its points.
+# More knots where it does not follow its points.
 
 PASSES = 4
+"""How often spans are halved at most."""
 
 Breaks = tuple[FloatArray, FloatArray]
 
@@ -302,7 +278,7 @@ def fit_refined(
 
     Returns
     -------
-    Fit
+    SurfaceFit
         The last fit; some spans may still be off, as its residuals tell.
 
     Raises

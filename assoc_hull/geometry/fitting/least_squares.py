@@ -22,14 +22,10 @@ __all__ = [
     "solve_controls",
 ]
 
-# --------------------------------------------------------------------------------------
-# Normal equations of tensor-product splines, kept by the distance of two control points.
-#
-# Control points whose numbers differ by more than three, in u or in v, share no patch. So a
-# symmetric matrix of them all is an array ``[a, b + 3, i, j]``: what links the control point (i, j)
-# with (i + a, j + b), for a from 0 to 3 and b from -3 to 3. Counted along the axis that has fewer
-# points, it is a matrix of narrow band, which Cholesky's method solves without any search for an
-# order.
+# Control points whose numbers differ by more than three, in u or in v, share no patch. So an array
+# ``[a, b + 3, i, j]``, a stencil, holds a symmetric matrix of them all: what links control point
+# (i, j) with (i + a, j + b), for a from 0 to 3 and b from -3 to 3. Counted along the axis that has
+# fewer points, it is a matrix of narrow band, solved without any search for an order.
 
 _NEXT = DEGREE + 1
 _REACH = 2 * DEGREE + 1
@@ -50,7 +46,7 @@ def gram(knots: FloatArray, order: int) -> FloatArray:
     Returns
     -------
     (7, count), m**(1 - 2 order)
-        Row d + 3 holds those of j + d and j; nil where there is no j + d.
+        Row d + 3 holds those of j + d and j; zero where there is no j + d.
 
     Examples
     --------
@@ -78,15 +74,8 @@ def gram(knots: FloatArray, order: int) -> FloatArray:
 def bending(knots_u: FloatArray, knots_v: FloatArray) -> FloatArray:
     """Give the matrix of II |S_uu|^2 + 2 |S_uv|^2 + |S_vv|^2 du dv, as a stencil.
 
-    Parameters
-    ----------
-    knots_u, knots_v : (nu + 4,), (nv + 4,), m
-        The knots.
-
-    Returns
-    -------
-    (4, 7, nu, nv), 1/m2
-        The stencil: products of the integrals of one variable, as the splines are.
+    It is (4, 7, nu, nv), 1/m2, for knots (nu + 4,), (nv + 4,), m: products of the integrals of one
+    variable, as the splines are.
     """
     along, across = ([gram(knots, order) for order in range(3)] for knots in (knots_u, knots_v))
     return np.asarray(
@@ -104,27 +93,11 @@ def normal_equations(
     right: FloatArray,
     shape: tuple[int, int],
 ) -> tuple[FloatArray, FloatArray]:
-    """Sum up what points ask of the control points.
+    """Sum up what points ask of the control points: A' W A as a stencil (4, 7, nu, nv), and A' W X.
 
-    Parameters
-    ----------
-    first : two (k,) int
-        The first of the four splines that each point depends on, in u and in v.
-    rows : two (k, 4)
-        The values of the four.
-    weight : (k,)
-        Weights.
-    right : (k, 3)
-        The points.
-    shape : (int, int)
-        Control points in u and in v.
-
-    Returns
-    -------
-    stencil : (4, 7, nu, nv)
-        A' W A.
-    sums : (nu, nv, 3)
-        A' W X.
+    For the `first` of the four splines that each of k points depends on, in u and in v, their
+    values `rows` (k, 4), weights (k,), points `right` (k, 3) and the `shape` (nu, nv); A' W X is
+    (nu, nv, 3).
     """
     cell = first[0] * shape[1] + first[1]
     order = np.argsort(cell, kind="stable")
@@ -175,12 +148,7 @@ def banded(stencil: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Control points that lie nearest to points and bend least: one banded system of equations.
-#
-# Minimised is ``sum w |S(u, v) - X|^2 + lam II |S_uu|^2 + 2 |S_uv|^2 + |S_vv|^2 du dv`` over cubic
-# tensor-product splines S, an approximation by a thin plate (P. H. C. Eilers and B. D. Marx,
-# Flexible smoothing with B-splines and penalties, Statist. Sci. 11, 1996, with integrals in place
-# of differences). The equations are ``(A' W A + lam E) C = A' W X``.
+# The solution for control points.
 
 
 def solve_controls(
@@ -193,6 +161,11 @@ def solve_controls(
 ) -> FloatArray:
     """Solve for the control points of a bicubic spline, parameters as they are.
 
+    Minimised is ``sum w |S(u, v) - X|^2 + lam II |S_uu|^2 + 2 |S_uv|^2 + |S_vv|^2 du dv``, an
+    approximation by a thin plate (P. H. C. Eilers and B. D. Marx, Flexible smoothing with B-splines
+    and penalties, Statist. Sci. 11, 1996, with integrals in place of differences). The equations
+    are ``(A' W A + lam E) C = A' W X``.
+
     Parameters
     ----------
     samples : Samples
@@ -200,7 +173,7 @@ def solve_controls(
     knots_u, knots_v : (nu + 4,), (nv + 4,), m
         Clamped knots.
     smoothing : float, m3
-        The factor lam of the penalty, nil or more.
+        The factor lam of the penalty, zero or more.
     held : HeldControls, optional
         Coordinates that are given; they are met to the last bit.
     where : str
@@ -296,5 +269,6 @@ def _without(band: FloatArray, mask: NDArray[np.bool_]) -> FloatArray:
     found[:, mask] = 0.0
     for below in range(1, min(len(band), band.shape[1])):
         found[below, :-below][mask[below:]] = 0.0
+    # Any positive entry would do; the mean is of the size of the others.
     found[0, mask] = band[0].mean()
     return found

@@ -31,8 +31,6 @@ __all__ = [
     "strip_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# What one surface hands to another at a border: its row, and how it goes on across it.
 
 _SAME = 1e-9
 """Knots nearer than this part of the border are the same."""
@@ -69,21 +67,14 @@ class Strip:
         old = self.breaks
         share = (self.knots - old[0]) / (old[-1] - old[0])
         knots = low + share * (high - low)
+        # To the bit, whatever the rounding of the product.
         knots[-DEGREE - 1 :] = high
         return type(self)(knots, self.row, self.across)
 
     def on(self, breaks: FloatArray) -> Self:
-        """Give the same curves on more knots, by knot insertion.
+        """Give the same curves on more breaks (b,), m, by knot insertion.
 
-        Parameters
-        ----------
-        breaks : (b,), m
-            Where spans meet, with both ends; knots of the strip are among them.
-
-        Raises
-        ------
-        BadInputError
-            A knot of the strip is missing.
+        Knots of the strip are among them; raises BadInputError where one is missing.
         """
         both, knots = np.concatenate([self.row, self.across], axis=1), self.knots
         room = _SAME * (breaks[-1] - breaks[0])
@@ -151,20 +142,10 @@ def strip_of(surface: SplineSurface, side: str, part: tuple[float, float] | None
 
 
 # --------------------------------------------------------------------------------------
-# Surfaces joined to those beside them: one row shared, the next one in its tangent planes.
-#
 # At a border one surface is master. The other takes its row of control points on the same knots, so
-# that there is no gap, and its own derivative across the border, turned into the tangent planes of
-# the master, so that normals agree: two rows of it are given. The rest is solved for once more,
-# with
-# the parameters that its own fit has found. So a master that changes asks for one solution of its
-# neighbours, and no new fit.
-#
-# Only planes are taken over: how fast parameters run across the border, and in what direction, is
-# left to each surface, as each is laid out on a rectangle of its own.
-#
-# At a corner where two masters meet, the surfaces of both have one tangent plane if they are joined
-# themselves; what the row of one gives there, the derivative across the other keeps.
+# that there is no gap, and keeps its own derivative across the border, turned into the tangent
+# planes of the master, so that normals agree. The rest is solved for once more, with the parameters
+# of its own fit: a master that changes asks for no new fit of its neighbours.
 
 _NEAR = 0.3
 """Own knots nearer to a knot of the master than this part of their spans give way to it."""
@@ -209,15 +190,7 @@ class SurfaceJoint:
 
 
 def cut_out_part(fit: SurfaceFit, extent: Extent) -> SurfaceFit:
-    """Give the part of a fit between two parameters each way: its surface by knot insertion.
-
-    Parameters
-    ----------
-    fit : Fit
-        A fit, with its overlap.
-    extent : ((u0, u1), (v0, v1)), m
-        The part.
-    """
+    """Give the part ((u0, u1), (v0, v1)), m, of a fit: surface by knot insertion, and points."""
     if fit.surface.domain == extent:
         return fit
     inside = _inside(fit.samples, extent)
@@ -244,9 +217,12 @@ def join_to_masters(
 ) -> SurfaceFit:
     """Cut a fit and join it to its masters.
 
+    At a corner where two masters meet, both have one tangent plane if they are joined themselves;
+    what the row of one gives there, the derivative across the other keeps.
+
     Parameters
     ----------
-    fit : Fit
+    fit : SurfaceFit
         The fit, with some overlap over its masters.
     extent : ((u0, u1), (v0, v1)), m
         The part of it that is kept.
@@ -257,7 +233,7 @@ def join_to_masters(
 
     Returns
     -------
-    Fit
+    SurfaceFit
         The joined surface, with the points of that part.
 
     Raises
@@ -319,7 +295,8 @@ def _behind(
 
     Sought is the spline D along the border that is nearest to the derivative which the surface
     has across it, and lies in the tangent planes of the master; coordinates of control points
-    that are held already are met.
+    that are held already are met. Only planes are taken over: how fast and in what direction
+    parameters run across the border is left to each surface, laid out on a rectangle of its own.
     """
     at = _places_along(strip)
     uv = _on_side(surface, side, at)
@@ -372,20 +349,15 @@ def _on_side(surface: SplineSurface, side: str, at: FloatArray) -> FloatArray:
 def measure_joint(
     side: str, strip: Strip, before: SplineSurface, after: SplineSurface
 ) -> SurfaceJoint:
-    """Measure a border.
+    """Measure a border of two surfaces, on a side of the one that is joined.
 
-    Parameters
-    ----------
-    side : {"u0", "u1", "v0", "v1"}
-        The side of the joined surface.
-    strip : Strip
-        What its master has handed over.
-    before, after : SplineSurface
-        The surface as it was fitted, with its overlap, and as it is joined.
+    `strip` is what its master has handed over; `before` the surface as it was fitted, with its
+    overlap, `after` as it is joined.
     """
     t = _places_along(strip)
     uv = _on_side(after, side, t)
     point, tangent, slope = strip.at(t)
+    # In the sense of S_u x S_v, whichever parameter runs across the border.
     normal = np.cross(slope, tangent) if side[0] == "u" else np.cross(tangent, slope)
     place, along, down = derivatives(after, uv)
     gap = foot_points(before, point, uv)[1]

@@ -1,8 +1,10 @@
 """What a triangulated body has below floating planes, each triangle cut exactly.
 
 A plane takes a corner off a triangle. Over triangles all integrands are polynomials, so no value
-has an error but rounding. The flux is that of height above the plane, which needs no lid; the
-edges of the waterplane give its area, moments and extents. A vertex in the plane counts as above.
+has an error but rounding. The flux is that of height above the plane, ``h dz``: it is zero on the
+plane, which so needs no lid; the edges of the waterplane give its area, moments and extents.
+A vertex in the plane counts as above it: a row of such vertices is counted once, and a level top
+face that the plane just reaches is the waterplane.
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Straight pieces of the edges of waterplanes: areas, moments and extents from them.
+# Straight pieces of the edges of waterplanes.
 
 
 @attrs.frozen(eq=False)
@@ -64,7 +66,7 @@ def edge_moments(cuts: WaterEdges, count: int) -> tuple[FloatArray, ...]:
 
 
 def edge_extents(cuts: WaterEdges, count: int) -> tuple[FloatArray, ...]:
-    """Give the least and most x, then y, of waterplanes; nan where there is none."""
+    """Give least x, greatest x, least y, greatest y of waterplanes; nan where there is none."""
     found = np.full((count, 4), np.nan)
     if len(cuts.plane):
         first = np.flatnonzero(np.append(True, np.diff(cuts.plane) != 0))
@@ -83,21 +85,13 @@ def join_edges(one: WaterEdges, other: WaterEdges) -> WaterEdges:
 
 
 # --------------------------------------------------------------------------------------
-# What a triangulated body has below floating planes, each triangle cut exactly.
-#
-# A triangle is below a plane, above it, or cut: then the plane takes off a corner. Over
-# triangles all integrands are polynomials, so no value here has an error but rounding.
-#
-# The flux is that of height above the plane, ``h dz``: it is nil on the plane itself, which so
-# needs no lid. A vertex in the plane counts as above it: values are those of a plane that comes
-# from below. So a row of vertices in the plane is counted once, and a level top face that the
-# plane just reaches is the waterplane.
+# Triangles below planes.
 
 _AT_ONCE = 200_000
 """About so many cut triangles are held at a time."""
 
 _FEW = 4
-"""Up to so many planes it is quicker to add up the triangles below each anew."""
+"""Up to so many planes it is quicker to add up the triangles below each one separately."""
 
 _ROUNDING = 1e-9
 """An open edge this part of the size of the body below the plane is at it."""
@@ -131,7 +125,7 @@ def make_body(mesh: Triangles) -> TriangleBody:
 
 
 def immersed_triangles(body: TriangleBody, planes: FloatingPlanes) -> ImmersedIntegrals:
-    """Integrate what a body has below each plane.
+    """Integrate what a body has below each plane; in any order of heights and inclinations.
 
     Raises
     ------
@@ -164,7 +158,7 @@ def immersed_triangles(body: TriangleBody, planes: FloatingPlanes) -> ImmersedIn
 
 @attrs.frozen(eq=False)
 class _Levels:
-    """Heights at which planes of one inclination meet a mesh, as heights over the origin.
+    """Heights at which planes of one inclination touch a mesh, as heights over the origin.
 
     Attributes
     ----------
@@ -184,7 +178,7 @@ class _Levels:
 
     @classmethod
     def make(cls, mesh: Triangles, trim: float, heel: float) -> _Levels:
-        """Find them."""
+        """Find them for all vertices and triangles."""
         x, y, z = mesh.xyz.T
         vertex = z - (trim * x - heel * y)
         a, b, c = (vertex[column] for column in mesh.face.T)
@@ -193,7 +187,7 @@ class _Levels:
 
 
 def _parallel(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatArray:
-    """Integrate below parallel planes, heights ascending: the fields of `Immersed`, (17, d)."""
+    """Integrate below parallel planes, heights ascending: `ImmersedIntegrals` as rows, (17, d)."""
     above = np.searchsorted(height, levels.low, "right")
     cuts = int((np.searchsorted(height, levels.high, "right") - above).sum())
     step = max(1, _AT_ONCE * len(height) // max(cuts, 1))
@@ -203,7 +197,7 @@ def _parallel(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatA
 
 def _block(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatArray:
     count = len(height)
-    # From this plane on a triangle is cut, and from that on it is wholly below.
+    # From plane `first` on a triangle is cut, from plane `whole` on it is wholly below.
     first = np.searchsorted(height, levels.low, "right")
     whole = np.searchsorted(height, levels.high, "right")
     sums = _sum_whole(body, whole, count)
@@ -213,6 +207,7 @@ def _block(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatArra
     sums += _sum_rows(plane, sign * _triangle_sums(corners), count)
     most = sign < 0.0
     sums += _sum_rows(plane[most], body.sums[:, face[most]], count)
+    # The side in the plane, the waterplane to its left: by which part of the triangle is below.
     turned = np.where(sign[:, None, None] > 0.0, corners[:, :0:-1], corners[:, 1:])
     cuts = join_edges(WaterEdges(plane, turned), _wet_rim(body, levels.vertex, height))
     solid = _solid(sums, height, levels.trim, -levels.heel)
@@ -240,11 +235,11 @@ def _cut_corners(
     number = mesh.face[face[:, None], (tip[:, None] + np.arange(3)) % 3]
     place, level = mesh.xyz[number], vertex[number] - height[:, None]
     for side in (1, 2):
-        place[:, side] = _meet(place[:, [0, side]], level[:, [0, side]])
+        place[:, side] = _cut_edges(place[:, [0, side]], level[:, [0, side]])
     return place, sign
 
 
-def _meet(ends: FloatArray, level: FloatArray) -> FloatArray:
+def _cut_edges(ends: FloatArray, level: FloatArray) -> FloatArray:
     """Cut edges, (k, 2, 3), with the plane; always from below, so neighbours agree to the bit."""
     turn = level[:, 0] >= 0.0
     ends = np.where(turn[:, None, None], ends[:, ::-1], ends)
@@ -304,7 +299,7 @@ def _wet_rim(body: TriangleBody, vertex: FloatArray, height: FloatArray) -> Wate
         return WaterEdges(plane, ends)
     size = float(np.ptp(body.mesh.xyz, axis=0).max())
     half = (level >= 0.0).any(axis=1)
-    meet = _meet(ends[half], level[half])
+    meet = _cut_edges(ends[half], level[half])
     ends[half] = np.where((level[half] >= 0.0)[:, :, None], meet[:, None], ends[half])
     _refuse_open(plane, ends, level, _ROUNDING * size)
     return WaterEdges(plane, ends[:, ::-1].copy())

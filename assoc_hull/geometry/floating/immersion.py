@@ -9,8 +9,8 @@ Examples
 --------
 >>> import numpy as np
 >>> from assoc_hull.geometry.floating.immersion import FloatingPlanes, integrate_immersed
->>> from assoc_hull.geometry.floating.prepared_strips import prepare_strips
->>> from assoc_hull.geometry.surfaces.isocurves import IsoCurves
+>>> from assoc_hull.geometry.floating.immersed_strips import prepare_strips
+>>> from assoc_hull.geometry.curves import IsoCurves
 >>> class Wedge:  # 8 m long, 3 m deep, 2 m wide at either side
 ...     count, order = 1, np.array([2])
 ...
@@ -31,8 +31,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.floating.immersed_states import curve_batches, curve_states
-from assoc_hull.geometry.floating.prepared_strips import PreparedStrips
+from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, curve_batches, curve_states
 from assoc_hull.geometry.floating.strip_events import RefinedCurves, refine_strips, waterplane_tips
 from assoc_hull.geometry.floating.tile_intersections import TiltedTiles, candidate_pairs, tilt_tiles
 from assoc_hull.geometry.floating.tiles import HEELED, PLAIN, CurveTiles, integrate_tiles, tile_rows
@@ -54,11 +53,6 @@ __all__ = [
     "integrate_half",
     "integrate_immersed",
 ]
-
-# --------------------------------------------------------------------------------------
-# Floating planes, and what a body has below them: plain integrals, no ship's words yet.
-#
-# Axes: x forward from AP, y to port, z up from the base line; m.
 
 
 @attrs.frozen(eq=False)
@@ -138,21 +132,9 @@ class ImmersedIntegrals:
 def integrate_half(
     prepared: PreparedStrips, levels: FloatArray, trim: FloatArray, heel: FloatArray
 ) -> HalfIntegrals:
-    """Integrate the port half below planes of one inclination.
+    """Integrate the port half below planes of one inclination; levels (d,), m, ascend.
 
-    Parameters
-    ----------
-    prepared : Prepared
-        The body.
-    levels : (d,), m
-        Heights of the planes, ascending.
-    trim, heel : (1,)
-        Tangents of the inclination.
-
-    Returns
-    -------
-    Half
-        The integrals.
+    Volume and moments are fluxes through the shell alone, along a direction in the plane.
     """
     tiles = prepared.tiles
     straight = is_plain(trim) and is_plain(heel) and trim[0] == 0.0 == heel[0]
@@ -161,20 +143,22 @@ def integrate_half(
     tile, plane = candidate_pairs(tilted, ground)
     weight = np.take(prepared.weight, tiles.curve[tile])
     cut = integrate_cuts(tiles, tilted, (tile, plane), levels, weight)
-    plain = add_whole_tiles(cut.half, _whole(prepared.weighted(tilted.heeled), tilted, ground))
-    plain = _as_wide(
+    plain = add_whole_tiles(
+        cut.half, _sum_whole_tiles(prepared.weighted(tilted.heeled), tilted, ground)
+    )
+    plain = _widen_extent(
         plain, greatest_breadths(tiles, tilted, cut.places, prepared.v, prepared.strip)
     )
-    parts = refine_strips(prepared, tilted, levels, _table(prepared, tilted, ground, cut))
+    parts = refine_strips(prepared, tilted, levels, _state_table(prepared, tilted, ground, cut))
     if parts is not None:
-        plain = _corrected(prepared, plain, levels, tilted, parts)
+        plain = _refine(prepared, plain, levels, tilted, parts)
     return HalfIntegrals(_in_plane(plain.columns, heel), plain.extent) if tilted.heeled else plain
 
 
-def _table(
+def _state_table(
     prepared: PreparedStrips, tilted: TiltedTiles, levels: FloatArray, cut: CutIntegrals
 ) -> IntArray:
-    """Tell the states of all curves for each plane, (d, k)."""
+    """Give the states of all curves for each plane, (d, k)."""
     tiles, planes = prepared.tiles, len(levels)
     key = cut.plane * tiles.curves + tiles.curve[cut.tile]
     times = np.bincount(key, minlength=planes * tiles.curves).reshape(planes, -1)
@@ -184,25 +168,13 @@ def _table(
 def integrate_curves(
     tiles: CurveTiles, level: FloatArray, trim: FloatArray, heel: FloatArray
 ) -> FloatArray:
-    """Integrate the port half of each curve by itself, as if it were a strip of weight 1.
+    """Integrate the port half of each of k curves by itself, as if it were a strip of weight 1.
 
-    Parameters
-    ----------
-    tiles : Tiles
-        k curves.
-    level : (k,), m
-        Height of the plane below which each is looked at.
-    trim, heel : (1,)
-        Tangents of the inclination.
-
-    Returns
-    -------
-    (13, k)
-        The columns.
+    Levels are (k,), m, one for each curve; the result is (13, k), see `HalfIntegrals.columns`.
     """
     tilted = tilt_tiles(tiles, trim, heel)
     each = np.arange(tiles.curves)
-    columns = _pairs(tiles, tilted, level, (each, each), np.ones(tiles.curves)).columns
+    columns = _integrate_pairs(tiles, tilted, level, (each, each), np.ones(tiles.curves)).columns
     return _in_plane(columns, heel) if tilted.heeled else columns
 
 
@@ -218,13 +190,13 @@ def _in_plane(columns: FloatArray, heel: FloatArray) -> FloatArray:
     return np.concatenate([np.stack(bent), columns[4:PLAIN], columns[HEELED:]])
 
 
-def _as_wide(half: HalfIntegrals, breadth: FloatArray) -> HalfIntegrals:
-    """Take account of breadths between curves."""
+def _widen_extent(half: HalfIntegrals, breadth: FloatArray) -> HalfIntegrals:
+    """Widen the extent by the greatest breadths between curves."""
     extent = half.extent
     return HalfIntegrals(half.columns, join_extents(extent, np.stack([*extent[:3], breadth])))
 
 
-def _whole(weighted: FloatArray, tilted: TiltedTiles, levels: FloatArray) -> FloatArray:
+def _sum_whole_tiles(weighted: FloatArray, tilted: TiltedTiles, levels: FloatArray) -> FloatArray:
     """Add up the tiles that end below each level."""
     end = tilted.control[3]
     if len(levels) == 1:
@@ -234,7 +206,7 @@ def _whole(weighted: FloatArray, tilted: TiltedTiles, levels: FloatArray) -> Flo
     return combine_rows(np.tri(len(levels), len(levels) + 1), each.T).T
 
 
-def _corrected(
+def _refine(
     prepared: PreparedStrips,
     plain: HalfIntegrals,
     levels: FloatArray,
@@ -243,7 +215,9 @@ def _corrected(
 ) -> HalfIntegrals:
     """Put the fine rule in the place of the plain one where something happens."""
     weight = parts.share * np.take(prepared.weight, parts.replaced)
-    known = _pairs(prepared.tiles, tilted, levels, (parts.replaced, parts.instead), weight)
+    known = _integrate_pairs(
+        prepared.tiles, tilted, levels, (parts.replaced, parts.instead), weight
+    )
     columns = plain.columns - known.columns
     extent = join_extents(
         plain.extent, waterplane_tips(prepared.strips, tilted, levels, parts.places)
@@ -251,12 +225,12 @@ def _corrected(
     for rows, curve, tiles in curve_batches(prepared.strips, parts.strip, parts.v):
         seen = tilt_tiles(tiles, tilted.trim, tilted.heel)
         pairs, weight = (curve, parts.plane[rows]), np.take(parts.weight, rows)
-        fine = _pairs(tiles, seen, levels, pairs, weight)
+        fine = _integrate_pairs(tiles, seen, levels, pairs, weight)
         columns, extent = columns + fine.columns, join_extents(extent, fine.extent)
     return HalfIntegrals(columns, extent)
 
 
-def _pairs(
+def _integrate_pairs(
     tiles: CurveTiles,
     tilted: TiltedTiles,
     levels: FloatArray,
@@ -283,35 +257,15 @@ def _pairs(
 
 
 # --------------------------------------------------------------------------------------
-# What lies below floating planes: any strips of curves, integrated.
-#
-# `prepare` integrates every tile of the curves once; `immersed` cuts them by planes and adds
-# up. Only tiles that a plane crosses are integrated anew, up to the cut, exactly. Both sides
-# are integrals over the port half: starboard's are those of the plane heeled the other way.
-#
-# V and its moments are fluxes through the shell alone, along a direction in the plane.
+# Both sides, below planes of any inclination.
 
 _MOST = 256  # planes at a time, which bounds the memory
 _ODD = frozenset({"moment_y", "area_y", "area_xy"})
 
 
 def integrate_immersed(prepared: PreparedStrips, planes: FloatingPlanes) -> ImmersedIntegrals:
-    """Integrate both sides of a body below floating planes.
+    """Integrate both sides of a body below d floating planes; the integrals are (d,) each.
 
-    Parameters
-    ----------
-    prepared : Prepared
-        The body.
-    planes : Planes
-        d planes; those of one inclination are worked on together.
-
-    Returns
-    -------
-    Immersed
-        The integrals, (d,) each.
-
-    Notes
-    -----
     Points on a plane are below it: at the very height of a flat bottom or a flat deck all
     values are those just above. Every integral changes continuously with the plane.
 
@@ -373,11 +327,12 @@ def _sums(port: FloatArray, starboard: FloatArray) -> dict[str, FloatArray]:
     plane = ("area", "area_x", "area_y", "area_xx", "area_xy", "area_yy")
     both, odd = port + starboard, port - starboard
     rows = zip((*names, *plane), both, odd, strict=True)
-    return {name: alone if name in _ODD else even for name, even, alone in rows}
+    return {name: difference if name in _ODD else total for name, total, difference in rows}
 
 
 def _extents(port: HalfIntegrals, starboard: HalfIntegrals) -> dict[str, FloatArray]:
     """Give the extents of the waterplane of both sides."""
+    # Starboard was integrated as a port half: its y change sign, and its least is the greatest.
     one, other = port.extent, starboard.extent
     none = ~np.isfinite(real(one[1])) & ~np.isfinite(real(other[1]))
     rows = {

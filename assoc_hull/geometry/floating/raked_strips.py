@@ -1,8 +1,10 @@
 """Where strips lie along the ship, and sections of those that are raked.
 
-A plane across the ship stands at one v of a flat strip. It meets the curves of a raked strip, at a
-stem or where a piece of a section ends, at many places: such a strip is sampled along v and its
-sections are lofted from points found by a step of Newton's rule.
+A plane across the ship stands at one v of a flat strip. It cuts the curves of a raked strip, at a
+stem or where a piece of a section ends, at many places. Such a strip is sampled along v; between
+two samples cubics along v have the surface nearly, so that the v at which the surface stands in
+the plane is nearly the root of one cubic. A step of Newton's rule on the surface itself leads on,
+and a section is lofted from such points.
 """
 
 from __future__ import annotations
@@ -13,14 +15,13 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, Strips, freeze
+from assoc_hull.geometry.floating.immersed_strips import PreparedStrips
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
-from assoc_hull.geometry.floating.prepared_strips import PreparedStrips
 from assoc_hull.geometry.numeric.interpolation import differentiation_matrix
 from assoc_hull.geometry.numeric.polynomials import differentiate, hermite, horner
 from assoc_hull.geometry.numeric.quadrature import root_walk
 from assoc_hull.geometry.numeric.roots import bracketed_roots, unit_roots
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves, Strips
 
 __all__ = [
     "RakedStrip",
@@ -31,14 +32,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Raked strips: those whose curves across do not lie in planes across the ship.
-#
-# Such a strip lies at an end of the ship, between a section and a stem, or where a piece of a
-# section ends. A plane across the ship meets its curves at many places, not at one v. So the
-# strip is taken at many v, with points and derivatives there; between two of them cubics along v
-# have the surface nearly. For a place u up a tile the v at which the surface stands in the plane
-# is then nearly the root of one cubic; a step of Newton's rule on the surface itself leads on, and
-# a section is lofted from such points.
+# Raked strips: those whose curves do not lie in planes across the ship.
 
 _CURVES = 65  # at which a strip is taken
 _NODES = 9  # on each part of a tile
@@ -88,7 +82,7 @@ class RakedStrip:
 
     @property
     def forward(self) -> bool:
-        """The surface runs forward with v everywhere, as far as can be told."""
+        """The surface runs forward with v everywhere, as far as the middles of the tiles show."""
         half = np.array([1.0, 0.5, 0.25, 0.125])
         middle = self.point[..., 0] @ half
         return bool((np.diff(middle, axis=0) >= -_ON).all())
@@ -96,18 +90,14 @@ class RakedStrip:
     def turns(self, plane: FloatingPlanes) -> FloatArray:
         """Give where along the ship sections of the strip change their kind, ascending, m.
 
-        There a rail turns from forward to aft or to standing across, or meets the water.
-
-        Parameters
-        ----------
-        plane : Planes
-            One floating plane, upright.
+        There a rail turns from forward to aft or to standing across, or passes through an upright
+        floating plane.
         """
         found = []
         for rail in self.rails:
             x, over = rail[..., 0], rail[..., 2] - plane.tan_trim[0] * rail[..., 0]
             over[:, 0] -= plane.height[0]
-            found += [_at_changes(x, over), _at_changes(x, differentiate(x))]
+            found += [_sign_change_places(x, over), _sign_change_places(x, differentiate(x))]
             rise = x.sum(axis=1) - x[:, 0]
             way = np.where(np.abs(rise) <= _ON, 0.0, np.sign(rise))
             found += [x[1:, 0][way[1:] != way[:-1]], x[[0], 0], x[[-1]].sum(axis=1)]
@@ -115,11 +105,11 @@ class RakedStrip:
         return every[np.diff(every, prepend=-np.inf) > _NEAR]
 
     def section(self, x: float, *, quick: bool = False) -> IsoCurves:
-        """Give the section at a place inside the strip, piece by piece from keel to deck.
+        """Give the section at x inside the strip, piece by piece from keel to deck.
 
         A quick one is as good as the cubics along v, which is enough for one of many in a sum.
 
-        What it has of `across` is that of a strip of sections that runs forward by 1 m.
+        Its `across` is that of a strip of sections that runs forward by 1 m.
         """
         aft, fore = self.rails[..., 0].copy()
         aft[:, 0] -= x
@@ -131,7 +121,7 @@ class RakedStrip:
         place = self._points(np.repeat(parts.tile, _NODES), u.ravel(), x, quick).reshape(
             -1, _NODES, 3
         )
-        return _lofted(place, parts, t, self.deck)
+        return _loft_section(place, parts, t, self.deck)
 
     def _points(self, tile: IntArray, u: FloatArray, x: float, quick: bool) -> FloatArray:
         """Give the points (k, 3) at places up the strip that stand at x."""
@@ -147,7 +137,7 @@ class RakedStrip:
             for row in (low, low + 1)
         )
         cubic = np.stack(hermite(begin, end, leave * step, arrive * step))
-        s = _inside(cubic[:, :, 0] - np.array([[x], [0], [0], [0]]))[:, None]
+        s = _unit_root(cubic[:, :, 0] - np.array([[x], [0], [0], [0]]))[:, None]
         if not quick:
             return self._refined(tile, u, self.v[low] + (s * step)[:, 0], step[:, 0], x)
         found: FloatArray = ((cubic[3] * s + cubic[2]) * s + cubic[1]) * s + cubic[0]
@@ -191,15 +181,7 @@ class _Parts:
 
 
 def sample_raked_strip(strips: Strips, strip: int) -> RakedStrip:
-    """Take a strip at many places along it.
-
-    Parameters
-    ----------
-    strips : Strips
-        The body.
-    strip : int
-        Which strip.
-    """
+    """Sample one of the strips at `_CURVES` places along it."""
     v = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _CURVES))
     curves = strips.curves(np.full(_CURVES, strip), v)
     tiles = int(curves.start[1])
@@ -209,9 +191,10 @@ def sample_raked_strip(strips: Strips, strip: int) -> RakedStrip:
     return RakedStrip(strips, strip, v, point, across, curves.deck[:tiles].copy())
 
 
-def _at_changes(x: FloatArray, over: FloatArray) -> FloatArray:
+def _sign_change_places(x: FloatArray, over: FloatArray) -> FloatArray:
     """Give x where polynomials in u, one for each tile, change their sign inside the tile."""
     u = unit_roots(over)
+    # `unit_roots` gives places without a change of sign, too: values beside each show which.
     beside = np.stack([u - 1e-6, u + 1e-6])
     low, high = (horner(over, each) for each in beside)
     inner = (u > 0.0) & (u < 1.0) & (low * high < 0.0) & (np.abs(high - low) > 1e-12)
@@ -219,14 +202,16 @@ def _at_changes(x: FloatArray, over: FloatArray) -> FloatArray:
     return found
 
 
-def _inside(cubic: FloatArray) -> FloatArray:
+def _unit_root(cubic: FloatArray) -> FloatArray:
     """Give the roots of rising cubics (4, k) between 0 and 1; the nearer end where none is."""
     count = cubic.shape[1]
     low, high = cubic[0], cubic.sum(axis=0)
     through = np.flatnonzero((low < 0.0) & (high > 0.0))
     found = np.where(low >= 0.0, 0.0, np.ones(count))
-    nil = np.zeros(len(through))
-    found[through] = bracketed_roots(cubic[:, through], nil, nil + 1.0, low[through], high[through])
+    zero = np.zeros(len(through))
+    found[through] = bracketed_roots(
+        cubic[:, through], zero, zero + 1.0, low[through], high[through]
+    )
     return found
 
 
@@ -246,13 +231,15 @@ def _parts(aft: FloatArray, fore: FloatArray) -> _Parts:
     return _Parts(tile[rows], begin[rows], finish[rows], leaves[rows, 0], leaves[rows, 2])
 
 
-def _lofted(place: FloatArray, parts: _Parts, t: FloatArray, deck: NDArray[np.bool_]) -> IsoCurves:
+def _loft_section(
+    place: FloatArray, parts: _Parts, t: FloatArray, deck: NDArray[np.bool_]
+) -> IsoCurves:
     """Lay cubics between places (p, n, 3) at t, with the slopes of the polynomial through all."""
     slope = np.einsum("ij,pjk->pik", differentiation_matrix(t), place)
     step = np.diff(t)[None, :, None]
     cubic = hermite(place[:, :-1], place[:, 1:], slope[:, :-1] * step, slope[:, 1:] * step)
     point = np.stack(cubic, axis=2).reshape(-1, 4, 3)
-    point[:, 1:, 0] = 0.0
+    point[:, 1:, 0] = 0.0  # a section stands at one x, to the last bit
     up = parts.tile + parts.begin
     new = np.ones(len(up), np.bool_)
     new[1:] = np.abs(up[1:] - (parts.tile + parts.finish)[:-1]) > _SLIVER
@@ -264,7 +251,7 @@ def _lofted(place: FloatArray, parts: _Parts, t: FloatArray, deck: NDArray[np.bo
 
 
 # --------------------------------------------------------------------------------------
-# Where along the ship strips lie, and at which v a plane across the ship meets them.
+# Where along the ship strips lie, and at which v a plane across the ship cuts them.
 
 _FLAT = 1e-9
 """m: curves that leave their planes by less lie in them."""
@@ -283,7 +270,7 @@ class StripSpans:
 
     Attributes
     ----------
-    prepared : Prepared
+    prepared : PreparedStrips
         The body.
     aft, fore : m
         Least and greatest x.
@@ -301,7 +288,7 @@ class StripSpans:
 
     @cached_property
     def near(self) -> FloatArray:
-        """So near to one another places on a strip cannot be told apart, (n,), m."""
+        """So near to one another places on a strip cannot be distinguished, (n,), m."""
         found: FloatArray = _CLOSE * np.maximum(np.abs(self.aft), np.abs(self.fore))
         return found
 
@@ -313,13 +300,7 @@ class StripSpans:
 
 
 def strip_spans(prepared: PreparedStrips) -> StripSpans:
-    """Give how far strips reach, as the curves tell on which they are integrated.
-
-    Parameters
-    ----------
-    prepared : Prepared
-        The strips.
-    """
+    """Give how far strips reach, by the curves on which they are integrated."""
     tiles, count = prepared.tiles, prepared.strips.count
     strip = prepared.strip[tiles.curve]
     control = _BEZIER @ tiles.coefficients[0]
@@ -333,7 +314,7 @@ def strip_spans(prepared: PreparedStrips) -> StripSpans:
 
 
 def strip_parameters_at(body: StripSpans, strip: IntArray, x: FloatArray | float) -> FloatArray:
-    """Give the v at which flat strips (k,) stand at places in them, (k,) or one for all."""
+    """Give the v at which flat strips (k,) stand at x (m) in them, (k,) or one for all."""
     strips, begin, end = body.prepared.strips, body.aft[strip], body.fore[strip]
     low, high = np.zeros(len(strip)), np.ones(len(strip))
     v = np.clip((x - begin) / (end - begin), 0.0, 1.0)

@@ -10,12 +10,11 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, integrate_curves
 from assoc_hull.geometry.floating.raked_strips import StripSpans, strip_parameters_at
 from assoc_hull.geometry.floating.tiles import CurveTiles, tiles_of_curves, tiles_subset
 from assoc_hull.geometry.numeric.dual import is_plain
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 __all__ = [
     "areas_at",
@@ -26,7 +25,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Areas of single curves across a hull below planes, and their moments: sectional areas.
+# Areas of single curves below planes, and their moments.
 
 _AREA, _MOMENT = 0, 3
 """Among the columns of a strip: volume and its moment about the base line."""
@@ -36,26 +35,17 @@ _MOST = 20_000
 
 
 def sections_below(curves: IsoCurves, planes: FloatingPlanes) -> FloatArray:
-    """Give the area that each curve and its mirror image enclose below each plane.
+    """Give the area that each of k curves and its mirror image enclose below each of d planes.
 
-    Parameters
-    ----------
-    curves : IsoCurves
-        k curves in planes x = const; what they have of `across` does not matter.
-    planes : Planes
-        d planes.
-
-    Returns
-    -------
-    (d, k), m2
-        Areas of both sides, in the plane of the section.
+    The curves lie in planes x = const; their `across` does not matter. The areas, (d, k), m2, are
+    those in the plane of the section.
 
     Examples
     --------
     >>> import numpy as np
     >>> from assoc_hull.geometry.floating.immersion import FloatingPlanes
     >>> from assoc_hull.geometry.floating.sections import sections_below
-    >>> from assoc_hull.geometry.surfaces.isocurves import IsoCurves
+    >>> from assoc_hull.geometry.curves import IsoCurves
     >>> wedge = np.zeros((1, 4, 3))
     >>> wedge[0, 1] = [0.0, 2.0, 3.0]  # 3 m deep, 2 m wide at either side
     >>> curves = IsoCurves(np.array([0, 1]), wedge, np.zeros((1, 4, 3)), np.array([False]))
@@ -69,26 +59,16 @@ def sections_below(curves: IsoCurves, planes: FloatingPlanes) -> FloatArray:
 def sections_and_moments_below(
     curves: IsoCurves, planes: FloatingPlanes
 ) -> tuple[FloatArray, FloatArray]:
-    """Give areas as `sections_below` does, and their moments about the base line.
+    """Give areas as `sections_below` does, and their moments about the base line (of z dA).
 
-    Parameters
-    ----------
-    curves : IsoCurves
-        k curves in planes x = const.
-    planes : Planes
-        d planes.
-
-    Returns
-    -------
-    areas, moments : (d, k), m2 and m3
-        Of both sides; the integral of dA and of z dA.
+    Areas (d, k), m2, and moments (d, k), m3, of both sides.
 
     Examples
     --------
     >>> import numpy as np
     >>> from assoc_hull.geometry.floating.immersion import FloatingPlanes
     >>> from assoc_hull.geometry.floating.sections import sections_and_moments_below
-    >>> from assoc_hull.geometry.surfaces.isocurves import IsoCurves
+    >>> from assoc_hull.geometry.curves import IsoCurves
     >>> wedge = np.zeros((1, 4, 3))
     >>> wedge[0, 1] = [0.0, 2.0, 3.0]  # 3 m deep, 2 m wide at either side
     >>> curves = IsoCurves(np.array([0, 1]), wedge, np.zeros((1, 4, 3)), np.array([False]))
@@ -138,29 +118,16 @@ def _several(
 
 # --------------------------------------------------------------------------------------
 # Sections of a body by a plane across the ship, anywhere along it.
-#
-# In a strip of sections the section is one of its curves, exactly. What a raked strip has of it
-# is traced, which is good to some 1e-7 of the length of a tile.
 
 _ON = 1e-9
 """m: an end of a strip that is so near to the plane lies in it."""
 
 
 def cross_section(body: StripSpans, x: float) -> IsoCurves:
-    """Give the section of one side of a body by a plane across it.
+    """Give the section of one side of a body by a plane across it at x (m).
 
-    Parameters
-    ----------
-    body : Spans
-        The strips, and where they lie.
-    x : float, m
-        Where the plane stands.
-
-    Returns
-    -------
-    IsoCurves
-        The pieces of the section, each from keel to deck; none where there is no body. What
-        they have of `across` is that of strips of sections that run forward by 1 m.
+    Pieces come each from keel to deck; none where there is no body. Their `across` is that of
+    strips of sections that run forward by 1 m.
 
     Examples
     --------
@@ -176,46 +143,34 @@ def cross_section(body: StripSpans, x: float) -> IsoCurves:
     >>> round(float(sections_below(found, plane)[0, 0]), 1)  # 2/3 B T (1 - 0.15^2)
     40.7
     """
-    met = _met(body, x)
-    flat, strips = met[body.flat[met]], body.prepared.strips
+    cut_strips = _strips_of_section(body, x)
+    flat, strips = cut_strips[body.flat[cut_strips]], body.prepared.strips
     found = [strips.curves(flat, strip_parameters_at(body, flat, x))]
-    found += [body.raked[strip].section(x) for strip in met[~body.flat[met]].tolist()]
+    found += [body.raked[strip].section(x) for strip in cut_strips[~body.flat[cut_strips]].tolist()]
     return _joined(found)
 
 
 def areas_at(body: StripSpans, x: FloatArray, plane: FloatingPlanes) -> FloatArray:
-    """Give the areas of sections below one floating plane.
+    """Give the areas of sections at x (n,), m, below one floating plane: (n,), m2, of both sides.
 
-    Parameters
-    ----------
-    body : Spans
-        The strips, and where they lie.
-    x : (n,), m
-        Where; nothing is looked for beyond the ends of the body.
-    plane : Planes
-        One plane.
-
-    Returns
-    -------
-    (n,), m2
-        Of both sides.
+    Nothing is looked for beyond the ends of the body.
     """
-    met = [_met(body, place) for place in x.tolist()]
-    flat = np.array([bool(body.flat[strips].all()) for strips in met], np.bool_)
+    cut_strips = [_strips_of_section(body, place) for place in x.tolist()]
+    flat = np.array([bool(body.flat[strips].all()) for strips in cut_strips], np.bool_)
     found = np.zeros(len(x))
     for i in np.flatnonzero(~flat).tolist():
         found[i] = sections_below(cross_section(body, float(x[i])), plane).sum()
     some = np.flatnonzero(flat).tolist()
-    owner = np.repeat(some, [len(met[i]) for i in some]).astype(np.int64)
+    owner = np.repeat(some, [len(cut_strips[i]) for i in some]).astype(np.int64)
     if len(owner):
-        strip, strips = np.concatenate([met[i] for i in some]), body.prepared.strips
+        strip, strips = np.concatenate([cut_strips[i] for i in some]), body.prepared.strips
         curves = strips.curves(strip, strip_parameters_at(body, strip, x[owner]))
         found += np.bincount(owner, sections_below(curves, plane)[0], len(x))
     return found
 
 
 def strips_at(body: StripSpans, x: float) -> tuple[IntArray, IntArray]:
-    """Give the strips that a plane across the ship meets, from aft and from forward of it.
+    """Give the strips that a plane across the ship cuts, from aft and from forward of it.
 
     Within a strip both are the same; at a section they are those on either side.
     """
@@ -225,8 +180,8 @@ def strips_at(body: StripSpans, x: float) -> tuple[IntArray, IntArray]:
     return before, behind
 
 
-def _met(body: StripSpans, x: float) -> IntArray:
-    """Give the strips that a plane meets; at a section, those of the side without raked ones."""
+def _strips_of_section(body: StripSpans, x: float) -> IntArray:
+    """Give the strips that a plane cuts; at a section, those of the side without raked ones."""
     before, behind = strips_at(body, x)
     for side in (before, behind):
         if len(side) and body.flat[side].all():

@@ -3,7 +3,7 @@
 The flux runs along y, so that sums of strips are those of the slice that they bound. Where a plane
 stands in a strip of sections, the strip ends there; of a raked strip sections are integrated along
 the ship. With tangents, what a section at a cut adds counts as the cut moves; raked strips are
-not differentiated, and nothing is given where a plane meets one.
+not differentiated, and nothing is given where a plane cuts one.
 """
 
 from __future__ import annotations
@@ -13,21 +13,20 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, Strips
+from assoc_hull.geometry.floating.immersed_strips import prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
     ImmersedIntegrals,
     integrate_curves,
     integrate_immersed,
 )
-from assoc_hull.geometry.floating.prepared_strips import prepare_strips
 from assoc_hull.geometry.floating.raked_strips import RakedStrip, StripSpans, strip_parameters_at
 from assoc_hull.geometry.floating.sections import sections_below, strips_at
 from assoc_hull.geometry.floating.tiles import tiles_of_curves
 from assoc_hull.geometry.numeric.dual import Dual, as_array, is_plain, real
 from assoc_hull.geometry.numeric.generic_sums import common_zeros
 from assoc_hull.geometry.numeric.quadrature import bunched_rule
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves, Strips
 
 __all__ = [
     "SliceIntegrals",
@@ -38,11 +37,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Integrals of the slice of a body between two planes across it.
-#
-# The flux runs along y, so that the sums of some strips are those of the slice of the body that
-# they bound. Where a plane stands in a strip of sections, the strip ends there; of a raked strip
-# that a plane cuts, sections are integrated along the ship.
+# Slices in plain numbers.
 
 _POINTS = 16
 """Sections in each part of a raked strip that is cut."""
@@ -119,27 +114,11 @@ class StripStretches:
 def integrate_slice(
     body: StripSpans, aft: float, fore: float, plane: FloatingPlanes
 ) -> SliceIntegrals:
-    """Integrate the slice of a body between two planes across it.
+    """Integrate the slice of a body between planes across it at aft < fore, m; infinite for none.
 
-    Parameters
-    ----------
-    body : Spans
-        The strips, and where they lie.
-    aft, fore : float, m
-        x of the planes, fore the greater; infinite for none.
-    plane : Planes
-        One floating plane, upright.
-
-    Returns
-    -------
-    Between
-        The integrals.
-
-    Notes
-    -----
-    In strips of sections as accurate as those of the body. A raked strip that a plane cuts is
-    parted where its rails turn or meet the water, and each part integrated on `_POINTS`
-    sections.
+    Below one upright floating plane. In strips of sections it is as accurate as integrals of the
+    body. A raked strip that a plane cuts is parted where its rails turn or pass through the water,
+    and each part integrated on `_POINTS` sections.
 
     Examples
     --------
@@ -200,8 +179,6 @@ def _raked(strip: RakedStrip, aft: float, fore: float, plane: FloatingPlanes) ->
 # A plane across the ship stands at a place v of a strip of sections, x(v) = c. Where the strip
 # moves, or the plane, v' = (c' - x') / x_v. A strip that ends at the plane is continued by its own
 # cubics: so what a section between the plane and the end adds counts, as that end moves.
-#
-# Raked strips are traced and not differentiated: where a plane meets one, nothing is given.
 
 _ON = 1e-9
 """m: an end of a strip that is so near to a plane lies in it."""
@@ -210,23 +187,10 @@ _ON = 1e-9
 def slice_with_tangents(
     body: StripSpans, strips: Strips, aft: Any, fore: Any, plane: FloatingPlanes
 ) -> ImmersedIntegrals | None:
-    """Integrate the slice of a body between two planes across it, with tangents.
+    """Integrate the slice between planes across a body at aft < fore (m), with tangents.
 
-    Parameters
-    ----------
-    body : Spans
-        The strips in plain numbers, and where they lie.
-    strips : Strips
-        The same strips with tangents.
-    aft, fore : float, or Dual (), m
-        x of the planes, fore the greater; infinite for none.
-    plane : Planes
-        One floating plane, upright.
-
-    Returns
-    -------
-    Immersed or None
-        The integrals, (1,) each; None where one of the planes meets a raked strip.
+    `body` has the strips in plain numbers, `strips` the same with tangents; the floating plane is
+    upright. The integrals are (1,) each; None where one of the planes cuts a raked strip.
     """
     low, high = float(real(aft)), float(real(fore))
     chosen = (body.fore > low + _ON) & (body.aft < high - _ON) & (body.fore > body.aft)
@@ -247,19 +211,10 @@ def slice_with_tangents(
 
 
 def area_with_tangents(body: StripSpans, strips: Strips, x: Any, plane: FloatingPlanes) -> Any:
-    """Give the area of a section below a floating plane, both sides, with tangents.
+    """Give the area of a section below a floating plane, both sides, m2, with tangents.
 
-    Parameters
-    ----------
-    body, strips, plane
-        As for `slice_with_tangents`.
-    x : float, or Dual (), m
-        Where. On a section that is an end of strips, the mean of those on both sides.
-
-    Returns
-    -------
-    Dual (), m2, or None
-        None where a raked strip is met.
+    The arguments are those of `slice_with_tangents`. At an x that is an end of strips it is the
+    mean of those on both sides; None where a raked strip is cut.
     """
     found = [side for side in strips_at(body, float(real(x))) if len(side)]
     flat = [side for side in found if body.flat[side].all()]

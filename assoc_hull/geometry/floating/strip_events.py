@@ -2,9 +2,9 @@
 
 From one curve of a strip to the next the immersed part may change its kind: the keel comes out of
 the water, the deck edge goes under, a piece appears. Either side of such a place gets a rule of
-its own. A strip where it is about to happen counts in part, so that every integral changes
-continuously with the plane. Places are found among plain numbers and given their derivatives
-afterwards.
+its own. As a place leaves the strip through an end, the share of the fine rule falls from one to
+zero over the next strip's worth of change: so every integral changes continuously with the plane.
+Places are found among plain numbers and given their derivatives afterwards.
 """
 
 from __future__ import annotations
@@ -13,11 +13,13 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.floating.immersed_states import (
+from assoc_hull.geometry.curves import FloatArray, IntArray, Strips
+from assoc_hull.geometry.floating.immersed_strips import (
     DECK,
     KEEL,
+    LEVEL,
     Inclination,
+    PreparedStrips,
     StateBrackets,
     cut_counts,
     find_state_changes,
@@ -25,7 +27,6 @@ from assoc_hull.geometry.floating.immersed_states import (
     rounding_flickers,
     strip_states,
 )
-from assoc_hull.geometry.floating.prepared_strips import LEVEL, PreparedStrips
 from assoc_hull.geometry.floating.tile_intersections import (
     CriticalPoints,
     TiltedTiles,
@@ -39,7 +40,6 @@ from assoc_hull.geometry.floating.waterplane_cuts import point_extents
 from assoc_hull.geometry.numeric.dual import is_plain, real
 from assoc_hull.geometry.numeric.generic_sums import safe_sqrt
 from assoc_hull.geometry.numeric.quadrature import bunched_rule
-from assoc_hull.geometry.surfaces.isocurves import Strips
 
 __all__ = [
     "RefinedCurves",
@@ -49,10 +49,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# How places along strips at which something happens move with what the numbers carry along.
+# Derivatives of places along strips, which are found among plain numbers.
 #
-# They are found among plain numbers. The point that passes the plane there has the height q(v)
-# over planes of the inclination, so a change of q - level moves the place by -1/q_v times that.
+# The point that passes the plane there has the height q(v) over planes of the inclination, so a
+# change of q - level moves the place by -1/q_v times that.
 
 _FLAT = 1e-9
 """m along a whole strip: what rises less lies level, and has no place to move to."""
@@ -67,35 +67,23 @@ def differentiate_brackets(
 ) -> StateBrackets:
     """Carry derivatives through places that were found among plain numbers.
 
-    Parameters
-    ----------
-    prepared : Prepared
-        The body, in any arithmetic.
-    tilted : Tilted
-        The inclination of the planes.
-    levels : (d,), m
-        Their heights.
-    found : Brackets
-        The places; their `row` is the plane times the number of strips, plus the strip.
-
-    Returns
-    -------
-    Brackets
-        With `low` and `high` in the arithmetic that results; as they were if it is plain.
+    `found.row` is the plane times the number of strips, plus the strip; levels are (d,), m. Only
+    `low` and `high` change, into the arithmetic that results; all stays as it is if that is plain.
     """
     numbers = (prepared.tiles.coefficients, levels, tilted.trim, tilted.heel)
     if not len(found) or all(map(is_plain, numbers)):
         return found
     strips = prepared.strips
     tiles = tiles_of_curves(strips.curves(found.strip, 0.5 * (found.low + found.high)))
-    height, change = _passing(tiles, tilt_tiles(tiles, tilted.trim, tilted.heel), found)
+    height, change = _passing_points(tiles, tilt_tiles(tiles, tilted.trim, tilted.heel), found)
     over = height - np.take(levels, found.row // strips.count)
     passes = (np.abs(real(change)) > _FLAT) & (np.abs(real(over)) < _NEAR)
+    # The value of `over` is rounding: only its derivative moves the place.
     move = np.where(passes, (real(over) - over) / np.where(passes, real(change), 1.0), 0.0)
     return attrs.evolve(found, low=found.low + move, high=found.high + move)
 
 
-def _passing(
+def _passing_points(
     tiles: CurveTiles, tilted: TiltedTiles, found: StateBrackets
 ) -> tuple[FloatArray, FloatArray]:
     """Give height and q_v of the point of each curve that passes the plane."""
@@ -112,19 +100,12 @@ def _passing(
 
 
 # --------------------------------------------------------------------------------------
-# Strips in which something happens below a plane: where, and how finely to integrate.
-#
-# From one curve of a strip to the next the immersed part may change its kind: the keel comes
-# out of the water, the deck edge goes under, a piece appears.
-# The place along v is found by bisection, and either side of it gets a rule of its own.
-#
-# A strip in which nothing happens *yet* counts too, in part: as such a place leaves the strip
-# through an end, the share of the fine rule falls from one to nil over the next strip's worth
-# of change (and not too abruptly: where both rules differ, the derivative of a volume differs
-# from the area by as much). So every integral changes continuously with the plane.
+# Strips in which something happens, and their rules.
 
 _LADDER = 7  # curves, ever closer to the end of a strip
-_REACH = 0.02  # of a strip's depth: within it no share of the fine rule goes from one to nil
+# Of a strip's depth: the least change of height over which the share of the fine rule goes from
+# one to zero. Both rules differ, so a sudden change would be an error of the derivative.
+_REACH = 0.02
 
 
 @attrs.frozen(eq=False)
@@ -161,7 +142,7 @@ class RefinedCurves:
         For which plane, which curve of the plain rule.
     share : (m,)
         How much of it is replaced.
-    places : Brackets
+    places : StateBrackets
         Where the immersed part changes its kind.
     """
 
@@ -178,38 +159,24 @@ class RefinedCurves:
 def refine_strips(
     prepared: PreparedStrips, tilted: TiltedTiles, levels: FloatArray, state: IntArray
 ) -> RefinedCurves | None:
-    """Find the strips in which something happens, and rules for them.
+    """Find the strips in which something happens, and rules for them; None if nothing does.
 
-    Parameters
-    ----------
-    prepared : Prepared
-        The body.
-    tilted : Tilted
-        The inclination of the planes.
-    levels : (d,), m
-        Their heights.
-    state : (d, k) int
-        What `states` says of the curves of the plain rule.
-
-    Returns
-    -------
-    Parts or None
-        None if nothing happens anywhere.
+    Levels are (d,), m; state is (d, k), from `curve_states`, of the curves of the plain rule.
     """
-    soon = _soon(prepared, tilted, levels)
+    soon = _nearby_critical_points(prepared, tilted, levels)
     plane, curve = _changes(prepared, tilted, real(levels), state)
     if not len(plane) and not len(soon.plane):
         return None
     inclination = real(tilted.trim), real(tilted.heel)
     brackets = join_brackets(
         _brackets(prepared, levels, state, plane, curve),
-        _dips(prepared, inclination, levels, state, soon),
+        _hidden_pieces(prepared, inclination, levels, state, soon),
     )
     found = find_state_changes(prepared.plain, inclination, brackets)
     found = differentiate_brackets(prepared, tilted, levels, found)
     near = soon.plane * prepared.strips.count + prepared.strip[soon.curve]
     keys, row = np.unique(np.concatenate([found.row, near]), return_inverse=True)
-    shares = _shares(soon.share, row[len(found) :], len(keys))
+    shares = _greatest_shares(soon.share, row[len(found) :], len(keys))
     known = np.isin(keys, found.row)
     return _rules(prepared, keys, np.where(known, 1.0, shares), found)
 
@@ -245,8 +212,8 @@ def _brackets(
     )
 
 
-def _shares(share: FloatArray, row: IntArray, count: int) -> FloatArray:
-    """Give the greatest share of each row, nil where there is none."""
+def _greatest_shares(share: FloatArray, row: IntArray, count: int) -> FloatArray:
+    """Give the greatest share of each row, zero where there is none."""
     if not len(row):
         return np.zeros(count)
     order = np.lexsort((real(share), row))
@@ -307,7 +274,7 @@ def _intervals(keys: IntArray, found: StateBrackets) -> tuple[FloatArray, FloatA
     return edge[inside], edge[inside + 1] - edge[inside], owner[inside]
 
 
-def _soon(
+def _nearby_critical_points(
     prepared: PreparedStrips, tilted: TiltedTiles, levels: FloatArray
 ) -> NearbyCriticalPoints:
     """Find critical points at the ends of strips that a strip's worth of change may wet or dry."""
@@ -320,11 +287,12 @@ def _soon(
     part = 1.0 - gap * gap
     curve, change = ends.curve[point], real(ends.change)[point]
     inward = np.where(prepared.v[curve] == 0.0, change, -change)
+    # From 0 to 1 without a kink at either end, so that derivatives are continuous, too.
     share = part * part * (3.0 - 2.0 * part)
     return NearbyCriticalPoints(plane, curve, share, over[plane, point] * inward < 0.0)
 
 
-def _dips(
+def _hidden_pieces(
     prepared: PreparedStrips,
     inclination: Inclination,
     levels: FloatArray,
@@ -369,32 +337,15 @@ def _dips(
 
 
 # --------------------------------------------------------------------------------------
-# Where waterplanes end inside a strip: the points of events.
-#
-# An event is a critical point of a curve that lies in the plane. The place along v is found
-# among plain numbers; one Newton step from there has the point's derivatives, too.
+# Where waterplanes end inside a strip: at critical points of curves that lie in the plane.
 
 
 def waterplane_tips(
     strips: Strips, inclined: TiltedTiles, levels: FloatArray, found: StateBrackets
 ) -> FloatArray:
-    """Give the extents of the points of events.
+    """Give the extents of the points at which waterplanes end, (4, d), m, as in `point_extents`.
 
-    Parameters
-    ----------
-    strips : Strips
-        The body.
-    inclined : Tilted
-        Its inclination.
-    levels : (d,), m
-        Heights of the planes.
-    found : Brackets
-        The places of events; the planes are their `row` by the number of strips.
-
-    Returns
-    -------
-    (4, d), m
-        As in `extent`.
+    `found.row` is the plane times the number of strips, plus the strip; levels are (d,), m.
     """
     # Where no curve is cut on either side, no waterplane ends.
     some = np.flatnonzero((cut_counts(found.below) > 0) | (cut_counts(found.above) > 0))
@@ -402,11 +353,11 @@ def waterplane_tips(
     tiles = tiles_of_curves(strips.curves(found.strip[some], v))
     points = find_critical_points(tiles, tilt_tiles(tiles, inclined.trim, inclined.heel))
     passing = nearest_critical_point(points, found.level[some], tiles.curves)
-    x, y = _moved(points, passing, np.take(levels, plane))
+    x, y = _passing_places(points, passing, np.take(levels, plane))
     return point_extents(x, y, plane, len(levels))
 
 
-def _moved(
+def _passing_places(
     points: CriticalPoints, point: IntArray, level: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Give x and y of points where they pass their levels, one Newton step away."""

@@ -1,8 +1,10 @@
 """Where floating planes cut tiles, and the critical points at which cuts appear or end.
 
-Over planes of one inclination the height of a tile is one cubic; a plane is a level of it. Two
-neighbouring tiles never disagree whether the point they share is wet, and a point on the plane is
-wet. As a plane rises past a critical point of a curve, a piece of its section appears or ends.
+Over planes of one inclination the height of a tile, ``q = z - tan_trim x + tan_heel y``, is one
+cubic, and a plane is a level of q. A tile ends at the level at which the next one of its curve
+begins, to the last bit: so two tiles never disagree whether the point they share is wet. A point
+on a plane is wet: every integral is the limit for a level that comes down from above. As a plane
+rises past a critical point of a curve, a piece of its section appears or ends.
 """
 
 from __future__ import annotations
@@ -31,18 +33,9 @@ __all__ = [
     "tilt_tiles",
 ]
 
-# --------------------------------------------------------------------------------------
-# Where floating planes cut tiles.
-#
-# Over planes of one inclination the height of a tile, ``q = z - tan_trim x + tan_heel y``, is
-# one cubic; a plane is a level of q. The level at which a tile ends is, to the last bit, the
-# one at which the next tile of the curve begins: so two neighbours never disagree whether the
-# point they share is wet, and a plane through a row of them is counted once. A point *on* the
-# plane is wet: every integral is the limit for a level that comes down from above.
-
 _LEAST = 1e-8
 """Cuts with derivatives are kept so far from the beginning of a tile: the area of the part up to
-them is the root of a square, which at nil has no derivative, though the area has one."""
+them is the root of a square, which at zero has no derivative, though the area has one."""
 
 
 @attrs.frozen(eq=False)
@@ -84,7 +77,7 @@ class SignChanges:
     Attributes
     ----------
     pair : int
-        Of the pairs of a tile and a level that were asked.
+        Index into the pairs of a tile and a level that were given.
     low, high : from 0 to 1
         Ends of the part on the tile.
     at_low, at_high : m
@@ -105,9 +98,9 @@ class TileCuts:
     Attributes
     ----------
     pair : (k,) int
-        Of the pairs of a tile and a level that were asked.
+        Index into the pairs of a tile and a level that were given.
     u : (k,)
-        Where on the tile.
+        Parameter on the tile, from 0 to 1.
     sign : (k,)
         1 where the tile leaves the water with growing u, -1 where it goes in.
     """
@@ -118,20 +111,7 @@ class TileCuts:
 
 
 def tilt_tiles(tiles: CurveTiles, trim: FloatArray, heel: FloatArray) -> TiltedTiles:
-    """Measure tiles over the planes of an inclination.
-
-    Parameters
-    ----------
-    tiles : Tiles
-        The tiles.
-    trim, heel : (1,)
-        Tangents of the inclination.
-
-    Returns
-    -------
-    Tilted
-        Their heights.
-    """
+    """Measure tiles over planes whose tangents of inclination are trim and heel, (1,) each."""
     x, y, z = tiles.coefficients[:3]
     height = z
     if real(trim)[0] != 0.0 or not is_plain(trim):
@@ -143,6 +123,7 @@ def tilt_tiles(tiles: CurveTiles, trim: FloatArray, heel: FloatArray) -> TiltedT
     control[0] = first
     np.add(first, second / 3.0, out=control[1])
     np.add(control[1], (second + third) / 3.0, out=control[2])
+    # The first of the next tile, not the sum of the own coefficients: neighbours agree to the bit.
     control[3, :-1] = first[1:]
     last = tiles.start[1:] - 1
     control[3, last] = first[last] + second[last] + third[last] + fourth[last]
@@ -157,20 +138,7 @@ def tilt_tiles(tiles: CurveTiles, trim: FloatArray, heel: FloatArray) -> TiltedT
 
 
 def candidate_pairs(tilted: TiltedTiles, levels: FloatArray) -> tuple[IntArray, IntArray]:
-    """Find pairs of a tile and a level that may meet.
-
-    Parameters
-    ----------
-    tilted : Tilted
-        The tiles.
-    levels : (d,), m
-        Ascending.
-
-    Returns
-    -------
-    (p,) int, (p,) int
-        Tiles and levels.
-    """
+    """Find pairs of a tile and a level that may intersect, (p,) each; levels (d,), m, ascend."""
     if len(levels) == 1:
         tile = np.flatnonzero((tilted.low <= levels[0]) & (tilted.high > levels[0]))
         return tile, np.zeros(len(tile), np.int64)
@@ -182,40 +150,18 @@ def candidate_pairs(tilted: TiltedTiles, levels: FloatArray) -> tuple[IntArray, 
 
 
 def stationary_heights(tilted: TiltedTiles, tile: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Say where tiles may have their least or greatest height inside.
+    """Give u where tiles (p,) may have their least or greatest height inside, lower and upper.
 
-    Parameters
-    ----------
-    tilted : Tilted
-        The tiles.
-    tile : (p,) int
-        Which.
-
-    Returns
-    -------
-    lower, upper : (p,)
-        As in `stationary`: 0 and 1 stand for nowhere.
+    As in `stationary_fractions`, 0 and 1 stand for nowhere.
     """
     _, first, second, third = np.take(real(tilted.height), tile, axis=1)
     return stationary_fractions(first, second, third)
 
 
 def bracket_cuts(tilted: TiltedTiles, tile: IntArray, level: FloatArray) -> SignChanges:
-    """Bracket all changes of sign.
+    """Bracket all changes of sign of tiles (p,) over levels (p,), m, plain.
 
-    Parameters
-    ----------
-    tilted : Tilted
-        The tiles.
-    tile : (p,) int
-        Which tile,
-    level : (p,), m
-        and where; plain.
-
-    Returns
-    -------
-    Changes
-        The brackets, in each of which a tile runs up or down only.
+    In each bracket the height of the tile only rises or only falls.
     """
     control = np.take(tilted.control, tile, axis=1) - level
     wave = tilted.wavy[tile]
@@ -225,43 +171,28 @@ def bracket_cuts(tilted: TiltedTiles, tile: IntArray, level: FloatArray) -> Sign
     rest = np.flatnonzero(wave)
     if not len(rest):
         return plain
-    split = _split(tilted, tile[rest], level[rest], control[:, rest])
+    split = _bracket_wavy(tilted, tile[rest], level[rest], control[:, rest])
     others = (rest[split.pair], split.low, split.high, split.at_low, split.at_high)
     both = zip(attrs.astuple(plain, recurse=False), others, strict=True)
     return SignChanges(*(np.concatenate(each) for each in both))
 
 
 def cut_tiles(tilted: TiltedTiles, tile: IntArray, level: FloatArray) -> TileCuts:
-    """Cut tiles at levels.
-
-    Parameters
-    ----------
-    tilted : Tilted
-        The tiles.
-    tile : (p,) int
-        Which tile,
-    level : (p,), m
-        and where; any arithmetic.
-
-    Returns
-    -------
-    Cuts
-        Every change of sign, in the arithmetic of the heights.
-    """
+    """Cut tiles (p,) at levels (p,), m: every change of sign, in the arithmetic of the heights."""
     found = bracket_cuts(tilted, tile, real(level))
     tile, level = tile[found.pair], np.take(level, found.pair)
     cubic = np.take(real(tilted.height), tile, axis=1)
     cubic[0] -= real(level)
-    start = _parabola(cubic, found)
+    start = _parabola_start(cubic, found)
     u = bracketed_roots(cubic, found.low, found.high, found.at_low, found.at_high, start)
     sign = np.where(found.at_low <= 0.0, 1.0, -1.0)
-    return TileCuts(found.pair, _polished(tilted, tile, level, u), sign)
+    return TileCuts(found.pair, _roots_with_derivatives(tilted, tile, level, u), sign)
 
 
-def _split(
+def _bracket_wavy(
     tilted: TiltedTiles, tile: IntArray, level: FloatArray, control: FloatArray
 ) -> SignChanges:
-    """Bracket changes of sign between the turns of tiles."""
+    """Bracket changes of sign between the stationary heights of tiles."""
     origin, first, second, third = np.take(real(tilted.height), tile, axis=1)
     lower, upper = stationary_fractions(first, second, third)
     below = origin - level
@@ -276,7 +207,7 @@ def _split(
     )
 
 
-def _parabola(cubic: FloatArray, found: SignChanges) -> FloatArray:
+def _parabola_start(cubic: FloatArray, found: SignChanges) -> FloatArray:
     """Start at the root of the parabola through both ends and the middle.
 
     Tiles that begin level, as most do at the keel, have nearly parabolas for heights: from a
@@ -296,7 +227,9 @@ def _parabola(cubic: FloatArray, found: SignChanges) -> FloatArray:
     return start
 
 
-def _polished(tilted: TiltedTiles, tile: IntArray, level: FloatArray, u: FloatArray) -> FloatArray:
+def _roots_with_derivatives(
+    tilted: TiltedTiles, tile: IntArray, level: FloatArray, u: FloatArray
+) -> FloatArray:
     """Carry derivatives through roots that were found among plain numbers."""
     height = tilted.height
     if is_plain(height) and is_plain(level):
@@ -304,7 +237,7 @@ def _polished(tilted: TiltedTiles, tile: IntArray, level: FloatArray, u: FloatAr
     first, second, third, fourth = np.take(height, tile, axis=1)
     above = first - level + u * (second + u * (third + u * fourth))
     slope = second + u * (2.0 * third + u * (3.0 * fourth))
-    # What is left of the residual is rounding: only its derivative is wanted.
+    # The value of the residual is rounding: only its derivative is wanted.
     steep = np.abs(real(slope)) > 0.0
     change = (above - real(above)) / np.where(steep, slope, 1.0)
     return np.where(u < _LEAST, _LEAST, u) - np.where(steep, change, 0.0)
@@ -314,7 +247,7 @@ def _polished(tilted: TiltedTiles, tile: IntArray, level: FloatArray, u: FloatAr
 # Critical points of curves: where, as a plane rises, a piece of a section appears or ends.
 
 _LEVEL = 1e-9
-"""m: a height that bends less along a tile has no turn that could be told to move."""
+"""m: a height that bends less along a tile has no turn whose derivative could be given."""
 
 
 @attrs.frozen(eq=False)
@@ -351,19 +284,8 @@ class CriticalPoints:
 
 
 def find_critical_points(tiles: CurveTiles, tilted: TiltedTiles) -> CriticalPoints:
-    """Find the ends of curves, the deck's edge, and where they turn from up to down or back.
-
-    Parameters
-    ----------
-    tiles, tilted : Tiles, Tilted
-        The curves.
-
-    Returns
-    -------
-    Critical
-        Their critical points.
-    """
-    return critical_points_at(tiles, tilted, *_where(tiles, tilted))
+    """Find ends of curves, the deck's edge, and where heights are stationary along curves."""
+    return critical_points_at(tiles, tilted, *_critical_parameters(tiles, tilted))
 
 
 def critical_points_at(
@@ -377,7 +299,7 @@ def critical_points_at(
     return CriticalPoints(tiles.curve[tile], height, change, both[:2], both[3:5])
 
 
-def _where(tiles: CurveTiles, tilted: TiltedTiles) -> tuple[IntArray, FloatArray]:
+def _critical_parameters(tiles: CurveTiles, tilted: TiltedTiles) -> tuple[IntArray, FloatArray]:
     """Give tile and u of the critical points."""
     control = tilted.control
     into, out = control[3, :-1] - control[2, :-1], control[1, 1:] - control[0, 1:]
@@ -389,12 +311,12 @@ def _where(tiles: CurveTiles, tilted: TiltedTiles) -> tuple[IntArray, FloatArray
     knots = np.concatenate([begin, tiles.edge[tiles.edge >= 0], turn])
     tile = np.concatenate([knots, end, wave[low], wave[high]])
     inner = np.concatenate([lower[low], upper[high]])
-    turns_at = _moved(tilted, tile[len(knots) + len(end) :], inner)
+    turns_at = _turns_with_derivatives(tilted, tile[len(knots) + len(end) :], inner)
     return tile, np.concatenate([np.zeros(len(knots)), np.ones(len(end)), turns_at])
 
 
-def _moved(tilted: TiltedTiles, tile: IntArray, u: FloatArray) -> FloatArray:
-    """Carry derivatives through turns that were found among plain numbers."""
+def _turns_with_derivatives(tilted: TiltedTiles, tile: IntArray, u: FloatArray) -> FloatArray:
+    """Carry derivatives through stationary parameters that were found among plain numbers."""
     if is_plain(tilted.height):
         return u
     _, first, second, third = np.take(tilted.height, tile, axis=1)
@@ -405,21 +327,9 @@ def _moved(tilted: TiltedTiles, tile: IntArray, u: FloatArray) -> FloatArray:
 
 
 def nearest_critical_point(points: CriticalPoints, level: FloatArray, curves: int) -> IntArray:
-    """Give which of its critical points lies nearest to the level of each curve.
+    """Give for each of so many curves the index of its critical point nearest to its level.
 
-    Parameters
-    ----------
-    points : Critical
-        Of so many curves.
-    level : (curves,), m
-        Plain.
-    curves : int
-        Number of curves.
-
-    Returns
-    -------
-    (curves,) int
-        Of the points.
+    Levels are (curves,), m, plain; the result is (curves,) int, into `points`.
     """
     over = np.abs(real(points.height) - level[points.curve])
     order = np.lexsort((over, points.curve))

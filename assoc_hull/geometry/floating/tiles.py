@@ -21,11 +21,10 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves
 from assoc_hull.geometry.numeric.dual import real
 from assoc_hull.geometry.numeric.generic_sums import combine_rows, differs_from_zero, safe_sqrt
 from assoc_hull.geometry.numeric.quadrature import gauss
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 __all__ = [
     "CHUNK",
@@ -43,7 +42,7 @@ CHUNK = 2048
 """Tiles or cuts at a time, so that the work on them stays in the processor's cache."""
 
 PLAIN, HEELED = 7, 11
-"""Rows of `integrals`: y N_y, x y N_y, y^2/2 N_y, y z N_y, |N|, girth, |N| on deck; with heel
+"""Rows of `integrate_tiles`: y N_y, x y N_y, y^2/2 N_y, y z N_y, |N|, girth, |N| on deck; with heel
 the first four once more, with N_z."""
 
 _POINTS = 6  # exact to degree 11
@@ -94,18 +93,7 @@ def cubic_powers(u: FloatArray) -> FloatArray:
 
 
 def tiles_of_curves(curves: IsoCurves) -> CurveTiles:
-    """Take over curves.
-
-    Parameters
-    ----------
-    curves : IsoCurves
-        The curves.
-
-    Returns
-    -------
-    Tiles
-        The same tiles, laid out for work on many at once.
-    """
+    """Lay out the tiles of curves for work on many at once."""
     # Row by row in memory: all that follows runs along rows.
     both = (curves.point, curves.across)
     rows = [each[:, power, axis] for each in both for axis in range(3) for power in range(4)]
@@ -117,20 +105,7 @@ def tiles_of_curves(curves: IsoCurves) -> CurveTiles:
 
 
 def tile_rows(tiles: CurveTiles, curve: IntArray) -> tuple[IntArray, IntArray]:
-    """List the tiles of some curves, possibly repeatedly.
-
-    Parameters
-    ----------
-    tiles : Tiles
-        The tiles.
-    curve : (n,) int
-        Which curves.
-
-    Returns
-    -------
-    (t,) int, (t,) int
-        The tiles, and to which of the n each belongs.
-    """
+    """List the tiles of curves (n,), which may be repeated, and to which of the n each belongs."""
     sizes = tiles.start[curve + 1] - tiles.start[curve]
     begin = np.cumsum(sizes) - sizes
     row = np.repeat(np.arange(len(curve)), sizes)
@@ -138,20 +113,7 @@ def tile_rows(tiles: CurveTiles, curve: IntArray) -> tuple[IntArray, IntArray]:
 
 
 def tiles_subset(tiles: CurveTiles, curve: IntArray) -> CurveTiles:
-    """Take some curves.
-
-    Parameters
-    ----------
-    tiles : Tiles
-        Where from.
-    curve : (n,) int
-        Which curves.
-
-    Returns
-    -------
-    Tiles
-        Their tiles, in that order.
-    """
+    """Give the tiles of curves (n,), in that order."""
     rows, owner = tile_rows(tiles, curve)
     start = np.searchsorted(owner, np.arange(len(curve) + 1))
     deck = tiles.deck[rows]
@@ -168,21 +130,10 @@ def tiles_subset(tiles: CurveTiles, curve: IntArray) -> CurveTiles:
 def integrate_tiles(
     coefficients: FloatArray, deck: NDArray[np.bool_], lean: NDArray[np.bool_], heeled: bool
 ) -> FloatArray:
-    """Integrate over tiles, or over parts of them that are given as tiles.
+    """Integrate over tiles, (6, 4, k), or over parts of them that are given as tiles.
 
-    Parameters
-    ----------
-    coefficients : (6, 4, k), m
-        As in `Tiles`.
-    deck, lean : (k,) bool
-        As in `Tiles`.
-    heeled : bool
-        Integrals with N_z are wanted.
-
-    Returns
-    -------
-    (7, k) or (11, k)
-        The rows `PLAIN` or `HEELED`, per unit of v.
+    The result is (7, k), or (11, k) if integrals with N_z are wanted (`heeled`): the rows `PLAIN`
+    or `HEELED`, per unit of v.
     """
     if len(deck) > CHUNK:
         parts = [slice(i, i + CHUNK) for i in range(0, len(deck), CHUNK)]

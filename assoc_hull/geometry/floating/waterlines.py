@@ -1,8 +1,9 @@
 """The waterline of a body: where a floating plane cuts its surface, and its main piece.
 
-Each curve across a strip meets the plane at some places; as far as their number stays the same they
-form arcs. `outer_line` joins arcs end to end from where the waterline is broadest to its end,
-forward or aft: that is the piece of which entrance angles are measured.
+Each curve across a strip intersects the plane at some places; as far as their number stays the
+same they form arcs, which end where two of them run together or one leaves the strip. An arc is
+the polynomial through `_NODES` places. `outer_line` joins arcs end to end from the greatest half
+breadth to an end of the waterline: of several pieces (a bulb's top, skegs) it takes that one.
 """
 
 from __future__ import annotations
@@ -27,20 +28,13 @@ __all__ = [
     "waterline_arcs",
 ]
 
-# --------------------------------------------------------------------------------------
-# The waterline of a body: where a floating plane cuts its surface, arc by arc.
-#
-# Each curve across a strip meets the plane at some places. As far as their number stays the same
-# along the strip they form arcs, which end where two of them run together or one leaves the strip.
-# An arc is known at so many places that the polynomial through these has it, with its slopes.
-
 _NODES = 8
 _PIECES = 12  # of each part of a raked strip: lines bend there
 _PER_PIECE = 4  # Gauss points of a strip of sections
 _LOOKS = 9  # at each strip, for where the number of places changes
 _HALVINGS = 46
 _SEVERAL = 6  # changes between two looks, at most
-_BESIDE = 1e-4  # of a strip: so far from a place at which the number changes it is looked again
+_BESIDE = 1e-4  # of a strip: slopes are compared with those so far from where the number changes
 _STEEP = 10.0  # where two places run together, lines stand that many times steeper than beside
 _LEVEL = 1e-9  # m along a tile: what rises less is level
 _SLIVER = 1e-10  # parts of a strip that are shorter are left out
@@ -75,19 +69,7 @@ class WaterlineArcs:
 
 
 def waterline_arcs(body: StripSpans, plane: FloatingPlanes) -> WaterlineArcs:
-    """Cut strips by a floating plane.
-
-    Parameters
-    ----------
-    body : Spans
-        The strips.
-    plane : Planes
-        One plane, upright.
-
-    Returns
-    -------
-    Arcs
-        In the order of the strips.
+    """Cut strips by one upright floating plane; arcs come in the order of the strips, port side.
 
     Examples
     --------
@@ -119,16 +101,16 @@ def waterline_arcs(body: StripSpans, plane: FloatingPlanes) -> WaterlineArcs:
     own = owner[order].reshape(-1, _NODES)[:, :1] // _NODES
     with np.errstate(invalid="ignore"):  # endless where the waterline stands across the strip
         slope = both[..., 2:] * (length * rate)[own[:, 0], :, None]
-    # Where an arc begins or ends inside a strip the waterline stands across it.
-    told = np.isfinite(slope) & (rate[own[:, 0]] > 0.0)[..., None]
+    # Where an arc begins or ends inside a strip the waterline stands across it: no slope by v.
+    known = np.isfinite(slope) & (rate[own[:, 0]] > 0.0)[..., None]
     point = both[..., :2].copy()
-    slope = np.where(told, slope, np.einsum("ij,kjc->kic", differentiation_matrix(t), point))
+    slope = np.where(known, slope, np.einsum("ij,kjc->kic", differentiation_matrix(t), point))
     return WaterlineArcs(point, slope, weight.copy())
 
 
 @attrs.frozen(eq=False)
 class _Parts:
-    """Parts of strips along which curves meet the plane equally often, (p,) each.
+    """Parts of strips along which curves intersect the plane equally often, (p,) each.
 
     Attributes
     ----------
@@ -168,8 +150,8 @@ def _parts(body: StripSpans, plane: FloatingPlanes) -> _Parts:
     seen = _count(body, plane, strip, np.tile(look, strips.count)).reshape(-1, _LOOKS)
     own, before, behind = _changes(body, plane, look, seen)
     every = np.arange(strips.count)
-    nil, one = np.zeros(strips.count), np.ones(strips.count)
-    low, high = np.concatenate([nil, behind]), np.concatenate([one, before])
+    zero, one = np.zeros(strips.count), np.ones(strips.count)
+    low, high = np.concatenate([zero, behind]), np.concatenate([one, before])
     from_low, from_high = (np.concatenate([every, own]) for _ in range(2))
     rise, fall = np.lexsort((low, from_low)), np.lexsort((high, from_high))
     low, high = low[rise], high[fall]
@@ -186,7 +168,7 @@ def _parts(body: StripSpans, plane: FloatingPlanes) -> _Parts:
 def _across(
     body: StripSpans, plane: FloatingPlanes, strip: IntArray, v: FloatArray, inner: FloatArray
 ) -> NDArray[np.bool_]:
-    """Tell whether lines stand across the strip at one end v of its parts."""
+    """Say whether lines stand across the strip at one end v of its parts."""
     beside = v + np.clip(inner - v, -_BESIDE, _BESIDE)
     fast = []
     for at in (v, beside):
@@ -223,7 +205,7 @@ def _changes(
 
 
 def _count(body: StripSpans, plane: FloatingPlanes, strip: IntArray, v: FloatArray) -> IntArray:
-    """Tell how often curves meet the plane."""
+    """Count how often curves intersect the plane."""
     found: IntArray = np.bincount(_cut(body, plane, strip, v)[0], minlength=len(v))
     return found
 
@@ -231,7 +213,7 @@ def _count(body: StripSpans, plane: FloatingPlanes, strip: IntArray, v: FloatArr
 def _cut(
     body: StripSpans, plane: FloatingPlanes, strip: IntArray, v: FloatArray
 ) -> tuple[IntArray, FloatArray]:
-    """Give where curves meet the plane: of which curve, and x, y, dx/dv, dy/dv there, (k, 4).
+    """Give where curves intersect the plane: of which curve, and x, y, dx/dv, dy/dv there, (k, 4).
 
     In the order of the curves, and along each from keel to deck.
     """
@@ -242,11 +224,11 @@ def _cut(
         tiles = tiles_of_curves(strips.curves(strip[some], v[some]))
         tilted = tilt_tiles(tiles, plane.tan_trim, np.zeros(1))
         tile, _ = candidate_pairs(tilted, plane.height)
-        met = cut_tiles(tilted, tile, np.repeat(plane.height, len(tile)))
-        at = tile[met.pair]
-        order = np.argsort(at + np.minimum(met.u, 1.0), kind="stable")
+        cuts = cut_tiles(tilted, tile, np.repeat(plane.height, len(tile)))
+        at = tile[cuts.pair]
+        order = np.argsort(at + np.minimum(cuts.u, 1.0), kind="stable")
         owner.append(begin + tiles.curve[at[order]])
-        place.append(_along(tiles.coefficients[:, :, at[order]], met.u[order], plane.tan_trim))
+        place.append(_along(tiles.coefficients[:, :, at[order]], cuts.u[order], plane.tan_trim))
     if not owner:
         return np.zeros(0, np.int64), np.zeros((0, 4))
     return np.concatenate(owner), np.concatenate(place)
@@ -257,7 +239,7 @@ def _along(coefficients: FloatArray, u: FloatArray, trim: FloatArray) -> FloatAr
     both = (coefficients * cubic_powers(u)).sum(axis=1)
     up = tile_slopes(coefficients[:3], u)
     rise = up[2] - trim * up[0]
-    # No way along the waterline can be told where a curve is but a point, or level.
+    # Where a curve is but a point, or level, the waterline has no direction that could be given.
     rise = np.where(np.abs(rise) > _LEVEL, rise, np.nan)
     rate = both[3:5] - up[:2] * ((both[5] - trim * both[3]) / rise)
     return np.concatenate([both[:2], rate]).T
@@ -265,9 +247,6 @@ def _along(coefficients: FloatArray, u: FloatArray, trim: FloatArray) -> FloatAr
 
 # --------------------------------------------------------------------------------------
 # The main piece of a waterline: from where it is broadest to its end, forward or aft.
-#
-# A waterline may be in several pieces (a bulb's top, skegs). The main one is that which holds the
-# greatest half breadth; its arcs are joined end to end from there.
 
 _SAME = 1e-9
 """Half breadths that differ by a smaller part are both the greatest."""
@@ -305,7 +284,7 @@ class OuterLine:
 
     @property
     def aftmost(self) -> tuple[float, float]:
-        """Where the line is farthest aft: x and y, m; of several places that first met."""
+        """Where the line is farthest aft: x and y, m; of several places the first along it."""
         places = self.point.reshape(-1, 2)
         x, y = places[int((places[:, 0] <= places[:, 0].min() + _SPECK).argmax())].tolist()
         return x, y
@@ -357,19 +336,9 @@ class OuterLine:
 
 
 def outer_line(arcs: WaterlineArcs, *, forward: bool) -> OuterLine | None:
-    """Follow a waterline from where it is broadest.
+    """Follow a waterline from where it is broadest to its forward end, or to its after end.
 
-    Parameters
-    ----------
-    arcs : Arcs
-        All arcs of the waterline.
-    forward : bool
-        To its forward end; else to its after end.
-
-    Returns
-    -------
-    OuterLine or None
-        Of places equally broad it begins at that next to the end; None without a waterline.
+    Of places equally broad it begins at that next to the end. None without a waterline.
     """
     size = np.ptp(arcs.point, axis=1).max(axis=1, initial=0.0)
     some = np.flatnonzero(size > _SPECK)

@@ -1,8 +1,9 @@
 """What tiles cut by floating planes add to integrals of one side, and how far the plane reaches.
 
-A tile that ends wet counts whole; at a cut the part up to it is added or taken off. With the same
-sign the cut is a point of the waterline, whose line integrals (Green) give the waterplane. Its
-greatest breadth usually lies between two curves: there a cubic through both cuts is taken.
+A tile that ends wet counts whole; where it leaves the water the part up to the cut is added, where
+it goes in that part is taken off. With the same sign the cut is a point of the waterline, whose
+line integrals (Green) give the waterplane: ``dx/dv = x_v - x_u q_v / q_u`` along it. The greatest
+half breadth usually lies between two curves: there a cubic through both cuts is taken.
 """
 
 from __future__ import annotations
@@ -30,11 +31,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# How far a waterplane reaches: the extents of the cuts, and its breadth between curves.
+# Extents of waterplanes.
 #
-# The greatest half breadth usually lies between two of the curves that are integrated. There
-# the cubic through both cuts, with the slopes of the waterline at them, is taken: its error
-# goes with the fourth power of the distance of the curves.
+# Between two curves the cubic through both cuts has the slopes of the waterline at them: the error
+# of the breadth goes with the fourth power of the distance of the curves.
 
 _FLAT = 1e-12  # of a slope: less is rounding
 _TIE = 1e-9  # m: cuts of one point on two strips are as far out as each other
@@ -64,21 +64,10 @@ class WaterlineCuts:
 
 
 def point_extents(x: FloatArray, y: FloatArray, plane: IntArray, count: int) -> FloatArray:
-    """Give the extents of points.
+    """Give the extents of points x, y (k,), m, per plane, (4, count), m.
 
-    Parameters
-    ----------
-    x, y : (k,), m
-        The points.
-    plane : (k,) int
-        The plane of each, from 0 to count - 1.
-    count : int
-        Number of planes.
-
-    Returns
-    -------
-    (4, count), m
-        Least and greatest x, least and greatest y; infinite where there is no point.
+    Least and greatest x, least and greatest y; infinite where there is no point. `plane` runs
+    from 0 to count - 1.
     """
     rows = [-greatest_per_plane(-x, plane, count), greatest_per_plane(x, plane, count)]
     return np.stack(
@@ -102,7 +91,7 @@ def tile_slopes(point: FloatArray, u: FloatArray) -> FloatArray:
 def waterline_rate(tilted: TiltedTiles, slope: FloatArray, across: FloatArray) -> FloatArray:
     """Give -du/dv along the waterline, q_v / q_u, of P_u and P_v (3, k).
 
-    It is nil where the plane touches the curve, as nothing passes there.
+    It is zero where the plane touches the curve, as nothing passes there.
     """
     steep = slope[2] - tilted.trim * slope[0] + tilted.heel * slope[1]
     climb = across[2] - tilted.trim * across[0] + tilted.heel * across[1]
@@ -114,38 +103,29 @@ def waterline_rate(tilted: TiltedTiles, slope: FloatArray, across: FloatArray) -
 def greatest_breadths(
     tiles: CurveTiles, tilted: TiltedTiles, cuts: WaterlineCuts, v: FloatArray, strip: IntArray
 ) -> FloatArray:
-    """Give the greatest half breadths between curves, where they are greater than at curves.
+    """Give the greatest half breadths between curves, where they exceed those at curves, (d,), m.
 
-    Parameters
-    ----------
-    tiles, tilted : Tiles, Tilted
-        The curves.
-    cuts : Places
-        All cuts of these curves.
-    v, strip : (c,)
-        Where each curve lies.
-
-    Returns
-    -------
-    (d,), m
-        Half breadths; minus infinity where there is none between curves.
+    `cuts` are all cuts of the curves, which lie at `v` on `strip`, (c,) each. Minus infinity where
+    there is none between curves.
     """
-    times, where = _table(tiles, cuts)
+    times, where = _cut_table(tiles, cuts)
     outer = np.flatnonzero(real(cuts.y) >= cuts.most[cuts.plane] - _TIE)
-    rate = _rate(tiles, tilted, cuts, outer)
+    rate = _breadth_rate(tiles, tilted, cuts, outer)
     curve = tiles.curve[cuts.tile[outer]]
+    # The neighbour toward which the breadth grows; only where both curves are cut just once is it
+    # clear which cuts belong together.
     beside = np.clip(curve + np.where(real(rate) > 0.0, 1, -1), 0, tiles.curves - 1)
     row = cuts.plane[outer]
     fit = (strip[beside] == strip[curve]) & (times[row, beside] == 1) & (times[row, curve] == 1)
     fit = np.flatnonzero(fit)
     beside, outer = beside[fit], outer[fit]
     other, length = where[row[fit], beside], v[beside] - v[curve[fit]]
-    out, into = np.take(rate, fit) * length, _rate(tiles, tilted, cuts, other) * length
-    best = _summit(np.take(cuts.y, outer), np.take(cuts.y, other), out, into)
+    out, into = np.take(rate, fit) * length, _breadth_rate(tiles, tilted, cuts, other) * length
+    best = _first_maximum(np.take(cuts.y, outer), np.take(cuts.y, other), out, into)
     return greatest_per_plane(best, cuts.plane[outer], len(cuts.most))
 
 
-def _table(tiles: CurveTiles, cuts: WaterlineCuts) -> tuple[IntArray, IntArray]:
+def _cut_table(tiles: CurveTiles, cuts: WaterlineCuts) -> tuple[IntArray, IntArray]:
     """Say for planes and curves how often they are cut, and which cut is the last."""
     planes = len(cuts.most)
     key = cuts.plane * tiles.curves + tiles.curve[cuts.tile]
@@ -155,7 +135,7 @@ def _table(tiles: CurveTiles, cuts: WaterlineCuts) -> tuple[IntArray, IntArray]:
     return times.reshape(planes, -1), where.reshape(planes, -1)
 
 
-def _rate(
+def _breadth_rate(
     tiles: CurveTiles, tilted: TiltedTiles, cuts: WaterlineCuts, rows: IntArray
 ) -> FloatArray:
     """Give dy/dv along the waterline at some cuts."""
@@ -169,7 +149,9 @@ def _rate(
     return rate
 
 
-def _summit(begin: FloatArray, end: FloatArray, out: FloatArray, into: FloatArray) -> FloatArray:
+def _first_maximum(
+    begin: FloatArray, end: FloatArray, out: FloatArray, into: FloatArray
+) -> FloatArray:
     """Give the first greatest value of cubics from 0 to 1 that begin upward."""
     rise = end - begin
     second, third = 3.0 * rise - 2.0 * out - into, out + into - 2.0 * rise
@@ -200,12 +182,7 @@ def greatest_per_plane(values: FloatArray, plane: IntArray, count: int) -> Float
 
 
 # --------------------------------------------------------------------------------------
-# What curves cut by planes contribute to the integrals of one side of a body.
-#
-# A tile that ends wet counts whole; at a cut where it leaves the water the part from its
-# beginning to the cut is added, at a cut where it goes in that part is taken off. With the
-# same sign the cut is a point of the waterline, whose line integrals (Green) give the plane:
-# ``dx/dv = x_v - x_u q_v / q_u`` along it.
+# Integrals up to the cuts.
 
 
 @attrs.frozen(eq=False)
@@ -215,7 +192,7 @@ class HalfIntegrals:
     Attributes
     ----------
     columns : (13, d) or (17, d)
-        Sums of the rows of `integrals`, and the integrals of 1, x, y, x x, x y, y y over the
+        Sums of the rows of `integrate_tiles`, and the integrals of 1, x, y, x x, x y, y y over the
         plane, in plan.
     extent : (4, d), m
         Least and greatest x, least and greatest y; infinite where there is no waterplane.
@@ -231,7 +208,7 @@ class CutIntegrals:
 
     Attributes
     ----------
-    half : Half
+    half : HalfIntegrals
         What the parts of tiles below cuts add to it, and the waterlines.
     plane, tile : (k,) int
         Of each cut.
@@ -258,29 +235,15 @@ def integrate_cuts(
     level: FloatArray,
     weight: FloatArray,
 ) -> CutIntegrals:
-    """Cut tiles by planes and integrate up to the cuts.
+    """Cut pairs of a tile and a plane, (p,) each, that may intersect, and integrate up to the cuts.
 
-    Parameters
-    ----------
-    tiles, tilted : Tiles, Tilted
-        The tiles.
-    pairs : (p,) int, (p,) int
-        A tile and a plane that may meet.
-    level : (d,), m
-        Heights of the planes.
-    weight : (p,)
-        Shares of the pairs in the integrals along v.
-
-    Returns
-    -------
-    Cross
-        The sums over all cuts.
+    Levels of the planes are (d,), m; a weight (p,) is the share of a pair in the integral along v.
     """
     tile, plane = pairs
     if len(tile) <= CHUNK:
-        return _cross(tiles, tilted, tile, plane, level, weight)
+        return _integrate_chunk(tiles, tilted, tile, plane, level, weight)
     parts = [
-        _cross(tiles, tilted, tile[some], plane[some], level, weight[some])
+        _integrate_chunk(tiles, tilted, tile[some], plane[some], level, weight[some])
         for some in (slice(i, i + CHUNK) for i in range(0, len(tile), CHUNK))
     ]
     half = parts[0].half
@@ -300,7 +263,7 @@ def add_whole_tiles(half: HalfIntegrals, solid: FloatArray) -> HalfIntegrals:
     return HalfIntegrals(columns, half.extent)
 
 
-def _cross(
+def _integrate_chunk(
     tiles: CurveTiles,
     tilted: TiltedTiles,
     tile: IntArray,
@@ -308,7 +271,7 @@ def _cross(
     level: FloatArray,
     weight: FloatArray,
 ) -> CutIntegrals:
-    """Do what `cross` does with pairs that fit the processor's cache."""
+    """Do what `integrate_cuts` does, with pairs that fit the processor's cache."""
     found = cut_tiles(tilted, tile, np.take(level, plane))
     tile, plane = tile[found.pair], plane[found.pair]
     lean = tiles.lean[tile]

@@ -8,19 +8,18 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, freeze
 from assoc_hull.geometry.numeric.polynomials import horner
 from assoc_hull.geometry.numeric.roots import unit_roots
 from assoc_hull.geometry.splines.arc_length import CubicChains
 from assoc_hull.geometry.splines.paths import restrict_cubics
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 __all__ = ["WetRuns", "wet_runs"]
 
 _ON = 1e-9
 """What lies so near to the plane (m) lies on it."""
 
-_NIL = 1e-13
+_SLIVER = 1e-13
 """Shorter parts of a tile are none."""
 
 
@@ -34,7 +33,7 @@ class WetRuns:
         The curve of each run; the runs of one curve follow one another from keel to deck.
     bottom, top : (r,) bool
         The run begins with its curve, ends with it; else it begins or ends on the plane.
-    chains : Chains
+    chains : CubicChains
         The runs themselves.
     deck : (s,) bool
         The cubic is closed deck.
@@ -81,7 +80,7 @@ def wet_runs(curves: IsoCurves, height: float, tan_trim: float, tan_heel: float)
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.geometry.surfaces.isocurves import IsoCurves
+    >>> from assoc_hull.geometry.curves import IsoCurves
     >>> from assoc_hull.geometry.floating.wetted_curves import wet_runs
     >>> wedge = np.zeros((1, 4, 3))
     >>> wedge[0, 1] = [0.0, 2.0, 4.0]
@@ -94,7 +93,7 @@ def wet_runs(curves: IsoCurves, height: float, tan_trim: float, tan_heel: float)
     over[:, 0] -= height
     edge = np.zeros((len(over), 5))
     edge[:, 1:4], edge[:, 4] = np.sort(unit_roots(over), axis=1), 1.0
-    tile, part = np.nonzero(np.diff(edge, axis=1) > _NIL)
+    tile, part = np.nonzero(np.diff(edge, axis=1) > _SLIVER)
     low, high = edge[tile, part], edge[tile, part + 1]
     depth = horner(over, 0.5 * (edge[:, 1:] + edge[:, :-1]))[tile, part]
     owner = np.arange(curves.count).repeat(np.diff(curves.start))[tile]

@@ -42,9 +42,9 @@ LENGTH = 4.0
 """The parameter of a piece runs from 0 to this."""
 
 _TOUCH = 1e-12
-"""Of the size of a course: so near to a value it is met."""
+"""Of the size of a course: so near to a value the coordinate has it."""
 _ONE_PLACE = 1e-6
-"""Meetings nearer than this in t are one."""
+"""Intersections nearer than this in t are one."""
 
 
 def straight_vertices(start: ArrayLike, finish: ArrayLike) -> FloatArray:
@@ -217,7 +217,7 @@ class FormChain:
         """Give ordinates at abscissae, (k,); nan where the course is not.
 
         The abscissa must run one way along the course. Where it jumps back by a trifle inside
-        a piece, the first meeting counts.
+        a piece, the first intersection counts.
         """
         return np.asarray(self._along(x, (0,))[0][:, 1])
 
@@ -233,7 +233,7 @@ class FormChain:
         return _curvature(first, second)
 
     def meets(self, axis: int, value: float) -> tuple[tuple[int, float], ...]:
-        """Find all meetings with a line x = value (axis 0) or y = value (axis 1).
+        """Find all intersections with a line x = value (axis 0) or y = value (axis 1).
 
         Parameters
         ----------

@@ -36,9 +36,8 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Between which bounds area and centroid of a form-parameter curve can lie, by its ends alone.
-#
-# All bounds are necessary; `centroid_limits` is sharp for curves that rise, or fall, all the way.
+# Bounds by the ends alone: all are necessary; `centroid_limits` is sharp for curves that rise, or
+# fall, all the way.
 
 Place = tuple[float, float]
 """Abscissa and ordinate."""
@@ -54,12 +53,7 @@ def area_limits(start: Place, finish: Place) -> tuple[float, float]:
 def centroid_box(start: Place, finish: Place, area: float) -> tuple[float, float]:
     """Give the centroids between which the moment about the lower end fits into the box of both.
 
-    Parameters
-    ----------
-    start, finish : (float, float)
-        The ends.
-    area : float
-        Above 0.
+    The area is above 0.
     """
     if finish[1] < start[1]:
         low, high = centroid_box((-finish[0], finish[1]), (-start[0], start[1]), area)
@@ -69,19 +63,9 @@ def centroid_box(start: Place, finish: Place, area: float) -> tuple[float, float
 
 
 def centroid_limits(start: Place, finish: Place, area: float) -> tuple[float, float]:
-    """Give the centroids that curves of an area can have which rise, or fall, all the way.
+    """Give the centroids of curves with an area (int y dx) that rise, or fall, all the way.
 
-    Parameters
-    ----------
-    start, finish : (float, float)
-        The ends.
-    area : float
-        int y dx.
-
-    Returns
-    -------
-    (float, float)
-        nan if the ends are equally high, or the area is not within `area_limits`.
+    They are nan if the ends are equally high, or the area is not within `area_limits`.
     """
     if finish[1] < start[1]:
         low, high = centroid_limits((-finish[0], finish[1]), (-start[0], start[1]), area)
@@ -98,7 +82,7 @@ def centroid_limits(start: Place, finish: Place, area: float) -> tuple[float, fl
 
 
 # --------------------------------------------------------------------------------------
-# Between which centroids form-parameter curves of an area run forward: dx/dt nowhere below 0.
+# Centroids with which curves of an area run forward: dx/dt nowhere below 0.
 #
 # All middle vertices of an area lie on a line; the least dx/dt of the curve is a concave function
 # of the place on it, so those that run forward are a stretch of that line. On the side of the
@@ -110,20 +94,11 @@ _THIRDS, _HALVES = 70, 60
 
 
 def forward_centroids(ends: FloatArray, area: FloatArray) -> FloatArray:
-    """Give the centroids between which curves of an area run forward.
+    """Give the least and the largest centroid with which curves of an area run forward, (n, 2).
 
-    Parameters
-    ----------
-    ends : (n, 6, 2)
-        P0, P1, P2, P4, P5, P6.
-    area : (n,)
-        int y dx, above 0.
-
-    Returns
-    -------
-    (n, 2)
-        The least and the largest; nan where no curve of the area runs forward, or where its
-        abscissae do not depend on the middle vertex of the area.
+    Ends (n, 6, 2) are P0, P1, P2, P4, P5, P6; the area (n,), int y dx, is above 0. It is nan where
+    no curve of the area runs forward, or where its abscissae do not depend on the middle vertex of
+    the area.
     """
     terms = middle_terms(ends)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -191,10 +166,8 @@ def _edge(
 
 
 # --------------------------------------------------------------------------------------
-# What is wrong, or merely worth knowing, about the parameters of a form-parameter curve.
-#
-# A curve is taken as rising, from its start up and forward to its finish; a falling one is mirrored
-# first. C0 to C6 look at parameters alone, the rest at the curve that they make:
+# The checks. A curve is taken as rising, from its start up and forward to its finish; a falling one
+# is mirrored first. C0 to C6 look at parameters alone, the rest at the curve that they make:
 #
 # | code | about |
 # |---|---|
@@ -204,11 +177,10 @@ def _edge(
 # | C3 | the area fits into that box |
 # | C4 | so does the moment about the lower end; about x = 0 that would hold for x above 0 only |
 # | C4s | the centroid is that of some rising curve of this area: a sharp bound |
-# | C5.1, C5.2, C5.3 | the start below, above or along the chord: what must hold without inflection
-# |
+# | C5.1, C5.2, C5.3 | start below, above, along the chord: what must hold without inflection |
 # | C6 | the area lies between the chord and the two end tangents: so does one without inflection |
 # | back, box | the abscissa runs back, the ordinate leaves the box |
-# | inflections, loop | the curvature changes its sign, the curve meets itself |
+# | inflections, loop | the curvature changes its sign, the curve intersects itself |
 #
 # Conditions C1 to C5 are those of Kim & Kang 1992; C5 looks at the curvature of both ends here.
 
@@ -225,7 +197,7 @@ class FormMessage:
     Attributes
     ----------
     code : str
-        Which condition, see `assoc_hull.geometry.form_curves.checks`.
+        Which condition: see the table in `assoc_hull.geometry.form_curves.checks`.
     severity : str
         One of `SEVERITIES`.
     text : str
@@ -250,7 +222,7 @@ def check_parameters(curve: FormParameters) -> tuple[FormMessage, ...]:
 
 
 def _sound(curve: FormParameters) -> Iterator[FormMessage]:
-    """C0."""
+    """Check C0."""
     if not curve.finish_x > curve.start_x:
         ahead = curve.finish_x - curve.start_x
         text = f"the finish must lie ahead of the start, and lies {ahead:.6g} ahead"
@@ -263,7 +235,7 @@ def _sound(curve: FormParameters) -> Iterator[FormMessage]:
 
 
 def _angles(up: FormParameters) -> Iterator[FormMessage]:
-    """C1."""
+    """Check C1."""
     for angle in (up.start_angle, up.finish_angle):
         if not -_SAME <= angle <= 0.5 * math.pi + _SAME:
             text = (
@@ -274,7 +246,7 @@ def _angles(up: FormParameters) -> Iterator[FormMessage]:
 
 
 def _curvatures(up: FormParameters) -> Iterator[FormMessage]:
-    """C2."""
+    """Check C2."""
     chord = math.hypot(up.finish_x - up.start_x, up.finish_y - up.start_y)
     ends = (
         ("start", up.start_angle, up.start_curvature, 1.0),
@@ -292,7 +264,7 @@ def _curvatures(up: FormParameters) -> Iterator[FormMessage]:
 
 
 def _contents(curve: FormParameters) -> Iterator[FormMessage]:
-    """C3, C4, C4s."""
+    """Check C3, C4 and C4s."""
     if math.isnan(curve.area):
         return
     start, finish = (curve.start_x, curve.start_y), (curve.finish_x, curve.finish_y)
@@ -328,7 +300,7 @@ def _span(low: float, high: float) -> str:
 
 
 def _arc(up: FormParameters) -> Iterator[FormMessage]:
-    """C5: what an arc without inflection needs."""
+    """Check C5: what an arc without inflection needs."""
     length, height = up.finish_x - up.start_x, up.finish_y - up.start_y
     beta, room = math.atan2(height, length), _SAME / math.hypot(length, height)
     one, two = up.start_angle - beta, up.finish_angle - beta
@@ -352,7 +324,7 @@ def _arc(up: FormParameters) -> Iterator[FormMessage]:
 
 
 def _tangent_area(up: FormParameters) -> Iterator[FormMessage]:
-    """C6."""
+    """Check C6."""
     length, height = up.finish_x - up.start_x, up.finish_y - up.start_y
     beta = math.atan2(height, length)
     one, two = up.start_angle - beta, up.finish_angle - beta

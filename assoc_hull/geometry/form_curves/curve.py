@@ -1,12 +1,14 @@
 """Form-parameter curves: a cubic B-spline of 7 vertices, from its 14 parameters and back to them.
 
-`FormEnd` says what an end is to be, `form_vertices` makes the curve. `form_values` reads the
-parameters off the vertices of a curve that was changed by hand; `FormParameters` has those of one
-curve by name. Functions take batches and work elementwise: a curve has the same bits alone and in
-a batch. Angles are radians, a curvature is positive where the curve turns left.
+A curve runs in a plane, t from 0 to 4, over uniform knots; it does not pass through its first and
+last vertex. `FormEnd` says what an end is to be, `form_vertices` makes the curve; `form_values`
+reads the parameters off the vertices, `FormParameters` has those of one curve by name. Functions
+take batches and work elementwise: a curve has the same bits alone and in a batch. Angles are
+radians from the positive abscissa, a curvature is positive where the curve turns left.
 
 S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2),
-1992; the method goes back to Creutz 1977.
+1992; the method goes back to Creutz 1977. Which of the two middle vertices is taken, and the
+vertices without area, are our decisions.
 """
 
 from __future__ import annotations
@@ -40,21 +42,12 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Form-parameter curves: a cubic B-spline of 7 vertices from what its ends and its area are to be.
+# Vertices from parameters.
 #
-# A curve runs in a plane, t from 0 to 4, over uniform knots; it does not pass through its first
-# and last vertex. Its 7 vertices are 14 numbers: at both ends a point, an angle, a curvature, the
-# length of the tangent vector and its *stretch* (second derivative along the tangent); then the
-# area
-# under the curve and the abscissa of the centroid of that area. So the first three vertices follow
-# from the start, the last three from the finish, the middle one from area and centroid.
-#
-# All functions take batches and work elementwise: a curve has the same bits alone and in a batch.
-# Angles are radians from the positive abscissa, a curvature is positive where the curve turns left.
-#
-# S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2),
-# 1992; the method goes back to Creutz 1977. Which of the two middle vertices is taken, and the
-# vertices without area, are our decisions.
+# The 7 vertices are 14 numbers: at both ends a point, an angle, a curvature, the length of the
+# tangent vector and its *stretch* (second derivative along the tangent); then the area under the
+# curve and the abscissa of the centroid of that area. So the first three vertices follow from the
+# start, the last three from the finish, the middle one from area and centroid.
 
 
 @attrs.frozen(eq=False)
@@ -119,20 +112,9 @@ def end_vertices(end: FormEnd) -> FloatArray:
 
 
 def form_at(vertices: FloatArray, t: FloatArray, order: int = 0) -> FloatArray:
-    """Give points of curves, or a derivative by t.
+    """Give points of curves (n, 7, 2), one at a parameter t in [0, 4] each, or a derivative by t.
 
-    Parameters
-    ----------
-    vertices : (n, 7, 2)
-        One curve a row.
-    t : (n,)
-        A parameter each, within [0, 4].
-    order : int
-        0 for the point, 1, 2, 3 for the derivative.
-
-    Returns
-    -------
-    (n, 2)
+    The order is 0 for the point, 1, 2, 3 for the derivative; the result is (n, 2).
     """
     segment = np.clip(np.floor(t), 0.0, 3.0)
     u = (t - segment)[:, None]
@@ -158,19 +140,8 @@ def form_vertices(
 ) -> FloatArray:
     """Give the vertices of curves, (n, 7, 2).
 
-    Parameters
-    ----------
-    start, finish : FormEnd
-        The ends.
-    area : (n,) or None
-        int y dx; nan, or None for all: as it comes out fairest.
-    centroid : (n,) or None
-        int x y dx / area; nan, or None for all: as it comes out fairest with that area.
-
-    Returns
-    -------
-    (n, 7, 2)
-        nan in the middle vertex where area and centroid cannot both be met.
+    The area is int y dx, the centroid int x y dx / area, (n,) each; nan, or None for all: as they
+    come out fairest. The middle vertex is nan where no curve has both the area and the centroid.
     """
     ends = np.concatenate([end_vertices(start), end_vertices(finish)], axis=1)
     none = np.full(len(ends), np.nan)
@@ -189,12 +160,8 @@ def form_vertices(
 
 
 # --------------------------------------------------------------------------------------
-# From the vertices of a form-parameter curve back to its parameters.
-#
-# The first three vertices give point, tangent and second derivative at the start, the last three
-# those at the finish; area and centroid are integrals. With the stretch of both ends these are 14
-# numbers, as many as the vertices have, so a curve that was changed by hand is had again from them.
-# Without the stretches it is not.
+# Parameters from vertices: the other way, so that a curve that was changed by hand can be made
+# again from its parameters. Without the stretches it could not.
 
 _STILL = 1e-12
 """Of the size of a curve: a shorter tangent has no direction."""
@@ -213,10 +180,10 @@ class FormValues:
     Attributes
     ----------
     start, finish : FormEnd
-        Of each curve. Where the tangent is nil the angle is that which was handed in, else nan;
+        Of each curve. Where the tangent is zero the angle is that which was handed in, else nan;
         the curvature is nan.
     area, centroid, moment : (n,)
-        int y dx, int x y dx / area and int x y dx. Where the area is nil the centroid is nan.
+        int y dx, int x y dx / area and int x y dx. Where the area is zero the centroid is nan.
     """
 
     start: FormEnd
@@ -227,14 +194,9 @@ class FormValues:
 
 
 def end_of(vertices: FloatArray, angle: FloatArray | None = None) -> FormEnd:
-    """Give the ends that three vertices each make.
+    """Give the ends that three vertices each, (n, 3, 2), in the order of t, make.
 
-    Parameters
-    ----------
-    vertices : (n, 3, 2)
-        In the order of t.
-    angle : (n,) or None, rad
-        What the angle is taken for where the tangent is nil.
+    The angle (n,), rad, is taken where the tangent is zero.
     """
     a, b, c = (vertices[:, each] for each in range(3))
     point, first, second = (a + 4.0 * b + c) / 6.0, (c - a) / 2.0, a - 2.0 * b + c
@@ -254,14 +216,9 @@ def end_of(vertices: FloatArray, angle: FloatArray | None = None) -> FormEnd:
 def form_values(
     vertices: FloatArray, angles: tuple[FloatArray, FloatArray] | None = None
 ) -> FormValues:
-    """Give the parameters of curves.
+    """Give the parameters of curves (n, 7, 2).
 
-    Parameters
-    ----------
-    vertices : (n, 7, 2)
-        One curve a row.
-    angles : two of (n,) or None, rad
-        What the angles at both ends are taken for where a tangent is nil.
+    The angles at both ends, (n,), rad, are taken where a tangent is zero.
     """
     given = (None, None) if angles is None else angles
     found = form_integrals(vertices)
@@ -274,7 +231,7 @@ def form_values(
 
 
 # --------------------------------------------------------------------------------------
-# The 14 parameters of one form-parameter curve, by name, and how they go with their curve.
+# The parameters of one curve, by name.
 
 
 @attrs.frozen
@@ -356,4 +313,4 @@ class FormParameters:
 
 
 NAMES = tuple(field.name for field in attrs.fields(FormParameters))
-"""In their order."""
+"""Of the parameters, in their order."""

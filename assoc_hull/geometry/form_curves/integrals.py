@@ -1,8 +1,9 @@
 """Integrals under form-parameter curves, exactly, and how they depend on the middle vertex.
 
-Area and moments are sums of products of basis functions of the seven vertices. The area is affine
-in the middle vertex and the moment has two quadratic terms only (`MiddleTerms`). `area_table` and
-`moment_table` have the same integrals as fractions: tests compare with them.
+Area and moment are sums of products of the vertices and of integrals of their basis functions N_i
+on [0, 4]. Since N_3 vanishes at both ends of a curve, the area is affine in the middle vertex and
+the moment has two quadratic terms only (`MiddleTerms`). `area_table` and `moment_table` have the
+integrals of basis functions as fractions: tests compare with them.
 """
 
 from __future__ import annotations
@@ -28,15 +29,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The basis functions of form-parameter curves, and integrals of their products, as fractions.
-#
-# These tables are what area and moments of curves rest upon: with N_i on [0, 4],
+# Integrals of products of basis functions, as fractions: they give the numbers of `MiddleTerms`.
 #
 #     A  = sum y_i x_j a_ij          a_ij  = int N_i N_j' dt        denominators divide 720
 #     My = sum y_i x_j x_k b_ijk     b_ijk = int N_i N_j N_k' dt    denominators divide 181440
-#
-# Curves are integrated by `assoc_hull.geometry.form_curves.integrals`, segment by segment; the
-# tables say what must come out, and give the coefficients of the middle vertex.
 
 VERTICES = 7
 _SEGMENTS = 4
@@ -104,30 +100,19 @@ def moment_table() -> tuple[tuple[tuple[Fraction, ...], ...], ...]:
 
 
 # --------------------------------------------------------------------------------------
-# Integrals under form-parameter curves, exactly, and how they depend on the middle vertex.
-#
-# With the basis functions N_i of the seven vertices the area is a sum of y_i x_j times the integral
-# of N_i N_j', the moment one of three vertices at a time
-# (`assoc_hull.geometry.form_curves.integrals` has these
-# numbers as fractions). Since N_3 vanishes at both ends of a curve, the area is affine in the
-# middle vertex (x3, y3), and the moment has two quadratic terms only:
+# Integrals of curves, segment by segment, with the middle vertex (x3, y3) set apart:
 #
 #     A  = A0 + D_x y3 - D_y x3
 #     My = M0 + m1 x3 + m2 y3 + x3 (C_x y3 - C_y x3) / 2
 #
-# Integrals are taken in this form: they keep their digits where the middle vertex lies far away.
+# In this form they keep their digits where the middle vertex lies far away.
 
 
 def power_form(vertices: FloatArray) -> FloatArray:
-    """Give the segments in powers of u = t - s: (n, 4 segments, 4 powers, 2).
+    """Give the segments in powers of u = t - s: (n, 7, 2) to (n, 4 segments, 4 powers, 2).
 
-    In the matrix of the paper the number for the second power of the second vertex is -6: with +6,
-    as a scan of it reads, the basis functions would not add up to 1.
-
-    Parameters
-    ----------
-    vertices : (n, 7, 2)
-        One curve a row.
+    In the matrix of the paper (Kim & Kang 1992) the number for the second power of the second
+    vertex is -6: with +6, as a scan of it reads, the basis functions would not add up to 1.
     """
     a, b, c, d = (vertices[:, part : part + 4] for part in range(4))
     found = np.empty((len(vertices), 4, 4, 2))
@@ -204,13 +189,7 @@ class MiddleTerms:
 
 
 def middle_terms(ends: FloatArray) -> MiddleTerms:
-    """Give how area and moment depend on the middle vertices.
-
-    Parameters
-    ----------
-    ends : (n, 6, 2)
-        P0, P1, P2, P4, P5, P6.
-    """
+    """Give how area and moment depend on the middle vertices; ends (n, 6, 2) without P3."""
     if len(ends) <= _BLOCK:
         return _terms(ends)
     parts = [_terms(ends[row : row + _BLOCK]) for row in range(0, len(ends), _BLOCK)]
@@ -254,13 +233,7 @@ class FormIntegrals:
 
 
 def form_integrals(vertices: FloatArray) -> FormIntegrals:
-    """Integrate under curves, exactly: each segment is a cubic.
-
-    Parameters
-    ----------
-    vertices : (n, 7, 2)
-        One curve a row.
-    """
+    """Integrate under curves (n, 7, 2), exactly: each segment is a cubic."""
     ends, x, y = vertices[:, [0, 1, 2, 4, 5, 6]], vertices[:, 3, 0], vertices[:, 3, 1]
     terms, turned = middle_terms(ends), middle_terms(ends[:, :, ::-1])
     # By parts: half the integral of y^2 dx is half of y^2 x at the ends less that of x y dy.

@@ -1,8 +1,10 @@
 """The middle vertex of a form-parameter curve: by area and centroid, by area, or fairest.
 
-All vertices with an area lie on a line, and the moment is quadratic along it; of two roots the
-nearer to the middle is taken. `required_middle` gives the vertex or raises with the reason why
-there is none; the other functions give nan there, elementwise.
+The area is affine in the middle vertex P3, so all vertices with an area lie on a line p + s D; on
+it the moment is quadratic in s, because N_3 vanishes at both ends of the curve. Of two roots the
+one nearer to (P2 + P4)/2 is taken; the other is normally 10 to 10,000 chords away, and loses
+digits. `required_middle` gives the vertex or raises with the reason why there is none; the other
+functions give nan there. Ends (n, 6, 2) are P0, P1, P2, P4, P5, P6. All is elementwise.
 """
 
 from __future__ import annotations
@@ -29,21 +31,11 @@ __all__ = [
     "with_middle",
 ]
 
-# --------------------------------------------------------------------------------------
-# The middle vertex of form-parameter curves: by area and centroid, by area, or fairest.
-#
-# The area is affine in the middle vertex P3, so all vertices with an area lie on a line
-# p + s D; on it the moment is quadratic in s, because N_3 vanishes at both ends of the curve.
-# Of two roots the one nearest to (P2 + P4)/2 is taken; the other one is normally 10 to 10,000
-# chords away, and loses digits.
-#
-# Everything is elementwise: a curve has the same bits alone and in a batch.
-
 _LINEAR = 1e-13
 """Below this part of the linear coefficient the quadratic one is rounding."""
 
 _ROUNDING = 2e-15
-"""Of the moment, and of the discriminant: what is left of them by rounding."""
+"""Of the moment, and of the discriminant: less is rounding."""
 
 _STEP = 1e-6
 """Of the size of a vertex: no digits that were lost move it farther."""
@@ -61,7 +53,7 @@ def with_middle(ends: FloatArray, x: ArrayLike, y: ArrayLike) -> FloatArray:
 
 
 def _square(ends: FloatArray, terms: MiddleTerms) -> FloatArray:
-    """Give the square of the lever; nan where it is nil, and the area fixed."""
+    """Give the square of the lever; nan where it is zero, and the area fixed."""
     dx, dy = terms.lever.T
     still = np.maximum(np.abs(dx), np.abs(dy)) <= _STILL * np.abs(ends).max(axis=(1, 2))
     return np.where(still, np.nan, dx * dx + dy * dy)
@@ -102,22 +94,9 @@ def middle_vertex(
 ) -> tuple[FloatArray, FloatArray]:
     """Give the middle vertices by which curves have an area and a centroid.
 
-    Parameters
-    ----------
-    ends : (n, 6, 2)
-        P0, P1, P2, P4, P5, P6.
-    area : (n,)
-        int y dx.
-    centroid : (n,)
-        int x y dx / area.
-    other : bool
-        Give the other root; for diagnosis.
-
-    Returns
-    -------
-    (n, 2), (n,)
-        The vertices, nan where there is none, and the discriminants: negative where area
-        and centroid cannot both be met; nan where the area does not depend on the vertex.
+    The area is int y dx, the centroid int x y dx / area. The vertices (n, 2) are nan where there is
+    none. The discriminants (n,) are negative where no curve has both, nan where the area does not
+    depend on the vertex. `other` gives the other root, for diagnosis.
     """
     line = _line(ends, area)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -155,13 +134,13 @@ def _roots(
     # A double root, and a straight curve: its moment is the same all along the line.
     touching = np.abs(disc) <= _ROUNDING * c1 * c1 + 4.0 * np.abs(c2) * rounding
     disc = np.where(touching, 0.0, disc)
-    met = np.abs(c0 + best * (c1 + best * c2)) <= rounding
+    exact = np.abs(c0 + best * (c1 + best * c2)) <= rounding
     q = -0.5 * (c1 + np.copysign(np.sqrt(disc), c1))
     two = np.where(line.linear, np.nan, q / c2)
     one = np.where(line.linear, -c0 / c1, np.where(q == 0.0, two, c0 / q))
     swap = np.abs(two - best) < np.abs(one - best)
-    near = np.where(met, best, np.where(swap, two, one))
-    return near, np.where(swap, one, two), np.where(met, np.maximum(disc, 0.0), disc)
+    near = np.where(exact, best, np.where(swap, two, one))
+    return near, np.where(swap, one, two), np.where(exact, np.maximum(disc, 0.0), disc)
 
 
 def centroid_limit(ends: FloatArray, area: FloatArray) -> FloatArray:
@@ -179,11 +158,9 @@ def centroid_limit(ends: FloatArray, area: FloatArray) -> FloatArray:
 def centroid_extreme(ends: FloatArray, area: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Give the abscissae of two middle vertices of an area, (n,) each.
 
-    Returns
-    -------
-    (n,), (n,)
-        That of the vertex with the extreme centroid, nan where there is none; and that of the
-        vertex nearest to (P2 + P4)/2, on the side of which the roots of `middle_vertex` lie.
+    The first is that of the vertex with the extreme centroid, nan where there is none; the second
+    that of the vertex nearest to (P2 + P4)/2, on the side of which the roots of `middle_vertex`
+    lie.
     """
     line = _line(ends, area)
     dx, dy = line.terms.lever.T
@@ -201,19 +178,7 @@ def only_area(ends: FloatArray) -> FloatArray:
 
 
 def fair_vertex(ends: FloatArray, order: int = 3) -> FloatArray:
-    """Give the middle vertices of least int |Q''|^2 dt (order 2) or int |Q'''|^2 dt (order 3).
-
-    Parameters
-    ----------
-    ends : (n, 6, 2)
-        P0, P1, P2, P4, P5, P6.
-    order : int
-        2 or 3.
-
-    Returns
-    -------
-    (n, 2)
-    """
+    """Give the middle vertices (n, 2) of least int |Q''|^2 dt (order 2) or int |Q'''|^2 dt (3)."""
     p0, p1, p2, p4, p5, p6 = (ends[:, each] for each in range(6))
     if order == 2:
         return np.asarray((9.0 * (p2 + p4) - (p0 + p6)) / 16.0)
@@ -239,7 +204,7 @@ def slide_vertex(ends: FloatArray, middle: FloatArray, area: FloatArray) -> Floa
 
 
 # --------------------------------------------------------------------------------------
-# The middle vertex of form-parameter curves, or the reason why there is none.
+# The middle vertex, or the reason why there is none.
 
 _CURVE = "a form-parameter curve"
 
@@ -250,29 +215,16 @@ def required_middle(
     centroid: FloatArray | None = None,
     where: Sequence[str] | str = _CURVE,
 ) -> FloatArray:
-    """Give the middle vertices of an area, and a centroid.
+    """Give the middle vertices (n, 2) of an area, and a centroid; None for the fairest of the area.
 
-    Parameters
-    ----------
-    ends : (n, 6, 2)
-        P0, P1, P2, P4, P5, P6.
-    area : (n,)
-        int y dx.
-    centroid : (n,) or None
-        int x y dx / area; None for the fairest of the area.
-    where : sequence of str, or str
-        What the curves are, for the message.
-
-    Returns
-    -------
-    (n, 2)
+    `where` says what the curves are, for the message.
 
     Raises
     ------
     DegenerateEndsError
         The area of a curve does not depend on its middle vertex.
     NoMiddleVertexError
-        Area and centroid of a curve cannot both be met; the nearest centroid is named.
+        No curve has both the area and the centroid; the nearest centroid is named.
     """
     if centroid is None:
         found, missing = area_vertex(ends, area), np.zeros(len(ends))

@@ -1,7 +1,8 @@
 """What a form-parameter curve is like: least values, energies, length, inflections, loops.
 
-A negative least rate of the abscissa means that a curve folds back. Inflections are exact; the
-length and the energy of bending are integrated by Gauss's rule.
+Functions take the 7 vertices of a curve, (7, 2), or of many, (n, 7, 2). A negative least rate of
+the abscissa means that a curve folds back. Inflections are exact: between knots x' y'' - y' x'' is
+quadratic. The length and the energy of bending are integrated by Gauss's rule.
 """
 
 from __future__ import annotations
@@ -25,24 +26,9 @@ __all__ = [
     "least_rate",
 ]
 
-# --------------------------------------------------------------------------------------
-# Least values along form-parameter curves: one may fold back, or fall below an axis.
-
 
 def least_rate(vertices: FloatArray, axis: int) -> FloatArray:
-    """Give the least derivative by t of a coordinate along curves.
-
-    Parameters
-    ----------
-    vertices : (n, 7, 2)
-        One curve a row.
-    axis : int
-        0 for the abscissa, 1 for the ordinate.
-
-    Returns
-    -------
-    (n,)
-    """
+    """Give the least derivative by t of the abscissa (axis 0) or ordinate (1) of curves, (n,)."""
     power = power_form(vertices)[..., axis]
     a, b, c = power[..., 1], 2.0 * power[..., 2], 3.0 * power[..., 3]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -67,10 +53,7 @@ def least_coordinate(vertices: FloatArray, axis: int) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# What a form-parameter curve is like: energies, length, inflections, loops.
-#
-# Inflections are exact: between knots x' y'' - y' x'' is quadratic. Length and the
-# energy of bending are integrated by Gauss' rule.
+# Energies, length, inflections, loops.
 
 ENERGIES: tuple[Literal["E2", "E3", "J"], ...] = ("E2", "E3", "J")
 """int |Q''|^2 dt, int |Q'''|^2 dt, and length times int curvature^2 ds."""
@@ -89,19 +72,7 @@ def _total(parts: FloatArray) -> FloatArray:
 
 
 def form_energy(vertices: FloatArray, kind: str = "E3") -> FloatArray:
-    """Give the energies of curves.
-
-    Parameters
-    ----------
-    vertices : (n, 7, 2)
-        One curve a row.
-    kind : str
-        One of `ENERGIES`.
-
-    Returns
-    -------
-    (n,)
-    """
+    """Give the energies of curves, (n,), of a kind in `ENERGIES`."""
     if kind == "J":
         return _bending(vertices)
     power = power_form(vertices)
@@ -143,12 +114,9 @@ def form_length(vertices: FloatArray) -> FloatArray:
 
 
 def form_inflections(vertices: FloatArray) -> tuple[float, ...]:
-    """Give where the curvature of a curve changes its sign: parameters t, rising.
+    """Give where the curvature of a curve (7, 2) changes its sign: parameters t, rising.
 
-    Parameters
-    ----------
-    vertices : (7, 2)
-        One curve. A stretch that turns by less than 1e-9 rad counts as straight.
+    A stretch that turns by less than 1e-9 rad counts as straight.
     """
     power = power_form(vertices[None])
     c1, c2, c3 = (power[0, :, each] for each in (1, 2, 3))
@@ -181,7 +149,7 @@ def _turn(power: FloatArray, bend: list[FloatArray], low: float, high: float) ->
 
 
 def crosses_itself(vertices: FloatArray) -> bool:
-    """Tell whether a curve, (7, 2), meets itself.
+    """Say whether a curve, (7, 2), intersects itself.
 
     Where all its tangents lie in a half plane it cannot; else chords are compared, 48 a segment.
     """
@@ -195,11 +163,11 @@ def crosses_itself(vertices: FloatArray) -> bool:
         for s in range(4)
     ])  # fmt: skip
     points = np.concatenate([points, power[3].sum(axis=0)[None]])
-    return _chords_meet(points)
+    return _chords_intersect(points)
 
 
-def _chords_meet(points: FloatArray) -> bool:
-    """Tell whether two chords of a course meet that are no neighbours."""
+def _chords_intersect(points: FloatArray) -> bool:
+    """Say whether two chords of a polyline intersect that are no neighbours."""
     start, way = points[:-1], np.diff(points, axis=0)
     apart = start[None] - start[:, None]
     cross = _cross(way[:, None], way[None])

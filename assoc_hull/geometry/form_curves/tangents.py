@@ -5,7 +5,7 @@ nothing one could read off a ship. The *pace* f is the tangent by a quarter of t
 of a straight line. By default it is 1/2, which is robust. Else the paces are those of the fairest
 curve: of least energy, with area and centroid held, f within `SLOWEST` and `FASTEST`, and the
 abscissa never slower than 2 % of an even pace. Without a lower bound hollow ends would draw the
-tangent to nil, and the curvature beyond all bounds.
+tangent to zero, and the curvature beyond all bounds.
 
 The least is searched for on nodes of ln f, from the best of 8 by 8 in windows of 7 by 7 that
 follow the best node and shrink once it lies inside. All curves and all nodes are one batch.

@@ -65,7 +65,7 @@ class AreaMoments:
 
     @property
     def centroid(self) -> FloatArray:
-        """Centre of the area, (m, 2) in m; nan where the area is nil."""
+        """Centre of the area, (m, 2) in m; nan where the area is zero."""
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.stack([self.moment_u / self.area, self.moment_v / self.area], axis=1)
 

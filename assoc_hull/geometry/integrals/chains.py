@@ -1,8 +1,9 @@
 """Chains of cubics: cut at planes, put end to end, mirrored and closed, and what they enclose.
 
-A chain is a run of cubics, each of which begins where the one before it ends. The first functions
-take cubics of space and cut them at planes and where a coordinate turns. `PlaneChains` are what is
-left of curves when only two coordinates are looked at; series and areas are taken of them.
+A chain is a run of cubics, each of which begins where the one before it ends; a cubic is given by
+the coefficients of 1, t, t^2, t^3, t from 0 to 1, m. The first functions take cubics of space, or
+of a plane, and cut them at planes and where a coordinate turns. `PlaneChains` are what is left of
+curves when only two coordinates, u and v, are looked at; series and areas are taken of them.
 """
 
 from __future__ import annotations
@@ -34,9 +35,6 @@ __all__ = [
     "straight_chain",
 ]
 
-# --------------------------------------------------------------------------------------
-# Parts of curves on one side of planes, and what they enclose.
-
 _GAP = 1e-9
 """Cubics whose ends lie farther apart (m) do not join."""
 
@@ -48,21 +46,9 @@ _POINTS = 6
 
 
 def clip_cubics(cubic: FloatArray, normal: FloatArray, offset: float) -> FloatArray:
-    """Keep what lies on one side of a plane, ``normal . P <= offset``.
+    """Keep of cubics (s, 4, 3), or (s, 4, 2), what lies where ``normal . P <= offset``.
 
-    Parameters
-    ----------
-    cubic : (s, 4, 3), m
-        Cubics in power form, the parameter from 0 to 1; (s, 4, 2) in a plane.
-    normal : (3,)
-        Of the plane, of any length.
-    offset : float
-        Of the plane.
-
-    Returns
-    -------
-    (k, 4, 3), m
-        What is left, as cubics from 0 to 1 again, in order.
+    The normal may have any length. The parts that are left are cubics from 0 to 1 again, in order.
     """
     height = cubic @ normal
     height[:, 0] -= offset
@@ -93,20 +79,9 @@ def continuous_runs(cubic: FloatArray) -> list[FloatArray]:
 
 
 def area_along(cubic: FloatArray, axes: tuple[int, int], power: tuple[int, int] = (1, 0)) -> float:
-    """Integrate ``a^p b^q db`` along cubics.
+    """Integrate ``a^p b^q db`` along cubics (s, 4, 3): a and b are the coordinates `axes`.
 
-    Parameters
-    ----------
-    cubic : (s, 4, 3), m
-        Cubics in power form, the parameter from 0 to 1.
-    axes : (int, int)
-        Which coordinates a and b are.
-    power : (int, int)
-        p and q; together up to 2.
-
-    Returns
-    -------
-    float, m to the power p + q + 1
+    `power` is (p, q), together up to 2; the result is in m to the power p + q + 1.
     """
     nodes, weights = gauss(_POINTS)
     places = np.broadcast_to(nodes, (len(cubic), _POINTS))
@@ -116,12 +91,9 @@ def area_along(cubic: FloatArray, axes: tuple[int, int], power: tuple[int, int] 
 
 
 # --------------------------------------------------------------------------------------
-# Chains of cubics in a plane: curves put end to end, cut, mirrored and closed.
-#
-# A chain is what is left of a curve when only two of its coordinates, u and v, are looked at. One
-# cubic begins where the one before it ends.
+# Chains in a plane.
 
-_NIL = 1e-12  # m: a shorter straight line is left out
+_SHORTEST = 1e-12  # m: a shorter straight line is left out
 
 
 @attrs.frozen(eq=False)
@@ -190,10 +162,10 @@ def _at(cubic: FloatArray, t: FloatArray) -> FloatArray:
 def straight_chain(begin: FloatArray, end: FloatArray) -> FloatArray:
     """Give the straight line between two places (2,) as a chain; none if they are one."""
     step = end - begin
-    if np.abs(step).max() <= _NIL:
+    if np.abs(step).max() <= _SHORTEST:
         return np.zeros((0, 4, 2))
-    nil = np.zeros(2)
-    return np.stack([begin, step, nil, nil])[None]
+    zero = np.zeros(2)
+    return np.stack([begin, step, zero, zero])[None]
 
 
 def reversed_chain(chain: FloatArray) -> FloatArray:
@@ -216,7 +188,7 @@ def chain_ends(chain: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def join_chains(chains: list[FloatArray]) -> FloatArray:
-    """Put chains (p, 4, 2) end to end; where they do not meet, straight lines lie between.
+    """Put chains (p, 4, 2) end to end; where there is a gap, a straight line fills it.
 
     Examples
     --------
@@ -237,21 +209,10 @@ def join_chains(chains: list[FloatArray]) -> FloatArray:
 
 
 def cut_chain(chain: FloatArray, axis: int, low: float, high: float) -> list[FloatArray]:
-    """Give the runs of a chain on which a coordinate lies between two limits.
+    """Give the runs of a chain (p, 4, 2) on which a coordinate (0 for u, 1 for v) lies in limits.
 
-    Parameters
-    ----------
-    chain : (p, 4, 2), m
-        The chain.
-    axis : int
-        0 for u, 1 for v.
-    low, high : float, m
-        The limits.
-
-    Returns
-    -------
-    list of (k, 4, 2)
-        What lies between, in order; cubics that follow on one another are in one chain.
+    The limits are in m. Runs come in order, (k, 4, 2) each; cubics that follow on one another are
+    in one chain.
 
     Examples
     --------
@@ -266,19 +227,10 @@ def cut_chain(chain: FloatArray, axis: int, low: float, high: float) -> list[Flo
 
 
 def closed_loop(half: FloatArray, axis: int) -> FloatArray:
-    """Close a chain with its mirror image, counter-clockwise, from a place on the axis.
+    """Close a chain (p, 4, 2) with its mirror image, counter-clockwise, from a place on the axis.
 
-    Parameters
-    ----------
-    half : (p, 4, 2), m
-        One side; an end off the mirror is led there by a straight line.
-    axis : int
-        The coordinate that changes sign: 0 for u, 1 for v.
-
-    Returns
-    -------
-    (k, 4, 2), m
-        The closed chain.
+    `axis` is the coordinate that changes sign: 0 for u, 1 for v. An end off the mirror is led there
+    by a straight line.
 
     Examples
     --------

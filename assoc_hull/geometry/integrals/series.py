@@ -48,16 +48,12 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Chebyshev and sine series of functions that are smooth between breaks.
-#
-# A function y of xi in [-1, 1] is expanded as
+# Series of functions that are smooth between breaks: y of xi in [-1, 1] is expanded as
 #
 #     y = sum_k c_k T_k(xi),                  k = 0, 1, ...   (Chebyshev)
 #     y = sum_k b_k sin(k pi (xi + 1) / 2),   k = 1, 2, ...   (half-range sine)
 #
-# A rule over the whole range would see a kink as a wave of any length: each piece between breaks
-# is integrated for itself, with ever more nodes, until the coefficients stand still.
-#
+# Each piece is integrated for itself, with ever more nodes, until the coefficients settle.
 # Sources: T.J. Rivlin, "The Chebyshev Polynomials", Wiley 1974; J.P. Boyd, "Chebyshev and Fourier
 # Spectral Methods", 2nd ed., Dover 2001.
 
@@ -73,7 +69,7 @@ _WHERE = "in a transform"
 _POINTS = 32  # nodes of a panel
 _PER_PANEL = 8  # so many half waves of the last term may lie in one
 _DOUBLINGS = 6
-_NIL = 1e-290  # below, numbers lose their digits: such a curve is nil
+_SMALLEST = 1e-290  # below, numbers lose their digits: such a curve counts as zero
 _EDGE = 1e-15  # so near to an end of the range xi is at it
 
 
@@ -138,17 +134,12 @@ def integrate_until_settled(
     waves: float,
     tolerance: float,
 ) -> Sums:
-    """Integrate with ever more nodes until nothing changes.
+    """Integrate with ever more nodes until the integrals settle.
 
-    Parameters
-    ----------
-    integrate : callable
-        From nodes and weights on [0, 1], used on every piece, to integrals (of any shape) and
-        the size of what is integrated.
-    waves : float
-        Half waves of the last term on the widest piece: by these the first rule is chosen.
-    tolerance : float
-        By this part of the size integrals may still change.
+    `integrate` gives integrals (of any shape) and the size of what is integrated, from nodes and
+    weights on [0, 1] that it uses on every piece. `waves` are half waves of the last term on the
+    widest piece: by these the first rule is chosen. By the part `tolerance` of the size the
+    integrals may still change.
 
     Raises
     ------
@@ -164,7 +155,7 @@ def integrate_until_settled(
         if not np.isfinite(fine).all():
             raise BadInputError("a value that is not finite", _WHERE, "give finite values")
         change = float(np.abs(fine - coarse).max(initial=0.0))
-        if change <= tolerance * max(size, _NIL):
+        if change <= tolerance * max(size, _SMALLEST):
             freeze(fine)
             return fine
         coarse = fine
@@ -224,7 +215,7 @@ def sine_of_function(
     Parameters
     ----------
     values, breaks, tolerance
-        As in `chebyshev`.
+        As in `chebyshev_of_function`.
     terms : int
         Number of coefficients, b_1 to b_terms.
 
@@ -236,7 +227,7 @@ def sine_of_function(
     Raises
     ------
     BadInputError
-        As `chebyshev` does.
+        As `chebyshev_of_function` does.
 
     Examples
     --------
@@ -361,10 +352,7 @@ def rule_on_pieces(
 
 
 # --------------------------------------------------------------------------------------
-# Series of chains of cubics: Chebyshev, sine, and Fourier descriptors of closed ones.
-#
-# The integrals run along the curve, not over the abscissa: so ends with a vertical tangent and
-# upright steps are as good as any other place. Integrated by parts, with theta = arccos(xi),
+# Series of chains of cubics. Integrated by parts along the curve, with theta = arccos(xi),
 #
 #     c_0 = y(-1) + (1 / pi) integral of theta dy,
 #     c_k = 2 / (pi k) integral of sin(k theta) dy,
@@ -372,7 +360,6 @@ def rule_on_pieces(
 #
 # in which nothing is infinite where the abscissa turns into theta, and the speed of the parameter
 # is not needed.
-#
 # Sources: H.J. Son, H.C. Kim, "hull form parameter modules for performance analysis", J. of CAD/CAM
 # (Korea) 13(6), 2008, for the two series of curves of a hull; C.T. Zahn, R.Z. Roskies, "Fourier
 # descriptors for plane closed curves", IEEE Trans. Computers C-21(3), 1972, and G.H. Granlund,
@@ -547,6 +534,7 @@ def fourier_descriptors(chains: PlaneChains, terms: int, tolerance: float = 1e-1
         slope = chains.slope(nodes)
         step = (slope[..., 0] + 1j * slope[..., 1]) * weights
         found = np.empty((chains.count, 2 * count + 1), np.complex128)
+        # X_0 by parts: the last place, which is the first, less the integral of (s / L) dw.
         found[:, count] = first - chains.total((fraction * step).sum(axis=1))
         for k in range(1, count + 1):
             wave = np.exp(-2j * np.pi * k * fraction)

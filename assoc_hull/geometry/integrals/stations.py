@@ -103,7 +103,7 @@ def _joined(step: FloatArray, rise: FloatArray) -> tuple[FloatArray, FloatArray]
 
 
 def _interior_rows(step: FloatArray, rise: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the equations of equal second derivatives; the first and last row are nil."""
+    """Give the equations of equal second derivatives; the first and last row are zero."""
     count = len(step) + 1
     matrix, right = np.zeros((count, count)), np.zeros((count, rise.shape[1]))
     inner: IntArray = np.arange(1, count - 1)

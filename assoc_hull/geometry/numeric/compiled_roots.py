@@ -1,4 +1,4 @@
-"""The roots of `roots`, compiled: same operations in the same order, same bits.
+"""`bracketed_roots` of `roots`, compiled: same operations in the same order, same bits.
 
 Examples
 --------
@@ -103,7 +103,7 @@ def _mend_roots(
 def find_roots(
     cubics: FloatArray, steps: int, floor: float, relative: float, most_trials: int
 ) -> FloatArray:
-    """Find the root of each cubic: rows as `fast_meet.meet_curves` gives them."""
+    """Find the root of each cubic: rows as `compiled_intersections.meet_curves` gives them."""
     roots = np.empty(cubics.shape[1])
     _set_roots(cubics, steps, floor, relative, roots)
     _mend_roots(cubics, floor, relative, most_trials, roots)

@@ -2,7 +2,7 @@
 
 A `Dual` stands in for an array of floats in code that computes with numpy. Each of its k
 tangents says how the values change with one parameter; operators, the functions of
-`dual_rules` and `dual_shapes`, products of matrices and indexing carry them through the
+`dual_partials` and `dual_arrays`, products of matrices and indexing carry them through the
 same formulas, exactly. What is not known here raises `TypeError`: no tangent is ever lost
 silently. Comparisons look at values only, so that branches are those of the plain code.
 

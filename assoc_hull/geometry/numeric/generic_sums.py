@@ -18,7 +18,7 @@ __all__ = ["combine_rows", "common_zeros", "differs_from_zero", "safe_sqrt", "su
 
 
 def differs_from_zero(values: FloatArray) -> NDArray[np.bool_]:
-    """Tell which numbers are not nil, or have a derivative that is not."""
+    """Say which numbers are not zero, or have a derivative that is not."""
     if isinstance(values, Dual):
         return np.asarray((values.value != 0.0) | (values.dot != 0.0).any(axis=0))
     return np.asarray(values != 0.0)
@@ -33,11 +33,11 @@ def common_zeros(shape: tuple[int, ...], *like: FloatArray) -> FloatArray:
 
 
 _NONE = 1e-22
-"""A square of less is rounding about nil, from which a root would take any direction."""
+"""A square of less is rounding about zero, from which a root would take any direction."""
 
 
 def safe_sqrt(values: FloatArray) -> FloatArray:
-    """Give square roots; where there is nothing to take one of, nil and no derivative."""
+    """Give square roots; where there is nothing to take one of, zero and no derivative."""
     if is_plain(values):
         return np.sqrt(values)
     some = real(values) > _NONE

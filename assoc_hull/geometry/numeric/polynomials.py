@@ -68,7 +68,7 @@ def stationary_fractions(
     Returns
     -------
     lower, upper : (k,)
-        Fractions ``0 <= lower <= upper <= 1`` where the derivative is nil; a fraction that
+        Fractions ``0 <= lower <= upper <= 1`` where the derivative is zero; a fraction that
         is not needed is 0 or 1.
 
     Examples

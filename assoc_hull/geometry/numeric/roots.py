@@ -1,9 +1,10 @@
 """Roots of many polynomials, and of any continuous functions, all at once.
 
 `bracketed_roots` finds the one root of cubics in brackets, in steps that compiled code repeats
-bit by bit; `unit_roots` finds all sign changes of polynomials of any degree in [0, 1];
-`false_position` needs values only. A root has the same bits alone and in a batch. Roots carry
-tangents on with `roots_with_tangents`: the finders themselves look at plain numbers.
+bit by bit (intersections of curves and planes); `unit_roots` finds all sign changes of polynomials
+of any degree in [0, 1] (lengths, integrals, closest points); `false_position` needs values only.
+A root has the same bits alone and in a batch. Coefficients stand in ascending powers. The finders
+look at plain numbers: `roots_with_tangents` carries derivatives through the roots.
 """
 
 from __future__ import annotations
@@ -34,21 +35,10 @@ __all__ = [
 def roots_with_tangents(
     coefficients: FloatArray, u: FloatArray, simple: NDArray[np.bool_]
 ) -> FloatArray:
-    """Let roots vary with the coefficients of their polynomials, as ``p(u) = 0`` wants.
+    """Let roots (s, k) vary with the coefficients (s, d + 1) of polynomials, as ``p(u) = 0`` wants.
 
-    Parameters
-    ----------
-    coefficients : (s, d + 1)
-        Ascending powers along the second axis.
-    u : (s, k)
-        Roots for the plain values of the coefficients, k for each polynomial.
-    simple : (s, k) bool
-        Which of them are to vary: simple roots; other places stay.
-
-    Returns
-    -------
-    (s, k)
-        The same values; with tangents or an imaginary part if the coefficients have any.
+    Only those vary that are `simple` roots; other places stay. The values stay the same; tangents
+    or an imaginary part come with those of the coefficients.
 
     Examples
     --------
@@ -66,13 +56,6 @@ def roots_with_tangents(
     roots: FloatArray = u - (left - real(left)) / slope
     return roots
 
-
-# --------------------------------------------------------------------------------------
-# Roots of many polynomials at once, each with the same bits as when found alone.
-#
-# Two finders: `bracketed_roots` for cubics whose one root is bracketed, in steps that compiled
-# code repeats bit by bit (meetings of curves and planes); `unit_roots` for all sign changes of
-# polynomials of any degree in [0, 1] (lengths, integrals, closest points).
 
 _ROUNDING = 4e-16  # a step below this changes nothing in [0, 1]
 _HALVINGS = 80  # more than bisection alone needs
@@ -93,30 +76,15 @@ def bracketed_roots(
     at_upper: FloatArray,
     start: FloatArray | None = None,
 ) -> FloatArray:
-    """Find the one root of each cubic in a bracket in which it changes sign once.
+    """Find the one root of each cubic (4, k) in a bracket in which it changes sign once.
 
-    Parameters
-    ----------
-    cubic : (4, k), m
-        Coefficients of 1, u, u**2, u**3.
-    lower, upper : (k,)
-        The brackets.
-    at_lower, at_upper : (k,), m
-        Values there; one is negative, the other is not. They decide the sign, whatever
-        rounding makes of the cubic itself.
-    start : (k,) or None
-        Where the steps begin; where the secant has its root if None.
+    Of the values at the ends of a bracket one is negative, the other is not: they decide the sign,
+    whatever rounding makes of the cubic itself. The root is exactly the end where a value is zero.
+    Steps begin at `start`, or at the root of the secant.
 
-    Returns
-    -------
-    (k,)
-        The roots; exactly the end of the bracket if the value there is nil.
-
-    Notes
-    -----
-    Every cubic takes the same fixed steps; the few whose residual is not yet at rounding
-    level, or that left their bracket, start again with bisection as a safeguard. Either
-    way a root depends on its own cubic only.
+    Every cubic takes the same fixed steps; the few whose residual is not yet at rounding level, or
+    that left their bracket, start again with bisection as a safeguard. Either way a root depends on
+    its own cubic only.
 
     Examples
     --------
@@ -137,7 +105,7 @@ def bracketed_roots(
         residual = np.abs(cubic_values(origin, first, second, third, root))
         good = (residual <= limit) & (root >= lower) & (root <= upper)
     at_begin, at_end = at_lower == 0.0, at_upper == 0.0
-    # Many meetings lie on knots: those are known, whatever the steps have made of them.
+    # Many intersections lie on knots: those are known, whatever the steps have made of them.
     bad = np.flatnonzero(~(good | at_begin | at_end))
     if len(bad):
         rising = at_lower[bad] < 0.0
@@ -202,18 +170,9 @@ def _safe_roots(
 
 
 def quadratic_roots(constant: FloatArray, linear: FloatArray, square: FloatArray) -> FloatArray:
-    """Give the real roots of ``constant + linear u + square u^2``.
+    """Give the real roots of ``constant + linear u + square u^2``, (p, 2), ascending.
 
-    Parameters
-    ----------
-    constant, linear, square : (p,)
-        The coefficients.
-
-    Returns
-    -------
-    (p, 2)
-        The roots in ascending order; nan where there are none, and infinite or nan where
-        the degree is less than two.
+    They are nan where there are none, and infinite or nan where the degree is less than two.
 
     Examples
     --------
@@ -228,7 +187,7 @@ def quadratic_roots(constant: FloatArray, linear: FloatArray, square: FloatArray
         # Adding numbers of one sign keeps the digits that the textbook formula loses.
         larger = -0.5 * (linear + np.copysign(np.sqrt(discriminant), linear))
         pair = np.stack([larger / square, constant / larger], axis=-1)
-    # 0 / 0 with a root at nil: both roots are nil there.
+    # 0 / 0 where both roots are zero.
     pair[..., 1] = np.where(larger == 0.0, pair[..., 0], pair[..., 1])
     roots: FloatArray = np.sort(pair, axis=-1)
     freeze(roots)
@@ -236,22 +195,12 @@ def quadratic_roots(constant: FloatArray, linear: FloatArray, square: FloatArray
 
 
 def unit_roots(coefficients: FloatArray) -> FloatArray:
-    """Split [0, 1] so that each polynomial keeps its sign on every part.
+    """Split [0, 1] so that each polynomial (p, d + 1), d >= 2, keeps its sign on every part.
 
-    Between neighbouring roots of its derivative a polynomial is monotone and has one root at
-    most, which bisection with Newton steps cannot miss. No coefficient is divided by, so a
-    polynomial of lower degree than its row is as good as any.
-
-    Parameters
-    ----------
-    coefficients : (p, d + 1), d >= 2
-        Ascending powers.
-
-    Returns
-    -------
-    (p, d)
-        Ascending parameters in [0, 1]: every root at which the sign changes, and harmless
-        repetitions or other places in the room that is left.
+    The result is (p, d), ascending: every root at which the sign changes, and harmless repetitions
+    or other places in the room that is left. Between neighbouring roots of its derivative a
+    polynomial is monotone and has one root at most, which bisection with Newton steps cannot miss.
+    No coefficient is divided by, so a polynomial of lower degree than its row is as good as any.
 
     Examples
     --------
@@ -349,7 +298,7 @@ def _value_one(falling: list[float], at: float) -> float:
 
 
 # --------------------------------------------------------------------------------------
-# Roots of any continuous functions in brackets, all at once, without derivatives.
+# Roots of any continuous functions in brackets, without derivatives.
 
 BracketedFunction = Callable[[IntArray, FloatArray], FloatArray]
 """Takes rows (k,) of the brackets and places (k,) in them, and gives the values there, (k,)."""
@@ -366,23 +315,10 @@ def false_position(
     at_high: FloatArray,
     enough: ArrayLike = 1e-13,
 ) -> FloatArray:
-    """Find one root in every bracket by the Illinois rule.
+    """Find one root in every bracket (k,) by the Illinois rule; `high` may be below `low`.
 
-    Parameters
-    ----------
-    give : callable
-        The functions.
-    low, high : (k,)
-        The brackets; `high` may be below `low`.
-    at_low, at_high : (k,)
-        Values there, of which one is negative and the other is not.
-    enough : (k,) or float
-        A root is found where the value or the bracket is as small as this.
-
-    Returns
-    -------
-    (k,)
-        The places with the smallest values that were met.
+    Of the values at the ends one is negative and the other is not. A root is found where the value
+    or the bracket is as small as `enough`; the place with the smallest value seen is given.
     """
     a, b, fa, fb = low.copy(), high.copy(), at_low.copy(), at_high.copy()
     enough = np.broadcast_to(np.asarray(enough, np.float64), a.shape)
@@ -400,6 +336,7 @@ def false_position(
         best[open_] = np.where(good, mid, best[open_])
         least[open_] = np.where(good, np.abs(value), least[open_])
         same = (value >= 0.0) == (fy >= 0.0)
+        # The end that stays counts half (Illinois), or it would stay for good.
         a[open_], fa[open_] = np.where(same, x, y), np.where(same, 0.5 * fx, fy)
         b[open_], fb[open_] = mid, value
     return best

@@ -92,7 +92,7 @@ def bernstein_coefficients(values: FloatArray, degrees: Degrees) -> tuple[FloatA
     Parameters
     ----------
     values : (m, n)
-        Of m polynomials, at the n nodes of `nodes`.
+        Of m polynomials, at the n nodes of `bernstein_nodes`.
     degrees : tuple of int
         In each of the k parameters.
 

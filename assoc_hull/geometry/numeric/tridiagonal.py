@@ -48,10 +48,8 @@ __all__ = [
 # --------------------------------------------------------------------------------------
 # Scratch memory that is kept from one call to the next.
 #
-# Large temporary arrays cost more to get from the operating system, page by page, than to
-# fill: half the time of a loft. A workspace hands out pieces of one block, and the block
-# goes back to a small pool afterwards. Taking from and returning to the pool are single
-# list operations, so threads never share a block.
+# A workspace hands out pieces of one block, and the block goes back to a small pool afterwards.
+# Taking from and returning to the pool are single list operations, so threads never share a block.
 
 _FIRST_SIZE = 1 << 15
 _MOST_KEPT = 1 << 23
@@ -113,16 +111,6 @@ class Workspace:
     def array(self, *shape: int) -> FloatArray:
         """Give an array of this shape; its values are arbitrary.
 
-        Parameters
-        ----------
-        *shape : int
-            Its extent along each axis.
-
-        Returns
-        -------
-        array of float
-            Scratch memory.
-
         Examples
         --------
         >>> with Workspace() as workspace:
@@ -138,13 +126,12 @@ class Workspace:
 
 
 # --------------------------------------------------------------------------------------
-# Many small tridiagonal systems at once, each with the same bits as when solved alone.
+# Systems in slots.
 #
-# Systems of different lengths lie one behind the other. Each is given a slot whose length is
-# a power of two, the longest slots first, so that every slot starts at a multiple of its own
-# length. Cyclic reduction then couples rows of one slot only, in an order that depends on
-# nothing but the place of a row in its own system: a neighbour in the batch cannot change a
-# bit. (BLAS products and padded sums do change the last bit, elementwise work does not.)
+# Systems of different lengths lie one behind the other. Each is given a slot whose length is a
+# power of two, the longest slots first, so that every slot starts at a multiple of its own length.
+# Cyclic reduction then couples rows of one slot only, in an order that depends on nothing but the
+# place of a row in its own system. (BLAS products and padded sums do change the last bit.)
 
 MOST_LEVELS = 6
 """After so many reductions the couplings of a spline are below 2**-64: no bit sees them."""
@@ -187,17 +174,9 @@ class Slots:
 
 
 def slots_of(start: IntArray) -> Slots:
-    """Give the slotted layout of a ragged batch.
+    """Give the slotted layout of a ragged batch; `start` (m + 1,) ends with the number of rows.
 
-    Parameters
-    ----------
-    start : (m + 1,) int
-        Where each system begins; the last entry is the number n of rows.
-
-    Returns
-    -------
-    Slots
-        The layout; the latest few are remembered, as a hull re-lofts the same batches.
+    The latest few are remembered, as a hull re-lofts the same batches.
 
     Examples
     --------
@@ -253,24 +232,11 @@ def _blocks(width: IntArray) -> tuple[tuple[int, int, int], ...]:
 
 
 def running_sums(slots: Slots, steps: FloatArray) -> FloatArray:
-    """Sum steps along each system, strictly one after the other.
+    """Sum steps along each system, strictly one after the other: (..., n + 1) to (..., n).
 
-    Parameters
-    ----------
-    slots : Slots
-        The layout.
-    steps : (..., n + 1), any unit
-        The step that leads to each row, nil at the first row of a system; the last entry
-        is ignored and should be nil.
-
-    Returns
-    -------
-    (..., n), the unit of `steps`
-        Sum of all steps of the system up to each row.
-
-    Notes
-    -----
-    A running sum over the flat array minus its value at the start has other bits.
+    A step leads to its row; it is zero at the first row of a system, and the last entry is ignored
+    and should be zero. A running sum over the flat array minus its value at the start has other
+    bits.
 
     Examples
     --------
@@ -285,28 +251,14 @@ def running_sums(slots: Slots, steps: FloatArray) -> FloatArray:
 
 
 def solve_tridiagonal(slots: Slots, rows: FloatArray, workspace: Workspace) -> FloatArray:
-    """Solve ``d[i] = right[i] + before[i] * d[i-1] + after[i] * d[i+1]`` for every system.
+    """Solve ``d[i] = right[i] + before[i] * d[i-1] + after[i] * d[i+1]`` for every system, (r, n).
 
-    Parameters
-    ----------
-    slots : Slots
-        The layout.
-    rows : (2 + r, n + 1)
-        The rows ``before, right (r of them), after``; column n must be nil. The sum of the
-        magnitudes of `before` and `after` must not exceed one half, and neither may reach
-        out of its system.
-    workspace : Workspace
-        Scratch memory.
+    `rows` (2 + r, n + 1) are ``before, right (r of them), after``; column n must be zero. The sum
+    of the magnitudes of `before` and `after` must not exceed one half, and neither may reach out of
+    its system. The solutions lie in scratch memory.
 
-    Returns
-    -------
-    (r, n)
-        The solutions, in scratch memory.
-
-    Notes
-    -----
-    Cyclic reduction: rows of even place are eliminated level by level. The couplings s of
-    a level shrink to s * s at least, so six levels are enough for any length.
+    Cyclic reduction: rows of even place are eliminated level by level. The couplings s of a level
+    shrink to s * s at least, so six levels are enough for any length.
     Source: R.W. Hockney, J. ACM 12 (1965) 95-113.
 
     Examples
@@ -329,7 +281,7 @@ def solve_tridiagonal(slots: Slots, rows: FloatArray, workspace: Workspace) -> F
 
 
 def _reduced(rows: FloatArray, workspace: Workspace) -> FloatArray:
-    """Eliminate the rows of even place; the last column is nil and stands for no row."""
+    """Eliminate the rows of even place; the last column is zero and stands for no row."""
     kept, left, right = rows[:, 1::2], rows[:, :-1:2], rows[:, 2::2]
     size = kept.shape[1]
     fewer = workspace.array(len(rows), size + 1)

@@ -26,14 +26,9 @@ __all__ = [
     "touching_pairs",
 ]
 
-# --------------------------------------------------------------------------------------
-# Where patches lie beside one another on their surfaces, in whole numbers.
-#
 # Each patch becomes a unit square of one plane: the patches of a surface side by side, as they are
-# on
-# it, surfaces apart from one another. Points on a border that patches share have one place there,
-# whichever patch they were found on; distances are in parameters of a patch, so that one tolerance
-# serves all.
+# on it, surfaces apart. Points on a shared border have one place there, whichever patch they were
+# found on; distances are in parameters of a patch, so that one tolerance serves all.
 
 # The sides of a patch: which parameter is constant there, and its value.
 SIDES = ((0, 0.0), (0, 1.0), (1, 0.0), (1, 1.0))
@@ -139,23 +134,13 @@ def _beside(corner: IntArray) -> NDArray[np.bool_]:
 
 
 # --------------------------------------------------------------------------------------
-# Which boxes of many touch: by trees of their centres, one for boxes of about one size.
+# Boxes that touch.
 
 
 def touching_pairs(low: FloatArray, high: FloatArray, tolerance: float) -> IntArray:
-    """Give the pairs of boxes that touch.
+    """Give the pairs (p, 2) of boxes that touch, by their corners (n, 2), or are `tolerance` apart.
 
-    Parameters
-    ----------
-    low, high : (n, 2)
-        The corners of each box; a point is a box of no size.
-    tolerance : float
-        Boxes so far apart still touch.
-
-    Returns
-    -------
-    (p, 2) int
-        Rows of boxes.
+    A point is a box of no size.
     """
     centre, size = 0.5 * (low + high), (high - low).max(axis=1, initial=0.0)
     classes = np.frexp(size)[1]

@@ -28,9 +28,6 @@ __all__ = [
     "positive_on_left",
 ]
 
-# --------------------------------------------------------------------------------------
-# Which ends of arcs coincide.
-
 
 @attrs.frozen(eq=False)
 class ArcJoints:
@@ -91,30 +88,13 @@ class ArcJoints:
 
 
 def find_joints(places: FloatArray, tolerance: float = 1e-9) -> ArcJoints:
-    """Find which ends coincide.
+    """Find which ends coincide, within `tolerance` in each parameter, by their places (a, 2, 2).
 
-    Parameters
-    ----------
-    places : (a, 2, 2)
-        Where each arc begins and ends.
-    tolerance : float
-        Ends so far apart still coincide, in each parameter.
-
-    Returns
-    -------
-    Joints
-        Numbered by their first ends.
+    Joints are numbered by their first ends.
     """
     ends = places.reshape(-1, 2)
     pairs = cKDTree(ends).query_pairs(tolerance, p=np.inf, output_type="ndarray")
     return ArcJoints.numbered(connected_labels(len(ends), pairs).reshape(-1, 2))
-
-
-# --------------------------------------------------------------------------------------
-# Arcs in a row: each follows the one that ends where it begins.
-#
-# Arcs are walked with the positive side on the left, so that an end of one is the beginning of the
-# next. Ranks are found by doubling: in log2(n) passes over all arcs at once.
 
 
 @attrs.frozen(eq=False)
@@ -172,17 +152,9 @@ def directed_ends(arcs: ZeroSetArcs) -> FloatArray:
 
 
 def chain_arcs(following: IntArray) -> ArcChains:
-    """Put arcs in order.
+    """Put arcs in order, by the arc after each, (a,), or -1; none follows two.
 
-    Parameters
-    ----------
-    following : (a,) int
-        The arc after each, or -1; none follows two.
-
-    Returns
-    -------
-    Chains
-        In the order of the least arc of each; a closed chain begins with its least arc.
+    Chains come in the order of their least arcs; a closed one begins with its least arc.
     """
     count = len(following)
     arcs = np.arange(count)
@@ -199,7 +171,10 @@ def chain_arcs(following: IntArray) -> ArcChains:
 
 
 def _ranks(before: IntArray) -> IntArray:
-    """Count the arcs that come before each, up to the one that has none."""
+    """Count the arcs that come before each, up to the one that has none.
+
+    By doubling: in log2(n) passes over all arcs at once.
+    """
     rank = (before >= 0).astype(np.intp)
     jump = np.where(before >= 0, before, np.arange(len(before)))
     while True:
@@ -210,27 +185,12 @@ def _ranks(before: IntArray) -> IntArray:
         jump = jump[jump]
 
 
-# --------------------------------------------------------------------------------------
-# Directed pieces joined into loops.
-#
-# Where several loops touch in a point, each turns there so that it keeps to its own side: a piece
-# is followed by the one that bounds the same sector.
-
-
 def next_pieces(pieces: FloatArray, leaving: FloatArray, arriving: FloatArray) -> IntArray:
-    """Tell which piece follows each.
+    """Give the piece (p,) that begins where each of some pieces (p, 2, 2) ends, or -1.
 
-    Parameters
-    ----------
-    pieces : (p, 2, 2)
-        Where pieces begin and end; what they bound lies on their left.
-    leaving, arriving : (p, 2)
-        Their directions at the beginning and at the end.
-
-    Returns
-    -------
-    (p,) int
-        The piece that begins where each ends, or -1 where there is none.
+    What pieces bound lies on their left; `leaving`, `arriving` (p, 2) are the directions at the
+    beginning and at the end. Where several loops touch in a point, a piece is followed by the one
+    that bounds the same sector.
     """
     tail, head = find_joints(pieces, SHORT).joint.T
     count, rows = len(pieces), np.arange(len(pieces))

@@ -34,17 +34,14 @@ __all__ = [
     "integrals_along_lines",
 ]
 
-# --------------------------------------------------------------------------------------
-# Areas under a patch point by point: Gauss's rules of 5 and 8 points on boxes and on lines.
-#
-# The difference of the two rules is the estimate of the error; a box or a piece of a line for which
-# it is too large is split. This needs many more points than a series (`area_series`), and gets
-# along where there is none: at points where the normal vector vanishes, or almost does.
+# Point by point: Gauss's rules of 5 and 8 points on boxes and lines, whose difference estimates the
+# error; a box or piece of a line for which it is too large is halved. This needs many more points
+# than a series, but also works where the normal vector vanishes, or almost does.
 
 _FEW, _MANY = 5, 8
 _ROUNDS = 24
 # Rows at a time, so that the values stay in the cache.
-_BLOCK = 512
+_POINT_BLOCK = 512
 
 Rule = Callable[[IntArray, FloatArray, int], FloatArray]
 
@@ -52,24 +49,10 @@ Rule = Callable[[IntArray, FloatArray, int], FloatArray]
 def areas_over_boxes(
     patches: Patches, patch: IntArray, box: FloatArray, tolerance: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate the area element over boxes of parameters.
+    """Integrate the area element over boxes of parameters, (c, 2, 2), ``[[u0, u1], [v0, v1]]``.
 
-    Parameters
-    ----------
-    patches : Patches
-        The patches.
-    patch : (c,) int
-        The patch of each box.
-    box : (c, 2, 2)
-        ``[[u0, u1], [v0, v1]]``, in parameters of the patch.
-    tolerance : (c,) float, m2
-        How large the estimate of the error of each may be.
-
-    Returns
-    -------
-    (c,), (c,) float, m2
-        Areas and estimates of their errors. An estimate above the tolerance tells that splitting
-        ended first.
+    Gives areas and estimates of their errors, (c,) and (c,), m2. An estimate above its `tolerance`
+    (c,), m2, says that splitting ended first.
     """
 
     def rule(rows: IntArray, part: FloatArray, count: int) -> FloatArray:
@@ -90,25 +73,10 @@ def integrals_along_lines(
     v: FloatArray,
     tolerance: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate the area element along lines v = constant.
+    """Integrate the area element along lines v (c,) = constant, over u in `span` (c, 2).
 
-    Parameters
-    ----------
-    patches : Patches
-        The patches.
-    patch : (c,) int
-        The patch of each line.
-    span : (c, 2)
-        The values of u at which each begins and ends.
-    v : (c,)
-        The lines.
-    tolerance : (c,) float, m2
-        How large the estimate of the error of each may be, per unit of v.
-
-    Returns
-    -------
-    (c,), (c,) float, m2
-        Integrals and estimates of their errors, per unit of v.
+    Gives integrals and estimates of their errors, (c,) and (c,), m2 per unit of v; `tolerance` (c,)
+    likewise.
     """
 
     def rule(rows: IntArray, part: FloatArray, count: int) -> FloatArray:
@@ -144,8 +112,8 @@ def _halved(rule: Rule, box: FloatArray, tolerance: FloatArray) -> tuple[FloatAr
 
 def _by_blocks(rule: Rule, rows: IntArray, box: FloatArray) -> tuple[FloatArray, FloatArray]:
     fine, coarse = np.empty((2, len(rows)))
-    for first in range(0, len(rows), _BLOCK):
-        part = slice(first, first + _BLOCK)
+    for first in range(0, len(rows), _POINT_BLOCK):
+        part = slice(first, first + _POINT_BLOCK)
         fine[part] = rule(rows[part], box[part], _MANY)
         coarse[part] = rule(rows[part], box[part], _FEW)
     return fine, np.abs(fine - coarse)
@@ -164,18 +132,13 @@ def _parts(box: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Areas under a patch by one series: |r_u x r_v| in Chebyshev polynomials of both parameters.
-#
-# Where the normal vector does not vanish, nor is about to, its length is analytic and the series of
-# few terms is as exact as one wants: then the area over a box, or from a border of the patch to a
-# curve, is a sum of these terms. As many terms are taken as are needed; a patch whose series does
-# not end in reach gets none, and is integrated point by point (`area_direct`).
-#
-# The error of a series is taken for the sum of the amounts of its last eighth of terms. The error
-# proper is that of terms left out, which are smaller by some orders where the series converges.
+# One series a patch: |r_u x r_v| in Chebyshev polynomials of both parameters. Where the normal
+# vector stays clear of zero its length is analytic and few terms are as exact as one wants; areas
+# over boxes, or from a border to a curve, are sums of these terms. A patch whose series does not
+# end in reach gets none.
 
 # Rows at a time, so that their values stay in the cache.
-_AREA_SERIES_BLOCK = 256
+_SERIES_BLOCK = 256
 
 TERMS = (8, 12, 18, 27, 40, 60)
 """How many terms are tried in each parameter."""
@@ -208,50 +171,27 @@ class AreaSeries:
         return int(self.terms.shape[2])
 
     def over(self, row: IntArray, box: FloatArray) -> FloatArray:
-        """Integrate over boxes.
+        """Integrate over boxes (c, 2, 2), by rows (c,) of the series: areas (c,), m2.
 
-        Parameters
-        ----------
-        row : (c,) int
-            The row of the series for each.
-        box : (c, 2, 2)
-            ``[[u0, u1], [v0, v1]]``.
-
-        Returns
-        -------
-        (c,) float, m2
-            The areas.
+        Boxes are ``[[u0, u1], [v0, v1]]``.
         """
         found = np.empty(len(row))
-        for first in range(0, len(row), _AREA_SERIES_BLOCK):
-            part = slice(first, first + _AREA_SERIES_BLOCK)
+        for first in range(0, len(row), _SERIES_BLOCK):
+            part = slice(first, first + _SERIES_BLOCK)
             found[part] = _over(self.terms[0, row[part]], box[part])
         return found
 
     def between(
         self, row: IntArray, flip: IntArray, start: FloatArray, u: FloatArray, v: FloatArray
     ) -> FloatArray:
-        """Integrate along lines v = constant.
+        """Integrate along lines v (c, q) = constant, u from `start` (c,) to (c, q).
 
-        Parameters
-        ----------
-        row : (c,) int
-            The row of the series for each.
-        flip : (c,) int
-            1 where u and v are exchanged, else 0.
-        start : (c,)
-            Where the lines begin.
-        u, v : (c, q)
-            Where they end.
-
-        Returns
-        -------
-        (c, q) float, m2
-            The integrals, per unit of v.
+        Gives m2 per unit of v, (c, q). `row` (c,) is the row of the series for each, `flip` (c,) is
+        1 where u and v are exchanged, else 0.
         """
         found = np.empty_like(u)
-        for first in range(0, len(row), _AREA_SERIES_BLOCK):
-            part = slice(first, first + _AREA_SERIES_BLOCK)
+        for first in range(0, len(row), _SERIES_BLOCK):
+            part = slice(first, first + _SERIES_BLOCK)
             terms = self.terms[flip[part], row[part]]
             found[part] = _along(terms, start[part], u[part], v[part])
         return found
@@ -318,7 +258,10 @@ def _terms(patches: Patches, count: int) -> FloatArray:
 
 
 def _tail(terms: FloatArray) -> FloatArray:
-    """Add the amounts of the last eighth of terms, two at least."""
+    """Estimate the error of series: the amounts of the last eighth of terms, two at least, added.
+
+    The true error is that of the terms left out, smaller by some orders where the series converges.
+    """
     count = terms.shape[1]
     kept = count - max(2, count // 8)
     amount = np.abs(terms)
@@ -362,7 +305,7 @@ def _integrals(count: int, t: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Areas under patches, by series where there is one, point by point elsewhere.
+# Areas by series where there is one, point by point elsewhere.
 
 _ROUGH = 8
 # Patches without a series are cut into so many parts in each parameter before all else: a rule
@@ -407,22 +350,7 @@ class AreaIntegrator:
 
     @classmethod
     def of(cls, patches: Patches, area_tol: float, by_series: bool = True) -> Self:
-        """Prepare.
-
-        Parameters
-        ----------
-        patches : Patches
-            The patches.
-        area_tol : float
-            What an area may be off by, in parts of that of its patch.
-        by_series : bool
-            Whether to use series at all.
-
-        Returns
-        -------
-        AreaGround
-            The ground.
-        """
+        """Prepare areas that may be off by `area_tol`, in parts of that of their patch."""
         count = len(patches)
         scale = _totals(patches, _ROUGH)
         allowed = max(_SHARE * area_tol, _LEAST) * scale
@@ -441,21 +369,11 @@ class AreaIntegrator:
     def over(
         self, patch: IntArray, box: FloatArray, tolerance: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Integrate over boxes.
+        """Integrate over boxes (c, 2, 2), in parameters of their patches (c,).
 
-        Parameters
-        ----------
-        patch : (c,) int
-            The patch of each.
-        box : (c, 2, 2)
-            ``[[u0, u1], [v0, v1]]``, in parameters of the patch.
-        tolerance : (c,) float, m2
-            What the area may be off by, where there is no series.
-
-        Returns
-        -------
-        (c,), (c,) float, m2
-            Areas, and what they may be off by beyond the `error` of the patch.
+        Boxes are ``[[u0, u1], [v0, v1]]``. Gives areas, and what they may be off by beyond the
+        `error` of the patch, (c,) and (c,), m2; where there is no series that is to stay below
+        `tolerance` (c,), m2.
         """
         value, error = np.zeros((2, len(patch)))
         kind = self.kind[patch]
@@ -474,25 +392,11 @@ class AreaIntegrator:
         self, patch: IntArray, flip: IntArray, start: FloatArray, u: FloatArray, v: FloatArray,
         tolerance: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
-        """Integrate along lines v = constant.
+        """Integrate along lines v (c, q) = constant, u from `start` (c,) to (c, q).
 
-        Parameters
-        ----------
-        patch : (c,) int
-            The patch of each row.
-        flip : (c,) int
-            1 where u and v are exchanged, else 0.
-        start : (c,)
-            Where its lines begin.
-        u, v : (c, q)
-            Where they end.
-        tolerance : (c,) float, m2
-            What an integral may be off by, per unit of v, where there is no series.
-
-        Returns
-        -------
-        (c, q), (c, q) float, m2
-            Integrals per unit of v, and what they may be off by.
+        Gives integrals and what they may be off by, (c, q) and (c, q), m2 per unit of v;
+        `tolerance` (c,) likewise, where there is no series. `flip` (c,) is 1 where u and v are
+        exchanged, else 0.
         """
         value, error = np.zeros((2, *u.shape))
         kind = self.kind[patch]

@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.arcs import arc_heights
 from assoc_hull.geometry.patches.area_elements import bernstein_values, pairwise_sum
 from assoc_hull.geometry.patches.area_integrals import AreaIntegrator
 from assoc_hull.geometry.patches.bernstein_polynomials import transform_coefficients
 from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs
+from assoc_hull.geometry.patches.zero_set_arcs import arc_heights
 
 __all__ = [
     "SAMPLES",
@@ -34,12 +34,8 @@ __all__ = [
     "sign_areas",
 ]
 
-# --------------------------------------------------------------------------------------
-# Rules of quadrature on [0, 1] that contain one another, with measures of their errors.
-#
-# Lobatto's rule of 4 points, its extension by 3 points, and the extension of that by 6; exact to
-# the degrees 5, 9 and 19.
-#
+# Quadrature rules on [0, 1] that contain one another: Lobatto's of 4 points, its extension by 3
+# points, and that of this one by 6; exact to the degrees 5, 9 and 19.
 # Source: W. Gander and W. Gautschi, "Adaptive quadrature - revisited", BIT 40, 2000.
 
 
@@ -56,7 +52,7 @@ class ArcRules:
     few, many : (3, 7), (3, 13)
         Weights of the two rules, and those of the last two terms of a series in polynomials:
         degrees 5 and 6, 11 and 12. The rules leave out terms of degrees beyond 9 and 19 only, so
-        these two tell how large their errors are at most. One is nil for all even functions, the
+        these two tell how large their errors are at most. One is zero for all even functions, the
         other for all odd ones; so not both vanish by chance.
     between : (6, 7)
         The polynomial through values at the first nodes, at the second.
@@ -128,11 +124,8 @@ def _weights(nodes: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.solve(values, moments), np.float64)
 
 
-# --------------------------------------------------------------------------------------
-# Arcs as curves u = g(v), whichever way they run: one batch of both.
-
 # Arcs at a time, so that their values stay in the cache.
-_BLOCK = 512
+_ROOT_BLOCK = 512
 
 
 @attrs.frozen(eq=False)
@@ -170,25 +163,13 @@ class ArcCurves:
         return len(self.patch)
 
     def at(self, row: IntArray, v: FloatArray, start: FloatArray) -> FloatArray:
-        """Find g at places.
+        """Find g, (c, q), at places v (c, q) of arcs `row` (c,), from rough values `start` (c, q).
 
-        Parameters
-        ----------
-        row : (c,) int
-            The arc of each row of places.
-        v : (c, q)
-            The places.
-        start : (c, q)
-            What g is there, roughly.
-
-        Returns
-        -------
-        (c, q) float
-            The values of g, in parameters of the patch.
+        All in parameters of the patch.
         """
         found = np.empty_like(v)
-        for first in range(0, len(row), _BLOCK):
-            part = slice(first, first + _BLOCK)
+        for first in range(0, len(row), _ROOT_BLOCK):
+            part = slice(first, first + _ROOT_BLOCK)
             found[part] = self._at(row[part], v[part], start[part])
         return found
 
@@ -203,21 +184,9 @@ class ArcCurves:
 def arc_curves(
     cells: SignCells, arcs: ZeroSetArcs, chosen: IntArray
 ) -> list[tuple[ArcCurves, IntArray]]:
-    """Turn arcs into curves u = g(v), in one batch if the polynomial has one degree in u and v.
+    """Turn chosen arcs (c,) into curves u = g(v), with the rows of `arcs` that they are, (a,).
 
-    Parameters
-    ----------
-    cells : Cells
-        The cells.
-    arcs : Arcs
-        Their arcs.
-    chosen : (c,) int
-        Which of these.
-
-    Returns
-    -------
-    list of (ArcCurves, (a,) int)
-        Curves, and which rows of `arcs` they are.
+    One batch if the polynomial has one degree in u and v, else one for each way that arcs run.
     """
     if cells.b.shape[1] == cells.b.shape[2]:
         parts = [chosen]
@@ -240,18 +209,9 @@ def _curves(cells: SignCells, arcs: ZeroSetArcs, rows: IntArray) -> ArcCurves:
 
 
 # --------------------------------------------------------------------------------------
-# Areas below arcs of a zero set: height functions, by rules that contain one another.
-#
-# In a cell where each line v = constant meets the zero set once, at u = g(v), the part of the cell
-# below the arc is the integral over v of that of the area element from the cell's border to g(v).
-# Each g(v) is a root of the polynomial itself, so the integrand is smooth, and no chord is ever
-# taken. The first rule has 7 points, of which two are the ends of the arc, which are known. It is
-# judged by the last terms of the series through these values, which are far larger than those that
-# it leaves out. Where they are too large 6 points more make the rule of 13; where that is not
-# enough the arc is halved. Roots are looked for from the polynomial through those that are known.
-#
-# Source: height functions are those of R. I. Saye, SIAM J. Sci. Comput. 37(2), 2015, and J. Comput.
-# Phys. 448, 2022.
+# Areas below arcs u = g(v) as height functions (R. I. Saye, SIAM J. Sci. Comput. 37(2), 2015, and
+# J. Comput. Phys. 448, 2022): the integral over v of that of the area element from the border of
+# the cell to g(v). Each g(v) is a root of the polynomial itself, so the integrand is smooth.
 
 _ROUNDS = 30
 
@@ -261,19 +221,8 @@ def areas_below_arcs(
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate from the lower border in u of each cell to its arc, as far as the arc goes.
 
-    Parameters
-    ----------
-    ground : AreaGround
-        What areas are taken from.
-    curves : ArcCurves
-        The arcs, a of them.
-    tolerance : (a,) float, m2
-        How large the estimate of the error of each may be.
-
-    Returns
-    -------
-    (a,), (a,) float, m2
-        Areas and estimates of their errors, the `error` of the ground not counted.
+    Gives areas and estimates of their errors, (a,) and (a,), m2; each estimate is to stay below its
+    `tolerance` (a,), m2. The `error` of `ground` is not counted.
     """
     count = len(curves)
     value, error = np.zeros((2, count))
@@ -293,7 +242,12 @@ def areas_below_arcs(
 
 @attrs.frozen(eq=False)
 class _Pieces:
-    """Pieces of arcs, c of them: v and u of their ends, and u between them, roughly."""
+    """Pieces of arcs, c of them: v and u of their ends, and u between them, roughly.
+
+    The first rule has 7 points, two of them the ends, which are known. Where its error is too large
+    6 more make the rule of 13; where that is not enough the piece is halved. Roots are looked for
+    from the polynomial through those that are known.
+    """
 
     ground: AreaIntegrator
     curves: ArcCurves
@@ -374,42 +328,35 @@ def _mixed(matrix: FloatArray, values: FloatArray) -> FloatArray:
 def _judged(
     values: FloatArray, rules: FloatArray, width: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Give integrals by a rule, and the last two terms of the series through the values."""
+    """Give integrals by a rule, and the last two terms of the series through the values.
+
+    These terms are far larger than those that the rule leaves out, so the error is less than they.
+    """
     found, *terms = (width * pairwise_sum(values * weights[:, None]) for weights in rules)
     return found, np.abs(terms[0]) + np.abs(terms[1])
 
 
 # --------------------------------------------------------------------------------------
-# What samples tell of cells in which the sign of the polynomial is not decided.
+# Cells in which the sign is not decided: what samples tell of them.
 
 SAMPLES = 16
-"""Samples in each parameter."""
+"""Samples in each parameter of a cell."""
 
 # Cells at a time, so that the values stay in the cache.
-_UNDECIDED_BLOCK = 256
+_SAMPLE_BLOCK = 256
 
 
 def sampled_signs(cells: SignCells, rows: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Give the shares of samples of each sign.
+    """Give the shares of samples of each sign in cells `rows` (c,) in which it is not decided.
 
-    Parameters
-    ----------
-    cells : Cells
-        The cells.
-    rows : (c,) int
-        Those wanted, of which the polynomial is kept.
-
-    Returns
-    -------
-    (c,), (c,), (c,) float
-        Shares of positive and of negative samples, and of those in doubt: nil to the error of the
-        polynomial, or beside one of another sign. A sample that is nil to the error counts as the
-        others of its cell do if these are of one sign, as beside a line without change of sign;
-        else by its value, as the error is a bound far above what rounding does.
+    Positive, negative and in doubt, (c,) each: zero to the error of the polynomial, or beside one
+    of another sign. A sample that is zero to the error counts as the others of its cell do if these
+    are of one sign, as beside a line without change of sign; else by its value, as the error is a
+    bound far above what rounding does.
     """
     found = np.empty((3, len(rows)))
-    for first in range(0, len(rows), _UNDECIDED_BLOCK):
-        part = slice(first, first + _UNDECIDED_BLOCK)
+    for first in range(0, len(rows), _SAMPLE_BLOCK):
+        part = slice(first, first + _SAMPLE_BLOCK)
         found[:, part] = _shares(*(a[cells.row[rows[part]]] for a in (cells.b, cells.err)))
     return found[0], found[1], found[2]
 
@@ -433,15 +380,12 @@ def _shares(b: FloatArray, err: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Areas of surface where a polynomial is positive, negative, nil, and where this is not known.
-#
-# Cells of one sign are integrated whole; cells with an arc are parted along it (`arc_areas`). All
-# errors are estimates of the rules themselves, none is a guess from a grid.
+# Areas by sign: cells whole, parted along arcs, or shared out by samples.
 
 # What rounding may leave of the area of a patch.
 _ROUNDING = 4e-15
 # Arcs at a time: their polynomials take room.
-_AREAS_BLOCK = 2048
+_ARC_BLOCK = 2048
 
 
 @attrs.frozen(eq=False)
@@ -451,7 +395,7 @@ class SignAreas:
     Attributes
     ----------
     positive, negative, zero : (k,) float, m2
-        Where the polynomial has this sign, or is nil to its error; cells without a decision in
+        Where the polynomial has this sign, or is zero to its error; cells without a decision in
         none of them.
     unresolved : (k,) float, m2
         The area of the cells without a decision. What is positive lies between `positive` and
@@ -495,20 +439,21 @@ def sign_areas(
     ----------
     patches : Patches
         The patches, k of them.
-    cells : Cells
+    cells : SignCells
         Their cells, for one polynomial.
-    arcs : Arcs
+    arcs : ZeroSetArcs
         The arcs in these cells, at most one in each.
     area_tol : float
         How large the estimate of the error may be, in parts of the area of a patch.
-    ground : AreaGround, optional
-        What areas are taken from, if it was made before: ``AreaGround.of(patches, area_tol)``. It
-        serves any polynomial on the same patches.
+    ground : AreaIntegrator, optional
+        What areas are taken from, if it was made before: ``AreaIntegrator.of(patches, area_tol)``.
+        It serves any polynomial on the same patches.
 
     Returns
     -------
-    Areas
-        For each patch; what is found for one does not depend on the others, to the last bit.
+    SignAreas
+        For each patch; what is found for one does not depend on the others, to the last bit. All
+        errors are estimates of the rules themselves, none is a guess from a grid.
     """
     count = len(patches)
     ground = AreaIntegrator.of(patches, area_tol) if ground is None else ground
@@ -562,11 +507,12 @@ def _low_parts(
     """Give the area of the part of smaller u (or v) of each cell with an arc, and its error."""
     patch = cells.patch[arcs.cell]
     number = np.bincount(patch, minlength=len(allowed))
+    # The tolerance goes half by area, half by number of arcs.
     share = whole[arcs.cell] / ground.scale[patch] + 1.0 / number[patch]
     tolerance = np.maximum(0.3 * allowed, 1e-15 * ground.scale)[patch] * share
     value, error = np.zeros((2, len(arcs)))
-    for first in range(0, len(arcs), _AREAS_BLOCK):
-        chosen = np.arange(first, min(first + _AREAS_BLOCK, len(arcs)))
+    for first in range(0, len(arcs), _ARC_BLOCK):
+        chosen = np.arange(first, min(first + _ARC_BLOCK, len(arcs)))
         for curves, rows in arc_curves(cells, arcs, chosen):
             value[rows], error[rows] = _low(ground, curves, tolerance[rows])
     return value, error

@@ -40,23 +40,10 @@ __all__ = [
     "v_derivative",
 ]
 
-# --------------------------------------------------------------------------------------
-# Polynomials of two parameters in Bernstein form: sums, products, derivatives, parts.
-#
-# A polynomial of degrees (m, n) on the unit square is
-#
-#     p(u, v) = sum over i, j of  a[i, j] C(m, i) u**i (1 - u)**(m - i) C(n, j) v**j (1 - v)**(n -
-# j)
-#
-# It lies between its least and its greatest coefficient. Coefficients are arrays (..., m + 1, n +
-# 1);
-# the first of the last two axes is u. Leading axes are a batch and broadcast, as in numpy. A degree
-# is always a length less one. Vectors have their components as the third axis from the end:
-# (..., 3, m + 1, n + 1). What is found for one polynomial does not depend on the rest of the batch,
-# to the last bit.
-#
-# Products are convolutions of coefficients times binomials, summed term by term: a fast Fourier
-# transform would spread the rounding of the largest coefficients over the small ones.
+# With B_i(u) = C(m, i) u**i (1 - u)**(m - i), coefficients a of degrees (m, n) are the polynomial
+# sum over i, j of a[i, j] B_i(u) B_j(v) on the unit square, which lies between the least and the
+# greatest of them. Leading axes are a batch and broadcast; vectors have their components third from
+# the end. What is found for one polynomial does not depend on the rest of the batch, to the bit.
 
 
 @cache
@@ -93,7 +80,9 @@ def _batch_last(a: FloatArray) -> FloatArray:
 
 
 def multiply(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Multiply polynomials.
+    """Multiply polynomials: convolutions of coefficients times binomials, summed term by term.
+
+    A fast Fourier transform would spread the rounding of the largest coefficients over small ones.
 
     Parameters
     ----------
@@ -195,7 +184,7 @@ def subtract(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def u_derivative(a: FloatArray) -> FloatArray:
-    """Differentiate with respect to u; a constant gives nil, of degree 0."""
+    """Differentiate with respect to u; a constant gives zero, of degree 0."""
     m = a.shape[-2] - 1
     if m == 0:
         return np.zeros_like(a)
@@ -204,7 +193,7 @@ def u_derivative(a: FloatArray) -> FloatArray:
 
 
 def v_derivative(a: FloatArray) -> FloatArray:
-    """Differentiate with respect to v; a constant gives nil, of degree 0."""
+    """Differentiate with respect to v; a constant gives zero, of degree 0."""
     n = a.shape[-1] - 1
     if n == 0:
         return np.zeros_like(a)
@@ -311,13 +300,10 @@ def subdivide_at(a: FloatArray, u: float, v: float) -> tuple[FloatArray, ...]:
 
 
 # --------------------------------------------------------------------------------------
-# Polynomials with bounds of their errors that are carried through every operation.
-#
-# With a true a' within e of the computed a, coefficient by coefficient, and b' within f of b, the
-# product is off by at most |a| f + e (|b| + f), and by its own roundings: (number of terms + 6) x
-# 2**-53 x |a| |b|. Sizes are those of the computed coefficients, after all that cancelled in them,
-# so these bounds stay close where terms are large and their sum is small. They hold rounding and
-# uncertain control points at once.
+# Error bounds. With a true a' within e of the computed a, coefficient by coefficient, and b' within
+# f of b, the product is off by at most |a| f + e (|b| + f), and by its own roundings: (number of
+# terms + 6) x 2**-53 x |a| |b|. Sizes are those of the computed coefficients, after all that
+# cancelled in them, so these bounds stay close where a small sum has large terms.
 
 EPS = 2.0**-53
 
@@ -373,15 +359,7 @@ class BoundedPolynomial:
 
 
 # --------------------------------------------------------------------------------------
-# Where polynomials in Bernstein form change sign once: many at a time.
-#
-# Newton steps kept in a bracket. With s = t / (1 - t) and d the degree,
-#
-#     p(t) = (1 - t)**d q(s),    q(s) = sum C(d, i) b_i s**i
-#
-# has the terms of the Bernstein form, so it is as exact; a root beyond 1/2 is looked for from the
-# other end, so s stays below 1. Value and slope come from one table of powers. A row takes its own
-# steps: its root does not depend on the other rows, to the last bit.
+# Roots, by Newton steps kept in a bracket.
 
 # How far a bracket reaches over both ends: a root at an end may lie beyond by rounding.
 _BEYOND = 1e-9
@@ -398,11 +376,19 @@ def sign_change_roots(
 ) -> FloatArray:
     """Find where each polynomial changes sign.
 
+    With s = t / (1 - t) and d the degree,
+
+        p(t) = (1 - t)**d q(s),    q(s) = sum C(d, i) b_i s**i
+
+    has the terms of the Bernstein form, so it is as exact; a root beyond 1/2 is looked for from the
+    other end, so that s stays below 1. A row takes its own steps: its root does not depend on the
+    other rows, to the last bit.
+
     Parameters
     ----------
     b : (r, d + 1)
         Bernstein coefficients on [0, 1], each row with one change of sign; coefficients at the
-        ends may be nil, or off by rounding.
+        ends may be zero, or off by rounding.
     rising : (r,) bool
         Whether a polynomial goes from negative to positive.
     start : (r,) float, optional
@@ -470,7 +456,7 @@ def power_table(s: FloatArray, count: int) -> FloatArray:
 class _Search:
     """Rows whose roots are not known yet: polynomials q and q', bracket, place.
 
-    The last step is kept too, nil where it was none of Newton's.
+    The last step is kept too, zero where it was none of Newton's.
     """
 
     row: NDArray[np.intp]
@@ -491,16 +477,19 @@ class _Search:
         x, degree = self.x, self.pair.shape[1] - 1
         ratio = 1.0 / (1.0 - x)
         value, slope = _summed(self.pair * power_table(x * ratio, degree + 1))
+        # p' / (1 - t)**d from q and q'; the factor drops out of value / slope.
         slope = (slope * ratio - degree * value) * ratio
         np.copyto(self.low, x, where=value < 0.0)
         np.copyto(self.high, x, where=value > 0.0)
         steep = slope > 0.0
         place = x - value / np.where(steep, slope, 1.0)
         trusted = steep & (place >= self.low) & (place <= self.high)
+        # Every other late step halves the bracket, unless Newton's is below the tolerance already.
         if halve:
             trusted &= np.abs(place - x) < _LATE_STOP
         place = np.where(trusted, place, 0.5 * (self.low + self.high))
         step = np.abs(place - x)
+        # Newton's steps fall quadratically: the next one is about step**3 / (last step)**2.
         promised = step**3 < _PROMISED * self.step**2
         done = (step < (_LATE_STOP if late else _STOP)) | (promised & trusted & (step < 1e-5))
         self.x, self.step = place, np.where(trusted, step, 0.0)

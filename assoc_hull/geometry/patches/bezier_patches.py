@@ -28,9 +28,6 @@ __all__ = [
     "patch_points",
 ]
 
-# --------------------------------------------------------------------------------------
-# Bezier patches of one bidegree, and where each lies on its surface.
-
 
 @attrs.frozen(eq=False)
 class Patches:
@@ -125,12 +122,6 @@ class Patches:
         return np.asarray((1.0 - uv) * box[..., 0] + uv * box[..., 1])
 
 
-# --------------------------------------------------------------------------------------
-# Points of patches, and how much they stretch the parameter plane, at scattered parameters.
-#
-# Everything is elementwise in the points, so that the bits of one do not depend on the others.
-
-
 def patch_points(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
     """Give the points (n, 3), m, at parameters (n, 2) of some patches (n,)."""
     value = _value(_homogeneous(patches, patch), uv)
@@ -171,13 +162,6 @@ def _value(net: FloatArray, uv: FloatArray) -> FloatArray:
             row += v[:, j, None] * net[:, i, j]
         found += u[:, i, None] * row
     return found
-
-
-# --------------------------------------------------------------------------------------
-# Points of patches with derivatives: what every quantity of a surface at a point is made of.
-#
-# Derivatives come from the control points by the rule of de Casteljau, taken from a corner of the
-# patch, so that it costs no digits to be 100 m away from the origin.
 
 
 def inner(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -235,7 +219,10 @@ def _along(a: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, FloatA
 
 
 def jets(patches: Patches, row: IntArray, uv: FloatArray) -> Jets:
-    """Give points of patches and derivatives there.
+    """Give points of patches and derivatives there, by de Casteljau's rule.
+
+    Points are taken from a corner of the patch, so that it costs no digits to be 100 m away from
+    the origin.
 
     Parameters
     ----------
@@ -279,16 +266,7 @@ def _quotients(*homogeneous: FloatArray) -> tuple[FloatArray, ...]:
 
 
 # --------------------------------------------------------------------------------------
-# Curvatures of patches at points: Gaussian, mean, principal ones and their directions.
-#
-# With E = r_u.r_u, F = r_u.r_v, G = r_v.r_v, W = |S|, S = r_u x r_v and the second form
-# L = S.r_uu / W, M = S.r_uv / W, N = S.r_vv / W, in the tangent directions e1 = r_u / sqrt(E) and
-# e2 = S x e1 / W the second form is the symmetric matrix
-#
-#     a = L / E,    b = (M - F L / E) / W,    c = (E N - 2 F M + F**2 L / E) / W**2
-#
-# whose eigenvalues are the principal curvatures, H its half trace and K its determinant. Where both
-# are equal (an umbilic), no direction is principal, and none is given.
+# Curvatures: Gaussian, mean, principal ones and their directions.
 
 _EPS = 2.0**-53
 
@@ -383,7 +361,16 @@ def curvatures(patches: Patches, row: IntArray, uv: FloatArray) -> Curvatures:
 def _second_form(
     jet: Jets, normal: FloatArray, width: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Give the second form in two tangent directions of unit length at right angles, 1/m."""
+    """Give the second form in two tangent directions of unit length at right angles, 1/m.
+
+    With E = r_u.r_u, F = r_u.r_v, G = r_v.r_v, W = |S|, S = r_u x r_v and the second form
+    L = S.r_uu / W, M = S.r_uv / W, N = S.r_vv / W, it is in the directions e1 = r_u / sqrt(E) and
+    e2 = S x e1 / W the symmetric matrix
+
+        a = L / E,    b = (M - F L / E) / W,    c = (E N - 2 F M + F**2 L / E) / W**2
+
+    whose eigenvalues are the principal curvatures, H its half trace and K its determinant.
+    """
     e, f = inner(jet.ru, jet.ru), inner(jet.ru, jet.rv)
     l, m, n = (inner(normal, each) for each in (jet.ruu, jet.ruv, jet.rvv))
     e = np.where(np.isnan(width), np.nan, e)

@@ -45,7 +45,7 @@ def region_borders(
 
     Parameters
     ----------
-    cells, lattice : Cells, Lattice
+    cells, lattice : SignCells, Lattice
         The cells, and where their patches lie.
     kind : CellKind
         The region: positive, negative, zero or unresolved.

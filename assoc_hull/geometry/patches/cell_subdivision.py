@@ -40,10 +40,7 @@ __all__ = [
     "zero_edges",
 ]
 
-# --------------------------------------------------------------------------------------
-# Signs of Bernstein coefficients that are known to some error, and what follows from them.
-#
-# A coefficient has a sign where it exceeds its error; else it lies in the *dead band* and has none.
+# A coefficient has a sign where it exceeds its error; else it lies in the dead band and has none.
 
 Signs = NDArray[np.int8]
 _Scalar = TypeVar("_Scalar", bound=np.generic)
@@ -73,17 +70,9 @@ def first_and_last(s: Signs) -> tuple[Signs, Signs]:
 
 
 def zero_edges(b: FloatArray, err: FloatArray) -> NDArray[np.bool_]:
-    """Tell on which edges of its square a polynomial is nil.
+    """Tell on which edges a polynomial is zero: all its coefficients in the dead band, (k, 4).
 
-    Parameters
-    ----------
-    b, err : (k, M + 1, N + 1)
-        Coefficients and their errors.
-
-    Returns
-    -------
-    (k, 4) bool
-        Whether all coefficients on the edges u = 0, u = 1, v = 0, v = 1 lie in the dead band.
+    In the order u = 0, u = 1, v = 0, v = 1.
     """
     return np.stack([edge.all(axis=1) for edge in _edges(signs(b, err) == 0)], axis=1)
 
@@ -182,22 +171,20 @@ def _monotone(least: FloatArray, most: FloatArray) -> NDArray[np.bool_]:
 
 
 # --------------------------------------------------------------------------------------
-# Divide polynomials by what makes them nil along edges of the square.
-#
-# Along an edge that is drawn together in one point, S = O(u) and A = O(u**3); rounding there has
-# both signs, and would be cut without end. Where the first k rows of coefficients lie in the dead
-# band, the polynomial is u**k times another, which has the same sign inside:
-#
-#     q_i = p_(i + k) C(n, i + k) / C(n - k, i)
-#
-# This is written with the degree n again, so patches with and without such edges stay one batch.
+# Factors of edges. Along an edge that is drawn together in one point, S = O(u) and A = O(u**3);
+# rounding there has both signs and would be cut without end. Where the first k rows of coefficients
+# lie in the dead band, the polynomial is u**k times another, which has the same sign inside.
 
 _EPS = 2.0**-53
 
 
 @cache
 def _quotients(degree: int) -> FloatArray:
-    """Give the matrices that divide by u**k, for k = 0 ... degree: (degree + 1,) * 3."""
+    """Give the matrices that divide by u**k, for k = 0 ... degree: (degree + 1,) * 3.
+
+    With p = u**k q:  q_i = p_(i + k) C(n, i + k) / C(n - k, i), then written with the degree n
+    again, so that patches with and without such edges stay one batch.
+    """
     found = np.zeros((degree + 1, degree + 1, degree + 1))
     for k in range(degree + 1):
         scale = binomials(degree)[k:] / binomials(degree - k)
@@ -212,17 +199,10 @@ def _leading(dead: NDArray[np.bool_]) -> NDArray[np.intp]:
 
 
 def divide_by_edge_lines(pair: FloatArray) -> FloatArray:
-    """Divide by u**k, (1 - u)**k, v**k and (1 - v)**k where a polynomial is nil along an edge.
+    """Divide by u**k, (1 - u)**k, v**k and (1 - v)**k where a polynomial is zero along an edge.
 
-    Parameters
-    ----------
-    pair : (c, layers, M + 1, N + 1)
-        Coefficients and their errors, of which the last tells what is nil.
-
-    Returns
-    -------
-    (c, layers, M + 1, N + 1)
-        The same of the quotients; a polynomial that is nil everywhere stays as it is.
+    `pair` (c, layers, M + 1, N + 1) holds coefficients and errors, of which the last says what is
+    zero. A polynomial that is zero everywhere stays as it is.
     """
     for axis in (2, 3):
         for flipped in (False, True):
@@ -243,6 +223,7 @@ def _divided(pair: FloatArray, axis: int, flipped: bool) -> FloatArray:
         part = part[:, :, ::-1]
     part = part.copy()
     degree = part.shape[2] - 1
+    # The rounding of the product, charged to the errors before it.
     part[:, 1:] += 16 * degree * _EPS * np.abs(part[:, :1])
     part = _quotients(degree)[order[rows], None] @ part
     if flipped:
@@ -253,23 +234,17 @@ def _divided(pair: FloatArray, axis: int, flipped: bool) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Cut patches into cells until the sign of a polynomial in each is known, or changes in one arc.
-#
-# A tree of cells, cut in four where nothing is proved (`signs.kinds`), level by level, a whole
-# level of many patches at a time. What is left at the last level, or when a patch has used up its
-# cells, is *unresolved*: all that the search does not know lies there, and is told.
-#
-# The first cut is not in the middle: zero sets of shapes with symmetry lie on lines like u = 1/2,
-# where each side of a cut would see coefficients of one sign only, and no arc. A cell in which a
-# cut meets such a line all the same is cut elsewhere.
-#
-# A cut multiplies by matrices; the error of the result is that of the coefficients multiplied by
-# the same matrices (their entries are positive), and the rounding of the products.
+# The search: a tree of cells, cut in four where nothing is proved (`cell_kinds`), a whole level of
+# many patches at a time. What is left at the last level, or when a patch has used up its cells, is
+# unresolved: all that the search does not know lies there, and is reported.
 
+# Not in the middle: zero sets of shapes with symmetry lie on lines like u = 1/2, where each side of
+# a cut would see coefficients of one sign only, and no arc. A cell in which a cut meets such a line
+# all the same takes the other cut.
 FIRST_CUT = (0.4871, 0.5137)
 OTHER_CUT = (0.4583, 0.5391)
 # From this level on, cells with no coefficient above so many errors are not cut: round a place
-# where the polynomial is nil by much, thousands would tell where it begins to exceed its error.
+# where the polynomial is zero by much, thousands would tell where it begins to exceed its error.
 _FINE, _FAINT = 8, 8.0
 # Patches at a time, and numbers that are cut at a time: they shall stay in the cache.
 _BATCH, _SLICE = 64, 1 << 18
@@ -295,13 +270,13 @@ def subdivide_patches(
     split : tuple of float
         Where u and v are cut first; later always in the middle.
     nil : (k, M + 1, N + 1), optional
-        A polynomial whose coefficients are no larger than this counts as nil, in a cell and along
+        A polynomial whose coefficients are no larger than this counts as zero, in a cell and along
         an edge: what they are known to, which may be more than rounding. Elsewhere the polynomial
         is taken as it is, so that the arcs of neighbouring cells meet.
 
     Returns
     -------
-    Cells
+    SignCells
         They tile each patch, and depend on the polynomial of that patch only, to the last bit.
 
     Raises
@@ -322,7 +297,7 @@ def subdivide_patches(
 
 
 def _check(function: IsoFunction) -> None:
-    """Refuse what would be taken for a polynomial that is nil."""
+    """Refuse what would be taken for a polynomial that is zero."""
     finite = np.isfinite(function.b) & np.isfinite(function.err)
     if not finite.all():
         patch, i, j = np.argwhere(~finite)[0].tolist()
@@ -337,7 +312,7 @@ def _check(function: IsoFunction) -> None:
 class _Part:
     """Cells of one level: what is proved of each, and the coefficients of those not pure.
 
-    `pair` holds coefficients, errors and, where it was given, what is nil: (., 2 or 3, M + 1,
+    `pair` holds coefficients, errors and, where it was given, what is zero: (., 2 or 3, M + 1,
     N + 1).
     """
 
@@ -354,6 +329,7 @@ class _Part:
 
 def _judged(patch: IntArray, box: FloatArray, pair: FloatArray) -> _Part:
     """Tell what is proved of cells, and let go of the coefficients of pure ones."""
+    # Edges on the border of the patch are shared with no other cell of it.
     kind = cell_kinds(pair[:, 0], pair[:, 1], box == [0.0, 1.0])
     if pair.shape[1] == 3:
         kind[(np.abs(pair[:, 0]) <= pair[:, 2]).all(axis=(1, 2))] = CellKind.ZERO
@@ -431,7 +407,8 @@ def _both(degree: int, at: float) -> FloatArray:
 def _grown(pair: FloatArray, u: float, v: float) -> FloatArray:
     """Cut coefficients at u and v: (c, layers, 2, M + 1, 2, N + 1).
 
-    One product per cell: what a cell gets does not depend on how many there are.
+    Errors are multiplied by the same matrices, whose entries are positive, and gain the rounding of
+    the products. One product per cell: what a cell gets does not depend on how many there are.
     """
     count, layers, rows, columns = pair.shape
     pair = pair.copy()
@@ -441,7 +418,7 @@ def _grown(pair: FloatArray, u: float, v: float) -> FloatArray:
 
 
 def _on_zero_set(grown: FloatArray) -> NDArray[np.bool_]:
-    """Tell where the polynomial is nil along a cut: each part would see one sign, and no arc."""
+    """Tell where the polynomial is zero along a cut: each part would see one sign, and no arc."""
     dead = [np.abs(line[:, 0]) <= line[:, 1] for line in (grown[:, :, 0, -1], grown[..., 0, -1])]
     return np.asarray(dead[0].all(axis=(1, 2)) | dead[1].all(axis=(1, 2)))
 
@@ -493,11 +470,9 @@ def _together(parts: Iterable[SignCells]) -> SignCells:
 
 
 # --------------------------------------------------------------------------------------
-# Patches solved again where a cut of the search touches the zero set.
-#
-# A line that touches a cut, without crossing it, has a double root there: no cell along the cut can
-# be proven to hold one arc, at any level. What is left undecided is a regular cluster: its cells
-# prove that the line is a graph. Other cuts do away with it.
+# Patches solved again. A line that touches a cut without crossing it has a double root there: no
+# cell along the cut can be proven to hold one arc, at any level. What is left undecided is a
+# regular cluster, whose cells prove that the line is a graph; other cuts do away with it.
 
 # Where patches are cut first instead, one try after the other.
 _CUTS = ((0.4583, 0.5391), (0.5227, 0.4673))
@@ -516,14 +491,14 @@ def subdivide_again(
     ----------
     function : IsoFunction
         The polynomials.
-    cells : Cells
-        What `solve` has found for them.
+    cells : SignCells
+        What `subdivide_patches` has found for them.
     depth, budget, nil : int, int, (k, M + 1, N + 1)
-        As for `solve`.
+        As for `subdivide_patches`.
 
     Returns
     -------
-    Cells
+    SignCells
         The same for all other patches; the new ones where fewer such clusters are left. What is
         found for a patch depends on its polynomial only.
     """

@@ -30,9 +30,6 @@ __all__ = [
     "select_patches",
 ]
 
-# --------------------------------------------------------------------------------------
-# Parts of patches in which the sign of a polynomial is known, or changes along one arc.
-
 
 class CellKind(IntEnum):
     """What is known of the sign of the polynomial in a cell.
@@ -50,7 +47,7 @@ class CellKind(IntEnum):
 
     @property
     def pure(self) -> bool:
-        """Whether the polynomial has one sign, or is nil, in the whole cell."""
+        """Whether the polynomial has one sign, or is zero, in the whole cell."""
         return -1 <= self.value <= 1
 
 
@@ -102,7 +99,7 @@ class ZeroSetArcs:
     Attributes
     ----------
     cell : (a,) int
-        The row of `Cells`.
+        The row of `SignCells`.
     across : (a,) int
         0 where u = g(v), 1 where v = g(u).
     span : (a, 2)
@@ -128,27 +125,10 @@ class ZeroSetArcs:
         return len(self.cell)
 
 
-# --------------------------------------------------------------------------------------
-# Cells and arcs of chosen patches, out of one batch or of several, in the order asked for.
-#
-# What is found for a patch does not depend on its neighbours in the batch; so results of several
-# batches may be put together as if they had been one.
-
-
 def rows_of_groups(counts: IntArray, chosen: IntArray) -> tuple[IntArray, IntArray]:
-    """Give the rows of chosen groups, of groups that lie one behind the other.
+    """Give the rows (r,) of chosen groups, which lie one behind the other with `counts` rows (g,).
 
-    Parameters
-    ----------
-    counts : (g,) int
-        How many rows each group has.
-    chosen : (k,) int
-        Which groups, in which order; one may be chosen several times.
-
-    Returns
-    -------
-    rows, owner : (r,) int
-        The rows, and for each the place of its group in `chosen`.
+    Also, for each row, the place of its group in `chosen`, (r,); one may be chosen several times.
     """
     start = np.cumsum(counts) - counts
     sizes = counts[chosen]
@@ -162,20 +142,23 @@ def select_patches(
 ) -> tuple[SignCells, ZeroSetArcs]:
     """Give cells and arcs of chosen patches.
 
+    What is found for a patch does not depend on its neighbours in the batch; so results of several
+    batches may be put together as if they had been one.
+
     Parameters
     ----------
-    cells : sequence of Cells
+    cells : sequence of SignCells
         Batches for polynomials of one degree; the cells of each in the order of their patches.
-    arcs : sequence of Arcs
+    arcs : sequence of ZeroSetArcs
         The arcs of each batch, in the order of their cells.
     chosen : (k,) int
         Patches, numbered through all batches, in the order they are wanted.
 
     Returns
     -------
-    cells : Cells
+    cells : SignCells
         Patch ``i`` is ``chosen[i]``; polynomials lie in the order of their cells.
-    arcs : Arcs
+    arcs : ZeroSetArcs
         Their arcs.
     """
     many, lines = _one_behind_the_other(cells, arcs)

@@ -122,7 +122,7 @@ def find_clusters(cells: SignCells, lattice: Lattice, points: FloatArray | None 
 
     Parameters
     ----------
-    cells : Cells
+    cells : SignCells
         All cells.
     lattice : Lattice
         Where their patches lie.
@@ -187,7 +187,7 @@ def singular_clusters(patches: Patches, cells: SignCells, found: Clusters) -> ND
     ----------
     patches : Patches
         The patches.
-    cells : Cells
+    cells : SignCells
         Their cells.
     found : Clusters
         The clusters of these.

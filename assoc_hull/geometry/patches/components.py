@@ -32,18 +32,15 @@ __all__ = [
     "rows_by_label",
 ]
 
-# --------------------------------------------------------------------------------------
-# Components of a zero set: lines that are joined, points, edges of patches.
-
 
 class ComponentKind(StrEnum):
     """What a component is.
 
     CLOSED: a loop. OPEN: a line with two ends. JUNCTION: lines that meet at cells in which the
-    sign is undecided or nil, or at a point. ISOLATED: such cells alone, with no line: a point
+    sign is undecided or zero, or at a point. ISOLATED: such cells alone, with no line: a point
     contact, a loop smaller than they are, or a line that the curvature touches without changing
     sign; which of these is not decided. EDGE_LINE: edges of patches along which the polynomial
-    is nil.
+    is zero.
     """
 
     CLOSED = "closed"
@@ -57,7 +54,7 @@ class LineEndKind(StrEnum):
     """Where a line ends.
 
     BORDER: on the border of its surface. KNOT_LINE: on a border of two patches, where the
-    curvature jumps and the line does not go on. JUNCTION: at undecided or nil cells, or at a
+    curvature jumps and the line does not go on. JUNCTION: at undecided or zero cells, or at a
     point where other lines end as well.
     """
 
@@ -76,25 +73,25 @@ class ZeroSetComponent:
         What it is.
     chains : tuple of (n,) int
         The arcs of each of its lines, in the order of a walk with the positive side on the left
-        (`chains.forward` tells which arcs are walked as they run).
+        (`positive_on_left` tells which arcs are walked as they run).
     loops : tuple of bool
         Whether each of these lines is closed.
     cells : (c,) int
-        The undecided and nil cells that belong to it.
+        The undecided and zero cells that belong to it.
     edges : (e, 2) int
         Of an edge line, the patch and the side (0: u = 0, 1: u = 1, 2: v = 0, 3: v = 1).
     patches : (p,) int
         The patches it touches, in rising order.
     ends : (k, 2)
         Parameters, on the surface, of the beginning and the end of each line that is not closed.
-    end_kinds : tuple of EndKind
+    end_kinds : tuple of LineEndKind
         What each of these ends is; as many of them as are junctions meet there.
     tags : tuple of str
         "singular": the surface has no tangent plane there, so that this is no feature of its
         curvature. "knot-line": a line ends where the curvature jumps. "tangent": a line was
         followed through undecided cells in which it is proven to be a graph. "flat": it touches
-        cells in which the polynomial is nil. "gap": a line was followed over a gap in which the
-        polynomial is nil within its error.
+        cells in which the polynomial is zero. "gap": a line was followed over a gap in which the
+        polynomial is zero within its error.
     """
 
     kind: ComponentKind
@@ -116,12 +113,8 @@ class ZeroSetComponent:
         return self.end_kinds.count(LineEndKind.JUNCTION)
 
 
-# What an end is, by number; NOWHERE stands for none of them.
+# What an end is, by number, in the order of those in `line_ends`.
 END_KINDS = (LineEndKind.BORDER, LineEndKind.KNOT_LINE, LineEndKind.JUNCTION)
-
-
-# --------------------------------------------------------------------------------------
-# Components put together from the rows that belong to each.
 
 
 def rows_by_label(label: IntArray, count: int) -> list[IntArray]:
@@ -136,7 +129,7 @@ class ComponentParts:
 
     Attributes
     ----------
-    links : Links
+    links : ZeroSetLinks
         Arcs and what they meet.
     chains, cells : list of (n,) int
         The lines of each component; its rows of ``links.landings.clusters.cell``.
@@ -232,7 +225,7 @@ def _kind(loops: tuple[bool, ...], ends: tuple[LineEndKind, ...]) -> ComponentKi
 
 
 # --------------------------------------------------------------------------------------
-# Edges of patches along which the polynomial is nil: no arc runs there, the cells end at it.
+# Edge lines: no arc runs along an edge on which the polynomial is zero, the cells end at it.
 
 # The corners at both ends of each side: u = 0, u = 1, v = 0, v = 1.
 _CORNERS = np.array([[[0, 0], [0, 1]], [[1, 0], [1, 1]], [[0, 0], [1, 0]], [[0, 1], [1, 1]]])
@@ -241,20 +234,10 @@ _CORNERS = np.array([[[0, 0], [0, 1]], [[1, 0], [1, 1]], [[0, 0], [1, 0]], [[0, 
 def edge_components(
     patches: Patches, lattice: Lattice, cells: SignCells, edges: NDArray[np.bool_]
 ) -> tuple[ZeroSetComponent, ...]:
-    """Join edges along which the polynomial is nil.
+    """Join edges (k, 4) along which the polynomial is zero.
 
-    Parameters
-    ----------
-    patches, lattice, cells : Patches, Lattice, Cells
-        The patches, where they lie, their cells.
-    edges : (k, 4) bool
-        Where the polynomial is nil; left aside where it is nil in the cells along the edge as
-        well, or of the other patch there.
-
-    Returns
-    -------
-    tuple of Component
-        Edge lines; an edge that two patches share is that of the first.
+    An edge that two patches share is that of the first. Left aside are edges where it is zero in
+    the cells along the edge as well, or of the other patch.
     """
     patch, side = np.nonzero(edges & ~_flat(cells, len(edges)))
     corners = lattice.corner[patch][:, None, :] + _CORNERS[side]
@@ -273,7 +256,7 @@ def edge_components(
 
 
 def _flat(cells: SignCells, count: int) -> NDArray[np.bool_]:
-    """Tell along which sides of patches the polynomial is nil in every cell, (k, 4)."""
+    """Tell along which sides of patches the polynomial is zero in every cell, (k, 4)."""
     zero = cells.kind == CellKind.ZERO
     found = np.zeros((count, 4), bool)
     for side, (axis, value) in enumerate(SIDES):
@@ -304,17 +287,10 @@ def edge_points(patches: Patches, edges: IntArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Arcs joined into lines, and lines into the components of a zero set.
-#
-# Ends of arcs that coincide are joined, also across the borders of patches. An end that is left
-# alone
-# lies on the border of its surface, or on undecided or nil cells, or on a border of patches where
-# the curvature jumps; if none of these, something is wrong, and that is an error.
-#
+# Joining. An end that is left alone lies on the border of its surface, or on undecided or zero
+# cells, or on a border of patches where the curvature jumps; if none of these, it is an error.
 # Source: joining along shared edges, by changes of sign there, follows "Curvature Region Analysis
-# for
-# Application of Plates Forming", J. SNAK, which links neighbouring cells; what ends may meet and
-# what is to be done at undecided cells is our own.
+# for Application of Plates Forming", J. SNAK; what ends may meet, and undecided cells, are our own.
 
 
 def join_arcs(
@@ -326,14 +302,14 @@ def join_arcs(
     ----------
     patches : Patches
         The patches of any number of surfaces; those of one surface are joined with one another.
-    cells, arcs : Cells, Arcs
+    cells, arcs : SignCells, ZeroSetArcs
         The cells of these patches, and the arcs in the cells.
     edges : (k, 4) bool, optional
-        On which sides of each patch (u = 0, u = 1, v = 0, v = 1) the polynomial is nil.
+        On which sides of each patch (u = 0, u = 1, v = 0, v = 1) the polynomial is zero.
 
     Returns
     -------
-    tuple of Component
+    tuple of ZeroSetComponent
         Lines in the order of their first arcs, then isolated cells, then edge lines.
 
     Raises

@@ -39,14 +39,10 @@ __all__ = [
     "umbilic_function",
 ]
 
-# --------------------------------------------------------------------------------------
-# Polynomials of curvature together with what each of their coefficients may be off by.
-#
-# A coefficient is off by at most (number of roundings) x 2**-53 x its amount, and by what its
-# formula gains in size where the control points may be off by delta; both as in `curvature_terms`.
-# The number of roundings follows from the degrees; for bicubic patches 200, 120 and 350 cover A,
-# |S|**2 and |S|**4. In exact arithmetic rounding was found to use less than 3 % of these bounds,
-# and uncertain points to reach theirs.
+# Polynomial patches: a coefficient is off by at most (number of roundings) x 2**-53 x its amount,
+# and by what its formula gains in size where control points may be off by delta
+# (`curvature_terms`). For bicubic patches 200, 120 and 350 roundings cover A, |S|**2 and |S|**4. In
+# exact arithmetic rounding used less than 3 % of these bounds; uncertain points reach theirs.
 
 _ELEVATION = 60.0
 """Roundings of raising A to the degrees of |S|**4, and of the difference: for degree 7 about 50."""
@@ -162,19 +158,9 @@ def bounded_difference(
     factor: float,
     b: CountedPolynomial | BoundedPolynomial,
 ) -> tuple[FloatArray, FloatArray]:
-    """Give a - factor b, where b is of the higher degrees, and what it may be off by.
+    """Give a - factor b, where b is of the higher degrees, and the errors, (k, M + 1, N + 1) each.
 
-    Parameters
-    ----------
-    a, b : Bounded or Running
-        The polynomials.
-    factor : float
-        Taken as exact.
-
-    Returns
-    -------
-    (k, M + 1, N + 1), (k, M + 1, N + 1)
-        Coefficients, and their errors.
+    The factor counts as exact.
     """
     m, n = degrees(b.b)
     off = elevated(a.err, m, n) + _ELEVATION * EPS * elevated(np.abs(a.b), m, n)
@@ -182,23 +168,8 @@ def bounded_difference(
 
 
 # --------------------------------------------------------------------------------------
-# What curvature is made of on rational patches: planes T, and products of them.
-#
-# With the weighted points H = (w x, w y, w z, w), of degrees (m, n), the tangent plane is the
-# vector of 3 x 3 minors T of [H, H_u, H_v], T = w**3 (S, -r.S) with S = r_u x r_v, and
-#
-#     L* = T.H_uu = w**4 L      M* = T.H_uv = w**4 M      N* = T.H_vv = w**4 N
-#
-# are determinants of order 4. So A* = L* N* - M***2 = w**8 A has the sign of K, its degrees are
-# (8m - 4, 8n - 4), and with S*, the first three components of T,
-#
-#     K = A* w**4 / |S*|**4
-#
-# of degrees (12m - 4, 12n - 4) above and below. Points are taken from a corner of the patch, which
-# changes none of this; a difference of weighted points is w_1 (P_1 - P_0) + (w_1 - w_0) P_0, both
-# of
-# them exact but for their last digit. Minors of differing weights are small sums of large terms: so
-# errors are carried from operation to operation (`running_bounds`).
+# Rational patches: minors of differing weights are small sums of large terms, so errors are carried
+# from operation to operation (`BoundedPolynomial`).
 
 _FIRST, _SECOND = [0, 0, 0, 1, 1, 2], [1, 2, 3, 2, 3, 3]
 """The pairs of rows of the 2 x 2 minors of [H_u, H_v]."""
@@ -217,13 +188,22 @@ _ALTERNATING = np.array([1.0, -1.0, 1.0, -1.0]).reshape(4, 1, 1)
 class RationalTerms:
     """Derivatives of weighted points, and tangent planes, with their errors.
 
+    With the weighted points H = (w x, w y, w z, w), of degrees (m, n), the tangent plane is the
+    vector of 3 x 3 minors T of [H, H_u, H_v], T = w**3 (S, -r.S) with S = r_u x r_v, and
+
+        L* = T.H_uu = w**4 L      M* = T.H_uv = w**4 M      N* = T.H_vv = w**4 N
+
+    are determinants of order 4. So A* = L* N* - M***2 = w**8 A has the sign of K, its degrees are
+    (8m - 4, 8n - 4), and with S*, the first three components of T, K = A* w**4 / |S*|**4 of degrees
+    (12m - 4, 12n - 4) above and below.
+
     Attributes
     ----------
-    weight : Running, (k, m + 1, n + 1)
+    weight : BoundedPolynomial, (k, m + 1, n + 1)
         The weights, which are exact.
-    huu, huv, hvv : Running, (k, 4, ...), m
+    huu, huv, hvv : BoundedPolynomial, (k, 4, ...), m
         Second derivatives of (w x, w y, w z, w); None where the degree is 1.
-    plane : Running, (k, 4, 3m, 3n)
+    plane : BoundedPolynomial, (k, 4, 3m, 3n)
         The minors T.
     """
 
@@ -235,15 +215,7 @@ class RationalTerms:
 
     @classmethod
     def of(cls, patches: Patches, delta: Delta) -> Self:
-        """Give the terms of rational patches.
-
-        Parameters
-        ----------
-        patches : Patches
-            The patches.
-        delta : float or (k,), m
-            How far each coordinate of a control point may be off.
-        """
+        """Give the terms of rational patches, with coordinates off by `delta`, one or (k,), m."""
         weight = np.ones(patches.net.shape[:3]) if patches.weight is None else patches.weight
         off = np.asarray(delta, np.float64).reshape(-1, 1, 1, 1)
         h, hu, hv = _weighted(patches, weight[:, None], off)
@@ -280,7 +252,11 @@ class RationalTerms:
 def _weighted(
     patches: Patches, weight: FloatArray, off: FloatArray
 ) -> tuple[BoundedPolynomial, BoundedPolynomial, BoundedPolynomial]:
-    """Give H, H_u and H_v with coordinates that are off by so much."""
+    """Give H, H_u and H_v with coordinates that are off by so much.
+
+    Points are taken from a corner of the patch, which changes no minor. A difference of weighted
+    points is w_1 (P_1 - P_0) + (w_1 - w_0) P_0, both exact but for their last digit.
+    """
     points = patches.components
     place = points - points[..., :1, :1]
     place_off = off + EPS * np.abs(place)
@@ -321,24 +297,7 @@ def _plane(h: BoundedPolynomial, hu: BoundedPolynomial, hv: BoundedPolynomial) -
 
 
 # --------------------------------------------------------------------------------------
-# Polynomials that have the sign of Gaussian or mean curvature less a level, with error bounds.
-#
-# With A, B and S of `curvature_terms`, K = A / |S|**4 and H = B / (2 |S|**3) on polynomial patches,
-# so the sign of
-#
-#     K                is that of  A                                (6m - 4, 6n - 4)
-#     K - K0           is that of  A - K0 |S|**4                    (8m - 4, 8n - 4)
-#     H                is that of  B                                (5m - 3, 5n - 3)
-#     |H| - |H0|       is that of  B**2 - 4 H0**2 |S|**6            (10m - 6 and 12m - 6 in u)
-#     k1 - k2 (>= 0)   is that of  B**2 - 4 A |S|**2                (10m - 6, 10n - 6)
-#
-# for patches of degrees (m, n), which stand at the right. The true degrees of A are one less each
-# way; reducing them saves no work. On rational patches, with A*, S* and w of `rational_terms`, K
-# has the sign of A*, (8m - 4, 8n - 4), and K - K0 that of A* w**4 - K0 |S*|**4, (12m - 4, 12n - 4).
-#
-# Beside the coefficients stand bounds of what each may be off by: rounding, with the control points
-# taken as exact, and their uncertainty `delta`.
-#
+# The functions whose zero sets are searched.
 # Source: the idea of iso-curves of curvature on the patches of a plate is that of "Curvature Region
 # Analysis for Application of Plates Forming", J. SNAK; degrees and bounds are our own.
 
@@ -352,6 +311,19 @@ _CHUNK = 64
 @attrs.frozen(eq=False)
 class IsoFunction:
     """Polynomials, one a patch, whose zero sets are wanted.
+
+    With A, B and S of `curvature_terms`, K = A / |S|**4 and H = B / (2 |S|**3) on polynomial
+    patches of degrees (m, n), so the sign of
+
+        K                is that of  A                      degrees (6m - 4, 6n - 4)
+        K - K0           is that of  A - K0 |S|**4          (8m - 4, 8n - 4)
+        H                is that of  B                      (5m - 3, 5n - 3)
+        |H| - |H0|       is that of  B**2 - 4 H0**2 |S|**6  (10m - 6 and 12m - 6 in u)
+        k1 - k2 (>= 0)   is that of  B**2 - 4 A |S|**2      (10m - 6, 10n - 6)
+
+    The true degrees of A are one less each way; reducing them saves no work. On rational patches
+    (`RationalTerms`) K has the sign of A*, (8m - 4, 8n - 4), and K - K0 that of
+    A* w**4 - K0 |S*|**4, (12m - 4, 12n - 4).
 
     Attributes
     ----------
@@ -442,22 +414,7 @@ def gauss_functions(
 
 
 def gauss_function(patches: Patches, level: float, delta: Delta = 0.0) -> IsoFunction:
-    """Give the polynomial that is positive where the Gaussian curvature exceeds a level.
-
-    Parameters
-    ----------
-    patches : Patches
-        The patches.
-    level : float, 1/m2
-        The curvature K0.
-    delta : float or (k,), m
-        Each coordinate of a control point may be wrong by so much.
-
-    Returns
-    -------
-    IsoFunction
-        As `gauss_functions` gives for one level.
-    """
+    """Give the polynomial that is positive where K exceeds a level, 1/m2; see `gauss_functions`."""
     return gauss_functions(patches, (level,), delta)[0]
 
 
@@ -520,7 +477,7 @@ def mean_function(patches: Patches, level: float = 0.0, delta: Delta = 0.0) -> I
 
 
 def umbilic_function(patches: Patches, delta: Delta = 0.0) -> IsoFunction:
-    """Give B**2 - 4 A |S|**2, which is nil where both principal curvatures are equal.
+    """Give B**2 - 4 A |S|**2, which is zero where both principal curvatures are equal.
 
     Parameters
     ----------
@@ -532,7 +489,7 @@ def umbilic_function(patches: Patches, delta: Delta = 0.0) -> IsoFunction:
     Returns
     -------
     IsoFunction
-        Of degrees (10m - 6, 10n - 6); 4 (H**2 - K) |S|**6, so never below nil but by `err`.
+        Of degrees (10m - 6, 10n - 6); 4 (H**2 - K) |S|**6, so never below zero but by `err`.
 
     Raises
     ------

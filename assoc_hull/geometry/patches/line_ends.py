@@ -44,34 +44,19 @@ __all__ = [
     "find_gaps",
 ]
 
-# --------------------------------------------------------------------------------------
-# Lines that run unseen along borders of cells, where a polynomial is nil within its error.
-#
-# A cell counts as positive where no coefficient lies below its error, so a line may run in it where
-# the polynomial is no larger than that. There an arc breaks off. Then positive and negative cells
-# have a border with no arc between them: the line runs along it, as far as anyone can tell.
+# Gaps. A cell counts as positive where no coefficient lies below its error, so a line may run in it
+# where the polynomial is no larger than that. There an arc breaks off, and positive and negative
+# cells have a border with no arc between them: the line runs along it, as far as anyone can tell.
 
 
 def borders_without_arcs(
     cells: SignCells, lattice: Lattice, arc_of: IntArray, ends: FloatArray
 ) -> FloatArray:
-    """Give the borders of positive and negative cells that no arc runs along.
+    """Give the borders (p, 2, 2) of positive and negative cells that no arc runs along.
 
-    Cells that lack an arc which must be there are left out: that is no gap, but an error.
-
-    Parameters
-    ----------
-    cells, lattice : Cells, Lattice
-        The cells, and where their patches lie.
-    arc_of : (c,) int
-        The arc in each cell, or -1.
-    ends : (a, 2, 2)
-        Where arcs begin and end, in the lattice, walked with the positive side on the left.
-
-    Returns
-    -------
-    (p, 2, 2)
-        Where pieces begin and end, walked likewise.
+    They are walked with the positive side on the left, in the lattice, as arcs are between their
+    `ends` (a, 2, 2); `arc_of` (c,) is the arc in each cell, or -1. Cells that lack an arc which
+    must be there are left out: that is no gap, but an error.
     """
     kept, rows = np.ones(len(cells), bool), cells_without_arc(cells, arc_of)
     kept[rows] = ~cells_of_both_signs(cells, rows)
@@ -111,7 +96,7 @@ def find_gaps(
 
     Parameters
     ----------
-    lattice, cells, clusters : Lattice, Cells, Clusters
+    lattice, cells, clusters : Lattice, SignCells, Clusters
         All cells, where they lie, what is undecided.
     arc_patch : (a,) int
         The patch of each arc.
@@ -124,7 +109,7 @@ def find_gaps(
 
     Returns
     -------
-    Gaps
+    BorderGaps
         What they lead to.
     """
     troubled = np.unique(arc_patch[lost.any(axis=1)])
@@ -207,8 +192,9 @@ def _numbered(label: IntArray, count: int, chains: int, borders: IntArray) -> Bo
 
 
 # --------------------------------------------------------------------------------------
-# What lines end at: borders of surfaces or patches, undecided cells, other lines.
+# Line ends: borders of surfaces or patches, undecided cells, other lines.
 
+# What an end is, by number, in the order of `END_KINDS`; NOWHERE stands for none of them.
 _BORDER, _KNOT_LINE, JUNCTION, NOWHERE = range(4)
 
 
@@ -240,7 +226,7 @@ class LineEnds:
     kind : (j,) int
         What an end is that lies there: a number of `END_KINDS`, or `NOWHERE`.
     clusters : Clusters
-        Undecided and nil cells.
+        Undecided and zero cells.
     cluster : (j,) int
         The cluster at which a line ends, or -1. Ends that lead to one another over a gap have a
         number of their own, behind those of `clusters`.
@@ -341,27 +327,23 @@ def _kinds(joints: ArcJoints, lattice: Lattice, points: JointPoints) -> IntArray
     return kind
 
 
-# --------------------------------------------------------------------------------------
-# What the ends of arcs meet: other arcs, undecided cells, borders; and which arc goes on where.
-
-
 @attrs.frozen(eq=False)
 class ZeroSetLinks:
     """Arcs with what they meet.
 
     Attributes
     ----------
-    joints : Joints
+    joints : ArcJoints
         Where arcs begin and end.
-    points : Points
+    points : JointPoints
         Where joints lie.
-    landings : Landings
+    landings : LineEnds
         What lines end at.
     passed : (n,) bool
         Clusters through which a single line leads.
     following : (a,) int
         The arc that goes on where each ends, or -1.
-    chains : Chains
+    chains : ArcChains
         Arcs in order.
     """
 

@@ -7,7 +7,7 @@ the patch, and sides of undecided cells. So areas that outlines enclose add up t
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.arcs import arcs_of
+>>> from assoc_hull.geometry.patches.zero_set_arcs import arcs_of
 >>> from assoc_hull.geometry.patches.cells import CellKind
 >>> from assoc_hull.geometry.patches.curvature_functions import IsoFunction
 >>> from assoc_hull.geometry.patches.outlines import outlines_of_region, SignRegion
@@ -98,7 +98,7 @@ class SignRegion:
 
     Attributes
     ----------
-    cells, arcs : Cells, Arcs
+    cells, arcs : SignCells, ZeroSetArcs
         The cells of all patches, the arcs in these.
     kind : CellKind
         POSITIVE, NEGATIVE, ZERO (the polynomial is nil in whole cells) or UNRESOLVED.
@@ -120,7 +120,7 @@ def outlines_of_region(patches: Patches, region: SignRegion, across: bool = Fals
     ----------
     patches : Patches
         The patches.
-    region : Region
+    region : SignRegion
         What of them.
     across : bool
         Whether regions of one surface are merged across the borders of patches.
@@ -144,7 +144,7 @@ def outlines_of_rest(
     ----------
     patches : Patches
         The patches.
-    regions : sequence of Region
+    regions : sequence of SignRegion
         What is taken from them; each may be of another polynomial.
     across : bool
         As for `outlines`.

@@ -105,7 +105,7 @@ def intersect_plane(
 
     Returns
     -------
-    Meeting
+    SurfacePlaneIntersection
     """
     at = np.array(uv, np.float64).reshape(-1, 2)
     axes = np.asarray(axis, np.int64).reshape(-1)

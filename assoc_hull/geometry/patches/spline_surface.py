@@ -38,19 +38,19 @@ __all__ = [
     "checked_weights",
 ]
 
-# --------------------------------------------------------------------------------------
-# Checks of what a surface is made of, and of parameters on it.
 
 HIGHEST_DEGREE = 7
 """The highest degree of a surface: |S|**4 is of degree 8 m - 4 then, and the binomials of 52 are
 the last that floating-point numbers hold exactly. Surfaces of ships are of degree 3, rarely 5."""
 
 _FARTHEST = 1e6
+"""Coordinates of control points lie within this, m."""
 
 _WIDEST = 1e4
 """Weights differ by this factor at most: bounds of errors grow with a power of it."""
 
 _SAME = 1e-12
+"""Parameters nearer to an end of the domain than this part of its size are that end."""
 
 Limits = tuple[float, float]
 
@@ -71,6 +71,7 @@ def _array(value: object, name: str, where: str, remedy: str) -> FloatArray:
         given = np.asarray(value)
         if given.dtype.kind not in "iuf":
             raise TypeError(given.dtype)
+        # + 0.0 makes 0.0 of -0.0: equal nets have equal bits.
         return np.array(given, np.float64) + 0.0
     except (TypeError, ValueError, OverflowError):
         raise WrongTypeError(f"{name} is {shown(value)}", where, remedy) from None
@@ -218,7 +219,7 @@ def checked_part(
 
 
 # --------------------------------------------------------------------------------------
-# Surfaces as tensor products of B-splines: their checks, points, patches and parts.
+# The surface itself.
 
 
 @attrs.frozen(eq=False)

@@ -31,11 +31,6 @@ __all__ = [
     "stitch_facets",
 ]
 
-# --------------------------------------------------------------------------------------
-# Spline surfaces as triangles that know which parameters their corners have.
-#
-# Every surface is a grid over its knot spans, so fine that triangles stay within a distance of
-# it and edges below a length. What is cut from the triangles can then be put on the surface itself.
 
 _MOST = 200
 """A span of a surface is cut in so many parts at most."""
@@ -69,30 +64,17 @@ class Facets:
 def facets_of(surfaces: Sequence[SplineSurface], deflection: float, longest: float) -> Facets:
     """Make triangles of surfaces, wound so that they face as ``S_u x S_v`` does.
 
-    Parameters
-    ----------
-    surfaces : sequence of SplineSurface
-        One at least.
-    deflection : float, m
-        How far triangles may lie off their surface, by a bound on second derivatives.
-    longest : float, m
-        How long sides along the parameters may be.
+    Every surface is a grid over its knot spans: triangles lie off it by `deflection` at most, m, by
+    a bound on second derivatives, sides along the parameters are at most `longest`, m. What is cut
+    from the triangles can be put on the surface itself by the parameters of its corners.
     """
     return joined_facets([_grid(each, deflection, longest) for each in surfaces])
 
 
 def joined_facets(parts: Sequence[tuple[FloatArray, IntArray, FloatArray]]) -> Facets:
-    """Put triangles of surfaces together.
+    """Put surfaces together, each with vertices (v, 3), m, triangles (f, 3) and parameters (v, 2).
 
-    Parameters
-    ----------
-    parts : sequence of ((v, 3) float m, (f, 3) int, (v, 2) float)
-        Of each surface the vertices, the triangles, and the parameters of the vertices.
-
-    Returns
-    -------
-    Facets
-        Equal vertices are one; triangles of two corners are left out.
+    Equal vertices are one; triangles of two corners are left out.
     """
     count = np.cumsum([0, *(len(xyz) for xyz, _, _ in parts)])
     face = np.concatenate([f + n for (_, f, _), n in zip(parts, count.tolist(), strict=False)])
@@ -116,6 +98,7 @@ def _grid(
     """Give vertices, triangles and parameters of one surface."""
     u, v = _steps(surface, deflection, longest)
     while 2 * len(u) * len(v) > _ALL:
+        # Half the steps each way: the deflection goes with the square of a step.
         deflection, longest = 4.0 * deflection, 2.0 * longest
         u, v = _steps(surface, deflection, longest)
     uu, vv = np.meshgrid(u, v, indexing="ij")
@@ -170,17 +153,18 @@ def _parted(spans: FloatArray, counts: IntArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Triangles of surfaces sewn where their borders run along each other, however each was cut.
-#
-# Vertices on open edges that lie close become one; an open edge that passes close to a vertex of
-# another is split there. What stays open is a border, or a gap wider than asked for.
+# Sewing.
 
 _PASSES = 6
 """A triangle has three sides; new triangles may have one that is open again."""
 
 
 def stitch_facets(facets: Facets, reach: float) -> Facets:
-    """Sew borders that lie at most so far apart, m."""
+    """Sew borders that lie at most so far apart, m.
+
+    Vertices on open edges that lie close become one; an open edge that passes close to a vertex of
+    another is split there. What stays open is a border, or a gap wider than asked for.
+    """
     welded, _ = weld_edges(facets.mesh, reach)
     found = kept_facets(welded.xyz, welded.face, facets.surface, facets.uv)
     for _ in range(_PASSES):
@@ -217,6 +201,7 @@ def _splits(mesh: Triangles, reach: float) -> _Splits | None:
     if not len(edge):
         return None
     point = vertex[np.concatenate([np.array(each, np.int64) for each in near])]
+    # `Triangles.edges` has all first sides, then all second, then all third.
     own = mesh.face[rim % len(mesh.face)][edge]
     edge, point = (each[(own != point[:, None]).all(axis=1)] for each in (edge, point))
     away = mesh.xyz[point] - start[edge]

@@ -77,7 +77,7 @@ def integrate_below(surfaces: Iterable[SplineSurface], level: float) -> VolumeBe
 
     Returns
     -------
-    Below
+    VolumeBelow
         Volume, moments and area.
     """
     total = np.zeros(4)

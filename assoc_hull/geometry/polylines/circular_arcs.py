@@ -127,7 +127,7 @@ def find_arcs(points: FloatArray, noise: float, rule: ArcRule | None = None) -> 
 
     Returns
     -------
-    list of Arc
+    list of CircularArc
         In order along the polyline.
     """
     wanted = rule or ArcRule()
@@ -139,6 +139,7 @@ def find_arcs(points: FloatArray, noise: float, rule: ArcRule | None = None) -> 
     tried: list[tuple[int, int]] = []
     for first, last in _seeds(points, at, within, wanted):
         middle = float(at[(first + last) // 2])
+        # Such a seed would settle to a stretch that was looked at already.
         if any(low <= first and last <= high for low, high in tried) or any(
             arc.begin < middle < arc.end for arc in found
         ):
@@ -148,6 +149,7 @@ def find_arcs(points: FloatArray, noise: float, rule: ArcRule | None = None) -> 
             continue
         tried.append(stretch)
         arc = _arc(points, at, stretch, within, noise, wanted)
+        # Arcs may follow one another end to end; that they overlap by rounding is no matter.
         if arc is not None and all(
             arc.begin > each.end - 1e-9 or arc.end < each.begin + 1e-9 for each in found
         ):
@@ -278,7 +280,7 @@ def _ends(
 
 
 def _counts(arc: CircularArc, within: float, rule: ArcRule) -> bool:
-    """Tell whether an arc turns enough, is deep enough, and ends in a step of curvature."""
+    """Say whether an arc turns enough, is deep enough, and ends in a step of curvature."""
     depth = arc.radius * (1.0 - np.cos(min(np.deg2rad(arc.turn_deg), np.pi) / 2.0))
     whole = arc.before.kind == "end" and arc.after.kind == "end"
     step = np.fmin(arc.before.radius, arc.after.radius) <= arc.radius / rule.step

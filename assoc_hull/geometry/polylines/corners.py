@@ -1,7 +1,7 @@
 """Corners of plane polylines, and the knuckle lines that corners of neighbouring lines make.
 
 Over a corner a line turns by the same angle however short the stretch looked at; over a bend by
-half of it on half the stretch. So corners are seen at two scales. `join_corners` follows them
+half of it on half the stretch. So corners are found at two scales. `join_corners` follows them
 from line to line.
 """
 
@@ -26,12 +26,6 @@ __all__ = [
     "marked_corners",
     "with_marked",
 ]
-
-# --------------------------------------------------------------------------------------
-# Corners of plane polylines, told from tight bends by looking at two scales.
-#
-# Over a corner a line turns by the same angle however short the stretch looked at; over a
-# bend by half of it on half the stretch.
 
 
 @attrs.frozen
@@ -66,7 +60,7 @@ class Corner:
     at : float, m
         Length along the polyline.
     place : (2,), m
-        Where the fitted sides meet.
+        Intersection of the fitted sides.
     turn_deg : float
         Angle between them.
     share : float
@@ -89,22 +83,7 @@ class Corner:
 
 
 def find_corners(points: FloatArray, noise: float, rule: CornerRule | None = None) -> list[Corner]:
-    """Find the corners of a polyline.
-
-    Parameters
-    ----------
-    points : (n, 2), m
-        In order.
-    noise : float, m
-        Scatter of the points.
-    rule : CornerRule or None
-        Defaults if None.
-
-    Returns
-    -------
-    list of Corner
-        In order along the polyline.
-    """
+    """Find the corners of a polyline (n, 2), m, in order along it; `noise` (m) is its scatter."""
     wanted = rule or CornerRule()
     length = cumulative_lengths(points)
     seen: list[_Scale] = []
@@ -223,7 +202,7 @@ def _refine(
     noise: float,
     rule: CornerRule,
 ) -> Corner:
-    """Take the point that turns nearly all by itself, else let curves fitted to the sides meet."""
+    """Take the point that turns nearly all by itself, else intersect curves fitted to the sides."""
     sharp = _sharpest(points, length, at, half)
     if sharp is not None:
         place = points[sharp[0]].copy()
@@ -232,7 +211,7 @@ def _refine(
     best: tuple[float, float, FloatArray, float, float] | None = None
     for window in (rule.window, 0.5 * rule.window, 0.25 * rule.window):
         reach = min(max(window, 3.0 * half), 0.8 * near)
-        fitted = _meet_sides(points, length, at, reach, 0.2 * half)
+        fitted = _intersect_sides(points, length, at, reach, 0.2 * half)
         if fitted is None:
             continue
         if best is None or fitted[0] < 0.7 * best[0]:
@@ -267,7 +246,7 @@ def _sharpest(
     return int(inner[best]), float(np.rad2deg(turn[best]))
 
 
-def _meet_sides(
+def _intersect_sides(
     points: FloatArray, length: FloatArray, at: float, reach: float, skip: float
 ) -> tuple[float, float, FloatArray, float, float] | None:
     """Give (residual, shift along, place, turn in degrees, doubt) of two fitted sides.
@@ -310,19 +289,14 @@ def _meet_sides(
 _MARKED = 1e-3
 """A mark this close (m) to a point of a polyline means the point."""
 
-_ANEW = 0.3
+_SAME_CORNER = 0.3
 """A corner that was found this close (m) along the line to a marked one is the marked one."""
 
 
 def marked_corners(points: FloatArray, marks: FloatArray) -> list[Corner]:
-    """Give the points of a polyline that are marked as corners, whatever they turn by.
+    """Give the points of a polyline (n, 2), m, that are marked as corners, whatever they turn by.
 
-    Parameters
-    ----------
-    points : (n, 2), m
-        The polyline.
-    marks : (k, 2), m
-        Places; those at its ends or beside it mean none of its points.
+    Marks (k, 2), m, at its ends or beside it mean none of its points.
 
     Examples
     --------
@@ -347,7 +321,9 @@ def marked_corners(points: FloatArray, marks: FloatArray) -> list[Corner]:
 
 def with_marked(found: list[Corner], marked: list[Corner]) -> list[Corner]:
     """Put marked corners before those that were found elsewhere."""
-    others = [each for each in found if all(abs(each.at - mark.at) > _ANEW for mark in marked)]
+    others = [
+        each for each in found if all(abs(each.at - mark.at) > _SAME_CORNER for mark in marked)
+    ]
     return [*marked, *others]
 
 
@@ -380,21 +356,9 @@ class ChainRule:
 def join_corners(
     offsets: FloatArray, corners: list[list[Corner]], rule: ChainRule | None = None
 ) -> list[tuple[tuple[int, int], ...]]:
-    """Join corners of neighbouring lines.
+    """Join corners of neighbouring lines, which stand at `offsets` (n,), m, ascending.
 
-    Parameters
-    ----------
-    offsets : (n,), m
-        Places of the lines, ascending.
-    corners : list of list of Corner
-        Of each line.
-    rule : ChainRule or None
-        Defaults if None.
-
-    Returns
-    -------
-    list of tuple of (int, int)
-        Per knuckle line the corners, as (line, number on it); each corner is in one at most.
+    For each knuckle line its corners, as (line, number on it); each corner is in one at most.
     """
     wanted = rule or ChainRule()
     chains: list[list[tuple[int, int]]] = []

@@ -65,7 +65,7 @@ def join_straight_runs(
 
     Returns
     -------
-    list of Flat
+    list of FlatRegion
         The one of most lines first; each run is in one at most.
     """
     beside = _neighbours(line, begin, end)

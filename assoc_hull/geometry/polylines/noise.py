@@ -34,7 +34,7 @@ def point_scatter(points: FloatArray) -> float:
     Parameters
     ----------
     points : (n, k), m
-        In order along the line; nil is given for fewer than seven.
+        In order along the line; zero is given for fewer than seven.
     """
     if len(points) < 7:
         return 0.0

@@ -56,7 +56,7 @@ def project_on_polyline(
     Parameters
     ----------
     points, length : (n, k), (n,), m
-        The polyline, and the length to each point as `arc_length` gives it.
+        The polyline, and the length to each point as `cumulative_lengths` gives it.
     place : (k,), m
         The place.
 

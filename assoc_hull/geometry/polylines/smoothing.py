@@ -1,9 +1,9 @@
-"""The smoothest curves within a tolerance of polylines, one by one or meeting one another.
+"""The smoothest curves within a tolerance of polylines, one by one or joined with one another.
 
 A cubic spline is fitted with a penalty on the change of curvature, as large as the tolerance
 allows: the curve has the shape of the data and not their scatter. Curves that were cut from one
-noisy surface no longer meet once each is smoothed for itself; `join_fits` solves them as one
-system, in which each place of meeting adds the square of their distance along the normal.
+noisy surface no longer intersect once each is smoothed for itself; `join_fits` solves them as one
+system, in which each place of intersection adds the square of their distance along the normal.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# A cubic spline through samples of a curve, with a penalty on the change of curvature.
+# One cubic spline with a penalty on the change of curvature.
 
 _HOLD = 1e5
 """Weight of what is given at an end, against the data."""
@@ -177,10 +177,7 @@ def _bands(matrix: Any) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# The smoothest curve within a tolerance of a polyline.
-#
-# A cubic spline is fitted with a penalty on the change of its curvature; the penalty is made as
-# large as the tolerance allows. So the curve has the shape of the data and not their scatter.
+# The smoothest curve within a tolerance.
 
 _LEAST_SPANS, _MOST_SPANS = 8, 300
 
@@ -275,7 +272,7 @@ def fit_polyline(
     first: FloatArray | None = None,
     last: FloatArray | None = None,
 ) -> PolylineFit | None:
-    """Fit as `smooth` does, but do not draw; None for fewer than three places."""
+    """Fit as `smooth_polyline` does, but do not draw; None for fewer than three places."""
     near = np.zeros(len(points)) + tolerance
     line = drop_repeats(points, 1e-6)
     near = near if len(line) == len(points) else np.full(len(line), near.max())
@@ -368,17 +365,16 @@ def local_scatter(points: FloatArray, per_span: int = 8) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Smooth curves that meet: the penalised fits of many polylines, solved as one.
+# The fits of many polylines, solved as one.
 #
-# Polylines cut from one noisy surface and smoothed one by one no longer meet. Here each curve
-# keeps its data and its penalty, and each place where two curves ought to meet adds the square
-# of their distance along the normal of the surface there. Along the surface a curve may slide
-# at will: there a distance means nothing. All is linear, hence one system of equations.
+# Each curve keeps its data and its penalty. Two curves are tied along the normal of the surface
+# only: along the surface a curve may slide at will, there a distance means nothing. All is linear,
+# hence one system of equations.
 
 
 @attrs.frozen(eq=False)
 class FitTie:
-    """A place where two curves ought to meet: ``way_a . a - way_b . b = offset``.
+    """A place where two curves ought to intersect: ``way_a . a - way_b . b = offset``.
 
     Attributes
     ----------
@@ -414,23 +410,11 @@ _LESS = 0.15
 def join_fits(
     fits: Sequence[PolylineFit], ties: Sequence[FitTie], near: float
 ) -> list[PolylineFit]:
-    """Fit all curves at once so that they meet.
+    """Fit all curves at once so that they intersect at ties; fits come in the order given.
 
-    Parameters
-    ----------
-    fits : sequence of Fitted
-        Each fitted for itself; the sizes of their penalties are lowered only where a curve
-        would else pass its data farther off than it may.
-    ties : sequence of Tie
-        Where they ought to meet.
-    near : float, m
-        A distance of two curves that weighs as much as a datum that lies off by what is
-        allowed.
-
-    Returns
-    -------
-    list of Fitted
-        In the order given.
+    The sizes of their penalties are lowered only where a curve would else pass its data farther off
+    than it may. A distance of two curves of `near` (m) weighs as much as a datum that lies off by
+    what is allowed.
     """
     if not ties:
         return list(fits)
@@ -455,7 +439,7 @@ def join_fits(
 
 @attrs.frozen(eq=False)
 class _Held:
-    """The ties of one fit: their numbers, lengths and normals, towards it positive."""
+    """The ties of one fit: their numbers, lengths and normals, positive toward it."""
 
     tie: IntArray
     at: FloatArray

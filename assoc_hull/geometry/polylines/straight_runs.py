@@ -1,9 +1,9 @@
 """Straight runs of plane polylines, and where a curve leaves them.
 
 A run that ends in an arc of radius R leaves it by (s - s0)^2 / 2R: the square root of the deviation
-is a straight line whose zero is the end of the run. Where the curvature grows from zero no such
-place can be given; then only the stretch is given in which the end must lie. `fit_onset` is used
-for the ends of circular arcs, too.
+is a straight line whose zero is the end of the run. Where the curvature grows from zero the
+deviation begins with a higher power, and no such place can be given; then only the stretch is given
+in which the end must lie. `fit_onset` is used for the ends of circular arcs, too. All is in m.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Where a curve leaves a straight line: the zero of sqrt(deviation), as a fit.
+# Where a curve leaves a straight line.
 #
 # Two shapes are fitted to the deviation u: an arc that begins at t0, and a curvature that grows
-# from nil, u = c (t - t0)^3. The arc is taken where it fits plainly better. Else there is no place:
-# what is given lies between where the two begin, with a doubt that reaches from where the arc
-# begins to where u = c (t - t0)^4 does.
+# from zero, u = c (t - t0)^3. The arc is taken where it fits plainly better. Else there is no
+# place: what is given lies between where the two begin, with an uncertainty that reaches from where
+# the arc begins to where u = c (t - t0)^4 does.
 
 
 @attrs.frozen
@@ -44,7 +44,7 @@ class FittedOnset:
     zero : float, m
         Along the line.
     radius : float or None, m
-        Of the arc; None where the curvature grows from nil.
+        Of the arc; None where the curvature grows from zero.
     uncertainty : float, m
         Standard deviation of `zero`; of a gradual one the farthest it may lie off.
     """
@@ -59,16 +59,9 @@ def fit_onset(
 ) -> FittedOnset:
     """Fit the beginning of a curve after a straight run.
 
-    Parameters
-    ----------
-    t, u : (n,), m
-        Along the line of the run and off it, to the side of the curve.
-    last : int
-        The last point within the tolerance.
-    within, noise : float, m
-        The tolerance of the run, and the scatter of its points.
-    confidence : float
-        As `RunRule.confidence`.
+    `t` lies along the line of the run, `u` off it to the side of the curve, (n,), m. `last` is the
+    last point within the tolerance `within`; `noise` is the scatter of the points. `confidence` is
+    that of `StraightRunRule`.
     """
     best: FittedOnset | None = None
     # The farther the curve is followed the sharper the answer, as long as it is one arc.
@@ -123,7 +116,7 @@ def _stop(t: FloatArray, u: FloatArray, last: int, most: float) -> int:
 
 
 def _first(t: FloatArray, u: FloatArray, within: float) -> tuple[float, float]:
-    """Give zero and slope of a straight line through sqrt(u) where u is plainly above nil."""
+    """Give zero and slope of a straight line through sqrt(u) where u is plainly above zero."""
     out = u > within
     if out.sum() < 2:
         return float(t[-1]), 1.0
@@ -140,13 +133,13 @@ def _arc(t: FloatArray, p: FloatArray) -> FloatArray:
 
 
 def _cubic(t: FloatArray, p: FloatArray) -> FloatArray:
-    """Give the deviation of a curvature that grows from nil at p[0]."""
+    """Give the deviation of a curvature that grows from zero at p[0]."""
     size = np.exp(min(max(float(p[1]), -30.0), 30.0))
     return np.asarray(size * np.maximum(t - p[0], 0.0) ** 3)
 
 
 def _quartic(t: FloatArray, p: FloatArray) -> FloatArray:
-    """Give the deviation of a curvature that grows as a square from nil at p[0]."""
+    """Give the deviation of a curvature that grows as a square from zero at p[0]."""
     size = np.exp(min(max(float(p[1]), -30.0), 30.0))
     return np.asarray(size * np.maximum(t - p[0], 0.0) ** 4)
 
@@ -202,12 +195,7 @@ def _slopes(t: FloatArray, p: FloatArray, shape: _Shape) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Straight runs of plane polylines, and where a curve leaves them.
-#
-# A run that ends in an arc of radius R leaves it by (s - s0)^2 / 2R: the square root of the
-# deviation is a straight line whose zero is the end of the run. Where the curvature grows from
-# nil the deviation begins with a higher power and no such place can be told; then only the
-# stretch is given in which the end must lie.
+# Straight runs.
 
 OnsetKind = Literal["arc", "gradual", "end", "border"]
 
@@ -248,7 +236,7 @@ class Onset:
     Attributes
     ----------
     kind : {"arc", "gradual", "end", "border"}
-        In an arc; with a curvature that grows from nil; with the polyline; or without a radius
+        In an arc; with a curvature that grows from zero; with the polyline; or without a radius
         of its own, at a place taken from the border of a flat.
     at : float, m
         Length along the polyline, of a gradual one the likeliest.
@@ -305,21 +293,9 @@ class StraightRun:
 def find_straight_runs(
     points: FloatArray, noise: float, rule: StraightRunRule | None = None
 ) -> list[StraightRun]:
-    """Find the straight runs of a polyline.
+    """Find the straight runs of a polyline (n, 2), m, in order along it.
 
-    Parameters
-    ----------
-    points : (n, 2), m
-        In order, corners not among the inner points.
-    noise : float, m
-        Scatter of the points.
-    rule : RunRule or None
-        Defaults if None.
-
-    Returns
-    -------
-    list of Run
-        In order along the polyline.
+    Corners must not be among the inner points; `noise` (m) is the scatter of the points.
     """
     wanted = rule or StraightRunRule()
     at = cumulative_lengths(points)
@@ -407,7 +383,7 @@ def _run(
     growth = float(at[wide[1]] - at[wide[0]]) / max(length, 1e-12) - 1.0
     if length < least or growth >= rule.growth or last - first < 4:
         return None
-    # The line anew without its ends, which an arc may have drawn aside already.
+    # The line is fitted again without its ends, which an arc may have drawn aside already.
     margin = 0.1 * length
     core = (at >= at[first] + margin) & (at <= at[last] - margin)
     if core.sum() >= 4:
@@ -424,6 +400,7 @@ def _run(
     residual = float(np.sqrt((off[first : last + 1] ** 2).mean()))
     scale = max(noise, 0.3 * residual, 1e-6)
     after = _onset(along, off, at, last, within, scale, rule, origin, ahead)
+    # The same run the other way: lengths change their sign, and what was first comes last.
     before = _onset(-along[::-1], off[::-1], -at[::-1], len(at) - 1 - first, within, scale, rule,
                     origin, -ahead)  # fmt: skip
     before = attrs.evolve(before, at=-before.at)
@@ -435,7 +412,7 @@ def _run(
 
 
 def _bends(t: FloatArray, u: FloatArray, noise: float) -> bool:
-    """Tell whether points bend by more than their scatter explains."""
+    """Say whether points bend by more than their scatter explains."""
     if len(t) < 6:
         return False
     middle, half = 0.5 * (t[0] + t[-1]), 0.5 * (t[-1] - t[0])

@@ -3,6 +3,10 @@
 Lengths are integrated by Gauss's rule on segments that are halved until they agree. `CubicChains`
 are cubics that follow one another without a gap, of one curve or of several; the length along
 them is inverted, so that many chains are parted into equal lengths at once.
+
+Source: H.J. Son, H.C. Kim, "hull form parameter modules for performance analysis", J. of
+CAD/CAM (Korea) 13(6), 2008; the control of the error by halving is our own, and where they divide
+a table of chords the length itself is inverted here.
 """
 
 from __future__ import annotations
@@ -32,12 +36,6 @@ __all__ = [
     "segment_length",
     "share_by_length",
 ]
-
-# --------------------------------------------------------------------------------------
-# Arc length by Gauss-Legendre rules of eight points, segments halved until they agree.
-#
-# Source: H.J. Son, H.C. Kim, "hull form parameter modules for performance analysis", J. of
-# CAD/CAM (Korea) 13(6), 2008; the control of the error by halving is our own.
 
 _ROOTS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _NODES, _WEIGHTS = 0.5 + 0.5 * _ROOTS, 0.5 * _WEIGHTS
@@ -157,19 +155,9 @@ def length_at(batch: SplineBatch, curve: ArrayLike, t: ArrayLike) -> FloatArray:
 
 
 def length_until(slopes: FloatArray, u: FloatArray) -> FloatArray:
-    """Give the arc length of cubics from their beginning to given parameters.
+    """Give the arc length of cubics from u = 0 to given u (p,), from 0 to 1; relative error 1e-12.
 
-    Parameters
-    ----------
-    slopes : (p, 3, 3), m
-        Coefficients of the derivative of each cubic, in 1, u, u^2.
-    u : (p,)
-        From 0 to 1.
-
-    Returns
-    -------
-    (p,), m
-        Lengths; relative error 1e-12.
+    `slopes` (p, 3, 3), m, are coefficients of the derivative of each cubic, in 1, u, u^2.
 
     Examples
     --------
@@ -273,14 +261,10 @@ def _halved(
 
 
 # --------------------------------------------------------------------------------------
-# Points at given lengths along chains of cubics: equal parts of many curves at once.
+# Points at given lengths along chains of cubics.
 #
-# A chain is a run of cubics that follow one another without a gap. The length s(u) of a cubic is
-# inverted by Newton's rule, whose derivative is the speed; where a step leaves its bracket the
-# bracket is halved instead.
-#
-# Source: H.J. Son, H.C. Kim, "hull form parameter modules for performance analysis", J. of
-# CAD/CAM (Korea) 13(6), 2008, who divide a table of chords; here the length itself is inverted.
+# The length s(u) of a cubic is inverted by Newton's rule, whose derivative is the speed; where a
+# step leaves its bracket the bracket is halved instead.
 
 _STEPS = 60
 _DONE = 1e-13
@@ -361,19 +345,9 @@ class CubicChains:
         return sums[owner, place], sums[:, -1].copy()
 
     def at_lengths(self, chain: IntArray, length: FloatArray) -> FloatArray:
-        """Give the places at lengths along chains.
+        """Give the places (m, 3), m, at lengths (m,) from the beginning of chains (m,).
 
-        Parameters
-        ----------
-        chain : (m,) int
-            The chain of each.
-        length : (m,), m
-            From its beginning.
-
-        Returns
-        -------
-        (m, 3), m
-            Places; the error of the length is below 1e-10 of that of the chain.
+        The error of the length is below 1e-10 of that of the chain.
         """
         cubic, rest = self._located(chain, length)
         u = self._inverted(cubic, rest, _DONE * self.length[chain])

@@ -28,7 +28,7 @@ _chosen: list[ModuleType | None] = []
 
 
 def set_backend(name: Backend) -> None:
-    """Choose the backend of `loft` and `meet_planes`, for the whole process.
+    """Choose the backend of `loft` and `intersect_planes`, for the whole process.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """The compiled backend: the operations of the numpy backend, with the same bits.
 
-`fast_loft` and `fast_meet` repeat the arithmetic of `spline`, `tridiagonal`, `monotone`,
-`roots` and `crossing` in the same order, without fastmath and without fused
+`compiled_loft` and `compiled_intersections` repeat the arithmetic of `loft`, `tridiagonal`,
+`plane_heights`, `roots` and `plane_intersections` in the same order, without fastmath and fused
 multiplication, so that the last bit agrees; the tests compare them. Change both together.
 
 Examples
@@ -105,8 +105,8 @@ def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneRo
 
     Returns
     -------
-    Roots
-        All meetings, and the monotone parts of segments that they lie in.
+    PlaneRoots
+        All intersections, and the monotone parts of segments that they lie in.
 
     Examples
     --------
@@ -144,7 +144,7 @@ def tiles(
 
     Parameters
     ----------
-    where : Places
+    where : StripTiles
         What the curves consist of.
     v : (k,)
         Where they lie across their strips.

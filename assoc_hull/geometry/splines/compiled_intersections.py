@@ -1,4 +1,4 @@
-"""The meetings of `crossing`, compiled: same operations in the same order, same bits.
+"""`plane_intersections`, compiled: same operations in the same order, same bits.
 
 Constants come in as arguments: numba's cache misses the change of one in another module.
 

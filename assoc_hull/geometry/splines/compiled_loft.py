@@ -1,4 +1,4 @@
-"""The loft of `spline`, compiled: same operations in the same order, same bits.
+"""`loft`, compiled: same operations in the same order, same bits.
 
 What needs no decision runs over all points at once, in short loops that the compiler turns
 into vector instructions (these change no bit); the rest runs curve by curve. All constants
@@ -69,7 +69,7 @@ def _set_states(
     end_vector: FloatArray,
     state: Flags,
 ) -> int:
-    """Set what fixes each derivative, as in `spline`.
+    """Set what fixes each derivative, as `loft_rules.states_of` does.
 
     Gives -1 if that is not known, 0 if all points between the ends are smooth, else 1.
     """

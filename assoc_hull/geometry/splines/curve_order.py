@@ -32,7 +32,7 @@ class CurveFolds:
     knot : (f,) int
         The defining point, counted from 0 along the curve.
     cosine : (f,)
-        Cosine of the worst angle found there; nil or less. Nil also where the tangent or a
+        Cosine of the worst angle found there; zero or less. Zero also where the tangent or a
         chord has no length.
     """
 
@@ -61,7 +61,7 @@ def curve_folds(batch: SplineBatch) -> CurveFolds:
 
     Returns
     -------
-    Folds
+    CurveFolds
         One entry for each point at which a curve folds; none if all is well.
 
     Raises

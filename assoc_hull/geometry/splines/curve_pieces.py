@@ -1,20 +1,20 @@
 """Curves in pieces, seen by direction, curvature and its slope.
 
-`PiecewiseCurves` is what the criteria of fairness ask of any curve, whatever it is made of.
-`SplinePieces` are the composite splines of the kernel, `GraphPieces` a graph y(x) of scipy; chains
-of arcs, chord splines and elastica stand in `assoc_hull.geometry.classical`. `searched_distance`
-gives distances where no formula does.
+`PiecewiseCurves` is what the criteria of fairness ask of any curve, whatever it is made of, at
+places u from 0 to 1 on each piece. `SplinePieces` are the composite splines of the kernel,
+`GraphPieces` a graph y(x) of scipy; chains of arcs, chord splines and elastica are given so by
+`assoc_hull.analysis.fairness.classical_pieces`. `searched_distance` gives distances where no
+formula does.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import PPoly
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
@@ -24,6 +24,10 @@ from assoc_hull.geometry.splines.distance import closest_points_each
 from assoc_hull.geometry.splines.evaluation import space_curvature
 from assoc_hull.geometry.splines.segments import power_coefficients, segment_curve
 
+if TYPE_CHECKING:
+    # Only named here: every hull loads this module, and half a second of scipy would come with it.
+    from scipy.interpolate import PPoly
+
 __all__ = [
     "GraphPieces",
     "PieceDerivatives",
@@ -31,15 +35,6 @@ __all__ = [
     "SplinePieces",
     "searched_distance",
 ]
-
-# --------------------------------------------------------------------------------------
-# What the criteria of fairness look at: pieces of curves with direction, curvature, its slope.
-#
-# Any curve can be looked at that gives these at places on its pieces, u from 0 to 1 on each. Here
-# are the composite splines of the kernel, many at once; in
-# `assoc_hull.geometry.splines.curve_pieces`
-# graphs y(x) of scipy, in `assoc_hull.analysis.fairness.classical_pieces` chains of arcs, chord
-# splines and elastica.
 
 
 @attrs.frozen(eq=False)
@@ -164,8 +159,9 @@ class SplinePieces:
             speed = np.sqrt(square)
             tangent, curvature = first / speed[..., None], turn / speed**3
         bend = np.nan_to_num(space_curvature(first, second))
-        told = [np.nan_to_num(each) for each in (tangent, curvature, rate)]
-        return PieceDerivatives(told[0], told[1], told[2], speed, bend, told[2])
+        # Where a curve stands still (a cusp) it has no direction: zero there, not nan.
+        clean = [np.nan_to_num(each) for each in (tangent, curvature, rate)]
+        return PieceDerivatives(clean[0], clean[1], clean[2], speed, bend, clean[2])
 
     def distance(self, curve: IntArray, points: FloatArray) -> FloatArray:
         """Give the distance (m) of points (k, 2) or (k, 3) from one curve each, (k,)."""
@@ -174,7 +170,7 @@ class SplinePieces:
 
 
 # --------------------------------------------------------------------------------------
-# Graphs y(x) as the criteria of fairness look at them, and distances found by search.
+# Graphs y(x), and distances found by search.
 
 
 @attrs.frozen(eq=False, slots=False)

@@ -2,7 +2,8 @@
 
 `closest_points` finds the point of a curve with the least distance over the whole curve, not the
 next minimum of a search: on each segment all roots of a quintic are found. `farthest_points` gives
-the Hausdorff distance of pairs of curves, looked at in steps and then ever closer.
+the Hausdorff distance of pairs of curves: of every place of one the nearest of the other, both
+ways round, and the farthest of these. It looks in steps and then ever closer.
 """
 
 from __future__ import annotations
@@ -31,11 +32,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The point of a curve that is closest to a given point.
-#
-# On one segment the squared distance has its extremes at the roots of a quintic. All roots
-# in [0, 1] are found, so the result is the least distance over the whole curve and not the
-# next minimum of a search. Segments whose box is farther than the nearest knot are left out.
+# The closest point of a curve. Segments whose box is farther than the nearest knot are left out.
 
 _PAIRS = 200_000  # pairs of point and segment that are looked at together
 _TIE = 16 * np.finfo(np.float64).eps  # of the coordinates: rounding of a distance
@@ -99,21 +96,9 @@ def closest_points(
 def closest_points_each(
     batch: SplineBatch, curves: IntArray, points: ArrayLike
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Find for each of many points the closest point of a curve of its own.
+    """Find for each of many points (k, 3), m, the closest point of a curve of its own, curves (k,).
 
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-    curves : (k,) int
-        The curve of each point.
-    points : (k, 3), m
-        The points.
-
-    Returns
-    -------
-    t, xyz, distance : (k,), (k, 3), (k,), m
-        As `closest` gives them, to the last bit.
+    Gives t (k,), points (k, 3) and distances (k,), m, as `closest_points` does, to the last bit.
 
     Raises
     ------
@@ -266,11 +251,7 @@ def _quintic(offset: FloatArray, slopes: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# How far two families of curves lie apart, pair by pair: the largest of all nearest distances.
-#
-# Of every place of one curve the nearest place of the other is sought, both ways round; the
-# farthest of these pairs is the Hausdorff distance of the two curves. Curves are first looked at in
-# steps, then ever closer about the place that was found; all pairs go through together.
+# The largest of all nearest distances of two families of curves, pair by pair.
 
 _PARTS = 4
 """Places on each segment at which distances are first taken."""
@@ -334,25 +315,15 @@ class FarthestPoints:
 
 
 def farthest_points(one: OwnedCurves, other: OwnedCurves) -> FarthestPoints:
-    """Find where each thing lies farthest from its partner, both ways round.
+    """Find where each thing lies farthest from its partner, both ways round; sorted by owner.
 
-    A place found is the summit of what steps of a quarter of a segment show, to a thousandth of
-    a segment.
-
-    Parameters
-    ----------
-    one, other : Owned
-        The same things in two shapes: both have the owners 0 to n - 1.
-
-    Returns
-    -------
-    Farthest
-        By owner.
+    `one` and `other` are the same things in two shapes: both have the owners 0 to n - 1. A place
+    found is the summit of what steps of a quarter of a segment show, to a thousandth of a segment.
 
     Raises
     ------
     BadInputError
-        Owners that are not the same, or begin not at 0.
+        Owners that are not the same, or do not begin at 0.
 
     Examples
     --------
@@ -387,7 +358,7 @@ def farthest_points(one: OwnedCurves, other: OwnedCurves) -> FarthestPoints:
 
 
 def identical_curves(one: Sequence[SplineBatch], other: Sequence[SplineBatch]) -> bool:
-    """Tell whether two things are of the same curves, to the last bit.
+    """Say whether two things are of the same curves, to the last bit.
 
     Examples
     --------

@@ -32,25 +32,14 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Points, derivatives and polylines of cubic composite splines.
+# Points, derivatives and polylines.
 
 
 def positions(batch: SplineBatch, segment: IntArray, fraction: FloatArray) -> FloatArray:
-    """Give the points at a fraction of the parameter interval of given segments.
+    """Give the points at fractions (k,) of the parameter interval of segments (k,): (3, k), m.
 
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-    segment : (k,) int
-        Knot index where the segment starts.
-    fraction : (k,)
-        0 at the start and 1 at the end of the segment: exactly the knots.
-
-    Returns
-    -------
-    (3, k), m
-        The points, coordinate by coordinate; not frozen.
+    A segment is the index of the knot where it starts. At fractions 0 and 1 the points are exactly
+    those of the knots. Not frozen.
 
     Examples
     --------
@@ -249,11 +238,9 @@ def sample(batch: SplineBatch, per_segment: int = 8) -> tuple[IntArray, FloatArr
 
 
 # --------------------------------------------------------------------------------------
-# Curvature of splines: the vector in space, or the signed value in a plane.
+# Curvature: the vector in space, or the signed value of the projection on a plane.
 #
-# The signed curvature is that of the curve's projection onto the plane, positive where the
-# curve turns to the left as seen from the tip of the normal. For a curve that lies in the
-# plane its amount is the length of the vector.
+# For a curve that lies in the plane the amount of the signed value is the length of the vector.
 
 
 def curvature(
@@ -310,17 +297,9 @@ def curvature(
 
 
 def space_curvature(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Give the curvature vector from the derivatives with respect to any parameter.
+    """Give the curvature vector (..., 3), 1/m, from two derivatives by any parameter, (..., 3).
 
-    Parameters
-    ----------
-    first, second : (..., 3)
-        First and second derivative.
-
-    Returns
-    -------
-    (..., 3), 1/m
-        The vector; nan where the first derivative is nil.
+    It is nan where the first derivative is zero.
 
     Examples
     --------
@@ -338,19 +317,10 @@ def space_curvature(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def plane_curvature(first: FloatArray, second: FloatArray, normal: FloatArray) -> FloatArray:
-    """Give the signed curvature of the projection onto a plane, from two derivatives.
+    """Give the signed curvature (...), 1/m, of the projection on a plane, from two derivatives.
 
-    Parameters
-    ----------
-    first, second : (..., 3)
-        First and second derivative with respect to any parameter.
-    normal : (..., 3)
-        Unit normals.
-
-    Returns
-    -------
-    (...), 1/m
-        Signed curvature; nan where the projection has no direction or the normal is nan.
+    These are (..., 3), by any parameter, as are the unit normals. It is nan where the projection
+    has no direction or the normal is nan.
 
     Examples
     --------

@@ -115,7 +115,7 @@ def _loft(data: CurveData, names: Sequence[str] | None) -> SplineBatch:
         rows = _rows(data, slots, state, chord, slope, workspace)
         _detach_known(rows, state, leave, arrive, workspace)
         solved = solve_tridiagonal(slots, rows, workspace)
-        # A sum, not a choice: known rows solve to nil; it also turns -0.0 into 0.0.
+        # A sum, not a choice: known rows solve to zero; it also turns -0.0 into 0.0.
         leave += solved
         arrive += solved
     chord[slots.first] = 0.0
@@ -159,7 +159,7 @@ def _rows(
     slope: FloatArray,
     workspace: Workspace,
 ) -> FloatArray:
-    """Set up the rows of continuous curvature, in the form that `tridiagonal.solve` takes."""
+    """Set up the rows of continuous curvature, in the form that `solve_tridiagonal` takes."""
     size = len(state)
     rows = workspace.array(5, size + 1)
     rows[:, size] = 0.0
@@ -187,9 +187,9 @@ def _detach_known(
     arrive: FloatArray,
     workspace: Workspace,
 ) -> None:
-    """Move what is known to the right-hand sides of the neighbours; known rows become nil.
+    """Move what is known to the right-hand sides of the neighbours; known rows become zero.
 
-    Where nothing is known the derivatives are nil still, and adding nil changes no bit.
+    Where nothing is known the derivatives are zero still, and adding zero changes no bit.
     """
     size = len(state)
     open_ = OPEN.take(state)

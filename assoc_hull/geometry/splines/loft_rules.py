@@ -101,7 +101,7 @@ def set_known(
     leave: FloatArray,
     arrive: FloatArray,
 ) -> None:
-    """Set the derivatives after and before each point, nil where still to be solved.
+    """Set the derivatives after and before each point, zero where still to be solved.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def set_known(
     names : sequence of str or None
         What error messages call the curves.
     leave, arrive : (3, n)
-        Nil; written to.
+        Zero; written to.
 
     Raises
     ------
@@ -252,5 +252,5 @@ def curve_name(curve: int, names: Sequence[str] | None) -> str:
 
 
 def is_curved(state: NDArray[np.int8]) -> bool:
-    """Tell whether any end has a given curvature."""
+    """Say whether any end has a given curvature."""
     return bool((state == _CURVED).any())

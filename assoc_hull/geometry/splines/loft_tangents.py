@@ -1,9 +1,11 @@
 """The derivative of the loft: how splines change when the points change that they are made from.
 
-`loft_tangents` lofts curves and differentiates the result by k parameters, exactly: parameters,
-directions of the local rule and the solution of the tridiagonal rows all vary. Only right-hand
-sides differ from tangent to tangent, so `LinearisedLoft` solves for all of them together.
-Where the loft decides, the derivative takes the same branch.
+`loft_tangents` lofts curves and differentiates the result by k parameters, exactly: chord lengths,
+and with them the knots, directions of the local rule and the solution of the tridiagonal rows all
+vary. (Knots kept as they were give an area that is wrong in the third digit.) Only right-hand
+sides differ from tangent to tangent, so `LinearisedLoft` solves for all of them together. Where
+the loft decides (a knuckle side that would fold back, a parabola without a direction), the
+derivative takes the same branch.
 """
 
 from __future__ import annotations
@@ -41,12 +43,6 @@ __all__ = [
     "loft_tangents",
 ]
 
-# --------------------------------------------------------------------------------------
-# What the loft of curves has computed, and how that changes when the curves are moved.
-#
-# Only the right-hand sides of the tridiagonal rows change from tangent to tangent, so the
-# tangents of many parameters are solved for together.
-
 _BLOCK = 1 << 15
 """So many points are differentiated at once: what is computed stays in the fast memory."""
 
@@ -63,7 +59,7 @@ class CurveDataTangents:
     end_vector: FloatArray | None
 
     def touched(self, start: IntArray) -> NDArray[np.bool_]:
-        """Tell which curves vary with which tangents, (k, m)."""
+        """Say which curves vary with which tangents, (k, m)."""
         moved = (self.xyz != 0.0).any(axis=2)
         if self.direction is not None:
             moved |= (self.direction != 0.0).any(axis=2)
@@ -92,7 +88,7 @@ class LinearisedLoft:
     state : (n,) int8
         What fixes the derivative at each point.
     chord, slope : (n + 1,), m; (3, n + 1)
-        Length and direction of the chord before each point; 1 and nil between two curves.
+        Length and direction of the chord before each point; 1 and zero between two curves.
     before, after : (n,)
         Weights of the rows of continuous curvature.
     turn : (3, n)
@@ -166,8 +162,8 @@ class LinearisedLoft:
         self, moves: CurveDataTangents, chord: FloatArray, slope: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Differentiate what is not solved for: given directions and the local rule."""
-        nil = np.zeros((3, len(self.state)))
-        leave, arrive = (Dual.constant(nil, len(slope)) for _ in range(2))
+        zero = np.zeros((3, len(self.state)))
+        leave, arrive = (Dual.constant(zero, len(slope)) for _ in range(2))
         set_known(
             self._moved(moves),
             self.slots,
@@ -202,7 +198,9 @@ class LinearisedLoft:
         """Differentiate the right-hand sides, (k, 3, n), and what the solution adds to them."""
         total = self.chord[:-1] + self.chord[1:]
         weight = chord[:, 1:] - self.before * (chord[:, :-1] + chord[:, 1:])
-        weight /= np.where(self.fixed, np.inf, total)
+        weight /= np.where(
+            self.fixed, np.inf, total
+        )  # by infinity: a fixed weight has no derivative
         right = self.before * slope[:, :, :-1]
         right += self.after * slope[:, :, 1:]
         right *= 1.5
@@ -218,7 +216,7 @@ class LinearisedLoft:
         return right
 
     def _solved(self, right: FloatArray) -> FloatArray:
-        """Give the tangents (k, 3, n) of the solution of the rows, nil where it is known."""
+        """Give the tangents (k, 3, n) of the solution of the rows, zero where it is known."""
         open_, size = OPEN.take(self.state), right.shape[2]
         rows = np.zeros((2 + 3 * len(right), size + 1))
         np.multiply(right.reshape(-1, size), open_, out=rows[1:-1, :size])
@@ -227,15 +225,6 @@ class LinearisedLoft:
         rows[-1, : size - 1] *= open_[1:]
         with Workspace() as workspace:
             return solve_tridiagonal(self.slots, rows, workspace).reshape(right.shape).copy()
-
-
-# --------------------------------------------------------------------------------------
-# How lofted curves change when their points move: the loft itself, differentiated exactly.
-#
-# Everything varies: chord lengths, and with them the parameters; the directions of the local
-# rule; the solution of the tridiagonal rows. Where the loft decides (a knuckle side that would
-# fold back, a parabola without a direction), it decides here as it did there. Chord-length
-# parameters kept as they were would give an area that is wrong in the third digit.
 
 
 @attrs.frozen(eq=False)
@@ -270,15 +259,7 @@ class DualSplines:
         return len(self.start) - 1
 
     def batch(self) -> SplineBatch:
-        """Give it as a batch, for functions that compute with its arrays alike.
-
-        Returns
-        -------
-        SplineBatch
-            Its arrays are `Dual`, and so is what
-            `assoc_hull.geometry.splines.segments.power_coefficients` and
-            `assoc_hull.geometry.integrals.area_moments.section_area` give of it.
-        """
+        """Give it as a batch whose arrays are `Dual`, for functions that compute with them."""
         knot, xyz = as_array(self.knot), as_array(self.xyz)
         return SplineBatch(self.start, knot, xyz, as_array(self.leave), as_array(self.arrive))
 

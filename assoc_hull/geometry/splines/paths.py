@@ -2,7 +2,8 @@
 
 A path is a run of *bits*, each a stretch of one segment of a batch of splines, in either
 sense. Its fraction w grows with chord length, so that a path over several segments is as
-smooth as the splines are.
+smooth as the splines are. `StripTiles` says of which paths the tiles of curves across strips of a
+Coons surface consist; it stands here because the compiled kernels take it.
 """
 
 from __future__ import annotations

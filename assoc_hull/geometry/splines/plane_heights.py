@@ -1,9 +1,10 @@
 """Heights of curves over a family of parallel planes, and the parts on which a height is monotone.
 
-Along a segment the height is a cubic; its Bernstein coefficients enclose its range. Between knots
-it is cut where it is stationary: each part then meets a plane just where the signs at its two
-ends differ. The cuts do not depend on the planes that are asked for. `plane_intersections` and
-the compiled kernels build on these parts, so both see the same ones.
+Along a segment the height is a cubic. Its four Bernstein coefficients enclose its range, and if
+their three differences have one sign, it is monotone; else it is cut where it is stationary. A
+monotone part intersects a plane just where the signs at its two ends differ. The cuts do not
+depend on the planes that are asked for. `plane_intersections` and the compiled kernels build on
+these parts, so both see the same ones.
 """
 
 from __future__ import annotations
@@ -32,12 +33,6 @@ __all__ = [
     "planes_containing",
 ]
 
-# --------------------------------------------------------------------------------------
-# The height of curves over a plane, segment by segment, in Bernstein form.
-#
-# Along a segment the height is a cubic. Its four Bernstein coefficients enclose its range,
-# and if their three differences have one sign, the height is monotone.
-
 
 @attrs.frozen(eq=False)
 class PlaneHeights:
@@ -62,17 +57,7 @@ class PlaneHeights:
     last: FloatArray
 
     def powers(self, segment: IntArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Give the coefficients of 1, u, u**2, u**3 of some segments.
-
-        Parameters
-        ----------
-        segment : (k,) int
-            The segments.
-
-        Returns
-        -------
-        four (k,), m
-            The coefficients.
+        """Give the coefficients of 1, u, u**2, u**3 of segments (k,), each (k,), m.
 
         Examples
         --------
@@ -87,19 +72,7 @@ class PlaneHeights:
 
 
 def heights_over_plane(batch: SplineBatch, normal: FloatArray) -> PlaneHeights:
-    """Give the height of curves over the plane through the origin.
-
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-    normal : (3,)
-        Unit normal of the plane.
-
-    Returns
-    -------
-    Heights
-        Height of the knots and the derivatives of every segment.
+    """Give the height of curves over the plane through the origin with a unit normal (3,).
 
     Examples
     --------
@@ -128,11 +101,7 @@ def _along(vectors: FloatArray, normal: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Parts of curves whose height over a family of planes is monotone.
-#
-# Between knots a cubic is cut where its height is stationary. In each part the height is
-# monotone, so the part meets a plane just where the signs at its two ends differ. The cuts
-# do not depend on the planes that are asked for.
+# Monotone parts.
 
 CONTACT = 1e-9
 """Closer than this (m) a curve touches a plane, or lies in it."""
@@ -166,14 +135,14 @@ class MonotoneParts:
 
 @attrs.frozen(eq=False)
 class PlaneRoots:
-    """All meetings of curves with planes, sorted by curve, plane and parameter.
+    """All intersections of curves with planes, sorted by curve, plane and parameter.
 
     Attributes
     ----------
-    parts : Parts
+    parts : MonotoneParts
         Monotone parts of segments.
     owner, plane : (k,) int
-        The part and the plane of each meeting.
+        The part and the plane of each intersection.
     segment, curve : (k,) int
         Its segment and its curve.
     sign : (k,) int8
@@ -198,19 +167,7 @@ class PlaneRoots:
 
 
 def checked_planes(normal: FloatArray, offsets: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Check the planes of a family.
-
-    Parameters
-    ----------
-    normal : (3,)
-        Unit normal.
-    offsets : (p,), m
-        Offsets, ascending.
-
-    Returns
-    -------
-    normal, offsets : (3,) and (p,)
-        The same numbers.
+    """Check the planes of a family: a unit normal (3,), and offsets (p,), m, that ascend.
 
     Raises
     ------
@@ -237,21 +194,9 @@ def checked_planes(normal: FloatArray, offsets: FloatArray) -> tuple[FloatArray,
 def find_monotone_parts(
     batch: SplineBatch, course: PlaneHeights, offsets: FloatArray
 ) -> MonotoneParts:
-    """Find the monotone parts of segments that pass planes.
+    """Find the monotone parts of segments that pass planes with offsets (p,), m, ascending.
 
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-    course : Heights
-        Their height along the normal of the planes.
-    offsets : (p,), m
-        Offsets of the planes, ascending.
-
-    Returns
-    -------
-    Parts
-        Whole segments first, then parts of segments; `order` tells the place of each.
+    Whole segments come first, then parts of segments; `order` has the place of each.
 
     Examples
     --------
@@ -276,12 +221,14 @@ def find_monotone_parts(
 
 def _bent_and_flat(batch: SplineBatch, course: PlaneHeights) -> tuple[IntArray, IntArray]:
     """Find the segments whose height may not be monotone, and the level ones."""
+    # The three are differences of Bernstein coefficients, times 3.
     middle = 3.0 * course.rise
     middle -= course.first
     middle -= course.last
     most = np.maximum(np.maximum(course.first, course.last), middle)
     least = np.minimum(np.minimum(course.first, course.last), middle)
     between = slots_of(batch.start).last[:-1]
+    # What runs from one curve to the next is neither bent nor level.
     most[between] = np.inf
     least[between] = 1.0
     bent = np.flatnonzero((least < 0.0) & (most > 0.0))
@@ -292,21 +239,9 @@ def _bent_and_flat(batch: SplineBatch, course: PlaneHeights) -> tuple[IntArray, 
 def planes_containing(
     course: PlaneHeights, offsets: FloatArray, segment: IntArray
 ) -> tuple[IntArray, IntArray]:
-    """Find the planes in which segments lie, within 1e-9 m.
+    """Find the planes in which segments (k,) lie, within 1e-9 m: begin and end of a range for each.
 
-    Parameters
-    ----------
-    course : Heights
-        Height of the curves along the normal of the planes.
-    offsets : (p,), m
-        Offsets of the planes, ascending.
-    segment : (k,) int
-        The segments.
-
-    Returns
-    -------
-    begin, end : (k,) int
-        The range of planes; empty where ``begin >= end``.
+    A range is empty where ``begin >= end``.
 
     Examples
     --------
@@ -362,19 +297,9 @@ def _joined(
 
 
 def nodes_of(course: PlaneHeights, segment: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Give the ends and the stationary places of segments.
+    """Give the ends and the stationary places of segments (k,): fractions and heights (m), (4, k).
 
-    Parameters
-    ----------
-    course : Heights
-        Height of the curves.
-    segment : (k,) int
-        The segments.
-
-    Returns
-    -------
-    fraction, height : (4, k)
-        Ascending fractions from 0 to 1, and the height (m) there.
+    Fractions ascend from 0 to 1.
 
     Examples
     --------

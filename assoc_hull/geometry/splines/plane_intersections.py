@@ -3,7 +3,8 @@
 `intersect_planes` finds where curves pass planes of one family, with alternating signs along each
 curve. `touch_points` and `stretches_in_plane` find what does not pass: a curve that turns back at
 a plane, or lies in it. `points_on_plane`, `points_at_coordinate` and `coordinate_turns` are the
-simple questions for measures of a form: they take curve ends in, too.
+simple questions for measures of a form: they take curve ends in, too. A plane is a unit normal
+and an offset, ``normal . P = offset``, m.
 
 Examples
 --------
@@ -53,25 +54,23 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Where curves meet families of parallel planes: all meetings, their signs in alternation.
+# All intersections with a family of parallel planes.
 #
-# One sign is decided at every knot and shared by both its segments, so a meeting at a knot is
-# found once and signs alternate along a curve whatever rounding does. Between knots a cubic
-# is cut where its height is stationary; each part is monotone and meets a plane just where
-# the signs at its two ends differ. How many planes lie below each end is one sorted search:
-# the cost grows with segments plus meetings, not with segments times planes.
+# One sign is decided at every knot and shared by both its segments, so an intersection at a knot is
+# found once and signs alternate along a curve whatever rounding does. How many planes lie below
+# each end of a monotone part is one sorted search: the cost grows with segments plus intersections.
 
 
 @attrs.frozen(eq=False)
 class PlaneIntersections:
-    """Meetings of curves with planes, sorted by curve, plane and parameter.
+    """Intersections of curves with planes, sorted by curve, plane and parameter.
 
     Attributes
     ----------
     curve, plane : (k,) int
-        Which curve of the batch meets which plane of the family.
+        Which curve of the batch intersects which plane of the family.
     segment : (k,) int
-        Index of the knot where the segment starts that holds the meeting.
+        Index of the knot where the segment starts that holds the intersection.
     t : (k,), m
         Chord-length parameter.
     xyz : (k, 3), m
@@ -80,7 +79,7 @@ class PlaneIntersections:
         +1 where the curve rises through the plane along the normal, -1 where it falls,
         0 where it touches only.
     tangential : (k,) bool
-        One of two neighbouring meetings between which the curve stays within 1e-9 m of
+        One of two neighbouring intersections between which the curve stays within 1e-9 m of
         the plane, or a touch.
     """
 
@@ -97,14 +96,14 @@ class PlaneIntersections:
 
     @property
     def count(self) -> int:
-        """Number of meetings."""
+        """Number of intersections."""
         return len(self.t)
 
 
 def intersect_planes(
     batch: SplineBatch, normal: FloatArray, offsets: FloatArray
 ) -> PlaneIntersections:
-    """Find all meetings of every curve with every plane ``normal . P = offset``.
+    """Find all intersections of every curve with every plane ``normal . P = offset``.
 
     Parameters
     ----------
@@ -117,7 +116,7 @@ def intersect_planes(
 
     Returns
     -------
-    Meetings
+    PlaneIntersections
         Sorted by curve, plane and parameter. For a normal along a coordinate axis that
         coordinate of a point is exactly the offset.
 
@@ -128,9 +127,9 @@ def intersect_planes(
 
     Notes
     -----
-    A knot on a plane counts as above it: touching from above is no meeting (see
-    `contact.touches`), touching from below are two. A segment that lies in a plane within
-    1e-9 m holds no meeting inside; its knots count as on the plane.
+    A knot on a plane counts as above it: touching from above is no intersection (see
+    `touch_points`), touching from below are two. A segment that lies in a plane within 1e-9 m
+    holds no intersection inside; its knots count as on the plane.
 
     Examples
     --------
@@ -154,7 +153,7 @@ def intersect_planes(
 
 
 def _find(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneRoots:
-    """Find all meetings with numpy."""
+    """Find all intersections with numpy."""
     course = heights_over_plane(batch, normal)
     parts = find_monotone_parts(batch, course, offsets)
     owner, plane = _expand(batch, parts, len(offsets))
@@ -169,6 +168,7 @@ def _find(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneR
 
 
 def _coordinate_axis(normal: FloatArray) -> int | None:
+    """Give the axis along which or against which a normal points, None if it is askew."""
     sizes = [abs(part) for part in normal.tolist()]
     return sizes.index(1.0) if sizes.count(0.0) == 2 and 1.0 in sizes else None
 
@@ -183,7 +183,7 @@ def _parameters(batch: SplineBatch, segment: IntArray, fraction: FloatArray) -> 
 
 
 def _expand(batch: SplineBatch, parts: MonotoneParts, planes: int) -> tuple[IntArray, IntArray]:
-    """Give part and plane of every meeting, sorted by curve, plane and parameter."""
+    """Give part and plane of every intersection, sorted by curve, plane and parameter."""
     least = np.minimum(parts.below_begin, parts.below_end)
     count = np.abs(parts.below_end - parts.below_begin)
     before = np.cumsum(count)
@@ -191,7 +191,7 @@ def _expand(batch: SplineBatch, parts: MonotoneParts, planes: int) -> tuple[IntA
     owner = np.repeat(np.arange(len(count)), count)
     before -= count
     plane = np.arange(total) + (least - before).take(owner)
-    # One key per meeting, no two alike: any sorting rule gives the same order.
+    # One key per intersection, no two alike: any sorting rule gives the same order.
     width = 3 * len(batch.knot)
     base = slots_of(batch.start).curve.take(parts.segment) * (planes * width) + parts.order
     order = np.argsort(plane * width + base.take(owner))
@@ -201,7 +201,7 @@ def _expand(batch: SplineBatch, parts: MonotoneParts, planes: int) -> tuple[IntA
 def _fractions(
     course: PlaneHeights, parts: MonotoneParts, owner: IntArray, offset: FloatArray
 ) -> FloatArray:
-    """Find where in its segment each meeting lies."""
+    """Find where in its segment each intersection lies."""
     falling = (parts.below_end < parts.below_begin).take(owner)
     cubic = np.empty((4, len(owner)))
     for row, power in zip(cubic, course.powers(parts.segment), strict=True):
@@ -219,7 +219,7 @@ def _fractions(
 def _tangential(
     batch: SplineBatch, normal: FloatArray, found: PlaneRoots, offsets: FloatArray
 ) -> NDArray[np.bool_]:
-    """Mark neighbouring meetings between which the curve hardly leaves the plane."""
+    """Mark neighbouring intersections between which the curve hardly leaves the plane."""
     parts, owner, curve, plane = found.parts, found.owner, found.curve, found.plane
     result = np.zeros(len(owner), np.bool_)
     if not found.near:
@@ -240,7 +240,7 @@ def _tangential(
 
 
 def _excursion(course: PlaneHeights, parts: MonotoneParts, pair: IntArray, offset: float) -> float:
-    """Give the largest distance from the plane between two meetings; such pairs are rare."""
+    """Give the largest distance from the plane between two intersections; such pairs are rare."""
     one, other = pair
     segment = np.arange(parts.segment[one], parts.segment[other] + 1)
     _, height = nodes_of(course, segment)
@@ -259,22 +259,8 @@ def stretches_in_plane(
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Find the stretches of curves that lie in a plane within 1e-9 m.
 
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-    normal : (3,)
-        Unit normal of the plane.
-    offset : float, m
-        Offset of the plane.
-
-    Returns
-    -------
-    curve : (k,) int
-        Index of the curve.
-    begin, end : (k,), m
-        Chord-length parameters between which it lies in the plane: whole segments, joined
-        where they follow one another. All frozen.
+    Gives the curve, (k,) int, and the chord-length parameters between which it lies in the plane,
+    (k,), m, twice: whole segments, joined where they follow one another. All frozen.
 
     Raises
     ------
@@ -307,22 +293,9 @@ def stretches_in_plane(
 def touch_points(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneIntersections:
     """Find where curves come within 1e-9 m of planes and turn back on the same side.
 
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-    normal : (3,)
-        Unit normal of all planes.
-    offsets : (p,), m
-        Offsets of the planes, ascending.
-
-    Returns
-    -------
-    Meetings
-        Places where the height over the plane is stationary, and knots (the ends of a
-        curve among them), all of sign 0; sorted by curve, plane and parameter. The points
-        are those of the curve, not moved into the plane. Where a curve lies in a plane it
-        does not touch it.
+    These are places where the height over the plane is stationary, and knots (the ends of a curve
+    among them), all of sign 0; sorted by curve, plane and parameter. The points are those of the
+    curve, not moved into the plane. Where a curve lies in a plane it does not touch it.
 
     Raises
     ------
@@ -348,7 +321,7 @@ def touch_points(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) ->
     turns &= ~_lying_at(batch, course, offsets, segment[node], fraction[node], plane)
     node, plane = node[turns], plane[turns]
     order = np.lexsort((node, plane, curve[node]))
-    return _as_meetings(batch, segment, fraction, curve, node[order], plane[order])
+    return _as_touches(batch, segment, fraction, curve, node[order], plane[order])
 
 
 def _nodes(
@@ -401,7 +374,7 @@ def _lying_at(
     return result
 
 
-def _as_meetings(
+def _as_touches(
     batch: SplineBatch,
     segment: IntArray,
     fraction: FloatArray,
@@ -419,7 +392,7 @@ def _as_meetings(
 
 
 # --------------------------------------------------------------------------------------
-# Places on curves that measures of a form start from: where they reach a plane, where they turn.
+# Places that measures of a form start from: where curves reach a plane, and where they turn.
 
 _ON = 1e-6
 """A knot so near to a plane (m) is on it."""
@@ -451,23 +424,9 @@ class PointsOnCurves:
 
 
 def points_on_plane(batch: SplineBatch, normal: FloatArray, offset: float) -> PointsOnCurves:
-    """Find where curves pass or touch a plane ``normal . P = offset``, their ends included.
+    """Find where curves pass, touch or end on a plane, in order along each; a place counts once.
 
-    Of a stretch that lies in the plane the knots are given.
-
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-    normal : (3,)
-        Unit normal.
-    offset : float, m
-        Of the plane.
-
-    Returns
-    -------
-    Places
-        In order.
+    A knot within 1e-6 m of the plane is on it. `normal` is a unit vector, `offset` in m.
     """
     found = intersect_planes(batch, normal, np.array([offset]))
     owner = np.repeat(np.arange(batch.count), np.diff(batch.start))
@@ -489,19 +448,9 @@ def points_at_coordinate(batch: SplineBatch, axis: int, value: float) -> PointsO
 
 
 def coordinate_turns(batch: SplineBatch, axis: int) -> tuple[FloatArray, ...]:
-    """Give places of each curve between which a coordinate only rises or only falls.
+    """Give places of each curve between which a coordinate (0, 1, 2) only rises or only falls.
 
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-    axis : int
-        0, 1 or 2.
-
-    Returns
-    -------
-    tuple of (k, 3), m
-        For each curve, in order: knots, and where the derivative of the coordinate is nil.
+    For each curve (k, 3), m, in order: knots, and where the derivative of the coordinate is zero.
 
     Examples
     --------

@@ -2,8 +2,8 @@
 
 A curve with k points has k - 1 segments; the segments of all curves lie one behind the
 other, in the order of the curves. Each has its own parameter u, from 0 to 1. Every result
-for one curve is the same to the last bit whatever other curves are in the batch. `power` and
-`bernstein` also take arrays that are complex or carry tangents.
+for one curve is the same to the last bit whatever other curves are in the batch.
+`power_coefficients` and `bezier_points` also take arrays that are complex or carry tangents.
 """
 
 from __future__ import annotations
@@ -163,7 +163,7 @@ def power_coefficients(batch: SplineBatch) -> FloatArray:
     """
     first, chord, leave, arrive = _ends(batch)
     start = batch.xyz[first]
-    # 3 (chord - leave) + (leave - arrive) is nil to the last bit on a straight segment.
+    # 3 (chord - leave) + (leave - arrive) is zero to the last bit on a straight segment.
     square = 3.0 * (chord - leave) + (leave - arrive)
     cube = (leave - chord) + (arrive - chord)
     coefficients = np.stack([start, leave, square, cube], axis=1)

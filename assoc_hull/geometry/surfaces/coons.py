@@ -23,7 +23,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, SplineBatch, freeze
 from assoc_hull.geometry.numeric.dual import is_plain
 from assoc_hull.geometry.numeric.generic_sums import common_zeros
 from assoc_hull.geometry.splines.backend import compiled
@@ -34,7 +34,6 @@ from assoc_hull.geometry.splines.paths import (
     restrict_cubics,
     shape_paths,
 )
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 __all__ = [
     "CoonsCells",
@@ -64,7 +63,7 @@ class CoonsCells:
     blend : (t, 4, 4)
         By which weights: the coefficient of f^i of D is the sum over j of ``blend[:, i, j]``
         times what anchor `first` + j leaves its chord by. Weights of anchors that a strip does
-        not have are nil.
+        not have are zero.
     aft, fore : (t,) int
         The bit of `paths` that each tile takes from the rail with v = 0 and v = 1.
     low, high : (t,) int
@@ -129,11 +128,11 @@ class CoonsCells:
 
 @attrs.frozen(eq=False)
 class CoonsStrips:
-    """Cells on given splines; implements `assoc_hull.geometry.surfaces.isocurves.Strips`.
+    """Cells on given splines; implements `assoc_hull.geometry.curves.Strips`.
 
     Attributes
     ----------
-    cells : Cells
+    cells : CoonsCells
         The cells.
     walked : PathShapes
         Their paths.
@@ -202,7 +201,7 @@ class CoonsStrips:
     def _bows(self, where: StripTiles, v: FloatArray) -> FloatArray:
         """Give by how much each anchor of each strip leaves its chord, and the derivative by v.
 
-        (b, 6), with three rows of nil behind, so that four can be taken from any.
+        (b, 6), with three rows of zeros behind, so that four can be taken from any.
         """
         first, last = self.walked.ends
         bow = common_zeros((where.anchors + 3, 6), v, first)

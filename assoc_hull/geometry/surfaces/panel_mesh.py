@@ -26,12 +26,6 @@ __all__ = [
     "weld_vertices",
 ]
 
-# --------------------------------------------------------------------------------------
-# Meshes of flat or warped panels with three or four corners, as seakeeping codes take them.
-#
-# Axes of such codes: x forward, y to port, z up, the water surface at z = 0. Corners go round
-# counter-clockwise as seen from the water, so that normals point out of the hull.
-
 _WHERE = "in a panel mesh"
 _LARGEST = 1e6
 
@@ -72,7 +66,7 @@ class PanelOrigin:
 
 
 def _numbers(values: object) -> FloatArray:
-    """Take places, as an array of its own; one nan where they are no numbers."""
+    """Take places, as an array of its own; one nan where they are not numbers."""
     try:
         return np.array(values, np.float64)
     except (TypeError, ValueError, OverflowError):
@@ -182,7 +176,7 @@ class PanelMesh:
 
     @cached_property
     def normal(self) -> FloatArray:
-        """The unit normal of each panel, (p, 3); nil for one without area."""
+        """The unit normal of each panel, (p, 3); zero for one without area."""
         vector = self.vectors.sum(axis=1)
         size = np.sqrt((vector**2).sum(axis=1))[:, None]
         found: FloatArray = vector / np.where(size > 0.0, size, 1.0)
@@ -278,7 +272,7 @@ def _check_corners(panel: IntArray) -> None:
 
 
 def _mirrored(mesh: PanelMesh, axis: int) -> PanelMesh:
-    """Add the image in the plane where one coordinate is nil."""
+    """Add the image in the plane where one coordinate is zero."""
     other = mesh.xyz.copy()
     other[:, axis] *= -1.0
     count = len(mesh.xyz)
@@ -372,7 +366,7 @@ def merge_equal_vertices(xyz: FloatArray, panel: IntArray) -> tuple[FloatArray, 
 
 
 # --------------------------------------------------------------------------------------
-# The part of a mesh of panels that lies below the water surface z = 0.
+# The part of a mesh that lies below the water surface z = 0.
 
 
 def below_water(mesh: PanelMesh) -> PanelMesh:
@@ -423,7 +417,7 @@ def below_water(mesh: PanelMesh) -> PanelMesh:
 
 
 def _below(corner: FloatArray) -> FloatArray:
-    """Cut a polygon."""
+    """Cut a polygon (n, 3) at z = 0 and give the part below."""
     found = []
     for here, there in zip(corner, np.roll(corner, -1, axis=0), strict=True):
         if here[2] <= 0.0:
@@ -437,7 +431,7 @@ def _below(corner: FloatArray) -> FloatArray:
 
 
 def _split(first: int, size: int) -> list[list[int]]:
-    """Split a polygon of three to six corners."""
+    """Split a polygon of three to six corners into panels; vertices are numbered from `first`."""
     if size == 3:
         return [[first, first + 1, first + 2, first + 2]]
     found = [[first, first + i, first + i + 1, first + i + 2] for i in range(1, size - 2, 2)]

@@ -1,8 +1,8 @@
 """Triangulated surfaces: what they are, where they are open, and which way their triangles run.
 
 `Triangles` share vertices; corners go round counter-clockwise as seen from outside. Edges with one
-triangle only are open. Triangles are turned to the sense of the majority of their sheet, and sheets
-and parts are numbered.
+triangle only are open. A triangle runs against its neighbour if both run along their common edge
+the same way. A sheet holds together by edges of two triangles, a part by vertices.
 """
 
 from __future__ import annotations
@@ -28,9 +28,6 @@ __all__ = [
     "unmatched_edges",
     "weld_edges",
 ]
-
-# --------------------------------------------------------------------------------------
-# Triangulated surfaces: what they are, and where they are open.
 
 _WHERE = "the mesh"
 
@@ -107,7 +104,7 @@ def merge_vertices(xyz: FloatArray, face: IntArray, origin: IntArray | None = No
 
 
 def grid_triangles(grid: FloatArray) -> Triangles:
-    """Make two triangles of each cell of a grid of places, (m, n, 3); nil ones are left out.
+    """Make two triangles of each cell of a grid of places, (m, n, 3); those without area go.
 
     Outward where the first direction of the grid points forward, the second upward and the
     places lie to port.
@@ -214,7 +211,7 @@ def weld_edges(mesh: Triangles, reach: float) -> tuple[Triangles, int]:
 
 
 # --------------------------------------------------------------------------------------
-# Which way round the triangles of a surface run, and which of them belong together.
+# Which way round triangles run, and which of them belong together.
 
 BoolArray = np.typing.NDArray[np.bool_]
 

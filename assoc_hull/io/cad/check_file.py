@@ -1,7 +1,8 @@
-"""Whether a written file holds what was to be written, as OpenCASCADE reads it back.
+"""Whether a CAD file holds what was to be written, as OpenCASCADE reads it back.
 
-Areas, control points, free edges and seams that nobody sewed are measured and compared with the
-surfaces. A file that fails is refused.
+Areas, control points, free edges and seams that nobody sewed are measured (`measure_file`) and
+compared with the surfaces (`faults_of`); a file that fails is refused. OpenCASCADE counts in mm,
+what is compared is in m.
 """
 
 from __future__ import annotations
@@ -41,10 +42,8 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Edges that one face alone has: the rim of a shell, or seams that nobody sewed.
-#
-# Of a hull the deck edge, the rim of a transom and, of a half, the centre line are free. Where one
-# free edge lies along another, two faces meet that are not joined.
+# Free edges, of one face alone. Of a hull these are the deck edge, the rim of a transom and, of a
+# half, the centre line. Where one free edge lies along another, two faces touch and are not joined.
 
 _NEAR = 0.1
 """Edges nearer than this (mm) run along one another."""
@@ -54,13 +53,7 @@ _PLACES = (0.2, 0.45, 0.7)
 
 
 def free_edges(shape: Any) -> tuple[list[Any], int]:
-    """Give the free edges of a shape, and how many edges join two faces.
-
-    Parameters
-    ----------
-    shape : TopoDS_Shape
-        Faces; sides that are points count as no edges.
-    """
+    """Give the free edges of a shape, and how many edges join two faces; none that are points."""
     from OCP.BRep import BRep_Tool
     from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher
     from OCP.TopAbs import TopAbs_ShapeEnum
@@ -82,13 +75,7 @@ def free_edges(shape: Any) -> tuple[list[Any], int]:
 
 
 def lie_along(edges: Sequence[Any]) -> int:
-    """Count the edges that run along another one, wholly or over most of their length.
-
-    Parameters
-    ----------
-    edges : sequence of TopoDS_Edge
-        Free edges.
-    """
+    """Count the free edges that run along another one, wholly or over most of their length."""
     from OCP.Bnd import Bnd_Box
     from OCP.BRepBndLib import BRepBndLib
 
@@ -107,7 +94,7 @@ def lie_along(edges: Sequence[Any]) -> int:
 
 
 def _lies_along(edge: Any, other: Any) -> bool:
-    """Tell whether places within an edge lie on another."""
+    """Tell whether points within an edge lie on another; ends are shared by edges anyway."""
     from OCP.BRepAdaptor import BRepAdaptor_Curve
     from OCP.Extrema import Extrema_ExtPC
 
@@ -122,9 +109,9 @@ def _lies_along(edge: Any, other: Any) -> bool:
 
 
 # --------------------------------------------------------------------------------------
-# What OpenCASCADE finds in a file of surfaces, as numbers to compare with what was written.
+# Measuring a file.
 
-_AREA, _SPANS = 1e-8, 12
+_AREA_TOLERANCE, _SPANS = 1e-8, 12
 """The part to which areas are integrated, and the least spans: OpenCASCADE leaves 1e-5 else."""
 
 _ENDINGS = {"step": ".step", "iges": ".igs"}
@@ -147,7 +134,7 @@ class WrittenFile:
     free, joined : int
         Edges of one face, and of two.
     seams : int
-        Free edges that lie along another free edge: where faces meet without being joined.
+        Free edges that lie along another free edge: where faces touch without being joined.
     area : float, m2
         Of all faces.
     valid : bool
@@ -166,15 +153,7 @@ class WrittenFile:
 
 
 def declared_unit(data: bytes, kind: str) -> str:
-    """Give the unit of length that a file declares; empty if it is none that is known.
-
-    Parameters
-    ----------
-    data : bytes
-        The file.
-    kind : {"step", "iges"}
-        What it is.
-    """
+    """Give the unit of length that a file ("step", "iges") declares; empty if not known."""
     if kind == "step":
         return step_unit(data.decode("latin-1")) or ""
     return UNITS.get(IgesFile.of_text(data.decode("latin-1"), "the file").unit, ("",))[0]
@@ -196,14 +175,7 @@ def shape_in(data: bytes, kind: str) -> Any:
 
 
 def measure_file(data: bytes, kind: str) -> WrittenFile:
-    """Read a file and measure what it holds.
-
-    Parameters
-    ----------
-    data : bytes
-        The file.
-    kind : {"step", "iges"}
-        What it is.
+    """Read a file ("step", "iges") and measure what it holds.
 
     Raises
     ------
@@ -259,12 +231,12 @@ def _shape_area(shape: Any, faces: Sequence[Any]) -> float:
         _refine(surface.InsertUKnot, surface.UKnot, surface.NbUKnots())
         _refine(surface.InsertVKnot, surface.VKnot, surface.NbVKnots())
     found = GProp_GProps()
-    BRepGProp.SurfaceProperties_s(shape, found, _AREA)
+    BRepGProp.SurfaceProperties_s(shape, found, _AREA_TOLERANCE)
     return float(found.Mass()) / MILLIMETRES**2
 
 
 def _refine(insert: Callable[..., None], knot: Callable[[int], float], count: int) -> None:
-    """Part each span, so that there are enough of them."""
+    """Split each span, so that there are enough of them."""
     knots = [knot(i) for i in range(1, count + 1)]
     parts = -(-_SPANS // (count - 1))
     for low, high in pairwise(knots):
@@ -273,12 +245,12 @@ def _refine(insert: Callable[..., None], knot: Callable[[int], float], count: in
 
 
 # --------------------------------------------------------------------------------------
-# Whether a file holds what was to be written, as OpenCASCADE reads it: for every file we write.
+# Comparing it with what was to be written.
 
-_POINT = 1e-8
+_POINT_DIFFERENCE = 1e-8
 """Control points come back to this (m): 1e-5 mm."""
 
-_CHECK_AREA = 1e-6
+_AREA_DIFFERENCE = 1e-6
 """Areas come back to this part."""
 
 _NODES = 16
@@ -315,24 +287,10 @@ def _net_error(one: SplineSurface, other: SplineSurface) -> float:
 def faults_of(
     found: WrittenFile, surfaces: Sequence[SplineSurface], unit: str, *, shell: bool
 ) -> list[str]:
-    """List what is wrong with a file.
+    """List what is wrong with a file, one sentence a fault.
 
-    Parameters
-    ----------
-    found : Found
-        What was read back.
-    surfaces : sequence of SplineSurface
-        What was to be written, in this order; m.
-    unit : str
-        The unit it was to be in.
-    shell : bool
-        Whether the form keeps edges that faces have in common: then there must be one shell, and
-        no seam within it.
-
-    Returns
-    -------
-    list of str
-        One sentence a fault; empty if there is none.
+    `surfaces` (m) is what was to be written, in this order, in `unit`. With `shell` faces share
+    edges: then there must be one shell, and no seam within it.
     """
     return [
         *_faults_of_surfaces(found, surfaces, unit),
@@ -350,10 +308,10 @@ def _faults_of_surfaces(
         return
     for one, other in zip(found.surfaces, surfaces, strict=True):
         error = _net_error(one, other)
-        if not error <= _POINT:
+        if not error <= _POINT_DIFFERENCE:
             yield f"control points of {other.name!r} are off by {1e3 * error:.6g} mm"
     wanted = sum(map(area_of, surfaces))
-    if not abs(found.area - wanted) <= _CHECK_AREA * wanted:
+    if not abs(found.area - wanted) <= _AREA_DIFFERENCE * wanted:
         yield f"the area is {found.area:.6f} m2 instead of {wanted:.6f} m2"
     if not found.valid:
         yield "OpenCASCADE finds its topology unsound"

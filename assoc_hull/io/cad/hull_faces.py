@@ -33,7 +33,7 @@ from assoc_hull.io.units import METRES
 __all__ = ["FINE", "HullFaces", "facets_at_scale", "hull_size", "model_factor"]
 
 _WELD = 2e-3
-"""Borders at most so far apart (m) are one."""
+"""Borders at most this far apart (m) are one."""
 
 _SHIP = 50.0
 """A hull shorter than this (m) is taken for a model: limits are less in proportion."""
@@ -97,7 +97,7 @@ def hull_size(faces: HullFaces, scale: float, book: Notebook) -> float:
 
     Parameters
     ----------
-    faces : Faces
+    faces : HullFaces
         As read.
     scale : float
         Full scale over that of the file.
@@ -138,7 +138,7 @@ def facets_at_scale(faces: HullFaces, scale: float, size: float, book: Notebook)
 
     Parameters
     ----------
-    faces : Faces
+    faces : HullFaces
         As read.
     scale : float
         Full scale over that of the file.

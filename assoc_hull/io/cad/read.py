@@ -1,9 +1,10 @@
 """Reading STEP and trimmed IGES through OpenCASCADE: surfaces and their triangles.
 
 The text of a STEP file is checked first, since OpenCASCADE ends the process on some damaged files.
-Every face is made a spline surface, so that its triangles have parameters on that.
+Every face is made a spline surface, so that its triangles have parameters on it. OpenCASCADE counts
+in mm; results are in m.
 
-Source: ISO 10303-21 (2016), sections 5 to 11.
+Source: ISO 10303-21 (2016), sections 5 to 11: the exchange structure and its tokens.
 """
 
 from __future__ import annotations
@@ -33,12 +34,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Whether the text of a STEP file is sound, before OpenCASCADE reads it; and its unit of length.
-#
-# OpenCASCADE ends the process, or does not come to an end, on some files with a number that is none
-# or a reference to nothing. So the words of the data section are looked at first.
-#
-# Source: ISO 10303-21 (2016), sections 5 to 11: the exchange structure and its tokens.
+# Is the text of a STEP file sound? OpenCASCADE ends the process, or does not come to an end, on
+# some files with a number that is none or a reference to nothing. So the words of the data section
+# are looked at first.
 
 _AGAIN = "export or copy it again, whole"
 _STRING = re.compile(r"'(?:[^']|'')*'|/\*.*?\*/|\"[0-9A-F]*\"", re.S)
@@ -54,6 +52,7 @@ _PLAIN = (
 _STRANGE = re.compile(r"[^@0*$'(),=;\s]|,\s*[,)]|\(\s*,")
 """A mark or a word that is none, or a value that is left out."""
 
+# Numbers over 1e100, by their exponent: OpenCASCADE hangs on them.
 _LARGE = re.compile(r"[0-9.][eE]\+?0*(?:[2-9][0-9]{2,}|1[0-9]{3,}|10[1-9]|1[1-9][0-9])\b")
 
 _PREFIX = {"$": "m", "": "m", ".MILLI.": "mm", ".CENTI.": "cm"}
@@ -61,14 +60,7 @@ _CONVERTED = {"INCH": "in", "IN": "in", "FOOT": "ft", "FEET": "ft", "FT": "ft"}
 
 
 def require_sound_step(text: str, source: str) -> None:
-    """Refuse a file that is cut short, or whose statements are none.
-
-    Parameters
-    ----------
-    text : str
-        The file.
-    source : str
-        Its name, for messages.
+    """Refuse a STEP file that is cut short, or whose statements are none.
 
     Raises
     ------
@@ -131,27 +123,16 @@ def step_unit(text: str) -> str | None:
 
 
 # --------------------------------------------------------------------------------------
-# Faces of STEP and of trimmed IGES files through OpenCASCADE, as surfaces and their triangles.
-#
-# Every face is made a spline surface first, so that its triangles tell parameters on that.
+# Faces as surfaces and triangles.
 
 _TURN = 0.35
 """Triangles of a face turn by at most so much (rad) from one to the next."""
 
 
 def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> HullFaces:
-    """Read the faces of a file.
+    """Read the faces of a file ("step", "iges") as surfaces, m.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    kind : {"step", "iges"}
-        What it is.
-    told : str or None
-        The unit that the file tells.
-    unit : str or None
-        The unit of its lengths; None: as told.
+    `told` is the unit that the file declares, `unit` one that is given and counts first.
 
     Raises
     ------
@@ -212,6 +193,7 @@ def _splines(shape: Any) -> Any:
 
 
 def _unheld(surfaces: Sequence[SplineSurface | None], source: str) -> tuple[str, ...]:
+    """Report the faces that cannot be held as splines."""
     count = sum(each is None for each in surfaces)
     if not count:
         return ()

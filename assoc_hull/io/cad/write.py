@@ -1,7 +1,7 @@
 """Surfaces of a hull for CAD programs: STEP or IGES, read back and compared before it is kept.
 
-Half a hull may be written with its image to starboard. The same surfaces give the same bytes: the
-header holds a fixed time and no name of a user.
+Half a hull (y >= 0, m) may be written with its image to starboard. The same surfaces give the same
+bytes: headers hold a fixed time and no name of a user. OpenCASCADE writes all but bare surfaces.
 
 Source: ISO 10303-21 and 10303-214; IGES 5.3 (US PRO, 1996), sections 4.34, 4.24, 4.148 to 4.151.
 """
@@ -48,9 +48,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The half of a hull to port and its image to starboard.
+# The half of a hull to port, and its image to starboard.
 
-_ACROSS = np.array([1.0, -1.0, 1.0])
+_MIRROR = np.array([1.0, -1.0, 1.0])
 
 
 def both_sides(surfaces: Sequence[SplineSurface]) -> list[SplineSurface]:
@@ -85,13 +85,6 @@ def _named(surface: SplineSurface, side: str) -> str:
 def mirrored_surface(surface: SplineSurface, name: str) -> SplineSurface:
     """Give the image of a surface in the centre plane, its normal on the same side of the hull.
 
-    Parameters
-    ----------
-    surface : SplineSurface
-        The surface.
-    name : str
-        What to call its image.
-
     Notes
     -----
     y changes its sign, and u its sense: of the two each alone would turn the normals in.
@@ -105,37 +98,22 @@ def mirrored_surface(surface: SplineSurface, name: str) -> SplineSurface:
     [[5.0, -1.0, 0.0], [5.0, -1.0, 2.0]]
     """
     knots = surface.knots_u
-    net = surface.net[::-1] * _ACROSS + 0.0
+    net = surface.net[::-1] * _MIRROR + 0.0
     weights = None if surface.weights is None else surface.weights[::-1].copy()
     turned = (knots[0] + knots[-1]) - knots[::-1]
     return SplineSurface(name, surface.degrees, turned, surface.knots_v, net, weights)
 
 
 # --------------------------------------------------------------------------------------
-# A shell of spline surfaces as STEP (AP214), by OpenCASCADE.
-#
-# The same surfaces give the same bytes: the header holds a fixed time, as ours in IGES does, and no
-# name of a user; the counter that OpenCASCADE puts behind the name of the part is taken off.
-#
-# Source: ISO 10303-21 (the file) and ISO 10303-214 (what it holds).
+# A shell as STEP (AP214), by OpenCASCADE. The counter that it puts behind the name of the part is
+# taken off, so that bytes do not depend on what was written before.
 
 _STEP_TIME = "2000-01-01T00:00:00"
 _STEP_UNITS = {"m": "M", "mm": "MM"}
 
 
 def step_bytes(sewn: SewnShell, names: Sequence[str], unit: str, name: str) -> bytes:
-    """Lay out a shell as the bytes of a STEP file.
-
-    Parameters
-    ----------
-    sewn : Sewn
-        The shell.
-    names : sequence of str
-        One for each face.
-    unit : {"m", "mm"}
-        Of the lengths in the file.
-    name : str
-        Of the part.
+    """Lay out a shell as the bytes of a STEP file, with one name for each face; unit "m" or "mm".
 
     Raises
     ------
@@ -193,12 +171,8 @@ def _set_step_header(model: Any, name: str) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# Spline surfaces as IGES, by OpenCASCADE: trimmed surfaces (144 on 128), or faces of a shell.
-#
-# Entities 144 do not know their neighbours; faces of a shell (514, 510) do, and fewer programs read
-# them. The same surfaces give the same bytes.
-#
-# Source: IGES 5.3 (US PRO, 1996), sections 4.34, 4.24 and 4.148 to 4.151.
+# IGES, by OpenCASCADE: trimmed surfaces (144 on 128), which do not know their neighbours, or faces
+# of a shell (514, 510), which do and which fewer programs read.
 
 _IGES_TIME = "20000101.000000"
 _IGES_UNITS = {"m": "M", "mm": "MM"}
@@ -210,20 +184,10 @@ _DIGITS = 12
 def iges_bytes(
     sewn: SewnShell, names: Sequence[str], unit: str, name: str, *, shell: bool = False
 ) -> bytes:
-    """Lay out a shell as the bytes of an IGES file.
+    """Lay out a shell as the bytes of an IGES file, with one name for each face; unit "m" or "mm".
 
-    Parameters
-    ----------
-    sewn : Sewn
-        The shell.
-    names : sequence of str
-        One for each face; what is no ASCII is written as ``?``.
-    unit : {"m", "mm"}
-        Of the lengths in the file.
-    name : str
-        Of the part.
-    shell : bool
-        Whether faces keep their edges in common (514, 510); else each is a 144 by itself.
+    With `shell`, faces share their edges (514, 510); else each is a 144 by itself. What is not
+    ASCII in a name is written as ``?``.
 
     Raises
     ------
@@ -285,7 +249,7 @@ def _printed(model: Any) -> bytes:
 
 
 # --------------------------------------------------------------------------------------
-# Surfaces of a hull for CAD programs: STEP or IGES, read back and compared before it is kept.
+# Files: written, read back, compared.
 
 CAD_FORMS: Mapping[str, str] = MappingProxyType({
     "step": "STEP (AP214): one shell of faces that share their edges",
@@ -436,7 +400,7 @@ def _require_centred(surfaces: Sequence[SplineSurface]) -> None:
 
 
 def _bare(surfaces: list[SplineSurface], unit: str, half: bool) -> tuple[bytes, CadReport]:
-    """Write with our own hands, and read so."""
+    """Write bare surfaces with our own writer, and read them back with our own reader."""
     data = iges_text(surfaces, unit)
     found = surfaces_of_iges(data, "the file")[0]
     error = control_point_error(found, surfaces)

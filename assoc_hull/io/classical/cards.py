@@ -44,11 +44,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The text that all classical definitions are written in: cards, each with rows of numbers.
-#
-# The first line names the kind of definition, and the ship. Then a line that begins with a word is
-# a card: the word, cells after it. A line that begins with a number is a row of the card above it.
-# Blank lines do not count; nor does what follows a ``#``. A cell of several words stands in quotes.
+# Cards. The first line names the kind of definition, and the ship. Then a line that begins with a
+# word is a card: the word, cells after it. A line that begins with a number is a row of the card
+# above it. Blank lines do not count; nor does what follows a ``#``. A cell of several words stands
+# in quotes.
 
 KINDS = ("SEAKING", "SFOLDS", "PRELIKON")
 """The first words of texts that are read."""
@@ -75,7 +74,7 @@ class Card:
         Its first word, in small letters.
     cells : tuple of str
         What follows on the same line.
-    rows : tuple of Row
+    rows : tuple of CardRow
         The rows below it.
     line : int
         Of the text, from 1.
@@ -227,14 +226,7 @@ def kind_of(text: str) -> str | None:
 
 
 def read_cards(text: str, source: str) -> Cards:
-    """Take a text apart into cards.
-
-    Parameters
-    ----------
-    text : str
-        The text.
-    source : str
-        What it is called in messages.
+    """Split a text into cards; `source` is what it is called in messages.
 
     Raises
     ------
@@ -264,19 +256,14 @@ def read_cards(text: str, source: str) -> Cards:
 
 
 # --------------------------------------------------------------------------------------
-# Principal dimensions in the texts of definitions: a card each.
+# Principal dimensions: a card each.
 
 DIMENSIONS = ("length", "breadth", "depth", "draught")
 """Cards of one number above 0, m; the length is that between perpendiculars."""
 
 
 def read_particulars(cards: Cards) -> Particulars:
-    """Read the four dimensions, and the card ``deck``, open or closed; without it open.
-
-    Parameters
-    ----------
-    cards : Cards
-        The text; its title is the name of the ship.
+    """Read the four dimensions (m), and the card ``deck``, open or closed; without it open.
 
     Raises
     ------
@@ -303,10 +290,8 @@ def read_particulars(cards: Cards) -> Particulars:
 
 
 # --------------------------------------------------------------------------------------
-# Where x is counted from: texts may count from midship, the kernel counts from AP.
-#
-# All readers of definitions use this: `read_origin` once, `Origin.moved` on every x, and
-# `Origin.notes` among the notes of the definition.
+# Where x is counted from. All readers of definitions use `read_origin` once, `Origin.moved` on
+# every x, and `Origin.notes` among the notes of the definition.
 
 ORIGINS = ("ap", "midship")
 """What the card ``origin`` may say."""
@@ -325,7 +310,7 @@ class Origin:
     shift: float
 
     def moved(self, x: ArrayLike) -> FloatArray:
-        """Give places (m) from AP, in the shape of `x`."""
+        """Give x (m) counted from AP, in the shape of `x`."""
         return np.asarray(np.asarray(x, np.float64) + self.shift)
 
     @property
@@ -337,16 +322,7 @@ class Origin:
 
 
 def read_origin(cards: Cards, length: float, default: str = "ap") -> Origin:
-    """Read the card ``origin``.
-
-    Parameters
-    ----------
-    cards : Cards
-        The text.
-    length : float, m
-        Between perpendiculars.
-    default : str
-        One of `ORIGINS`: what a text without the card means.
+    """Read the card ``origin``; `default`, one of `ORIGINS`, is what a text without it means.
 
     Raises
     ------

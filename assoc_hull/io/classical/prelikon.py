@@ -1,7 +1,7 @@
-"""Texts of ships of main types (PRELIKON): a card for each sheer, camber, deck, section and so on.
+"""Text files of ships of main types (PRELIKON): cards for sheer, camber, deck, section and so on.
 
-Units, base line and origin are read first: they say what all other numbers mean in metres from AP.
-Errors of geometry name the line of the text.
+Unit, base line and origin are read first (`PrelikonUnits`): they say what all other numbers mean in
+metres, x from the AP and z from the base line. Errors of geometry name the line of the text.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Unit, base line and origin of a text of main types: what its numbers mean in metres from AP.
+# Unit, base line and origin.
 
 UNITS = {"m": 1.0, "mm": 1e-3, "ft": 0.3048}
 """Metres in the units that a text may be in."""
@@ -106,11 +106,6 @@ class PrelikonUnits:
 def read_units(cards: Cards) -> PrelikonUnits:
     """Read the cards ``unit`` and ``base``; metres from the base line without them.
 
-    Parameters
-    ----------
-    cards : Cards
-        The text.
-
     Raises
     ------
     BadInputError
@@ -129,7 +124,7 @@ def read_units(cards: Cards) -> PrelikonUnits:
 
 
 def make_on_card(card: Card, make: Callable[[], Made]) -> Made:
-    """Make something of a card; what goes wrong with its geometry is told with its line."""
+    """Make something of a card; an error of its geometry is reported with its line."""
     try:
         return make()
     except GeometryError as error:
@@ -137,7 +132,7 @@ def make_on_card(card: Card, make: Callable[[], Made]) -> Made:
 
 
 # --------------------------------------------------------------------------------------
-# Sections and boundary curves in texts of main types: rows of points, lines and arcs between.
+# Sections and boundary curves: rows of points, with what runs from each to the next.
 
 _MODES = ("through", "fillet")
 
@@ -190,6 +185,7 @@ def read_boundary(card: Card, units: PrelikonUnits) -> ArcBoundary:
 
 
 def _curve(card: Card, first: int, units: PrelikonUnits, axes: str, name: str) -> ArcCurve:
+    """Read a curve from the rows of a card; "through" or "fillet" may stand in its cells."""
     mode = " ".join(card.cells[first:]) or "through"
     if mode not in _MODES:
         what = f"{card.word} has {shown(mode)}"
@@ -234,7 +230,7 @@ def _point(row: CardRow, card: Card) -> _Point:
 
 
 # --------------------------------------------------------------------------------------
-# Sheer, camber, decks, boxes, deck houses and space curves in texts of main types.
+# Sheer, camber, decks, boxes, deck houses and space curves.
 
 
 def read_decks(cards: Cards, units: PrelikonUnits) -> tuple[Deck, ...]:
@@ -401,7 +397,7 @@ def _name(card: Card) -> str:
 
 
 # --------------------------------------------------------------------------------------
-# Texts of ships of main types: a card for each sheer, camber, deck, section and so on.
+# The whole text.
 
 TYPES: Mapping[str, int] = {
     **dict.fromkeys(DIMENSIONS, 1),
@@ -424,17 +420,10 @@ WORDS = (*TYPES, "waterlines", "buttocks")
 
 
 def read_prelikon(cards: Cards) -> Prelikon:
-    """Make a ship of main types of the cards of a text.
+    """Make a ship of main types of the cards of a text; x is counted from AP then.
 
-    Parameters
-    ----------
-    cards : Cards
-        The text, as `read_cards` takes it apart. x is counted from midship unless it says else.
-
-    Returns
-    -------
-    Prelikon
-        x is counted from AP; a note says so where it was not.
+    In the text x is counted from midship unless the card ``origin`` says else; a note says if
+    moved.
 
     Raises
     ------

@@ -1,7 +1,8 @@
-"""Reading digitised lines: lists of points per line, in one or several pieces.
+"""Digitised lines: points per line, in one or several pieces, read into ship axes.
 
-Lines come in ship axes: x forward, y to port, z up. Of lines of both sides one is kept. Units,
-families, gaps and knuckles are settled here, and all that was assumed is reported.
+Files are in ship axes already: x forward, y to port, z up. Unit and scale are settled first, all
+that follows is in m. Of lines drawn on both sides one side is kept, to port. What was assumed,
+repaired or looks wrong goes to a `Notebook`.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Digitised lines of both sides of a hull: cut at the centre plane, one side kept.
+# Both sides of a hull: pieces are cut at the centre plane, and one side is kept.
 
 _FLIP = np.array([1.0, -1.0, 1.0])
 
@@ -49,7 +50,7 @@ _IMAGE = 0.1
 """A piece whose mirror image is passed by no more than this (m) is drawn twice."""
 
 _SYMMETRIC = 5e-3
-"""Sides that differ by more than this (m) are told."""
+"""Sides that differ by more than this (m) are reported."""
 
 _AGAIN = 0.05
 """A side that begins this close (m) to where the other began is drawn from its beginning again."""
@@ -65,19 +66,10 @@ class _Sides:
 
 
 def to_one_side(raw: list[RawPiece], book: Notebook) -> list[RawPiece]:
-    """Bring all pieces to port, those that lie on both sides once.
+    """Bring all pieces (m) to port, those that lie on both sides once.
 
-    Parameters
-    ----------
-    raw : list of RawPiece
-        Points in m, y to port.
-    book : Notebook
-        Takes what was cut, left out and mirrored, and lines whose sides differ.
-
-    Returns
-    -------
-    list of RawPiece
-        Pieces of a line stand together, the lines in the order in which they come first.
+    Pieces of a line stand together, the lines in the order in which they come first. `book` takes
+    what was cut, left out and mirrored, and lines whose sides differ.
     """
     lines: dict[str, _Sides] = {}
     for each in raw:
@@ -87,7 +79,7 @@ def to_one_side(raw: list[RawPiece], book: Notebook) -> list[RawPiece]:
     images = turned = 0
     for name, sides in lines.items():
         again, others = _drawn_twice(sides)
-        _tell_difference(name, sides.port, again, book)
+        _report_difference(name, sides.port, again, book)
         cut += [name] if sides.cut else []
         images += 0 if sides.cut else len(again)
         turned += len(others)
@@ -143,8 +135,13 @@ def _cut_at_centre(points: FloatArray) -> list[FloatArray]:
 def _between(
     run: FloatArray, centre: FloatArray, after: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Share the points in the centre plane between the run before and the run after them."""
+    """Share the points in the centre plane between the run before and the run after them.
+
+    Where there are none, both get the point where the chord between them passes y = 0.
+    """
     half = len(centre) // 2
+    # "Again": the second side is drawn from the beginning of the first, so that the pen jumped
+    # and no chord between the runs is a part of the hull.
     again = any(
         np.linalg.norm(each * _FLIP - run[0]) < _AGAIN for each in (*centre[half:][:1], after)
     )
@@ -160,14 +157,17 @@ def _between(
 
 
 def _drawn_twice(sides: _Sides) -> tuple[list[RawPiece], list[RawPiece]]:
-    """Give the pieces to starboard that port has too, and the others."""
+    """Give the pieces to starboard that port has too, and the others.
+
+    Of a line that was cut at the centre plane the longer side stays.
+    """
     if not sides.port or not sides.starboard:
         return [], sides.starboard
     if sides.cut:
         if 2.0 * _length(sides.port) < _length(sides.starboard):
             sides.port, sides.starboard = sides.starboard, sides.port
         return sides.starboard, []
-    again = [_away(each.points, sides.port) < _IMAGE for each in sides.starboard]
+    again = [_farthest_off(each.points, sides.port) < _IMAGE for each in sides.starboard]
     pairs = list(zip(sides.starboard, again, strict=True))
     return [each for each, twice in pairs if twice], [each for each, twice in pairs if not twice]
 
@@ -176,7 +176,7 @@ def _length(pieces: list[RawPiece]) -> float:
     return sum(float(cumulative_lengths(each.points)[-1]) for each in pieces)
 
 
-def _away(points: FloatArray, pieces: list[RawPiece]) -> float:
+def _farthest_off(points: FloatArray, pieces: list[RawPiece]) -> float:
     """Give how far the farthest of some points lies off the polylines of pieces, m."""
     nearest = np.full(len(points), np.inf)
     for piece in pieces:
@@ -192,28 +192,33 @@ def _away(points: FloatArray, pieces: list[RawPiece]) -> float:
     return float(nearest.max())
 
 
-def _tell_difference(
+def _report_difference(
     name: str, kept: list[RawPiece], dropped: list[RawPiece], book: Notebook
 ) -> None:
-    away = max((_away(each.points, kept) for each in dropped), default=0.0)
+    """Report the sides of a line that differ by more than drawing errors."""
+    away = max((_farthest_off(each.points, kept) for each in dropped), default=0.0)
     if away > _SYMMETRIC:
         what = f"its sides differ by up to {1e3 * away:.0f} mm; one is left out"
         book.suspect("both sides", name, what, away)
 
 
 # --------------------------------------------------------------------------------------
-# Digitised lines: lists of points per line, in one or several pieces.
+# Reading: unit, families, pieces, gaps.
 
 _UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
 _METRIC = ("m", "cm", "mm")
 _LONGEST, _SHORTEST = 600.0, 1.0
+"""Lengths (m) between which a hull may lie at full scale: others show a wrong unit."""
+
 _OFF_PLANE = 0.02
 """Points scattered less than this (m) about a plane are meant to lie in it."""
 
 _MOST_PIECES = 400
-"""Pieces of one line are joined in seconds up to here; what has more was taken to bits."""
+"""Pieces of one line are joined within seconds up to here; a line with more is no one line."""
 
 _REACH = 0.1
+"""The end of a line this near (m) to a boundary curve lies on it."""
+
 _GROUPS = {
     "ST": "sections", "SECTION": "sections", "FRAME": "sections", "FR": "sections",
     "WL": "waterlines", "WATERLINE": "waterlines", "BTK": "buttocks", "BUTTOCK": "buttocks",
@@ -244,13 +249,13 @@ def read_lines(
         Unit of the file.
     gaps : Gaps or None
         Loose ends closer than `join` are joined, 60 mm by default; farther ones stay apart,
-        and those up to `refuse` are told.
+        and those up to `refuse` are reported.
     name : str or None
         Of the hull; that of the file by default.
 
     Returns
     -------
-    Slices
+    HullSlices
 
     Raises
     ------
@@ -296,7 +301,7 @@ def read_lines(
 
 
 def _knuckles(raw: list[RawPiece], factor: float) -> dict[str, FloatArray]:
-    """Give the places marked as knuckles by line, m, to port."""
+    """Give the points marked as knuckles by line, (k, 3), m, to port."""
     found: dict[str, list[FloatArray]] = {}
     for each in raw:
         if len(each.knuckles):
@@ -307,7 +312,7 @@ def _knuckles(raw: list[RawPiece], factor: float) -> dict[str, FloatArray]:
 
 
 def _unit(found: RawLines, unit: str, book: Notebook, source: str) -> str:
-    """Give the unit of the form where it has one; another one may not be given, but for a hint."""
+    """Give the unit of the format where it has one; another may be given only against a hint."""
     if found.unit is None or unit == found.unit:
         return unit
     if unit != "auto" and found.told:
@@ -325,6 +330,7 @@ def _unit(found: RawLines, unit: str, book: Notebook, source: str) -> str:
 
 
 def _factor(raw: list[RawPiece], scale: float, unit: str, book: Notebook, source: str) -> float:
+    """Give the factor from units of the file to m at full scale."""
     scale = positive(scale, "scale", "as an argument")
     if unit not in ["auto", *_UNITS]:
         known = " or ".join(map(repr, ("auto", *_UNITS)))
@@ -356,6 +362,7 @@ def _farthest(raw: list[RawPiece]) -> str:
 
 
 def _by_name(raw: list[RawPiece], *, boundary: bool) -> dict[str, list[RawPiece]]:
+    """Give the pieces of boundary curves, or of all other lines, by name."""
     found: dict[str, list[RawPiece]] = {}
     for each in raw:
         if (each.line.lower() in BOUNDARIES) == boundary:
@@ -371,6 +378,7 @@ def _chain(
     borders: dict[str, FloatArray],
     book: Notebook,
 ) -> list[LinePiece]:
+    """Join the pieces of one line where they meet; gaps wider than `join` stay open."""
     if len(raw) > _MOST_PIECES:
         raise BadInputError(f"{name} comes in {len(raw)} pieces, more than {_MOST_PIECES}",
                             f"in {raw[0].where}", "join them where they were drawn")  # fmt: skip
@@ -384,12 +392,12 @@ def _chain(
         pieces.append(LinePiece(points, (_under(points[0], borders), _under(points[-1], borders))))
     pieces, made = join_pieces(name, pieces, Gaps(gaps.join, gaps.join))
     joins += made
-    _tell_gap(name, pieces, gaps, book)
+    _report_gap(name, pieces, gaps, book)
     return pieces
 
 
-def _tell_gap(name: str, pieces: list[LinePiece], gaps: Gaps, book: Notebook) -> None:
-    """Tell of loose ends that face one another across a gap too wide to be closed unasked."""
+def _report_gap(name: str, pieces: list[LinePiece], gaps: Gaps, book: Notebook) -> None:
+    """Report loose ends that face one another across a gap too wide to be closed unasked."""
     near = nearest_ends(pieces)
     if near is None or near[0] > gaps.refuse or near[1][0] == near[2][0]:
         return
@@ -403,7 +411,7 @@ def _tell_gap(name: str, pieces: list[LinePiece], gaps: Gaps, book: Notebook) ->
 
 
 def _under(place: FloatArray, borders: dict[str, FloatArray]) -> str:
-    """Say on what boundary curve the end of a line lies."""
+    """Name the boundary curve on which the end of a line lies: "loose" if on none."""
     for name in ("deck edge", "transom"):
         if name in borders and _distance(borders[name], place) < _REACH:
             return name
@@ -425,6 +433,7 @@ def _line(
     borders: dict[str, FloatArray],
     book: Notebook,
 ) -> SliceLine:
+    """Make a line of its pieces: its family, its plane, its gaps; from aft or from below."""
     every = np.concatenate([each.points for each in raw])
     group = _group(name, every, raw[0].where)
     axis = AXES[group]
@@ -467,7 +476,7 @@ def _flattened(points: FloatArray, axis: int, offset: float) -> FloatArray:
 
 
 def _group(name: str, points: FloatArray, where: str) -> str:
-    """Tell the family by the name, else by the coordinate that is constant."""
+    """Give the family by the first word of the name, else by the coordinate that is constant."""
     word = name.split()[0].upper() if name.split() else ""
     if word in _GROUPS:
         return _GROUPS[word]
@@ -482,6 +491,7 @@ def _group(name: str, points: FloatArray, where: str) -> str:
 
 
 def _refuse_twins(lines: list[SliceLine], source: str) -> None:
+    """Refuse two lines of one family in one plane."""
     seen: dict[tuple[str, float], str] = {}
     for line in lines:
         key = (line.group, line.offset)

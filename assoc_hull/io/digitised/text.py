@@ -1,7 +1,7 @@
 """Digitised lines as text: CSV points, curves of IGES, or a form of another program.
 
-The content tells the form. `parse_lines` hands the text to the reader of the form; readers of DXF,
-BRITFAIR, DELFTship and GHS stand in modules of their own.
+The form is recognised by the content. `parse_lines` hands the text to its reader; readers of DXF,
+BRITFAIR, DELFTship and GHS stand in modules of their own. Points stay in the unit of the file.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Curves of an IGES file as digitised lines: each by the name of its entity.
+# Curves of IGES, each by the name of its entity.
 
 _CHORD = 1e-6
 """Points leave curves by this part of the size of all: 0.3 mm on a ship of 300 m."""
@@ -55,16 +55,7 @@ _FAMILIES = ("ST", "SECTION", "FRAME", "FR", "WL", "WATERLINE", "BTK", "BUTTOCK"
 
 
 def parse_iges(text: str, source: str, book: Notebook) -> RawLines:
-    """Read the curves of a file without surfaces as pieces of lines.
-
-    Parameters
-    ----------
-    text : str
-        IGES; the name of a curve is that of its line.
-    source : str
-        Name of the file, for messages.
-    book : Notebook
-        Takes what the file holds and lines do not.
+    """Read the curves of a file without surfaces; the name of a curve is that of its line.
 
     Raises
     ------
@@ -81,7 +72,7 @@ def parse_iges(text: str, source: str, book: Notebook) -> RawLines:
     size = max(float(np.ptp(curve.points, axis=0).max()) for curve in curves)
     lines = [curve for curve in curves if _is_line(curve, size)]
     others = [curve for curve in curves if not _is_line(curve, size)]
-    _tell_others(others, book)
+    _report_others(others, book)
     if not lines:
         what = f"none of {len(curves)} curves lies in a plane"
         raise BadInputError(what, f"in {source}", "export sections, waterlines or buttocks")
@@ -104,8 +95,8 @@ def _is_line(curve: SplineCurve, size: float) -> bool:
     return curve.name.lower() in BOUNDARIES or word in _FAMILIES or flat
 
 
-def _tell_others(curves: list[SplineCurve], book: Notebook) -> None:
-    """Tell which curves are left out."""
+def _report_others(curves: list[SplineCurve], book: Notebook) -> None:
+    """Report which curves are left out."""
     names = list(dict.fromkeys(curve.name for curve in curves))
     if names:
         known = ", ".join(BOUNDARIES)
@@ -114,7 +105,7 @@ def _tell_others(curves: list[SplineCurve], book: Notebook) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# Digitised lines as text: points in CSV, curves of DXF or IGES, or a form of another program.
+# Recognising the form, and CSV.
 
 _COLUMNS = ("line", "x", "y", "z")
 
@@ -168,7 +159,7 @@ def parse_lines(text: str, source: str, book: Notebook) -> RawLines:
 
 
 def _parser(text: str) -> Parse | None:
-    """Tell by the content what reads a text; None if it holds no digitised lines."""
+    """Choose by the content what reads a text; None if it holds no digitised lines."""
     forms: tuple[tuple[Callable[[str], bool], Parse], ...] = (
         (_is_csv, _parse_csv), (_is_dxf, parse_dxf), (is_britfair, parse_britfair),
         (is_delftship, parse_delftship), (is_gf, parse_gf),
@@ -191,9 +182,14 @@ def _is_csv(text: str) -> bool:
 
 
 def _parse_csv(text: str, source: str, book: Notebook) -> RawLines:
+    """Read points by line and piece; without a column of pieces a blank row begins another."""
+    # Spreadsheets begin a file with a byte order mark.
     rows = text.lstrip("\ufeff").splitlines()
+    # There is such a row: `_is_csv` has read it.
     head = next(i for i, row in enumerate(rows) if row.strip() and row.lstrip()[0] != "#")
+    # The comma comes last: between semicolons or tabs it is a decimal sign.
     mark = next((each for each in ";\t" if each in rows[head]), ",")
+    # The head does not go through `csv`, which takes quotes off the other rows.
     names = [word.strip().lower().strip('"') for word in rows[head].split(mark)]
     for name in _COLUMNS:
         if name not in names:
@@ -213,6 +209,7 @@ def _parse_csv(text: str, source: str, book: Notebook) -> RawLines:
         if cells[0].lstrip().startswith("#"):
             continue
         where = f"row {number} of {source}"
+        # Cells behind these may be missing: of `piece`, or of columns that are not read.
         if len(cells) <= max(at):
             raise BadInputError(f"{len(cells)} cells", where, f"give {len(names)}")
         name = cells[at[0]].strip()

@@ -1,7 +1,7 @@
 """The entities of an ASCII DXF drawing, and its B-splines as points.
 
 `drawing_entities` gives group codes with their values, one entity after another. `RawSpline` is a
-B-spline as the file has it, `RawCurve` a line or a piece of one.
+B-spline as the file has it, `RawCurve` a line or a piece of one; both in the unit of the file.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The entities of an ASCII DXF drawing: group codes with their values, one entity after another.
+# Entities.
 
 _OWNER = 1001
 """The group code of an application's name, with which its extended data begin."""
@@ -66,11 +66,11 @@ class DrawingEntity:
         return [read_number(value, where) for each, value, where in self.codes if each == code]
 
     def number(self, code: int) -> float:
-        """Give the first value of a code, nil if there is none."""
+        """Give the first value of a code, 0 if there is none."""
         return next(iter(self.numbers(code)), 0.0)
 
     def place(self, first: int = 10, height: float = 0.0) -> list[float]:
-        """Give the place that begins with a code."""
+        """Give the point (x, y, z) whose first coordinate has a code; `height` where z lacks."""
         x, y, *z = (self.numbers(first + step)[:1] for step in (0, 10, 20))
         return [*(x or [0.0]), *(y or [0.0]), *(z[0] or [height])]
 
@@ -88,14 +88,7 @@ class DrawingEntity:
 
 
 def drawing_entities(text: str, source: str) -> list[DrawingEntity]:
-    """Take a drawing apart; heads of sections are entities, too.
-
-    Parameters
-    ----------
-    text : str
-        The drawing.
-    source : str
-        Name of the file, for messages.
+    """Split a drawing into entities; heads of sections are entities, too.
 
     Raises
     ------
@@ -134,10 +127,10 @@ def drawing_unit(entities: list[DrawingEntity]) -> str | None:
 
 
 # --------------------------------------------------------------------------------------
-# B-splines of drawings as points of digitised lines.
+# B-splines and polylines.
 
 _MOST_PARTS = 1000
-"""A span is cut into no more parts."""
+"""A span is cut into no more parts than this."""
 
 _STEEPEST = 15
 """No program draws splines of a higher degree."""
@@ -194,17 +187,9 @@ class RawSpline:
         return bezier_pieces(weighted, self.knots, self.degree)
 
     def points(self, chord: float) -> FloatArray:
-        """Give points along it: all knots, and between them as many as are needed.
+        """Give points (m, 3) along it: all knots, and between them as many as are needed.
 
-        Parameters
-        ----------
-        chord : float
-            How far straight lines between points may leave it, in the unit of the file.
-
-        Returns
-        -------
-        (m, 3)
-            From its beginning to its end.
+        Straight lines between them leave it by no more than `chord`, in the unit of the file.
         """
         polygons = self.polygons
         count = _parts(_plain(polygons), chord)
@@ -219,7 +204,7 @@ class RawSpline:
         return _plain(places[:, 0])
 
     def knuckles(self) -> FloatArray:
-        """Give the places where its direction jumps, (k, 3)."""
+        """Give the points where its direction jumps, (k, 3)."""
         polygons = _plain(self.polygons)
         before, behind = polygons[:-1, -1] - polygons[:-1, -2], polygons[1:, 1] - polygons[1:, 0]
         known, inner = span_limits(self.knots, self.degree), np.arange(len(polygons) - 1)
@@ -276,9 +261,10 @@ def _plain(points: FloatArray) -> FloatArray:
 
 
 def _parts(polygons: FloatArray, chord: float) -> IntArray:
-    """Say into how many parts each span is cut: by the largest second difference of its polygon.
+    """Give into how many parts each span is cut: by the largest second difference of its polygon.
 
-    With weights this is no bound, but near one.
+    The chord of a Bezier curve of degree d leaves it by no more than d (d - 1) / 8 of that over the
+    square of the number of parts. With weights this is no bound, but near one.
     """
     degree = polygons.shape[1] - 1
     bend = np.linalg.norm(np.diff(polygons, 2, axis=1), axis=2).max(axis=1, initial=0.0)

@@ -95,9 +95,11 @@ def plan_drawing(state: HullState, book: ExportBook, scale: float | None = None)
         sheet.begin()
         draw_grid(sheet, state, lines, plan)
         for view, name, flat in body:
+            # Each half of the body plan shows half of a boundary curve: a cut polyline, no spline.
             sheet.polyline(flat, layer_name(f"{view.name} boundary"), name, "boundary")
         for each in drawn:
             added = sheet.spline(each.line, each.curve, each.flat, each.layer)
+            # Only the view that a line is read back from tells where its plane lies.
             if each.home:
                 sheet.place(added, each.line, each.view)
         label_lines(sheet, [(each.line, each.view, each.curve, each.flat) for each in drawn])

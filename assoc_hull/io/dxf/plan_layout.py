@@ -1,7 +1,8 @@
 """Views of a lines plan: which coordinates each shows, where it lies, how large letters are.
 
-A drawing has the size of the ship; the scale counts for letters only. The views serve both the
-writer (`io.dxf.lines_plan`) and the reader (`io.dxf.read_lines_plan`).
+A drawing has the size of the ship, in m here; the scale counts for letters only. Profile and
+half-breadth plan lie one above the other with the bow to the right, the body plan above them. The
+views serve both the writer (`io.dxf.lines_plan`) and the reader (`io.dxf.read_lines_plan`).
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The views of a lines plan in a drawing: which coordinates each shows, and where it lies.
+# Views.
 
 
 @attrs.frozen
@@ -63,7 +64,7 @@ class PlanView:
     Attributes
     ----------
     name : str
-        One of `SHOWN`.
+        A key of `VIEW_AXES`.
     origin : (float, float)
         Where its origin lies in the drawing: base line, centre line, after perpendicular.
     """
@@ -77,7 +78,7 @@ class PlanView:
         return VIEW_AXES[self.name]
 
     def flat(self, points: FloatArray) -> FloatArray:
-        """Give places in the drawing, (n, 2), of places in space, (n, 3)."""
+        """Give points in the drawing, (n, 2), of points in space, (n, 3)."""
         shown = self.shown
         return np.column_stack([
             self.origin[0] + shown.sign * points[:, shown.right],
@@ -85,7 +86,7 @@ class PlanView:
         ])  # fmt: skip
 
     def in_space(self, flat: FloatArray, place: float | FloatArray) -> FloatArray:
-        """Give places in space, (n, 3), of places in the drawing and what it does not show."""
+        """Give points in space, (n, 3), of points in the drawing and the hidden coordinate."""
         shown, found = self.shown, np.empty((len(flat), 3))
         found[:, shown.right] = shown.sign * (flat[:, 0] - self.origin[0])
         found[:, shown.up] = flat[:, 1] - self.origin[1]
@@ -96,14 +97,8 @@ class PlanView:
 def views_of_line(axis: int | None, place: float, middle: float) -> tuple[str, ...]:
     """Give the views from which a line can be read: the one in true shape, or two.
 
-    Parameters
-    ----------
-    axis : int or None
-        The coordinate that is constant on it; None for curves in space.
-    place : float, m
-        Its constant coordinate.
-    middle : float, m
-        Where aft and fore body meet.
+    `axis` is the coordinate that is constant on it, None for curves in space, `place` (m) its
+    value; aft and fore body join at `middle` (m).
     """
     if axis is None:
         return ("profile", "half-breadth")
@@ -111,11 +106,7 @@ def views_of_line(axis: int | None, place: float, middle: float) -> tuple[str, .
 
 
 # --------------------------------------------------------------------------------------
-# Where the views of a lines plan lie in a drawing, and how large its letters are.
-#
-# A drawing has the size of the ship; the scale says only at which it is to be printed, and so how
-# large letters must be. Profile and half-breadth plan lie one above the other with the bow to the
-# right, the body plan above them, all on one scale.
+# Layout.
 
 _SCALES = (5, 10, 20, 25, 50, 75, 100, 150, 200, 250, 300, 400, 500, 750, 1000)
 _WIDTH = 0.82
@@ -184,18 +175,10 @@ class PlanLayout:
 
 
 def lay_out(bounds: FloatArray, middle: float, depth: float, scale: float | None) -> PlanLayout:
-    """Lay out a plan.
+    """Lay out a plan of lines between `bounds` (2, 3), m; `middle` is Lpp / 2.
 
-    Parameters
-    ----------
-    bounds : (2, 3), m
-        Least and greatest coordinates of all lines.
-    middle : float, m
-        Half the length between perpendiculars.
-    depth : float, m
-        How far diagonals reach below the centre line.
-    scale : float or None
-        Denominator, such as 200; None chooses one for a sheet of A1.
+    Diagonals reach `depth` (m) below the centre line. `scale` is a denominator, such as 200; None
+    chooses one for a sheet of A1.
 
     Raises
     ------

@@ -32,9 +32,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What is drawn of a lines plan, put into a drawing: splines, polylines, straight lines, words.
-#
-# Lengths come in m and are written in the unit of the drawing.
+# The sheet.
 
 VIEW_ORIGIN, PLACE = 1011, 1041
 """Codes of extended data that move, and grow, with their entity."""
@@ -43,7 +41,7 @@ CHAIN = "CHAIN"
 """Line type of axes: dash, dot."""
 
 Side = Literal["left", "right", "middle", "above", "below"]
-"""Where the words lie beside their place."""
+"""Where words lie beside the point they belong to."""
 
 
 @attrs.frozen
@@ -80,7 +78,7 @@ class PlanSheet:
         return spline
 
     def place(self, entity: Any, line: SplineLine, view: PlanView) -> None:
-        """Tell of a curve from which view it can be read, and the place of its plane."""
+        """Record with a curve from which view it can be read, and the place of its plane."""
         x, y = (float(each) * self.scale for each in view.origin)
         words: list[tuple[int, Any]] = [(1000, line.name), (1000, line.family), (1000, view.name)]
         words.append((VIEW_ORIGIN, (x, y, 0.0)))
@@ -127,10 +125,10 @@ class PlanSheet:
 
 
 # --------------------------------------------------------------------------------------
-# The straight lines of a lines plan, what they are called, the title and the frame.
+# The grid, the title and the frame.
 
 _OVER = 1.5
-"""Straight lines leave the views by so many letters."""
+"""By how many letters straight lines leave the views."""
 
 _PITCH = 1.25
 """Least distance of names in a row, in letters."""
@@ -139,7 +137,7 @@ _CAPTIONS = {"profile": "PROFILE", "half-breadth": "HALF-BREADTH PLAN", "fore bo
 _HALVES = (("AFT BODY", -0.5), ("FORE BODY", 0.5))
 
 _DROP = 9.0
-"""Captions lie so many letters below their views, below the names of straight lines."""
+"""How many letters captions lie below their views, below the names of straight lines."""
 
 Mark = tuple[str, float]
 """A name and the place that it marks, m."""
@@ -148,19 +146,7 @@ Mark = tuple[str, float]
 def draw_grid(
     sheet: PlanSheet, state: HullState, lines: Sequence[SplineLine], plan: PlanLayout
 ) -> None:
-    """Draw stations, waterlines and buttocks where they are straight, axes, names and title.
-
-    Parameters
-    ----------
-    sheet : PlanSheet
-        Where to draw.
-    state : HullState
-        Tells the particulars.
-    lines : sequence of SplineLine
-        The lines of the hull.
-    plan : PlanLayout
-        Where the views lie.
-    """
+    """Draw stations, waterlines and buttocks where they are straight, axes, names and title."""
     stations, buttocks, levels = (_marks(lines, axis) for axis in range(3))
     ship, low, high = state.particulars, plan.low.tolist(), plan.high.tolist()
     along = [("AP", 0.0), ("Lpp/2", plan.middle), ("FP", ship.length)]
@@ -263,20 +249,20 @@ class _Grid:
 
 
 # --------------------------------------------------------------------------------------
-# Names on the lines of a lines plan, where other lines leave them most room.
+# Names of lines.
 
 _SMALL = 0.7
 """Size of letters on lines."""
 
 _PLACES = 160
-"""So many places of a line are looked at."""
+"""Number of points of a line that are looked at."""
 
 _WIDE = 0.75
 """Width of a letter, as a part of its height, with the space behind it."""
 
 _NEIGHBOURS = 24
 _CROWD = 3.0
-"""More room than so many letters is no gain."""
+"""More room than this many letters is no gain."""
 
 
 @attrs.frozen(eq=False)
@@ -291,15 +277,7 @@ def label_lines(
     sheet: PlanSheet,
     drawn: Sequence[tuple[SplineLine, PlanView, ControlPolygon, FloatArray]],
 ) -> None:
-    """Write the names of all lines, view by view.
-
-    Parameters
-    ----------
-    sheet : PlanSheet
-        Where to write.
-    drawn : sequence of (SplineLine, PlanView, ControlPolygon, (n, 2))
-        Curves, each with its control points in its view.
-    """
+    """Write the names of all lines, view by view; curves have control points (n, 2) there."""
     views: dict[str, list[_Course]] = {}
     for line, view, curve, flat in drawn:
         course = _Course(line.name, _along(curve, flat))
@@ -336,6 +314,7 @@ def _label(sheet: PlanSheet, courses: list[_Course], size: float) -> None:
         inner = slice(4, -4)
         best = int(np.argmax((room[i] + 3.0 * clear - off)[inner])) + 4
         step = places[best + 2] - places[best - 2]
+        # Words are read from the left or, upright, from the right: -89 to 91 degrees.
         angle = (float(np.degrees(np.arctan2(step[1], step[0]))) + 89.0) % 180.0 - 89.0
         up = np.radians(angle + 90.0)
         place = places[best] + 0.2 * letter * np.array([np.cos(up), np.sin(up)])
@@ -344,7 +323,7 @@ def _label(sheet: PlanSheet, courses: list[_Course], size: float) -> None:
 
 
 def _rooms(courses: list[_Course], most: float) -> list[FloatArray]:
-    """Give the distance from each place of each line to the nearest other line, m."""
+    """Give the distance from each point of each line to the nearest other line, m, up to `most`."""
     from scipy.spatial import cKDTree
 
     every = np.concatenate([each.places for each in courses])

@@ -1,7 +1,8 @@
-"""Lines of arcs as files: a DXF drawing, or a table as CSV.
+"""Lines of arcs as files: a DXF drawing through ezdxf, or a table as CSV.
 
-A curve is one LWPOLYLINE in its own plane in space; round segments are given by their bulge, so
-that segments join to the last digit.
+A curve is one LWPOLYLINE in its own plane in space; a round segment is given by its ends and its
+bulge, the tangent of a quarter of its turn, so that segments join to the last digit and an arc of a
+radius of a thousand kilometres is as exact as one of a metre. Lengths are in m.
 """
 
 from __future__ import annotations
@@ -28,14 +29,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Arcs of lines as a DXF drawing, through ezdxf.
-#
-# A curve is one polyline of straight and round segments (LWPOLYLINE) in its own plane in space. A
-# round segment is told by its ends and its bulge, the tangent of a quarter of its turn: so segments
-# join to the last digit, and an arc of a radius of a thousand kilometres is as exact as one of a
-# metre. An ARC entity tells centre, radius and angles; there its ends are differences of large
-# numbers. Machines that read no polylines are given ARC and LINE entities, which then meet to
-# some digits of the radius.
+# Drawings. Machines that read no polylines are given ARC and LINE entities. An ARC has centre,
+# radius and angles; its ends are differences of large numbers, so that arcs join to some digits of
+# the radius.
 
 ENTITIES = ("polylines", "arcs")
 """What a curve may be drawn as."""
@@ -89,7 +85,7 @@ def _add_arcs(space: Any, line: ArcLine, layer: str) -> None:
     arcs = line.arcs
     turn = arcs.curvature * arcs.length
     begin, end = line.in_space(arcs.start), line.in_space(arcs.ends())
-    # An ARC runs counter-clockwise about its extrusion, so a right turn is told from its end.
+    # An ARC runs counter-clockwise about its extrusion, so a right turn is given from its end.
     first = np.where(turn > 0.0, arcs.angle - 0.5 * np.pi, arcs.angle + turn + 0.5 * np.pi)
     first, last = (np.rad2deg(each).tolist() for each in (first, first + np.abs(turn)))
     centres = arcs.centres().tolist()
@@ -104,7 +100,7 @@ def _add_arcs(space: Any, line: ArcLine, layer: str) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# Arcs of lines as files: a drawing for machines and drawing programs, or a table.
+# Files.
 
 _HEAD = (
     "group", "line", "number", "x", "y", "z", "dx", "dy", "dz", "nx", "ny", "nz", "curvature",

@@ -72,7 +72,7 @@ def dumps_britfair(name: str, lines: Sequence[LinePolylines], book: ExportBook) 
     ----------
     name : str
         Of the ship.
-    lines : sequence of DrawnLine
+    lines : sequence of LinePolylines
         The sections, from aft.
     book : ExportBook
         Takes what is written and what is mended.

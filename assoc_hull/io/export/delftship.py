@@ -1,7 +1,8 @@
 """DELFTship and FREE!ship: curves that their import reads, and offsets as 3D points.
 
 Both forms are written and read. x = 0 is the after perpendicular, y is to port, z = 0 the base.
-Neither form knows knuckles as we do; what is lost is in the report.
+Neither form knows knuckles as the hull does; what is lost is in the report. Source of both: the
+FREE!ship manual and FREE!ship's code (GPL).
 """
 
 from __future__ import annotations
@@ -33,16 +34,11 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Curves for DELFTship and FREE!ship: the text that their import of a surface reads.
-#
-# The first line is the unit: 0 metres, 1 feet. Each curve is one point ``x y z`` a line, from the
-# bottom up, and ends with an empty line; the curves stand from aft forward; the last line is
-# ``EOF``. x = 0 is the after perpendicular, y is to port, z = 0 the base. Two curves in one plane
-# are an error there: a section in several curves is written as one, through the centre plane, and
-# read as several again. The form knows no names and no knuckles.
-#
-# Reference: FREE!ship manual, section 3.5.4 "Surface"; FREE!ship source (GPL),
-# ``TFreeEdit.File_ImportSurface``.
+# Curves. The first line is the unit: 0 metres, 1 feet. Each curve is one point ``x y z`` a line,
+# from the bottom up, and ends with an empty line; the curves stand from aft forward; the last line
+# is ``EOF``. Two curves in one plane are an error there: a section in several curves is written as
+# one, through the centre plane, and read as several again. The form has no names and no knuckles.
+# Source: FREE!ship manual, section 3.5.4 "Surface"; ``TFreeEdit.File_ImportSurface``.
 
 _UNITS = {"0": "m", "1": "ft"}
 _FLAT = 1e-3
@@ -59,15 +55,7 @@ def is_delftship(text: str) -> bool:
 
 
 def dumps_delftship(lines: Sequence[LinePolylines], book: ExportBook) -> str:
-    """Write sections.
-
-    Parameters
-    ----------
-    lines : sequence of DrawnLine
-        The sections, from aft.
-    book : ExportBook
-        Takes what is written, what is mended and what is left out.
-    """
+    """Write sections, given from aft; `book` takes what is written, changed and left out."""
     rows = ["0"]
     knuckles, joined, apart = 0, [], []
     for line in lines:
@@ -99,16 +87,7 @@ def _on_centre(curves: list[FloatArray]) -> bool:
 
 
 def parse_delftship(text: str, source: str, book: Notebook) -> RawLines:
-    """Read the curves.
-
-    Parameters
-    ----------
-    text : str
-        The file.
-    source : str
-        Its name, for messages.
-    book : Notebook
-        Takes curves in no plane, which are left out, and curves that were split.
+    """Read the curves; `book` takes curves in no plane, which are left out, and those split.
 
     Raises
     ------
@@ -125,7 +104,7 @@ def parse_delftship(text: str, source: str, book: Notebook) -> RawLines:
     for first, points in _curves(rows, head + 1, source):
         where = f"line {first} of {source}"
         name = plane_name_of(points)
-        parts = [points] if name == "profile" else _apart(points)
+        parts = [points] if name == "profile" else _split_at_centre(points)
         if name is None or not parts:
             how = "in no plane" if name is None else "in the centre plane, across the ship,"
             book.suspect("curve", where, f"the curve lies {how} and is left out")
@@ -145,7 +124,7 @@ def _curves(rows: list[str], first: int, source: str) -> list[tuple[int, FloatAr
     for number, row in enumerate(rows[first:], start=first + 1):
         word = row.strip().upper()
         if word and word != "EOF":
-            points.append(_point(row, f"line {number} of {source}"))
+            points.append(_curve_point(row, f"line {number} of {source}"))
             continue
         if len(points) > 1:
             found.append((number - len(points), np.array(points)))
@@ -157,7 +136,7 @@ def _curves(rows: list[str], first: int, source: str) -> list[tuple[int, FloatAr
     )
 
 
-def _point(row: str, where: str) -> list[float]:
+def _curve_point(row: str, where: str) -> list[float]:
     cells = row.replace(",", " ").split()
     if len(cells) != 3:
         raise BadInputError(f"a point has {len(cells)} number(s)", f"at {where}", "give x, y and z")
@@ -165,13 +144,7 @@ def _point(row: str, where: str) -> list[float]:
 
 
 def plane_name_of(points: FloatArray) -> str | None:
-    """Name a curve by the plane it lies in, sections first; None if it lies in none.
-
-    Parameters
-    ----------
-    points : (n, 3)
-        The curve.
-    """
+    """Name a curve (n, 3) by the plane it lies in, sections first; None if it lies in none."""
     spread = np.ptp(points, axis=0)
     for group in ("sections", "waterlines", "buttocks"):
         if spread[AXES[group]] < _FLAT:
@@ -181,7 +154,7 @@ def plane_name_of(points: FloatArray) -> str | None:
     return None
 
 
-def _apart(points: FloatArray) -> list[FloatArray]:
+def _split_at_centre(points: FloatArray) -> list[FloatArray]:
     """Split a curve where it runs along the centre plane."""
     centre = np.abs(points[:, 1]) < CENTRE
     cuts = np.flatnonzero(centre[1:] & centre[:-1]) + 1
@@ -189,15 +162,11 @@ def _apart(points: FloatArray) -> list[FloatArray]:
 
 
 # --------------------------------------------------------------------------------------
-# Offsets as 3D points: the list that FREE!ship and DELFTship write of all their lines.
-#
-# Each line begins with its family and place (``Station  50.000``); one in several curves tells
-# how many (``2 segments.``) and begins each with ``SEGMENT 1``; points ``x y z`` follow, indented,
-# four digits after the point, with the word ``KNUCKLE`` where there is one. Boundary curves stand
-# at the end, each under the word ``CONTROLCURVE``, without a name. The list has no unit; metres
-# are written.
-#
-# Reference: FREE!ship manual, section 3.6.9 "Offsets"; FREE!ship source (GPL),
+# Offsets as 3D points. Each line begins with its family and place (``Station  50.000``); one in
+# several curves says how many (``2 segments.``) and begins each with ``SEGMENT 1``; points ``x y
+# z`` follow, indented, four digits after the point, with the word ``KNUCKLE`` where there is one.
+# Boundary curves stand at the end, each under the word ``CONTROLCURVE``, without a name. The list
+# has no unit; metres are written. Source: FREE!ship manual, section 3.6.9 "Offsets";
 # ``TFreeEdit.File_ExportOffsets``.
 
 _WORDS = {"sections": "Station", "buttocks": "Buttock", "waterlines": "Waterline"}
@@ -209,6 +178,8 @@ _CONTROL = re.compile(r"\s*CONTROLCURVE\s*", re.IGNORECASE)
 
 _NEAR = 1e-3
 _REACH = 0.02
+"""The top of a station this near (m) to a control curve lies on it."""
+
 _MOST = 0.8
 """The curve on which more than this part of the stations end is the edge of the deck."""
 
@@ -230,15 +201,7 @@ def is_delftship_offsets(text: str) -> bool:
 
 
 def dumps_delftship_offsets(lines: Sequence[LinePolylines], book: ExportBook) -> str:
-    """Write lines.
-
-    Parameters
-    ----------
-    lines : sequence of DrawnLine
-        Sections, buttocks, waterlines and boundary curves.
-    book : ExportBook
-        Takes what is written and what is mended.
-    """
+    """Write sections, buttocks, waterlines and boundary curves."""
     rows: list[str] = []
     ordered = [line for group in _WORDS for line in lines if line.group == group]
     for line in ordered:
@@ -271,16 +234,7 @@ def _points(piece: CurvePolyline, book: ExportBook) -> list[str]:
 
 
 def parse_delftship_offsets(text: str, source: str, book: Notebook) -> RawLines:
-    """Read the lines.
-
-    Parameters
-    ----------
-    text : str
-        The file.
-    source : str
-        Its name, for messages.
-    book : Notebook
-        Takes the curves that are left out.
+    """Read the lines; `book` takes the curves that are left out.
 
     Raises
     ------
@@ -304,7 +258,7 @@ def parse_delftship_offsets(text: str, source: str, book: Notebook) -> RawLines:
 
 
 def _border(points: FloatArray, runs: list[_Run]) -> str | None:
-    """Tell a boundary curve: the profile, a transom, or the deck edge; None if it is another."""
+    """Recognise a boundary curve: profile, transom or deck edge; None if it is another."""
     if np.abs(points[:, 1]).max() < _NEAR:
         return "profile"
     aft = min(float(run.points[:, 0].min()) for run in runs)
@@ -335,11 +289,11 @@ def _runs(text: str, source: str) -> list[_Run]:
             continue
         cells = row.split()
         marks += [len(points)] if len(cells) == 4 else []
-        points.append(_delftship_offsets_point(cells, f"at line {number} of {source}"))
+        points.append(_offset_point(cells, f"at line {number} of {source}"))
     return found
 
 
-def _delftship_offsets_point(cells: list[str], where: str) -> list[float]:
+def _offset_point(cells: list[str], where: str) -> list[float]:
     if len(cells) not in (3, 4) or (len(cells) == 4 and cells[3].upper() != "KNUCKLE"):
         raise BadInputError(
             f"{len(cells)} words are no point", where, "give x, y, z and maybe KNUCKLE"

@@ -2,6 +2,9 @@
 
 The form is in feet, x positive aft, y positive to starboard, z up. A section is a closed outline of
 at most 255 points; the reader finds the hull among the shapes of the file.
+
+Source: Creative Systems, Inc., GHS User's Manual, appendix A "Geometry File Format"; it is quoted
+in the public source of pymeshup, ``ghs_import.py``.
 """
 
 from __future__ import annotations
@@ -35,18 +38,12 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# GHS geometry files (.GF): the sections of the hull as one displacing part; writing.
-#
-# The form is in feet, x positive aft, y positive to starboard, z up. A shape is a list of at most
-# 255 sections from forward aft, each at most 255 points of a closed outline that runs
-# counterclockwise as seen from abaft: of a symmetric hull the starboard half from the bottom up,
-# the rest being implied. A point is ``y, z``, and may have a surface code (2: the stretch to the
-# next point is not on the hull), a radius and a line code (``DK``: edge of the deck). The hull is
-# one shape, one component of side 0 and one part. Here x = 0 stays at the after perpendicular, so
-# that the hull lies at negative x.
-#
-# Reference: Creative Systems, Inc., GHS User's Manual, appendix A "Geometry File Format"; it is
-# quoted in the public source of pymeshup, ``ghs_import.py``.
+# Writing. A shape is a list of at most 255 sections from forward aft, each a closed outline that
+# runs counterclockwise as seen from abaft: of a symmetric hull the starboard half from the bottom
+# up, the rest being implied. A point is ``y, z``, and may have a surface code (2: the stretch to
+# the next point is not on the hull), a radius and a line code (``DK``: edge of the deck). The hull
+# is one shape, one component of side 0 and one part. Here x = 0 stays at the after perpendicular,
+# so that the hull lies at negative x.
 
 FOOT = 0.3048
 MOST = 255
@@ -56,24 +53,15 @@ _NEAR = 0.01 * FOOT
 """Sections closer than this (m) are not allowed."""
 
 _OFF, _DECK = "2", "0,0,DK"
-"""Behind the coordinates: the stretch to the next point is off the hull; the edge of the deck."""
+"""After the coordinates: the stretch to the next point is off the hull; the edge of the deck."""
 
 
 def dumps_gf(
     name: str, length: float, breadth: float, lines: Sequence[LinePolylines], book: ExportBook
 ) -> str:
-    """Write sections.
+    """Write sections, given from aft; `length` and `breadth` are overall, m.
 
-    Parameters
-    ----------
-    name : str
-        Of the ship.
-    length, breadth : float, m
-        Overall.
-    lines : sequence of DrawnLine
-        The sections, from aft.
-    book : ExportBook
-        With a scale of feet in a metre; takes what is written and what is mended.
+    `book` has a scale of feet in a metre, and takes what is written and what is changed.
 
     Raises
     ------
@@ -149,8 +137,7 @@ def _tell(lines: list[LinePolylines], book: ExportBook) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# GHS geometry files (.GF): reading the sections of the hull; see
-# `assoc_hull.io.export.ghs_geometry`.
+# Reading.
 
 _SHAPE = re.compile(r"^\*[ \t]*\r?\n[^\r\n*]{1,40}\r?\n[ \t]*[0-9]+[ \t]*\r?$", re.MULTILINE)
 _DISPLACES = 1
@@ -184,16 +171,9 @@ def is_gf(text: str) -> bool:
 
 
 def parse_gf(text: str, source: str, book: Notebook) -> RawLines:
-    """Read the sections of the hull.
+    """Read the sections of the hull, in feet, into ship axes.
 
-    Parameters
-    ----------
-    text : str
-        The file.
-    source : str
-        Its name, for messages.
-    book : Notebook
-        Takes which shape was read, where x = 0 is, and what was left out.
+    `book` takes which shape was read, where x = 0 is, and what was left out.
 
     Raises
     ------

@@ -1,7 +1,9 @@
-"""The table of offsets of a hull: half-breadths and heights of buttocks, as CSV or XLSX.
+"""The table of offsets of a hull, as CSV or XLSX: half-breadths and heights of buttocks.
 
-Lines of each family are met with the planes of the others. The cells are those that
-`io.offsets.read.read_offsets` reads; CSV and XLSX hold the same.
+Lines of each family are intersected with the planes of the others. Stations are the sections, and
+the perpendiculars where the hull reaches them. The cells are those that
+`assoc_hull.io.offsets.read.read_offsets` reads; CSV and XLSX hold the same. Lengths in m, x from
+the AP.
 """
 
 from __future__ import annotations
@@ -83,10 +85,10 @@ def _format_sheet(sheet: Any, head: int, block: list[list[str]]) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# Lines of a hull by planes, and where they meet other planes: what a table of offsets holds.
+# Lines by planes, and their intersections with other planes.
 
 _SAME = 1e-6
-"""Places closer than this (m) are one."""
+"""Points closer than this (m) are one."""
 
 APART = 1e-3
 """Offsets farther apart than this (m) are two of one line, of which a table holds one."""
@@ -104,16 +106,7 @@ class LinesInPlanes:
 
 
 def lines_in_planes(state: HullState, family: str, axis: int) -> LinesInPlanes:
-    """Give the lines of a family in planes across an axis, by place.
-
-    Parameters
-    ----------
-    state : HullState
-        The hull.
-    family : str
-        Such as "sections".
-    axis : int
-        0 for x, 1 for y, 2 for z; lines in oblique planes are left out.
+    """Give the lines of a family across an axis (0 x, 1 y, 2 z) by offset; no oblique ones.
 
     Raises
     ------
@@ -140,7 +133,7 @@ def boundary_curves(state: HullState) -> list[SplineBatch]:
 
 
 def with_ends(sections: LinesInPlanes, boundary: list[SplineBatch]) -> LinesInPlanes:
-    """Put boundary curves in planes across, beyond all sections, among them: a transom."""
+    """Put transverse boundary curves that lie beyond all sections among these: a transom."""
     found = list(zip(sections.at.tolist(), sections.names, sections.curves, strict=True))
     for curve in boundary:
         x = float(curve.xyz[0, 0])
@@ -194,7 +187,7 @@ def exported_station_places(
 
 @attrs.frozen(eq=False)
 class CoordinateRange:
-    """The least and the largest of a coordinate where lines meet planes, (lines, planes)."""
+    """Least and largest coordinate at intersections, (lines, planes), m; nan for none."""
 
     low: FloatArray
     high: FloatArray
@@ -204,18 +197,11 @@ def coordinate_ranges(
     curves: list[SplineBatch], normal: FloatArray, planes: FloatArray, column: int,
     levels: FloatArray | None = None,
 ) -> CoordinateRange:  # fmt: skip
-    """Meet lines with planes; a defining point in a plane counts as a meeting.
+    """Intersect lines with ascending planes (p,), m, and give the range of one coordinate.
 
-    Parameters
-    ----------
-    curves : list of SplineBatch
-        One batch a line.
-    normal, planes : (3,), (p,) m
-        The planes, ascending.
-    column : int
-        The coordinate.
-    levels : (lines,) or None, m
-        Meetings count at this height only.
+    `curves` is one batch a line, `normal` (3,), `levels` (lines,), m: only points at this height
+    count. A defining point in a plane counts as an intersection: there a root may be missed by
+    rounding.
     """
     low, high = (np.full((len(curves), len(planes)), each) for each in (np.inf, -np.inf))
     for i, curve in enumerate(curves):
@@ -258,10 +244,7 @@ def line_at(places: FloatArray, place: float) -> int:
 
 
 # --------------------------------------------------------------------------------------
-# The table of offsets of a hull: half-breadths by station and waterline, heights of buttocks.
-#
-# The cells are those that `assoc_hull.io.offsets.read.read_offsets` reads; CSV and XLSX hold the
-# same.
+# Cells of the table.
 
 _LEVEL = np.eye(3)[2]
 _ALONG = np.eye(3)[1]
@@ -295,7 +278,7 @@ def offsets_of(state: HullState, book: ExportBook) -> OffsetCells:
 
     Returns
     -------
-    Offsets
+    OffsetCells
         Stations are the sections, and the perpendiculars where the hull reaches them; waterlines
         are those of the hull and boundary curves in level planes.
 
@@ -305,6 +288,7 @@ def offsets_of(state: HullState, book: ExportBook) -> OffsetCells:
         Fewer than two stations or waterlines, or a line whose curve has failed.
     """
     sections, levels, buttocks = (lines_in_planes(state, *each) for each in _WANTED)
+    # Before `with_ends`, which asks how far they reach.
     if not len(sections.at):
         raise BadInputError(
             "there are no sections", f"in {state.particulars.name}", "cut two or more"
@@ -318,6 +302,7 @@ def offsets_of(state: HullState, book: ExportBook) -> OffsetCells:
             f"there are {len(x)} stations and {len(levels.at)} waterlines",
             f"in {state.particulars.name}", "cut two or more of each, or choose another form",
         )  # fmt: skip
+    # A perpendicular may have no section: there keel and deck come from these.
     every = [*boundary, *levels.curves]
     breadth = _half_breadths(x, sections, levels, book)
     keel, deck = keel_and_deck(x, sections, every)
@@ -441,7 +426,10 @@ def _comments(
     state: HullState, x: FloatArray, stations: list[str], breadth: FloatArray, levels: int,
     book: ExportBook,
 ) -> tuple[str, ...]:  # fmt: skip
-    """Say what the reader would else have to guess; the name comes last, as it may say anything."""
+    """Write what the reader would else have to guess.
+
+    The name of the ship comes last, and without a key: it may hold anything.
+    """
     ship, half = state.particulars, 0.5 * 10.0**-book.decimals
     found = ["unit: m; x from the after perpendicular, forward positive"]
     numbered = [(float(each), place) for each, place in zip(stations, x, strict=False) if each]

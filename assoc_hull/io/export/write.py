@@ -190,7 +190,7 @@ def export_form(path: str | os.PathLike[str], form: str | None = None) -> str:
     if form is None and name.lower().endswith(_SURFACE_ENDINGS):
         raise BadInputError(
             "the ending is that of a surface or a mesh, and these are lines", f"at {name}",
-            "write those with ah.surface(hull).write(path), or choose the format",
+            "write those with hull.surface().write(path), or choose the format",
         )  # fmt: skip
     return form_by_ending(path, form, tuple(FORMS), ENDINGS, "in export")
 

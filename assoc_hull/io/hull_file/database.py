@@ -1,7 +1,9 @@
-"""The SQLite database in a hull file: its tables, older versions brought up, and connecting.
+"""The SQLite database in a hull file: its tables, migration of older versions, and connecting.
 
 ``PRAGMA application_id`` says that it is a hull file, ``PRAGMA user_version`` by which version of
-the schema. `database_errors` turns what SQLite says into errors of this package, in one line.
+the schema. Real numbers lie in blobs of 8 bytes each, IEEE 754, little-endian: SQLite itself stores
+-0.0 as 0.0 and nan as NULL. `database_errors` turns what SQLite says into errors of this package,
+in one line. `docs/file_format.md` tells what each column holds.
 
 Examples
 --------
@@ -39,12 +41,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The tables of a hull file, and how files of older versions are brought to this one.
-#
-# A hull file is one SQLite database. ``PRAGMA application_id`` says that it is one,
-# ``PRAGMA user_version`` by which version of this schema. Real numbers lie in blobs of 8 bytes
-# each, IEEE 754, little end first: SQLite itself stores -0.0 as 0.0 and nan as nothing.
-# `docs/file_format.md` tells what each column holds.
+# Tables and migrations.
 
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
@@ -131,13 +128,13 @@ CREATE TABLE steps (
 Migration = Callable[[sqlite3.Connection], None]
 
 
-def _sign_labels(database: sqlite3.Connection) -> None:
-    """From 1 to 2: names tell who gave them, and when; of older ones nobody knows."""
+def _add_label_authors(database: sqlite3.Connection) -> None:
+    """From 1 to 2: labels have an author and a time; those of older ones are not known."""
     for column in ("author", "time"):
         database.execute(f"ALTER TABLE labels ADD COLUMN {column} TEXT NOT NULL DEFAULT ''")
 
 
-def _remember_gone(database: sqlite3.Connection) -> None:
+def _add_gone(database: sqlite3.Connection) -> None:
     """From 2 to 3: revisions of rows that undoing took out; those of older ones are lost."""
     database.execute(
         "CREATE TABLE gone (kind TEXT NOT NULL, number INTEGER NOT NULL, "
@@ -145,12 +142,12 @@ def _remember_gone(database: sqlite3.Connection) -> None:
     )
 
 
-def _tell_deck(database: sqlite3.Connection) -> None:
+def _add_deck(database: sqlite3.Connection) -> None:
     """From 3 to 4: the deck is open or closed; that of older hulls counts as open."""
     database.execute("ALTER TABLE hull ADD COLUMN deck TEXT NOT NULL DEFAULT 'open'")
 
 
-def _tell_features(database: sqlite3.Connection) -> None:
+def _add_features(database: sqlite3.Connection) -> None:
     """From 4 to 5: features; older hulls have none."""
     database.execute(
         "CREATE TABLE features (number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, "
@@ -160,7 +157,7 @@ def _tell_features(database: sqlite3.Connection) -> None:
     )
 
 
-def _tell_definitions(database: sqlite3.Connection) -> None:
+def _add_definitions(database: sqlite3.Connection) -> None:
     """From 5 to 6: definitions and the curves that come from them; older hulls have none."""
     database.execute(
         "CREATE TABLE definitions (number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, "
@@ -175,8 +172,8 @@ def _tell_definitions(database: sqlite3.Connection) -> None:
 
 
 MIGRATIONS: Mapping[int, Migration] = {
-    1: _sign_labels, 2: _remember_gone, 3: _tell_deck, 4: _tell_features,
-    5: _tell_definitions,
+    1: _add_label_authors, 2: _add_gone, 3: _add_deck, 4: _add_features,
+    5: _add_definitions,
 }  # fmt: skip
 """By version: what brings a file of it to the next one."""
 
@@ -204,7 +201,7 @@ def migrate_tables(database: sqlite3.Connection) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# Reaching the database in a hull file, and saying in one line why it cannot be reached.
+# Connecting, and saying in one line why it cannot be done.
 
 _COPY = "take it from a copy, and look after the disk"
 
@@ -238,14 +235,9 @@ def database_errors(path: Path, waited: float = 0.0) -> Iterator[None]:
 
 @contextlib.contextmanager
 def damage_errors(path: Path, fault: str) -> Iterator[None]:
-    """Say that a file is damaged where it holds what was never written to one.
+    """Turn what is raised over content that was never written into a damaged file.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    fault : str
-        What cannot be done with it then.
+    `fault` says what cannot be done with the file then.
 
     Raises
     ------
@@ -263,6 +255,7 @@ def damage_errors(path: Path, fault: str) -> Iterator[None]:
 
 
 def _explained(error: sqlite3.Error, path: Path, waited: float) -> Exception:
+    """Give the error of this package for an error of SQLite."""
     name = getattr(error, "sqlite_errorname", "") or ""
     if isinstance(error, sqlite3.ProgrammingError) and "closed" in str(error):
         return HullFileError(str(path), "it is closed", "open it again")
@@ -290,28 +283,23 @@ def is_writable(path: Path) -> bool:
 
 
 def _may(path: Path, mode: int) -> bool:
-    """Tell whether this process may use a file or folder so, as who it is at present."""
+    """Tell whether this process may use a file or folder in a mode, by its effective ids."""
     return os.access(path, mode, effective_ids=os.access in os.supports_effective_ids)
 
 
 def connect_database(path: Path, wait: float) -> HullFileConnection:
-    """Open the database in a hull file, of this version of the schema or brought to it.
+    """Open the database in a hull file, migrated to this version of the schema.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    wait : float, s
-        How long to wait while another process writes.
+    `wait` (s) is how long to wait while another process writes.
 
     Raises
     ------
     BadInputError
         There is no such file, or it is no hull file, or one of a newer version.
     DamagedFileError, FileBusyError, HullFileError
-        See `speaking_of`.
+        See `database_errors`.
     """
-    _look(path)
+    _require_readable(path)
     with database_errors(path, wait):
         database = sqlite3.connect(
             _address(path), uri=True, timeout=wait, isolation_level=None, check_same_thread=False,
@@ -328,7 +316,7 @@ def connect_database(path: Path, wait: float) -> HullFileConnection:
 
 
 def _address(path: Path) -> str:
-    """Give the file as the database wants it named, with how it may be used."""
+    """Give the URI by which SQLite opens the file: to write, to read, or as one nobody changes."""
     name = f"file:{quote(str(path.absolute()))}"
     if is_writable(path):
         return f"{name}?mode=rw"
@@ -338,6 +326,7 @@ def _address(path: Path) -> str:
 
 
 def _set_up(database: sqlite3.Connection, path: Path) -> None:
+    """Refuse a database of another program or a newer version; migrate an older one."""
     found = database.execute("PRAGMA application_id").fetchone()[0]
     if found != APPLICATION:
         what = f"this is a database of something else (application {found:#x})"
@@ -356,8 +345,8 @@ def _set_up(database: sqlite3.Connection, path: Path) -> None:
         migrate_tables(database)
 
 
-def _look(path: Path) -> None:
-    """Look at a file before the database does, which would say less."""
+def _require_readable(path: Path) -> None:
+    """Refuse a file that is none of these, or cut off, before SQLite does, which would say less."""
     if is_open_here(path):
         return
     if path.is_dir():

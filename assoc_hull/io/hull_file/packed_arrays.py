@@ -62,7 +62,7 @@ def unpack_arrays(data: bytes) -> tuple[dict[str, NDArray[Any]], Any]:
     Raises
     ------
     ValueError
-        It is not what `pack` gives.
+        It is not what `pack_arrays` gives.
     """
     try:
         stream = zlib.decompressobj()

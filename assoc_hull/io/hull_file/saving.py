@@ -1,7 +1,8 @@
 """Saving and opening a hull: as a hull file that keeps every edit, or as canonical text.
 
-The name tells which: ``.hull.json`` is text, ``.hull`` a hull file. Opening looks at the content,
-not at the name. A file is written beside its target and takes its place whole or not at all.
+The name says which: ``.hull.json`` is text, ``.hull`` a hull file. Opening looks at the content,
+not at the name. A file is written beside its target and takes its place whole or not at all; from
+then on each edit is in the hull file before it counts as committed.
 
 Examples
 --------
@@ -86,7 +87,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Opening a hull file: its tables and its history, and whether they are what was written.
+# Opening a hull file.
 
 
 def user_name() -> str:
@@ -98,21 +99,10 @@ def user_name() -> str:
 
 
 def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> Document:
-    """Open a hull file; nothing is computed but splines, and the fingerprint must agree.
+    """Open a hull file with its history; splines are lofted, and the fingerprint must agree.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    wait : float, s
-        How long to wait while another process writes, now and at each edit.
-    damaged : bool
-        Open it also if its tables contradict one another, to be looked at by a check.
-
-    Returns
-    -------
-    Document
-        With its history; each edit is in the file before it counts as committed.
+    `wait` (s) is how long to wait while another process writes, now and at each edit. `damaged`
+    opens it also if its tables contradict one another, to be looked at by a check.
 
     Raises
     ------
@@ -140,7 +130,7 @@ def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> D
 
 
 # --------------------------------------------------------------------------------------
-# Writing a hull that lives in memory, or a copy of a file, as a hull file.
+# Writing a hull that lives in memory, or a copy of its file, as a hull file.
 
 
 def save_hull_file(
@@ -148,16 +138,8 @@ def save_hull_file(
 ) -> None:
     """Write a hull with its history, and keep its steps in that file from then on.
 
-    Parameters
-    ----------
-    document : Document
-        The hull; no edit may be open.
-    path : Path
-        The file; its folder must exist.
-    wait : float, s
-        How long to wait for another writer, from then on.
-    replace : bool
-        Write over a file that is there.
+    `wait` (s) is how long to wait for another writer, from then on; `replace` allows to write over
+    a file that is there. The folder must exist, and no edit may be open.
 
     Raises
     ------
@@ -251,6 +233,7 @@ def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, Ta
             document.start = fingerprint(state)
         for number, step in sorted(document.steps.items()):
             journal = step.journal
+            # A step that never was in a file holds its journal; its change is what it did there.
             if isinstance(journal, Journal):
                 walk.go(number)
                 changes[number] = change_of(state, journal)
@@ -275,10 +258,7 @@ def _version() -> str:
 
 
 # --------------------------------------------------------------------------------------
-# Saving and opening a hull: as a hull file that keeps every edit, or as text.
-#
-# The name tells which: one that ends in ``.hull.json`` is the canonical text, one in ``.hull`` a
-# hull file. Opening looks at what the file holds, not at its name.
+# Hull file or text.
 
 FILE_ENDING, TEXT_ENDING = ".hull", ".hull.json"
 
@@ -345,7 +325,7 @@ def _in_place(document: Document, there: Path) -> Saved:
 def open_document(
     path: str | os.PathLike[str], wait: float = 0.0, *, damaged: bool = False
 ) -> Document:
-    """Open a hull file, or read the canonical text; see `assoc_hull.hull.open`."""
+    """Open a hull file, or read the canonical text; see `assoc_hull.open`."""
     if not (isinstance(path, str) and path.lstrip()[:1] == "{"):
         file = Path(os.path.realpath(path))
         if is_hull_file(file) or not (_is_text(file) or file.name.endswith(".json")):
@@ -397,7 +377,7 @@ def detach_hull(document: Document) -> None:
 
 
 def file_damages(document: Document) -> list[Difference]:
-    """Look through the hull file, if there is one, for what is not as it was written."""
+    """Give what in the hull file, if there is one, is not as it was written."""
     keeper = document.keeper
     found = keeper.damages() if isinstance(keeper, HullFile) else []
     return [Difference(each, "hull file", float("inf")) for each in found]

@@ -1,7 +1,8 @@
 """Committed steps to the rows of a hull file, and back.
 
-A step holds what was asked for, the report, and the change of every row as bytes
-(`pack_change`). Its digest covers all of the row.
+A step holds what was asked for and the report as JSON, and the change of every row as packed arrays
+(`pack_change`), so that undoing and redoing give the same bits. Its digest covers all of the row.
+`docs/file_format.md` lists the columns.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# A change to bytes and back: what an edit did, as a hull file keeps it.
+# A change to bytes and back.
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -67,11 +68,12 @@ def pack_change(change: TableChange) -> bytes:
 
 
 def _facts(change: TableChange) -> dict[str, Any]:
+    """Give what of a change is no array, for JSON: sizes, columns, objects, births, splines."""
     objects = {
         name: [
             rows.tolist(),
-            [_say(name, each) for each in old],
-            [_say(name, each) for each in new],
+            [_to_json(name, each) for each in old],
+            [_to_json(name, each) for each in new],
         ]
         for name, (rows, old, new) in change.objects.items()
     }
@@ -93,10 +95,11 @@ def _long(numbers: NDArray[Any]) -> IntArray:
 
 
 def _against(before: CrossingPositions, after: CrossingPositions) -> FloatArray:
-    """Give places as the exclusive or with where the same crossing lay on the curve before.
+    """Give positions as the exclusive or with where the same crossing lay on the curve before.
 
     A line that is added or taken away changes what many curves list, and where nothing of that
-    lies. Crossings that were not there before stand as they are. Twice, it takes itself back.
+    lies: what stayed becomes zeros, which compress. Crossings that were not there before stand as
+    they are. Applied twice, it gives back what it took.
     """
     found = after.at.copy()
     keys = [_keys(places) for places in (before, after)]
@@ -107,7 +110,7 @@ def _against(before: CrossingPositions, after: CrossingPositions) -> FloatArray:
 
 
 def _keys(places: CrossingPositions) -> IntArray:
-    """Give a number for each crossing on a curve, and where it stands, (k, 2)."""
+    """Give a number for each crossing on a curve, and its place in the arrays, (k, 2)."""
     actual = np.flatnonzero(places.row >= 0)
     curve = places.curve[places.owner[actual]]
     return np.column_stack([(curve << 32) + places.row[actual], actual])
@@ -134,7 +137,7 @@ def _unpack_places(title: str, arrays: Arrays) -> CrossingPositions:
 
 
 def _both_places(arrays: Arrays) -> tuple[CrossingPositions, CrossingPositions]:
-    """Give the places on curves that list other crossings, before and after."""
+    """Give the positions on curves that list other crossings, before and after."""
     before, after = _unpack_places("before", arrays), _unpack_places("after", arrays)
     plain = "after.at" in arrays or not len(before.curve)
     return before, after if plain else attrs.evolve(after, at=_against(before, after))
@@ -153,8 +156,8 @@ def unpack_change(data: bytes) -> TableChange:
     objects = {
         name: (
             np.array(rows, np.int64),
-            [_hear(name, each) for each in old],
-            [_hear(name, each) for each in new],
+            [_from_json(name, each) for each in old],
+            [_from_json(name, each) for each in new],
         )
         for name, (rows, old, new) in facts["objects"].items()
     }
@@ -184,7 +187,7 @@ def _kept(arrays: Arrays, facts: dict[str, Any], when: int) -> dict[int, SplineB
     return found
 
 
-def _same(value: Any) -> Any:
+def _unchanged(value: Any) -> Any:
     return value
 
 
@@ -211,7 +214,7 @@ def _feature(said: Any) -> Feature | None:
     return None if said is None else Feature(**said)
 
 
-def _said_form(form: FormDefinition | None) -> Any:
+def _plain_form(form: FormDefinition | None) -> Any:
     return (
         None if form is None else {**attrs.asdict(form, recurse=False), "values": {**form.values}}
     )
@@ -235,7 +238,7 @@ _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "lines.curves": (_numbers, tuple),
     "settings.failed": (_numbers, tuple),
     "featured.feature": (_plain, _feature),
-    "formed.definition": (_said_form, _form),
+    "formed.definition": (_plain_form, _form),
     "produced.curve": (_plain, _made),
     "settings.particulars": (attrs.asdict, lambda said: Particulars(**said)),
     "settings.associations": (
@@ -246,30 +249,20 @@ _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
 """By column: to what JSON can say, and back. All other columns of objects hold texts."""
 
 
-def _say(name: str, value: Any) -> Any:
-    return _CODES.get(name, (_same, _same))[0](value)
+def _to_json(name: str, value: Any) -> Any:
+    return _CODES.get(name, (_unchanged, _unchanged))[0](value)
 
 
-def _hear(name: str, said: Any) -> Any:
-    return _CODES.get(name, (_same, _same))[1](said)
+def _from_json(name: str, said: Any) -> Any:
+    return _CODES.get(name, (_unchanged, _unchanged))[1](said)
 
 
 # --------------------------------------------------------------------------------------
-# Committed steps to the rows of a hull file, and back.
+# Steps and labels as rows.
 
 
 def write_step(database: sqlite3.Connection, step: Step, change: TableChange) -> None:
-    """Write a step.
-
-    Parameters
-    ----------
-    database : sqlite3.Connection
-        The file, inside a transaction.
-    step : Step
-        The step, with the fingerprint of the hull after it.
-    change : Change
-        What it changed.
-    """
+    """Write a step, with the fingerprint of the hull after it; the file is inside a transaction."""
     report = step.report
     trace = pack_arrays(
         {"reader": step.cause.reader, "source": step.cause.source, "changed": step.changed,
@@ -343,17 +336,7 @@ def steps_of(
     load: Callable[[int], StepBody],
     tell: Callable[[int], EditReport],
 ) -> list[Step]:
-    """Give the steps beyond a number, without their bodies.
-
-    Parameters
-    ----------
-    database : sqlite3.Connection
-        The file.
-    after : int
-        Number of the last step that is known.
-    load, tell : callable
-        Take the number of a step, and give its body and its report.
-    """
+    """Give the steps beyond the number `after`; `load` and `tell` fetch bodies and reports."""
     rows = database.execute(
         "SELECT number, parent, name, structural, script, fingerprint FROM steps WHERE number > ? "
         "ORDER BY number", (after,),
@@ -368,20 +351,14 @@ def steps_of(
 
 
 def body_of(row: tuple[Any, ...], state: HullState) -> StepBody:
-    """Give the body of a step from its row.
-
-    Parameters
-    ----------
-    row : tuple
-        ``SELECT *`` of the table.
-    state : HullState
-        The tables that its change runs over.
+    """Give the body of a step from its row (``SELECT *``); its change runs over the tables `state`.
 
     Raises
     ------
     ValueError, KeyError, TypeError
         The row is not as it was written.
     """
+    # Column 7 is the digest itself.
     if step_digest((*row[:7], *row[8:])) != row[7]:
         raise ValueError("its digest is another one")
     trace = unpack_arrays(row[10])[0]

@@ -80,7 +80,7 @@ class HullFile:
     ----------
     path : Path
         The file, without links.
-    database : Connection
+    database : HullFileConnection
         The open database.
     state : HullState
         The tables of the document, as the file holds them.

@@ -1,7 +1,8 @@
-"""The tables of a hull to the rows of a hull file, and back.
+"""The tables of a hull to the rows of a hull file (SQLite), and back.
 
-Points, curves, lines, groups, features, definitions and generated curves. Nothing is computed but
-splines, which are lofted from their points.
+A row of the file has the number of the row in the table. Reals are little-endian float64 blobs, so
+that they come back bit by bit; tuples of ids are JSON. Nothing is computed but splines, which are
+lofted from their points; only a curve that has failed keeps the spline it last had.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The features of a hull to the rows of a hull file, and back.
+# Features.
 
 
 def feature_rows(state: HullState, numbers: IntArray) -> Iterator[tuple[Any, ...]]:
@@ -83,9 +84,10 @@ def feature_row(number: int, alive: bool, feature: Feature) -> tuple[Any, ...]:
     """Give a feature as a row of the table."""
     return (
         number, int(alive), feature.key, feature.kind, feature.name, json.dumps(feature.lines),
-        np.array(feature.points, "<i4").tobytes(), _blob(feature.centre), _blob(feature.radius),
-        _blob(feature.normal), _blob(feature.offset), _blob(feature.direction), feature.side,
-        _blob(feature.gap),
+        np.array(feature.points, "<i4").tobytes(), _optional_blob(feature.centre),
+        _optional_blob(feature.radius), _optional_blob(feature.normal),
+        _optional_blob(feature.offset), _optional_blob(feature.direction), feature.side,
+        _optional_blob(feature.gap),
     )  # fmt: skip
 
 
@@ -104,7 +106,7 @@ def feature_of(row: tuple[Any, ...]) -> Feature:
     )  # fmt: skip
 
 
-def _blob(value: object) -> bytes | None:
+def _optional_blob(value: object) -> bytes | None:
     return None if value is None else np.asarray(value, "<f8").tobytes()
 
 
@@ -117,7 +119,7 @@ def _real(blob: bytes | None) -> Any:
 
 
 # --------------------------------------------------------------------------------------
-# The definitions of a hull and its generated curves to the rows of a hull file, and back.
+# Definitions and generated curves.
 
 Row = tuple[Any, ...]
 
@@ -197,7 +199,7 @@ def read_definitions(state: HullState, rows: Sequence[Row]) -> None:
     table = state.formed
     table.resize(len(rows))
     table.definition.data[:] = [definition_of(row) for row in rows]
-    _revive(table, rows)
+    _put_alive(table, rows)
 
 
 def read_generated(state: HullState, rows: Sequence[Row]) -> None:
@@ -211,16 +213,16 @@ def read_generated(state: HullState, rows: Sequence[Row]) -> None:
     table = state.produced
     table.resize(len(rows))
     table.curve.data[:] = [generated_of(row) for row in rows]
-    _revive(table, rows)
+    _put_alive(table, rows)
 
 
-def _revive(table: Any, rows: Sequence[Row]) -> None:
+def _put_alive(table: Any, rows: Sequence[Row]) -> None:
     table.alive.store[: len(rows)] = [bool(row[1]) for row in rows]
     table.alive.writes += 1
 
 
 # --------------------------------------------------------------------------------------
-# The tables of a hull to the rows of a hull file, and back; nothing is computed but splines.
+# The whole of a hull; groups, lines, curves and points.
 
 _POINT = np.dtype([("row", "<i4"), ("side", "i1")])
 _PLACE = np.dtype([("line", "<i4"), ("row", "<i4"), ("sign", "i1"), ("at", "<f8", (4,))])
@@ -317,8 +319,8 @@ def _line_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     for i in numbers.tolist():
         yield (
             i, table.key.data[i], table.name.data[i], int(table.alive.data[i]),
-            int(table.group.data[i]), int(table.planar.data[i]), _tables_blob(table.normal.data[i]),
-            _tables_blob(table.offset.data[i]), int(table.boundary.data[i]),
+            int(table.group.data[i]), int(table.planar.data[i]), _real_blob(table.normal.data[i]),
+            _real_blob(table.offset.data[i]), int(table.boundary.data[i]),
             json.dumps([int(curve) for curve in table.curves.data[i]]), table.note.data[i],
         )  # fmt: skip
 
@@ -355,7 +357,7 @@ def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     whole = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _WHOLES}
     pairs = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _PAIRS}
     reals = {name: _blobs(getattr(table, name), numbers) for name in _REALS}
-    xyz = [_tables_blob(each) for each in table.xyz.data[numbers]]
+    xyz = [_real_blob(each) for each in table.xyz.data[numbers]]
     for place, i in enumerate(numbers.tolist()):
         yield (
             i, table.key.data[i], table.label.data[i],
@@ -367,15 +369,16 @@ def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
         )  # fmt: skip
 
 
-def _tables_blob(values: object) -> bytes:
+def _real_blob(values: object) -> bytes:
     return np.asarray(values, "<f8").tobytes()
 
 
 def _blobs(column: Any, numbers: IntArray) -> list[bytes | None]:
     """Give the bytes of rows of a column, None where they are what a new row holds."""
     values = column.data[numbers]
-    nothing = _tables_blob(np.full(column.store.shape[1:], column.fill))
-    found = [_tables_blob(each) for each in values]
+    # By bytes, not by value: nan equals nan, and -0.0 does not equal 0.0.
+    nothing = _real_blob(np.full(column.store.shape[1:], column.fill))
+    found = [_real_blob(each) for each in values]
     return [None if each == nothing else each for each in found]
 
 
@@ -386,7 +389,7 @@ _GIVE = {
 
 
 def read_state(database: sqlite3.Connection) -> HullState:
-    """Read the tables of a hull as they were written; splines are lofted from their points.
+    """Read the tables of a hull as they were written.
 
     Raises
     ------
@@ -414,7 +417,7 @@ def read_state(database: sqlite3.Connection) -> HullState:
 
 
 def read_revisions(database: sqlite3.Connection) -> tuple[dict[int, int], dict[int, int]]:
-    """Read the revisions of points and curves, gone ones too, by number; no nil ones."""
+    """Read the revisions of points and curves by number, gone ones too; none that are zero."""
     points, curves = (
         {
             operator.index(number): operator.index(revision)
@@ -441,13 +444,13 @@ def _columns(rows: Sequence[Row], count: int) -> list[tuple[Any, ...]]:
     return list(zip(*rows, strict=True)) if rows else [()] * count
 
 
-def _whole(column: Any, values: Sequence[Any]) -> None:
+def _put_whole(column: Any, values: Sequence[Any]) -> None:
     """Put whole numbers, or several to a row, into a column."""
     column.store[: len(values)] = np.array(values, np.int64).reshape(-1, *column.store.shape[1:])
     column.writes += 1
 
 
-def _tables_real(column: Any, blobs: Sequence[bytes | None]) -> None:
+def _put_reals(column: Any, blobs: Sequence[bytes | None]) -> None:
     """Put real numbers into a column; None leaves the fill value."""
     here = [i for i, blob in enumerate(blobs) if blob is not None]
     given = np.frombuffer(b"".join(blobs[i] for i in here), "<f8")  # type: ignore[misc]
@@ -459,7 +462,7 @@ def _read_groups(state: HullState, rows: Sequence[Row]) -> None:
     _, name, family, alive = _columns(rows, 4)
     state.groups.resize(len(rows))
     state.groups.name.data[:], state.groups.family.data[:] = name, family
-    _whole(state.groups.alive, alive)
+    _put_whole(state.groups.alive, alive)
 
 
 def _read_lines(state: HullState, rows: Sequence[Row]) -> None:
@@ -472,9 +475,9 @@ def _read_lines(state: HullState, rows: Sequence[Row]) -> None:
         (table.alive, alive), (table.group, group), (table.planar, planar),
         (table.boundary, boundary),
     ):  # fmt: skip
-        _whole(column, values)
-    _tables_real(table.normal, normal)
-    _tables_real(table.offset, offset)
+        _put_whole(column, values)
+    _put_reals(table.normal, normal)
+    _put_reals(table.offset, offset)
 
 
 def _read_points(state: HullState, rows: Sequence[Row]) -> None:
@@ -483,17 +486,17 @@ def _read_points(state: HullState, rows: Sequence[Row]) -> None:
     found = _columns(rows, 28)
     table.key.data[:], table.label.data[:] = found[1], found[2]
     for name, place in zip(("alive", "sort", "role", "override"), range(3, 7), strict=True):
-        _whole(getattr(table, name), found[place])
+        _put_whole(getattr(table, name), found[place])
     for name, place in zip(("curve", "kind", "reader"), (7, 9, 11), strict=True):
-        _whole(getattr(table, name), list(zip(found[place], found[place + 1], strict=True)))
+        _put_whole(getattr(table, name), list(zip(found[place], found[place + 1], strict=True)))
     for name, place in zip(
         ("driver", "contact", "sign", "birth", "state"), range(13, 18), strict=True
     ):
-        _whole(getattr(table, name), found[place])
-    _whole(table.anchor, list(zip(found[19], found[20], strict=True)))
-    _tables_real(table.xyz, found[21])
+        _put_whole(getattr(table, name), found[place])
+    _put_whole(table.anchor, list(zip(found[19], found[20], strict=True)))
+    _put_reals(table.xyz, found[21])
     for name, place in zip(_REALS, range(22, 28), strict=True):
-        _tables_real(getattr(table, name), found[place])
+        _put_reals(getattr(table, name), found[place])
 
 
 def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
@@ -508,7 +511,7 @@ def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
         freeze(chosen, side)
         table.rows.data[i], table.side.data[i] = chosen, side
     for column, values in ((table.alive, alive), (table.line, line), (table.state, states)):
-        _whole(column, values)
+        _put_whole(column, values)
     put_crossing_positions(state, _places(places))
     splines = {i: unpack_spline(each) for i, each in enumerate(kept) if each is not None}
     shape_curves(state, np.arange(len(rows)), splines)

@@ -1,9 +1,9 @@
 """What entities of an IGES file have in common: names, units, transformations, splines.
 
-Names are properties 406 form 15, transformations entities 124 (a point x becomes R x + T), splines
-entities 126 and 128, as they stand in the file.
+Names are properties 406 form 15, transformations entities 124, splines entities 126 and 128. A
+spline is given as it stands in the file, before it is moved, in units of the file.
 
-Source: IGES 5.3 (US PRO, 1996), sections 2.2.4.3, 4.21, 4.23, 4.24 and 4.104.
+Source: IGES 5.3 (US PRO, 1996), sections 2.2.4.3 (units), 4.21, 4.23, 4.24 and 4.104 (names).
 """
 
 from __future__ import annotations
@@ -35,20 +35,13 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Names of entities of an IGES file, and the unit of their lengths.
-#
-# Source: IGES 5.3 (US PRO, 1996), sections 2.2.4.3 (units) and 4.104 (names).
+# Units and names.
 
 
 def unit_of(file: IgesFile, unit: str | None) -> tuple[str, float, tuple[str, ...]]:
-    """Settle the unit: its name, the length of one of the file in m, and what is to be told.
+    """Give the unit: its name, the length of one of the file in m, and what is to be reported.
 
-    Parameters
-    ----------
-    file : IgesFile
-        The file.
-    unit : str or None
-        The unit that was asked for; None: as the file says.
+    `unit` is the one that was asked for; None: as the file says.
 
     Raises
     ------
@@ -65,14 +58,14 @@ def unit_of(file: IgesFile, unit: str | None) -> tuple[str, float, tuple[str, ..
 
 
 def scale_note(file: IgesFile) -> tuple[str, ...]:
-    """Tell of a scale of the model, if there is one."""
+    """Report a scale of the model, if there is one."""
     if file.scale == 1.0:
         return ()
     return (f"{file.source} has a model scale of {file.scale:g}: lengths are divided by it.",)
 
 
 def readable_name(name: str) -> str:
-    """Give a name as it was meant: the file is taken byte by byte, and a letter may be two."""
+    """Give a name as it was meant: the file was decoded as latin-1, and may be UTF-8."""
     with contextlib.suppress(UnicodeError):
         name = name.encode("latin-1").decode("utf-8")
     return "".join(letter for letter in name if letter.isprintable()).strip()
@@ -81,14 +74,7 @@ def readable_name(name: str) -> str:
 def name_property(file: IgesFile, record: IgesRecord, after: int) -> str:
     """Give the name that a property, entity 406 of form 15, gives an entity; empty if none.
 
-    Parameters
-    ----------
-    file : IgesFile
-        The file.
-    record : Record
-        Of the entity.
-    after : int
-        Where pointers to groups and properties begin in it.
+    Pointers to groups, then to properties, begin at the value `after` of its record.
 
     Raises
     ------
@@ -109,14 +95,11 @@ def name_property(file: IgesFile, record: IgesRecord, after: int) -> str:
 
 
 # --------------------------------------------------------------------------------------
-# How entities of an IGES file are moved: chains of transformations, entity 124.
-#
-# A point x becomes R x + T, and then what the transformation of the transformation makes of it.
-#
-# Source: IGES 5.3 (US PRO, 1996), section 4.21.
+# Transformations, entity 124: a point x becomes R x + T, and then what the transformation of the
+# transformation makes of it.
 
 _RIGID = 1e-6
-"""So far a matrix may be from a rotation: files with nine digits have less."""
+"""A matrix may be this far from a rotation: files with nine digits are nearer."""
 
 
 @attrs.frozen(eq=False)
@@ -159,14 +142,9 @@ IDENTITY = Transformation.still()
 
 
 def transformation_of(file: IgesFile, number: int) -> Transformation:
-    """Give the motion of an entity 124, with those that it is moved by itself.
+    """Give the motion of an entity 124, by its directory number; 0 moves nothing.
 
-    Parameters
-    ----------
-    file : IgesFile
-        The file.
-    number : int
-        Of the directory entry of the transformation; 0 moves nothing.
+    It holds those that the transformation is moved by itself.
 
     Raises
     ------
@@ -200,9 +178,7 @@ def _one(file: IgesFile, number: int) -> Transformation:
 
 
 # --------------------------------------------------------------------------------------
-# Spline curves and surfaces of an IGES file: entities 126 and 128, as they stand in the file.
-#
-# Source: IGES 5.3 (US PRO, 1996), sections 4.23 and 4.24.
+# Splines, entities 126 and 128.
 
 _MOST_POINTS, _MOST_DEGREE = 100_000, 25
 
@@ -264,7 +240,7 @@ class IgesSurface:
 
     @property
     def points(self) -> NDArray[np.bool_]:
-        """Whether it is a point along the sides of least u, greatest u; least v, greatest v.
+        """Whether it is a point along its sides, (2, 2): least u, greatest u; least v, greatest v.
 
         Only of surfaces that are not bounded within their knots, which are repeated at the ends.
         """
@@ -349,7 +325,7 @@ def _sizes(record: IgesRecord, ways: int) -> tuple[tuple[int, ...], tuple[int, .
 def _knots(
     record: IgesRecord, at: int, counts: tuple[int, ...], degrees: tuple[int, ...]
 ) -> tuple[int, tuple[FloatArray, ...]]:
-    """Give the place behind all knots, and the knots of each direction."""
+    """Give the place in the record behind all knots, and the knots of each direction."""
     found = []
     for count, degree in zip(counts, degrees, strict=True):
         size = count + degree + 1
@@ -377,7 +353,7 @@ def _weights(record: IgesRecord, at: int, count: int) -> FloatArray:
 def _spans(
     record: IgesRecord, at: int, knots: tuple[FloatArray, ...], degrees: tuple[int, ...]
 ) -> list[tuple[float, float]]:
-    """Give the parameters that bound it; an end that a digit lost puts outside is taken inside."""
+    """Give the parameters that bound it; an end that lost a digit is moved onto the knots."""
     ends = record.reals(at, 2 * len(knots), "the bounds of the parameters").reshape(-1, 2)
     found = []
     for (low, high), each, degree in zip(ends.tolist(), knots, degrees, strict=True):

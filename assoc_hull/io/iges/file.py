@@ -1,7 +1,7 @@
-"""An IGES file: its sections of lines, free-format tokens, checked records, and directory.
+"""An IGES file: its lines and sections, its directory, and the checked parameters of its entities.
 
-`IgesFile` reads the directory and takes parameters of an entity apart when they are asked for.
-`IgesRecord` checks them one by one: whole numbers, reals, pointers, text.
+`IgesFile` reads the directory; parameters of an entity (`IgesRecord`) are split and checked when
+they are asked for: whole numbers, reals, pointers, text. A damaged file is refused with the line.
 
 Source: IGES 5.3 (US PRO, 1996), sections 2.2.1 to 2.2.4.
 """
@@ -31,13 +31,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# An IGES file as lines of five sections, and its free-format text as tokens.
-#
-# A line has 80 columns: 72 of content, the letter of its section, and its number in the section.
-# Start (S) is for people, Global (G) holds units and delimiters, Directory (D) two lines an entity,
-# Parameter (P) what each entity is made of, Terminate (T) the number of lines of all.
-#
-# Source: IGES 5.3 (US PRO, 1996), sections 2.2.2 and 2.2.4.
+# Sections and tokens. A line has 80 columns: 72 of content, the letter of its section, and its
+# number in the section. Start (S) is for people, Global (G) holds units and delimiters, Directory
+# (D) two lines an entity, Parameter (P) what each entity is made of, Terminate (T) the number of
+# lines of all.
 
 _WIDTH, _CONTENT = 80, 72
 _LETTERS = "SGDPT"
@@ -82,14 +79,7 @@ def looks_like_iges(text: str) -> bool:
 
 
 def split_sections(text: str, source: str) -> IgesSections:
-    """Part a file into its sections, and see that no line is missing.
-
-    Parameters
-    ----------
-    text : str
-        The whole file.
-    source : str
-        Its name, for messages.
+    """Split a file into its sections, and check that no line is missing.
 
     Raises
     ------
@@ -137,7 +127,7 @@ def _damaged(what: str, where: str) -> BadInputError:
 
 
 def _require_next(line: str, letter: str, wanted: int, number: int, source: str) -> None:
-    """See that a line is numbered as the next one of its section."""
+    """Check that a line is numbered as the next one of its section."""
     if letter == "T":
         return
     match = _COUNTED.match(line[_CONTENT:_WIDTH])
@@ -148,7 +138,7 @@ def _require_next(line: str, letter: str, wanted: int, number: int, source: str)
 
 
 def _require_whole(found: dict[str, list[str]], source: str) -> None:
-    """See that all sections are there, with as many lines as the last one says."""
+    """Check that all sections are there, with as many lines as section T says."""
     for letter, name in _NEEDED.items():
         if not found[letter]:
             raise _damaged(f"the {name} section is missing", f"in {source}")
@@ -164,16 +154,7 @@ def _require_whole(found: dict[str, list[str]], source: str) -> None:
 
 
 def split_tokens(text: str, delimiter: str, end: str, where: str) -> list[str]:
-    """Part free-format text at its delimiters; text comes as `Hollerith`.
-
-    Parameters
-    ----------
-    text : str
-        From the first value on; what comes after the end is left.
-    delimiter, end : str
-        What stands between values, and behind the last.
-    where : str
-        For messages.
+    """Split free-format text at its delimiters, up to `end`; text comes as `Hollerith`.
 
     Raises
     ------
@@ -197,7 +178,8 @@ def split_tokens(text: str, delimiter: str, end: str, where: str) -> list[str]:
 
 
 def _value(text: str, at: int, marks: re.Pattern[str], end: str, where: str) -> tuple[str, int]:
-    """Give the value that begins at a place, and the place of the mark behind it."""
+    """Give the value that begins at `at`, and the place of the delimiter behind it."""
+    # The letters of a text are counted: delimiters among them do not end it.
     announced = _TEXT.match(text, at)
     after = at if announced is None else announced.end() + int(announced[1])
     mark = marks.search(text, after)
@@ -213,7 +195,7 @@ def _value(text: str, at: int, marks: re.Pattern[str], end: str, where: str) -> 
 
 
 # --------------------------------------------------------------------------------------
-# The parameters of one entity of an IGES file: whole numbers, reals, pointers, text, checked.
+# Parameters of an entity.
 
 _REAL = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]{1,3})?")
 _WHOLE = re.compile(r"[-+]?[0-9]{1,9}")
@@ -222,7 +204,7 @@ _AGAIN = "export the file again"
 
 @attrs.frozen(eq=False)
 class IgesRecord:
-    """Values of an entity, the type first; those that are left out at the end are missing.
+    """Values of an entity, its type first; what a file leaves out at the end counts as blank.
 
     Attributes
     ----------
@@ -240,16 +222,7 @@ class IgesRecord:
         return len(self.values)
 
     def whole(self, place: int, what: str, default: int | None = None) -> int:
-        """Give a whole number.
-
-        Parameters
-        ----------
-        place : int
-            Which value, from 0; the type of the entity is number 0.
-        what : str
-            Its name, for the message.
-        default : int or None
-            What it is where it is left out; None: it may not be.
+        """Give the whole number at `place`, `default` where it is blank; the type has place 0.
 
         Raises
         ------
@@ -309,13 +282,11 @@ class IgesRecord:
             raise BadInputError(missing, self.where, _AGAIN)
 
 
-_EXPONENT = str.maketrans("dD", "ee")
+_EXPONENT = str.maketrans("dD", "ee")  # Fortran writes 1.5D+01
 
 
 # --------------------------------------------------------------------------------------
-# The entities of an IGES file: the directory, the parameters of each, units and scale.
-#
-# Source: IGES 5.3 (US PRO, 1996), sections 2.2.4.3 (global) and 2.2.4.4 (directory).
+# The directory. Source: IGES 5.3, sections 2.2.4.3 (global) and 2.2.4.4 (directory).
 
 UNITS: Mapping[int, tuple[str, float]] = {
     1: ("in", 0.0254), 2: ("mm", 1e-3), 4: ("ft", 0.3048), 5: ("mi", 1609.344), 6: ("m", 1.0),
@@ -323,7 +294,7 @@ UNITS: Mapping[int, tuple[str, float]] = {
 }  # fmt: skip
 """Flags of units in the global section: name, and length in m."""
 
-_COLUMN = 8
+_COLUMN = 8  # columns of a field of the directory
 _SCALE, _UNIT = 12, 13
 """Places of two values in the global section, from 0."""
 
@@ -372,7 +343,7 @@ class IgesFile:
     ----------
     source : str
         Name of the file, for messages.
-    entries : mapping of int to Entry
+    entries : mapping of int to DirectoryEntry
         By number.
     unit : int
         The flag of the unit; 0 where the file has none, 3 where it has a name only.
@@ -411,12 +382,7 @@ class IgesFile:
         return cls(source, _directory(sections), unit, metres, _scale(given), lines, marks)
 
     def record(self, number: int) -> IgesRecord:
-        """Give the parameters of an entity.
-
-        Parameters
-        ----------
-        number : int
-            Of its directory entry.
+        """Give the parameters of the entity of a directory number.
 
         Raises
         ------
@@ -447,7 +413,7 @@ class IgesFile:
         return f"{self.source}, entity {entry.kind} (D{entry.number})"
 
     def _require_own(self, entry: DirectoryEntry, lines: list[str], where: str) -> None:
-        """See that the lines say whose they are; a blank says nothing."""
+        """Check that lines name their entity (columns 65 to 72); a blank says nothing."""
         for line in lines:
             owner = line[64:72].strip()
             if owner and owner.lstrip("0") != str(entry.number):

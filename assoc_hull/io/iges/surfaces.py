@@ -1,9 +1,10 @@
-"""Untrimmed spline surfaces of an IGES file, moved to where they belong, in metres.
+"""Untrimmed spline surfaces of an IGES file (entity 128), moved to where they belong, in m.
 
 A face whose border is that of its surface counts as untrimmed. Whatever else bounds a face needs
 OpenCASCADE, and the error says so.
 
-Source: IGES 5.3 (US PRO, 1996), section 4.24 (entity 128).
+Source: IGES 5.3 (US PRO, 1996), sections 4.24, 4.33 to 4.35 (141 to 144), 4.145 and 4.147 (508,
+510).
 """
 
 from __future__ import annotations
@@ -41,37 +42,26 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Whether the border of a face is that of its surface: then it is not trimmed.
-#
-# A border is given as curves in the parameters of the surface. The control points of a spline
-# enclose
-# it, so a piece between two knots whose control points lie on one side of the box of the parameters
-# lies there as well; and a border on the sides of the box that covers all four of them is the box.
-# Nothing is sampled.
-#
-# Source: IGES 5.3 (US PRO, 1996), sections 4.33 to 4.35 (141 to 144), 4.145 and 4.147 (508, 510).
+# Is the border of a face that of its surface? A border is given as curves in the parameters of the
+# surface. The control points of a spline enclose it, so a piece between two knots whose control
+# points lie on one side of the box of the parameters lies there as well; and a border on the sides
+# of the box that covers all four of them is the box. Nothing is sampled.
 
 Box = tuple[tuple[float, float], tuple[float, float]]
 
 _NEAR = 1e-6
-"""So far from a side, as a part of the box, digits that a file leaves out may put a point."""
+"""Rounding of the file may move a point this far off a side, as a part of the box."""
 
 _MOST = 10_000
 _AGAIN = "export the file again"
 
 
 def is_box(pieces: list[FloatArray], box: Box, points: NDArray[np.bool_] | None = None) -> bool:
-    """Tell whether pieces of a closed border are the sides of a box.
+    """Tell whether pieces of a closed border, (k, 2) control points each, are the sides of a box.
 
-    Parameters
-    ----------
-    pieces : list of (k, 2)
-        Control points of each piece.
-    box : ((float, float), (float, float))
-        The least and greatest u, and v.
-    points : (2, 2) bool or None
-        Whether the surface is a point along the side of least u, greatest u, least v, greatest v:
-        of such a side a border need not speak.
+    `box` is the least and greatest u, and v. `points` (2, 2) says where the surface is a point
+    along the side of least u, greatest u, least v, greatest v: a border need not contain such a
+    side.
     """
     low, high = (np.array(ends) for ends in zip(*box, strict=True))
     covered = np.zeros((2, 2)) if points is None else points.astype(np.float64)
@@ -80,26 +70,16 @@ def is_box(pieces: list[FloatArray], box: Box, points: NDArray[np.bool_] | None 
         on = (np.abs(place[:, :, None] - [0.0, 1.0]) < _NEAR).all(axis=0)
         if not (on.any() and (np.abs(place - 0.5) < 0.5 + _NEAR).all()):
             return False
+        # A piece on a side of u covers a part of v, and the other way round.
         covered += on * np.abs(place[-1] - place[0])[::-1, None]
     return bool((covered > 1.0 - 10.0 * _NEAR).all())
 
 
 def parameter_curves(file: IgesFile, number: int, met: tuple[int, ...] = ()) -> list[FloatArray]:
-    """Give a curve in the parameters of a surface in pieces, each inside its control points.
+    """Give a curve in the parameters of a surface in pieces, as control points (k, 2) of each.
 
-    Parameters
-    ----------
-    file : IgesFile
-        The file.
-    number : int
-        Of a line (110), polyline (106), spline (126), or a chain of such (102).
-    met : tuple of int
-        The chains that it is a part of.
-
-    Returns
-    -------
-    list of (k, 2)
-        Control points; empty if it is a curve of another kind.
+    It is a line (110), polyline (106), spline (126), or a chain of such (102); empty if another
+    kind. `met` are the chains that it is a part of.
 
     Raises
     ------
@@ -161,19 +141,9 @@ def _legs(points: FloatArray) -> list[FloatArray]:
 
 
 def borders_of_face(file: IgesFile, number: int) -> list[list[int]] | None:
-    """Give the borders of a face, each as numbers of curves in the parameters of its surface.
+    """Give the borders of a face (144, 143, 510), each as numbers of curves in surface parameters.
 
-    Parameters
-    ----------
-    file : IgesFile
-        The file.
-    number : int
-        Of a trimmed (144), bounded (143) surface or a face (510).
-
-    Returns
-    -------
-    list of list of int, or None
-        None: the border is said to be that of the surface. Curves that are missing are 0.
+    None: the border is said to be that of the surface. Curves that are missing are 0.
 
     Raises
     ------
@@ -228,33 +198,15 @@ def _of_loop(file: IgesFile, number: int) -> list[int]:
 
 
 # --------------------------------------------------------------------------------------
-# Untrimmed spline surfaces of an IGES file, moved to where they belong, in metres.
-#
-# Source: IGES 5.3 (US PRO, 1996), section 4.24 (entity 128).
+# The surfaces.
 
 Found = tuple[list[SplineSurface], str, tuple[str, ...]]
 
 
 def surfaces_of_iges(text: str, source: str, unit: str | None = None) -> Found:
-    """Read the spline surfaces of an IGES file.
+    """Read the spline surfaces of an IGES file, m, in its order; its unit; notes.
 
-    Parameters
-    ----------
-    text : str
-        The file.
-    source : str
-        Its name, for messages.
-    unit : str or None
-        The unit of its lengths; None: as the file says.
-
-    Returns
-    -------
-    surfaces : list of SplineSurface
-        In the order of the file; m.
-    unit : str
-        The unit of the file.
-    notes : tuple of str
-        What was left out or done.
+    `unit` is that of its lengths; None: as the file says. Notes say what was left out or done.
 
     Raises
     ------
@@ -281,7 +233,7 @@ def surfaces_of_iges(text: str, source: str, unit: str | None = None) -> Found:
         _surface(each, motion, metres, called)
         for each, motion, called in zip(data, motions, names, strict=True)
     ]
-    more = (*scale_note(file), *unread_notes(file, parts), *_of_motions(file, shown, motions))
+    more = (*scale_note(file), *unread_notes(file, parts), *_stretch_notes(file, shown, motions))
     return found, name, (*notes, *more)
 
 
@@ -315,7 +267,10 @@ def _require_untrimmed(file: IgesFile, part: SurfaceEntity, data: IgesSurface) -
 
 
 def _motion(file: IgesFile, part: SurfaceEntity) -> Transformation:
-    """Give where a surface goes, moved by itself and with what it is a part of."""
+    """Give where a surface goes: moved by itself and with what it is a part of.
+
+    An entity that is not dependent stands by itself: the chain ends there.
+    """
     found = IDENTITY
     for number in part.chain:
         found = found.then(transformation_of(file, file.entries[number].transformation))
@@ -324,7 +279,7 @@ def _motion(file: IgesFile, part: SurfaceEntity) -> Transformation:
     return found
 
 
-def _of_motions(
+def _stretch_notes(
     file: IgesFile, parts: list[SurfaceEntity], motions: list[Transformation]
 ) -> tuple[str, ...]:
     return tuple(

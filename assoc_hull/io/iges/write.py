@@ -1,9 +1,9 @@
 """IGES files as they are written: sections and entities, and spline surfaces (entity 128).
 
 The same entities give the same bytes: no time, no name of a user. Numbers have all digits, so that
-lengths in metres come back to the last bit. Lines of a hull are in `io.iges.lines`.
+lengths in metres come back to the last bit. `assoc_hull.io.iges.lines` writes lines of a hull.
 
-Source: IGES 5.3 (US PRO, 1996), sections 2.2.4 and 4.24.
+Source: IGES 5.3 (US PRO, 1996), sections 2.2.2, 2.2.4 and 4.24.
 """
 
 from __future__ import annotations
@@ -27,12 +27,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The sections of an IGES file that is written: entities with their names, and the head.
-#
-# The same entities give the same text: it holds no time and no name of a user. Numbers are written
-# with all digits, so that lengths in metres come back to the last bit.
-#
-# Source: IGES 5.3 (US PRO, 1996), sections 2.2.2 and 2.2.4.
+# Sections, entities with their names, and the global section.
 
 _DATE = "20000101.000000"
 """The format wants a time; one for all makes files comparable."""
@@ -50,20 +45,13 @@ class IgesLayout:
     parameters: list[str] = attrs.field(factory=list)
 
     def add_named(self, kind: int, values: Sequence[str], name: str, level: int = 0) -> None:
-        """Add an entity and its name, as a property (406, form 15) and in eight letters.
+        """Add an entity and its name, as a property (406, form 15) and as a label of eight letters.
 
-        Parameters
-        ----------
-        kind : int
-            Type of the entity, such as 128.
-        values : sequence of str
-            What it is made of, the type left out; without pointers to properties.
-        name : str
-            Its name; what is no letter of ASCII is written as ``?``.
-        level : int
-            The level, or layer, it is drawn on; 0: none.
+        `values` leave out the type and pointers to properties; `level` is the layer, 0: none. What
+        is not ASCII in a name is written as ``?``.
         """
         label = _ascii(name)
+        # Two lines of the directory are its own: the property is the next entity.
         pointer = str(len(self.directory) + 3)
         self._add(kind, 0, [*values, "0", "1", pointer], label[:8], _VISIBLE, level)
         self._add(406, 15, ["1", _hollerith(label)], "", _PROPERTY, 0)
@@ -79,17 +67,7 @@ class IgesLayout:
         self.directory += [start, shape]
 
     def text(self, title: str, unit: str, size: float) -> str:
-        """Give the text of the file, lines of 80 columns.
-
-        Parameters
-        ----------
-        title : str
-            What it holds, for people.
-        unit : {"m", "mm", "cm", "ft", "in"}
-            Of its lengths.
-        size : float
-            The greatest coordinate, in that unit.
-        """
+        """Give the text, lines of 80 columns; `size` is the greatest coordinate, in `unit`."""
         sections = {
             "S": [f"{title:72}"], "G": _packed(_globals(unit, size), 72), "D": self.directory,
             "P": self.parameters,
@@ -139,7 +117,7 @@ def _ascii(text: str) -> str:
 
 
 def _packed(values: Iterable[str], width: int) -> list[str]:
-    """Put values into lines, none of them parted."""
+    """Put values into lines, none of them split."""
     given = list(values)
     lines = [""]
     for place, value in enumerate(given, start=1):
@@ -151,30 +129,13 @@ def _packed(values: Iterable[str], width: int) -> list[str]:
 
 
 # --------------------------------------------------------------------------------------
-# Spline surfaces as an IGES file: entities 128, each with its name (406, form 15).
-#
-# The same surfaces give the same bytes: the file holds no time and no name of a user. Numbers are
-# written with all digits, so that lengths in metres come back to the last bit.
-#
-# Source: IGES 5.3 (US PRO, 1996), sections 2.2.4 and 4.24.
+# Spline surfaces.
 
 _TITLE = "Control nets of surfaces, written by assoc-hull"
 
 
 def iges_text(surfaces: Sequence[SplineSurface], unit: str = "m") -> str:
-    """Lay out surfaces as the text of an IGES file.
-
-    Parameters
-    ----------
-    surfaces : sequence of SplineSurface
-        At least one; what is no letter of ASCII in a name is written as ``?``.
-    unit : {"m", "mm", "cm", "ft", "in"}
-        Of the lengths in the file.
-
-    Returns
-    -------
-    str
-        Lines of 80 columns.
+    """Lay out one or more surfaces as the text of an IGES file, with their names.
 
     Raises
     ------
@@ -194,7 +155,7 @@ def iges_text(surfaces: Sequence[SplineSurface], unit: str = "m") -> str:
 
 
 def _surface(surface: SplineSurface, factor: float) -> list[str]:
-    """Give the values of an entity 128."""
+    """Give the values of an entity 128; u runs fastest in the file, and first in a net."""
     (rows, columns), (m, n) = surface.net.shape[:2], surface.degrees
     net = surface.net if factor == 1.0 else surface.net * factor
     weights = np.ones((rows, columns)) if surface.weights is None else surface.weights

@@ -74,7 +74,7 @@ class LinePolylines:
         Its family, such as "sections" or "boundary", and its name.
     offset : float, m
         Place of its plane: x of a section, z of a waterline, y of a buttock; nan else.
-    pieces : tuple of DrawnPiece
+    pieces : tuple of CurvePolyline
         The lowest first, then the aftmost.
     """
 
@@ -121,7 +121,7 @@ def lines_as_points(
 
     Returns
     -------
-    list of DrawnLine
+    list of LinePolylines
         Within a family by place, then by name.
 
     Raises

@@ -2,7 +2,7 @@
 
 Both cut and digitised lines come as pieces with loose ends. Ends within `Gaps.join` are joined,
 wider gaps up to `Gaps.refuse` are an error. Lines that turn back or cross themselves are put in
-order where one order is plain, and reported else.
+order where one order is plain, and reported else. Points are (n, 3), m.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# A plane through a shell: the pieces of the line it cuts, chained across small gaps.
+# Gaps.
 
 SAME_POINT = 1e-6
 
@@ -33,16 +33,7 @@ SAME_POINT = 1e-6
 def join_pieces(
     name: str, pieces: list[LinePiece], gaps: Gaps
 ) -> tuple[list[LinePiece], list[GapJoin]]:
-    """Join loose ends across gaps, the nearest first.
-
-    Parameters
-    ----------
-    name : str
-        The line, for the table of joins.
-    pieces : list of Piece
-        As cut.
-    gaps : Gaps
-        What is joined and what refused.
+    """Join loose ends across gaps, the nearest first; gives the pieces, and a record per join.
 
     Raises
     ------
@@ -97,6 +88,7 @@ def nearest_ends(pieces: list[LinePiece]) -> tuple[float, tuple[int, int], tuple
         return None
     place = np.array([_end(pieces[i], end) for i, end in loose])
     owner = np.array([i for i, _ in loose])
+    # The two ends of one piece are compared too, to close it, unless it has too few points.
     short = np.array([len(pieces[i].points) < 4 for i, _ in loose])
     first, second = np.triu_indices(len(loose), 1)
     apart = (owner[first] != owner[second]) | ~short[first]
@@ -110,7 +102,7 @@ def nearest_ends(pieces: list[LinePiece]) -> tuple[float, tuple[int, int], tuple
 
 
 def _join(first: LinePiece, end: int, second: LinePiece, other: int) -> LinePiece:
-    """Put the second behind the first, each turned so that the given ends meet."""
+    """Put the second behind the first, each turned so that the given ends face."""
     a, b = first if end else first.reversed(), second.reversed() if other else second
     points = np.concatenate([a.points, b.points])
     kept = distinct_points(points, SAME_POINT)
@@ -132,7 +124,7 @@ def _close(piece: LinePiece) -> LinePiece:
 
 
 # --------------------------------------------------------------------------------------
-# Points out of order, lines that cross themselves, joins and gaps: mended or named.
+# Order.
 
 _BACK = np.cos(np.deg2rad(135.0))
 """A line that turns by more than this between two points turns back."""
@@ -147,17 +139,9 @@ _MOST = 3000
 def put_in_order(name: str, points: FloatArray, book: Notebook) -> FloatArray:
     """Put the points of a piece in order where the line turns back and one order is plain.
 
-    The order is plain where joining each point with its nearest ones gives a single path that
-    turns back nowhere.
-
-    Parameters
-    ----------
-    name : str
-        The line.
-    points : (n, 3), m
-        As given, none twice in a row.
-    book : Notebook
-        Takes what was mended, or the place where the line turns back.
+    It is plain where joining each point with its nearest ones gives a single path that turns back
+    nowhere. No point may come twice in a row. `book` takes what was repaired, or where it turns
+    back.
     """
     back = _turns_back(points)
     if not len(back):
@@ -203,19 +187,7 @@ def _path(points: FloatArray) -> IntArray | None:
 
 
 def report_crossings(name: str, pieces: list[LinePiece], axis: int, book: Notebook) -> None:
-    """Tell of a line that crosses itself, with the first place.
-
-    Parameters
-    ----------
-    name : str
-        The line.
-    pieces : list of Piece
-        In the plane where coordinate `axis` is constant.
-    axis : int
-        0, 1 or 2.
-    book : Notebook
-        Takes what was found.
-    """
+    """Report a line that crosses itself in its plane, that of constant coordinate `axis`."""
     plane = [other for other in range(3) if other != axis]
     start = np.concatenate([piece.points[:-1, plane] for piece in pieces])
     end = np.concatenate([piece.points[1:, plane] for piece in pieces])
@@ -227,15 +199,7 @@ def report_crossings(name: str, pieces: list[LinePiece], axis: int, book: Notebo
 
 
 def report_joins(joins: list[GapJoin], book: Notebook) -> None:
-    """Tell how many ends were joined across gaps, and the widest of these.
-
-    Parameters
-    ----------
-    joins : list of Join
-        Those that were made.
-    book : Notebook
-        Takes them as one repair.
-    """
+    """Report how many ends were joined across gaps, and the widest of these, as one repair."""
     wide = [join for join in joins if join.gap > 5e-3]
     if joins:
         widest = max(joins, key=lambda each: each.gap)

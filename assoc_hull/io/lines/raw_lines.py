@@ -1,7 +1,7 @@
-"""Lines as a file gives them, before units and axes are settled.
+"""Lines as a file gives them, before unit and axes are settled.
 
 A `RawPiece` is one polyline in the unit of the file; `RawLines` are all of a text. `TextRows` walks
-through the lines of a text and says where it stands, so that errors name the place.
+through the lines of a text and keeps where it stands, so that errors name the place.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# One polyline of digitised lines, and the numbers it is made of.
+# Polylines, and the numbers they are made of.
 
 BOUNDARIES = ("profile", "deck edge", "transom")
 """Names of boundary curves among digitised lines."""
@@ -66,16 +66,7 @@ class RawPiece:
 
 
 def read_number(cell: str, where: str, *, comma: bool = False) -> float:
-    """Read a number, or say where there is none.
-
-    Parameters
-    ----------
-    cell : str
-        The text.
-    where : str
-        For the message.
-    comma : bool
-        Whether a comma may be the decimal sign.
+    """Read a finite number that a ship may have; `comma`: a comma may be the decimal sign.
 
     Raises
     ------
@@ -126,7 +117,7 @@ def refuse_retraced(piece: RawPiece) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# What readers of line texts share: the pieces they give, names of lines, rows of numbers.
+# What readers of texts share.
 
 _SHORT = {"sections": "ST", "waterlines": "WL", "buttocks": "BTK"}
 
@@ -241,16 +232,9 @@ class TextRows:
         return self.lines[self.at - 1][1]
 
     def numbers(self, what: str, least: int, mark: str | None = None) -> list[float]:
-        """Read a line of numbers.
+        """Read a line and give its first `least` numbers.
 
-        Parameters
-        ----------
-        what : str
-            What they are, for messages.
-        least : int
-            So many are wanted; more are given too.
-        mark : str or None
-            What separates them; blanks if None.
+        `mark` separates them, blanks if None; `what` they are is for messages.
 
         Raises
         ------
@@ -265,7 +249,7 @@ class TextRows:
         return [read_number(cell, f"at {self.where}") for cell in cells[:least]]
 
     def points(self, count: int, mark: str | None = None) -> np.typing.NDArray[np.float64]:
-        """Read so many lines of two numbers each, (count, 2).
+        """Read `count` lines of two numbers each, (count, 2).
 
         Raises
         ------

@@ -87,7 +87,7 @@ class SliceLine:
         Such as "sections" and "ST 12.5", or "boundary" and "deck edge".
     offset : float, m
         Place of its plane; nan for a boundary curve.
-    pieces : tuple of Piece
+    pieces : tuple of LinePiece
         Lowest first, then aftmost first.
     """
 
@@ -165,16 +165,16 @@ class HullSlices:
         Sections, waterlines and buttocks, each group by place.
     boundaries : tuple of SliceLine
         Profile, deck edge and edge of the transom, as far as they were found.
-    joins : tuple of Join
+    joins : tuple of GapJoin
         Every join across a gap.
     report : OffsetReport
-        What was assumed, mended and found suspicious.
+        What was assumed, repaired and found suspicious.
     facets : bool
         Whether the points are corners of facets (of a mesh), whose chords lie inside the hull.
     low, high : (3,), m
         Extent of the hull.
     depth : float, m
-        How deep facets of the mesh lie inside the hull, nil for digitised lines.
+        How deep facets of the mesh lie inside the hull, 0 for digitised lines.
     gaps : Gaps
         What was joined and what would have been refused.
     knuckles : mapping of str to (k, 3), m

@@ -1,7 +1,8 @@
 """A closed mesh written as STL, OBJ, PLY or glTF, whole or not at all.
 
-Numbers are rounded as the form rounds them before the mesh is checked: vertices that fall together
-become one, and the mesh stays closed.
+Numbers are rounded as the format rounds them before the mesh is checked. Vertices may fall together
+then: triangles between them have no area and are left out on both sides of the same edge, so that
+the mesh stays closed. That is checked on what is written, not on what it was made of.
 """
 
 from __future__ import annotations
@@ -33,11 +34,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# A closed mesh as files hold it: its numbers rounded as theirs, and its bytes.
-#
-# Two vertices may fall together when they are rounded; then the triangles between them have no
-# area and are left out, on both sides of the same edge, so that the mesh stays closed. That is
-# checked on what is written, not on what it was made of.
+# The formats: numbers as they hold them, and bytes.
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("more", "<u2")])
 _STL_TITLE = 80
@@ -73,18 +70,7 @@ class FiledMesh:
     def of(
         cls, mesh: ClosedMesh, scale: float, rounded: Callable[[FloatArray], FloatArray], title: str
     ) -> FiledMesh:
-        """Round a mesh.
-
-        Parameters
-        ----------
-        mesh : ClosedMesh
-            The mesh, m.
-        scale : float
-            Units of the file in a metre.
-        rounded : callable
-            Gives numbers as the file will hold them.
-        title : str
-            What the mesh is.
+        """Round a mesh (m) to the numbers of a file; `scale` is units of the file in a metre.
 
         Raises
         ------
@@ -171,7 +157,7 @@ def _ply(mesh: FiledMesh) -> bytes:
 
 
 def _glb(mesh: FiledMesh) -> bytes:
-    """Write a scene with a mesh a group; glTF has y up and looks along -z from ahead."""
+    """Write a scene with a mesh a group; glTF has y up and the bow towards the viewer, +z."""
     try:
         import trimesh
     except ImportError as error:
@@ -193,11 +179,12 @@ def _numbers(values: list[float]) -> str:
 
 
 def _word(name: str) -> str:
-    """Give a name as one word."""
+    """Give a name as one word: groups of these formats end at a space."""
     return "_".join(name.split()) or "group"
 
 
 def _single(values: FloatArray) -> FloatArray:
+    """Round to single precision; + 0.0 makes -0.0 a 0.0, here and below."""
     return values.astype(np.float32).astype(np.float64) + 0.0
 
 
@@ -248,7 +235,7 @@ MESH_FORMS: Mapping[str, MeshForm] = MappingProxyType({
 
 
 # --------------------------------------------------------------------------------------
-# A closed mesh as a file: STL, OBJ, PLY or glTF, whole or not at all.
+# The file.
 
 MESH_ENDINGS: Mapping[str, str] = MappingProxyType(
     {ending: name for name, form in MESH_FORMS.items() for ending in form.endings}

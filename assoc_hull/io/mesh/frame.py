@@ -1,7 +1,9 @@
 """Ship axes of a mesh: unit, axes of length, breadth and height, which side is up, the bow.
 
-Ship axes are x forward, y to port, z up. Whatever is found rather than given is reported, and
-called doubtful where more than one choice remains.
+Ship axes are x forward, y to port, z up, m at full scale. Whatever is found rather than given is
+reported, and called doubtful where more than one choice remains. Axes are tried in this order:
+length, then breadth (where the hull mirrors or is cut), what is left is height; then up, then the
+bow.
 """
 
 from __future__ import annotations
@@ -23,10 +25,8 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Which axes of a mesh are length, breadth and height.
-#
-# The length is the longest. The breadth is the axis in which the hull mirrors, or across which
-# half a hull is cut. Where more than one choice remains, or none, the report calls it doubtful.
+# Axes. The length is the longest. The breadth is the axis in which the hull mirrors, or across
+# which half a hull is cut.
 
 _WHERE = "the mesh"
 _WORST = 0.02
@@ -34,7 +34,7 @@ _WORST = 0.02
 
 
 def find_columns(mesh: Triangles, book: Notebook) -> tuple[int, int, int]:
-    """Find the columns of length, breadth and height.
+    """Give the columns (0, 1, 2) of length, breadth and height.
 
     Raises
     ------
@@ -96,8 +96,8 @@ def _is_mirrored(mesh: Triangles, axis: int) -> bool:
 def _mirror_or_cut(mesh: Triangles, mirror: int, cut: int, side: float | None) -> tuple[int, str]:
     """Tell a whole hull with an open deck from half of one that is alike above and below.
 
-    Both mirror in one axis and are open at one side across another: the deck of the one, the
-    centre plane of the other. What lies at nil of the file is the centre plane.
+    Both mirror in one axis and are open at one side across another: the deck of the one, the centre
+    plane of the other. What lies at zero of the file is the centre plane.
     """
     mirrors = f"{'xyz'[mirror]} mirrors"
     if side is None:
@@ -157,7 +157,7 @@ def _nearest_mirror(mesh: Triangles, tried: int, other: int) -> tuple[int, str, 
 
 
 def _straight_share(mesh: Triangles, x: int, axis: int, other: int) -> float:
-    """Give the part of the length on which the edge in one open plane is farthest from another."""
+    """Give the part of the length on which the edge in one open plane lies far from the other."""
     rim, size = boundary_edges(mesh), np.ptp(mesh.xyz, axis=0)
     plane, away = half_side(mesh, axis), half_side(mesh, other)
     middle = mesh.xyz[rim].mean(axis=1)
@@ -177,6 +177,7 @@ def mirror_error(mesh: Triangles, axis: int) -> float:
     some = mesh.xyz[:: max(1, len(mesh.xyz) // 4000)].copy()
     some[:, axis] = 2.0 * middle - some[:, axis]
     near = cKDTree(mesh.xyz).query(some)[1]
+    # Along the normal only: the other side may be triangulated at other points of the surface.
     away = np.abs(((some - mesh.xyz[near]) * _normals(mesh)[near]).sum(axis=1))
     return float(np.percentile(away, 90)) / size
 
@@ -203,6 +204,7 @@ def half_side(mesh: Triangles, axis: int) -> float | None:
         span = np.ptp(mesh.xyz[rim[on]].reshape(-1, 3), axis=0) if on.any() else np.zeros(3)
         across = [other for other in range(3) if other != axis]
         whole = np.ptp(mesh.xyz, axis=0)
+        # A transom or a hatch is open too: the edge of a half hull spans its whole side.
         filled = all(span[other] > 0.8 * whole[other] for other in across)
         if filled and length[on].sum() > 0.15 * length.sum():
             return float(np.median(values[on]))  # single vertices may reach a little farther
@@ -210,11 +212,9 @@ def half_side(mesh: Triangles, axis: int) -> float | None:
 
 
 # --------------------------------------------------------------------------------------
-# Ship axes of a mesh: unit, which axis is the length, which side is up, which end the bow.
-#
-# Whatever is found rather than given is reported. Ship axes: x forward, y to port, z up.
+# Placing: unit, centre plane, up, bow, origin.
 
-_LONGEST, _SHORTEST = 600.0, 1.0
+_LONGEST, _SHORTEST = 600.0, 1.0  # m, of a ship at full scale
 _USUAL = {"L/B": (1.5, 40.0), "L/D": (3.0, 80.0), "B/D": (0.4, 12.0)}
 """Length over breadth and depth of anything that floats as a ship, from barge to rowing eight."""
 
@@ -222,19 +222,9 @@ _UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
 
 
 def scale_mesh(mesh: Triangles, scale: float, unit: str, book: Notebook) -> Triangles:
-    """Give the mesh at full scale in m.
+    """Give the mesh at full scale in m; `scale` is full scale over that of the file.
 
-    Parameters
-    ----------
-    mesh : Triangles
-        As read.
-    scale : float
-        Full scale over model scale; 1 for a mesh at full scale.
-    unit : {"auto", "m", "mm", "cm", "ft", "in"}
-        Unit of the file. Found, it is metres, or millimetres where metres would give a ship
-        of more than 600 m.
-    book : Notebook
-        Takes what was assumed.
+    `unit` "auto" is metres, or millimetres where metres would give a ship of more than 600 m.
 
     Raises
     ------
@@ -273,24 +263,16 @@ def _find_unit(size: float, book: Notebook) -> str:
 
 
 def place_mesh(mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0) -> Triangles:
-    """Turn a mesh in metres into ship axes, centre plane at y = 0.
+    """Turn a mesh (m, all triangles outward) into ship axes, centre plane at y = 0.
 
-    Parameters
-    ----------
-    mesh : Triangles
-        In m, all triangles outward.
-    axes : str
-        "auto", or which axes of the file are x (forward), y (to port) and z (up), each with a
-        sign: ``"+x+y+z"``, ``"-x-y+z"`` for a bow at negative x, ``"+x-z+y"`` for y up.
-    book : Notebook
-        Takes what was found.
-    doubt : float, m
-        How far vertices may be off what they stand for: a centre plane nearer to y = 0 is there.
+    `axes` is "auto", or which axes of the file are x, y and z, each with a sign: ``"-x-y+z"`` for a
+    bow at negative x, ``"+x-z+y"`` for y up. `doubt` (m) is how far vertices may be off what they
+    stand for: a centre plane nearer to y = 0 than that is there.
 
     Raises
     ------
     BadInputError
-        Unknown axes, or a mesh whose axes cannot be told.
+        Unknown axes, or a mesh whose axes cannot be found.
     """
     if word(axes, "axes", "as an argument") != "auto":
         placed = _centred(_turned(mesh, _parse(axes)), book, doubt)
@@ -298,7 +280,7 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0) -
         moved = _turned(mesh, np.eye(3)[list(find_columns(mesh, book))])
         moved = _upright(_centred(moved, book, doubt), book)
         placed = _grounded(_bow_forward(moved, book), book)
-    _tell_proportions(placed, book)
+    _report_proportions(placed, book)
     return placed
 
 
@@ -315,14 +297,14 @@ def _parse(axes: str) -> FloatArray:
 
 
 def _turned(mesh: Triangles, turn: FloatArray) -> Triangles:
-    """Turn the places; a reflection turns the triangles round."""
+    """Turn the points; a reflection reverses the triangles, so that they stay outward."""
     xyz = np.stack([(mesh.xyz * row).sum(axis=1) for row in turn], axis=1) + 0.0
     face = mesh.face if np.linalg.det(turn) > 0.0 else mesh.face[:, ::-1].copy()
     return Triangles(xyz, face, mesh.origin)
 
 
 def _centred(mesh: Triangles, book: Notebook, doubt: float) -> Triangles:
-    """Put the centre plane at y = 0, a half hull on the side of positive y."""
+    """Put the centre plane at y = 0, a half hull at positive y."""
     size = float(np.ptp(mesh.xyz, axis=0).max())
     low, high = float(mesh.xyz[:, 1].min()), float(mesh.xyz[:, 1].max())
     side = half_side(mesh, 1)
@@ -335,7 +317,7 @@ def _centred(mesh: Triangles, book: Notebook, doubt: float) -> Triangles:
         book.repair("centre plane", _WHERE, f"moved from y = {middle:.6g} m to 0", middle)
         xyz[:, 1] -= middle
     elif side is None:
-        _tell_asymmetry(mesh, size, book)
+        _report_asymmetry(mesh, size, book)
     moved = mesh.moved(xyz)
     if _is_starboard(moved):
         book.repair("mirrored", _WHERE, "the half at negative y was mirrored to port")
@@ -353,15 +335,15 @@ def _to_port(mesh: Triangles) -> Triangles:
     return _turned(mesh, np.diag([1.0, -1.0, 1.0])) if _is_starboard(mesh) else mesh
 
 
-def _tell_asymmetry(mesh: Triangles, size: float, book: Notebook) -> None:
+def _report_asymmetry(mesh: Triangles, size: float, book: Notebook) -> None:
     off = mirror_error(mesh, 1)
     if off > 1e-3:
         what = f"the halves differ by {off * size:.3g} m at one vertex of ten; port is taken"
         book.suspect("asymmetry", _WHERE, what, off * size)
 
 
-def _tell_proportions(mesh: Triangles, book: Notebook) -> None:
-    """Tell of a hull that no ship is like: a unit or scale that differs between the axes."""
+def _report_proportions(mesh: Triangles, book: Notebook) -> None:
+    """Report a hull that no ship is like: a unit or scale that differs between the axes."""
     half, (length, _, depth) = float(mesh.xyz[:, 1].max()), np.ptp(mesh.xyz, axis=0).tolist()
     flat = [name for name, size in zip("xyz", (length, half, depth), strict=True) if not size > 0.0]
     if flat:
@@ -381,7 +363,7 @@ def _tell_proportions(mesh: Triangles, book: Notebook) -> None:
 
 
 def _upright(mesh: Triangles, book: Notebook) -> Triangles:
-    """Turn a hull that lies keel up."""
+    """Turn a hull that lies keel up: it is broader at the bottom than at the top."""
     y = np.abs(mesh.xyz[:, 1])
     z = (mesh.xyz[:, 2] - mesh.xyz[:, 2].min()) / np.ptp(mesh.xyz[:, 2])
     area = np.linalg.norm(mesh.area_vectors(), axis=1)
@@ -401,12 +383,13 @@ def _upright(mesh: Triangles, book: Notebook) -> Triangles:
 def _mean_breadth(
     centre: FloatArray, area: FloatArray, where: np.typing.NDArray[np.bool_]
 ) -> float:
+    """Give the mean half-breadth (m) of triangles, weighted by area."""
     weight = area[where]
     return float((np.abs(centre[where, 1]) * weight).sum() / max(float(weight.sum()), 1e-12))
 
 
 def _bow_forward(mesh: Triangles, book: Notebook) -> Triangles:
-    """Turn a hull whose bow is at low x: sterns are the wider end at the deck."""
+    """Turn a hull whose bow is at low x: the stern is the wider end at the deck."""
     aft, fore = (_end_breadth(mesh, end) for end in (0.05, -0.05))
     widest = float(np.abs(mesh.xyz[:, 1]).max())
     if abs(aft - fore) < 0.05 * widest:
@@ -422,7 +405,10 @@ def _bow_forward(mesh: Triangles, book: Notebook) -> Triangles:
 
 
 def _end_breadth(mesh: Triangles, end: float) -> float:
-    """Give the half-breadth of the upper half of the hull at a part of the length from an end."""
+    """Give the half-breadth (m) of the upper half of the hull near one end.
+
+    `end` is the part of the length from aft that counts, if positive, else from forward.
+    """
     x, z = mesh.xyz[:, 0], mesh.xyz[:, 2]
     size = float(np.ptp(x))
     close = x < x.min() + end * size if end > 0.0 else x > x.max() + end * size
@@ -432,7 +418,7 @@ def _end_breadth(mesh: Triangles, end: float) -> float:
 
 
 def _grounded(mesh: Triangles, book: Notebook) -> Triangles:
-    """Put the base line at the lowest place and the AP at the aft end where they lie far off."""
+    """Put the base line at the lowest point and the AP at the aft end where they lie far off."""
     low, high = mesh.xyz.min(axis=0), mesh.xyz.max(axis=0)
     size = high - low
     shift = np.zeros(3)

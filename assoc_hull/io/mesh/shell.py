@@ -31,7 +31,7 @@ def cut_shell(shell: MeshShell, axis: int, offset: float) -> list[LinePiece]:
 
     Parameters
     ----------
-    shell : Shell
+    shell : MeshShell
         Half a hull.
     axis : int
         The plane is where this coordinate equals `offset`.
@@ -165,7 +165,7 @@ class MeshShell:
     rim : (e, 2) int
         Its open edges.
     sort : (e,) int
-        What each of them is, a number of `Rim`.
+        What each of them is, a number of `RimKind`.
     """
 
     mesh: Triangles

@@ -1,10 +1,9 @@
 """A net from a table of offsets alone: what the table leaves open is completed by rule.
 
-A table stops at its outermost stations and tells between which two a waterline comes onto a
-flat. The rules here lay a fair border for the flat of side, find the flat of bottom, carry
-the waterlines on to stem and stern contour, and make the centre profile of these. A table that
-the rules do not fit (rising keel, bulb, no flat of bottom) is adopted as it stands, and the
-first note of the report tells why.
+A table stops at its outermost stations and tells only between which two of them a waterline comes
+onto a flat. Rules here find the flats and fair their borders, carry the waterlines on to stem and
+stern contour, and make the centre profile. A table that they do not fit (rising keel, bulb, no flat
+of bottom) is adopted as it stands. Lengths in m, x from the AP (+ forward), z from the base line.
 """
 
 from __future__ import annotations
@@ -40,11 +39,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# A fair border for the flat of side.
-#
-# A table tells only between which two stations a waterline comes onto the flat. Within these
-# bounds the border is laid as a fair curve: least squares of its second differences and, with
-# a small weight, of its distance from the estimates; never narrower upward.
+# A fair border for the flat of side, between the stations that bound it: least squares of its
+# second differences and, with a small weight, of its distance from the estimates; never narrower
+# upward.
 
 _ESTIMATE = 0.2
 """Weight of the estimates against fairness."""
@@ -54,7 +51,8 @@ _WIDENS = 0.15
 plane passes its border cleanly."""
 
 _PINNED = 1e-6
-"""Freedom (m) of the border where the flat reaches the last station of the table."""
+"""Freedom (m) of the border where the flat reaches the last station of the table: the solver wants
+bounds that differ."""
 
 _CLEAR = 0.05
 """Part of the interval between two stations that the border keeps clear of either."""
@@ -97,7 +95,7 @@ def fair_border(table: OffsetTable, border: FloatArray) -> FloatArray:
 
 
 def _bounds(table: OffsetTable, flat: list[int], sign: float) -> tuple[FloatArray, FloatArray]:
-    """Give the interval in which each waterline comes onto the flat, aft (-1) or forward."""
+    """Give the interval (m) in which each waterline comes onto the flat, aft (-1) or forward."""
     low, high = np.zeros(len(flat)), np.zeros(len(flat))
     half = table.breadth / 2.0
     for i, j in enumerate(flat):
@@ -111,7 +109,7 @@ def _bounds(table: OffsetTable, flat: list[int], sign: float) -> tuple[FloatArra
 
 
 def _fair(x: FloatArray, low: FloatArray, high: FloatArray, sign: float) -> FloatArray:
-    """Lay places from the lowest waterline up, within their bounds, as a fair curve."""
+    """Fair the ends x (n,) of waterlines, from the lowest up, within their bounds, m."""
     from scipy.optimize import lsq_linear
 
     count = len(x)
@@ -119,21 +117,22 @@ def _fair(x: FloatArray, low: FloatArray, high: FloatArray, sign: float) -> Floa
     rows = np.concatenate([bend, _ESTIMATE * np.eye(count)])
     goal = np.concatenate([np.zeros(len(bend)), _ESTIMATE * np.clip(x, low, high)])
     found = np.clip(lsq_linear(rows, goal, (low, high)).x, low, high)
+    # Upward in order, so that each widening holds for the waterlines above too; it may pass a
+    # bound.
     for i in range(1, count):
         found[i] = sign * max(sign * found[i], sign * found[i - 1] + _WIDENS)
     return found
 
 
 # --------------------------------------------------------------------------------------
-# The flats of a hull given by offsets: flat of side in y = B/2, flat of bottom in z = 0.
-#
-# Where a waterline leaves the flat of side lies between two stations. Near that place the
-# distance from the flat grows with the square of the distance along the line, so its square
-# root is laid through the two nearest offsets that are clearly off the flat (by more than
-# three times the rounding) and the zero of that straight line is taken, clamped between the
+# Flat of side in y = B/2, flat of bottom in z = 0. Near its border the distance from the flat grows
+# with the square of the distance along the line: a straight line through the square roots of the
+# two nearest offsets clearly off the flat has its zero at the border. It is clamped between the
 # last station off the flat and the first one on it. Likewise upward along each station.
 
-_FLATS_CLEAR = 3.0
+_CLEARLY_OFF = 3.0
+"""An offset is clearly off the flat by more than this many times its rounding."""
+
 _INSIDE = 0.1
 """The border stays this part of the interval clear of the last offset off the flat: a curve
 cannot come onto the flat where its offset is not on it."""
@@ -196,14 +195,17 @@ def flat_of_side(table: OffsetTable) -> FlatOfSide:
 
 
 def _entry(place: FloatArray, off: FloatArray, rounding: float) -> float:
-    """Give the place where a line, followed in ascending order, first comes onto the flat."""
+    """Give where a line, followed in ascending order of `place` (m), first comes onto the flat.
+
+    `off` (n,), m, is the distance from the flat; nan where the line has none.
+    """
     known = np.isfinite(off)
     place, off = place[known], off[known]
     on = np.flatnonzero(off <= rounding * (1 + 1e-6) + 1e-12)
     if not len(on):
         return float("nan")
     first = int(on[0])
-    clear = np.flatnonzero(off[:first] > _FLATS_CLEAR * rounding)[-2:]
+    clear = np.flatnonzero(off[:first] > _CLEARLY_OFF * rounding)[-2:]
     if len(clear) < 2:
         return float(place[first])
     (u, v), (p, q) = place[clear], np.sqrt(off[clear])
@@ -270,24 +272,12 @@ def flat_of_bottom(table: OffsetTable) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# The ends of a hull given by offsets: stem and stern contour, and the centre profile.
-#
-# A table of offsets stops at its outermost stations. Where a waterline is 0 there, it ends
-# at the first zero next to a positive offset. Where it is not, it overhangs:
-#
-# - Forward, the straight line through the last two offsets is carried on to y = 0.
-# - Aft, the waterline z = T is closed at a given part of Lpp abaft the AP; Series 60 has
-#   LWL/Lpp = 1.01675 (F.H. Todd, "Series 60: Methodical Experiments with Models of
-#   Single-Screw Merchant Ships", DTMB Report 1712, 1963). The stern contour leaves the AP at the
-#   height z0 where the straight line through the two lowest positive offsets at the last station
-#   becomes 0 (clamped between them and the waterline below), and follows the parabola
-#   e = e_T sqrt((z - z0) / (T - z0)) of the overhang e, level at z0 and steeper upward. The
-#   published numbers do not hold the contour; this rule is ours. It keeps higher waterlines
-#   farther aft. At 1.25 T and 1.5 T it gives 3.7 m and 4.8 m; the parabola through the last
-#   three offsets of those waterlines would run on to 4.3 to 4.5 m and 5.5 to 6.4 m, and a
-#   waterline that ends round ends before that.
+# Ends: stem and stern contour, and the centre profile. A waterline that is 0 at the outermost
+# station ends at the first zero next to a positive offset; any other overhangs.
 
 _UPRIGHT = 1e-9
+"""Ends of a contour this near to each other in x (m) stand upright above each other."""
+
 CLOSING = 0.01675
 """Overhang of the waterline z = T abaft the AP, as a part of Lpp (DTMB Report 1712)."""
 
@@ -334,13 +324,24 @@ def stern_contour(table: OffsetTable, closing: float = CLOSING) -> FloatArray:
     Returns
     -------
     (w,), m
-        As in `stem_contour`, and by the parabola of the module's head for waterlines that are
-        positive at the aftermost station where the design waterline is.
+        As in `stem_contour`, and by the parabola below for waterlines that are positive at the
+        aftermost station where the design waterline is.
 
     Raises
     ------
     BadInputError
         The closing lies forward of the aftermost station.
+
+    Notes
+    -----
+    Series 60 has LWL/Lpp = 1.01675 (F.H. Todd, "Series 60: Methodical Experiments with Models of
+    Single-Screw Merchant Ships", DTMB Report 1712, 1963). The published numbers do not hold the
+    contour; this rule is ours. It leaves the AP at the height z0 where the straight line through
+    the two lowest positive offsets at the last station becomes 0 (clamped between them and the
+    waterline below), and follows e = e_T sqrt((z - z0) / (T - z0)) of the overhang e, level at z0
+    and steeper upward, so that higher waterlines end farther aft. At 1.25 T and 1.5 T that is 3.7 m
+    and 4.8 m; the parabola through the last three offsets of those waterlines would run on to 4.3
+    to 4.5 m and 5.5 to 6.4 m, and a waterline that ends round ends before that.
 
     Examples
     --------
@@ -485,7 +486,7 @@ def _refuse_rising(table: OffsetTable, stern: FloatArray, stem: FloatArray) -> N
 
 
 def _stern_points(table: OffsetTable, stern: FloatArray, closing: float) -> FloatArray:
-    """Give (x, z) from the deck down to where the contour meets the upright, (n, 2), m."""
+    """Give (x, z) from the deck down to where the contour joins the upright, (n, 2), m."""
     leaving = _leaving_height(table)
     if leaving is None:
         return _bends(np.column_stack([stern, table.z]))[::-1]
@@ -508,10 +509,6 @@ def _bends(xz: FloatArray) -> FloatArray:
     upright = np.flatnonzero(np.abs(xz[:, 0] - xz[0, 0]) <= _UPRIGHT)
     run = int(upright[np.flatnonzero(upright == np.arange(len(upright)))][-1])
     return xz[run:] if run else xz[1:]
-
-
-# --------------------------------------------------------------------------------------
-# A net from a table of offsets alone: what the table leaves open is completed by rule.
 
 
 def net_from_table(

@@ -1,8 +1,9 @@
 """Suspicions on a table of offsets: wild values, lone values, blanks, sizes that no ship has.
 
 Nothing is changed; every suspicion is noted with its place. A wild value is found by releasing it:
-the value that makes the third divided differences of its waterline and station least is compared
-with the printed one.
+the value that makes the third divided differences of its waterline least is compared with the
+printed one, likewise along its station. A turn of the hull, such as the bilge, sticks out along one
+of the two; a wrong number along both and to the same side.
 """
 
 from __future__ import annotations
@@ -24,34 +25,22 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What looks wrong in a table of offsets: lone values, wild values, blanks, wrong units.
-#
-# A wild value is found by releasing it: the value that makes the third divided differences
-# of its waterline least is compared with the printed one, likewise along its station. A
-# turn of the hull, such as the bilge, sticks out along one of the two; a wrong number along
-# both and to the same side. The worst is set to its released value and the search repeated,
+# Wild and lone values. The worst wild value is set to its released value and the search repeated,
 # so that one wrong number is reported once.
 
 _SCORE = 5.0
+"""A value is wild from this score: off its neighbours, over what is usual there."""
+
 _MOST = 12
 _NOISE = 3e-4
+"""Offsets count as rounded to no less than this part of the largest."""
 
 
 def predicted_values(place: FloatArray, value: FloatArray) -> FloatArray:
-    """Give each value as its neighbours would have it.
+    """Give each value as its neighbours would have it: at ascending places (n,), all finite.
 
-    Parameters
-    ----------
-    place : (n,)
-        Ascending.
-    value : (n,)
-        Finite.
-
-    Returns
-    -------
-    (n,)
-        Value that makes the sum of squared third differences least, all others held; nan
-        for the first and the last, and where n < 5.
+    It makes the sum of squared third divided differences least, all others held; nan for the first
+    and the last, and where n < 5.
     """
     count = len(place)
     out = np.full(count, np.nan)
@@ -69,6 +58,7 @@ def predicted_values(place: FloatArray, value: FloatArray) -> FloatArray:
 
 
 def _both(x: FloatArray, z: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give how far values are off their neighbours along waterlines and stations, (s, w), m."""
     along_x, along_z = np.full(y.shape, np.nan), np.full(y.shape, np.nan)
     for j in range(len(z)):
         known = np.isfinite(y[:, j])
@@ -84,21 +74,9 @@ def wild_values(
 ) -> tuple[tuple[int, int, float], ...]:
     """Find values far off what their neighbours along station and waterline say.
 
-    Parameters
-    ----------
-    x : (s,), m
-        Stations, ascending.
-    z : (w,), m
-        Waterlines, ascending.
-    y : (s, w), m
-        Half-breadths, nan for blanks. The first and the last of a line are not judged.
-    rounding : (w,), m
-        Half unit of the last printed digit.
-
-    Returns
-    -------
-    tuple of (station index, waterline index, released value in m)
-        The worst first, 12 at most.
+    Stations x (s,) and waterlines z (w,), m, ascend; y (s, w), m, is nan for blanks, and the first
+    and the last of a line are not judged; `rounding` (w,), m, is half a unit of the last printed
+    digit. Gives station, waterline and released value (m), the worst first, 12 at most.
     """
     y = y.copy()
     noise = np.maximum(rounding, _NOISE * np.nanmax(y, initial=0.0))
@@ -130,23 +108,13 @@ def _worst(off: FloatArray, noise: FloatArray) -> tuple[int, int, float]:
 
 
 def lone_values(y: FloatArray) -> tuple[tuple[int, int], ...]:
-    """Find values above 0 whose neighbours above and below in the same station are 0.
-
-    Parameters
-    ----------
-    y : (s, w), m
-        Half-breadths, nan for blanks.
-
-    Returns
-    -------
-    tuple of (station index, waterline index)
-    """
+    """Find values above 0 of y (s, w) between zeros above and below in the same station."""
     middle = (y[:, 1:-1] > 0) & (y[:, :-2] == 0) & (y[:, 2:] == 0)
     return tuple((int(i), int(j) + 1) for i, j in zip(*np.nonzero(middle), strict=True))
 
 
 # --------------------------------------------------------------------------------------
-# The doctor's round: every suspicion on a table in ship axes, noted with its place.
+# All suspicions on a table in ship axes.
 
 
 @attrs.frozen(eq=False)
@@ -250,11 +218,13 @@ def _outer_blanks(patient: ExaminedTable, i: int, first: int, last: int, book: N
     keel = -np.inf if patient.keel is None else patient.keel[i]
     deck = np.inf if patient.deck is None else patient.deck[i]
     for j, z in enumerate(patient.z):
+        # Where keel or deck is not known, a blank has been read as beyond it.
         if (j < first and z > keel + slack and np.isfinite(keel)) or (
             j > last and z < deck - slack and np.isfinite(deck)
         ):
             what = f"blank, though {z:.6g} m is between keel {keel:.6g} m and deck {deck:.6g} m"
             book.suspect("blank", patient.where(i, j), what, float(z))
+        # A zero says of a place outside what a blank says.
         elif first <= j <= last and patient.y[i, j] > 0 and not keel - slack <= z <= deck + slack:
             what = f"a number, though {z:.6g} m is outside keel {keel:.6g} m to deck {deck:.6g} m"
             book.suspect("blank", patient.where(i, j), what, float(z))

@@ -1,7 +1,8 @@
-"""From a table of offsets to a net: lines, boundary curves, adoption.
+"""A net from a table of offsets: sections, waterlines and boundary curves, adopted.
 
-`net_from_offsets` completes the hull by rules that the caller gives (`Completion`); `net_of_lines`
-takes what the table says and no more, and leaves profile, ends and flats open.
+`net_from_offsets` closes the hull with profile, ends and flats that the caller gives
+(`Completion`); `net_of_lines` takes what the table says and no more, and leaves these open. Offsets
+are half-breadths (s, w), m, by station and waterline; nan where the table is blank.
 """
 
 from __future__ import annotations
@@ -31,9 +32,6 @@ __all__ = [
     "net_of_lines",
 ]
 
-# --------------------------------------------------------------------------------------
-# From a table of offsets to a net: lines, boundary curves, adoption.
-
 
 @attrs.frozen(eq=False)
 class Completion:
@@ -62,18 +60,9 @@ class Completion:
 
 
 def particulars_of_table(table: OffsetTable, deck: str = "open") -> Particulars:
-    """Give the particulars that a table tells, and the deck, which no table tells.
+    """Give the particulars that a table tells, and the deck ("open" or "closed"), which none tells.
 
-    Parameters
-    ----------
-    table : OffsetTable
-        Any table; depth and draught are its highest waterline where it tells none.
-    deck : {"open", "closed"}
-        Closed: there is a deck between the deck edges.
-
-    Returns
-    -------
-    Particulars
+    Depth and draught are the highest waterline where it tells none.
 
     Raises
     ------
@@ -94,23 +83,8 @@ def net_from_offsets(
 ) -> tuple[HullState, AdoptionReport]:
     """Adopt a table of offsets as a net of sections, waterlines and boundary curves.
 
-    The highest waterline of the table becomes the deck edge, the lowest, at the base line,
-    the border of the flat of bottom: their planes touch the hull and cut nothing.
-
-    Parameters
-    ----------
-    table : OffsetTable
-        Offsets in metres.
-    completion : Completion
-        Profile, ends and flats.
-    particulars : Particulars or None
-        From the table if None.
-    tolerances : Tolerances or None
-        Defaults if None.
-
-    Returns
-    -------
-    HullState, AdoptionReport
+    The highest waterline of the table becomes the deck edge, the lowest, at the base line, the
+    border of the flat of bottom: their planes touch the hull and cut nothing.
 
     Raises
     ------
@@ -122,11 +96,11 @@ def net_from_offsets(
             f"{len(table.z)} waterlines", f"table {table.name!r}", "give three or more"
         )
     ship = particulars or particulars_of_table(table)
-    flats = _Flats(completion.side, table)
+    flats = _FlatBorder(completion.side, table)
     sources = _boundaries(table, completion, flats)
     wet = [i for i in range(len(table.x)) if (table.half_breadth[i, 1:] > 0.0).any()]
-    sources += [_section(table, completion, flats, i) for i in wet]
-    sources += [_waterline(table, completion, flats, j) for j in range(1, len(table.z) - 1)]
+    sources += [_closed_section(table, completion, flats, i) for i in wet]
+    sources += [_closed_waterline(table, completion, flats, j) for j in range(1, len(table.z) - 1)]
     state, report = adopt(sources, ship, ASSOCIATIONS, tolerances)
     bare = [i for i in range(len(table.x)) if i not in wet]
     notes = tuple(f"station at x = {table.x[i]:g} m: no breadth, no section made" for i in bare)
@@ -145,7 +119,7 @@ def _printed(table: OffsetTable) -> list[str]:
     return found
 
 
-class _Flats:
+class _FlatBorder:
     """Where lines enter and leave the flat of side, taken from its border curve."""
 
     def __init__(self, side: FloatArray | None, table: OffsetTable) -> None:
@@ -155,15 +129,19 @@ class _Flats:
             self.border = loft(CurveData.single(side, _border_kinds(side)))
 
     def meet(self, axis: int, offset: float) -> FloatArray:
-        """Give the places where the border passes a plane, (k, 3), m."""
+        """Give the points where the border passes a plane across an axis, (k, 3), m."""
         if self.side is None:
             return np.zeros((0, 3))
         return intersect_planes(self.border, np.eye(3)[axis], np.array([offset])).xyz
 
 
 def _border_kinds(side: FloatArray) -> list[int]:
-    """Let a border be smooth, if as such it passes every level once on either side."""
+    """Give the kinds of a border's points: smooth where the smooth curve passes levels once a side.
+
+    Else knuckles: a smooth curve through uneven points may turn back and pass a waterline twice.
+    """
     smooth, knuckles = ([int(kind)] * len(side) for kind in (PointKind.SMOOTH, PointKind.KNUCKLE))
+    # Clear of the lower side, which is nearly level, and of the ends at the deck.
     low, high = float(side[:, 2].min()) + 0.1, float(side[:, 2].max()) - 0.02
     if low >= high:  # too low a flat to tell
         return knuckles
@@ -173,9 +151,10 @@ def _border_kinds(side: FloatArray) -> list[int]:
     return smooth if once.all() else knuckles
 
 
-def _boundaries(table: OffsetTable, completion: Completion, flats: _Flats) -> list[LineSource]:
+def _boundaries(table: OffsetTable, completion: Completion, flats: _FlatBorder) -> list[LineSource]:
+    """Give profile and deck edge as ends of the hull, and the borders of the flats there are."""
     top = float(table.z[-1])
-    deck = _waterline(table, completion, flats, len(table.z) - 1)
+    deck = _closed_waterline(table, completion, flats, len(table.z) - 1)
     found = [
         LineSource.make(
             "boundary", "profile", completion.profile, plane=((0, 1, 0), 0.0),
@@ -212,7 +191,10 @@ def _line(
     along: FloatArray,
     axis: int,
 ) -> LineSource:
-    """Put points in order along an axis, those on a flat's border marked as tangent points."""
+    """Put points in order along an axis, those on a flat's border marked as tangent points.
+
+    Of two within 0.1 mm one stays, the tangent point if there is one.
+    """
     xyz = np.array([*points, *tangents])
     tangent = np.arange(len(xyz)) >= len(points)
     order = np.lexsort((~tangent, xyz[:, axis]))
@@ -227,7 +209,9 @@ def _line(
     return LineSource.make(group, name, xyz, kind=kind.tolist(), direction=direction)
 
 
-def _section(table: OffsetTable, completion: Completion, flats: _Flats, i: int) -> LineSource:
+def _closed_section(
+    table: OffsetTable, completion: Completion, flats: _FlatBorder, i: int
+) -> LineSource:
     x = float(table.x[i])
     y, z = table.half_breadth[i], table.z
     wet = np.isfinite(y) & (y > 0.0)
@@ -251,7 +235,10 @@ def _section(table: OffsetTable, completion: Completion, flats: _Flats, i: int) 
 
 
 def _foot(completion: Completion, x: float, below: float) -> FloatArray:
-    """Give the highest place of the profile at a station that lies below its first offset."""
+    """Give the point of the profile at a station from which its section begins.
+
+    That is the highest below its first offset: above a bulb or a rising keel there may be several.
+    """
     p = completion.profile
     heights = [float(h) for h in p[np.abs(p[:, 0] - x) < 1e-6, 2] if h < below]
     spline = loft(CurveData.single(p, completion.profile_kind.tolist()))
@@ -260,7 +247,9 @@ def _foot(completion: Completion, x: float, below: float) -> FloatArray:
     return np.array([x, 0.0, max(heights)])
 
 
-def _waterline(table: OffsetTable, completion: Completion, flats: _Flats, j: int) -> LineSource:
+def _closed_waterline(
+    table: OffsetTable, completion: Completion, flats: _FlatBorder, j: int
+) -> LineSource:
     z = float(table.z[j])
     y = table.half_breadth[:, j]
     inside = (table.x > completion.stern[j] + 1e-6) & (table.x < completion.stem[j] - 1e-6)
@@ -272,7 +261,7 @@ def _waterline(table: OffsetTable, completion: Completion, flats: _Flats, j: int
     return _line("waterlines", name, points, side, np.array([1.0, 0.0, 0.0]), 0)
 
 
-def _deck_flat(flats: _Flats, z: float) -> FloatArray:
+def _deck_flat(flats: _FlatBorder, z: float) -> FloatArray:
     """Give the ends of the flat of side's border, in the deck's plane."""
     if flats.side is None:
         return np.zeros((0, 3))
@@ -281,7 +270,7 @@ def _deck_flat(flats: _Flats, z: float) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# A table of offsets as lines: what it says and no more, for hulls no rule completes.
+# A table as lines, for hulls that no rule completes.
 
 _SAME = 1e-9
 _LEVEL = 1e-6
@@ -294,19 +283,6 @@ def net_of_lines(
     tolerances: Tolerances | None = None,
 ) -> tuple[HullState, AdoptionReport]:
     """Adopt the lines of a table; profile, ends and flats are left open.
-
-    Parameters
-    ----------
-    table : OffsetTable
-        Any table.
-    particulars : Particulars or None
-        From the table if None.
-    tolerances : Tolerances or None
-        Defaults if None.
-
-    Returns
-    -------
-    HullState, AdoptionReport
 
     Raises
     ------
@@ -325,21 +301,12 @@ def lines_of_table(table: OffsetTable) -> list[LineSource]:
     A blank between two numbers ends a curve; of zeros in a row those count that lie next to a
     half-breadth. Heights of buttocks are points of the sections. The deck edge is what the table
     calls so, else its highest waterline.
-
-    Parameters
-    ----------
-    table : OffsetTable
-        Any table.
-
-    Returns
-    -------
-    list of LineSource
     """
     found = [
         LineSource.make(
             "sections", plane_name("sections", x), points, plane=((1.0, 0.0, 0.0), x)
         )
-        for i, x in enumerate(table.x.tolist()) for points in _lines_section(table, i)
+        for i, x in enumerate(table.x.tolist()) for points in _open_sections(table, i)
     ]  # fmt: skip
     levels = len(table.z) - (table.deck_height is None)
     found += [
@@ -347,7 +314,7 @@ def lines_of_table(table: OffsetTable) -> list[LineSource]:
             "waterlines", plane_name("waterlines", z), points, plane=((0.0, 0.0, 1.0), z)
         )
         for j, z in enumerate(table.z[:levels].tolist()) if z > _LEVEL
-        for points in _lines_waterline(table, j)
+        for points in _open_waterlines(table, j)
     ]  # fmt: skip
     for points in _deck(table):
         level = float(points[0, 2]) if np.ptp(points[:, 2]) < _SAME else None
@@ -358,7 +325,8 @@ def lines_of_table(table: OffsetTable) -> list[LineSource]:
     return found
 
 
-def _lines_section(table: OffsetTable, i: int) -> Iterator[FloatArray]:
+def _open_sections(table: OffsetTable, i: int) -> Iterator[FloatArray]:
+    """Give the curves of a station, each (n, 3), m, from the keel to the deck edge if given."""
     runs: list[FloatArray] = [
         np.column_stack([y, z]) for y, z in _runs(table.half_breadth[i], table.z)
     ]
@@ -392,15 +360,17 @@ def _with_buttocks(run: FloatArray, table: OffsetTable, i: int) -> FloatArray:
     return np.asarray(every[kept])
 
 
-def _lines_waterline(table: OffsetTable, j: int) -> Iterator[FloatArray]:
+def _open_waterlines(table: OffsetTable, j: int) -> Iterator[FloatArray]:
+    """Give the curves of a waterline, each (n, 3), from aft."""
     for y, x in _runs(table.half_breadth[:, j], table.x):
         if len(x) > 1:
             yield np.column_stack([x, y, np.full(len(x), table.z[j])])
 
 
 def _deck(table: OffsetTable) -> Iterator[FloatArray]:
+    """Give the deck edge: its own columns, else the highest waterline."""
     if table.deck_height is None or table.deck_half_breadth is None:
-        yield from _lines_waterline(table, len(table.z) - 1)
+        yield from _open_waterlines(table, len(table.z) - 1)
         return
     known = np.isfinite(table.deck_height) & np.isfinite(table.deck_half_breadth)
     if known.sum() > 1:
@@ -409,7 +379,7 @@ def _deck(table: OffsetTable) -> Iterator[FloatArray]:
 
 
 def _runs(y: FloatArray, at: FloatArray) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Give the runs of numbers, with one nil at either end where there is one."""
+    """Give the runs of numbers, with one zero at either end where there is one."""
     wide = np.nan_to_num(y) > 0.0
     known = np.isfinite(y)
     near = np.zeros(len(y), np.bool_)

@@ -1,7 +1,8 @@
 """Reading a table of offsets: half-breadths by station and waterline, heights of buttocks.
 
-`read_offsets` takes text or a workbook in metres, millimetres or normalised form, and gives a table
-in ship axes with a report of all that it assumed. What it cannot settle it refuses.
+`read_offsets` takes comma-, semicolon- or tab-separated text or a workbook in metres, millimetres
+or normalised form (y/(B/2), z/T), and gives a table in ship axes (m, x from the AP) with a report
+of all that it assumed, repaired and found suspicious. What it cannot settle it refuses.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# From the numbers of a sheet to a table in ship axes.
+# From numbers as printed to ship axes.
 
 _SIZES = (1e-3, 1e6)
 """Between these (m) lie length, breadth and height of every hull; beyond, a unit is wrong."""
@@ -50,20 +51,10 @@ def build_table(
     station_zero: str,
     book: Notebook,
 ) -> OffsetTable:
-    """Build a nameless table and let the doctor see it.
+    """Build a nameless table, and note every suspicion on it.
 
-    Parameters
-    ----------
-    sheet, extra : Sheet
-        The waterlines, and the buttocks where they stand in a block of their own.
-    scale : Scale
-        Factors to m and particulars.
-    hints : Hints
-        What the comments say.
-    station_zero : str
-        As in `read_offsets`.
-    book : Notebook
-        Takes assumptions, repairs and suspicions.
+    `extra` holds the buttocks where they stand in a block of their own; `station_zero` as in
+    `read_offsets`; `book` takes assumptions, repairs and suspicions.
 
     Raises
     ------
@@ -274,11 +265,7 @@ def _examine(
 
 
 # --------------------------------------------------------------------------------------
-# Tables of offsets: half-breadths by station and waterline, heights by station and buttock.
-#
-# `read_offsets` reads comma-, semicolon- or tab-separated text in metres, millimetres or
-# normalised form (y/(B/2), z/T) into ship axes and reports whatever it had to assume, what
-# it mended and what looks wrong.
+# The whole file.
 
 
 def read_offsets(

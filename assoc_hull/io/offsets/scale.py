@@ -1,7 +1,8 @@
-"""Unit and frame of an offset table: what comments, arguments and numbers say of them.
+"""Unit and frame of an offset table: what arguments, comments and numbers say of them.
 
-An argument counts first, then the comments, then the numbers. Where a choice remains the reader
-refuses and names the argument to give. Ship axes: x = 0 at the aft perpendicular, forward positive.
+An argument counts first, then the comments above the table, then the numbers. Where a choice
+remains the reader refuses and names the argument to give. Results are in m in ship axes: x = 0 at
+the aft perpendicular, forward positive.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What the comments above an offset table say about units, frame and particulars.
+# Comments.
 
 _NUMBER = r"([0-9]+\.?[0-9]*)"
 _END = r"(FP|AP|fore?ward perpendicular|aft(?:er)? perpendicular)"
@@ -102,6 +103,7 @@ def _unit(text: str) -> str | None:
 
 
 def _station_zero(text: str) -> str | None:
+    """Give the perpendicular of station 0, which may be said of the last station instead."""
     zero = _ZERO.search(text)
     if zero:
         return "ap" if zero[1].lower().startswith("a") else "fp"
@@ -128,13 +130,11 @@ def _rounding(text: str) -> tuple[float, ...]:
 
 
 # --------------------------------------------------------------------------------------
-# The unit of an offset table and the particulars that give its full scale.
-#
-# An argument counts first, then what the comments say, then the numbers; where the numbers
-# leave a choice, the reader refuses and names the argument to give.
+# Unit and particulars.
 
 _METRES = {"m": 1.0, "mm": 1e-3}
 _WIDEST = 40.0
+"""Largest half-breadth (m) of a ship: a larger number is in millimetres."""
 
 
 @attrs.frozen
@@ -171,28 +171,16 @@ def find_scale(
     book: Notebook,
     source: str,
 ) -> OffsetScale:
-    """Settle unit and particulars.
+    """Settle unit and particulars (m).
 
-    Parameters
-    ----------
-    unit : str
-        "auto", "m", "mm" or "normalised".
-    largest, broad : float
-        The largest half-breadth as printed, and one that only a twentieth exceed: a single
-        wrong number must not decide on the unit.
-    hints : Hints
-        What the comments say.
-    length, breadth, draught : float or None
-        What the caller says, m.
-    book : Notebook
-        Takes the assumptions.
-    source : str
-        Name of the file, for messages.
+    `largest` is the largest half-breadth as printed, `broad` one that only a twentieth exceed: a
+    single wrong number must not decide on the unit. `length`, `breadth` and `draught` are the
+    caller's.
 
     Raises
     ------
     BadInputError
-        The unit is unknown or cannot be told, or a normalised table lacks a particular.
+        The unit is unknown or cannot be settled, or a normalised table lacks a particular.
     """
     for name, value in (("length", length), ("breadth", breadth), ("draught", draught)):
         check_particular(name, value)
@@ -213,6 +201,7 @@ def find_scale(
 
 
 def _settle(name: str, given: float | None, said: float | None, book: Notebook) -> float | None:
+    """Take a particular (m) from the argument, else from the comments; report a contradiction."""
     if given is None and said is not None:
         book.assume(name, "the comments", f"{said:.6g} m, as the comments say", said)
     if given is None or said is None:
@@ -258,6 +247,7 @@ def _find_unit(
 
 
 def _likely_units(largest: float, broad: float, breadth: float | None) -> list[str]:
+    """Give the units in which the half-breadths make a ship; as printed, unit not known."""
     if breadth is not None:
         sizes = {"m": breadth / 2.0, "mm": breadth * 500.0, "normalised": 1.0}
         return [unit for unit, size in sizes.items() if 0.6 * size < broad < 1.05 * size]
@@ -288,13 +278,11 @@ def column_scale(scale: float, unit: str | None) -> float:
 
 
 # --------------------------------------------------------------------------------------
-# Where the stations of an offset table lie: order, origin and sense of x.
-#
-# Ship axes: x = 0 at the aft perpendicular, forward positive.
+# Stations: order, origin and sense of x.
 
 
 def settle_zero(station_zero: str, hints: OffsetHints, book: Notebook) -> str | None:
-    """Say at which perpendicular station 0 lies: "ap", "fp", or None when nothing says it.
+    """Give the perpendicular of station 0, "ap" or "fp"; None when nothing says it.
 
     Raises
     ------
@@ -324,25 +312,7 @@ def station_places(
     book: Notebook,
     source: str,
 ) -> FloatArray:
-    """Give x of numbered stations.
-
-    Parameters
-    ----------
-    stations : (s,)
-        Station numbers.
-    zero : str or None
-        Perpendicular of station 0.
-    hints : Hints
-        May hold the number of station spacings.
-    length : float or None
-        Length between perpendiculars, m.
-    book, source
-        Notebook, and name of the file for messages.
-
-    Returns
-    -------
-    (s,), m
-        In the order of `stations`.
+    """Give x (s,), m, of numbered stations, in their order.
 
     Raises
     ------
@@ -372,6 +342,7 @@ def _divisions(stations: FloatArray, hints: OffsetHints, book: Notebook, source:
         return hints.divisions
     for count in (20, 10):
         if count in stations and stations.max() < 1.15 * count:
+            # Overhangs are shorter than 15 % of Lpp: stations beyond that belong to another count.
             what = f"station {count} at the other perpendicular: it is the last full one"
             book.assume("station numbers", "the table", what, count)
             return count
@@ -386,18 +357,9 @@ def _divisions(stations: FloatArray, hints: OffsetHints, book: Notebook, source:
 def given_places(
     x: FloatArray, zero: str | None, length: float | None, book: Notebook, source: str
 ) -> FloatArray:
-    """Give x from the AP, forward positive, of stations whose place the file gives.
+    """Give x (s,), m, from the AP, forward positive, of stations whose x the file gives.
 
-    Parameters
-    ----------
-    x : (s,), m
-        As in the file.
-    zero : str or None
-        Perpendicular at which the file has x = 0.
-    length : float or None
-        Length between perpendiculars, m; needed when x counts from the FP.
-    book, source
-        Notebook, and name of the file for messages.
+    `zero` is the perpendicular at which the file has x = 0; `length` is needed if that is the FP.
 
     Raises
     ------
@@ -433,6 +395,7 @@ def given_places(
 def _from_forward(
     x: FloatArray, negative: bool, length: float | None, book: Notebook, source: str
 ) -> FloatArray:
+    """Give x from the AP of stations that are counted from the FP, in either sense."""
     if length is None:
         length = float(np.abs(x).max())
         what = f"x = 0 is the FP and the AP is the farthest station, {length:.6g} m off"

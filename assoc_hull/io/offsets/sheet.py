@@ -1,7 +1,7 @@
 """One block of an offset table: which column holds what, and its numbers as printed.
 
-Columns are told by the header alone. Rows are checked, doubles dropped and printed digits counted;
-unit and order stay those of the file.
+Columns are recognised by the header alone. Rows are checked, doubles dropped and printed digits
+counted; unit and order stay those of the file.
 """
 
 from __future__ import annotations
@@ -28,11 +28,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Which column of an offset table holds what, from the header alone.
-#
-# Known names (any case, blanks or underscores, a unit at the end as in ``x_m`` or ``x [mm]``):
-# ``station``; ``x``; ``z_keel`` or ``keel``; ``z_sheer``, ``z_deck`` or ``deck``; ``y_deck`` or
-# ``deck_half_breadth``; ``wl_0.25`` (a waterline) and ``bt_2.0`` (a buttock).
+# Columns. Known names (any case, blanks or underscores, a unit at the end as in ``x_m`` or ``x
+# [mm]``): ``station``; ``x``; ``z_keel`` or ``keel``; ``z_sheer``, ``z_deck`` or ``deck``;
+# ``y_deck`` or ``deck_half_breadth``; ``wl_0.25`` (a waterline) and ``bt_2.0`` (a buttock).
 
 _NUMBERED = re.compile(
     r"(?P<family>wl|waterline|bt|buttock)_?(?P<value>-?([0-9]+\.?[0-9]*|\.[0-9]+)(e-?[0-9]{1,2})?)"
@@ -77,9 +75,9 @@ class OffsetColumns:
 
     Attributes
     ----------
-    single : mapping of str to Column
+    single : mapping of str to OffsetColumn
         By kind: "station", "x", "keel", "deck height", "deck half-breadth".
-    waterlines, buttocks : tuple of Column
+    waterlines, buttocks : tuple of OffsetColumn
         In the file's order, which is upward and outward.
     """
 
@@ -157,9 +155,10 @@ def _increasing(columns: list[OffsetColumn], block: TableBlock) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# The numbers of one block as printed: rows checked, doubles dropped, digits counted.
+# Numbers.
 
 _ENOUGH = 6
+"""Numbers of a column, other than 0, from which zeros at the end count as padding."""
 
 
 @attrs.frozen(eq=False)
@@ -168,9 +167,9 @@ class OffsetSheet:
 
     Attributes
     ----------
-    block : Block
+    block : TableBlock
         The text, doubles dropped.
-    columns : Columns
+    columns : OffsetColumns
         Which column is which.
     labels : tuple of str
         Station names as printed (x where there is no station column).
@@ -259,10 +258,11 @@ def _stations(block: TableBlock, column: OffsetColumn | None, needed: bool) -> F
         stations = _read(block, (column,))[:, 0]
         _refuse_blank(block, column, stations)
         return stations
-    return np.array([_loose(row[column.index]) for row in block.rows], np.float64)
+    return np.array([_number_or_nan(row[column.index]) for row in block.rows], np.float64)
 
 
-def _loose(cell: str) -> float:
+def _number_or_nan(cell: str) -> float:
+    """Give the number that a cell shows, nan if it is none or beyond any ship."""
     try:
         return float(Decimal(cell)) if abs(Decimal(cell)) < 1e7 else np.nan
     except ArithmeticError:
@@ -277,11 +277,12 @@ def _refuse_blank(block: TableBlock, column: OffsetColumn, values: FloatArray) -
 
 
 def _without_doubles(block: TableBlock, columns: OffsetColumns, book: Notebook) -> TableBlock:
+    """Drop rows that repeat a station with the same numbers; refuse others."""
     column = columns.single.get("station") or columns.single["x"]
     seen: dict[str, int] = {}
     keep = []
     for k, row in enumerate(block.rows):
-        loose = _loose(row[column.index])
+        loose = _number_or_nan(row[column.index])
         key = row[column.index] if np.isnan(loose) else repr(loose + 0.0)
         first = seen.setdefault(key, k)
         if first == k or not row[column.index]:
@@ -297,7 +298,7 @@ def _without_doubles(block: TableBlock, columns: OffsetColumns, book: Notebook) 
 def _refuse_different(block: TableBlock, first: int, second: int) -> None:
     for column in range(len(block.header)):
         one, other = block.rows[first][column], block.rows[second][column]
-        if one != other and not _loose(one) == _loose(other):
+        if one != other and not _number_or_nan(one) == _number_or_nan(other):
             raise BadInputError(
                 f"the station occurs twice with different numbers: {other or 'blank'} here and "
                 f"{one or 'blank'} in row {block.lines[first]}",
@@ -322,6 +323,7 @@ def _in_order(sheet: OffsetSheet) -> None:
 
 
 def _half_units(block: TableBlock, columns: tuple[OffsetColumn, ...], book: Notebook) -> FloatArray:
+    """Give half of the last printed digit of each column, (k,), in its unit."""
     printed = [_decimals([row[c.index] for row in block.rows]) for c in columns]
     most = max((digits for digits, _ in printed), default=0)
     padded = [c.label for c, (_, zeros) in zip(columns, printed, strict=True) if zeros]
@@ -333,7 +335,8 @@ def _half_units(block: TableBlock, columns: tuple[OffsetColumn, ...], book: Note
 
 
 def _decimals(cells: list[str]) -> tuple[int, int]:
-    numbers = [Decimal(cell) for cell in cells if not np.isnan(_loose(cell))]
+    """Give the decimals that count and those that are padding; -1 for a column without numbers."""
+    numbers = [Decimal(cell) for cell in cells if not np.isnan(_number_or_nan(cell))]
     if not numbers:
         return -1, 0
     places = max(0, *(-int(n.as_tuple().exponent) for n in numbers), 0)

@@ -6,7 +6,7 @@ Examples
 >>> from pathlib import Path
 >>> from assoc_hull.analysis.panels.hull_panels import panels
 >>> from assoc_hull.io.panels.files import read_panels, write_panels
->>> from assoc_hull.sources import examples
+>>> from assoc_hull.hull.sources import examples
 >>> mesh = panels(examples.wigley(), count=200)
 >>> with tempfile.TemporaryDirectory() as folder:
 ...     write_panels(mesh, Path(folder) / "wigley.gdf")

@@ -1,7 +1,8 @@
-"""Panels in the forms of seakeeping codes: WAMIT (.gdf), Nemoh (.mar), HAMS (.pnl), and STL.
+"""Panel meshes in the formats of WAMIT (.gdf), Nemoh (.mar), HAMS (.pnl) and STL.
 
-Each form has three functions: ``dumps_`` writes a mesh, ``is_`` tells the form by the content,
-``loads_`` reads it. Planes of symmetry are kept where a form knows them.
+Each format has three functions: ``dumps_`` writes a mesh, ``is_`` recognises the format by its
+content, ``loads_`` reads it. Vertices are in m, z = 0 at the water surface; planes of symmetry
+(x = 0, y = 0) are kept where a format has them. A triangle names one vertex twice.
 """
 
 from __future__ import annotations
@@ -39,13 +40,11 @@ __all__ = [
     "shown_rows",
 ]
 
-# --------------------------------------------------------------------------------------
-# Numbers in text files of panels: what their readers and writers share.
-
 DECIMALS = 6
 """Coordinates are written to the micrometre."""
 
 _LARGEST = 1e6
+"""No number of such a file is larger (m): a coordinate beyond it is damage."""
 
 Row = tuple[int, list[str]]
 """Number of a line, and its words."""
@@ -88,7 +87,7 @@ def read_real(word: str, line: int, path: str) -> float:
         Anything else, and what is no length in metres.
     """
     try:
-        # A float of Python may have a line between its digits, and be nan.
+        # Python would take digits with "_" between them; nan fails the comparison below.
         found = float(word.lower().replace("d", "e")) if "_" not in word else np.nan
     except ValueError:
         found = np.nan
@@ -143,15 +142,11 @@ def shown_rows(values: FloatArray, width: int = 16) -> list[str]:
 
 
 # --------------------------------------------------------------------------------------
-# Panels as WAMIT reads them, ``.gdf`` of the low-order method.
-#
-# A line of title, the characteristic length and gravity, the symmetries ISX (plane x = 0) and ISY
-# (plane y = 0), the number of panels, then four vertices per panel, m. A triangle gives one vertex
-# twice. Seen from the water vertices go round counter-clockwise.
-#
-# Source: WAMIT user manual, chapter 6, geometric data file.
+# WAMIT, low-order method: a line of title, the characteristic length and gravity, the symmetries
+# ISX (plane x = 0) and ISY (plane y = 0), the number of panels, then four vertices per panel,
+# counter-clockwise seen from the water. Source: WAMIT user manual, chapter 6, geometric data file.
 
-_GRAVITY = 9.80665
+_GRAVITY = 9.80665  # m/s2
 
 
 def dumps_gdf(mesh: PanelMesh, length: float = 1.0) -> str:
@@ -245,12 +240,9 @@ def _flag(word: str, line: int, path: str) -> bool:
 
 
 # --------------------------------------------------------------------------------------
-# Panels as Nemoh reads them, ``.mar``.
-#
-# First line ``2 s``, with s 1 if the mesh is one half, to be mirrored in the plane y = 0; then a
-# line per vertex, number and coordinates (m), closed by a line that begins with 0; then a line of
-# four vertex numbers per panel, closed by zeros. A triangle names one vertex twice.
-#
+# Nemoh: first line ``2 s``, with s 1 if the mesh is one half, to be mirrored in the plane y = 0;
+# then a line per vertex, number and coordinates, closed by a line that begins with 0; then a line
+# of four vertex numbers per panel, closed by zeros.
 # Source: the manual of Nemoh 3 (LHEEA, Ecole Centrale de Nantes), mesh file.
 
 
@@ -327,7 +319,7 @@ def loads_mar(text: str, path: str) -> PanelMesh:
 
 
 def vertex_numbers(rows: list[Row], first: int, count: int, vertices: int, path: str) -> IntArray:
-    """Take `count` vertex numbers of each line, from 1, as numbers from 0.
+    """Take `count` vertex numbers of each line, behind its `first` words; counted from 0 then.
 
     Raises
     ------
@@ -350,14 +342,10 @@ def vertex_numbers(rows: list[Row], first: int, count: int, vertices: int, path:
 
 
 # --------------------------------------------------------------------------------------
-# Panels as HAMS reads them, ``HullMesh.pnl``.
-#
-# Three lines of comment, then the numbers of panels and vertices and the symmetries about x = 0 and
-# y = 0; comments; a line per vertex, number and coordinates, m; comments; a line per panel: its
-# number, 3 or 4, and as many vertex numbers. HAMS counts the lines of comment, so they are written
-# where its own files have them.
-#
-# Source: the input files of HAMS (Y. Liu), github.com/YingyiLiu/HAMS.
+# HAMS, ``HullMesh.pnl``: three lines of comment, the numbers of panels and vertices and the
+# symmetries about x = 0 and y = 0; a line per vertex; a line per panel: its number, 3 or 4, and as
+# many vertex numbers. HAMS counts the lines of comment between, so they are written where its own
+# files have them. Source: the input files of HAMS (Y. Liu), github.com/YingyiLiu/HAMS.
 
 _TITLE = "Hull Mesh File"
 
@@ -459,13 +447,11 @@ def _size(row: Row, path: str) -> int:
 
 
 # --------------------------------------------------------------------------------------
-# Panels as triangles, STL: binary, in single precision, or text.
-#
-# The form knows no symmetry: the whole is written, with its mirror images. A panel of four corners
-# becomes two triangles along its shorter diagonal.
+# STL, binary (single precision) or text. It has no symmetry: the whole is written, with its mirror
+# images. A panel of four corners becomes two triangles along its shorter diagonal.
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("more", "<u2")])
-_HEAD = 84
+_HEAD = 84  # bytes: 80 of title, 4 of the number of triangles
 _VERTEX = re.compile(r"\bvertex\b", re.IGNORECASE)
 
 
@@ -550,7 +536,7 @@ def _text_vertices(text: str, path: str) -> FloatArray:
 
 
 def _triangles(mesh: PanelMesh) -> tuple[FloatArray, FloatArray]:
-    """Give corners (t, 3, 3) and normals (t, 3) of the whole."""
+    """Give corners (t, 3, 3), m, and unit normals (t, 3) of the whole; 0 for no area."""
     full = mesh.whole()
     corner = full.xyz[full.panel]
     first = ((corner[:, 2] - corner[:, 0]) ** 2).sum(axis=1)

@@ -1,7 +1,9 @@
 """Boundary curves through marks of neighbouring lines: knuckle lines and borders of flats.
 
-A mark is a place that one line shows, with its doubt. The curve is drawn as smooth as the doubts
-allow; then every line that crosses it gets its corner or tangent point there.
+A mark is a point that one line shows, with its uncertainty ("doubt": 2 standard deviations, m).
+The curve is drawn as smooth as the doubts allow; then every line that crosses it gets its corner
+or tangent point there. `draw_borders` does all of it; knuckle lines come first, because a straight
+run of a flat is looked for between corners.
 """
 
 from __future__ import annotations
@@ -49,9 +51,6 @@ __all__ = [
     "loft_source",
     "plane_intersections",
 ]
-
-# --------------------------------------------------------------------------------------
-# Boundary curves drawn through marks: places that neighbouring lines show one by one.
 
 _OVER = 0.05
 """By which part of its last step a border is led on beyond its last mark."""
@@ -127,22 +126,8 @@ def draw_boundary_curve(
 ) -> tuple[LineSource, BoundaryCurve]:
     """Draw a boundary curve through marks, from aft, as smooth as their doubt allows.
 
-    Parameters
-    ----------
-    name, kind
-        Of the curve.
-    course : Course
-        The marks.
-    rules : FeatureRules
-        With the turn at which it is split.
-    tolerance : float, m
-        How far the adopted curve may pass it, where it is not less sure itself.
-
-    Returns
-    -------
-    LineSource, Border
-        The source leads on beyond both ends by a little, so that the lines of the first and
-        last mark cross it.
+    It may pass the smooth curve by `tolerance` (m), or by more where the marks are less sure, and
+    is led on a little beyond both ends, so that the lines of the first and last mark cross it.
     """
     if course.places[0, 0] > course.places[-1, 0]:
         course = course.reversed()
@@ -162,10 +147,12 @@ def draw_boundary_curve(
 
 
 def _in_plane(xyz: FloatArray, plane: tuple[FloatArray, float] | None) -> FloatArray:
+    """Project points (n, 3), m, onto a plane of unit normal and offset (m)."""
     if plane is None:
         return xyz
     normal, offset = plane
     out = xyz + (offset - (xyz * normal).sum(axis=1))[:, None] * normal
+    # The coordinate across a plane of the grid is exact, free of the rounding of the line above.
     out[:, normal == 1.0] = offset
     return np.asarray(out)
 
@@ -187,7 +174,7 @@ def plane_intersections(spline: SplineBatch, part: PieceFeatures) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# Knuckle lines as boundary curves, on which the lines that cross them are split.
+# Knuckle lines, on which the lines that cross them are split.
 
 _SAME = 0.1
 """Two knuckle lines are one where a place of one lies this near (m) to the other."""
@@ -197,6 +184,7 @@ _APART = 0.3
 of a line there is none."""
 
 _LEAST_DOUBT = 5e-3
+"""A mark counts as no surer than this (m): weights of the fit stay bounded."""
 
 
 def draw_knuckles(
@@ -204,26 +192,14 @@ def draw_knuckles(
 ) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
     """Draw knuckle lines, and let every line that crosses one have its corner there.
 
-    Parameters
-    ----------
-    parts : list of PieceFeatures
-        Pieces of sections, waterlines and buttocks.
-    knuckles : list of KnuckleLine
-        Found on lines of single groups.
-    rules : FeatureRules
-        The thresholds.
-    tolerance : float, m
-        How far the adopted curve may pass the smooth one.
-
-    Returns
-    -------
-    pieces, sources of the boundary curves, borders
+    `knuckles` were found on lines of single groups; `tolerance` (m) is that of adoption. Gives the
+    pieces in their order, the sources of the boundary curves, and a record of each.
     """
     out = list(parts)
     sources: list[LineSource] = []
     borders: list[BoundaryCurve] = []
     known = [line for each in knuckles for line in _known(each, rules)]
-    for number, course in enumerate(_courses(known, tolerance), 1):
+    for number, course in enumerate(_knuckle_courses(known, tolerance), 1):
         name = f"knuckle {number}"
         source, border = draw_boundary_curve(name, BoundaryKind.KNUCKLE, course, rules, tolerance)
         spline, taken = loft_source(source), 0
@@ -257,11 +233,11 @@ def _known(line: KnuckleTrace, rules: FeatureRules) -> list[KnuckleTrace]:
     ]  # fmt: skip
 
 
-def _courses(knuckles: list[KnuckleTrace], tolerance: float) -> list[BoundaryMarks]:
-    """Put together what groups show of one knuckle line."""
+def _knuckle_courses(knuckles: list[KnuckleTrace], tolerance: float) -> list[BoundaryMarks]:
+    """Put together what sections, waterlines and buttocks show of one knuckle line."""
     groups: list[list[KnuckleTrace]] = []
     for line in sorted(knuckles, key=lambda each: -len(each.lines)):
-        same = [mine for mine in groups if any(_meets(line, other) for other in mine)]
+        same = [mine for mine in groups if any(_is_near(line, other) for other in mine)]
         if same:
             same[0].append(line)
         else:
@@ -269,18 +245,20 @@ def _courses(knuckles: list[KnuckleTrace], tolerance: float) -> list[BoundaryMar
     return [_course(mine, tolerance) for mine in groups]
 
 
-def _meets(line: KnuckleTrace, other: KnuckleTrace) -> bool:
-    """Tell whether a place of one knuckle line lies between two of another, on the way."""
+def _is_near(line: KnuckleTrace, other: KnuckleTrace) -> bool:
+    """Tell whether a point of one knuckle line lies on a chord between two points of another."""
     start, step = other.places[:-1], np.diff(other.places, axis=0)
     away = line.places[:, None, :] - start
     part = (away * step).sum(axis=2) / (step * step).sum(axis=1)
     foot = start + np.clip(part, 0.0, 1.0)[:, :, None] * step
     gap = np.sqrt(((line.places[:, None, :] - foot) ** 2).sum(axis=2))
+    # A chord lies off the knuckle line itself by a part of its length.
     near = np.maximum(_SAME, line.doubt)[:, None] + 0.02 * np.sqrt((step * step).sum(axis=1))
     return bool((gap <= near).any())
 
 
 def _course(mine: list[KnuckleTrace], tolerance: float) -> BoundaryMarks:
+    """Put the marks of one knuckle line in order, with its plane where it lies in one."""
     names = [name for line in mine for name in line.lines]
     places = np.concatenate([line.places for line in mine])
     doubt = np.maximum(np.concatenate([line.doubt for line in mine]), _LEAST_DOUBT)
@@ -329,10 +307,8 @@ def _turning(part: PieceFeatures, foot: float, here: FloatArray) -> Corner:
 
 
 # --------------------------------------------------------------------------------------
-# Borders of flats as boundary curves: drawn from the ends of straight runs, and taken by lines.
-#
-# A border is drawn from the ends of runs that are known well enough and chain over neighbouring
-# lines. A run of the flat then ends where the border crosses the plane of its line, in a direction
+# Borders of flats, drawn from the ends of straight runs that are known well enough and chain over
+# neighbouring lines. A run then ends where the border crosses the plane of its line, in a direction
 # that lies in the flat, unless its points leave the flat before.
 
 _NEAR = 0.3
@@ -347,20 +323,7 @@ def draw_borders(
 ) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
     """Draw knuckle lines and the borders of flats; lines have their corners and tangents there.
 
-    Parameters
-    ----------
-    parts : list of PieceFeatures
-        Pieces of sections, waterlines and buttocks.
-    knuckles : list of KnuckleLine
-        Found on them.
-    rules : FeatureRules
-        The thresholds.
-    tolerance : float, m
-        How far the adopted curves may pass the smooth ones.
-
-    Returns
-    -------
-    pieces with their runs, sources of the boundary curves, borders
+    As `draw_knuckles`; the pieces come back with their straight runs.
     """
     parts = [_measured_again(part) for part in parts]
     parts, sources, borders = draw_knuckles(parts, knuckles, rules, tolerance)
@@ -384,26 +347,12 @@ def _measured_again(part: PieceFeatures) -> PieceFeatures:
 def draw_flats(
     parts: list[PieceFeatures], rules: FeatureRules, tolerance: float
 ) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
-    """Draw the borders of flats, and let the runs of the flats end on them.
-
-    Parameters
-    ----------
-    parts : list of PieceFeatures
-        Pieces of sections, waterlines and buttocks, with their runs.
-    rules : FeatureRules
-        The thresholds.
-    tolerance : float, m
-        How far the adopted border may pass the smooth one.
-
-    Returns
-    -------
-    pieces, sources of the boundary curves, borders
-    """
+    """Draw the borders of flats, and let the runs of the flats end on them; as `draw_knuckles`."""
     out = list(parts)
     sources: list[LineSource] = []
     borders: list[BoundaryCurve] = []
     for flat in find_flats(parts, rules):
-        for course in _borders_courses(flat, parts):
+        for course in _rim_courses(flat, parts):
             source, border = draw_boundary_curve(
                 flat.name, BoundaryKind.FLAT, course, rules, tolerance
             )
@@ -413,7 +362,7 @@ def draw_flats(
     return out, sources, borders
 
 
-def _borders_courses(flat: FlatFound, parts: list[PieceFeatures]) -> Iterator[BoundaryMarks]:
+def _rim_courses(flat: FlatFound, parts: list[PieceFeatures]) -> Iterator[BoundaryMarks]:
     """Give the chained marks of a flat in order along its rim, split where they do not go on."""
     marks = [mark for mark in flat.marks if mark.chain is not None]
     chains = sorted({mark.chain for mark in marks if mark.chain is not None})
@@ -422,6 +371,7 @@ def _borders_courses(flat: FlatFound, parts: list[PieceFeatures]) -> Iterator[Bo
     places = np.array([mark.place for mark in marks]).reshape(-1, 3)
     plane = flat.normal, flat.offset
     while members:
+        # The chain that is known best leads; what its path cannot reach starts a course of its own.
         first = min(members, key=lambda each: (float(np.median(doubt[each])), each))
         rest = sorted(i for each in members for i in each)
         order = order_places(places[rest], doubt[rest], [rest.index(i) for i in first])
@@ -441,6 +391,7 @@ def _across(
         along = along / np.sqrt((along * along).sum(axis=1))[:, None]
         way = np.array([_ahead(flat, parts[marks[i].part]) for i in mine])
         cosine = (along * way).sum(axis=1)
+        # Where a line runs along the border, doubt along the line moves a mark little off it.
         out[mine] *= np.sqrt(np.maximum(1.0 - cosine * cosine, 0.05**2))
     return np.asarray(np.maximum(out, _LEAST_DOUBT))
 

@@ -46,9 +46,6 @@ __all__ = [
     "with_arcs",
 ]
 
-# --------------------------------------------------------------------------------------
-# Features of slices: noise, knuckles, straight runs, as a table with the thresholds used.
-
 
 @attrs.frozen
 class FeatureRules:
@@ -62,7 +59,7 @@ class FeatureRules:
         What joins corners of neighbouring lines.
     alone_deg : float
         A corner that joins no knuckle line must turn by this to be kept.
-    run : RunRule
+    run : StraightRunRule
         What counts as a straight run.
     arc : ArcRule
         What counts as a circular arc.
@@ -143,7 +140,7 @@ class PieceFeatures:
     ----------
     line : SliceLine
         The line.
-    piece : Piece
+    piece : LinePiece
         The piece.
     points : (n, d), m
         Its points in its plane, or in space.
@@ -161,9 +158,9 @@ class PieceFeatures:
         Those kept.
     suggested : tuple of Corner
         Those that turn too little and join no knuckle line.
-    runs : tuple of Run or None
+    runs : tuple of StraightRun or None
         Its straight runs, None as long as they were not looked for.
-    arcs : tuple of Arc
+    arcs : tuple of CircularArc
         Its circular arcs, once they were looked for.
     """
 
@@ -214,21 +211,9 @@ def plane_columns(group: str) -> list[int]:
 def find_features(
     slices: HullSlices, rules: FeatureRules | None = None
 ) -> tuple[list[PieceFeatures], list[KnuckleTrace]]:
-    """Find noise and knuckles of all pieces of all lines.
+    """Find noise and knuckles of all pieces of all lines, cut from a mesh or digitised.
 
-    Parameters
-    ----------
-    slices : Slices
-        From a mesh or digitised.
-    rules : FeatureRules or None
-        Defaults if None.
-
-    Returns
-    -------
-    list of PieceFeatures
-        In the order of the lines, boundary curves last.
-    list of KnuckleLine
-        By group.
+    Pieces come in the order of the lines, boundary curves last; knuckle lines by group.
     """
     wanted = rules or FeatureRules()
     found: list[PieceFeatures] = []
@@ -245,6 +230,7 @@ def find_features(
             for (_, part), marked in zip(parts, marks, strict=True)
         ]
         kept, chains = _choose(slices.group(group), [part for _, part in parts], seen, wanted)
+        # `with_marked` puts marked corners first; they stay, whatever they turn by.
         kept |= {(i, j) for i, marked in enumerate(marks) for j in range(len(marked))}
         found += [
             attrs.evolve(
@@ -258,8 +244,10 @@ def find_features(
     for line in slices.boundaries:
         for piece in line.pieces:
             part = _bare(line, piece, slices, wanted)
+            # Turns are measured in a plane: on a curve in space no corners are looked for.
             plane = part.points.shape[1] == 2
             every = _corners(part, slices.facets, wanted) if plane else []
+            # A boundary curve has no neighbours to join a knuckle line with.
             strong = [each for each in every if each.turn_deg >= wanted.alone_deg]
             marked = marked_corners(part.points, _marks(part, slices)) if plane else []
             found.append(attrs.evolve(part, corners=tuple(with_marked(strong, marked))))
@@ -267,7 +255,7 @@ def find_features(
 
 
 def _columns(line: SliceLine, piece: LinePiece) -> list[int]:
-    """Give the coordinates that vary on a piece, which of a boundary curve may be all."""
+    """Give the axes of the coordinates that vary on a piece: all three on a curve in space."""
     if line.group != "boundary":
         return plane_columns(line.group)
     spread = np.ptp(piece.points, axis=0)
@@ -284,6 +272,7 @@ def _bare(
     points = piece.points[kept][:, columns]
     sine = np.ones(len(kept)) if piece.sine is None else np.maximum(piece.sine[kept], 0.1)
     local = local_scatter(points, 6)
+    # Points of a mesh lie inside the hull by the depth of its facets, those of a drawing scatter.
     if slices.facets:
         noise = facet_depth(points)
         depths = np.minimum(facet_depths(points), 2.0 * noise)
@@ -317,8 +306,12 @@ def _choose(
     seen: list[list[Corner]],
     rules: FeatureRules,
 ) -> tuple[set[tuple[int, int]], list[KnuckleTrace]]:
-    """Keep corners that join a knuckle line, and sharp ones."""
+    """Give the corners to keep, as (piece, corner), and the knuckle lines that they form.
+
+    Kept are corners that join a knuckle line, and sharp ones.
+    """
     number = {line.name: i for i, line in enumerate(lines)}
+    # A line may be in pieces; a knuckle line goes from line to line, on whichever piece.
     merged: list[list[Corner]] = [[] for _ in lines]
     origin: list[list[tuple[int, int]]] = [[] for _ in lines]
     for i, part in enumerate(parts):
@@ -331,6 +324,7 @@ def _choose(
             if corner.turn_deg >= rules.alone_deg}  # fmt: skip
     found: list[KnuckleTrace] = []
     for chain in chains:
+        # They were found by the turn over a stretch; between fitted sides they may turn by less.
         if np.mean([merged[i][j].turn_deg for i, j in chain]) < rules.corner.least_deg:
             continue
         kept |= {origin[i][j] for i, j in chain}
@@ -339,6 +333,7 @@ def _choose(
         places[:, plane_columns(group)] = [merged[i][j].place for i, j in chain]
         places[:, AXES[group]] = offsets[[i for i, _ in chain]]
         turns = np.array([merged[i][j].turn_deg for i, j in chain])
+        # 2 standard deviations, as `KnuckleTrace` gives it.
         doubt = np.array([2.0 * merged[i][j].uncertainty for i, j in chain])
         names = tuple(lines[i].name for i, _ in chain)
         found.append(KnuckleTrace(group, names, places, turns, doubt))
@@ -346,19 +341,11 @@ def _choose(
 
 
 # --------------------------------------------------------------------------------------
-# Straight runs and circular arcs of pieces, found between their corners.
+# Straight runs and circular arcs between corners.
 
 
 def runs_of(part: PieceFeatures, rules: FeatureRules) -> tuple[StraightRun, ...]:
-    """Give the straight runs between the corners of a plane piece.
-
-    Parameters
-    ----------
-    part : PieceFeatures
-        The piece; runs it holds already are given as they are.
-    rules : FeatureRules
-        With the rule of runs.
-    """
+    """Give the straight runs between the corners of a plane piece; those it holds stay."""
     if part.runs is not None:
         return part.runs
     if part.points.shape[1] != 2 or part.piece.closed:
@@ -370,23 +357,15 @@ def runs_of(part: PieceFeatures, rules: FeatureRules) -> tuple[StraightRun, ...]
 
 
 def with_arcs(part: PieceFeatures, rules: FeatureRules) -> PieceFeatures:
-    """Give a plane piece with the circular arcs between its corners.
-
-    Parameters
-    ----------
-    part : PieceFeatures
-        The piece, its points as they were given.
-    rules : FeatureRules
-        With the rule of arcs.
-    """
+    """Give a plane piece, its points as they were given, with the arcs between its corners."""
     found: list[CircularArc] = []
     for first, points in _smooth_parts(part):
-        found += [_moved(arc, first) for arc in find_arcs(points, part.noise, rules.arc)]
+        found += [_shifted_arc(arc, first) for arc in find_arcs(points, part.noise, rules.arc)]
     return attrs.evolve(part, arcs=tuple(found))
 
 
 def _smooth_parts(part: PieceFeatures) -> Iterator[tuple[float, FloatArray]]:
-    """Give the parts of a plane piece between its corners, each with where it begins, m."""
+    """Give the parts of a plane piece between its corners, each with its first length, m."""
     if part.points.shape[1] != 2 or part.piece.closed:
         return
     at = cumulative_lengths(part.points)
@@ -403,7 +382,7 @@ def _shifted(run: StraightRun, by: float) -> StraightRun:
     return attrs.evolve(run, begin=run.begin + by, end=run.end + by, before=before, after=after)
 
 
-def _moved(arc: CircularArc, by: float) -> CircularArc:
+def _shifted_arc(arc: CircularArc, by: float) -> CircularArc:
     before, after = _later(arc.before, by), _later(arc.after, by)
     return attrs.evolve(arc, begin=arc.begin + by, end=arc.end + by, before=before, after=after)
 
@@ -430,5 +409,6 @@ def is_well_known(onset: Onset, noise: float, rules: FeatureRules) -> bool:
     """
     if onset.kind != "arc":
         return onset.kind == "border"
+    # Moved by u along its tangent, a circle of radius r leaves the line by u^2 / (2 r).
     across = onset.uncertainty**2 / (2.0 * onset.radius)
     return onset.uncertainty < rules.onset or across < noise

@@ -63,7 +63,7 @@ class FlatFound:
         Unit normal of its plane.
     offset : float, m
         normal . place.
-    marks : tuple of Mark
+    marks : tuple of RimMark
         Where its runs begin and end, other than with their pieces.
     """
 
@@ -92,10 +92,13 @@ def find_flats(parts: list[PieceFeatures], rules: FeatureRules) -> list[FlatFoun
     merged = sorted(_merge(seen), key=lambda each: -sum(len(one.runs) for one in each))
     names: list[str] = []
     found: list[FlatFound] = []
+    # Over all runs: what is low is told by the height of the whole hull.
     top = max([float(end[:, 2].max()) for one in seen for end in one.ends], default=0.0)
     for each in merged:
         ends = np.concatenate([end for one in each for end in one.ends])
+        # With the tolerance by which `_merge` has put them together.
         normal, offset, _ = fit_plane(ends, max(one.within for one in each))
+        # Across an axis the offset is a coordinate; + 0.0 makes -0.0 a plain 0.
         offset = round(offset, 4) + 0.0 if 1.0 in normal else offset
         title = _title(normal, float(ends[:, 2].mean()), top)
         names.append(title)
@@ -117,6 +120,7 @@ class _Seen:
 
 def _of_group(parts: list[PieceFeatures], group: str, rules: FeatureRules) -> list[_Seen]:
     mine = [(i, part) for i, part in enumerate(parts) if part.line.group == group]
+    # By place: runs on pieces of one line, or of two in one plane, are no neighbours.
     offsets = sorted({part.line.offset for _, part in mine})
     keys = [
         (offsets.index(part.line.offset), i, j)

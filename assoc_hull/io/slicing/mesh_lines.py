@@ -1,7 +1,8 @@
 """A triangulated hull cut into lines: stations, waterlines, buttocks and boundary curves.
 
-The mesh is repaired, put into ship axes and cut by planes; pieces are joined and ordered. A hull
-whose sections end far from the centre plane has no bottom, which is reported and later refused.
+The mesh is repaired, put into ship axes (m) and cut by planes; pieces are joined and ordered.
+Sections run upward, other lines forward. A hull whose sections end far from the centre plane has no
+bottom, which is reported here and refused when a hull is made of the lines.
 
 Examples
 --------
@@ -51,7 +52,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# A hull whose bottom is missing: its sections begin far from the centre plane, on no boundary.
+# A missing bottom: sections begin far from the centre plane, on no boundary curve.
 
 BOTTOM = "bottom missing"
 
@@ -59,21 +60,11 @@ _OFF = 0.02
 """A section that begins this part of the half-breadth off the centre plane does not reach it."""
 
 _MANY = 0.1
-"""One section of ten may do so: a hole, which is told of by itself."""
+"""One section of ten may do so: a hole, which is reported by itself."""
 
 
 def report_bottom(lines: Sequence[SliceLine], half: float, book: Notebook) -> None:
-    """Tell of sections that do not reach the centre plane.
-
-    Parameters
-    ----------
-    lines : sequence of SliceLine
-        All lines; their loose ends are joined.
-    half : float, m
-        Half the breadth of the hull.
-    book : Notebook
-        Takes what was found.
-    """
+    """Report sections that do not reach the centre plane; `half` (m) is half the breadth."""
     sections = [line for line in lines if line.group == "sections"]
     off = {line.name: _gap(line) for line in sections}
     bad = {name: gap for name, gap in off.items() if gap > _OFF * half}
@@ -105,7 +96,7 @@ def refuse_bottomless(slices: HullSlices) -> None:
     Raises
     ------
     BadInputError
-        The report of the slices tells of it.
+        The report of the slices has it among its suspicions.
     """
     found = next((note for note in slices.report.suspicions if note.kind == BOTTOM), None)
     if found is not None:
@@ -114,7 +105,7 @@ def refuse_bottomless(slices: HullSlices) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# A triangulated hull cut into lines: stations, waterlines, buttocks and boundary curves.
+# Cutting.
 
 _PREFIX = {"sections": "ST", "waterlines": "WL", "buttocks": "BTK"}
 
@@ -193,7 +184,7 @@ def slice_mesh(
 
     Returns
     -------
-    Slices
+    HullSlices
         Its report tells whatever was found rather than given.
 
     Raises
@@ -220,22 +211,9 @@ def cut_placed(
     book: Notebook,
     tell: Tell = no_progress,
 ) -> HullSlices:
-    """Cut a mesh that lies in ship axes.
+    """Cut a mesh that lies in ship axes, m, outward; as `slice_mesh`.
 
-    Parameters
-    ----------
-    placed : Triangles
-        In ship axes, m, outward.
-    wanted : mapping of str to int or sequence of float, m
-        Planes of each group: "sections", "waterlines", "buttocks".
-    gaps : Gaps
-        What is joined.
-    name : str
-        Name of the hull.
-    book : Notebook
-        Takes what was found.
-    tell : callable
-        Hears which line is being cut.
+    `wanted` gives the planes of each group, as a number or as places (m).
 
     Raises
     ------
@@ -280,7 +258,7 @@ def _cut(
             f"mend the gap there, or give {group} at other places",
         )  # fmt: skip
     joins += made
-    _tell_ends(name, pieces, book)
+    _report_loose_ends(name, pieces, book)
     report_crossings(name, pieces, axis, book)
     return SliceLine(group, name, place, tuple(_in_order(pieces, group)))
 
@@ -303,7 +281,7 @@ def _turn(piece: LinePiece, group: str) -> LinePiece:
     return piece.reversed()
 
 
-def _tell_ends(name: str, pieces: list[LinePiece], book: Notebook) -> None:
+def _report_loose_ends(name: str, pieces: list[LinePiece], book: Notebook) -> None:
     loose = [
         piece.points[-end]
         for piece in pieces
@@ -342,7 +320,7 @@ def _length(piece: LinePiece) -> float:
 
 
 def _forward(pieces: list[LinePiece], kind: int) -> list[LinePiece]:
-    """Let profile and deck edge run from aft forward, the transom from the centre plane."""
+    """Turn profile and deck edge from aft forward, the transom from the centre plane outward."""
     column = 1 if kind == RimKind.TRANSOM else 0
     turned = [
         piece if piece.points[0, column] <= piece.points[-1, column] else piece.reversed()

@@ -1,7 +1,8 @@
 """From cut or digitised lines to a net: features, smooth lines, boundary curves, adoption.
 
-`net_from_slices` does all of it; `SliceReport` holds everything that was assumed, mended, measured
-and allowed.
+`net_from_slices` does all of it. Boundary curves come first: the ends of all other lines are moved
+onto them, then knuckle lines and borders of flats are drawn, then all lines are fitted so that they
+intersect. `SliceReport` holds everything that was assumed, repaired, measured and allowed.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What became of slices: everything that was assumed, mended, measured and allowed.
+# The report.
 
 _COARSE = 3.0
 """Lines adopted within more than this many times the least tolerance of a mesh are doubtful."""
@@ -48,8 +49,8 @@ class SliceReport:
     Attributes
     ----------
     slices : OffsetReport
-        What was assumed, mended and found suspicious when they were read.
-    joins : tuple of Join
+        What was assumed, repaired and found suspicious when they were read.
+    joins : tuple of GapJoin
         Every join across a gap.
     gaps : Gaps
         Which gaps were joined.
@@ -61,12 +62,12 @@ class SliceReport:
     noise : float, m
         Median over the pieces.
     facet_depth : float, m
-        How deep facets of the mesh lie inside the hull; nil for digitised lines.
+        How deep facets of the mesh lie inside the hull; 0 for digitised lines.
     smoothing : tuple of SmoothReport
         Per piece, in the order of `adoption.lines`.
-    knuckles : tuple of KnuckleLine
+    knuckles : tuple of KnuckleTrace
         Knuckle lines found.
-    borders : tuple of Border
+    borders : tuple of BoundaryCurve
         Boundary curves drawn from knuckles and from the ends of straight runs.
     adoption : AdoptionReport
         Per curve: deviations from the smooth lines, points, inflections.
@@ -123,13 +124,13 @@ class SliceReport:
 
 
 # --------------------------------------------------------------------------------------
-# From slices to a net: features, smooth lines, boundary curves, adoption.
+# Smoothing and adoption.
 
 _CRUMB = 0.1
 """Pieces shorter than this (m) are not adopted."""
 
 _NAMES = 5
-"""So many lines are named in a note."""
+"""At most this many lines are named in a note."""
 
 
 def sources_from_slices(
@@ -137,20 +138,9 @@ def sources_from_slices(
 ) -> tuple[list[LineSource], list[SmoothReport], list[KnuckleTrace], float, list[BoundaryCurve]]:
     """Make smooth lines of all pieces, split at their features.
 
-    Parameters
-    ----------
-    slices : Slices
-        From a mesh or digitised.
-    tolerance : float or None, m
-        How far an adopted curve may pass its smooth line; by default 3 times the median noise
-        of the pieces, but at least 5 mm, of a mesh 10 mm.
-    rules : FeatureRules or None
-        Defaults if None.
-
-    Returns
-    -------
-    sources, reports, knuckle lines, tolerance in m, borders
-        The last sources are the boundary curves drawn as borders, without a report of their own.
+    Gives the sources, their reports, knuckle lines, the tolerance (m) and the boundary curves drawn
+    as borders, whose sources come last. `tolerance` is how far an adopted curve may pass its smooth
+    line; None: 3 times the median noise of the pieces, but at least 5 mm, of a mesh 10 mm.
 
     Raises
     ------
@@ -171,6 +161,7 @@ def sources_from_slices(
     noise = float(np.median([part.noise for part in parts]))
     least = wanted.adopt_least_facets if slices.facets else wanted.adopt_least
     allowed = max(least, wanted.adopt_times * noise) if tolerance is None else tolerance
+    # Boundary curves first: the ends of all other lines are moved onto them.
     rims = [
         make_source(plan_piece(part, wanted), allowed)
         for part in parts if part.line.group == "boundary"
@@ -188,9 +179,11 @@ def sources_from_slices(
     plans = [plan_piece(part, wanted) for part in parts]
     links = _links({plan.part.line.group for plan in plans})
     joined = join_plans(plans, links, max(wanted.near_least, wanted.near_times * noise))
+    # Boundary curves are not smoothed with the others, which have been moved onto them.
     made = [*(make_source(plan, allowed) for plan in joined), *rims]
     sources = [*(source for source, _ in made), *curves]
     reports = [each for _, each in made]
+    # In the order of `sources`: the two are paired.
     reports += [_report_border(each, curve) for each, curve in zip(drawn, curves, strict=True)]
     return sources, reports, knuckles, allowed, drawn
 
@@ -215,12 +208,12 @@ def _checked(tolerance: object, slices: HullSlices) -> float:
 
 
 def _is_useful(piece: LinePiece, *, facets: bool) -> bool:
-    """Leave out crumbs: pieces shorter than a hand, and of a mesh those of one facet."""
+    """Tell pieces from crumbs: those shorter than a hand, and of a mesh those of one facet."""
     long = float(np.ptp(piece.points, axis=0).max()) > _CRUMB
     return long and len(piece.points) > (2 if facets else 1)
 
 
-def _tell_crumbs(slices: HullSlices) -> OffsetReport:
+def _with_crumbs(slices: HullSlices) -> OffsetReport:
     """Give the report of the slices with the pieces that are not adopted."""
     left = [
         line.name
@@ -246,20 +239,8 @@ def net_from_slices(
 ) -> tuple[HullState, SliceReport]:
     """Adopt slices as a net.
 
-    Parameters
-    ----------
-    slices : Slices
-        From a mesh or digitised.
-    particulars : Particulars or None
-        By default from the extent of the hull, the draught at half its depth.
-    tolerance, rules
-        As for `sources_from_slices`.
-    tell : callable
-        Hears what is being done.
-
-    Returns
-    -------
-    HullState, SliceReport
+    `particulars` are by default those of the extent of the hull, the draught at half its depth;
+    `tolerance` and `rules` as for `sources_from_slices`.
 
     Raises
     ------
@@ -284,7 +265,7 @@ def net_from_slices(
     tell("adopting", 0, 0)
     state, adoption = adopt(sources, ship, links, Tolerances(adoption=allowed))
     report = SliceReport(
-        _tell_crumbs(slices), slices.joins, slices.gaps, wanted, state.tolerances,
+        _with_crumbs(slices), slices.joins, slices.gaps, wanted, state.tolerances,
         float(np.median([each.noise for each in smoothing])), slices.depth,
         tuple(each for _, each in pairs), tuple(knuckles), tuple(borders), adoption,
     )  # fmt: skip

@@ -1,7 +1,8 @@
-"""Smooth lines through pieces of points: split at features, fitted, then fitted to meet.
+"""Smooth lines through pieces of digitised or cut points, fitted so that they intersect.
 
-`plan_piece` splits a piece and fits each stretch; `join_plans` fits all families at once, so that
-lines meet; `make_source` gives the line that a net can adopt.
+`plan_piece` splits a piece at its corners and tangent points and fits each stretch between them;
+`join_plans` fits all lines again, at once; `make_source` gives the line that a net can adopt.
+Points of a piece are (n, 2) in its plane, (n, 3) for a boundary curve in space, m.
 """
 
 from __future__ import annotations
@@ -54,13 +55,10 @@ __all__ = [
     "snap_ends",
 ]
 
-# --------------------------------------------------------------------------------------
-# A piece of a line split at its features, with a smooth curve fitted to each stretch.
-
 
 @attrs.frozen(eq=False)
 class PieceBreak:
-    """A place where a piece is split; no direction at a corner."""
+    """Where a piece is split: length along it (m), point (d,), unit tangent; None at a corner."""
 
     at: float
     place: FloatArray
@@ -75,7 +73,7 @@ class SmoothStretch:
     ----------
     ends : (2, d), m
         Its first and last place.
-    fitted : Fitted or None
+    fitted : PolylineFit or None
         The smooth curve, None where it is straight.
     """
 
@@ -95,11 +93,11 @@ class PiecePlan:
     ----------
     part : PieceFeatures
         The piece.
-    breaks : tuple of Break
+    breaks : tuple of PieceBreak
         In order along it.
-    runs : tuple of Run
+    runs : tuple of StraightRun
         Straight runs.
-    stretches : tuple of Stretch
+    stretches : tuple of SmoothStretch
         One more than breaks.
     """
 
@@ -110,15 +108,7 @@ class PiecePlan:
 
 
 def plan_piece(part: PieceFeatures, rules: FeatureRules | None = None) -> PiecePlan:
-    """Split a piece at its features and fit a smooth curve to each stretch.
-
-    Parameters
-    ----------
-    part : PieceFeatures
-        The piece.
-    rules : FeatureRules or None
-        Defaults if None.
-    """
+    """Split a piece at its features and fit a smooth curve to each stretch."""
     wanted = rules or FeatureRules()
     breaks = [PieceBreak(corner.at, corner.place, None) for corner in part.corners]
     runs = runs_of(part, wanted)
@@ -141,7 +131,7 @@ def plan_piece(part: PieceFeatures, rules: FeatureRules | None = None) -> PieceP
 def _stretches(
     part: PieceFeatures, breaks: list[PieceBreak], drawn: list[tuple[float, float]]
 ) -> list[SmoothStretch]:
-    """Fit a smooth curve between the breaks, none where the piece is straight."""
+    """Fit a smooth curve between breaks, none within the lengths `drawn` (m) of straight runs."""
     points, at = part.points, cumulative_lengths(part.points)
     ends = [PieceBreak(0.0, points[0], None), *breaks, PieceBreak(float(at[-1]), points[-1], None)]
     found = []
@@ -161,6 +151,7 @@ def _apart(breaks: list[PieceBreak], length: float) -> list[PieceBreak]:
     """Leave out breaks at the ends and tangent points that lie close to another break."""
     out: list[PieceBreak] = []
     for each in sorted(breaks, key=lambda b: (b.direction is not None, b.at)):
+        # Corners stand first in this order, so that of two close breaks the corner stays.
         clear = all(abs(each.at - other.at) > 0.3 for other in out)
         if clear and 0.3 < each.at < length - 0.3:
             out.append(each)
@@ -168,7 +159,7 @@ def _apart(breaks: list[PieceBreak], length: float) -> list[PieceBreak]:
 
 
 def piece_columns(part: PieceFeatures) -> list[int]:
-    """Give the coordinates in which the points of a piece are given."""
+    """Give the axes (0 x, 1 y, 2 z) of the coordinates that the points of a piece hold."""
     if part.line.group != "boundary":
         return plane_columns(part.line.group)
     if part.points.shape[1] == 3:
@@ -178,7 +169,7 @@ def piece_columns(part: PieceFeatures) -> list[int]:
 
 
 def in_space(part: PieceFeatures, xy: FloatArray) -> FloatArray:
-    """Give places of a piece in space, (n, 3), m."""
+    """Give points of a piece, (n, d), in space, (n, 3), m."""
     columns = piece_columns(part)
     out = np.empty((len(xy), 3))
     out[:, columns] = xy
@@ -188,7 +179,7 @@ def in_space(part: PieceFeatures, xy: FloatArray) -> FloatArray:
 
 
 def _level(part: PieceFeatures, axis: int) -> float:
-    """Give the place of the plane of a piece."""
+    """Give the coordinate (m) of the plane of a piece along `axis`."""
     if part.line.group != "boundary":
         return part.line.offset
     level = round(float(np.median(part.piece.points[:, axis])), 6)
@@ -196,17 +187,13 @@ def _level(part: PieceFeatures, axis: int) -> float:
 
 
 def piece_plane(part: PieceFeatures) -> tuple[FloatArray, float] | None:
-    """Give the normal of the plane of a piece and its place along it, None for one in space."""
+    """Give unit normal and offset (m) of the plane of a piece, None for one in space."""
     if part.line.group != "boundary":
         return np.eye(3)[AXES[part.line.group]], part.line.offset
     if part.points.shape[1] == 3:
         return None
     axis = next(iter(set(range(3)) - set(piece_columns(part))))
     return np.eye(3)[axis], _level(part, axis)
-
-
-# --------------------------------------------------------------------------------------
-# From digitised pieces to smooth lines that can be adopted: split at features, smoothed.
 
 
 @attrs.frozen
@@ -231,7 +218,7 @@ class SmoothReport:
     onsets : tuple of (str, float, float, float)
         Every end of a straight run: kind, length along the piece (m), radius or nan (m) and
         uncertainty (m).
-    arcs : tuple of Arc
+    arcs : tuple of CircularArc
         Its circular arcs, in the coordinates that vary on the piece.
     """
 
@@ -257,16 +244,9 @@ _REACH = 0.1
 def snap_ends(
     part: PieceFeatures, borders: dict[str, list[SplineBatch]], least: float
 ) -> PieceFeatures:
-    """Move the ends of a piece onto the smooth boundary curves they lie on.
+    """Move the ends of a piece onto the smooth boundary curves (by name) they lie on.
 
-    Parameters
-    ----------
-    part : PieceFeatures
-        A piece of a section, waterline or buttock.
-    borders : dict of str to list of SplineBatch
-        The smooth boundary curves by name.
-    least : float, m
-        Ends that lie closer stay: the crossing with the boundary takes their place.
+    Ends that lie closer than `least` (m) stay: the intersection with the boundary replaces them.
     """
     axis, columns = AXES[part.line.group], plane_columns(part.line.group)
     plane = np.eye(3)[axis], np.array([part.line.offset])
@@ -276,7 +256,7 @@ def snap_ends(
         met = [intersect_planes(border, *plane).xyz for border in borders.get(name, [])]
         places = np.concatenate(met)[:, columns] if met else np.zeros((0, 2))
         away = np.linalg.norm(places - part.points[end], axis=1)
-        # Where the plane cuts the hull at a small angle, a move along the line is no matter.
+        # Where the plane cuts the hull at a small angle, a move along the line matters little.
         if not len(away) or not least / part.sine[end] < away.min() < _REACH:
             continue
         step = places[int(away.argmin())] - part.points[end]
@@ -285,6 +265,7 @@ def snap_ends(
             if end == 0
             else cumulative_lengths(part.points[::-1])[::-1]
         )
+        # The move fades as a smooth step, so that the line keeps its tangent.
         part_way = np.maximum(1.0 - far / (_FADE * away.min()), 0.0)
         points += (part_way * part_way * (3.0 - 2.0 * part_way))[:, None] * step
         points[end] = places[int(away.argmin())]
@@ -300,19 +281,7 @@ def snap_ends(
 
 
 def make_source(plan: PiecePlan, tolerance: float) -> tuple[LineSource, SmoothReport]:
-    """Draw the smooth curves of a piece as a line that can be adopted.
-
-    Parameters
-    ----------
-    plan : Plan
-        The piece, split at its features.
-    tolerance : float, m
-        How far the adopted curve may pass the smooth one.
-
-    Returns
-    -------
-    LineSource, SmoothReport
-    """
+    """Draw a piece as a line that can be adopted within `tolerance` (m) of the smooth curve."""
     part = plan.part
     drawn = [stretch.draw() for stretch in plan.stretches]
     xy, kind, direction = _chain(plan, drawn)
@@ -360,33 +329,22 @@ def _chain(
 
 
 # --------------------------------------------------------------------------------------
-# Smooth lines of all families that meet: fitted one by one, then all at once.
+# All lines fitted at once, tied to each other where they intersect.
 
 _ROUNDS = 2
-"""How often the meetings are found again: where lines meet moves as they do."""
+"""How often the intersections are found again: they move as the lines do."""
 
 _LEAST_SINE = 0.05
-"""Lines that run together at less than this have no normal that can be told."""
+"""Lines that cross at a smaller angle (sine) have no normal that can be relied on."""
 
 
 def join_plans(
     plans: Sequence[PiecePlan], associations: Sequence[Association], near: float
 ) -> list[PiecePlan]:
-    """Fit the smooth lines again, all at once, so that they meet.
+    """Fit lines that were smoothed one by one again, all at once, so that they intersect.
 
-    Parameters
-    ----------
-    plans : sequence of Plan
-        Pieces of sections, waterlines and buttocks, each smoothed for itself.
-    associations : sequence of Association
-        Which groups meet.
-    near : float, m
-        A gap of two lines that weighs as much as a datum passed by all that is allowed.
-
-    Returns
-    -------
-    list of Plan
-        In the order given.
+    `associations` are the pairs of groups that do; a gap of `near` (m) between two lines weighs as
+    much as a datum passed by all that is allowed. The order of `plans` is kept.
     """
     found = list(plans)
     for _ in range(_ROUNDS):
@@ -415,7 +373,7 @@ def _numbers(fits: Sequence[PolylineFit | None]) -> list[int]:
 
 @attrs.frozen(eq=False)
 class _Track:
-    """Where the points of a line come from: its stretches, by first point, and lengths."""
+    """Which fit each point of a line comes from: first point, fit and lengths (m) per stretch."""
 
     first: IntArray
     number: list[int]
@@ -441,18 +399,18 @@ def _tracks(plans: Sequence[PiecePlan], numbers: Sequence[int]) -> list[_Track]:
 def _ties(
     plans: Sequence[PiecePlan], associations: Sequence[Association], numbers: Sequence[int]
 ) -> list[FitTie]:
-    """Give a tie for every meeting at which at least one line may move."""
+    """Give a tie for every intersection at which at least one line may move."""
     sources = [make_source(plan, 1.0)[0] for plan in plans]
-    reference, meetings = match_lines(sources, associations)
+    reference, intersections = match_lines(sources, associations)
     tracks = _tracks(plans, numbers)
-    curve = np.array([[each.a, each.b] for each in meetings]).reshape(-1, 2)
-    at = np.array([each.at for each in meetings]).reshape(-1, 2)
+    curve = np.array([[each.a, each.b] for each in intersections]).reshape(-1, 2)
+    at = np.array([each.at for each in intersections]).reshape(-1, 2)
     one, other = (_unit(derivative(reference, curve[:, i], at[:, i])) for i in (0, 1))
     across = np.cross(one, other)
     sine = np.sqrt((across * across).sum(axis=1))
     found = []
     for i in np.flatnonzero(sine > _LEAST_SINE).tolist():
-        tie = _tie(plans, tracks, reference, meetings[i], across[i] / sine[i])
+        tie = _tie(plans, tracks, reference, intersections[i], across[i] / sine[i])
         if tie is not None:
             found.append(tie)
     return found
@@ -466,24 +424,32 @@ def _tie(
     plans: Sequence[PiecePlan],
     tracks: Sequence[_Track],
     reference: SplineBatch,
-    meeting: LineIntersection,
+    crossing: LineIntersection,
     normal: FloatArray,
 ) -> FitTie | None:
+    """Tie two fits along the common normal of their lines, None where both are straight.
+
+    Along the lines themselves each may slide, so that only the gap across both counts.
+    """
     ends = []
-    for curve, at, spot in zip((meeting.a, meeting.b), meeting.at, meeting.spots, strict=True):
+    for curve, at, spot in zip((crossing.a, crossing.b), crossing.at, crossing.spots, strict=True):
         knot = reference.knot[int(reference.start[curve]) : int(reference.start[curve + 1])]
         interval = int(np.clip(np.searchsorted(knot, at, "right") - 1, 0, len(knot) - 2))
         part = (at - float(knot[interval])) / float(knot[interval + 1] - knot[interval])
         number, length = tracks[curve].find(interval, part)
         way = normal[piece_columns(plans[curve].part)]
         ends.append((number, length, way, _rest(plans[curve], number, normal, spot)))
+    # A straight stretch (-1) comes second: it does not move, and only its height counts.
     ends.sort(key=lambda end: end[0] < 0)
     (a, at_a, way_a, rest_a), (b, at_b, way_b, rest_b) = ends
     return None if a < 0 else FitTie(a, at_a, way_a, b, at_b, way_b, rest_b - rest_a)
 
 
 def _rest(plan: PiecePlan, number: int, normal: FloatArray, spot: FloatArray) -> float:
-    """Give what adds to the height along the normal and may not move, m."""
+    """Give the part of the height along the normal (m) that the fit cannot change.
+
+    That is all of it for a straight stretch, and what the plane of the line holds for others.
+    """
     plane = piece_plane(plan.part)
     if number < 0 or plane is None:
         return float(spot @ normal)

@@ -1,7 +1,8 @@
 """Lines of a hull cut from its surfaces: IGES by our own reader or OpenCASCADE, and STEP.
 
-Surfaces are made triangles once and cut as a mesh is; then each point is put on the surface that
-its triangle stands for, in its plane.
+Surfaces are triangulated once and cut as any mesh is, which finds pieces, ends and boundary curves;
+then each point is moved onto the surface that its triangle stands for, in the plane of its line.
+Triangles and surfaces are in axes of the file, lines in ship axes (m); `AxisChange` goes between.
 
 Examples
 --------
@@ -54,11 +55,8 @@ __all__ = [
     "slice_surfaces",
 ]
 
-# --------------------------------------------------------------------------------------
-# Points cut from triangles of surfaces, put on the surfaces themselves, each in its plane.
-
 _FAR = 0.02
-"""A place of a surface farther (m) from the triangles is not the one meant."""
+"""A point of a surface farther (m) from the triangles is not the one meant."""
 
 _LEAST_SINE = 0.03
 """Where a plane cuts at a smaller angle (sine), a point stays on its triangle."""
@@ -73,21 +71,22 @@ class AxisChange:
 
     @classmethod
     def between(cls, before: FloatArray, after: FloatArray) -> AxisChange:
-        """Tell how vertices were moved."""
+        """Find the change that took vertices (n, 3), m, from one place to another."""
         middle = before.mean(axis=0)
+        # Turns are by right angles, so that entries are -1, 0 or 1 but for rounding.
         turn = np.rint(np.linalg.lstsq(before - middle, after - after.mean(axis=0))[0])
         return cls(turn + 0.0, np.median(after - before @ turn, axis=0))
 
     def back(self, xyz: FloatArray) -> FloatArray:
-        """Give places of the file."""
+        """Give points in ship axes, (n, 3), m, in axes of the file."""
         return np.asarray((xyz - self.shift) @ self.turn.T)
 
     def ahead(self, xyz: FloatArray) -> FloatArray:
-        """Give places in ship axes."""
+        """Give points in axes of the file, (n, 3), m, in ship axes."""
         return np.asarray(xyz @ self.turn + self.shift)
 
     def plane(self, axis: IntArray, offset: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Give axis and place in the file of planes across axes of the ship."""
+        """Give axis and offset (m) in the file of planes across axes of the ship."""
         column = np.abs(self.turn).argmax(axis=0)
         sign = self.turn[column, np.arange(3)]
         return column[axis], (offset - self.shift[axis]) * sign[axis]
@@ -102,39 +101,22 @@ def project_to_surfaces(
     surfaces: Sequence[SplineSurface | None],
     motion: AxisChange,
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Put places that were cut from triangles on their surfaces.
+    """Move points that were cut from triangles onto their surfaces, each in its plane.
 
-    Parameters
-    ----------
-    xyz : (n, 3), m
-        Places in ship axes.
-    axis : (n,) int
-        The coordinate that is constant on the line of each.
-    offset : (n,), m
-        What it is there.
-    owner : (n,) int
-        The triangle of each.
-    facets : Facets
-        The triangles, in axes of the file.
-    surfaces : sequence of SplineSurface or None
-        What they stand for.
-    motion : Motion
-        From the file to the ship.
-
-    Returns
-    -------
-    (n, 3) m, (n,), (n,) bool
-        Places, the sine of the angle between plane and surface, and which lie on a surface now.
+    Points `xyz` (n, 3) m, with the `axis` (n,) that is constant on their line, its `offset` (n,) m
+    and the triangle `owner` (n,) of each. Gives points (n, 3), the sine of the angle between plane
+    and surface (n,), and which lie on a surface now (n,).
     """
     there = motion.back(xyz)
     uv = _parameters(there, facets.mesh.corners[owner], facets.uv[owner])
     column, place = motion.plane(axis, offset)
     centre = xyz[:, 1] == 0.0
-    middle, nil = motion.plane(np.array([1]), np.zeros(1))
+    # Points of the centre plane stay in it: the axis and offset of y = 0 are a second constraint.
+    middle, zero = motion.plane(np.array([1]), np.zeros(1))
     out, sine, good = xyz.copy(), np.ones(len(xyz)), np.zeros(len(xyz), np.bool_)
     for number in np.unique(facets.surface[owner]).tolist():
         rows = np.flatnonzero(facets.surface[owner] == number)
-        second = centre[rows], int(middle[0]), float(nil[0])
+        second = centre[rows], int(middle[0]), float(zero[0])
         surface = surfaces[number]
         if surface is None:
             continue
@@ -150,26 +132,21 @@ def project_to_surfaces(
 
 
 def _parameters(xyz: FloatArray, corner: FloatArray, uv: FloatArray) -> FloatArray:
-    """Give parameters (n, 2) of places on triangles (n, 3, 3), from those of the corners."""
+    """Give surface parameters (n, 2) of points on triangles (n, 3, 3), from those of corners."""
     b, c, p = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0], xyz - corner[:, 0]
     bb, bc, cc = ((one * other).sum(axis=1) for one, other in ((b, b), (b, c), (c, c)))
     pb, pc = (p * b).sum(axis=1), (p * c).sum(axis=1)
     det = np.maximum(bb * cc - bc * bc, 1e-300)
     part = np.clip(np.stack([cc * pb - bc * pc, bb * pc - bc * pb], axis=1) / det[:, None], 0, 1)
+    # Barycentric parts may leave the triangle by rounding, of a sliver by much.
     part[np.abs(part) < 1e-9] = 0.0
     part /= np.maximum(part.sum(axis=1), 1.0)[:, None]
     first = 1.0 - part.sum(axis=1)
     return np.asarray(first[:, None] * uv[:, 0] + part[:, :1] * uv[:, 1] + part[:, 1:] * uv[:, 2])
 
 
-# --------------------------------------------------------------------------------------
-# Spline surfaces of a hull cut into lines, whose points lie on the surfaces themselves.
-#
-# Surfaces are made triangles once; these are cut as any mesh is, which tells pieces, ends and
-# boundary curves; then each point is put on the surface that its triangle stands for, in its plane.
-
 _POINTS, _TURN = 100.0, 0.05
-"""A piece keeps so many points, and one more wherever it turns by so much (rad)."""
+"""A piece keeps this many points, and one more wherever it turns by this much (rad)."""
 
 
 def slice_surfaces(
@@ -188,15 +165,15 @@ def slice_surfaces(
 
     Parameters
     ----------
-    faces : Faces
+    faces : HullFaces
         Whole hull or half.
     stations, waterlines, buttocks, scale, axes, gaps, name, tell
         As for `assoc_hull.io.slicing.mesh_lines.slice_mesh`.
 
     Returns
     -------
-    Slices
-        Points lie on the surfaces to rounding, but for those its report tells of.
+    HullSlices
+        Points lie on the surfaces to rounding, but for those that its report counts.
 
     Raises
     ------
@@ -251,7 +228,7 @@ def _settled(
     motion: AxisChange,
     book: Notebook,
 ) -> HullSlices:
-    """Put the points of all lines on their surfaces."""
+    """Move the points of all lines and of the profile onto their surfaces."""
     lines = (*slices.lines, *(line for line in slices.boundaries if line.name == "profile"))
     pieces = [(line, piece) for line in lines for piece in line.pieces]
     owner = np.concatenate([_owner(piece) for _, piece in pieces])
@@ -300,9 +277,9 @@ def _replaced(line: SliceLine, found: Iterator[tuple[FloatArray, FloatArray]]) -
 
 
 def _thinned(points: FloatArray) -> IntArray:
-    """Choose points that stand at equal lengths, closer where the line turns; ends stay.
+    """Choose points at equal lengths, closer where the line turns; ends stay.
 
-    Points are exact, so that more of them tell no more.
+    Points are exact, so that more of them add nothing.
     """
     step = np.diff(points, axis=0)
     length = np.sqrt((step * step).sum(axis=1))
@@ -318,7 +295,7 @@ def _thinned(points: FloatArray) -> IntArray:
 
 
 # --------------------------------------------------------------------------------------
-# Lines of a hull from a file of its surfaces: IGES by our own reader or OpenCASCADE, and STEP.
+# Files of surfaces.
 
 _MOST_BYTES = 200_000_000
 _HEAD = 2000
@@ -344,16 +321,9 @@ def cad_kind(path: Path) -> str | None:
 
 
 def faces_of_file(path: Path, unit: str = "auto") -> HullFaces:
-    """Read the surfaces of a file.
+    """Read the surfaces of a file, IGES or STEP; `unit` "auto" is the one that the file states.
 
     Untrimmed spline surfaces of IGES need no extra; anything else does.
-
-    Parameters
-    ----------
-    path : Path
-        IGES or STEP.
-    unit : str
-        The unit of its lengths; "auto": as the file says.
 
     Raises
     ------

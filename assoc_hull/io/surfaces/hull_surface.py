@@ -35,7 +35,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The surface of a hull as a file: its patches for CAD programs, or the closed mesh of its lines.
+# The file.
 
 SURFACE_FORMS: tuple[str, ...] = (*CAD_FORMS, *MESH_FORMS)
 """All forms by name."""
@@ -104,10 +104,8 @@ def write_surface(
 
 
 # --------------------------------------------------------------------------------------
-# The JSON Schema of the report of a surface fitted to a hull.
-#
-# The same text ships beside this module as ``hull_surface.schema.json``; ``assoc-hull schema --of
-# hull-surface`` prints it.
+# The schema, which ships beside this module as ``hull_surface.schema.json``; ``assoc-hull schema
+# --of hull-surface`` prints it.
 
 _WHOLE: Schema = {"type": "integer", "minimum": 0}
 _PLACE: Schema = {"anyOf": [NULL, list_of(REAL, 3, 3).schema]}

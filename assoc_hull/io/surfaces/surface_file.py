@@ -72,7 +72,7 @@ class ReadSurfaces(tuple[SplineSurface, ...]):
 
 
 def read_surface_file(path: str | os.PathLike[str], unit: str | None = None) -> ReadSurfaces:
-    """Read the surfaces of a file; see `assoc_hull.plating.read_surfaces`.
+    """Read the surfaces of a file; see `assoc_hull.surface.read_surfaces`.
 
     Raises
     ------

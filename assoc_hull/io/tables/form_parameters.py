@@ -64,35 +64,26 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Form parameters as JSON: the catalogue, and the values of a hull.
-#
-# Names and units are those of the Python objects. Both documents have a JSON Schema, which ships
-# with the package; see `assoc_hull.io.tables.form_parameters`.
+# JSON.
 
 CATALOGUE_FORMAT, VALUES_FORMAT = "assoc-hull form catalogue", "assoc-hull form parameters"
 SCHEMA = 1
-"""Version of both forms."""
+"""Version of both documents."""
 
 ENTRY_FIELDS = (
     "symbol", "ittc", "name", "unit", "table", "definition", "datum", "source", "needs", "digits",
 )  # fmt: skip
-"""What is told of an entry: the attributes of `Parameter` but for its function."""
+"""What is written of an entry: the attributes of `FormParameter` but for its function."""
 
 HEADER_FIELDS = (
     "ship", "length", "breadth", "draught", "rho", "shell_factor", "transom", "deck",
     "fingerprint", "date",
 )  # fmt: skip
-"""What is told of a header: what form parameters depend on."""
+"""What is written of a header: what form parameters depend on."""
 
 
 def catalogue_document(entries: Iterable[FormParameter] | None = None) -> dict[str, Any]:
-    """Give entries as JSON says it.
-
-    Parameters
-    ----------
-    entries : iterable of Parameter
-        The whole catalogue if not given.
-    """
+    """Give entries, the whole catalogue if None, as JSON says it."""
     chosen = CATALOGUE.values() if entries is None else all_of(entries, FormParameter, "entries")
     return {
         "format": CATALOGUE_FORMAT,
@@ -121,13 +112,7 @@ def form_document(report: FormReport) -> dict[str, Any]:
 
 
 def catalogue_json(entries: Iterable[FormParameter] | None = None) -> str:
-    """Give the catalogue, or entries of one's own, as JSON text; it ends with a newline.
-
-    Parameters
-    ----------
-    entries : iterable of Parameter
-        The whole catalogue if not given.
-    """
+    """Give entries, the whole catalogue if None, as JSON text; it ends with a newline."""
     return _dumps(catalogue_document(entries))
 
 
@@ -139,7 +124,7 @@ def form_json(report: FormReport) -> str:
     >>> import json
     >>> from assoc_hull.analysis.form.form_parameters import form_report
     >>> from assoc_hull.io.tables.form_parameters import form_json
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> found = json.loads(form_json(form_report(examples.wigley(), draught=6.25)))
     >>> round(found["values"]["V"]["number"], 2)
     2777.45
@@ -152,10 +137,7 @@ def _dumps(document: dict[str, Any]) -> str:
 
 
 # --------------------------------------------------------------------------------------
-# Form parameters as CSV and XLSX: a row per entry, below the head.
-#
-# The head stands above, a line each, behind ``#`` in a CSV; then a row of names, and a row per
-# entry. What a hull does not have is blank, and its reason stands beside it.
+# CSV and XLSX: the head, a line each, behind ``#`` in a CSV; a row of names; a row per entry.
 
 COLUMNS = (
     "symbol", "number", "unit", "name", "table", "reason", "warning", "definition", "datum",
@@ -173,7 +155,7 @@ def form_csv(report: FormReport) -> str:
     --------
     >>> from assoc_hull.analysis.form.form_parameters import form_report
     >>> from assoc_hull.io.tables.form_parameters import form_csv
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> text = form_csv(form_report(examples.wigley(), draught=6.25, only=["B'"]))
     >>> text.splitlines()[-1].split(",")[:4]
     ["B'", '8.00390529679', 'm', 'reduced breadth']
@@ -230,7 +212,7 @@ def _table_cells(row: ReportRow) -> list[Any]:
 
 
 # --------------------------------------------------------------------------------------
-# Form parameters in words: the sheet of a hull in two columns, and the catalogue as a list.
+# Text: the sheet of a hull in two columns, and the catalogue as a list.
 
 _WIDTH = 100
 _COLUMN, _BETWEEN = 48, 4
@@ -246,7 +228,7 @@ def form_text(report: FormReport) -> str:
     --------
     >>> from assoc_hull.analysis.form.form_parameters import form_report
     >>> from assoc_hull.io.tables.form_parameters import form_text
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> report = form_report(examples.wigley(), draught=6.25, only=["Cb", "V"])
     >>> print(form_text(report).splitlines()[-1].split())
     ['V', '2777.45', 'm3', 'Cb', '0.4444', '-']
@@ -261,7 +243,7 @@ def form_text(report: FormReport) -> str:
 
 
 def split_in_two(rows: Sequence[ReportRow]) -> tuple[Sequence[ReportRow], Sequence[ReportRow]]:
-    """Part lines into a left and a right column; the left one is the longer."""
+    """Split rows into a left and a right column; the left one is the longer."""
     middle = (len(rows) + 1) // 2
     return rows[:middle], rows[middle:]
 
@@ -334,11 +316,8 @@ def _catalogue_entry(entry: FormParameter) -> Iterator[str]:
 
 
 # --------------------------------------------------------------------------------------
-# The JSON Schemas of the catalogue of form parameters and of the values of a hull.
-#
-# The same texts ship beside this module as ``form_catalogue.schema.json`` and
-# ``form_parameters.schema.json``; ``assoc-hull schema --of form-catalogue`` prints one. What a
-# schema cannot say holds good besides: a symbol stands once, and what an entry needs is there.
+# Schemas, which ship beside this module; ``assoc-hull schema --of form-catalogue`` prints one. What
+# a schema cannot say holds good besides: a symbol stands once, and what an entry needs is there.
 
 _MAYBE = or_none(NAME).schema
 

@@ -1,7 +1,7 @@
 """Plates of a hull as a table (CSV) or a document (JSON), and its schema.
 
 Names and units are those of the Python objects. The schema ships as ``hull_plates.schema.json``.
-Plates of single surfaces are in `io.tables.plates`.
+Plates of single surfaces are in `assoc_hull.io.tables.plates`.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ from assoc_hull.model.value_schema import (
     one_of,
     or_none,
 )
-from assoc_hull.surface.plates.hull_plate import HullPlate
-from assoc_hull.surface.plates.hull_plates import COLUMNS, HullPlateTable
-from assoc_hull.surface.plates.hull_seams import AXES
-from assoc_hull.surface.plates.plate_class import CAVEAT, KINDS
+from assoc_hull.surface.plating.hull_plate import HullPlate
+from assoc_hull.surface.plating.hull_plates import COLUMNS, HullPlateTable
+from assoc_hull.surface.plating.hull_seams import AXES
+from assoc_hull.surface.plating.plate_class import CAVEAT, KINDS
 
 __all__ = [
     "FORMAT",
@@ -45,10 +45,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Plates of a hull as a table (CSV) or a document (JSON).
-#
-# Names and units are those of the Python objects; see `assoc_hull.io.tables.hull_plates` for
-# the JSON Schema.
+# Tables and documents.
 
 FORMAT, SCHEMA = "assoc-hull hull plates", 1
 
@@ -62,7 +59,7 @@ def write_hull_plates(
 
     Parameters
     ----------
-    plates : HullPlates
+    plates : HullPlateTable
         The plates.
     path : path
         The file; what was there is replaced by the whole of it, or stays.
@@ -130,10 +127,7 @@ def _document(plate: HullPlate, row: dict[str, Any]) -> dict[str, Any]:
 
 
 # --------------------------------------------------------------------------------------
-# The JSON Schema of plates of a hull.
-#
-# The same text ships beside this module as ``hull_plates.schema.json``; ``assoc-hull schema --of
-# hull-plates`` prints it.
+# The schema, which ships beside this module; ``assoc-hull schema --of hull-plates`` prints it.
 
 _WHOLE: Schema = {"type": "integer", "minimum": 0}
 _MAYBE: Schema = {"type": ["number", "null"]}

@@ -1,13 +1,13 @@
 """Plates of a shell as a table (CSV) or a document (JSON), its schema, and flat plates as CSV.
 
-Names and units are those of the Python objects. The schema ships as ``plates.schema.json``.
-Plates of a whole hull are in `io.tables.hull_plates`.
+Names and units are those of the Python objects. The schema ships as ``plates.schema.json``. Plates
+of a whole hull are in `assoc_hull.io.tables.hull_plates`.
 
 Examples
 --------
 >>> import assoc_hull as ah
 >>> from assoc_hull.io.tables.plates import plates_csv
->>> found = ah.plates(ah.examples.typical_plates()[0])
+>>> found = ah.surface.plates(ah.examples.typical_plates()[0])
 >>> for line in plates_csv(found).splitlines():
 ...     print(",".join(line.split(",")[:4]))
 name,area,length,breadth
@@ -48,10 +48,10 @@ from assoc_hull.model.value_schema import (
     one_of,
     or_none,
 )
-from assoc_hull.surface.plates.development import LABEL, Development
-from assoc_hull.surface.plates.plate import Plate
-from assoc_hull.surface.plates.plate_class import CAVEAT, KINDS
-from assoc_hull.surface.plates.surface_plates import COLUMNS, PlateTable
+from assoc_hull.surface.plating.development import LABEL, Development
+from assoc_hull.surface.plating.plate import Plate
+from assoc_hull.surface.plating.plate_class import CAVEAT, KINDS
+from assoc_hull.surface.plating.surface_plates import COLUMNS, PlateTable
 from assoc_hull.surface.regions.options import MODES
 from assoc_hull.surface.regions.region_parts import RegionAreas
 from assoc_hull.surface.regions.result import RegionResult
@@ -68,10 +68,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Plates of a shell as a table (CSV) or a document (JSON), and plates laid flat as a table.
-#
-# Names and units are those of the Python objects. The document has a JSON Schema, see
-# `assoc_hull.io.tables.plates`.
+# Tables and documents.
 
 FORMAT, SCHEMA = "assoc-hull plates", 1
 
@@ -85,7 +82,7 @@ def write_plates(plates: PlateTable, path: str | os.PathLike[str], form: str | N
 
     Parameters
     ----------
-    plates : Plates
+    plates : PlateTable
         The plates.
     path : path
         The file; what was there is replaced by the whole of it, or stays.
@@ -157,22 +154,14 @@ def _document(plate: Plate, row: dict[str, Any]) -> dict[str, Any]:
 def development_csv(developments: Iterable[Development]) -> str:
     """Lay out plates that were laid flat: a row a node of the grid, strains to the next node.
 
-    Parameters
-    ----------
-    developments : iterable of Development
-        Of `Plate.development`.
-
-    Returns
-    -------
-    str
-        Comma-separated: a comment that says what it is, names, units, and rows by plate, place
-        along and place across; the strain is blank where there is no next node.
+    A comment says what it is; names, units, and rows by plate, place along and place across follow.
+    The strain is blank where there is no next node.
 
     Examples
     --------
     >>> import assoc_hull as ah
     >>> from assoc_hull.io.tables.plates import development_csv
-    >>> (plate,) = ah.plates(ah.examples.typical_plates()[0])
+    >>> (plate,) = ah.surface.plates(ah.examples.typical_plates()[0])
     >>> print(development_csv([plate.development((3, 3))]).splitlines()[1])
     plate,row,column,u,v,x,y,z,flat_x,flat_y,along,across
     """
@@ -194,10 +183,7 @@ def development_csv(developments: Iterable[Development]) -> str:
 
 
 # --------------------------------------------------------------------------------------
-# The JSON Schema of plates of a shell.
-#
-# The same text ships beside this module as ``plates.schema.json``; ``assoc-hull schema --of
-# plates`` prints it.
+# The schema, which ships beside this module; ``assoc-hull schema --of plates`` prints it.
 
 _WHOLE: Schema = {"type": "integer", "minimum": 0}
 _MAYBE: Schema = {"type": ["number", "null"]}

@@ -45,7 +45,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# XLSX workbooks through openpyxl (extra ``xlsx``): the same bytes for the same cells.
+# Workbooks.
 
 _DAY = datetime.datetime(2000, 1, 1)
 """A workbook bears a date; one that never changes gives the same bytes for the same cells."""
@@ -96,10 +96,8 @@ def _settled(data: bytes) -> bytes:
 
 
 # --------------------------------------------------------------------------------------
-# Tables of columns as CSV and XLSX, with the head that says what they hold good for.
-#
-# Above stands the head, a line each, behind ``#`` in a CSV; then a row of names, a row of units,
-# and the rows. What is nan is blank.
+# Tables of columns: the head, a line each, behind ``#`` in a CSV; a row of names, a row of units,
+# and the rows.
 
 Head = Iterable[tuple[str, str]]
 
@@ -145,18 +143,9 @@ def columns_csv(head: Head, columns: Sequence[TableColumn]) -> str:
 
 
 def columns_xlsx(title: str, head: Head, columns: Sequence[TableColumn], first: int) -> bytes:
-    """Lay out a table as a workbook; numbers are whole, and shown with the digits of a table.
+    """Lay out a table as a workbook: unrounded numbers, shown with the digits of a table.
 
-    Parameters
-    ----------
-    title : str
-        Of the sheet.
-    head : iterable of (str, str)
-        What stands above.
-    columns : sequence of Column
-        The table.
-    first : int
-        So many columns stay in sight.
+    `title` is that of the sheet; the first `first` columns stay in sight.
 
     Raises
     ------
@@ -184,20 +173,14 @@ def _rows(columns: Sequence[TableColumn]) -> Iterator[tuple[float, ...]]:
 
 
 # --------------------------------------------------------------------------------------
-# Cells of tables and values of documents about plates: what both kinds of plates share.
+# Rows of mixed cells, and values for documents.
 
 
 def rows_csv(columns: Sequence[Any], rows: Iterable[Mapping[str, object]]) -> str:
     """Lay out rows as comma-separated text: a row of names, a row of units, then each row.
 
-    Numbers have all digits; what a row does not have is blank.
-
-    Parameters
-    ----------
-    columns : sequence
-        Columns, each with `name` and `unit`.
-    rows : iterable of mapping
-        Values in the order of the columns.
+    Columns have `name` and `unit`; values come in their order. Numbers have all digits; what a row
+    does not have is blank.
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")

@@ -1,7 +1,7 @@
-"""Stability and cross curves as text, CSV, XLSX and JSON.
+"""Stability and cross curves as text, CSV, XLSX and JSON, with the head of each.
 
 The table of a condition has a row per heel, that of cross curves a row per displacement and a
-column per heel. Names and units are those of the records; JSON has null for what is not there.
+column per heel. Names and units are those of the records; what is not there is blank, in JSON null.
 """
 
 from __future__ import annotations
@@ -37,12 +37,12 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Stability and cross curves as JSON says them; names and units are those of the records.
+# JSON.
 
 FORMAT = {"stability": "assoc-hull stability", "cross curves": "assoc-hull cross curves",
           "equilibrium": "assoc-hull equilibrium"}  # fmt: skip
 SCHEMA = 1
-"""Version of the forms."""
+"""Version of the documents."""
 
 
 def stability_document(found: Stability | CrossCurves) -> dict[str, Any]:
@@ -52,7 +52,7 @@ def stability_document(found: Stability | CrossCurves) -> dict[str, Any]:
     --------
     >>> from assoc_hull.analysis.stability.stability_report import stability
     >>> from assoc_hull.io.tables.stability import stability_document
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> found = stability_document(stability(examples.wigley(), kg=5.0, heels=[0, 20]))
     >>> [each["code"] for each in found["criteria"] if each["passed"] is False]
     ['2.2.1', '2.2.1']
@@ -109,10 +109,7 @@ def _numbers(values: FloatArray) -> list[float | None]:
 
 
 # --------------------------------------------------------------------------------------
-# Stability and cross curves as files: text, CSV, XLSX and JSON, with the head of each.
-#
-# The table of a condition has a row per heel; that of cross curves a row per displacement, with
-# a column per heel. Names and units are those of the records.
+# Text, CSV and XLSX.
 
 ENDINGS = (".txt", ".csv", ".xlsx", ".json")
 
@@ -140,7 +137,7 @@ def write_stability(found: StabilityOrCrossCurves, path: str | os.PathLike[str])
     >>> from pathlib import Path
     >>> from assoc_hull.analysis.stability.cross_curves import cross_curves
     >>> from assoc_hull.io.tables.stability import write_stability
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> found = cross_curves(examples.wigley(), draughts=[5.0, 6.0], heels=[10, 20])
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     write_stability(found, Path(folder, "kn.csv"))
@@ -186,7 +183,7 @@ def stability_text(found: StabilityOrCrossCurves) -> str:
     --------
     >>> from assoc_hull.analysis.stability.cross_curves import cross_curves
     >>> from assoc_hull.io.tables.stability import stability_text
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> found = cross_curves(examples.wigley(), draughts=[5.0, 6.25], heels=[10, 20])
     >>> print(stability_text(found).splitlines()[-1].split())
     ['2846.88', '2777.45', '6.2500', '0.9183', '1.8202']

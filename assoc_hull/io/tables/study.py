@@ -27,7 +27,7 @@ def study_csv(run: StudyRun, rows: Sequence[StudyRow]) -> str:
     Examples
     --------
     >>> import assoc_hull as ah
-    >>> found = ah.study(ah.examples.wigley(), set={"breadth": [10.5]}, outputs=["volume"])
+    >>> found = ah.examples.wigley().study(set={"breadth": [10.5]}, outputs=["volume"])
     >>> for line in found.to_csv().splitlines():
     ...     print(",".join(line.split(",")[:3]))
     number,breadth,volume
@@ -51,7 +51,7 @@ def study_json(run: StudyRun, rows: Sequence[StudyRow]) -> str:
     --------
     >>> import json
     >>> import assoc_hull as ah
-    >>> found = ah.study(ah.examples.wigley(), set={"breadth": [10.5]}, outputs=["volume"])
+    >>> found = ah.examples.wigley().study(set={"breadth": [10.5]}, outputs=["volume"])
     >>> json.loads(found.to_json())["columns"]["breadth"]
     [10.5]
     """

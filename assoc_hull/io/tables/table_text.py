@@ -1,8 +1,8 @@
 """The text of a table from a file: CSV or XLSX in, blocks of cells out.
 
 `read_text` takes a path or a text and gives text, that of a workbook as comma-separated rows.
-`split_blocks` finds comments, separators and header rows. A second header row opens a second
-block. `cell_number` turns one cell into a number, nan for a blank.
+`split_blocks` finds comments (``#``; unit and frame often stand there), separators and header rows;
+a second header row opens a second block. `cell_number` makes a number of a cell, nan of a blank.
 """
 
 from __future__ import annotations
@@ -33,16 +33,12 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# From a file or a text to blocks of cells: separators, comments, rows and numbers.
-#
-# A table is one header row and the rows under it. A later row that begins with a header
-# word again opens a second block. Lines that begin with '#' are comments; they are kept,
-# because units and frame often stand there.
+# Text to blocks of cells.
 
 _NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,3})?")
 _BLANKS = frozenset({"", "-", "--", "\N{EN DASH}", "\N{EM DASH}"})
 _OPENING = re.compile(r"(stations?|stn|sta|st|frame|no|x[ _\[(]*(mm?)?[\])]?)\.?", re.IGNORECASE)
-_LARGEST = 1e7
+_LARGEST = 1e7  # of any number in a table, in its unit
 _ARCHIVE = b"PK\x03\x04"
 """What a workbook begins with."""
 
@@ -75,14 +71,9 @@ class TableBlock:
 
 
 def read_text(path_or_text: str | Path, book: Notebook) -> tuple[str, str]:
-    """Give the text of a table and the name of its source.
+    """Give the text of a table and the name of its source; a string with a line break is the text.
 
-    Parameters
-    ----------
-    path_or_text : str or Path
-        A path, or the text itself: a string with a line break is a text.
-    book : Notebook
-        Takes a note when the file is not UTF-8.
+    `book` takes a note when the file is not UTF-8.
 
     Raises
     ------
@@ -155,6 +146,7 @@ def _comment(line: str) -> bool:
 def _cells(
     lines: list[tuple[int, str]], source: str, book: Notebook
 ) -> list[tuple[int, tuple[str, ...]]]:
+    """Split rows by the mark that stands most often in the first one."""
     first = lines[0][1] if lines else ""
     mark = max("\t;,", key=first.count)
     try:
@@ -173,6 +165,7 @@ def _split(line: str, mark: str) -> tuple[str, ...]:
 def _decimal_points(
     rows: list[tuple[int, tuple[str, ...]]], source: str, book: Notebook
 ) -> list[tuple[int, tuple[str, ...]]]:
+    """Turn decimal commas into points: where cells are parted by another mark, a comma is one."""
     comma = re.compile(r"(?<=[0-9]),(?=[0-9]+$)")
     mended = [(k, tuple(comma.sub(".", cell) for cell in row)) for k, row in rows]
     count = sum(
@@ -201,6 +194,7 @@ def _block(source: str, rows: list[tuple[int, tuple[str, ...]]], book: Notebook)
 def _fit(
     source: str, line: int, row: tuple[str, ...], width: int, book: Notebook
 ) -> tuple[str, ...]:
+    """Give a row of the width of the header; surplus cells are dropped if blank."""
     if len(row) > width and not any(row[width:]):
         surplus = len(row) - width
         book.repair("surplus cells", f"row {line}", f"{surplus} empty cells dropped", surplus)
@@ -245,7 +239,7 @@ def cell_number(block: TableBlock, row: int, column: int) -> float:
 
 
 # --------------------------------------------------------------------------------------
-# Tables of offsets as XLSX workbooks, through openpyxl (extra ``xlsx``): the cells of the CSV.
+# Workbooks, through openpyxl (extra ``xlsx``): the cells of the CSV.
 
 _MOST_BYTES = 50_000_000
 _MOST_ROWS, _MOST_COLUMNS = 5_000, 1_000
@@ -255,16 +249,8 @@ _TAKE = "give a sheet of offsets, or save it as CSV"
 def text_of_xlsx(data: bytes, source: str, notes: Notebook) -> str:
     """Give the sheets of a workbook as comma-separated text, one after the other.
 
-    Of the sheets behind the first those are read that begin as a table does.
-
-    Parameters
-    ----------
-    data : bytes
-        The workbook. Of formulas the values count that were stored with them.
-    source : str
-        Name of the file, for messages.
-    notes : Notebook
-        Takes the sheets that are not read.
+    Of the sheets behind the first those are read that begin as a table does; `notes` takes the
+    others. Of formulas the values count that were stored with them.
 
     Raises
     ------

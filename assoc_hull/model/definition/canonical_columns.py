@@ -228,9 +228,12 @@ def feature_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column
         "key": [each.key for each in found],
         "kind": [each.kind for each in found],
         "name": [each.name for each in found],
+        # A column holds one text to a feature, and a name may hold any separator.
         "lines": [json.dumps(each) for each in lines],
         "count": np.array([len(part) for part in points], np.int64),
+        # Without features the empty array makes it a column of whole numbers still.
         "row": order.row[np.concatenate([np.zeros(0, np.int64), *points])],
+        # Nil is not mistaken for what was given: the kind says which of these there are.
         "vectors": np.array([[v or nil for v in part] for part in vectors]).reshape(-1, 3, 3),
         "reals": np.array([[v or 0.0 for v in part] for part in reals]).reshape(-1, 2),
         "side": np.array([each.side for each in found], np.int64),

@@ -1,9 +1,9 @@
 """From a definition to the tables of a hull, every reference checked; nothing is computed.
 
-`make_tables` takes a definition of the right form and writes groups, lines, curves, points,
-meetings, features and definitions in that order. A key that leads nowhere, a point that
-defines a curve twice, a meeting that is no crossing: each is refused with its name. What is
-derived (splines, places of meetings) is put in later, by `restore`.
+`make_tables` takes a definition whose form `schema` has checked. Row numbers follow the canonical
+order, by key. A key that leads nowhere, a point that defines a curve twice, an intersection that is
+no crossing: each is refused with its name. What is derived (splines, places of intersections) is
+put in later, by `restore`.
 """
 
 from __future__ import annotations
@@ -45,9 +45,6 @@ __all__ = [
     "put_places",
     "put_points",
 ]
-
-# --------------------------------------------------------------------------------------
-# Adding live rows to the tables of a hull, and looking up numbers by key.
 
 
 def contradiction(what: str, where: str) -> BadInputError:
@@ -94,7 +91,7 @@ def add_rows(table: Table, journal: Journal, count: int, **columns: Sequence[obj
 
 
 # --------------------------------------------------------------------------------------
-# From a definition to the features of a hull, every reference checked.
+# Features.
 
 
 def put_features(
@@ -129,7 +126,7 @@ def _feature(record: Mapping[str, Any], keys: Keys) -> Feature:
 
 
 # --------------------------------------------------------------------------------------
-# From a definition to the form definitions of a hull and its generated curves, all checked.
+# Form definitions and generated curves.
 
 Record = Mapping[str, Any]
 
@@ -188,6 +185,7 @@ def _curve(state: HullState, record: Record, keys: Keys) -> GeneratedCurve:
     marks = tuple(_mark(mark, where) for mark in record["marks"])
     pieces = record["layout"].split("+")
     beyond = [mark for mark in marks if mark[0] >= len(pieces)]
+    # a waterline has one layout word, and a mark at each end of its flat
     if beyond and record["what"] != "waterline":
         raise contradiction(f"a mark on piece {beyond[0][0]}, of {len(pieces)}", where)
     attached = bool(record.get("attached", True))
@@ -199,6 +197,7 @@ def _curve(state: HullState, record: Record, keys: Keys) -> GeneratedCurve:
 
 
 def _mark(mark: Sequence[float], where: str) -> tuple[int, float]:
+    """Take a mark: number of a piece, and t on it from 0 to 4."""
     piece, t = mark
     if piece != int(piece):
         raise contradiction(f"the piece {piece!r} is no whole number", where)
@@ -216,12 +215,13 @@ def _check(state: HullState, curve: int, rows: tuple[int, ...], where: str) -> N
 
 
 # --------------------------------------------------------------------------------------
-# The points of a hull from a definition: places, kinds, roles, riding links, curve orders.
+# Points: places, kinds, roles, riding links, and their order on curves.
 
-_NIL = [0.0, 0.0, 0.0]
+_ZERO = [0.0, 0.0, 0.0]
 
 
 def _codes(values: Sequence[str], codes: type[IntEnum], count: int) -> list[int]:
+    """Give the codes of words, filled up with 0 to a count."""
     names = code_words(codes)
     return [*(names.index(value) for value in values), *[0] * (count - len(values))]
 
@@ -235,18 +235,8 @@ def put_points(
 ) -> None:
     """Add the points of a hull, with the links that follow from their roles.
 
-    Parameters
-    ----------
-    state : HullState
-        Tables that hold the curves already.
-    journal : Journal
-        Takes the writes.
-    points : list of mapping
-        As in a definition, by number.
-    keys : Keys
-        Numbers by key.
-    computed : collection of str
-        Keys of the points whose places come from form definitions.
+    The tables hold the curves already. `points` stand in the order of their numbers; `computed`
+    are the keys of those whose places come from form definitions.
 
     Raises
     ------
@@ -258,7 +248,7 @@ def put_points(
     if not points:
         return
     roles, sorts, states = code_words(Role), code_words(Sort), code_words(State)
-    values = [point.get("value", _NIL) for point in points]
+    values = [point.get("value", _ZERO) for point in points]
     rows = add_rows(
         state.rows,
         journal,
@@ -277,13 +267,17 @@ def put_points(
         sign=[point.get("sign", 0) for point in points],
         birth=[point.get("birth", 0) for point in points],
         limit=[point.get("limit", np.nan) for point in points],
+        # As `Maker.points` has it; `_put_riding` writes those of points that ride.
         base=values,
         state=[states.index(point.get("state", states[0])) for point in points],
     )
+    # The table was empty: its rows are those of `points`, in their order.
     crossing = state.rows.sort.data == Sort.CROSSING
+    # Only crossings have a role: for others the first one stands in, and is not read.
     role = np.array([roles.index(point.get("role", roles[0])) for point in points])
     Maker(state, journal).roles(rows[crossing], role[crossing])
     alone = rows[~crossing]
+    # A point on one curve alone always defines it, without a role that says so.
     journal.put(state.rows.reader, alone, state.rows.curve.data[alone])
     _put_riding(state, journal, points, keys)
 
@@ -295,6 +289,7 @@ def _override(point: Record, roles: list[str]) -> int:
 def _check_point(point: Record, *, made: bool = False) -> None:
     """Check that a point of its sort has just the parts that such a point has."""
     where, crossing = f"at the point {point['key']!r}", point["sort"] == "crossing"
+    # Where two curves meet there is a crossing; any other point is of one curve alone.
     if len(point["curves"]) != (2 if crossing else 1):
         raise contradiction(
             f"a {point['sort']} point lies on {len(point['curves'])} curve(s)", where
@@ -303,6 +298,7 @@ def _check_point(point: Record, *, made: bool = False) -> None:
         if len(point.get(name, point["curves"])) != len(point["curves"]):
             raise contradiction(f"there are not as many {name} as curves", where)
     role = point.get("role")
+    # a value is stored where nothing computes it; a failed or blocked point keeps its last one
     own = not crossing and "riding" not in point and not made
     known = role == "shared" or own or "state" in point
     wanted = {
@@ -322,15 +318,17 @@ def _check_point(point: Record, *, made: bool = False) -> None:
 
 
 def _pair(vectors: Sequence[Sequence[float]]) -> list[Sequence[float]]:
-    return [*vectors, *[_NIL] * (2 - len(vectors))]
+    return [*vectors, *[_ZERO] * (2 - len(vectors))]
 
 
 def _numbers(keys: Keys, kind: str, names: Sequence[str | None], where: str) -> list[int]:
+    """Give two numbers, -1 for none."""
     found = [-1 if name is None else keys.find(kind, name, where) for name in names]
     return [*found, *[-1] * (2 - len(found))]
 
 
 def _put_riding(state: HullState, journal: Journal, points: list[Record], keys: Keys) -> None:
+    """Put the links of adopted points to the neighbours with which they ride."""
     riding = [number for number, point in enumerate(points) if "riding" in point]
     if not riding:
         return
@@ -381,14 +379,12 @@ def _check_links(state: HullState, rows: IntArray, curves: IntArray) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# Meetings by the keys of lines and crossings, and back into the order the update keeps.
-#
-# In the tables the meetings of a curve lie group by group, along each group by plane; in a
-# definition they lie under the keys of the lines.
+# Intersections of curves with planes. In the tables those of a curve lie group by group, along
+# each group by plane; in a definition they lie under the keys of the lines.
 
 
 def meet_order(state: HullState) -> dict[int, list[int]]:
-    """Give, for each group, the lines its curves are cut with, in the order of `Meets`."""
+    """Give, per group, the lines its curves are cut with, in the order of `CurveIntersections`."""
     partners = build_index(state).partners
     return {
         group: [line for planes in sets for line in planes.lines.tolist()]
@@ -402,18 +398,10 @@ def put_meetings(
     curves: list[Record],
     find: Callable[[str, str, str], int],
 ) -> None:
-    """Put the senses and crossings of all meetings into the tables; places are nan.
+    """Put the signs and crossings of all intersections into the tables; places are nan.
 
-    Parameters
-    ----------
-    state : HullState
-        Tables that hold groups, lines, curves, points and associations.
-    journal : Journal
-        Takes the writes.
-    curves : list of mapping
-        The curves by number; ``meets`` gives per key of a line [sense, key or None] each.
-    find : callable
-        Gives the number of an object of a kind by its key.
+    The tables hold all objects and associations already. ``meets`` of a curve gives, per key of a
+    line, [sign, key of the crossing or None] each; `find` is `Keys.find`.
 
     Raises
     ------
@@ -453,13 +441,13 @@ def _unplaced(lines: list[int], signs: list[int], rows: list[int]) -> CurveInter
 
 
 def check_meetings(state: HullState) -> None:
-    """Check that each meeting is a crossing of its curve and line, and each crossing one.
+    """Check that intersections and crossings of a curve and a line name one another.
 
     Raises
     ------
     BadInputError
         If a crossing lies elsewhere or twice, or one that is computed or watched has no
-        meeting on a curve that it needs one on.
+        intersection on a curve that it needs one on.
     """
     table = state.rows
     met = np.zeros((table.count, 2), bool)
@@ -484,6 +472,7 @@ def check_meetings(state: HullState) -> None:
 
 
 def _check_needed(state: HullState, met: np.typing.NDArray[np.bool_]) -> None:
+    """Require intersections on the curves that give or watch a crossing; `met` is (rows, 2)."""
     table = state.rows
     need = np.zeros_like(met)
     crossing = table.alive.data & (table.sort.data == Sort.CROSSING)
@@ -501,12 +490,12 @@ def put_places(
     curve: int,
     met: Mapping[str, list[list[float]]],
 ) -> None:
-    """Put the stored parameters and places (t, x, y, z; m) of a curve's meetings back.
+    """Put the stored parameters and places (t, x, y, z; m) of a curve's intersections back.
 
     Raises
     ------
     BadInputError
-        If they are not as many as the meetings, line by line.
+        If they are not as many as the intersections, line by line.
     """
     meets: CurveIntersections = state.curves.meets.data[curve]
     keys = [state.lines.key.data[line] for line in meets.line.tolist()]
@@ -524,7 +513,7 @@ def put_places(
 
 
 def _write_spots(state: HullState, journal: Journal, curve: int, meets: CurveIntersections) -> None:
-    """Note on the crossings where they lie on the curve."""
+    """Store with the crossings where they lie on the curve, on its side of their rows."""
     actual = meets.row >= 0
     rows: IntArray = meets.row[actual]
     table = state.rows
@@ -537,10 +526,7 @@ def _write_spots(state: HullState, journal: Journal, curve: int, meets: CurveInt
 
 
 # --------------------------------------------------------------------------------------
-# From a definition to the tables of a hull, every reference checked; nothing is computed.
-#
-# Row numbers follow the canonical order. Meetings are put back with their senses and
-# crossings, their places not yet known (nan).
+# The whole hull.
 
 _UNIT = 1e-9
 """A unit normal is this near to 1 long."""
@@ -590,6 +576,7 @@ def _sorted(records: Iterable[Record]) -> list[Record]:
 
 
 def _number(kind: str, keys: Sequence[str], gone: Sequence[str]) -> dict[str, int]:
+    """Give keys their numbers, in order; none may stand twice, or among the retired ones."""
     found = {key: number for number, key in enumerate(keys)}
     for many in (keys, gone, (*found, *gone)):
         if len(set(many)) < len(many):
@@ -624,6 +611,7 @@ def _put_lines(state: HullState, journal: Journal, lines: list[Record], keys: Ke
             raise contradiction(
                 "a plane needs both a normal and an offset", f"at the line {line['key']!r}"
             )
+        # A line in space has no normal: what stands in for it passes.
         length = math.hypot(*line.get("normal", (1.0,)))
         if abs(length - 1.0) > _UNIT:
             raise contradiction(
@@ -641,7 +629,7 @@ def _put_lines(state: HullState, journal: Journal, lines: list[Record], keys: Ke
         note=[line.get("note", "") for line in lines],
         group=[keys.find("groups", line["group"], line["key"]) for line in lines],
         planar=["normal" in line for line in lines],
-        normal=[line.get("normal", _NIL) for line in lines],
+        normal=[line.get("normal", _ZERO) for line in lines],
         offset=[line.get("offset", np.nan) for line in lines],
         boundary=[boundary.index(line["boundary"]) if "boundary" in line else -1 for line in lines],
     )
@@ -667,7 +655,7 @@ def _put_curves(state: HullState, journal: Journal, curves: list[Record], keys: 
 
 def _ends(curve: Record) -> Ends:
     kinds = code_words(EndKind)
-    given = [curve.get(name, {"kind": kinds[0], "vector": _NIL}) for name in ("start", "finish")]
+    given = [curve.get(name, {"kind": kinds[0], "vector": _ZERO}) for name in ("start", "finish")]
     first, last = (_vector(end["vector"]) for end in given)
     return Ends((kinds.index(given[0]["kind"]), kinds.index(given[1]["kind"])), (first, last))
 
@@ -678,7 +666,7 @@ def _vector(values: Sequence[float]) -> tuple[float, float, float]:
 
 
 def _check_births(state: HullState) -> None:
-    """No crossing may have a higher number than were ever born of its two lines."""
+    """Require that no crossing has a higher number than were ever born of its two lines."""
     table, keys = state.rows, state.lines.key.data
     for row in np.flatnonzero(table.sort.data == Sort.CROSSING).tolist():
         pair = tuple(keys[state.line_of(curve)] for curve in table.curve.data[row].tolist())
@@ -695,4 +683,5 @@ def _retire(state: HullState, journal: Journal, gone: Record) -> None:
         rows = journal.grow(table, len(gone[name]))
         journal.set(table.key, rows.tolist(), sorted(gone[name]))
     if gone["points"]:
+        # `rows` are those of the last table, the points
         journal.put(state.rows.sort, rows, int(Sort.PLACED))

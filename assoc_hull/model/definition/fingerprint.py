@@ -1,8 +1,8 @@
 """The fingerprint of a hull: SHA-256 of its definition and its published values.
 
 Every column in canonical order goes in with its name, type and shape; the bits themselves
-are hashed. History, row numbers and the order of creation play no part. `Printer` takes the
-fingerprint again and again while the structure of a hull stays, and hashes only what an edit
+are hashed. History, row numbers and the order of creation play no part. `FingerprintCache` takes
+the fingerprint again and again while the structure of a hull stays, and hashes only what an edit
 of shape can have changed.
 
 Examples
@@ -127,7 +127,7 @@ _SHAPE = frozenset({"rows.xyz", "rows.gap"})
 
 
 def is_shape(change: TableChange) -> bool:
-    """Tell whether a change leaves alone all that a `Printer` takes for granted."""
+    """Tell whether a change leaves alone all that a `FingerprintCache` takes for granted."""
     return not (
         change.objects or change.sizes or change.births or len(change.before.curve)
         or any(change.kept) or not _SHAPE.issuperset(change.bits)

@@ -1,8 +1,8 @@
 """The definition of a hull and its published values, as plain values in canonical order.
 
-The *definition* is what the designer decided: lines with their planes, end conditions,
-values of shared crossings, placed and adopted points, kinds, roles, which meeting is which
-crossing, associations, particulars, tolerances, features, definitions by form parameters.
+The *definition* is what the designer decided: lines with their planes, end conditions, values of
+shared crossings, placed and adopted points, kinds, roles, which intersection is which crossing,
+associations, particulars, tolerances, features, definitions by form parameters.
 All else is *derived* and can be made from it again (`assoc_hull.model.definition.restore`).
 An object that could not be made keeps its last good shape; as nothing else tells that shape,
 it is part of the definition while the failure lasts.
@@ -47,13 +47,13 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Definitions and generated curves in the definition of a hull, and in its fingerprint.
+# Form definitions and generated curves: records, and columns for the fingerprint.
 
 Record = dict[str, Any]
 
 
 def definition_records(state: HullState) -> Iterator[Record]:
-    """Give each definition as plain values, by key; values that are None are left out."""
+    """Give each form definition as plain values, by key; values that are None are left out."""
     for each in state.definitions:
         record: Record = {"use": each.use, "name": each.name, "kind": each.kind}
         record |= {"rule": each.rule, "nodes": list(each.nodes)}
@@ -61,7 +61,7 @@ def definition_records(state: HullState) -> Iterator[Record]:
 
 
 def generated_records(state: HullState) -> Iterator[Record]:
-    """Give each generated curve as plain values, by key; of an attached one that is not told."""
+    """Give each generated curve as plain values, by key; ``attached`` is written if false only."""
     keys = state.rows.key.data
     for each in state.generated:
         record: Record = {"curve": each.key, "what": each.what, "layout": each.layout}
@@ -71,7 +71,7 @@ def generated_records(state: HullState) -> Iterator[Record]:
 
 
 def definition_columns(state: HullState) -> dict[str, Column]:
-    """Give the definitions by key, their values one behind the other; nan for None."""
+    """Give the form definitions by key, their values one behind the other; nan for None."""
     found = state.definitions
     values = [np.nan if v is None else v for each in found for v in each.values.values()]
     return {
@@ -100,17 +100,7 @@ def generated_columns(state: HullState, order: CanonicalOrder) -> dict[str, Colu
 
 
 # --------------------------------------------------------------------------------------
-# The definition of a hull, its published values, and the fingerprint of both.
-#
-# The *definition* is what the designer decided: lines with their planes, end conditions,
-# values of shared crossings, placed and adopted points, kinds, roles, which meeting is which
-# crossing, associations, particulars, tolerances. All else is *derived* and can be made from
-# it again (`assoc_hull.model.definition.restore`). An object that could not be made keeps its last
-# good shape; as nothing else tells that shape, it is part of the definition while the failure
-# lasts.
-#
-# Source of the idea of held crossings: S.W. Choi and K.Y. Lee, "A Study on the Hull Form
-# Design System on the Basis of the Associative Geometry Objects", J. SNAK 36(4), 1999.
+# The whole definition.
 
 
 def code_words(codes: type[IntEnum]) -> list[str]:
@@ -138,10 +128,10 @@ def definition(state: HullState) -> dict[str, object]:
         line, how many crossings the pair ever had), ``retired`` (keys that must not come
         back) and, of a hull that has any, ``features``, ``definitions`` (by form parameters)
         and ``generated`` (curves that come from these). What has its default is left out: an
-        open deck, notes, labels, free ends, directions of nil, smooth passage, overrides, nil
+        open deck, notes, labels, free ends, zero directions, smooth passage, overrides, zero
         signs.
-        ``meets`` of a curve lists, per associated line and along the curve, the sense of
-        each meeting and the crossing it is, or None. ``value`` of a point (x, y, z; m)
+        ``meets`` of a curve lists, per associated line and along the curve, the sign of
+        each intersection and the crossing it is, or None. ``value`` of a point (x, y, z; m)
         stands only where nothing else gives it; a ``riding`` point has ``anchors``,
         ``base``, ``from`` and ``weight`` instead.
     """
@@ -242,12 +232,12 @@ def _end_records(row: Record) -> Record:
 
 
 def _marked(vector: list[float]) -> bool:
-    """Tell whether a vector differs from nil by a bit."""
+    """Tell whether a vector differs from (0.0, 0.0, 0.0) by a bit, -0.0 included."""
     return any(repr(number) != "0.0" for number in vector)
 
 
 def _meet_records(state: HullState, order: CanonicalOrder) -> dict[str, dict[str, list[list[Any]]]]:
-    """Give the sense of each meeting, and its crossing, by curve and line."""
+    """Give the sign of each intersection, and its crossing, by curve and line."""
     columns = meet_columns(state, order)
     keys, found = _Keys(state, order), dict[str, dict[str, list[list[Any]]]]()
     names = ("owner", "line", "sign", "row")
@@ -259,7 +249,7 @@ def _meet_records(state: HullState, order: CanonicalOrder) -> dict[str, dict[str
 
 
 def _places_met(state: HullState, order: CanonicalOrder) -> dict[str, dict[str, list[list[float]]]]:
-    """Give parameter and place (t, x, y, z; m) of each meeting, by curve and line."""
+    """Give parameter and place (t, x, y, z; m) of each intersection, by curve and line."""
     columns = meet_columns(state, order)
     keys, found = _Keys(state, order), dict[str, dict[str, list[list[float]]]]()
     names = ("owner", "line", "parameter", "xyz")
@@ -271,7 +261,7 @@ def _places_met(state: HullState, order: CanonicalOrder) -> dict[str, dict[str, 
 
 @attrs.frozen(eq=False)
 class _Keys:
-    """Keys by place."""
+    """Keys of objects by their place in the canonical order."""
 
     state: HullState
     order: CanonicalOrder
@@ -310,12 +300,14 @@ def _point_records(state: HullState, order: CanonicalOrder) -> Iterator[Record]:
     for row in _rows_of(columns):
         curves = [keys.curve(place) for place in row["curve"] if place >= 0]
         record: Record = {"key": row["key"], "sort": _SORTS[row["sort"]], "curves": curves}
+        # Only crossings have a role, and are counted as born of a pair of lines.
         if row["role"] >= 0:
             record |= {"role": _ROLES[row["role"]], "birth": row["birth"]}
         record |= {name: row[name] for name in ("contact", "sign", "label") if row[name]}
         if row["override"] >= 0:
             record["override"] = _ROLES[row["override"]]
         if any(row["kind"]):
+            # The table has room for two curves at every point.
             record["kinds"] = [_KINDS[kind] for kind in row["kind"][: len(curves)]]
         if any(_marked(vector) for vector in row["direction"]):
             record["directions"] = row["direction"][: len(curves)]
@@ -335,6 +327,10 @@ def _point_records(state: HullState, order: CanonicalOrder) -> Iterator[Record]:
         yield record
 
 
+# --------------------------------------------------------------------------------------
+# Published values.
+
+
 def published(state: HullState) -> dict[str, object]:
     """Give the derived values of a hull, by key.
 
@@ -343,8 +339,8 @@ def published(state: HullState) -> dict[str, object]:
     dict
         ``curves``: by key, for every curve that is up to date, ``knot`` (n,), m, ``leave``
         and ``arrive`` (n, 3), and ``meets``: per line, parameter and place (t, x, y, z; m)
-        of each meeting. The place of a crossing on each of its curves is that of its
-        meeting there. ``points``: by key, ``value`` (x, y, z; m) of points that are
+        of each intersection. The place of a crossing on each of its curves is that of its
+        intersection there. ``points``: by key, ``value`` (x, y, z; m) of points that are
         computed, and ``gap`` (m) of watched ones.
     """
     order = canonical_order(state)

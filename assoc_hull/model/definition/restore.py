@@ -35,24 +35,16 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Published values put back as they are stored: splines, places of points, gaps.
-#
-# Nothing is computed here, so what was written comes back to the last bit.
+# Stored values put back.
 
 Record = Mapping[str, Any]
 
 
 def spline_of(shape: Record, xyz: ArrayLike, key: str) -> SplineBatch:
-    """Make a spline of stored arrays.
+    """Make a spline through defining points (n, 3), m, of stored arrays.
 
-    Parameters
-    ----------
-    shape : mapping
-        ``knot`` (n,), m, from 0 upward; ``leave`` and ``arrive`` (n, 3).
-    xyz : (n, 3), m
-        The defining points.
-    key : str
-        Key of the curve, for the message.
+    These are ``knot`` (n,), m, from 0 upward, ``leave`` and ``arrive`` (n, 3); `key` is that of
+    the curve, for the message.
 
     Raises
     ------
@@ -132,11 +124,8 @@ def _same(what: str, needed: set[str], given: set[str]) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# From a definition back to a hull.
-#
-# With published values, they are put back as they are: nothing is computed. Without, every
-# derived value is made from the definition alone, curve by curve in the order of the driven
-# links; the result has the bits of a hull that was brought there by edits.
+# The whole hull. Made from the definition alone, it has the bits of one that was brought there by
+# edits: levels follow the driven links.
 
 
 def from_definition(
@@ -155,7 +144,7 @@ def from_definition(
     Returns
     -------
     HullState
-        Rows in canonical order; revisions begin at nil.
+        Rows in canonical order; revisions begin at 0.
 
     Raises
     ------
@@ -235,7 +224,7 @@ def _by_level(network: HullNetwork, nodes: IntArray) -> list[IntArray]:
 
 
 def _settle_spots(state: HullState, journal: Journal) -> None:
-    """Where a curve has no meeting at a crossing, the crossing itself is its place there."""
+    """Store the crossing itself as its place on a curve that has no intersection there."""
     rows = state.live("rows")
     spot, xyz = state.rows.spot.data[rows], state.rows.xyz.data[rows]
     unknown = np.isnan(spot) & (state.rows.curve.data[rows] >= 0)[:, :, None]

@@ -1,8 +1,15 @@
 """Closure: the entrance by which a curve of two halves has a given fullness and centroid.
 
-The run is given; area and moment of the whole say what the entrance must have. The first part
-holds these sums alone, the second looks for the entrance and says between which values there
-is one when there is none for those that were asked for.
+The run is given. In the frame of the ship (x from -1 at AP to 1 at FP, ordinate 1 for the whole
+section or half-breadth), with A, m and X area, centroid and inner end of run and entrance,
+
+    2 C   = A_R + A_E + Y (X_E - X_R)
+    2 C m = A_R m_R + A_E m_E + Y (X_E^2 - X_R^2)/2
+
+C is the prismatic coefficient of a curve of sectional areas, the waterplane coefficient of a
+waterline, m the centroid of the whole, Y the ordinate of the parallel part. The parameters of S.Y.
+Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2), 1992,
+reproduce these sums; the sums and the limits are our derivation.
 """
 
 from __future__ import annotations
@@ -29,9 +36,6 @@ __all__ = [
     "closing_area",
     "coefficients",
 ]
-
-# --------------------------------------------------------------------------------------
-# The sums by which an entrance closes a curve of two halves.
 
 _CALL = "in a closure"
 
@@ -76,7 +80,7 @@ def close_sac(
     ------
     OutOfRangeError
         No falling curve has this area, or this centroid with it: fullness or centroid lie
-        outside of the interval that is told.
+        outside of the interval that the error gives.
     """
     area = closing_area(
         fullness, run_end, entrance_start, entrance_end, top, run_area, end_ordinate, where
@@ -104,7 +108,10 @@ def closing_area(
     end_ordinate: float,
     where: str,
 ) -> float:
-    """Give the area of the entrance, if it fits between its ends."""
+    """Give the area of the entrance, over half the length, if it fits between its ends.
+
+    Arguments as of `close_sac`.
+    """
     length = entrance_end - entrance_start
     if length <= 0.0:
         what = f"the entrance begins at {entrance_start:g} and ends at {entrance_end:g}"
@@ -122,7 +129,10 @@ def closing_area(
 
 
 def _room(area: float, length: float, low: float, high: float) -> tuple[float, float]:
-    """Give the least and the largest moment, about its beginning, of a falling curve."""
+    """Give the least and the largest moment, about its beginning, of a curve that falls.
+
+    `low` and `high` are its ordinates at the end and at the beginning.
+    """
     rise = high - low
     full = (area / length - low) / rise
     base = 0.5 * low * length * length
@@ -130,25 +140,12 @@ def _room(area: float, length: float, low: float, high: float) -> tuple[float, f
 
 
 # --------------------------------------------------------------------------------------
-# Closure: the entrance by which a curve of two halves has a given fullness and centroid.
-#
-# The areas of run and entrance are those of the halves themselves, without the parallel part; in
-# the frame of the ship (from -1 at AP to 1 at FP, ordinate 1 for the whole section or half-breadth)
-#
-#     2 C   = A_R + A_E + Y (X_E - X_R)
-#     2 C m = A_R m_R + A_E m_E + Y (X_E^2 - X_R^2)/2
-#
-# C is the prismatic coefficient of a curve of sectional areas, the waterplane coefficient of a
-# waterline; m the centroid. A centroid of the entrance that no falling curve has is refused, and so
-# is an area outside its box; the errors tell the interval of what was asked for.
-#
-# S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2),
-# 1992, whose parameters reproduce these sums; the sums and the limits are our derivation.
+# Closing definitions; where no entrance does it, the error has the interval of what was asked for.
 
 
 @attrs.frozen
 class Coefficients:
-    """What a curve of two halves amounts to.
+    """Fullness and centroid of a curve of two halves.
 
     Attributes
     ----------
@@ -263,7 +260,9 @@ def close_halves(
     ship = 0.5 * particulars.length
     scale = 1.0
     if names == ["cb"]:
+        # Cb = Cp Cm: over the coefficient of the full section Cb becomes the Cp of the curve.
         scale = half_number(definition, "full") / (particulars.breadth * particulars.draught)
+    # Of the curve as it is only what was not asked for is needed.
     now = None if names and places else coefficients(definition, particulars)
     fullness = given[names[0]] / scale if names else _there(now).fullness
     centroid: float | None = None
@@ -273,11 +272,12 @@ def close_halves(
         return _closed(definition, fullness, centroid, where)
     except (BadInputError, OutOfRangeError) as error:
         asked_for = ((names or ["fullness"])[0], scale), ((places or ["centroid"])[0], ship)
-        told = _admissible(definition, fullness, centroid, asked_for, where, bool(places))
-        if told is not None:
-            raise told from None
+        # The interval of the error does not know tangents: its ends may be out of reach, too.
+        better = _admissible(definition, fullness, centroid, asked_for, where, bool(places))
+        if better is not None:
+            raise better from None
         if isinstance(error, OutOfRangeError) and error.name in ("fullness", "centroid"):
-            raise _told(error, *asked_for[error.name == "centroid"]) from None
+            raise _as_asked(error, *asked_for[error.name == "centroid"]) from None
         raise
 
 
@@ -327,11 +327,13 @@ def _admissible(
             pass
         return math.nan, math.nan
 
+    # Asked for what no curve has, the closure gives the whole interval in its error.
     ways = [(False, limits(_FAR, centroid), fullness)]
     if centroid is not None:
+        # What only stays as it was comes last.
         ways.insert(0 if by_centroid else 1, (True, limits(fullness, _FAR), centroid))
     for moves, ends, value in ways:
-
+        # `moves` is bound here, as the loop goes on.
         def made(at: float, moves: bool = moves) -> bool:
             try:
                 _closed(definition, fullness if moves else at, at if moves else centroid, where)
@@ -339,11 +341,12 @@ def _admissible(
                 return False
             return True
 
+        # nan: the closure fails for what no other value mends.
         room = reachable(made, *ends, value) if math.isfinite(ends[0]) else None
         if room is not None:
             why = "leaves no entrance that can be made"
             found = OutOfRangeError("", value, where, why, room[0], room[1], "")
-            return _told(found, *asked[moves])
+            return _as_asked(found, *asked[moves])
     return None
 
 
@@ -361,7 +364,7 @@ def _there(found: Coefficients | None) -> Coefficients:
 def _given(
     definition: FormDefinition, asked: Mapping[str, float | None], where: str
 ) -> dict[str, float]:
-    """Take what was given, if it belongs to the curve and is told once."""
+    """Take what was given, if it belongs to the curve and is given once."""
     known = ("cp", "cb", "lcb") if definition.use == "sectional_area" else ("cw", "lcf")
     if definition.kind != "halves":
         raise BadInputError("it has no run and entrance", where, "give a curve of two halves")
@@ -377,8 +380,8 @@ def _given(
     return found
 
 
-def _told(error: OutOfRangeError, name: str, scale: float) -> OutOfRangeError:
-    """Give an error in the number that was asked for."""
+def _as_asked(error: OutOfRangeError, name: str, scale: float) -> OutOfRangeError:
+    """Give an error in the name and unit of what was asked for."""
     unit = "m" if name in ("lcb", "lcf", "centroid") else ""
     return OutOfRangeError(
         name, error.value * scale, error.where, error.why, error.least * scale,

@@ -171,8 +171,10 @@ def _monotone(nodes: list[_Node], points: FloatArray, where: str) -> FloatArray:
     given = [(_slope(node.angle_deg), _slope(node.leave_angle_deg)) for node in nodes]
     arrive, leave = np.empty(len(nodes)), np.empty(len(nodes))
     for i, node in enumerate(nodes):
+        # At a corner neither side knows the slope of the other.
         inside = 0 < i < len(nodes) - 1 and not node.corner
         free = _inner_slope(secant, width, i) if inside else math.nan
+        # A node without a value for leaving is left as it was arrived at.
         before, after = given[i][0], given[i][0] if math.isnan(given[i][1]) else given[i][1]
         arrive[i] = free if math.isnan(before) else before
         leave[i] = free if math.isnan(after) else after
@@ -184,6 +186,7 @@ def _monotone(nodes: list[_Node], points: FloatArray, where: str) -> FloatArray:
             leave[i] = _bounded(1.5 * secant[i] - 0.5 * arrive[i + 1], secant[i])
         elif math.isnan(arrive[i + 1]):
             arrive[i + 1] = _bounded(1.5 * secant[i] - 0.5 * leave[i], secant[i])
+    # Derivatives are by t, which runs from 0 to 4: a quarter of the width is an even pace in x.
     pace = 0.25 * width
     return cubic_vertices(
         points[:-1], points[1:],

@@ -1,8 +1,8 @@
 """The curves of all definitions of a hull by their use, read where a line stands.
 
 A definition becomes a chain of form-parameter curves in the units of the ship, by the rule of
-its kind: two halves, or a course. `Forms` holds these chains by use and gives their ordinates
-at a place; everything that makes sections and waterlines reads it.
+its kind: two halves, or a course. Abscissae are x, m from AP; the ordinate is that of the use
+(m2, m, degrees, 1/m). Everything that makes sections and waterlines reads `Forms`.
 """
 
 from __future__ import annotations
@@ -30,27 +30,12 @@ __all__ = [
     "chain_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# From a definition to its curve in the units of the ship.
-
 _SLACK = 1e-9
 """So far (m in t) a course may run backward: rounding."""
 
 
 def chain_of(definition: FormDefinition, particulars: Particulars) -> FormChain:
     """Give the curve of a definition in the units of the ship.
-
-    Parameters
-    ----------
-    definition : FormDefinition
-        Any.
-    particulars : Particulars
-        Of its hull.
-
-    Returns
-    -------
-    FormChain
-        Over x, m from AP; the ordinate is that of the use: m2, m, degrees, 1/m.
 
     Raises
     ------
@@ -68,12 +53,13 @@ def _chain(definition: FormDefinition, length: float) -> FormChain:
     if definition.kind == "halves":
         return _in_the_ship(definition, length, where)
     vertices = course_vertices(definition)
-    if definition.use != "profile":
+    if definition.use != "profile":  # a bulb or a stern may overhang
         _forward(definition, vertices, where)
     return FormChain(vertices)
 
 
 def _in_the_ship(definition: FormDefinition, length: float, where: str) -> FormChain:
+    """Scale a curve of two halves from its frame (x from -1 to 1, ordinates by ``full``)."""
     full = definition.value("full")
     if full is None or not full > 0.0:
         raise BadInputError(f"full is {full}", where, "give a number above 0")
@@ -95,7 +81,7 @@ def _forward(
 
 
 # --------------------------------------------------------------------------------------
-# All definitions of a hull by their use, read where a line stands.
+# All definitions of a hull.
 
 _ON_END = 1e-9
 """So near (m) to an end of a course it is met there."""

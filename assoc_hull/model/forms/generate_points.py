@@ -1,9 +1,9 @@
 """From definitions to the points of lines: what the update engine asks for.
 
-A generated curve says its layout and its marks: places on the pieces of its shape. There are
-as many as bring the spline through them within 1 mm of the shape, and to its area; the first
-part compares splines with shapes, the second adds marks where the two lie too far apart. What
-comes of one curve does not depend on the others of a batch.
+A generated curve has a layout (its pieces) and marks (places on the pieces, t from 0 to 4): as
+many as bring the spline through them within 1 mm of the shape, and to its area. First and last
+point of a section are no generated ones: they are where it meets profile and deck edge. A curve
+has the same bits alone and in any batch.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# How well splines through marked points of shapes keep to the shapes.
+# Deviations of splines through marked points from the shapes.
 
 _FRACTIONS = np.arange(1, 8) / 8.0
 """Where, in parts of an interval, its distance is measured."""
@@ -62,16 +62,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 def point_kinds_at(layout: str, marks: Sequence[Mark]) -> tuple[list[int], FloatArray]:
     """Give kinds, and directions (k, 3), of points at marks.
 
-    Parameters
-    ----------
-    layout : str
-        Of the line.
-    marks : sequence of Mark
-        A joint is named by the piece that begins there.
-
-    Returns
-    -------
-    list of int, (k, 3)
+    A joint of the layout is marked by the piece that begins there, at t = 0.
     """
     joints = joints_of(layout)
     kinds, directions = [0] * len(marks), np.zeros((len(marks), 3))
@@ -88,7 +79,7 @@ class MarkedSplines:
 
     Attributes
     ----------
-    shape : Shape
+    shape : LineShape
         Of n curves.
     spline : SplineBatch
         One of each.
@@ -109,18 +100,9 @@ class MarkedSplines:
     def of(
         cls, shape: LineShape, layout: str, marks: Sequence[Sequence[Mark]], ends: FloatArray | None
     ) -> Self:
-        """Loft curves through all marks, the first and the last among them.
+        """Loft n curves through all their marks, the first and the last among them.
 
-        Parameters
-        ----------
-        shape : Shape
-            Of n curves.
-        layout : str
-            Of all of them.
-        marks : sequence of n sequences of Mark
-            Of each.
-        ends : (n, 2, 3), m, or None
-            Where the ends lie; on the shape if None.
+        `ends`, (n, 2, 3) m, are where the ends lie; on the shape if None.
         """
         start = np.concatenate([[0], np.cumsum([len(each) for each in marks])]).astype(np.int64)
         row = np.repeat(np.arange(len(marks)), np.diff(start))
@@ -137,13 +119,14 @@ class MarkedSplines:
             np.tile(np.array(finish.vector), (len(marks), 1, 1)),
         )  # fmt: skip
         inner = row[1:] == row[:-1]
+        # the last interval of a piece reaches to its end, t = 4: the next mark is on the next piece
         high = np.where(piece[1:] == piece[:-1], t[1:], 4.0)
         return cls(
             shape, loft(data), row[:-1][inner], piece[:-1][inner], t[:-1][inner], high[inner]
         )
 
     def deviations(self) -> FloatArray:
-        """Give the largest distance of each interval from its piece, (k,) m."""
+        """Give the largest measured distance of each interval from its piece, (k,) m."""
         count = len(self.piece)
         points = self._spline_at(_FRACTIONS)[0].reshape(-1, 3)
         size = len(_FRACTIONS)
@@ -163,10 +146,7 @@ class MarkedSplines:
     def areas(self, last: int) -> tuple[FloatArray, FloatArray]:
         """Give int y dz over each interval, (k,) m2: of the pieces, and of the spline.
 
-        Parameters
-        ----------
-        last : int
-            The first piece that does not count.
+        Zero from piece `last` on.
         """
         counts = self.piece < last
         share = 0.5 * (1.0 + _NODES)
@@ -182,7 +162,10 @@ class MarkedSplines:
         return np.where(counts, exact, 0.0), np.where(counts, spline, 0.0)
 
     def _spline_at(self, share: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give points and derivatives by the share of each interval, (k, len(share), 3)."""
+        """Give points, and derivatives by the share, of each interval, (k, len(share), 3).
+
+        `share` runs from 0 to 1 over an interval.
+        """
         one = self.spline
         begin = np.delete(np.arange(len(one.knot)), one.start[1:] - 1)
         width = (one.knot[begin + 1] - one.knot[begin])[:, None]
@@ -196,11 +179,9 @@ class MarkedSplines:
 
 
 # --------------------------------------------------------------------------------------
-# As many points of a shape as bring the spline through them within 1 mm, and to its area.
-#
-# First come the knots of the pieces and the middles of their segments; an interval that passes its
-# piece too far off is halved, then those that miss the area most. So marks are at dyadic fractions,
-# and the same shape always gets the same ones.
+# Marks: first the knots of the pieces and the middles of their segments; an interval that passes
+# its piece too far off is halved, then those that miss the area most. So marks are at dyadic
+# fractions, and the same shape always gets the same ones.
 
 WITHIN = 9e-4
 """So far (m) the spline may pass the pieces where it is measured: between, it stays within 1 mm."""
@@ -209,7 +190,7 @@ AREA_WITHIN = 5e-7
 """By so much, of itself, the area below the draught may be missed; the bilge has the rest."""
 
 _LEAST_AREA = 0.1
-"""A smaller half section (m2) is taken for this large: its area says nothing of the ship."""
+"""A smaller half section (m2) counts as this large: its area says nothing of the ship."""
 
 _STRAIGHT = ("level", "siding", "upright", "ahead", "up", "down")
 """Pieces that need no points within."""
@@ -221,18 +202,7 @@ _ROUNDS = 60
 
 
 def first_marks(layout: str) -> list[Mark]:
-    """Give knots and middles of segments of all pieces that are bent, and both ends.
-
-    Parameters
-    ----------
-    layout : str
-        Of the line.
-
-    Returns
-    -------
-    list of Mark
-        In order. A joint is named by the piece that begins there.
-    """
+    """Give knots and middles of segments of all curved pieces, and both ends, in order."""
     tokens = [each.partition(":")[0].rstrip("^") for each in layout.split("+")]
     found: list[Mark] = []
     for piece, token in enumerate(tokens):
@@ -249,26 +219,10 @@ def refine_marks(
     under: int,
     where: str,
 ) -> list[Mark]:
-    """Add marks until the spline is near enough.
+    """Add marks to those of one curve, both ends among them, until the spline is near enough.
 
-    Parameters
-    ----------
-    shape : Shape
-        Of one curve.
-    layout : str
-        Its layout.
-    marks : sequence of Mark
-        Those to begin with, both ends among them.
-    ends : (1, 2, 3), m, or None
-        Where the ends lie; on the shape if None.
-    under : int
-        The number of pieces below the draught, whose area counts.
-    where : str
-        Names the line in messages.
-
-    Returns
-    -------
-    list of Mark
+    `ends`, (1, 2, 3) m, are where the ends lie, on the shape if None; `under` is the number of
+    pieces below the draught, whose area counts; `where` names the line in messages.
 
     Raises
     ------
@@ -294,20 +248,9 @@ def refine_marks(
 
 
 def within_tolerance(whole: MarkedSplines, under: int, count: int) -> NDArray[np.bool_]:
-    """Tell which curves keep to their shapes.
+    """Tell which of `count` curves keep to their shapes, (count,).
 
-    Parameters
-    ----------
-    whole : Composite
-        The curves.
-    under : int
-        The number of pieces below the draught, whose area counts.
-    count : int
-        The number of curves.
-
-    Returns
-    -------
-    (count,) bool
+    `under` is the number of pieces below the draught, whose area counts.
     """
     found = np.ones(count, np.bool_)
     found[whole.row[whole.deviations() > WITHIN]] = False
@@ -334,17 +277,13 @@ def _to_halve(whole: MarkedSplines, under: int) -> NDArray[np.bool_] | None:
     exact, spline = whole.areas(under)
     if _enough_area(whole, exact, spline, 1)[0]:
         return None
+    # an interval of the shortest length cannot be halved, so it must not set the measure
     off = np.where(whole.high - whole.low > _SHORTEST, np.abs(spline - exact), 0.0)
     return np.asarray(off > 0.5 * off.max())
 
 
 # --------------------------------------------------------------------------------------
-# From definitions to the points of lines: what the update engine asks for.
-#
-# A curve is generated by pieces (its layout) and marks on them. Of a section, the first and the
-# last
-# point are no generated ones: they are where it meets profile and deck edge, and are read. A curve
-# has the same bits alone and in any batch.
+# Generated curves.
 
 _BY_PIECE = {
     "level": ("flat_of_bottom",),
@@ -364,7 +303,7 @@ _BY_PIECE = {
     "topside": ("deck_angle", "deck_curvature"),
     "wall": ("flat_of_side",),
 }  # fmt: skip
-"""Of which definitions each piece of a section is made."""
+"""The definitions that each piece of a section is made from."""
 
 _SETTLED = {"level": "keel_angle", "upright": "waterline_angle"}
 """What a flat settles: a definition of that is not read."""
@@ -375,21 +314,13 @@ _BY_LINE = {
     "waterline side": ("flat_of_side",),
     "waterline parallel": ("sectional_area", "design_waterline", "bilge_radius", "profile"),
 }
-"""Of which definitions other lines are made."""
+"""The definitions that other lines are made from."""
 
 
 def definitions_read(curve: GeneratedCurve) -> tuple[str, ...]:
-    """Give the uses of the definitions that a generated curve depends on.
+    """Give the uses of the definitions that a generated curve depends on, each once.
 
-    Parameters
-    ----------
-    curve : GeneratedCurve
-        Any; for some of these uses there may be no definition.
-
-    Returns
-    -------
-    tuple of str
-        Each once.
+    For some of these uses there may be no definition.
     """
     if curve.what in ("section", "transom"):
         tokens = curve.layout.split("+")
@@ -463,23 +394,10 @@ def marks_for(
 def generated_points(
     forms: Forms, curves: Sequence[GeneratedCurve], places: FloatArray, ends: FloatArray
 ) -> list[FloatArray]:
-    """Give the points of generated curves at their marks.
+    """Give the points, (k, 3) m each, of m generated curves in the order of their marks.
 
-    Parameters
-    ----------
-    forms : Forms
-        The definitions.
-    curves : sequence of GeneratedCurve
-        m curves.
-    places : (m,), m
-        x of a section, z of a waterline; without meaning for others.
-    ends : (m, 2, 3), m
-        Where sections meet profile and deck edge; without meaning for others.
-
-    Returns
-    -------
-    list of (k, 3), m
-        The points of each, in the order of its marks.
+    `places` (m,) are x of a section, z of a waterline; `ends`, (m, 2, 3) m, are where sections
+    meet profile and deck edge. Both are without meaning for other lines.
 
     Raises
     ------
@@ -506,25 +424,9 @@ def generated_points(
 def marks_suffice(
     forms: Forms, curves: Sequence[GeneratedCurve], places: FloatArray, ends: FloatArray
 ) -> NDArray[np.bool_]:
-    """Tell which generated curves their marks hold: `marks_for` would give no others.
+    """Tell for which of m generated curves `marks_for` would give no other marks, (m,).
 
-    Parameters
-    ----------
-    forms : Forms
-        The definitions.
-    curves : sequence of GeneratedCurve
-        m curves.
-    places, ends : (m,), (m, 2, 3)
-        As of `generated_points`.
-
-    Returns
-    -------
-    (m,) bool
-
-    Raises
-    ------
-    OutOfRangeError, BadInputError
-        A curve that cannot be made.
+    Arguments and errors are those of `generated_points`.
     """
     found = np.ones(len(curves), np.bool_)
     for (what, layout), numbers in _groups(curves):
@@ -542,7 +444,7 @@ def marks_suffice(
 def _groups(
     curves: Sequence[GeneratedCurve],
 ) -> Iterator[tuple[tuple[str, str], IntArray]]:
-    """Give the numbers of the curves that are made alike."""
+    """Give the numbers of the curves that are made alike, by what they are and their layout."""
     found: dict[tuple[str, str], list[int]] = {}
     for number, curve in enumerate(curves):
         _on_pieces(curve)

@@ -1,9 +1,9 @@
-"""Of which pieces a generated line is made where it stands.
+"""Layouts: the pieces that a generated line is made of where it stands.
 
-A layout is a word: the pieces of the line in order. Lines that are courses themselves
-(profile, deck edge, borders of flats) have a piece for each stretch between nodes; waterlines
-are straight along a flat; sections change their layout along the ship. The layout also says
-which points are knuckles or tangent, and how the line ends.
+A layout is a text of pieces, joined by ``+`` in order along the line. It depends on the definitions
+and the place only, never on how the net was edited, and says also which points are knuckles or
+tangent, and how the line ends. Lines that are courses themselves (profile, deck edge, borders of
+flats) have a piece for each stretch between nodes; sections change their layout along the ship.
 """
 
 from __future__ import annotations
@@ -39,33 +39,21 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Layouts and shapes of lines that are courses themselves: profile, deck edge, borders of flats.
-#
-# Pieces of their layouts: ``ahead``, ``up`` and ``down`` are straight along an axis, ``form`` is
-# any other; ``^`` after a piece says that it begins at a corner. On the deck edge, the course of
-# half-breadths is parted at the nodes of the course of heights as well; ``:`` and a letter tell
-# whose node a piece begins at: that of the side, of the height, or of both.
+# Lines that are courses themselves. Pieces: ``ahead``, ``up`` and ``down`` are straight along an
+# axis, ``form`` is any other; ``^`` after a piece says that it begins at a corner. On the deck
+# edge, the course of half-breadths is divided at the nodes of the course of heights as well;
+# ``:side``, ``:height`` or ``:both`` says whose node a piece begins at.
 
 _ONE_NODE = 1e-6
 """Nodes of two courses nearer than this (m) are one."""
 
 _AXES = {"profile": (0, 2, 1), "deck_centre": (0, 2, 1), "flat_of_side": (0, 2, 1),
          "flat_of_bottom": (0, 1, 2)}  # fmt: skip
-"""By use: on which axes abscissa and ordinate lie, and the axis across the plane."""
+"""By use: the axes of abscissa and ordinate, and the axis across the plane."""
 
 
 def course_layout(definition: FormDefinition) -> str:
-    """Give the layout of a line that is one course.
-
-    Parameters
-    ----------
-    definition : FormDefinition
-        The course.
-
-    Returns
-    -------
-    str
-    """
+    """Give the layout of a line that is one course."""
     corners = corners_of(definition)
     tokens = [
         _token(definition, i) + ("^" if i and corners[i] else "")
@@ -75,16 +63,19 @@ def course_layout(definition: FormDefinition) -> str:
 
 
 def _token(definition: FormDefinition, piece: int) -> str:
-    """Tell whether a piece runs along an axis."""
+    """Give the word for a piece of a course: the axis that it runs along, or ``"form"``."""
     first, last = definition.nodes[piece : piece + 2]
+    # A value that is missing is refused where the course is made.
     x0, y0, x1, y1 = (
         definition.value(f"{node}_{each}") or 0.0 for node in (first, last) for each in ("x", "y")
     )
     leave = definition.value(f"{first}_leave_angle_deg")
+    # How a corner is arrived at belongs to the piece before.
     angles = {
         definition.value(f"{first}_angle_deg") if leave is None else leave,
         definition.value(f"{last}_angle_deg"),
     }
+    # A straight course has no angles to ask for.
     straight = definition.rule == "straight"
     if y0 == y1 and x1 > x0 and (straight or angles == {0.0}):
         return "ahead"
@@ -104,7 +95,7 @@ class CourseShape:
     chain : FormChain
         The course.
     axes : tuple of int
-        On which axes abscissa and ordinate lie, and the axis across the plane.
+        Those of abscissa and ordinate, and the axis across the plane.
     across : float, m
         The coordinate across the plane.
     """
@@ -125,23 +116,14 @@ class CourseShape:
         found = np.empty((len(plane), 3))
         found[:, self.axes[0]], found[:, self.axes[1]] = plane.T
         found[:, self.axes[2]] = across
-        return found + 0.0
+        return found + 0.0  # -0.0 becomes 0.0: fingerprints are of bits
 
 
 def course_shape(forms: Forms, use: str) -> CourseShape:
-    """Give the shape of a line that is one course.
+    """Give the shape of a line that is one course, by its use.
 
-    Parameters
-    ----------
-    forms : Forms
-        The definitions.
-    use : str
-        Of the course. A flat of side lies at half the breadth, a flat of bottom on the lowest
-        place of the profile.
-
-    Returns
-    -------
-    CourseShape
+    A flat of side lies at half the breadth, a flat of bottom on the lowest contour at its middle,
+    all others in the centre plane.
     """
     chain = forms.chain(use)
     across = 0.0
@@ -183,23 +165,14 @@ class DeckShape:
         return np.column_stack([plane, plane[:, 0] * self.height.slope(x)])
 
     def _place(self, piece: IntArray, t: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
+        """Give piece and t on `side`, and the derivative of that t by the given one."""
         number, low, high = (np.array(each)[piece] for each in zip(*self.spans, strict=True))
         share = (high - low) / 4.0
         return number, low + share * t, share
 
 
 def deck_layout(forms: Forms) -> str:
-    """Give the layout of the deck edge.
-
-    Parameters
-    ----------
-    forms : Forms
-        The definitions.
-
-    Returns
-    -------
-    str
-    """
+    """Give the layout of the deck edge."""
     side, height = (forms.needed(use, "for the deck edge") for use in ("deck_side", "deck_height"))
     tokens = []
     corners = [dict(zip(_stands(each), corners_of(each), strict=True)) for each in (side, height)]
@@ -214,17 +187,7 @@ def deck_layout(forms: Forms) -> str:
 
 
 def deck_shape(forms: Forms) -> DeckShape:
-    """Give the shape of the deck edge.
-
-    Parameters
-    ----------
-    forms : Forms
-        The definitions.
-
-    Returns
-    -------
-    DeckShape
-    """
+    """Give the shape of the deck edge."""
     side, height = forms.chain("deck_side"), forms.chain("deck_height")
     stops = np.array([x for x, _ in _stops(forms)])
     middle = 0.5 * (stops[:-1] + stops[1:])
@@ -232,6 +195,7 @@ def deck_shape(forms: Forms) -> DeckShape:
     knots = side.at(np.arange(side.count), np.zeros(side.count))[:, 0]
     spans = []
     for i, number in enumerate(piece.tolist()):
+        # at its own nodes a piece begins and ends exactly at t = 0 and 4
         ends = [
             end if abs(x - edge) <= _ONE_NODE else float(side.place(np.array([x]))[1][0])
             for x, edge, end in (
@@ -244,7 +208,7 @@ def deck_shape(forms: Forms) -> DeckShape:
 
 
 def _stands(definition: FormDefinition) -> list[float]:
-    """Give where the nodes of a course stand."""
+    """Give the abscissae of the nodes of a course, m."""
     return [definition.value(f"{node}_x") or 0.0 for node in definition.nodes]
 
 
@@ -253,7 +217,7 @@ def _nearest(corners: dict[float, bool], x: float) -> bool:
 
 
 def _piece(definition: FormDefinition, x: float) -> int:
-    """Give the piece of a course at an abscissa."""
+    """Give the piece of a course at an abscissa, the first or last beyond its ends."""
     stands = _stands(definition)
     return min(max(int(np.searchsorted(stands, x)) - 1, 0), max(len(stands) - 2, 0))
 
@@ -280,53 +244,30 @@ def _stops(forms: Forms) -> list[tuple[float, str]]:
 
 
 # --------------------------------------------------------------------------------------
-# Where waterlines go onto a flat: between these places they are straight.
+# Waterlines: between the two places where they come onto a flat and leave it they are straight.
 
-_LEAST = 0.1
+_LEAST_FLAT = 0.1
 """A shorter flat (m) is none."""
 
 
 def water_layout(forms: Forms, z: float) -> str:
-    """Give what flat a waterline runs along.
+    """Give the flat that a waterline at height z (m) runs along.
 
-    Parameters
-    ----------
-    forms : Forms
-        The definitions.
-    z : float, m
-        Its height.
-
-    Returns
-    -------
-    str
-        ``"side"`` on the flat of side, ``"parallel"`` on the parallel middle body below it, else
-        empty.
+    ``"side"`` is the flat of side, ``"parallel"`` the parallel middle body below it, ``""`` none.
     """
     if _side(forms, z) is not None:
         return "side"
     if forms.has("bilge_radius") and z <= forms.particulars.draught:
         low, high = span_of(forms)
-        if high - low > _LEAST and math.isfinite(breadth_at(forms, z)):
+        if high - low > _LEAST_FLAT and math.isfinite(breadth_at(forms, z)):
             return "parallel"
     return ""
 
 
 def water_points(forms: Forms, layout: str, z: float) -> FloatArray:
-    """Give the two places where a waterline comes onto its flat and leaves it.
+    """Give the two places, (2, 3) m, where a waterline comes onto its flat and leaves it.
 
-    Parameters
-    ----------
-    forms : Forms
-        The definitions.
-    layout : str
-        From `water_layout`.
-    z : float, m
-        Its height.
-
-    Returns
-    -------
-    (2, 3), m
-        nan where the flat is no more.
+    `layout` is from `water_layout`; nan where the flat no longer reaches the height z (m).
     """
     found = np.full((2, 3), z)
     if layout == "side":
@@ -350,14 +291,12 @@ def _side(forms: Forms, z: float) -> tuple[float, float] | None:
     piece, t = (np.array(each) for each in zip(*places, strict=True))
     low, high = chain.at(piece, t)[:, 0].tolist()
     between = float(chain.ordinate(np.array([0.5 * (low + high)]))[0])
-    return (low, high) if high - low > _LEAST and between < z else None
+    # the border of the flat must lie below the waterline between them: the flat is above its border
+    return (low, high) if high - low > _LEAST_FLAT and between < z else None
 
 
 # --------------------------------------------------------------------------------------
-# Of which pieces a generated line is made where it stands.
-#
-# A layout is a text of pieces, joined by ``+`` in order along the line. It depends on the
-# definitions and the place only, never on how the net was edited. The pieces of sections:
+# Sections, and any line by what it is. The pieces of sections:
 #
 # ==========  ==========================================================================
 # level       flat of bottom, from the contour outward
@@ -380,8 +319,8 @@ COURSES = {
 }
 """Lines that are one course in a plane, and its use."""
 
-_LAYOUT_LEAST = 0.01
-"""Shorter pieces (m) are left out."""
+_LEAST_PIECE = 0.01
+"""Shorter pieces of sections (m) are left out."""
 
 _ACROSS, _UP, _AHEAD = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
 _NONE = (0.0, 0.0, 0.0)
@@ -396,23 +335,10 @@ _STRAIGHT = {"level": _ACROSS, "upright": _UP, "up": _UP, "down": (0.0, 0.0, -1.
 
 
 def layout_at(forms: Forms, what: str, place: float, part: int = 0) -> str:
-    """Give the layout of a line.
+    """Give the layout of a line; empty where nothing is generated on a waterline.
 
-    Parameters
-    ----------
-    forms : Forms
-        The definitions.
-    what : str
-        What is generated.
-    place : float, m
-        x of a section, z of a waterline; without meaning for others.
-    part : int
-        The number of the curve, from below, of a section in several.
-
-    Returns
-    -------
-    str
-        Empty where nothing is generated on a waterline.
+    `place` (m) is x of a section, z of a waterline, without meaning for others; `part` is the
+    number of the curve, from below, of a section in several.
 
     Raises
     ------
@@ -440,50 +366,39 @@ def _section(forms: Forms, x: float, part: int) -> str:
         return below
     deck = float(forms.value("deck_height", x)[0])
     draught = forms.particulars.draught
-    if not deck > max(draught, heights[-1]) + _LAYOUT_LEAST:
+    if not deck > max(draught, heights[-1]) + _LEAST_PIECE:
         raise BadInputError(
             f"the deck edge at z = {deck:g} m is not above the draught and the contour", where,
             "raise deck_height, or let it reach so far",
         )  # fmt: skip
-    if heights[0] > draught - _LAYOUT_LEAST or below == "":
+    if heights[0] > draught - _LEAST_PIECE or below == "":
         return "topside"
     if forms.has("bilge_radius") and in_middle_body(forms, x):
         return "level+arc+upright+topside"
     side = float(forms.value("flat_of_side", x)[0])
     if below:
         return f"{below}+topside" + (
-            "+wall" if draught + _LAYOUT_LEAST < side < deck - _LAYOUT_LEAST else ""
+            "+wall" if draught + _LEAST_PIECE < side < deck - _LEAST_PIECE else ""
         )
     first = _first(forms, x)
-    if side < draught - _LAYOUT_LEAST:
+    if side < draught - _LEAST_PIECE:
         return f"{first}curve+upright+topside"
-    if draught + _LAYOUT_LEAST < side < deck - _LAYOUT_LEAST:
+    if draught + _LEAST_PIECE < side < deck - _LEAST_PIECE:
         return f"{first}curve+topside+wall"
     return f"{first}curve+topside"
 
 
 def _first(forms: Forms, x: float) -> str:
-    """Give what lies level beside the contour."""
-    if float(forms.value("flat_of_bottom", x, 0.0)[0]) > _LAYOUT_LEAST:
+    """Give the piece that lies level beside the contour, with its ``+``; empty if there is none."""
+    if float(forms.value("flat_of_bottom", x, 0.0)[0]) > _LEAST_PIECE:
         return "level+"
-    if float(forms.value("half_siding", x, 0.0)[0]) > _LAYOUT_LEAST:
+    if float(forms.value("half_siding", x, 0.0)[0]) > _LEAST_PIECE:
         return "siding+"
     return ""
 
 
 def joints_of(layout: str) -> list[tuple[PointKind, Vector]]:
-    """Give kind and direction at the joints between the pieces of a layout.
-
-    Parameters
-    ----------
-    layout : str
-        From `layout_at`.
-
-    Returns
-    -------
-    list of (PointKind, (float, float, float))
-        One fewer than there are pieces.
-    """
+    """Give kind and direction at the joints between the pieces of a layout."""
     tokens = layout.split("+")
     found = []
     for before, after in itertools.pairwise(tokens):
@@ -503,6 +418,7 @@ def ends_for(layout: str) -> Ends:
     """Give the end conditions of a line of a layout: tangent where a straight piece ends it."""
     tokens = [each.partition(":")[0].rstrip("^") for each in layout.split("+")]
     given = [_STRAIGHT.get(token) for token in (tokens[0], tokens[-1])]
+    # a bulb starts square to the centre plane, and one that closes ends so
     first, last = _ROUND.get(tokens[0], (None, None))
     given = [first or given[0], last or given[1]]
     kinds = [EndKind.FREE if each is None else EndKind.TANGENT for each in given]

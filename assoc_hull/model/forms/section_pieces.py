@@ -128,7 +128,7 @@ class SectionShape:
     ----------
     x : (n,), m
         Where they stand.
-    pieces : tuple of Pieces
+    pieces : tuple of SectionPieces
         From the contour upward.
     """
 

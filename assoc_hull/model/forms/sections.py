@@ -1,10 +1,10 @@
 """Sections of one layout as shapes: bottom, bilge, immersed part, bulb, topside.
 
-Sections that are laid out alike are made in one batch, from the contour upward. The parallel
-middle body has a flat bottom, a bilge that is an arc of a circle, and upright sides. Below the
-draught a section has the area that the curve of areas says; above it, it runs to the deck
-edge. A section through a bulbous bow is a bulb up to its neck and what rises from the neck.
-What cannot stand at a place is refused by the place and the definition at fault.
+Sections that are laid out alike are made in one batch, from the contour upward, in the plane
+(z, y): the half-breadth y as a graph over the height z, m, so angles are from upright. The area of
+half a section is int y dz; sectional areas in definitions are of both halves. Below the draught a
+section has the area of the curve of areas; above it, it runs to the deck edge. What cannot stand
+at a place is refused by the place and the definition at fault.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The parallel middle body: flat bottom, a bilge that is an arc of a circle, upright sides.
+# The parallel middle body: flat bottom, a bilge that is a quarter of a circle, upright sides.
 
 Number = TypeVar("Number", float, FloatArray)
 
@@ -103,12 +103,12 @@ def breadth_at(forms: Forms, z: float) -> float:
 
 
 # --------------------------------------------------------------------------------------
-# Sections of one layout where they stand, and the errors of what cannot stand there.
+# Where sections stand, and the errors of what cannot stand there.
 
 
 @attrs.frozen(eq=False)
 class SectionEnds:
-    """Sections of one layout.
+    """Sections of one layout by their places and ends; reads definitions there.
 
     Attributes
     ----------
@@ -148,7 +148,7 @@ class SectionEnds:
         return found
 
     def radians(self, use: str, default: float | None = None) -> FloatArray:
-        """Read angles."""
+        """Read angles, degrees, in radians; they must reach each unless there is a default."""
         degrees = self.needed(use) if default is None else self.value(use, default)
         return degrees * (math.pi / 180.0)
 
@@ -164,7 +164,7 @@ class SectionEnds:
     def within(
         self, name: str, unit: str, why: str, value: FloatArray, least: FloatArray, most: FloatArray
     ) -> None:
-        """Raise an error that names the first value outside its interval, with a trifle of play."""
+        """Raise an error that names the first value outside its interval, beyond rounding."""
         slack = 1e-9 * np.maximum(1.0, np.maximum(np.abs(least), np.abs(most)))
         slack = np.where(np.isfinite(slack), slack, 0.0)
         bad = (value < least - slack) | (value > most + slack)
@@ -174,14 +174,10 @@ class SectionEnds:
 
 
 # --------------------------------------------------------------------------------------
-# The immersed part of sections: form-parameter curves with an area, between flats.
-#
-# The plane is that of a graph of the half-breadth y over the height z; the area of half a section
-# is
-# int y dz, so what lies level beside the contour has none. A curve starts at the contour, or where
-# the flat of bottom ends, with the angle there; it ends at the draught, or where the flat of side
-# begins. From the area of the half section that of the flat of side is taken; the rest is the
-# curve's. Its centroid is that of the definition, or as it comes out fairest.
+# The immersed part: form-parameter curves with an area, between flats. A curve starts at the
+# contour, or where the flat of bottom ends, and ends at the draught, or where the flat of side
+# begins. What lies level beside the contour has no area; that of the flat of side is subtracted,
+# the rest is the curve's. Its centroid is that of the definition, or as it comes out fairest.
 
 RADIUS_SLACK = 5e-7
 """By so much, of the area, a bilge radius may miss the area of the section."""
@@ -196,26 +192,10 @@ _TANGENT = 0.5
 def underwater_pieces(
     stand: SectionEnds, tokens: tuple[str, ...]
 ) -> tuple[list[SectionPieces], FormEnd]:
-    """Give the pieces from the contour to the draught.
+    """Give the pieces from the contour to the draught, in order, and the ends of the last.
 
-    Parameters
-    ----------
-    stand : Stand
-        The sections.
-    tokens : tuple of str
-        The pieces of their layout up to the draught.
-
-    Returns
-    -------
-    list of Pieces, FormEnd
-        In order, and the last ends: point, angle and curvature are those of what comes above.
-
-    Raises
-    ------
-    OutOfRangeError
-        An area or a centroid that no curve has, with those that one has.
-    BadInputError
-        A definition that does not reach so far, a half-breadth below 0.
+    `tokens` are the pieces of the layout up to the draught. Point, angle and curvature of the
+    last ends are those with which the part above starts.
     """
     pieces: list[SectionPieces] = []
     corner = stand.start
@@ -363,7 +343,10 @@ def _check_centroid(
     centroid: FloatArray,
     wall: FloatArray,
 ) -> None:
-    """Refuse centroids that no curve of the area has; those that one has are told for the whole."""
+    """Refuse centroids that no curve of the area has.
+
+    The interval in the error is that of the immersed half section, the wall included.
+    """
     if np.isnan(centroid).all():
         return
     least, most = _monotone(start, finish, area)
@@ -371,17 +354,17 @@ def _check_centroid(
     disc = middle_vertex(ends, area, centroid)[1]
     step = middle_vertex(ends, area, centroid + 1.0)[1] - disc
     with np.errstate(divide="ignore", invalid="ignore"):
-        # The discriminant is linear in the centroid: where it is nil lies the last one.
+        # The discriminant is linear in the centroid: the last one is where it is zero.
         last = centroid - disc / step
     lost = disc < 0.0
     least = np.where(lost & (step > 0.0), np.maximum(least, last), least)
     most = np.where(lost & (step < 0.0), np.minimum(most, last), most)
     top = finish.x + 0.5 * (stand.draught - finish.x)
     with np.errstate(divide="ignore", invalid="ignore"):
-        told, low, high = (
+        given, low, high = (
             (each * area + top * wall) / (area + wall) for each in (centroid, least, most)
         )
-    stand.within("centroid", "m", "cannot be met with the area", told, low, high)
+    stand.within("centroid", "m", "cannot be met with the area", given, low, high)
 
 
 def _monotone(start: FormEnd, finish: FormEnd, area: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -398,26 +381,16 @@ def _monotone(start: FormEnd, finish: FormEnd, area: FloatArray) -> tuple[FloatA
 
 
 # --------------------------------------------------------------------------------------
-# The part of sections above the draught, or all of one whose contour lies above it.
-#
-# A topside starts with point, angle and curvature of the curve below it, so the curvature is
-# continuous at the draught, and ends at the deck edge. Both tangents are a quarter of the chord;
-# the middle vertex is that of the least integral of the squared third derivative.
+# The part above the draught, or all of a section whose contour lies above it. It starts with point,
+# angle and curvature of the curve below, so the curvature is continuous at the draught.
 
 
 def join_vertices(start: FormEnd, finish: FormEnd, first: FloatArray | float = 1.0) -> FloatArray:
-    """Give the vertices of fair curves between ends.
+    """Give the vertices (n, 7, 2), m, of fair curves between ends.
 
-    Parameters
-    ----------
-    start, finish : FormEnd
-        Their tangent lengths do not count.
-    first : (n,) or float
-        The tangent at the start, in quarters of the chord; that at the finish is one.
-
-    Returns
-    -------
-    (n, 7, 2)
+    Tangent lengths of the ends do not count: that at the start is `first` quarters of the chord,
+    that at the finish one. The middle vertex is that of the least integral of the squared third
+    derivative.
     """
     pace = 0.25 * chord_of(*end_points_2d(start, finish))
     return form_vertices(
@@ -430,23 +403,8 @@ def topside_pieces(
 ) -> list[SectionPieces]:
     """Give the pieces up to the deck edge.
 
-    Parameters
-    ----------
-    stand : Stand
-        The sections.
-    tokens : tuple of str
-        ``("topside",)`` or ``("topside", "wall")``.
-    below : FormEnd or None
-        How the part below the draught ends; None where there is none: from the contour then.
-
-    Returns
-    -------
-    list of Pieces
-
-    Raises
-    ------
-    BadInputError
-        A deck edge below the draught, a half-breadth below 0.
+    `tokens` are ``("topside",)`` or ``("topside", "wall")``, `below` the ends of the part below
+    the draught; where there is none, the topside starts at the contour.
     """
     start = _from_contour(stand) if below is None else below
     first = stand.value("keel_tangent", 1.0) if below is None else 1.0
@@ -466,6 +424,7 @@ def topside_pieces(
 def _piece(
     stand: SectionEnds, start: FormEnd, finish: FormEnd, first: FloatArray | float
 ) -> SectionCurves:
+    """Join two ends, `first` as of `join_vertices`; refuse half-breadths below 0."""
     vertices = join_vertices(start, finish, first)
     lowest = least_coordinate(vertices, 1)
     for number in np.flatnonzero(~(lowest >= -1e-9))[:1].tolist():
@@ -484,12 +443,13 @@ def _from_contour(stand: SectionEnds) -> FormEnd:
 
 
 def _deck(stand: SectionEnds, start: FormEnd) -> FormEnd:
-    """Give the ends at the deck edge; the angle of a cubic not bent there where none is given."""
+    """Give the ends at the deck edge; without a `deck_angle`, that of a cubic not bent there."""
     z, y = stand.finish.T
     along = [
         math.atan2(dy, dz)
         for dz, dy in zip((z - start.x).tolist(), (y - start.y).tolist(), strict=True)
     ]
+    # a cubic with no second derivative at its end: slope 1.5 chord - 0.5 start; taken for angles
     free = 1.5 * np.array(along) - 0.5 * start.angle
     angle = stand.radians("deck_angle", math.nan)
     angle = np.where(np.isnan(angle), free, angle)
@@ -497,20 +457,10 @@ def _deck(stand: SectionEnds, start: FormEnd) -> FormEnd:
 
 
 # --------------------------------------------------------------------------------------
-# Sections through a bulbous bow: a bulb up to its neck, and what rises from the neck.
-#
-# Abaft the stem a section is a bulb, then an upper curve to the draught. ``bulb_area`` is the area
-# up to the neck, the upper curve has the rest of the area of the section. The neck is where the
-# section turns from round to hollow: both curves have its point, its angle and no curvature there,
-# so the curvature is continuous. Ahead of the stem the bulb closes on the contour again.
-#
-# At the contour a bulb starts level. There its tangent and curvature are, between those of half an
-# ellipse that closes (neck on the centre plane) and those of a quarter (upright at the neck), as
-# the
-# share s of the neck in the bulb tells: s = pi/4 y h / A, 0 and 1 for the two, with the height h,
-# the
-# half-breadth y of the neck and the area A of half the bulb. The middle vertices are those of the
-# least integral of the squared third derivative with the area. The treatment is our own.
+# Sections through a bulbous bow: abaft the stem a bulb up to its neck, then an upper curve to the
+# draught; ahead of the stem the bulb closes on the contour again. ``bulb_area`` is the area up to
+# the neck, the upper curve has the rest. The neck is where the section turns from round to hollow:
+# both curves have no curvature there. The treatment is our own.
 
 _LEAST = 0.01
 """Shorter pieces (m) are left out."""
@@ -520,29 +470,11 @@ _PACE = 0.7
 
 
 def bulb_layout(forms: Forms, x: float, part: int, heights: tuple[float, ...]) -> str | None:
-    """Give the pieces of a section below the draught where there is a bulb.
+    """Give the pieces of a section at x (m) below the draught where there is a bulb, else None.
 
-    Parameters
-    ----------
-    forms : Forms
-        The definitions.
-    x : float, m
-        Where the section stands.
-    part : int
-        0 for the lower or only curve, 1 for the curve above a bulb that closes.
-    heights : tuple of float, m
-        Where it meets the profile, from below.
-
-    Returns
-    -------
-    str or None
-        ``"round"`` for a bulb that closes, empty for the curve above it, ``"bulb+upper"`` abaft
-        the stem, None where there is no bulb.
-
-    Raises
-    ------
-    BadInputError
-        The stem overhangs the bulb below the draught, or the section has no such curve.
+    ``"round"`` is a bulb that closes, ``""`` the curve above it, ``"bulb+upper"`` a section abaft
+    the stem. `part` is 0 for the lower or only curve, 1 for the curve above a bulb that closes;
+    `heights` (m) are those at which the section meets the profile, from below.
     """
     where = f"at the section x = {x:g} m"
     if len(heights) >= 3:
@@ -560,26 +492,9 @@ def bulb_layout(forms: Forms, x: float, part: int, heights: tuple[float, ...]) -
 
 
 def bulb_pieces(stand: SectionEnds, tokens: tuple[str, ...]) -> tuple[list[SectionPieces], FormEnd]:
-    """Give the pieces of sections through a bulb, up to the draught.
+    """Give the pieces of sections through a bulb up to the draught, and the ends of the last.
 
-    Parameters
-    ----------
-    stand : Stand
-        The sections.
-    tokens : tuple of str
-        ``("round",)`` or ``("bulb", "upper")``.
-
-    Returns
-    -------
-    list of Pieces, FormEnd
-        In order, and the last ends.
-
-    Raises
-    ------
-    OutOfRangeError
-        An area of the bulb that is none, or more than that of the section.
-    BadInputError
-        A definition that does not reach so far, a bulb that no curve has.
+    `tokens` are ``("round",)`` or ``("bulb", "upper")``.
     """
     half = 0.5 * stand.needed("bulb_area")
     if tokens == ("round",):
@@ -614,21 +529,16 @@ def bulb_pieces(stand: SectionEnds, tokens: tuple[str, ...]) -> tuple[list[Secti
 def bulb_vertices(
     start: FloatArray, neck: FloatArray, area: FloatArray, angle: FloatArray | None = None
 ) -> FloatArray:
-    """Give the vertices of halves of bulbs.
+    """Give the vertices (n, 7, 2), m, of halves of bulbs; nan where there is none.
 
-    Parameters
-    ----------
-    start, neck : (n, 2), m
-        z and y at the contour and at the neck, or at the contour above.
-    area : (n,), m2
-        Of half the bulb, int y dz.
-    angle : (n,) or None, rad
-        At the neck, in the graph of y over z; None for bulbs that close.
+    `start` and `neck`, (n, 2) m, are z and y at the contour and at the neck, or at the contour
+    above; `area` (m2) is int y dz; `angle` (rad) that at the neck, None for bulbs that close.
 
-    Returns
-    -------
-    (n, 7, 2)
-        nan where there is none.
+    At the contour a bulb starts level. Its tangent and curvature there lie between those of half
+    an ellipse that closes (neck on the centre plane) and of a quarter (upright at the neck), by
+    the share s = pi/4 y h / A, 0 and 1 for the two, with height h and half-breadth y of the neck
+    and the area A. The middle vertex is that of the least integral of the squared third
+    derivative with the area.
     """
     height, breadth = neck[:, 0] - start[:, 0], neck[:, 1]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -674,33 +584,18 @@ def _refuse(stand: SectionEnds, vertices: FloatArray, what: str, remedy: str) ->
 
 
 # --------------------------------------------------------------------------------------
-# Sections of one layout as shapes.
+# Whole sections.
 
 
 def parts_at_draught(layout: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Part a layout at the draught: the pieces below it, and those above."""
+    """Divide a layout at the draught: the pieces below it, and those above."""
     tokens = tuple(layout.split("+"))
     cut = tokens.index("topside") if "topside" in tokens else len(tokens)
     return tokens[:cut], tokens[cut:]
 
 
 def section_shape(forms: Forms, layout: str, x: FloatArray, ends: FloatArray) -> SectionShape:
-    """Give sections of one layout.
-
-    Parameters
-    ----------
-    forms : Forms
-        The definitions.
-    layout : str
-        Of all of them.
-    x : (n,), m
-        Where they stand.
-    ends : (n, 2, 3), m
-        Where they meet contour and deck edge.
-
-    Returns
-    -------
-    SectionShape
+    """Give sections of one layout at x, (n,) m, between contour and deck edge, (n, 2, 3) m.
 
     Raises
     ------

@@ -1,8 +1,10 @@
 """Curves of two halves: run, parallel part and entrance, in the frame of the ship.
 
-A half is a form-parameter curve between two ends with an area and, where asked for, a
-centroid. It is made, or refused with the values that can be had; these are found by trying,
-nearest first. Sectional-area curves and design waterlines are curves of two halves.
+Sectional-area curves and design waterlines are such curves. The abscissa is -1 at AP, 0 amidships
+and 1 at FP; the ordinate is in parts of ``full``, the area of the midship section or half the
+breadth. Angles and curvatures are those of the graph in this frame. A half is a form-parameter
+curve with an area and, where asked for, a centroid: made, or refused with the values that would do.
+Source: S.Y. Kim, S.W. Kang, Trans. SNAK 29(2), 1992.
 """
 
 from __future__ import annotations
@@ -32,33 +34,20 @@ __all__ = [
     "reachable",
 ]
 
-# --------------------------------------------------------------------------------------
-# Between which values something can be made, found by trying.
-
 _PLACES = 129
 """So many values are tried between the ends."""
 
 _HALVINGS = 44
+"""Halvings that bring an edge of the interval to the last digits of a number."""
 
 
 def reachable(
     made: Callable[[float], bool], least: float, most: float, asked: float
 ) -> tuple[float, float] | None:
-    """Give the interval of values that can be made which lies nearest to one that cannot.
+    """Give the interval of values that can be made nearest to one, `asked`, that cannot.
 
-    Parameters
-    ----------
-    made : callable
-        Tells whether a value can be made.
-    least, most : float
-        Outside of these nothing can be made.
-    asked : float
-        The value that was asked for.
-
-    Returns
-    -------
-    (float, float) or None
-        Its ends, both of which can be made; None if nothing was found.
+    `made` tells whether a value can be made; outside of `least` and `most` none can. Both ends can
+    be made; None if trying at even steps found nothing.
     """
     places = np.linspace(least, most, _PLACES)[1:-1].tolist()
     good = [made(place) for place in places]
@@ -87,7 +76,7 @@ def _edge(made: Callable[[float], bool], inside: float, outside: float) -> float
 
 
 # --------------------------------------------------------------------------------------
-# One half of a curve of two: made, or refused with what can be had.
+# One half: made, or refused with the values that would do.
 
 _SLACK = 1e-12
 """Of the size of an interval: so far outside a value may lie."""
@@ -173,7 +162,7 @@ def _over(half: HalfCurve) -> bool:
 
 
 def _made(half: HalfCurve) -> FloatArray:
-    """Give the vertices, whatever they are worth; nan where there are none."""
+    """Give the vertices (7, 2), even if they fold back; nan where there are none."""
     area = None if half.area is None else np.array([half.area])
     centroid = None if half.centroid is None else np.array([half.centroid])
     return np.asarray(
@@ -209,11 +198,7 @@ def _in_box(half: HalfCurve, low: float, high: float) -> bool:
 
 
 # --------------------------------------------------------------------------------------
-# Curves of two halves: run, parallel part and entrance, in the frame of the ship.
-#
-# Their abscissa is -1 at AP, 0 amidships and 1 at FP; their ordinate is in parts of ``full``, which
-# is the area of the midship section, or half the breadth. Angles and curvatures are those of the
-# graph in this frame. S.Y. Kim, S.W. Kang, Trans. SNAK 29(2), 1992.
+# Definitions of two halves.
 
 _DEFAULTS = {
     "run_start": -1.0, "run_start_ordinate": 0.0, "run_start_curvature": 0.0,
@@ -308,7 +293,11 @@ def _in_order(definition: FormDefinition, where: str) -> bool:
 
 
 def _out_of_order(definition: FormDefinition, where: str) -> OutOfRangeError:
-    """Give the error of abscissae out of order: which could lie elsewhere, and where."""
+    """Give the error of abscissae out of order: which one could lie elsewhere, and where.
+
+    First that is tried with `run_end` and `entrance_start`; if neither alone would do, the error
+    names the first that does not rise.
+    """
     values = [_value(definition, where, each) for each in _ORDER]
     for number in (1, 2):
         name, asked = _ORDER[number], values[number]

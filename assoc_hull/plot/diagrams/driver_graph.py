@@ -15,11 +15,10 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.hull import Hull
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import FAMILIES
-from assoc_hull.model.tables import HullState
-from assoc_hull.plot.lines_plan.drawing import state_of
+from assoc_hull.model.tables import HasState, HullState
+from assoc_hull.plot.lines_plan.drawing import tables_of
 from assoc_hull.plot.sheet.paper import FAMILY_COLOURS, Paper, PaperName, Pen
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 
@@ -68,9 +67,9 @@ class DriveLink:
     shared: int
 
 
-def drive_links(hull: Hull | HullState) -> tuple[DriveLink, ...]:
+def drive_links(hull: HasState | HullState) -> tuple[DriveLink, ...]:
     """Give who drives whom, by crossings; a pair with shared crossings comes once each way."""
-    state = state_of(hull)
+    state = tables_of(hull)
     book = AddressBook(state)
     node: dict[int, CurveNode] = {}
     for curve in state.live("curves").tolist():
@@ -178,7 +177,7 @@ class _Edge:
 
 
 def neighbourhood(
-    hull: Hull | HullState,
+    hull: HasState | HullState,
     name: str,
     path: Path_ | None = None,
     *,
@@ -220,7 +219,7 @@ def neighbourhood(
     Examples
     --------
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.plot import neighbourhood
+    >>> from assoc_hull.plot.diagrams.driver_graph import neighbourhood
     >>> figure = neighbourhood(wigley(), "WL 2.5")
     """
     if hops < 1:

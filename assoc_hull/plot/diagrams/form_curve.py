@@ -74,7 +74,7 @@ def form_curve_picture(
     --------
     >>> import assoc_hull as ah
     >>> from assoc_hull.plot.diagrams.form_curve import form_curve_picture
-    >>> curve = ah.FormCurve.of((0, 0), (10, 8), start_angle_deg=62, finish_angle_deg=0)
+    >>> curve = ah.creation.FormCurve.of((0, 0), (10, 8), start_angle_deg=62, finish_angle_deg=0)
     >>> figure = form_curve_picture(curve)
     """
     instance(curve, FormCurve, "the curve", "in a picture")

@@ -61,7 +61,7 @@ def form_pdf(report: FormReport) -> bytes:
     --------
     >>> from assoc_hull.analysis.form.form_parameters import form_report
     >>> from assoc_hull.plot.diagrams.form_report import form_pdf
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> form_pdf(form_report(examples.wigley(), draught=6.25, only=["Cb"]))[:5]
     b'%PDF-'
     """
@@ -226,7 +226,7 @@ def write_form_report(report: FormReport, path: Path_) -> None:
     >>> from pathlib import Path
     >>> from assoc_hull.analysis.form.form_parameters import form_report
     >>> from assoc_hull.plot.diagrams.form_report import write_form_report
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> report = form_report(examples.wigley(), draught=6.25, only=["Cb"])
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     write_form_report(report, Path(folder) / "wigley.txt")

@@ -18,7 +18,7 @@ from assoc_hull.analysis.hydrostatics.section_areas import Bonjean, bonjean, sec
 from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.hull import Hull
+from assoc_hull.model.tables import HasState
 from assoc_hull.plot.lines_plan.drawing import Drawable, drawing
 from assoc_hull.plot.sheet.chart import (
     Chart,
@@ -420,7 +420,7 @@ PICTURES = ("curves", "areas", "bonjean")
 
 
 def plot_hydrostatics(
-    hull: Hull, table: HydrostaticTable, picture: str, path: Path_ | None = None
+    hull: HasState, table: HydrostaticTable, picture: str, path: Path_ | None = None
 ) -> Figure:
     """Draw one of the pictures that go with a table of hydrostatics.
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, LineReport
 from assoc_hull.errors import BadInputError
-from assoc_hull.hull import Hull
 from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, PlotLine, drawing
 from assoc_hull.plot.lines_plan.three_views import body_halves, scale_of_body
 from assoc_hull.plot.sheet.labels import overlaps
@@ -77,10 +76,10 @@ def adoption_deviations(
     Examples
     --------
     >>> from assoc_hull.shipped.series60 import series60_adopted
-    >>> from assoc_hull.plot import adoption_deviations
+    >>> from assoc_hull.plot.lines_plan.adoption_deviations import adoption_deviations
     >>> figure = adoption_deviations(*series60_adopted(0.70))
     """
-    made = report or (hull.adoption if isinstance(hull, Hull) else None)
+    made = report or getattr(hull, "adoption", None)
     if made is None or not made.lines:
         raise BadInputError(
             "there is no report of an adoption", "for this picture",

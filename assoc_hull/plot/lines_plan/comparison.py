@@ -14,8 +14,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.hydrostatics.record import FIELDS
-from assoc_hull.arguments import instance
-from assoc_hull.hull import Hull
+from assoc_hull.arguments import instance, shown
+from assoc_hull.errors import WrongTypeError
+from assoc_hull.model.tables import HasState, HullState
 from assoc_hull.plot.lines_plan.before_after import LEAST, overlay, pairs_of
 from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, drawing
 from assoc_hull.plot.lines_plan.plan import captions
@@ -87,7 +88,7 @@ def comparison_plan(
     title : str, optional
         Instead of the name of the ship.
     found : HullComparison, optional
-        What `assoc_hull.compare` tells of both: numbers, and the lines that moved farthest, then
+        What `Hull.compare` tells of both: numbers, and the lines that moved farthest, then
         stand in the block.
 
     Returns
@@ -106,7 +107,7 @@ def comparison_plan(
     Examples
     --------
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.plot import comparison_plan
+    >>> from assoc_hull.plot.lines_plan.comparison import comparison_plan
     >>> figure = comparison_plan(wigley(), wigley(breadth=11.0))
     """
     figure = comparison_plan_sheet(parent, variant, paper=paper, title=title, found=found).figure
@@ -237,7 +238,9 @@ _NUMBER_COLUMNS: tuple[Column, ...] = (
 )  # fmt: skip
 
 
-def comparison_pdf(parent: Hull, variant: Hull, found: HullComparison | None = None) -> bytes:
+def comparison_pdf(
+    parent: HasState, variant: HasState, found: HullComparison | None = None
+) -> bytes:
     """Give a comparison as a PDF; the same bytes each time.
 
     The first page, A3, has the lines plan of the variant over the parent's; upright A4 pages
@@ -248,7 +251,7 @@ def comparison_pdf(parent: Hull, variant: Hull, found: HullComparison | None = N
     parent, variant : Hull
         The hulls.
     found : HullComparison, optional
-        What `assoc_hull.compare` tells of them, if it is at hand.
+        What `Hull.compare` tells of them, if it is at hand.
 
     Raises
     ------
@@ -262,20 +265,21 @@ def comparison_pdf(parent: Hull, variant: Hull, found: HullComparison | None = N
     >>> import assoc_hull as ah
     >>> from assoc_hull.plot import comparison_pdf
     >>> parent = ah.examples.wigley()
-    >>> comparison_pdf(parent, ah.vary(parent, set={"breadth": 11.0}).hull)[:5]
+    >>> comparison_pdf(parent, parent.vary(set={"breadth": 11.0}).hull)[:5]
     b'%PDF-'
     """
     sheets = comparison_sheets(parent, variant, found)
-    return pdf_of(sheets, f"{_TITLE}: {variant.particulars.name}")
+    return pdf_of(sheets, f"{_TITLE}: {variant.state.particulars.name}")
 
 
 def comparison_sheets(
-    parent: Hull, variant: Hull, found: HullComparison | None = None
+    parent: HasState, variant: HasState, found: HullComparison | None = None
 ) -> list[Sheet]:
     """Give a comparison as pages; arguments and errors as for `comparison_pdf`."""
     require_matplotlib()
     for name, hull in (("parent", parent), ("variant", variant)):
-        instance(hull, Hull, name, "in a picture")
+        if not isinstance(getattr(hull, "state", None), HullState):
+            raise WrongTypeError(f"{name} is {shown(hull)}", "in a picture", "give a Hull")
     if found is None:
         found = compare(parent, variant)
     instance(found, HullComparison, "found", "in a picture")

@@ -105,7 +105,7 @@ def curvature_combs(
     Examples
     --------
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.plot import curvature_combs
+    >>> from assoc_hull.plot.lines_plan.curvature_combs import curvature_combs
     >>> figure = curvature_combs(wigley(), ["WL 2.5", "ST 7"])
     """
     if not lines or not (scale is None or scale > 0.0):

@@ -16,12 +16,11 @@ from assoc_hull.errors import UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.hull import Hull
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind
 from assoc_hull.model.line_source import LineSource, line_curve_data
-from assoc_hull.model.tables import HullState, Particulars
+from assoc_hull.model.tables import HasState, HullState, Particulars, state_of
 from assoc_hull.plot.sheet.paper import HEAVY, LINE, TINT, Pen
 
 __all__ = [
@@ -35,7 +34,7 @@ __all__ = [
     "particulars_of",
     "pen_of",
     "short_name",
-    "state_of",
+    "tables_of",
 ]
 
 _BOUNDARY = {
@@ -194,20 +193,20 @@ class Drawing:
         return np.stack([points.min(axis=0), points.max(axis=0)])
 
 
-Drawable = Hull | HullState | Drawing
+Drawable = HasState | HullState | Drawing
 """What can be drawn."""
 
 
-def state_of(hull: Hull | HullState) -> HullState:
-    """Give the tables of a hull."""
-    return hull.document.state if isinstance(hull, Hull) else hull
+def tables_of(hull: HasState | HullState) -> HullState:
+    """Give the tables of a hull; tables are given back as they are."""
+    return hull if isinstance(hull, HullState) else state_of(hull, "in a picture")
 
 
 def drawing(hull: Drawable) -> Drawing:
     """Take the lines of a hull as they are now; a drawing is given back as it is."""
     if isinstance(hull, Drawing):
         return hull
-    state = state_of(hull)
+    state = tables_of(hull)
     book = AddressBook(state)
     lines = [_drawn(state, book, line) for line in state.live("lines").tolist()]
     lines.sort(key=lambda line: (FAMILIES[line.family].rank, line.offset, line.name))

@@ -63,7 +63,7 @@ def lines_plan(
     Examples
     --------
     >>> from assoc_hull.shipped.wigley import wigley
-    >>> from assoc_hull.plot import lines_plan
+    >>> from assoc_hull.plot.lines_plan.plan import lines_plan
     >>> figure = lines_plan(wigley(), highlight=["WL 2.5"])
     """
     plan = drawing(hull)

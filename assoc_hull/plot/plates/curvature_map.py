@@ -42,8 +42,8 @@ from assoc_hull.plot.plates.plate_picture import (
 from assoc_hull.plot.sheet.paper import MARGIN, PaperName
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import frame
-from assoc_hull.surface.plates.curvature_nodes import map_value
-from assoc_hull.surface.plates.surface_plates import PlateTable
+from assoc_hull.surface.plating.curvature_nodes import map_value
+from assoc_hull.surface.plating.surface_plates import PlateTable
 from assoc_hull.surface.regions.options import zero_band
 from assoc_hull.surface.regions.result import RegionResult
 
@@ -185,7 +185,7 @@ def curvature_figure(
     >>> from assoc_hull.plot.plates.curvature_map import curvature_figure
     >>> x, y = np.mgrid[-1:1:3j, -1:1:3j]
     >>> net = np.stack([3 * x, y, 0.1 * x * y], axis=-1)
-    >>> figure = curvature_figure(ah.curvature_regions(net))
+    >>> figure = curvature_figure(ah.surface.curvature_regions(net))
     """
     if not isinstance(found, PlateTable):
         instance(found, RegionResult, "found", _WHERE)

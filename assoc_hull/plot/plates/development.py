@@ -18,7 +18,7 @@ from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import frame, scale_bar, title_block
 from assoc_hull.plot.sheet.view import View, scale_of
-from assoc_hull.surface.plates.development import LABEL, Development
+from assoc_hull.surface.plating.development import LABEL, Development
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -64,7 +64,7 @@ def development_figure(
     >>> import numpy as np
     >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
     >>> from assoc_hull.plot.plates.development import development_figure
-    >>> from assoc_hull.surface.plates.development import development
+    >>> from assoc_hull.surface.plating.development import development
     >>> x, y = np.mgrid[-1:1:3j, -1:1:3j]
     >>> net = np.stack([3 * x, y, 0.3 * x * y], axis=-1)
     >>> figure = development_figure(development(SplineSurface.bezier(net, "hypar"), (9, 5)))

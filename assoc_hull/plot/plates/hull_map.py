@@ -32,14 +32,14 @@ from assoc_hull.plot.sheet.paper import LINE, MARGIN, PaperName, Pen
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, pdf_of, save
 from assoc_hull.plot.sheet.title_block import caption, frame, scale_bar, title_block
 from assoc_hull.plot.sheet.view import View, scale_of
-from assoc_hull.surface.plates.hull_plates import COLUMNS, HullPlateTable
-from assoc_hull.surface.plates.hull_seams import AXES
-from assoc_hull.surface.plates.plate_class import CAVEAT
+from assoc_hull.surface.plating.hull_plates import COLUMNS, HullPlateTable
+from assoc_hull.surface.plating.hull_seams import AXES
+from assoc_hull.surface.plating.plate_class import CAVEAT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from assoc_hull.surface.plates.hull_plate import HullPlate
+    from assoc_hull.surface.plating.hull_plate import HullPlate
 
 __all__ = [
     "hull_map",
@@ -110,8 +110,8 @@ def hull_map(
     >>> import numpy as np
     >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
     >>> from assoc_hull.plot.plates.hull_map import hull_map
-    >>> from assoc_hull.surface.plates.hull_plates import hull_plates
-    >>> from assoc_hull.surface.plates.hull_seams import HullSeams
+    >>> from assoc_hull.surface.plating.hull_plates import hull_plates
+    >>> from assoc_hull.surface.plating.hull_seams import HullSeams
     >>> x, z = np.mgrid[0:30:2j, 0:9:2j]
     >>> side = SplineSurface.bezier(np.stack([x, 8.0 + 0.5 * z, z], axis=-1), "body")
     >>> figure = hull_map(hull_plates((side,), HullSeams(x=12.0)))

@@ -19,7 +19,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.numeric.tensor_bernstein import bernstein_basis
 from assoc_hull.geometry.patches.bezier_patches import Patches, curvatures
-from assoc_hull.surface.plates.hull_shell import girth_of
+from assoc_hull.surface.plating.hull_shell import girth_of
 
 __all__ = ["AIM", "HullTiles", "hull_tiles"]
 

@@ -65,7 +65,7 @@ def panel_plan(mesh: PanelMesh, path: Path_ | None = None, *, paper: PaperName =
     --------
     >>> from assoc_hull.analysis.panels.hull_panels import panels
     >>> from assoc_hull.plot.plates.panel_plan import panel_plan
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> figure = panel_plan(panels(examples.wigley(), count=200))
     """
     sheet, whole = Sheet(paper), mesh.whole()

@@ -19,10 +19,10 @@ from assoc_hull.plot.sheet.labels import wrap_words
 from assoc_hull.plot.sheet.paper import FRAME, LINE, Pen
 from assoc_hull.plot.sheet.report_pages import GREY
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, pdf_of, require_matplotlib
-from assoc_hull.surface.plates.columns import PlateColumn
-from assoc_hull.surface.plates.plate import Plate
-from assoc_hull.surface.plates.plate_class import CAVEAT
-from assoc_hull.surface.plates.surface_plates import COLUMNS, PlateTable
+from assoc_hull.surface.plating.columns import PlateColumn
+from assoc_hull.surface.plating.plate import Plate
+from assoc_hull.surface.plating.plate_class import CAVEAT
+from assoc_hull.surface.plating.surface_plates import COLUMNS, PlateTable
 
 __all__ = ["plate_pdf", "plate_sheet", "plate_sheets"]
 
@@ -64,7 +64,7 @@ def plate_sheet(
     >>> import assoc_hull as ah
     >>> from assoc_hull.plot.plates.plate_book import plate_sheet
     >>> x, y = np.mgrid[-1:1:3j, -1:1:3j]
-    >>> found = ah.plates(np.stack([3 * x, y, 0.1 * x * y], axis=-1))
+    >>> found = ah.surface.plates(np.stack([3 * x, y, 0.1 * x * y], axis=-1))
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     plate_sheet(found, Path(folder) / "plates.pdf")
     """

@@ -96,6 +96,7 @@ def label_row(
     texts = [_write(sheet, side, at, upright, each, f"{name}/{each}") for each in words]
     boxes = np.array([sheet.box(text) for text in texts])
     size = boxes[:, along + 2] - boxes[:, along]
+    # Labels above one another, or upright ones in a row, stand as close as lines of text.
     gap = (_GAP if upright or along else _GAP_ALONG) * sheet.paper.factor
     place = space_intervals(anchors[:, along], size, gap)
     shift = place - 0.5 * (boxes[:, along + 2] + boxes[:, along])
@@ -105,6 +106,7 @@ def label_row(
             text.remove()
         kept = _with_room(anchors[:, along], size + gap)
         some = [words[i] for i in kept]
+        # Not sparse again: those that are left are written, or this would not end.
         label_row(sheet, anchors[kept], some, side, at, upright=upright, heading=heading, name=name)
         return
     for text, anchor, middle, move in zip(texts, anchors, place, shift, strict=True):
@@ -113,6 +115,7 @@ def label_row(
         sheet.take(text)
         end = (middle, at) if along == 0 else (at, middle)
         sheet.line(_leader(anchor, end, along), _LEADER, f"leader/{text.get_text()}")
+    # After the labels: it keeps clear of them, too.
     if heading:
         _head(sheet, _write(sheet, side, at, False, heading, f"{name}/heading"), place, size)
 

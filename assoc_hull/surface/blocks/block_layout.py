@@ -34,9 +34,6 @@ __all__ = [
     "with_loose_ends",
 ]
 
-# --------------------------------------------------------------------------------------
-# What is known of a block before it is fitted: samples of its lines, sides, neighbours.
-
 
 @attrs.frozen
 class SideStretch:
@@ -87,7 +84,7 @@ class HullBlock:
         Points on its lines and on those in the bays; `line` numbers the curves of the net.
     inside : (k,) bool
         Which of them lie on the block itself.
-    sides : dict of str to tuple of Stretch
+    sides : dict of str to tuple of SideStretch
         The sides ``"u0"``, ``"u1"``, ``"v0"``, ``"v1"``, towards rising parameters.
     stations, levels : (n,), m
         Mean u of sections and mean v of waterlines and buttocks: where knots are worth most.
@@ -132,13 +129,12 @@ class HullBlock:
 
 
 # --------------------------------------------------------------------------------------
-# How fast parameters change along lines whose nodes have them: monotone cubics.
-#
-# Fritsch, F.N., Carlson, R.E.: Monotone piecewise cubic interpolation. SIAM Journal on Numerical
-# Analysis 17 (1980); the weighted harmonic mean is that of Fritsch and Butland (1984).
+# Slopes of parameters along lines, by monotone cubics: F. N. Fritsch and R. E. Carlson, Monotone
+# piecewise cubic interpolation, SIAM Journal on Numerical Analysis 17, 1980; the weighted harmonic
+# mean is that of Fritsch and Butland (1984).
 
 _TINY = 1e-200
-"""Slopes whose product is less count as nil: their inverse may have no number."""
+"""Slopes whose product is less count as zero: their inverse may have no number."""
 
 
 def slopes_along(
@@ -149,27 +145,12 @@ def slopes_along(
     value: FloatArray,
     straight: NDArray[np.bool_],
 ) -> tuple[FloatArray, FloatArray]:
-    """Give the slopes at both ends of each edge.
+    """Give the slopes at both ends of each edge, (e, d) and (e, d), a metre.
 
-    Parameters
-    ----------
-    curve : (e,) int
-        The curve of each edge.
-    edge : (e, 2) int
-        Its nodes.
-    begin : (e,), m
-        Where on the curve it begins.
-    length : (e,), m
-        Its length.
-    value : (e, 2, d)
-        Values at its ends.
-    straight : (e,) bool
-        Edges along which values run straight: those beside take over their slope.
-
-    Returns
-    -------
-    leave, arrive : (e, d)
-        Slopes a metre; neighbouring edges of a curve share theirs, and no value overshoots.
+    Neighbouring edges of a curve share theirs, and no value overshoots. For edges of `length` (e,),
+    m, on `curve` (e,) from node to node, `edge` (e, 2), that begin there at `begin` (e,), m, with
+    `value` (e, 2, d) at the ends; those beside `straight` edges (e,), along which values run
+    straight, take over their slope.
     """
     order = np.lexsort((begin, curve))
     size = np.maximum(length, 1e-12)[:, None]
@@ -189,7 +170,7 @@ def slopes_along(
 
 
 # --------------------------------------------------------------------------------------
-# Points on the lines of a block, with the parameters that its map gives them.
+# Samples of a block and its bays.
 
 _ACROSS, _ALONG = 0.25, 0.6
 """Distance of points, m, on a hull of 300 m; the latter on lines along the body."""
@@ -216,23 +197,11 @@ class _Edges:
 def block_samples(
     found: BlockMap, length: float, cuts: IntArray
 ) -> tuple[Samples, NDArray[np.bool_]]:
-    """Give points on the lines of a block and of its bays; also which lie on the block.
+    """Give points on the lines of a block and of its bays, at even steps along every edge.
 
-    Parameters
-    ----------
-    found : BlockMap
-        The block, laid out.
-    length : float, m
-        Of the ship.
-    cuts : (k,) int
-        Edges along which blocks meet: points there hold both parameters, in both blocks.
-
-    Returns
-    -------
-    Samples
-        Points at even steps along every edge, its ends among them.
-    (k,) bool
-        Those of the block itself.
+    The ends of edges are among them. Also which points lie on the block itself, (k,). Along edges
+    `cuts` blocks meet: points there hold both parameters, in both blocks. `length`, m, is that of
+    the ship.
     """
     graph = found.core.quad.region.graph
     edges = _edges(found, cuts)
@@ -329,11 +298,9 @@ def _parameters(graph: NetGraph, edges: _Edges, owner: IntArray, part: FloatArra
 
 
 # --------------------------------------------------------------------------------------
-# Ends of lines beyond their last crossing: they bound no cell, but are fitted to as well.
-#
-# The map of a block knows nodes and edges of cells only. A point of a loose end gets the parameters
-# that its nearest neighbours on the block's lines tell it, by a plane through theirs; as with all
-# points, the fit corrects them.
+# Loose ends. The map of a block knows nodes and edges of cells only; a point of a loose end gets
+# the parameters of a plane through those of its nearest neighbours on the block's lines. As with
+# all points, the fit corrects them.
 
 _LEAST = 0.01
 """Ends that are shorter, m on a hull of 300 m, are none."""
@@ -366,12 +333,7 @@ class LooseEnds:
 def loose_ends(graph: NetGraph, length: float) -> LooseEnds:
     """Give points on what of the lines of a graph lies before their first or after their last edge.
 
-    Parameters
-    ----------
-    graph : NetGraph
-        The lines; those without any edge are not looked at.
-    length : float, m
-        Of the ship.
+    Lines without any edge are not looked at; `length`, m, is that of the ship.
     """
     net, scale = graph.net, length / _SHIP
     parts = []
@@ -379,13 +341,13 @@ def loose_ends(graph: NetGraph, length: float) -> LooseEnds:
         t = graph.t[graph.curve == curve]
         for begin, end in ((float(t.min()), 0.0), (float(t.max()), net.length(curve))):
             if abs(end - begin) > _LEAST * scale:
-                parts.append(_loose_ends_points(net, curve, begin, end, _STEP * scale))
+                parts.append(_piece_points(net, curve, begin, end, _STEP * scale))
     if not parts:
         return LooseEnds(np.zeros((0, 3)), np.zeros(0), np.zeros(0, np.int64))
     return LooseEnds(*(np.concatenate(each) for each in zip(*parts, strict=True)))
 
 
-def _loose_ends_points(
+def _piece_points(
     net: CurveNet, curve: int, begin: float, end: float, step: float
 ) -> tuple[FloatArray, FloatArray, IntArray]:
     """Give points of a piece, the lengths they stand for, and its number as often."""
@@ -400,17 +362,7 @@ def _loose_ends_points(
 def with_loose_ends(
     blocks: Sequence[HullBlock], found: LooseEnds, grid: float
 ) -> tuple[HullBlock, ...]:
-    """Give blocks their nearest loose ends.
-
-    Parameters
-    ----------
-    blocks : sequence of Block
-        The blocks.
-    found : LooseEnds
-        The points.
-    grid : float, m
-        To which parameters are rounded.
-    """
+    """Give blocks their nearest loose ends; parameters are rounded to `grid`, m."""
     if not len(found.point):
         return tuple(blocks)
     near = [_nearest(found.point, block, 1) for block in blocks]
@@ -426,6 +378,7 @@ def _nearest(point: FloatArray, block: HullBlock, count: int) -> tuple[FloatArra
     from scipy.spatial import cKDTree
 
     inside = np.flatnonzero(block.inside)
+    # A list of ranks, not a count: the answer has two axes for a single neighbour, too.
     away, at = cKDTree(block.samples.point[inside]).query(point, [*range(1, count + 1)])
     return np.asarray(away, np.float64), np.asarray(inside[at], np.int64)
 
@@ -434,7 +387,7 @@ def _with_points(block: HullBlock, found: LooseEnds, mine: IntArray, grid: float
     if not len(mine):
         return block
     old, point = block.samples, found.point[mine]
-    uv = np.round(_loose_ends_parameters(block, point) / grid) * grid
+    uv = np.round(_parameters_of_neighbours(block, point) / grid) * grid
     uv = np.clip(uv, *block.extent.T)
     samples = Samples(
         np.concatenate([old.uv, uv]),
@@ -447,9 +400,10 @@ def _with_points(block: HullBlock, found: LooseEnds, mine: IntArray, grid: float
     return attrs.evolve(block, samples=samples, inside=inside)
 
 
-def _loose_ends_parameters(block: HullBlock, point: FloatArray) -> FloatArray:
+def _parameters_of_neighbours(block: HullBlock, point: FloatArray) -> FloatArray:
     """Give parameters by the plane that fits those of the neighbours best, (k, 2), m."""
     away, at = _nearest(point, block, min(_NEIGHBOURS, int(block.inside.sum())))
+    # A tenth of the farthest distance keeps the weight of a neighbour at no distance finite.
     weight = 1.0 / (away + away[:, -1:] * 0.1)
     uv, place = block.samples.uv[at], block.samples.point[at] - point[:, None]
     share = weight[..., None] / weight.sum(axis=1)[:, None, None]
@@ -461,10 +415,7 @@ def _loose_ends_parameters(block: HullBlock, point: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# From the net of a hull to blocks with samples: what a surface is fitted to.
-#
-# The half hull is parted into cells of its net (`plan`), each block is laid out on a rectangle
-# (`block_map`), and points are taken along its lines (`block_samples`).
+# From the net to blocks with samples.
 
 _TANGENT = 25.0
 """A border that turns by fewer degrees at a corner has its sides tangent there."""
@@ -477,7 +428,7 @@ def lay_out(
 
     Parameters
     ----------
-    net : Net
+    net : CurveNet
         Curves and crossings.
     length : float, m
         Of the ship.
@@ -486,7 +437,7 @@ def lay_out(
 
     Returns
     -------
-    tuple of Block
+    tuple of HullBlock
         Masters before those that follow them.
 
     Raises

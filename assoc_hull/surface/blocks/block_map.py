@@ -28,26 +28,23 @@ __all__ = [
     "harmonic_map",
 ]
 
-# --------------------------------------------------------------------------------------
-# A part of a net laid out flat: nodes at the mean of their neighbours, the border given.
-#
-#     Tutte, W.T.: How to draw a graph. Proceedings of the London Mathematical Society 13 (1963):
-#     with positive weights and a convex border nothing folds.
-#
-# The weight of an edge is the width of the strips on both sides of it over its length: that of
-# finite volumes, so that a net of any density is laid out as the smooth (harmonic) map would be.
-# Weights are rounded to powers of two: a line that moves a little changes none.
+# W. T. Tutte, How to draw a graph, Proceedings of the London Mathematical Society 13, 1963: with
+# positive weights and a convex border nothing folds.
 
 _LEAST = 1e-3
 """Of the mean weight: no edge counts for less."""
 
 
 def edge_weights(region: CellRegion) -> FloatArray:
-    """Give the weights of all edges for what a region holds, (e,); nil outside it.
+    """Give the weights of all edges for what a region holds, (e,); zero outside it.
+
+    The weight of an edge is the width of the strips on both sides of it over its length: that of
+    finite volumes, so that a net of any density is laid out as the smooth (harmonic) map would be.
+    Weights are rounded to powers of two: a line that moves a little changes none.
 
     Parameters
     ----------
-    region : Region
+    region : CellRegion
         The part of the net.
     """
     graph, cells = region.graph, region.cells
@@ -80,12 +77,7 @@ def _areas(region: CellRegion) -> FloatArray:
 def harmonic_map(region: CellRegion, uv: FloatArray) -> FloatArray:
     """Give all nodes of a region parameters, (n, 2), m; nan outside it.
 
-    Parameters
-    ----------
-    region : Region
-        The part of the net.
-    uv : (n, 2), m
-        Where given nodes lie, those of its border among them; nan elsewhere.
+    `uv` (n, 2), m, is where given nodes lie, those of the border among them; nan elsewhere.
     """
     from scipy.sparse import csc_matrix  # costs a start of the program
     from scipy.sparse.linalg import splu
@@ -128,17 +120,14 @@ def _equations(
 
 
 # --------------------------------------------------------------------------------------
-# A block laid out on its rectangle, bays beyond its sides on rectangles beside it.
-#
-# Parameters of nodes are rounded to a grid of about a centimetre: the fit corrects them anyway, and
-# where a line has moved by less, far from an edit, they stay as they are to the bit. Along a border
-# that follows another block they are those of that block, in proportion.
+# The block and its bays.
 
 _GIRTH = 40
 """Parts of a girth at which the distance of neighbouring sections is taken."""
 
 GRID, _COARSE = 2.0**-15, 2.0**-11
-"""Parts of the ship's length to which nodes and the sides of rectangles are rounded."""
+"""Parts of the ship's length to which nodes and the sides of rectangles are rounded; the fit
+corrects parameters of nodes anyway."""
 
 _TOUCHING = {"u0": "u1", "u1": "u0", "v0": "v1", "v1": "v0"}
 
@@ -173,9 +162,9 @@ class BlockMap:
     ----------
     plan : BlockPlan
         What is laid out.
-    core : Laid
+    core : LaidQuad
         The block.
-    bays : dict of str to Laid
+    bays : dict of str to LaidQuad
         The bays, by the side or corner they lie beyond.
     """
 
@@ -202,16 +191,9 @@ class _Sheet:
 
 
 def block_map(plan: BlockPlan, length: float, masters: Mapping[str, BlockMap]) -> BlockMap:
-    """Lay a block and its bays out.
+    """Lay a block and its bays out; `masters` are the blocks it follows, laid out, by their names.
 
-    Parameters
-    ----------
-    plan : BlockPlan
-        The block.
-    length : float, m
-        Of the ship.
-    masters : mapping of str to BlockMap
-        The blocks it follows, laid out, by their names.
+    `length`, m, is that of the ship.
     """
     count = len(plan.core.region.graph.place)
     sheet = _Sheet(np.full((count, 2), np.nan), GRID * length)

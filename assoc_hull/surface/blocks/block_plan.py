@@ -37,13 +37,10 @@ __all__ = [
     "four_corners",
 ]
 
-# --------------------------------------------------------------------------------------
-# The four corners of a region: where its border really turns.
-#
-# Corners at the ends of a section that bounds it come first, then sharp ones of the hull, then the
-# ends of other cuts, and where a smooth border turns most.
 
 _WINDOW = 0.02
+"""Over this part of the ship's length the turn of a border is taken."""
+
 _TIP, _SHARP = 0.002, 40.0
 """A border that turns by so many degrees over so small a part of the ship has a corner."""
 
@@ -65,27 +62,12 @@ def four_corners(
     second: Sequence[int] = (),
     never: Sequence[int] = (),
 ) -> tuple[tuple[int, ...], tuple[float, ...]]:
-    """Choose four nodes round a region, counter-clockwise; also give the turns there.
+    """Choose four nodes round a region, counter-clockwise; also give the turns there, degrees.
 
-    Parameters
-    ----------
-    region : Region
-        A disc.
-    length : float, m
-        Of the ship.
-    first : sequence of int
-        Nodes that are corners whatever the border does.
-    second : sequence of int
-        Nodes that are if there are too few sharp ones.
-    never : sequence of int
-        Nodes that are none, nor any near them: the hull runs on there.
-
-    Returns
-    -------
-    tuple of int
-        Nodes, in their order round the region.
-    tuple of float, degrees
-        By how much the border turns at each, over a short way: little at those of round borders.
+    The turns are those over a short way: little at round borders. Nodes `first` are corners
+    whatever the border does: those at the ends of a section that bounds it. Then come sharp corners
+    of the hull, then nodes `second`, then where a smooth border turns most. Nodes `never` are none,
+    nor any near them: the hull runs on there. `length`, m, is that of the ship.
     """
     found = border_course(region)
     node = found.node.tolist()
@@ -141,22 +123,12 @@ def _shape(found: BorderCourse, corner: Sequence[int]) -> float:
 
 # --------------------------------------------------------------------------------------
 # Bays beyond the borders of a block: as far as the next line, on its master's side.
-#
-# A surface is fitted over them too and cut at the border, so that its end is not its worst place.
 
 Bays = dict[str, Quad]
 
 
 def bays_of_whole(whole: CellRegion, end: EndCut) -> Bays:
-    """Give the bay beside an end that is one block.
-
-    Parameters
-    ----------
-    whole : Region
-        The half hull.
-    end : EndCut
-        How the end is cut off.
-    """
+    """Give the bay beside an end that is one block, by its side."""
     strip = _strip(whole, end)
     found = None if strip is None else _bay(strip, end, end.section.first, end.section.last)
     return {} if found is None else {_side(end): found}
@@ -165,29 +137,17 @@ def bays_of_whole(whole: CellRegion, end: EndCut) -> Bays:
 def bays_of_parts(
     whole: CellRegion, end: EndCut, upper: CellRegion, high: int
 ) -> tuple[Bays, Bays]:
-    """Give the bays beside the two blocks of an end that is cut along a waterline.
+    """Give the bays beside the upper and the lower block of an end that is cut along a waterline.
 
-    Parameters
-    ----------
-    whole : Region
-        The half hull.
-    end : EndCut
-        How the end is cut off.
-    upper : Region
-        The part above the waterline.
-    high : int
-        A half-edge of the waterline that has this part on its left.
-
-    Returns
-    -------
-    dict of str to Quad, twice
-        Bays of the upper and of the lower block; the latter reaches beyond the waterline as well.
+    `upper` is the part above it, `high` a half-edge of the waterline that has this on its left. The
+    bays of the lower block reach beyond the waterline as well.
     """
     strip, side, line = _strip(whole, end), _side(end), end.along[0]
     carried = [None if strip is None else _carried(strip, each) for each in end.along]
     above, below = Bays(), Bays()
     base = carried[0]
     if strip is not None and base is not None:
+        # Towards midship it runs aft from a bow, its upper side on the left; from a stern, forward.
         upward = int(base.half[0]) ^ (end.kind == "stern")
         for bays, half, top, bottom in (
             (above, upward, end.section.first, line.first),
@@ -200,9 +160,11 @@ def bays_of_parts(
         return above, below
     next_line = end.along[1]
     part = upper.with_half([next_line.half], high)
+    # Only a disc has four corners.
     if part is not None and part.is_disc:
         below["v0"] = _across(end, part)
     over = carried[1]
+    # Beyond a corner there is a bay only if there is one beyond the side next to it.
     if strip is not None and base is not None and over is not None and "v0" in below:
         between = strip.with_half([base.half, over.half], upward)
         found = _bay(between, end, next_line.first, line.first)
@@ -259,11 +221,7 @@ def _carried(strip: CellRegion, line: RegionChord) -> RegionChord | None:
 
 
 # --------------------------------------------------------------------------------------
-# Which blocks a half hull is parted into, and the bays in which their surfaces overlap.
-#
-# The body is master of the ends; of an end that is parted along, what lies above is master of what
-# lies below. A master knows nothing of what follows it: so what changes in a bow changes nothing
-# abaft of it.
+# Plans of all blocks, masters first.
 
 _PASSES = 0.002
 """A border passes a place that it misses by less than this part of the ship's length."""
@@ -302,9 +260,9 @@ class BlockPlan:
         The block itself.
     bays : dict of str to Quad
         Beyond ``"u0"``, ``"u1"``, ``"v0"``; and beyond a corner, ``"u0 v0"`` or ``"u1 v0"``.
-    seams : tuple of Seam
+    seams : tuple of BlockSeam
         Where it follows another block.
-    rails : tuple of Chord
+    rails : tuple of RegionChord
         Sections from deck to keel by which a body is laid out.
     turns : tuple of float, degrees
         By how much the border turns at the corners.
@@ -323,19 +281,9 @@ class BlockPlan:
 
 
 def block_plans(cells: NetCells, length: float) -> tuple[BlockPlan, ...]:
-    """Part a half hull into blocks, masters first.
+    """Part a half hull into blocks, masters first; `length`, m, is that of the ship.
 
-    Parameters
-    ----------
-    cells : Cells
-        The cells of its net.
-    length : float, m
-        Of the ship.
-
-    Raises
-    ------
-    BadInputError
-        The half hull, or a part of it, is no disc with four corners.
+    Raises BadInputError where the half hull, or a part of it, is no disc with four corners.
     """
     whole = CellRegion.whole(cells)
     _require_disc(whole, "the half hull")

@@ -32,11 +32,6 @@ __all__ = [
     "find_inward_bends",
 ]
 
-# --------------------------------------------------------------------------------------
-# Parts of the half hull: cells that hang together, and the lines that part them.
-#
-# Lines part a region as they part the hull: nothing is said of coordinates, only of which cells lie
-# on which side. So a bulb that reaches above its own cut stays in one piece.
 
 BRIDGE = "bridge"
 """The family of edges that are no lines of the hull: cuts run along them."""
@@ -75,7 +70,7 @@ class CellRegion:
 
     Attributes
     ----------
-    cells : Cells
+    cells : NetCells
         All cells of the half hull.
     inside : (c,) bool
         Those of the region.
@@ -180,7 +175,10 @@ class CellRegion:
         return tuple(found)
 
     def parted(self, cuts: Sequence[IntArray]) -> tuple[CellRegion, ...]:
-        """Give the parts left when the region is cut along half-edges, by their least cell."""
+        """Give the parts left when the region is cut along half-edges, by their least cell.
+
+        Only cells count, no coordinates: a bulb that reaches above its own cut stays in one piece.
+        """
         free = self.interior.copy()
         for cut in cuts:
             free[cut >> 1] = False
@@ -233,7 +231,7 @@ def _components(count: int, pairs: IntArray) -> IntArray:
 
 
 # --------------------------------------------------------------------------------------
-# Regions with four corners: sides, and what a rectangle they are laid out on.
+# Quads.
 
 SIDES = ("u0", "u1", "v0", "v1")
 
@@ -244,7 +242,7 @@ class Quad:
 
     Attributes
     ----------
-    region : Region
+    region : CellRegion
         The disc.
     corner : (int, int, int, int)
         Nodes at (u, v) least and least, greatest and least, both greatest, least and greatest:
@@ -289,10 +287,8 @@ class Quad:
 
 
 # --------------------------------------------------------------------------------------
-# The outline of a half hull, and where it bends: round corners of a part, or into the ship.
-#
-# A neck between bulb and stem, or an aperture, is no corner on paper: it has a radius. What counts
-# is by how much the outline turns over a stretch that is short beside the ship.
+# The outline and its bends. A neck between bulb and stem, or an aperture, is no corner on paper: it
+# has a radius. What counts is by how much the outline turns over a stretch short beside the ship.
 
 WINDOW = 0.012
 """Over this part of the ship's length the turn of the profile is taken."""
@@ -376,18 +372,10 @@ def border_course(region: CellRegion) -> BorderCourse:
 def border_turns(
     found: BorderCourse, along: FloatArray, window: float, normal: FloatArray | None = None
 ) -> FloatArray:
-    """Give by how much a border turns at places, (k,), degrees.
+    """Give by how much a border turns at places `along` it (k,), m: (k,), degrees.
 
-    Parameters
-    ----------
-    found : Course
-        The border.
-    along : (k,), m
-        How far round it.
-    window : float, m
-        Chords of half of it, before and behind, are compared.
-    normal : (k, 3), optional
-        Outward normals: where the border turns away from what it goes round, it counts as nil.
+    Chords of half the window, m, before and behind are compared. With outward normals (k, 3), where
+    the border turns away from what it goes round, it counts as zero.
     """
     here = found.at(along)
     before, behind = here - found.at(along - 0.5 * window), found.at(along + 0.5 * window) - here
@@ -402,16 +390,10 @@ def border_turns(
 def find_inward_bends(
     found: BorderCourse, length: float, least: float = LEAST
 ) -> tuple[ProfileBend, ...]:
-    """Find where the profile bends into the ship, round the outline.
+    """Find where the profile bends into the ship by `least` degrees or more, round the outline.
 
-    Parameters
-    ----------
-    found : Course
-        The outline of the half hull: the deck forward, the keel aft.
-    length : float, m
-        Of the ship.
-    least : float, degrees
-        What counts.
+    The outline runs along the deck forward and along the keel aft; `length`, m, is that of the
+    ship.
     """
     half = 0.5 * WINDOW * length
     along = np.arange(0.0, found.length, 0.05 * half)
@@ -429,6 +411,7 @@ def find_inward_bends(
     bends = []
     for low, high in edges.reshape(-1, 2).tolist():
         best = turn[low:high]
+        # A round bend turns most on a plateau: its middle, within a degree.
         at = float(along[low:high][best >= best.max() - 1.0].mean())
         x, y, z = found.at(np.array([at]))[0].tolist()
         bends.append(ProfileBend(at, float(best.max()), (x, y, z)))

@@ -35,8 +35,6 @@ __all__ = [
     "whole_sections",
 ]
 
-# --------------------------------------------------------------------------------------
-# Where a half hull is cut across and along: lines of its net beside bends of its profile.
 
 _KEEL = 0.1
 """A section stands on the keel where the profile rises by less than this a metre."""
@@ -67,13 +65,13 @@ class EndCut:
     ----------
     kind : {"bow", "stern"}
         Which end.
-    section : Chord
+    section : RegionChord
         The section, from the deck down.
-    beside : Chord or None
+    beside : RegionChord or None
         The next section towards midship: the bay between is where surfaces overlap.
-    along : tuple of Chord
+    along : tuple of RegionChord
         The waterline that parts the end, from the section to the profile; and the next one above.
-    bend : Bend
+    bend : ProfileBend
         The bend it is cut for.
     notes : tuple of str
         What is to be known.
@@ -88,14 +86,9 @@ class EndCut:
 
 
 def whole_sections(whole: CellRegion, length: float) -> tuple[RegionChord, ...]:
-    """Give the sections in one piece that stand on the keel, from aft forward, from the deck down.
+    """Give the sections in one piece that stand on the keel, from aft forward.
 
-    Parameters
-    ----------
-    whole : Region
-        The half hull.
-    length : float, m
-        Of the ship.
+    Each runs from the deck down; `length`, m, is that of the ship.
     """
     graph, net = whole.graph, whole.graph.net
     found = list[tuple[float, RegionChord]]()
@@ -129,16 +122,9 @@ def _on_keel(whole: CellRegion, outline: BorderCourse, node: int, length: float)
 
 
 def end_cut(whole: CellRegion, length: float, kind: str) -> EndCut | None:
-    """Find how an end of the hull is to be cut off, if at all.
+    """Find how the end `kind`, "bow" or "stern", is to be cut off, if at all.
 
-    Parameters
-    ----------
-    whole : Region
-        The half hull.
-    length : float, m
-        Of the ship.
-    kind : {"bow", "stern"}
-        Which end.
+    `length`, m, is that of the ship.
     """
     bend = _main_bend(whole, length, kind)
     if bend is None:
@@ -214,12 +200,14 @@ def _waterlines(
     parts = [
         part
         for part in whole.parted([section.half])
+        # The section stands `_BEFORE` off the bend: what lies behind it comes no nearer than that.
         if passes_bend(part, bend, 0.5 * _BEFORE * length)
     ]
     if len(parts) != 1:
         return ()
     (part,) = parts
     outline = border_course(whole)
+    # `start` has the whole length behind the last node.
     where = dict(zip(outline.node.tolist(), outline.start.tolist(), strict=False))
     found = list[tuple[float, float, RegionChord]]()
     for curve in np.unique(graph.curve[part.edges]).tolist():
@@ -227,13 +215,16 @@ def _waterlines(
             continue
         for chord in part.chords(curve):
             run = chord if chord.first in on_section else chord.reversed()
+            # One that comes back to the section parts nothing.
             if run.first in on_section and run.last in where and run.last not in on_section:
                 away = abs(where[run.last] - bend.along)
+                # The border is closed: the shorter way round counts.
                 away = min(away, outline.length - away)
                 found.append((away, float(graph.place[run.last, 2]), run))
     close = [each for each in found if each[0] <= _NEAR * length]
     if not close:
         return ()
+    # By numbers only: lines cannot be compared.
     _, level, cut = min(close, key=lambda each: each[:2])
     above = sorted((each for each in found if each[1] > level), key=lambda each: each[1])
     cut = _over_bridge(part, cut)
@@ -253,54 +244,30 @@ def _over_bridge(region: CellRegion, line: RegionChord) -> RegionChord:
 
 
 def passes_bend(part: CellRegion, bend: ProfileBend, near: float) -> bool:
-    """Tell whether the border of a part passes a bend.
-
-    Parameters
-    ----------
-    part : Region
-        The part.
-    bend : Bend
-        Where the profile bends.
-    near : float, m
-        What counts as passed.
-    """
+    """Tell whether the border of a part passes a bend of the profile nearer than `near`, m."""
     found = part.path(part.loop)
     return bool(np.abs(found - np.array(bend.place)).max(axis=1).min() <= near)
 
 
 # --------------------------------------------------------------------------------------
-# From a waterline to a sharp corner of the profile beside its end: an edge through one cell.
-#
-# An aperture has its corner where the drawing has it, and no waterline need end there. If the cut
-# ended beside it, one block would keep a corner of more than 180 degrees in its border, and fold.
-# So the cut leaves the waterline at its last crossing and runs to the corner, in the shape that the
-# waterline has there, moved along by less and less. The edge is no line of the hull: its points
-# count for little, and residuals are not taken on them.
+# Bridges. An aperture has its corner where the drawing has it, and no waterline need end there. If
+# the cut ended beside it, one block would keep a corner of more than 180 degrees in its border, and
+# fold. So the cut leaves the waterline at its last crossing and runs to the corner, in the shape
+# that the waterline has there, moved by a part that grows towards the corner.
 
 _STEPS = 8
-_BRIDGES_NEAR = 0.01
+_CORNER_NEAR = 0.01
 """The corner is no farther from the end of the waterline than this part of the ship's length."""
 
-_TIP, _BRIDGES_SHARP = 0.002, 40.0
+_TIP, _CORNER_SHARP = 0.002, 40.0
 """It turns by so many degrees over so small a part of the length."""
 
 
 def add_bridges(found: NetCells, ends: tuple[EndCut | None, ...], length: float) -> NetCells:
-    """Give the cells with the edges that cuts of ends want.
+    """Give the cells with the edges that cuts of ends want: one cell more for each.
 
-    Parameters
-    ----------
-    found : Cells
-        The cells of the half hull.
-    ends : tuple of EndCut or None
-        How the ends are to be cut.
-    length : float, m
-        Of the ship.
-
-    Returns
-    -------
-    Cells
-        The same, or with one cell more for each edge; numbers of nodes and edges stay.
+    Numbers of nodes and edges stay. The new edges are no lines of the hull: their points count for
+    little, and residuals are not taken on them.
     """
     whole = CellRegion.whole(found)
     every = [_bridge(whole, end, length) for end in ends if end is not None and end.along]
@@ -325,7 +292,7 @@ def _bridge(whole: CellRegion, end: EndCut, length: float) -> _Bridge | None:
     away = np.abs(outline.start[:-1] - outline.start[at])
     away = np.minimum(away, outline.length - away)
     sharp = border_turns(outline, outline.start[:-1], _TIP * length)
-    near = np.flatnonzero((away <= _BRIDGES_NEAR * length) & (sharp >= _BRIDGES_SHARP))
+    near = np.flatnonzero((away <= _CORNER_NEAR * length) & (sharp >= _CORNER_SHARP))
     if not len(near) or at in near or len(line.half) < 2:
         return None
     i = int(near[np.argmax(sharp[near])])

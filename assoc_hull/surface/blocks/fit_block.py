@@ -38,11 +38,6 @@ __all__ = [
     "master_part",
 ]
 
-# --------------------------------------------------------------------------------------
-# Where the spans of a block meet: between stations, along the girth, and as its masters have them.
-#
-# Along a border a block takes the breaks of its master, so that both have the same border to the
-# bit.
 
 Breaks = tuple[FloatArray, FloatArray]
 
@@ -83,20 +78,10 @@ def block_breaks(
     known: Mapping[str, Breaks],
     ends: tuple[FloatArray, FloatArray],
 ) -> Breaks:
-    """Give where spans of a block meet, over all of its reach.
+    """Give where spans of a block meet, over all of its reach, in u and in v, m.
 
-    Parameters
-    ----------
-    block : Block
-        The block.
-    girth_span : float, m
-        How long spans along the girth are.
-    length : float, m
-        Of the ship.
-    known : mapping of str to (breaks in u, breaks in v)
-        Those of its masters.
-    ends : (n,), (n,), m
-        Where borders of other blocks end on its sides, in u and in v.
+    Spans along the girth are `girth_span` long, m; `known` are the breaks of its masters, by name,
+    `ends` the places on its sides, in u and in v, m, where borders of other blocks end.
     """
     (u0, u1), (v0, v1) = block.reach.tolist()
     if block.kind == "body":
@@ -185,15 +170,7 @@ def _thinned(places: FloatArray, least: float) -> FloatArray:
 
 
 def master_part(breaks: FloatArray, stretch: SideStretch) -> FloatArray:
-    """Give the breaks of a master between the ends of a stretch, in parameters of the slave.
-
-    Parameters
-    ----------
-    breaks : (b,), m
-        Of the master, along its side.
-    stretch : Stretch
-        What of the side of the slave lies there.
-    """
+    """Give the breaks (b,), m, of a master along a stretch, in parameters of its follower."""
     low, high = stretch.master_low, stretch.master_high
     inner = breaks[(breaks > low + _SAME) & (breaks < high - _SAME)]
     ratio = (stretch.high - stretch.low) / (high - low)
@@ -227,10 +204,14 @@ def _merged(places: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# One block: its points become a surface, which is cut at its borders and joined to its masters.
+# The fit of a block: over its reach, then cut at its borders and joined to its masters.
 
 _PASSES = 4
+"""How often spans are halved at most."""
+
 _STEPS = 8
+"""Steps of the search for the foot of a point on the published surface."""
+
 _STIFFER = (1.0, 3.0, 9.0, 27.0)
 """Penalties that are tried while a surface is folded, over the one asked for."""
 
@@ -251,14 +232,14 @@ class MadeBlock:
 
     Attributes
     ----------
-    block : Block
+    block : HullBlock
         What it was made from.
-    fit : Fit
+    fit : SurfaceFit
         Over all of its reach, before it was cut and joined.
-    part : Fit
+    part : SurfaceFit
         As published: cut at its borders and joined to its masters; with the points of its own
         lines, and how far these lie from it.
-    borders : tuple of Border
+    borders : tuple of BlockBorder
         Where it meets its masters.
     settled : bool
         Control points of `part` were left where an earlier surface had them.
@@ -285,21 +266,8 @@ def make_without_folds(
 ) -> MadeBlock:
     """Fit and join a block; one that is folded is made stiffer until it is not.
 
-    Parameters
-    ----------
-    block : Block
-        The block.
-    options : FitOptions
-        Penalty and tolerances.
-    made : mapping of str to Made
-        Its masters.
-    ends : (n,), (n,), m
-        Where borders of other blocks end on its sides, in u and in v.
-
-    Returns
-    -------
-    Made
-        The first that is not folded; as asked for, if all are.
+    `made` are its masters by name, `ends` as of `block_breaks`. If all are folded, the one with the
+    penalty asked for is given.
     """
     known = {name: made[name].breaks for name in block.masters}
     first = None
@@ -316,7 +284,7 @@ def make_without_folds(
 def folded_places(shape: SurfaceElements) -> FloatArray:
     """Give the places at which a surface is folded, those beside singular corners left out.
 
-    There the normal itself goes to nil, and its direction on a grid tells nothing.
+    There the normal itself goes to zero, and its direction on a grid tells nothing.
     """
     found = shape.folded
     for corner in shape.singular:
@@ -337,18 +305,7 @@ def fit_with_overlap(
 ) -> SurfaceFit:
     """Fit a surface to the points of a block, with its overlap.
 
-    Parameters
-    ----------
-    block : Block
-        The block.
-    options : FitOptions
-        Penalty and tolerances.
-    known : mapping of str to (breaks in u, breaks in v)
-        Where spans of its masters meet.
-    ends : (n,), (n,), m
-        Where borders of other blocks end on its sides, in u and in v.
-    stiffer : float
-        How many times the penalty is that of the options.
+    `known` and `ends` as of `block_breaks`; the penalty is `stiffer` times that of the options.
     """
     breaks = block_breaks(block, options.girth_span, options.length, known, ends)
     limit = options.limit(block.kind)
@@ -389,6 +346,7 @@ def _on_part(
 ) -> HeldControls:
     """Hold y of the control points of a side that matter between two places."""
     knots = np.concatenate([np.repeat(breaks[:1], 3), breaks, np.repeat(breaks[-1:], 3)])
+    # Spline i has a share between the knots i and i + 4.
     inside = (knots[4:] > low + 1e-9) & (knots[:-4] < high - 1e-9)
     mask = held.mask.copy()
     rows = np.flatnonzero(inside)
@@ -402,17 +360,7 @@ def _on_part(
 def join_block_to_masters(
     block: HullBlock, fit: SurfaceFit, made: Mapping[str, MadeBlock]
 ) -> MadeBlock:
-    """Cut a fit at its borders, and let it follow its masters there.
-
-    Parameters
-    ----------
-    block : Block
-        The block.
-    fit : Fit
-        Its fit, with its overlap.
-    made : mapping of str to Made
-        Its masters.
-    """
+    """Cut a fit with its overlap at the borders of its block, and join it to its masters there."""
     strips = dict(_strips(block, made))
     (u0, u1), (v0, v1) = block.extent.tolist()
     part = join_to_masters(
@@ -420,7 +368,7 @@ def join_block_to_masters(
     )
     part = _measured(block, fit, part)
     borders = []
-    for stretch, side in _fit_block_with_masters(block):
+    for stretch, side in _following_stretches(block):
         master = made[stretch.master].block
         joint = measure_joint(side, strips[side], fit.surface, part.surface)
         names, kinds = (master.name, block.name), (master.kind, block.kind)
@@ -442,7 +390,7 @@ def _measured(block: HullBlock, fit: SurfaceFit, part: SurfaceFit) -> SurfaceFit
     return SurfaceFit(part.surface, attrs.evolve(own, uv=uv), away, part.smoothing)
 
 
-def _fit_block_with_masters(block: HullBlock) -> Iterator[tuple[SideStretch, str]]:
+def _following_stretches(block: HullBlock) -> Iterator[tuple[SideStretch, str]]:
     """Give the parts of the border that follow another block, and their sides."""
     for side, stretches in block.sides.items():
         yield from ((stretch, side) for stretch in stretches if stretch.master)
@@ -450,7 +398,7 @@ def _fit_block_with_masters(block: HullBlock) -> Iterator[tuple[SideStretch, str
 
 def _strips(block: HullBlock, made: Mapping[str, MadeBlock]) -> Iterator[tuple[str, Strip]]:
     """Give what the masters of a block hand over to it, side by side."""
-    for stretch, side in _fit_block_with_masters(block):
+    for stretch, side in _following_stretches(block):
         surface = made[stretch.master].part.surface
         whole = surface.domain[stretch.master_side[0] == "u"]
         part = stretch.master_low, stretch.master_high

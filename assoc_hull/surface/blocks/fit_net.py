@@ -54,16 +54,10 @@ __all__ = [
     "surface_of_net",
 ]
 
-# --------------------------------------------------------------------------------------
-# What of an earlier surface still holds: blocks whose points stayed, control points that did.
-#
 # A block is fitted again when a point of its lines has moved by more than the cut-off from where it
-# was *when the published fit was made*: so moves add up, and nothing drifts. Of a block that is
-# fitted again, control points that come to lie within the cut-off of their published place keep it,
-# to the last bit: so Bezier patches that only such points share keep their nets, and what was found
-# for them, and the surface is a spline of the same smoothness still. With a cut-off of 0 nothing is
-# kept that is not the same in every bit; as a fit is a function of the points, the surface then is
-# that which comes without an earlier one.
+# was when the published fit was made: so moves add up, and nothing drifts. Control points that come
+# to lie within the cut-off of their published place keep it to the bit: so Bezier patches that only
+# such points share keep their nets, and what was found for them; the surface stays as smooth.
 
 
 def arrays_near(one: FloatArray, other: FloatArray, cutoff: float) -> bool:
@@ -80,19 +74,9 @@ def block_unmoved(
 ) -> bool:
     """Say whether the fit of an earlier block holds for a block.
 
-    Parameters
-    ----------
-    block, old : Block
-        The block, and the one that the published fit was made from.
-    names, old_names : sequences of str
-        The lines that their points count by.
-    cutoff : float, m
-        What points may have moved by; with 0, all that a fit depends on has to be the same.
-
-    Returns
-    -------
-    bool
-        False too where there are other points, sides, or lines.
+    Not if points, sides or lines differ; `names`, `old_names` are the lines that points count by.
+    Points may have moved by the cut-off, m; with 0 all that a fit depends on has to be the same in
+    every bit.
     """
     mine, theirs = block.samples, old.samples
     same = (
@@ -127,24 +111,11 @@ def _sides(block: HullBlock) -> list[tuple[object, ...]]:
 def settle_controls(
     fit: SurfaceFit, old: SplineSurface, cutoff: float, borders: Sequence[str] = ()
 ) -> SurfaceFit:
-    """Let control points that hardly moved keep their place.
+    """Let control points less than the cut-off, m, from their place in the published `old` keep it.
 
-    Parameters
-    ----------
-    fit : Fit
-        A surface as it was fitted, or joined, anew.
-    old : SplineSurface
-        As it is published.
-    cutoff : float, m
-        Control points less far from there, and knots, keep their values.
-    borders : sequence of {"u0", "u1", "v0", "v1"}
-        Sides at masters: the row there and the one behind it stay as they are, for they have to
-        fit what the masters hand over.
-
-    Returns
-    -------
-    Fit
-        With residuals as they were found, which is within the cut-off of what they are.
+    So do knots. At `borders`, the sides at masters, the row there and the one behind it stay as
+    they are: they have to fit what the masters hand over. Residuals stay as found, within the
+    cut-off of what they are.
     """
     new = fit.surface
     alike = cutoff > 0.0 and all(
@@ -171,7 +142,7 @@ def share_kept(new: Sequence[SplineSurface], old: Sequence[SplineSurface]) -> fl
 
 
 # --------------------------------------------------------------------------------------
-# Blocks made anew only where lines have moved: the others are taken from an earlier surface.
+# Blocks made or kept.
 
 
 @attrs.frozen(eq=False)
@@ -180,7 +151,7 @@ class EarlierBlocks:
 
     Attributes
     ----------
-    made : mapping of str to Made
+    made : mapping of str to MadeBlock
         Its blocks by name.
     names : tuple of str
         The lines that their points count by.
@@ -196,7 +167,7 @@ class KeptBlocks:
 
     Attributes
     ----------
-    made : mapping of str to Made
+    made : mapping of str to MadeBlock
         Blocks by name, masters first.
     refitted : tuple of str
         Those that were fitted.
@@ -212,25 +183,11 @@ def make_blocks(
     names: tuple[str, ...],
     earlier: EarlierBlocks | None = None,
 ) -> KeptBlocks:
-    """Make all blocks, or take them from an earlier surface.
+    """Make all blocks, masters first, or take them from an earlier surface of the same options.
 
-    Parameters
-    ----------
-    blocks : sequence of Block
-        The blocks of a hull, masters first.
-    options : FitOptions
-        Penalty, tolerances, and the cut-off below which points count as unmoved.
-    names : tuple of str
-        The lines that points count by.
-    earlier : Earlier, optional
-        An earlier surface of the same options.
-
-    Returns
-    -------
-    Followed
-        A block of which no point has moved by more than the cut-off since its fit was made keeps
-        its fit; and all of it, if its masters are what they were. Where these have changed it is
-        joined to them again.
+    A block of which no point has moved by more than the cut-off since its fit was made keeps its
+    fit; and all of it, if its masters are what they were. Where these have changed it is joined to
+    them again. `names` are the lines that points count by.
     """
     made: dict[str, MadeBlock] = {}
     refitted = []
@@ -244,12 +201,14 @@ def make_blocks(
             same = block_unmoved(block, names, old.block, earlier.names, options.cutoff)
             # A settled one is not, in every bit, the surface of its points.
             same = same and not (old.settled and options.cutoff == 0.0)
+            # Spans end where borders of other blocks do: with other ends the fit is another.
             same = same and _near(ends, border_ends(old.block, old_blocks), options.cutoff)
             if same and _same_breaks(block, made, before, options.cutoff):
                 found = _taken(_renumbered(old, block), options, made, before)
         if found is None:
             found = make_without_folds(block, options, made, ends)
             refitted.append(block.name)
+        # After a new fit too: patches that only unmoved control points share keep their nets.
         if old is not None and found.part.surface is not old.part.surface:
             sides = [side for side, parts in block.sides.items() if any(p.master for p in parts)]
             part = settle_controls(found.part, old.part.surface, options.cutoff, sides)
@@ -315,7 +274,7 @@ def _renumbered(old: MadeBlock, block: HullBlock) -> MadeBlock:
 
 
 # --------------------------------------------------------------------------------------
-# From the lines of a hull to its surface: blocks are laid out, fitted, joined and measured.
+# The surface of a net.
 
 _WHERE = "in surface"
 

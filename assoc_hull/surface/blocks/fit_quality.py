@@ -2,7 +2,7 @@
 
 A distance is that to the foot of a point on the surface as published.
 Lines that were left out are measured in the same way, and counted by themselves.
-Each doubt names its place and its size.
+Each doubt is a sentence with its size and, where it has one, its place.
 """
 
 from __future__ import annotations
@@ -35,9 +35,6 @@ __all__ = [
     "shown_place",
     "sum_residuals",
 ]
-
-# --------------------------------------------------------------------------------------
-# What is measured of a surface: how far lines lie from it, and how its blocks meet.
 
 
 @attrs.frozen(eq=False)
@@ -103,15 +100,14 @@ class BlockBorder:
 
 
 # --------------------------------------------------------------------------------------
-# How far lines lie from a surface: those it was fitted to, and those that were left out.
-#
-# The distance of a point is that to its foot on the surface as published, not to the point with its
-# parameters: so it does not matter how a line runs along the surface.
+# Distances of lines.
 
 _SEEDS = 2
 """Places on each span from which the nearest is taken as a start."""
 
 _STEPS = 8
+"""Steps of the search for a foot."""
+
 _CHORD = 0.1
 """Chords for arc lengths, as a part of the distance of points."""
 
@@ -144,20 +140,10 @@ class LineDistances:
 def sum_residuals(
     kind: str, distance: FloatArray, point: FloatArray, line: IntArray, names: Sequence[str]
 ) -> Residuals:
-    """Sum distances up; the first of several that are largest is named.
+    """Sum up distances (k,), m, of points (k, 3), m, on curves (k,).
 
-    Parameters
-    ----------
-    kind : str
-        ``"fitted"`` or ``"left out"``.
-    distance : (k,), m
-        The distances.
-    point : (k, 3), m
-        The points.
-    line : (k,) int
-        Their curves.
-    names : sequence of str
-        The names of the curves' lines.
+    `kind` is ``"fitted"`` or ``"left out"``. The first of several that are largest is named by its
+    line.
     """
     if not len(distance):
         return Residuals(kind, 0, 0.0, 0.0, 0.0, 0.0, np.full(3, np.nan), "")
@@ -170,18 +156,10 @@ def sum_residuals(
 def line_distances(
     surfaces: Sequence[SplineSurface], net: CurveNet, chosen: NDArray[np.bool_], step: float
 ) -> LineDistances:
-    """Measure how far curves of a net lie from surfaces.
+    """Measure how far the chosen curves of a net lie from bicubic surfaces, every `step`, m.
 
-    Parameters
-    ----------
-    surfaces : sequence of SplineSurface
-        Bicubic surfaces.
-    net : Net
-        The curves.
-    chosen : (m,) bool
-        Which of them.
-    step : float, m
-        The distance of neighbouring points.
+    The distance of a point is that to its foot on the surface as published, not to the point with
+    its parameters: so it does not matter how a line runs along the surface.
     """
     curves = np.flatnonzero(chosen).tolist()
     parts = [_along(net, curve, step) for curve in curves]
@@ -233,12 +211,14 @@ def _divided(spans: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# What is doubtful of a fitted block, each in a sentence, with its place and by how much.
+# Doubts.
 
 _KNUCKLE = 5.0
 """So many times as large as p95 the p99 is where a bend was smoothed that is a knuckle."""
 
 _LEAST = 0.02
+"""Below this part of the median an element of area is in doubt."""
+
 _ROUNDING = 1e-10
 """Borders that agree to this, m, have control points that agree to the last bits."""
 
@@ -258,17 +238,7 @@ def shown_place(place: FloatArray) -> str:
 
 
 def doubts_of_fit(kind: str, found: Residuals, options: FitOptions) -> Iterator[str]:
-    """Say where a surface leaves its lines.
-
-    Parameters
-    ----------
-    kind : {"body", "bow", "stern"}
-        What block it is of.
-    found : Residuals
-        Of the lines that it was fitted to.
-    options : FitOptions
-        What they should keep.
-    """
+    """Say where the surface of a block of this kind leaves the lines that it was fitted to."""
     limit, where = options.limit(kind), f"at {shown_place(found.place)} on {found.line}"
     largest = f"the largest is {1e3 * found.largest:.1f} mm {where}"
     if found.p95 > limit:
@@ -293,13 +263,7 @@ def _beside_centre(found: Residuals, options: FitOptions) -> bool:
 
 
 def doubts_of_penalty(used: float, usual: float) -> Iterator[str]:
-    """Say that a surface was made stiffer than asked for, as it was folded.
-
-    Parameters
-    ----------
-    used, usual : float, m3
-        The factors of the penalty.
-    """
+    """Say that a surface was made stiffer than asked for, as it was folded; factors in m3."""
     if used > usual:
         yield f"stiffened: the penalty is {used / usual:g} times as large, as it was folded without"
 
@@ -307,17 +271,7 @@ def doubts_of_penalty(used: float, usual: float) -> Iterator[str]:
 def doubts_of_shape(
     surface: SplineSurface, shape: SurfaceElements, folded: FloatArray
 ) -> Iterator[str]:
-    """Say where a surface is folded, or almost has no normal.
-
-    Parameters
-    ----------
-    surface : SplineSurface
-        The surface.
-    shape : Elements
-        Its normals.
-    folded : (f, 2), m
-        Places of the grid at which it is folded.
-    """
+    """Say where a surface is folded, at places (f, 2), m, of its grid, or almost has no normal."""
     if len(folded):
         where = shown_place(surface.at(*folded[0]))
         yield f"folded: the normal turns over at {len(folded)} place(s) of the grid, as at {where}"
@@ -331,17 +285,7 @@ def doubts_of_shape(
 def doubts_of_half(
     surface: SplineSurface, shape: SurfaceElements, options: FitOptions
 ) -> Iterator[str]:
-    """Say where the half y >= 0 waves across the centre plane, so that the two halves intersect.
-
-    Parameters
-    ----------
-    surface : SplineSurface
-        The surface.
-    shape : Elements
-        Its grid of places.
-    options : FitOptions
-        They tell the length of the ship.
-    """
+    """Say where the half y >= 0 waves across the centre plane, so that the two halves intersect."""
     least = -_ACROSS * options.scale
     if surface.net[..., 1].min() >= least:
         return
@@ -355,13 +299,7 @@ def doubts_of_half(
 
 
 def doubts_of_border(border: BlockBorder) -> Iterator[str]:
-    """Say where two blocks meet at an angle, or do not meet.
-
-    Parameters
-    ----------
-    border : Border
-        Where they meet.
-    """
+    """Say where two blocks meet at an angle, or do not meet."""
     name = " | ".join(border.names)
     if border.joined_gap > _ROUNDING:
         yield f"{name}: a gap of {1e3 * border.joined_gap:.2g} mm is left"

@@ -31,9 +31,6 @@ __all__ = [
     "text_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# The surface through the lines of a hull, as what is found of it: patches, residuals, borders.
-
 
 @attrs.frozen(eq=False)
 class FittedBlock:
@@ -41,7 +38,7 @@ class FittedBlock:
 
     Attributes
     ----------
-    made : Made
+    made : MadeBlock
         Its surface, what it was made from and what it was before it was joined.
     residuals : tuple of Residuals
         On the lines that it was fitted to, and on those left out.
@@ -118,11 +115,11 @@ class NetSurface:
         Of the hull.
     options : FitOptions
         Penalty, tolerances and cut-off that it was made with.
-    net : Net
+    net : CurveNet
         The lines of the hull, as they were.
     blocks : tuple of FittedBlock
         From aft forward, each once.
-    borders : tuple of Border
+    borders : tuple of BlockBorder
         Where they meet.
     left_out : tuple of str
         The lines that nothing was fitted to.
@@ -151,7 +148,7 @@ class NetSurface:
 
 
 # --------------------------------------------------------------------------------------
-# What is told of the surface of a hull: a table to read, and plain values for programs.
+# The report.
 
 FORMAT, SCHEMA = "assoc-hull surface", 1
 _MM = 1000.0
@@ -207,13 +204,7 @@ def _place(place: FloatArray) -> str:
 
 
 def text_of(surface: NetSurface) -> str:
-    """Write the report of a surface.
-
-    Parameters
-    ----------
-    surface : NetSurface
-        The surface.
-    """
+    """Write the report of a surface as a table and sentences."""
     ship = surface.particulars
     count = sum(len(each.surface.patches()) for each in surface.blocks)
     head = f"Surface of {ship.name}, Lpp {ship.length:.2f} m, half: {len(surface.blocks)} "
@@ -249,13 +240,7 @@ def _border(border: BlockBorder) -> str:
 
 
 def document_of(surface: NetSurface) -> dict[str, Any]:
-    """Give the report as plain values: lengths in m, angles in degrees.
-
-    Parameters
-    ----------
-    surface : NetSurface
-        The surface.
-    """
+    """Give the report as plain values: lengths in m, angles in degrees."""
     return {
         "format": FORMAT,
         "schema": SCHEMA,

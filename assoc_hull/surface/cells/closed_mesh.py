@@ -41,8 +41,6 @@ __all__ = [
     "require_closed",
 ]
 
-# --------------------------------------------------------------------------------------
-# A filled half hull is covered where it is open, as far as the centre plane, and mirrored.
 
 SHELL = "shell"
 """The name of the group of the hull itself."""
@@ -199,10 +197,10 @@ def mirror_half(sheets: TriangleGroups) -> TriangleGroups:
 
 
 # --------------------------------------------------------------------------------------
-# Whether a mesh is closed, found edge by edge; and how good its triangles are.
+# The check: closed edge by edge, and how good its triangles are.
 
 _NIL = 1e-14
-"""Triangles of an area this part of the square of the length of the mesh are nil."""
+"""Triangles of an area this part of the square of the length of the mesh are zero."""
 
 _ALIKE = 1e-9
 """Volumes by x, by y and by z of a closed mesh agree to this part."""
@@ -318,18 +316,15 @@ def _slenderness(mesh: Triangles, area: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# The closed mesh of a hull: cells between its lines, filled, covered and mirrored.
-#
-# What encloses a volume is checked before it is given out. The mesh comes from the lines alone, so
-# it is independent of surfaces fitted to them, and of the strips that hydrostatics is integrated
-# on.
+# The mesh. What encloses a volume is checked before it is given out. The mesh shares nothing with
+# the strips that hydrostatics is integrated on, so that each is a check of the other.
 
 _WHERE = "in a closed mesh"
 _MOST_POINTS = 64
 
 _COARSE = 1e-4
-"""Chords that leave one line in twenty by more than this part of the length are told: on ships with
-sections and waterlines it is a tenth to a third of it, and volumes are good to .05 %."""
+"""Chords that leave one line in twenty by more than this part of the length are reported: on ships
+with sections and waterlines it is a tenth to a third of it, and volumes are good to .05 %."""
 
 
 @attrs.frozen
@@ -412,7 +407,7 @@ class ClosedMesh:
         return float(self.report.fluxes.mean())
 
     def below(self, draught: float) -> BelowDraught:
-        """Give volume and centroid below a waterplane: a check of `assoc_hull.hydrostatics`.
+        """Give volume and centroid below a waterplane: a check of `Hull.hydrostatics`.
 
         Parameters
         ----------
@@ -504,7 +499,7 @@ def mesh_of_net(
 
     Parameters
     ----------
-    net : Net
+    net : CurveNet
         Curves and crossings.
     half : bool
         The port half only. It is covered by deck and ends, and open in the centre plane.
@@ -584,56 +579,12 @@ def _sagitta(filled: FilledCells) -> FloatArray:
     return np.asarray(np.quantile(size, [0.5, 0.95, 1.0], method="higher"))
 
 
-# --------------------------------------------------------------------------------------
-# A closed mesh of a hull, of a plain call: what is asked for is checked here.
-
-
 def closed_mesh(
     hull: HasState, *, half: bool = False, points: int = 4, leave_out: Sequence[str] = ()
 ) -> ClosedMesh:
     """Make a closed mesh on the lines of a hull: for panels, printing, a check of volumes.
 
-    The lines part the hull into cells; these are filled with elements that fit together along
-    every edge. Deck and transom are covered, whatever the particulars say of the deck, and the
-    half is mirrored. The mesh comes from the lines alone: it shares nothing with
-    `assoc_hull.hydrostatics` but these.
-
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    half : bool
-        The port half only, open in the centre plane.
-    points : int
-        Into how many parts each piece of a line between two crossings is cut: even, 2 to 64.
-    leave_out : sequence of str
-        Names of lines to do without.
-
-    Returns
-    -------
-    ClosedMesh
-        Checked: every edge is that of two triangles, once in each sense.
-
-    Raises
-    ------
-    BadInputError
-        A curve of the hull has failed, or an option is out of its range.
-    UnknownNameError
-        A line to leave out does not exist.
-    OpenNetError
-        The lines do not part the hull into cells; those at fault are named.
-    OpenMeshError
-        The mesh does not close all the same.
-
-    Examples
-    --------
-    >>> import assoc_hull as ah
-    >>> hull = ah.examples.wigley()
-    >>> mesh = ah.closed_mesh(hull)
-    >>> mesh.names, mesh.report.euler, mesh.report.open_edges
-    (('shell', 'deck'), 2, 0)
-    >>> round(mesh.below(6.25).volume, 1), round(ah.hydrostatics(hull, draught=6.25).volume, 1)
-    (2776.3, 2777.4)
+    The arguments and what is raised are those of `Hull.mesh`.
     """
     state = state_of(hull, _WHERE)
     if state.failed:

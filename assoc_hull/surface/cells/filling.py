@@ -22,9 +22,6 @@ __all__ = [
     "local_frames",
 ]
 
-# --------------------------------------------------------------------------------------
-# Cells seen along their mean normals: places in a tangent plane, and a height over it.
-#
 # The height of a smooth surface over a cell of its net is close to a cubic polynomial. What is
 # filled in between the edges is what they differ from it by, which is next to nothing.
 
@@ -49,7 +46,7 @@ class LocalFrames:
     axes : (c, 3, 3), 1/m
         Rows: two across the mean normal, and that normal, by the size of the cell.
     height : (c, 10)
-        The cubic polynomial of the height; nil where the cell is bent too much.
+        The cubic polynomial of the height; zero where the cell is bent too much.
     """
 
     origin: FloatArray
@@ -78,23 +75,13 @@ class LocalFrames:
 def local_frames(rim: FloatArray, corner: FloatArray, normal: FloatArray) -> LocalFrames:
     """Lay a frame over each of some cells with equally many corners.
 
-    Parameters
-    ----------
-    rim : (c, r, 3), m
-        Points on the edges.
-    corner : (c, k, 3), m
-        The corners.
-    normal : (c, k, 3)
-        Unit normals of the hull there.
-
-    Returns
-    -------
-    LocalFrames
-        With heights fitted to the points, and to the slopes that the normals have.
+    Heights are fitted to points `rim` (c, r, 3), m, on the edges and to the slopes that unit
+    normals (c, k, 3) of the hull have at the corners (c, k, 3), m.
     """
     mean = normal.sum(axis=1)
     size = np.sqrt(dot(mean, mean))
     up = np.where(size[:, None] > 1e-6, mean / np.maximum(size, 1e-6)[:, None], [0.0, 0.0, 1.0])
+    # The axis that is least along the normal: its cross product with that is longest.
     least = np.abs(up).argmin(axis=1)
     across = np.cross(np.eye(3)[least], up)
     across /= np.sqrt(dot(across, across))[:, None]
@@ -150,13 +137,8 @@ def _fitted(rim: FloatArray, corner: FloatArray, normal: FloatArray) -> FloatArr
 
 
 # --------------------------------------------------------------------------------------
-# Cells filled with small four-sided elements that fit together along every edge.
-#
-# Both cells at an edge share its points. A cell of four sides is a Coons patch; one of k sides is
-# divided into k such patches by lines from the middles of its sides to its own; one of two sides
-# is a ladder.
-#
-# Coons, S.A.: Surfaces for computer-aided design of space forms. MIT, MAC-TR-41, 1967.
+# Both cells at an edge share its points. A cell of k sides is divided by lines from the middles of
+# its sides to its own middle.
 
 
 @attrs.frozen(eq=False)
@@ -165,7 +147,7 @@ class FilledCells:
 
     Attributes
     ----------
-    cells : Cells
+    cells : NetCells
         The cells.
     steps : int
         Into how many parts each edge is cut.
@@ -232,7 +214,7 @@ def fill_cells(cells: NetCells, steps: int) -> FilledCells:
 
     Parameters
     ----------
-    cells : Cells
+    cells : NetCells
         The cells.
     steps : int
         Into how many parts each edge is cut; even.

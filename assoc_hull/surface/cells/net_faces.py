@@ -32,8 +32,6 @@ __all__ = [
     "sound_cells",
 ]
 
-# --------------------------------------------------------------------------------------
-# Whether the lines of a net part a hull into cells; if not, which of them are at fault.
 
 _FAR = 5e-3
 """So far apart (lengths of the hull) lines are named that may have been meant to cross."""
@@ -88,20 +86,15 @@ def check_faces(graph: NetGraph, faces: int) -> None:
 def missed_crossings(graph: NetGraph, reach: float = REACH) -> tuple[str, ...]:
     """Name the lines that cross where the table holds no crossing, each pair once.
 
-    Borders of flats and knuckles are not looked at: their crossings are searched for anyway.
-
-    Parameters
-    ----------
-    graph : NetGraph
-        The net.
-    reach : float
-        Lines no farther apart cross, in lengths of the hull.
+    Lines cross that are no farther apart than `reach`, in lengths of the hull. Borders of flats and
+    knuckles are not looked at: their crossings are searched for anyway.
     """
     net = graph.net
     keep = np.isin(np.arange(net.batch.count), graph.curve)
     plain = keep & ~net.flat & ~net.knuckle
     found = unlisted_crossings(net, keep, np.flatnonzero(plain), reach)
     told: dict[tuple[int, ...], str] = {}
+    # By gap: of each pair the closest place is named.
     for i in np.lexsort((found.pair[:, 1], found.pair[:, 0], found.gap)).tolist():
         a, b = sorted(found.pair[i].tolist())
         where = f"near {_told(found.xyz[i])}, {found.gap[i]:.3f} m apart"
@@ -143,7 +136,7 @@ def _told(place: FloatArray) -> str:
 
 
 # --------------------------------------------------------------------------------------
-# The cells of a net: what its edges enclose, found by walking round along half-edges.
+# The cells.
 
 
 @attrs.frozen(eq=False)
@@ -250,7 +243,7 @@ def find_cells(graph: NetGraph) -> NetCells:
 
     Returns
     -------
-    Cells
+    NetCells
         Each but the longest loop, which goes round the outside.
 
     Raises
@@ -286,20 +279,16 @@ def find_cells(graph: NetGraph) -> NetCells:
     )
 
 
-# --------------------------------------------------------------------------------------
-# The cells of a net whose tables do not hold all crossings, where that can be mended.
-
-
 def sound_cells(net: CurveNet, leave_out: NDArray[np.bool_] | None = None) -> NetCells:
     """Find the cells of a net, with crossings that its tables do not hold if need be.
 
     Where the edges do not fit on half a hull, crossings are looked for along all lines; if they
     still do not, borders of flats are left out: they are found on some lines and drawn through,
-    and two of them may run into one another. Both is told in the notes.
+    and two of them may run into one another. Both are reported in the notes.
 
     Parameters
     ----------
-    net : Net
+    net : CurveNet
         Curves and crossings.
     leave_out : (m,) bool or None
         Curves to do without.
@@ -307,7 +296,7 @@ def sound_cells(net: CurveNet, leave_out: NDArray[np.bool_] | None = None) -> Ne
     Raises
     ------
     OpenNetError
-        As `cells`.
+        As `find_cells`.
 
     Examples
     --------

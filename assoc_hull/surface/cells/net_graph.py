@@ -31,8 +31,6 @@ __all__ = [
     "node_normals",
 ]
 
-# --------------------------------------------------------------------------------------
-# Points at equal steps along pieces of curves, from node to node.
 
 _CHORDS = 24
 """Chords by which the length along a piece of a curve is measured."""
@@ -79,17 +77,9 @@ class EdgePieces:
         return EdgePieces(self.batch, curve[which], at[which], along[which], shift[which])
 
     def points(self, part: FloatArray) -> FloatArray:
-        """Give points on the pieces.
+        """Give points (e, k, 3), m, at parts of the length of each piece, 0 to 1, (k,) or (e, k).
 
-        Parameters
-        ----------
-        part : (k,) or (e, k)
-            How far along each of them, from 0 to 1 of its length.
-
-        Returns
-        -------
-        (e, k, 3), m
-            The points; the ends are the nodes but for rounding.
+        The ends are the nodes but for rounding.
         """
         part = np.broadcast_to(part, (len(self.curve), np.shape(part)[-1]))
         t = self._parameters(part)
@@ -106,6 +96,7 @@ class EdgePieces:
         row = np.arange(len(part))[:, None]
         low, high = self.along[row, after - 1], self.along[row, after]
         share = np.divide(wanted - low, high - low, out=np.zeros_like(low), where=high > low)
+        # The end of a chord to the bit, not by rounding.
         begin, finish = self.at[row, after - 1], self.at[row, after]
         return np.asarray(np.where(share >= 1.0, finish, begin + (finish - begin) * share))
 
@@ -128,7 +119,7 @@ def measure_pieces(
 
     Returns
     -------
-    Pieces
+    EdgePieces
         Lengths are those of 24 chords.
 
     Examples
@@ -154,7 +145,7 @@ def measure_pieces(
 
 
 # --------------------------------------------------------------------------------------
-# Two edges between the same two nodes: lines that lie on one another, or nearly meet.
+# Lenses: two edges between the same two nodes, of lines that lie on one another, or nearly meet.
 
 _SHORT = 2e-4
 """Nodes so near (lengths of the hull) that two lines connect are one: three lines pass there."""
@@ -184,16 +175,8 @@ class Lenses:
 def find_lenses(edge: IntArray, rank: IntArray, pieces: EdgePieces, length: float) -> Lenses:
     """Find pairs of edges that are one.
 
-    Parameters
-    ----------
-    edge : (e, 2) int
-        The nodes at the ends of the edges.
-    rank : (e,) int
-        Of two edges that lie on one another that of the lower rank stays.
-    pieces : Pieces
-        The edges as pieces of curves.
-    length : float, m
-        Of the hull.
+    Of two that lie on one another that of the lower rank stays. `edge` (e, 2) are the nodes at the
+    ends of the edges, `length`, m, is that of the hull.
     """
     first, second = _pairs(edge, rank)
     short = np.maximum(pieces.length[first], pieces.length[second]) <= _SHORT * length
@@ -225,7 +208,7 @@ def _same_way(
 
 
 # --------------------------------------------------------------------------------------
-# Normals of a hull at the nodes of its net, from the directions of the lines that meet there.
+# Normals at the nodes.
 
 _TANGENT = 0.02
 """Lines whose directions have a smaller cross product do not tell a normal."""
@@ -236,22 +219,11 @@ along its normal: at the foot of a stem the keel does, and the border of a flat 
 
 
 def node_normals(place: FloatArray, edge: IntArray, leave: FloatArray) -> FloatArray:
-    """Give unit normals at the nodes, all to one side of the surface, outward.
+    """Give unit normals (n, 3) at the nodes (n, 3), m, all to one side of the surface, outward.
 
-    Parameters
-    ----------
-    place : (n, 3), m
-        The nodes.
-    edge : (e, 2) int
-        The nodes at the ends of each edge.
-    leave : (e, 2, 3)
-        Unit directions in which it leaves them.
-
-    Returns
-    -------
-    (n, 3)
-        The mean of the neighbours where all lines are tangent to one another, and where some lie
-        on one another as seen along the normal of the others: at corners of the hull.
+    For edges between nodes (e, 2), which leave them in unit directions (e, 2, 3). The mean of the
+    neighbours is taken where all lines are tangent to one another, and where some lie on one
+    another as seen along the normal of the others: at corners of the hull.
     """
     if not len(place):
         return np.empty((0, 3))
@@ -271,6 +243,7 @@ def edge_angles(normal: FloatArray, edge: IntArray, leave: FloatArray) -> FloatA
     Both ends of an edge one after the other; counter-clockwise as seen against the normal.
     """
     node, away = edge.ravel(), leave.reshape(-1, 3)
+    # The axis that is least along the normal: its cross product with that is longest.
     least = np.abs(normal).argmin(axis=1)
     first = np.cross(np.eye(3)[least], normal)
     first /= np.sqrt(dot(first, first))[:, None]
@@ -370,7 +343,7 @@ def _outward(place: FloatArray, normal: FloatArray) -> bool:
 
 
 # --------------------------------------------------------------------------------------
-# The lines of a hull as a graph: nodes where they cross, edges between neighbouring nodes.
+# The graph.
 
 _NEAR = 0.05
 """So far from a node (m, on a hull of 300 m) the direction of an edge is taken ..."""
@@ -387,7 +360,7 @@ class NetGraph:
 
     Attributes
     ----------
-    net : Net
+    net : CurveNet
         Its curves and crossings.
     place : (n, 3), m
         The nodes.
@@ -403,7 +376,7 @@ class NetGraph:
         Unit directions in which it leaves its first and its last node.
     row_node : (k,) int
         The node of each crossing of the net; -1 of those that are left out.
-    pieces : Pieces
+    pieces : EdgePieces
         The edges as pieces of curves, to take points from.
     loose : (l, 2) int
         Curves that end on no other, and at which end: 0 the first, 1 the last. Borders of flats
@@ -457,7 +430,7 @@ def net_graph(
 
     Parameters
     ----------
-    net : Net
+    net : CurveNet
         Curves and crossings.
     leave_out : (m,) bool or None
         Curves to do without; what they cross loses these nodes.

@@ -2,7 +2,8 @@
 
 Two curves meet where the table says, not where places are near one another.
 Places are compared along one curve only; crossings at one parameter of it are one node.
-Lines may lack crossings with borders of flats; elsewhere one that lacks is a fault of the net.
+Borders of flats are found on some lines and drawn through, so the lines between may know nothing of
+them; elsewhere a missing crossing is a fault of the net, reported by name.
 """
 
 from __future__ import annotations
@@ -29,11 +30,6 @@ __all__ = [
     "unlisted_crossings",
 ]
 
-# --------------------------------------------------------------------------------------
-# Crossings of lines that the table of a hull does not hold.
-#
-# Borders of flats are found on some lines and drawn through; the lines between may know nothing
-# of them. Elsewhere a crossing that is missing is a fault of the net, and is told by name.
 
 REACH = 80e-3 / 300.0
 """Curves that pass one another so near cross, in lengths of the hull."""
@@ -70,23 +66,10 @@ class UnlistedCrossings:
 def unlisted_crossings(
     net: CurveNet, keep: NDArray[np.bool_], curves: IntArray, reach: float = REACH
 ) -> UnlistedCrossings:
-    """Find crossings without a row.
+    """Find crossings without a row, where `curves` (c,) intersect the planes of other lines.
 
-    Parameters
-    ----------
-    net : Net
-        Curves and crossings.
-    keep : (m,) bool
-        The curves that are asked for.
-    curves : (c,) int
-        Those that are looked along: where they meet the planes of other lines.
-    reach : float
-        Lines no farther away there cross, in lengths of the hull: 80 mm on 300 m.
-
-    Returns
-    -------
-    Unnoted
-        All of them.
+    Lines of `keep` (m,) cross that are no farther away there than `reach`, in lengths of the hull:
+    80 mm on 300 m.
     """
     length = float(np.ptp(net.batch.xyz[:, 0]))
     lines = keep & np.isfinite(net.normal).all(axis=1) & (np.array(net.family) != "boundary")
@@ -138,11 +121,7 @@ def _held(
 
 
 # --------------------------------------------------------------------------------------
-# Where curves of a net pass its nodes: crossings that are one place are one node.
-#
-# A crossing is a row of the table, so two curves meet where the table says, not where places are
-# near one another. Places are compared along one curve only: rows that lie on it at one parameter
-# are one node. Boundary curves end on one another without a row; only their ends are searched for.
+# Nodes. Boundary curves end on one another without a row; only their ends are searched for.
 
 _SAME = 1e-5
 """Places on one curve this part of the length of the hull apart are one node."""
@@ -220,21 +199,10 @@ class _Crossings:
 
 
 def find_stops(net: CurveNet, keep: NDArray[np.bool_], search: NDArray[np.bool_]) -> Stops:
-    """Find the nodes of a net.
+    """Find the nodes of a net, numbered along the curves, the first curve first.
 
-    Parameters
-    ----------
-    net : Net
-        Curves and crossings.
-    keep : (m,) bool
-        The curves that are asked for; crossings with others are left out.
-    search : (m,) bool
-        Curves along which crossings without a row are looked for.
-
-    Returns
-    -------
-    Stops
-        Numbered along the curves, the first curve first.
+    Crossings with curves that are not in `keep` (m,) are left out; along those of `search` (m,)
+    crossings without a row are looked for.
     """
     near = _near(net)
     every = _crossings(net, keep, search, near)

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from assoc_hull.arguments import instance
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.arcs import arcs_of
 from assoc_hull.geometry.patches.area_integrals import AreaIntegrator
 from assoc_hull.geometry.patches.areas_by_sign import sign_areas
 from assoc_hull.geometry.patches.bernstein_polynomials import (
@@ -32,6 +31,7 @@ from assoc_hull.geometry.patches.cell_subdivision import (
 from assoc_hull.geometry.patches.cells import CellKind, select_patches
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_functions
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.geometry.patches.zero_set_arcs import arcs_of
 from assoc_hull.surface.regions.level_lines import LevelLine, level_lines_of
 from assoc_hull.surface.regions.options import (
     BREADTH,
@@ -74,20 +74,17 @@ __all__ = [
     "usable_parts",
 ]
 
-# --------------------------------------------------------------------------------------
-# Areas inside and outside a band, from the areas above and below each of its two limits.
-#
-# Of a search for K = K0 come P (K > K0), N (K < K0), Z (K = K0 to rounding) and U (unresolved), of
-# one for K = -K0 likewise p, n, z, u. Then
-#
-#     positive = P,  negative = n,  unresolved = U + u,  zero = N + Z - n - u
-#
-# so that the four add up to P + N + Z + U, which has to be the whole area, found by itself. A spot
-# that is unresolved in both searches counts twice as such, never as zero.
-
 
 def band_areas(upper: FloatArray, lower: FloatArray) -> FloatArray:
     """Give the areas (k, 8) of regions from those of searches for K0 and for -K0, m2.
+
+    Of a search for K = K0 come P (K > K0), N (K < K0), Z (K = K0 to rounding) and U (unresolved),
+    of one for K = -K0 likewise p, n, z, u. Then
+
+        positive = P,  negative = n,  unresolved = U + u,  zero = N + Z - n - u
+
+    so that the four add up to P + N + Z + U, which has to be the whole area, found by itself. A
+    spot that is unresolved in both searches counts twice as such, never as zero.
 
     Parameters
     ----------
@@ -111,7 +108,7 @@ def band_areas(upper: FloatArray, lower: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# One batch of patches solved: polynomials, cells, arcs for each level, areas.
+# One batch of patches.
 
 KNOWN_TO = 1e-9
 """Control points count as known to this part of the diagonal of their patch, without a band."""
@@ -225,6 +222,7 @@ def solve_part(
 
 def _sources(keys: list[bytes], held: list[bytes], first: int) -> tuple[IntArray, IntArray]:
     """Give for each patch its row among what is held and then computed, and what to compute."""
+    # Reversed: of equal nets the first row counts.
     known = {key: row for row, key in reversed(list(enumerate(held)))}
     rows: list[int] = []
     fresh: list[int] = []
@@ -249,9 +247,7 @@ def _gathered(tables: Sequence[LevelSolution], rows: IntArray) -> LevelSolution:
 
 
 # --------------------------------------------------------------------------------------
-# What is to be known of regions: searches that ended early, spots, knots, borders.
-#
-# Surfaces are told by their names, or by numbers; these, as those of patches, are counted from one.
+# Notes. Surfaces go by their names, or by numbers; these, as those of patches, count from one.
 
 _SHOWN = 5
 # Where in a cell curvature is looked at.
@@ -380,7 +376,7 @@ def _borders(pieces: Sequence[LevelLine], name: str) -> Iterator[str]:
 
 
 # --------------------------------------------------------------------------------------
-# Regions of Gaussian curvature of surfaces: the face of what finds, keeps and joins them.
+# The search.
 
 
 def curvature_regions(
@@ -461,10 +457,10 @@ def curvature_regions(
     >>> import numpy as np
     >>> x, y = np.mgrid[0:4, 0:4] / 3.0
     >>> net = np.stack([6 * x, 2 * y, 0.02 * (6 * x) * (2 * y)], axis=-1)
-    >>> found = ah.curvature_regions(net, zero="absolute", k0=1e-4)
+    >>> found = ah.surface.curvature_regions(net, zero="absolute", k0=1e-4)
     >>> round(found.areas.negative_share, 6), len(found.components), found.computed
     (1.0, 0, 1)
-    >>> ah.curvature_regions(net, zero="absolute", k0=1e-4, previous=found).computed
+    >>> ah.surface.curvature_regions(net, zero="absolute", k0=1e-4, previous=found).computed
     0
     """
     where = "in curvature_regions"

@@ -26,9 +26,6 @@ __all__ = [
     "level_lines_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# One connected piece of the lines along which the Gaussian curvature has a value.
-
 
 @attrs.frozen(eq=False)
 class LevelLine:
@@ -61,7 +58,7 @@ class LevelLine:
         cells in which K has the value throughout, within what control points are known to. "gap":
         it was followed where K has the value within rounding.
     spots : (s, 3), m
-        Where unresolved cells, or such in which K counts as nil, belong to it: a point for each
+        Where unresolved cells, or such in which K counts as zero, belong to it: a point for each
         group of cells that touch.
     """
 
@@ -90,30 +87,16 @@ class LevelLine:
         return float(sum(steps))
 
 
-# --------------------------------------------------------------------------------------
-# Sides of patches as polylines.
-
 _MOST = 1000
+"""A side has so many chords at most."""
 
 
 def edge_polyline(
     patches: Patches, patch: int, side: int, chord_tol: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Give a polyline along one side of a patch.
+    """Give a polyline along a side of a patch: parameters of the surface (n, 2), points (n, 3), m.
 
-    Parameters
-    ----------
-    patches : Patches
-        The patches.
-    patch, side : int
-        Which; side 0 is u = 0, 1 is u = 1, 2 is v = 0, 3 is v = 1.
-    chord_tol : float, m
-        How far chords may stray.
-
-    Returns
-    -------
-    (n, 2), (n, 3)
-        Parameters of the surface; points, m.
+    Side 0 is u = 0, 1 is u = 1, 2 is v = 0, 3 is v = 1; chords stray by `chord_tol` at most, m.
     """
     axis, value = SIDES[side]
     count = _count(patches.net[patch].take(int(value) * -1, axis), chord_tol)
@@ -131,9 +114,6 @@ def _count(control: FloatArray, chord_tol: float) -> int:
     bend = degree * (degree - 1) * np.linalg.norm(np.diff(control, 2, axis=0), axis=1).max()
     return 1 + min(max(math.ceil(math.sqrt(bend / (8.0 * chord_tol))), 1), _MOST)
 
-
-# --------------------------------------------------------------------------------------
-# Lines of constant curvature as polylines: joined, sampled, in the order of levels and surfaces.
 
 _SAME = 1e-9
 """In parameters of a patch: ends of arcs that are nearer are one point."""

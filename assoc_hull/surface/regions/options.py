@@ -22,18 +22,8 @@ __all__ = [
     "zero_band",
 ]
 
-# --------------------------------------------------------------------------------------
-# What counts as no Gaussian curvature: a band by strain, a band as such, or nil itself.
-#
-# The sign of a curvature that is nil but for rounding means nothing: of a cylinder with control
-# points 1e-9 m off, three quarters come out convex and one as a saddle. So curvatures up to some K0
-# count as none. A strip of breadth b with the constant curvature K needs a range of longitudinal
-# strain of |K| b**2 / 8 to be made flat; so the strain that may be neglected gives
-#
-#     K0 = 8 strain_tol / b**2
-#
-# Source: the strain of a narrow strip is our own derivation, checked by flattening strips by least
-# squares; "Curvature Region Analysis for Application of Plates Forming", J. SNAK, takes nil itself.
+# The sign of a curvature that is zero but for rounding means nothing: of a cylinder with control
+# points 1e-9 m off, three quarters come out convex and one as a saddle.
 
 MODES = ("strain", "absolute", "exact")
 
@@ -47,6 +37,11 @@ BREADTH = 2.5
 @attrs.frozen
 class ZeroBand:
     """The band of Gaussian curvatures that count as none, |K| <= K0.
+
+    A strip of breadth b with the constant curvature K needs a range of longitudinal strain of
+    |K| b**2 / 8 to be made flat; so the strain that may be neglected gives
+    K0 = 8 strain_tol / b**2. Source: our own derivation, checked by flattening strips by least
+    squares; "Curvature Region Analysis for Application of Plates Forming", J. SNAK, takes K = 0.
 
     Attributes
     ----------
@@ -193,6 +188,7 @@ def region_options(
 
 def _levels(levels: object, where: str) -> tuple[float, ...]:
     """Take curvatures, each once, in the order they are given in."""
+    # + 0.0 makes 0.0 of -0.0.
     found = np.atleast_1d(numbers(levels, "levels", where)) + 0.0
     for level, count in zip(*np.unique(found, return_counts=True), strict=True):
         if count > 1:

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.arc_chains import positive_on_left
-from assoc_hull.geometry.patches.arcs import sample_arcs
 from assoc_hull.geometry.patches.bezier_patches import Patches, patch_points
 from assoc_hull.geometry.patches.cells import SignCells, ZeroSetArcs, rows_of_groups
+from assoc_hull.geometry.patches.zero_set_arcs import sample_arcs
 
 __all__ = [
     "AREAS",
@@ -27,9 +27,6 @@ __all__ = [
     "RegionAreas",
     "RegionPart",
 ]
-
-# --------------------------------------------------------------------------------------
-# Areas of regions, of one surface or of many.
 
 
 @attrs.frozen
@@ -43,7 +40,7 @@ class RegionAreas:
     negative : float, m2
         Where K < -K0 for certain.
     zero : float, m2
-        Where |K| <= K0; without a band, where K is nil to what the control points are known to.
+        Where |K| <= K0; without a band, where K is zero to what the control points are known to.
     unresolved : float, m2
         Where the search ended; it may belong to any region.
     positive_estimate, negative_estimate : float, m2
@@ -101,9 +98,6 @@ class RegionAreas:
         )
 
 
-# --------------------------------------------------------------------------------------
-# Points along the arcs of patches, kept with what else is known of each patch.
-
 _MIDDLE = 0.8
 """Of the tolerance: chords are judged by a point near their middle, not by the farthest one."""
 
@@ -141,16 +135,9 @@ class ArcPoints:
 
     @classmethod
     def gathered(cls, tables: Sequence[Self], patch: IntArray, chosen: IntArray) -> Self:
-        """Give the points of chosen patches.
+        """Give the points of chosen patches, in their order, out of several batches.
 
-        Parameters
-        ----------
-        tables : sequence of ArcPoints
-            Batches.
-        patch : (a,) int
-            The patch of each arc, numbered through all batches, rising.
-        chosen : (k,) int
-            Patches, numbered likewise, in the order they are wanted.
+        `patch` (a,) is the patch of each arc, rising; patches are numbered through all batches.
         """
         count = np.concatenate([each.count for each in tables])
         most = int(max(patch.max(initial=-1), chosen.max(initial=-1))) + 1
@@ -161,12 +148,6 @@ class ArcPoints:
         )
         return cls(count[arcs], place[rows], xyz[rows])
 
-
-# --------------------------------------------------------------------------------------
-# What is kept of each patch: cells and arcs by level, areas; chosen and put in another order.
-#
-# All of it depends on the control net of the patch and the options only, to the last bit. So it may
-# be taken from an earlier result wherever a patch has the same net.
 
 AREAS = tuple(field.name for field in attrs.fields(RegionAreas))
 """Names of the columns of areas."""
@@ -180,9 +161,9 @@ class LevelSolution:
     ----------
     level : float, 1/m2
         The Gaussian curvature.
-    cells : Cells
+    cells : SignCells
         Where K exceeds the level, where it is below, where neither is known.
-    arcs : Arcs
+    arcs : ZeroSetArcs
         Where it has this value.
     points : ArcPoints
         Points along the arcs.
@@ -210,7 +191,7 @@ class RegionPart:
         The patches; `Patches.surface` numbers the surfaces of the result.
     number : (k,) int
         The numbers of the patches, counted through all surfaces of the result.
-    solutions : tuple of Solution
+    solutions : tuple of LevelSolution
         By level: those of the band, then the further ones.
     areas : (k, 8), m2
         Of each patch; the columns are `AREAS`.

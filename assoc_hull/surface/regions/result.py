@@ -9,7 +9,7 @@ Examples
 >>> import numpy as np
 >>> net = np.zeros((2, 2, 3))
 >>> net[1, :, 0] = net[:, 1, 1] = net[1, 1, 2] = 1.0
->>> print(ah.curvature_regions(net))
+>>> print(ah.surface.curvature_regions(net))
 1 surface, 1.28079 m2: 0 % convex, 100 % saddle, 0 % developable, 0 % unresolved; \
 K0 = 0.00128 1/m2 (strain 0.001 over 2.5 m)
 """
@@ -24,7 +24,6 @@ import numpy as np
 
 from assoc_hull.arguments import choice, integer
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.patches.arcs import sample_arcs
 from assoc_hull.geometry.patches.cells import CellKind
 from assoc_hull.geometry.patches.outlines import (
     Outlines,
@@ -33,6 +32,7 @@ from assoc_hull.geometry.patches.outlines import (
     outlines_of_rest,
 )
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.geometry.patches.zero_set_arcs import sample_arcs
 from assoc_hull.surface.regions.level_lines import LevelLine
 from assoc_hull.surface.regions.options import RegionOptions, ZeroBand
 from assoc_hull.surface.regions.region_parts import RegionAreas, RegionPart
@@ -44,8 +44,6 @@ __all__ = [
     "outlines_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# Outlines of the regions of a surface, over the borders of its patches, for export.
 
 REGIONS = ("positive", "negative", "zero")
 """The regions that have outlines."""
@@ -83,25 +81,10 @@ class RegionOutline:
 def outlines_of(
     surfaces: Sequence[SplineSurface], part: RegionPart, region: str, banded: bool, tol: float
 ) -> list[RegionOutline]:
-    """Give the outlines of one region of the patches of a part.
+    """Give the outlines of one of `REGIONS` of the patches of a part, surface by surface.
 
-    Parameters
-    ----------
-    surfaces : sequence of SplineSurface
-        All surfaces of the result.
-    part : RegionPart
-        Patches of one bidegree.
-    region : str
-        One of `REGIONS`.
-    banded : bool
-        Whether the first two solutions are those of a band: K0 and -K0.
-    tol : float, m
-        How far chords may stray.
-
-    Returns
-    -------
-    list of Outline
-        Surface by surface, holes last.
+    Holes come last. With `banded` the first two solutions are those of a band, K0 and -K0. Chords
+    stray by `tol` at most, m.
     """
     found = _found(part, region, banded, tol)
     surface = part.patches.surface[found.patch]
@@ -157,7 +140,7 @@ def _outline(
 
 
 # --------------------------------------------------------------------------------------
-# What is found of the curvature regions of surfaces.
+# The result.
 
 
 @attrs.frozen(eq=False, slots=False)
@@ -180,7 +163,7 @@ class RegionResult:
         Tolerances and limits.
     parts : tuple of RegionPart
         What is known of each patch, for pictures and for `previous`: a part for each bidegree.
-    components : tuple of Component
+    components : tuple of LevelLine
         The connected pieces of the lines K = K0 and K = -K0 (of K = 0 without a band), and of the
         further levels.
     computed : int
@@ -223,11 +206,11 @@ class RegionResult:
         ----------
         region : str
             "positive": K > K0. "negative": K < -K0. "zero": all that is left between them (without
-            a band, cells in which K is nil).
+            a band, cells in which K is zero).
 
         Returns
         -------
-        tuple of Outline
+        tuple of RegionOutline
             Closed polygons, surface by surface; chords keep the tolerance of polylines.
 
         Raises
@@ -241,7 +224,7 @@ class RegionResult:
         >>> import numpy as np
         >>> u, v = np.mgrid[0:3, 0:3] / 2.0
         >>> net = np.stack([2 * u, v, 0.3 * u * v], axis=-1)
-        >>> [outline.surface for outline in ah.curvature_regions(net).outlines("negative")]
+        >>> [outline.surface for outline in ah.surface.curvature_regions(net).outlines("negative")]
         [0]
         """
         choice(region, "region", REGIONS, "in RegionResult.outlines")

@@ -7,7 +7,7 @@ and solves J p = -r. Of several such steps it is the one that makes
 
 least: the step of Newton's method for the least change that reaches the targets, with lambda the
 multipliers of the equations and B_i the second derivatives of r_i as far as they are known
-(`aim_curvature`). With nothing known it is mu <- J' (J J')^-1 (J mu - r). Where no step solves the
+(`broyden_update`). With nothing known it is mu <- J' (J J')^-1 (J mu - r). Where no step solves the
 equations it is the one that makes |r|^2 least, to the same order.
 """
 
@@ -65,7 +65,7 @@ class NewtonIteration:
     ----------
     steps : tuple of AimStep
         The start among them.
-    place : Place
+    place : Iterate
         The last, and best, one.
     end : {"met", "nearest", "blocked", "spent"}
         Targets are met; nothing is nearer; no step brought anything nearer; too many steps.

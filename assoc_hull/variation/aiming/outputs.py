@@ -1,9 +1,9 @@
-"""The outputs of a hull that can be aimed at: names, values, derivatives.
+"""The outputs of a hull that can be targets: names, values, derivatives.
 
 Outputs are fields of the hydrostatic record, sectional areas by station or place, and form
-parameters, taken of a hull as it floats upright at its design draught. Each kind works on all its
-keys together, as they share what is measured; `Outputs` understands the names and joins the kinds.
-Where the draught changes with a parameter, the hull floats at the new one.
+parameters, of a hull that floats upright at its design draught; where the draught changes with a
+parameter, at the new one. Each `OutputKind` works on all its keys together, as they share what is
+measured; `Outputs` understands the names and joins the kinds.
 """
 
 from __future__ import annotations
@@ -45,15 +45,12 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# What can be aimed at, kind by kind: values of a hull, and their derivatives.
-#
-# A `Kind` takes keys of its own (the field, the station, ...) and works on all of them together,
-# as they share what is measured.
+# The kinds of outputs. A key is what a kind calls an output: the field, the station, ...
 
 _WHERE = "among the outputs"
 
 Rates = tuple[FloatArray, NDArray[np.bool_]]
-"""Derivatives (n, k), and (n,) which of the n outputs hang on no differences."""
+"""Derivatives (n, k), and (n,) which of them are exact, taken without differences."""
 
 
 class OutputKind(Protocol):
@@ -79,10 +76,12 @@ class OutputKind(Protocol):
 
 
 def _lacks(name: str, why: str) -> BadInputError:
+    """Give the error for an output that the hull does not have."""
     return BadInputError(f"the hull has no {name!r}: {why}", _WHERE, "aim at something else")
 
 
 def _exact(rows: Sequence[FloatArray]) -> Rates:
+    """Stack derivatives (k,) of outputs that are all exact."""
     return np.stack(rows), np.ones(len(rows), np.bool_)
 
 
@@ -176,12 +175,6 @@ KINDS: Mapping[str, OutputKind] = {
 """All kinds by name."""
 
 
-# --------------------------------------------------------------------------------------
-# What can be aimed at: names of outputs, their values, and their derivatives.
-#
-# Outputs are taken of a hull as it floats upright at its design draught, on the kernel's own
-# hydrostatics. Where the draught changes with a parameter, the hull floats at the new one.
-
 _AREA, _AT = "A ", "x="
 
 
@@ -209,7 +202,7 @@ class OutputRates:
 
 @attrs.frozen
 class _Tables:
-    """Tables that are asked like a hull."""
+    """Tables of a hull, in the form that hydrostatics read."""
 
     state: HullState
 
@@ -221,9 +214,8 @@ class Outputs:
     Attributes
     ----------
     names : tuple of m str
-        As given: a field of `assoc_hull.analysis.hydrostatics.record.FIELDS` ("volume",
-        "lcb"); the
-        symbol of a form parameter of the catalogue ("Cp", "Cpa"); "A ST 5" for the immersed
+        As given: a field of `assoc_hull.analysis.hydrostatics.record.FIELDS` ("volume", "lcb");
+        the symbol of a form parameter of the catalogue ("Cp", "Cpa"); "A ST 5" for the immersed
         area of the station of that name, "A x=42.5" for that of the surface at a place, m
         from AP.
     keys : tuple of m (str, str)
@@ -234,7 +226,7 @@ class Outputs:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> from assoc_hull.variation.aiming.outputs import Outputs
     >>> state = examples.wigley().state
     >>> outputs = Outputs.of(state, ["volume", "Cp", "A ST 7"])
@@ -358,6 +350,7 @@ class Outputs:
         return shape
 
     def _shape(self, body: Flotation, particulars: Particulars | None) -> FloatingShape:
+        """Float a hull upright at its design draught, in salt water."""
         ship = body.state.particulars if particulars is None else particulars
         terms: dict[str, object] = {
             "rho": SALT, "shell_factor": 1.0, "kg": self.kg, "appendages": (), "fingerprint": "",
@@ -375,7 +368,7 @@ class Outputs:
         return found
 
     def _by_kind(self) -> list[tuple[str, list[int], list[str]]]:
-        """Give kinds, with the places of their outputs and their keys."""
+        """Give each kind with the rows of its outputs and their keys."""
         found: dict[str, list[int]] = {}
         for i, (kind, _) in enumerate(self.keys):
             found.setdefault(kind, []).append(i)
@@ -383,7 +376,7 @@ class Outputs:
 
 
 def _upright(wrt: Iterable[Parameter]) -> list[Parameter]:
-    """Take parameters that leave the hull upright."""
+    """Take parameters that leave the hull upright, or refuse."""
     found = all_of(wrt, Parameter, "wrt", _WHERE)  # type: ignore[type-abstract]
     for each in found:
         if isinstance(each, Position) and each.rates[2] != 0.0:
@@ -406,7 +399,7 @@ def _names(names: object) -> tuple[str, ...]:
 
 
 def _key(name: str, state: HullState) -> tuple[str, str]:
-    """Tell of what kind an output is, and how its kind calls it."""
+    """Find the kind of an output, and what that kind calls it."""
     if name in FIELDS:
         return "field", name
     if name in CATALOGUE:

@@ -1,8 +1,9 @@
-"""Asked values and targets met on the lofted hull: lay out, measure, correct, until both hold.
+"""Set values and targets met on the lofted hull: lay out, measure, correct, until both hold.
 
-A map gives the measured places exactly, the lofted lines within a tolerance. What is missing is
-added to what is asked of the map. Targets of outputs are reached on hulls that have the set values
-but for what lofting leaves over; then that is added, and the targets are aimed at again.
+A map moves the measured places exactly, but the hull that is lofted again through its images keeps
+them only within a tolerance. What is missing is added to what is asked of the map. Targets of
+outputs are reached on hulls that have the set values but for what lofting leaves over; then that
+is added, and the targets are solved for again.
 """
 
 from __future__ import annotations
@@ -41,10 +42,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# A map of which it is known that its applied values are the asked ones, nearly.
+# Set values, without targets.
 
 _MET = 1e-7
-"""A target (m, degrees) is met where it is missed by less than this; 1e-6 is promised."""
+"""A set value (m, degrees) is met where its residual is less than this; 1e-6 is promised."""
 
 _PROMISED = 1e-6
 _ROUNDS = 6
@@ -52,11 +53,11 @@ _ROUNDS = 6
 
 @attrs.frozen(eq=False)
 class SettledMap:
-    """A map whose applied values are nearly the asked ones, how it was found, what it misses.
+    """A map whose applied values are nearly the asked ones, how it was found, its residuals.
 
     Attributes
     ----------
-    map : VMap
+    map : VariationMap
         The map by which the hull is carried.
     rounds : int
         How often it was laid out.
@@ -66,11 +67,11 @@ class SettledMap:
         Asked less measured values, by name.
     values : mapping of str to float
         What named parameters get by it, free ones among them.
-    whole : VMap
+    whole : VariationMap
         The map together with what is nudged after it.
     nudge : Nudge or None
         What moves when the map has been applied.
-    aimed : Aimed or None
+    aimed : AimReport or None
         What was found for targets that were to be reached.
     """
 
@@ -85,7 +86,7 @@ class SettledMap:
 
     @property
     def worst(self) -> float:
-        """The largest miss, m or degrees."""
+        """The largest residual of a set value, m or degrees."""
         return max((abs(each) for each in self.miss.values()), default=0.0)
 
 
@@ -94,7 +95,7 @@ Attempt = Callable[[Mapping[str, float], int], SettledMap]
 
 
 def changed_values(ask: VariationRequest, was: Mapping[str, float]) -> dict[str, float]:
-    """Give the values that are set, but for those that are so already."""
+    """Give the values that are set, without those that the hull has already."""
     return {name: value for name, value in ask.values.items() if abs(value - was[name]) > SAME}
 
 
@@ -103,7 +104,7 @@ def settle_map(ask: VariationRequest, was: Mapping[str, float], attempt: Attempt
 
     Parameters
     ----------
-    ask : Ask
+    ask : VariationRequest
         What is asked for.
     was : mapping of str to float
         Present values.
@@ -126,7 +127,7 @@ def settle_map(ask: VariationRequest, was: Mapping[str, float], attempt: Attempt
         try:
             found = attempt(aim, rounds)
         except AssocHullError:
-            break  # the aim went astray: what was asked for is not at fault
+            break  # the correction went astray: what was asked for is not at fault
         if found.worst < best.worst:
             best = found
     if best.worst > _PROMISED:
@@ -135,7 +136,7 @@ def settle_map(ask: VariationRequest, was: Mapping[str, float], attempt: Attempt
 
 
 def measure_requested(state: HullState, ask: VariationRequest) -> dict[str, float]:
-    """Measure what was asked for; amplitudes are what was asked for.
+    """Measure the values that were asked for; amplitudes, no measures of a hull, stay as asked.
 
     Raises
     ------
@@ -155,9 +156,9 @@ def measure_requested(state: HullState, ask: VariationRequest) -> dict[str, floa
 def _corrected(
     aim: Mapping[str, float], ask: VariationRequest, miss: Mapping[str, float]
 ) -> dict[str, float]:
-    """Add what is missing to what the map is to give.
+    """Add the residuals to what the map is to give.
 
-    What others move away from a value that was to stay is asked for as well.
+    A value that was to stay, but that others move away, is asked for as well.
     """
     return {
         name: aim.get(name, ask.values[name]) + each
@@ -176,13 +177,10 @@ def _missed(best: SettledMap, ask: VariationRequest) -> BadInputError:
 
 
 # --------------------------------------------------------------------------------------
-# Targets of outputs reached together with values that are set.
-#
-# Amplitudes of what is free are found by aiming, on hulls that have the set values but for what
-# lofting leaves over; that is added to what is asked of the map, and aimed again, until both hold.
+# Targets of outputs, together with values that are set.
 
 _RESIDUAL = 1e-10
-"""Targets are met where they are missed by no more than this part of their size."""
+"""Targets are met where their residual is no more than this part of their size."""
 
 
 def settle_reach(
@@ -194,11 +192,11 @@ def settle_reach(
     ----------
     state : HullState
         The tables of the parent.
-    room : Room
+    room : AdmissibleValues
         Lays out maps of named parameters.
-    ask : Ask
+    ask : VariationRequest
         What is asked for.
-    reach : AskReach
+    reach : TargetRequest
         Its targets.
 
     Raises
@@ -224,7 +222,7 @@ def problem_of(state: HullState, ask: VariationRequest) -> HullProblem:
     ----------
     state : HullState
         The tables of the parent.
-    ask : Ask
+    ask : VariationRequest
         What is asked for; it names targets, and what is free.
 
     Raises
@@ -276,10 +274,11 @@ def freedoms(
 def _aimed(
     maps: HullMaps, outputs: Outputs, before: FloatArray, reach: TargetRequest, rounds: int
 ) -> SettledMap:
-    """Aim at the targets, with the values that are set as a map gives them."""
+    """Solve for the targets, with the values that are set as a map gives them."""
     targets = np.array(list(reach.targets.values()))
     sizes = np.maximum(np.abs(before), np.abs(targets))
     scales = np.where(sizes > 0.0, sizes, 1.0)
+    # quick hulls first; in full only where these do not hold on a hull laid out by itself
     for quick in (True, False):
         aimed = solve_targets(
             HullProblem(maps, outputs, quick=quick), targets,
@@ -300,12 +299,13 @@ def _holds(aimed: AimReport, outputs: Outputs, scales: FloatArray) -> bool:
 
 
 def _hull(aimed: AimReport) -> Reached:
+    """Give the hull that the solver ended at."""
     assert isinstance(aimed.hull, Reached), "the problem gives no other"
     return aimed.hull
 
 
 def _settled(maps: HullMaps, aimed: AimReport, rounds: int) -> SettledMap:
-    """Say how the hull that was found is made of the parent."""
+    """Say how the hull that was found comes of the parent, and its residuals of set values."""
     hull = _hull(aimed)
     whole, certificate = maps.certified(hull.amplitudes)
     got = measure_requested(hull.state, maps.ask)

@@ -141,7 +141,7 @@ def make_report(found: NewtonIteration, before: FloatArray, units: tuple[str, ..
 
     Parameters
     ----------
-    found : Walk
+    found : NewtonIteration
         As it ended.
     before : (m,) float
         Values at the start.

@@ -87,7 +87,7 @@ class Iterate:
 
     Attributes
     ----------
-    scaled : Scaled
+    scaled : ScaledProblem
         Where it lies.
     changes, amplitudes : (k,) float
         Scaled, and as the problem takes them.

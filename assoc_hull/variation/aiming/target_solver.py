@@ -77,7 +77,7 @@ def solve_targets(
         Of the outputs, for messages.
     before : (m,) float, optional
         Values of the parent, which shortfalls refer to; those at the start if not given.
-    rule : Rule, optional
+    rule : StoppingRule, optional
         When to end.
 
     Raises

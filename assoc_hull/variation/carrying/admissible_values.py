@@ -1,9 +1,9 @@
 """What named parameters of a hull may be asked for: maps of values, or why there is none.
 
-`AdmissibleValues` measures a hull once and then lays out and certifies maps of asked values; what
-cannot be had is refused with the interval of the parameter at fault. It lies here and not beside
-the catalogue because a map is refused also when features cannot be drawn again after it.
-`list_parameters` gives present values, intervals and conflicts of all parameters as a table.
+`AdmissibleValues` measures a hull once and then lays out and certifies maps of asked values (m or
+degrees); what cannot be had is refused with the interval of the parameter at fault. It belongs to
+carrying, not to the catalogue, because a map is refused also when features cannot be drawn again
+after it. `list_parameters` gives present values, intervals and conflicts of all parameters.
 """
 
 from __future__ import annotations
@@ -44,23 +44,20 @@ __all__ = [
     "requested_radii",
 ]
 
-# --------------------------------------------------------------------------------------
-# What named parameters of a hull may be asked for: maps of values, or why there is none.
-
 SAME = 1e-9
-"""A value (m, degrees) that is asked for and had already moves nothing of itself."""
+"""A value (m, degrees) as near as this to the present one is no change."""
 
 _STEP = 0.02
-"""A part of all changes, to begin a search with."""
+"""Part of all changes with which a search begins."""
 
 _ROUND = 1e-6
-"""m: a circle about a place has its centre so near to it."""
+"""m: a circle whose centre is as near as this to a place is about it."""
 
 
 def requested_radii(
     state: HullState, parent: Parent, asked: Mapping[str, float], now: Mapping[str, float]
 ) -> dict[str, float]:
-    """Give the radius that is asked for of the bossing's end, by the key of the feature."""
+    """Give the radius (m) asked for of the bossing's end, by the key of the feature; or nothing."""
     radius = asked.get("bossing_radius")
     if radius is None or abs(radius - now["bossing_radius"]) <= SAME or not parent.has("boss"):
         return {}
@@ -132,6 +129,8 @@ class AdmissibleValues:
             Two parameters that are one number.
         """
         refuse_clashes(asked, self.layout)
+        # transom and flat of bottom are bounded by the breadth that is asked for, not the present
+        # one
         parent = attrs.evolve(self.parent, breadth=asked.get("breadth", self.parent.breadth))
         for name, value in asked.items():
             rule = value_bounds(name, parent, self.present[name], self.layout)
@@ -139,14 +138,14 @@ class AdmissibleValues:
                 raise self._outside(name, value, rule.why)
 
     def map(self, asked: Mapping[str, float]) -> VariationMap:
-        """Lay out a map, or tell which value cannot be laid out.
+        """Lay out a map, or refuse with the value that cannot be laid out.
 
         Raises
         ------
         OutOfRangeError
             One of the values cannot be had even alone; with the interval.
         BadInputError
-            As `compose`.
+            As `compose_map`.
         """
         try:
             return compose_map(self.parent, asked, self.layout)
@@ -161,7 +160,7 @@ class AdmissibleValues:
         FoldError
             It folds, or nearly; where, by how much, and what would do.
         OutOfRangeError
-            Features cannot be made anew after it; with the interval.
+            Features cannot be drawn again after it; with the interval.
         BadInputError
             They cannot for several values together.
         """
@@ -170,26 +169,26 @@ class AdmissibleValues:
             found.check()
             self._featured(vmap, asked)
         except FoldError as error:
-            raise self._told(error, asked) from None
+            raise self._with_interval(error, asked) from None
         except BadInputError as error:
             raise self._at_fault(error, asked) from None
         return found
 
     def _at_fault(self, error: BadInputError, asked: Mapping[str, float]) -> AssocHullError:
-        """Find the value that cannot be had even alone."""
+        """Give the error of the value that cannot be had even alone; else the given error."""
         for name, value in asked.items():
             if self._refused(name, value) and not self._refused(name, self.present[name]):
                 return self._outside(name, value, f"cannot be had ({error.what})")
         return error
 
     def _featured(self, vmap: VariationMap, asked: Mapping[str, float]) -> None:
-        """Try whether features can be made anew after a map."""
+        """Refuse a map after which features cannot be drawn again."""
         redraw_features(
             self.state, vmap, requested_radii(self.state, self.parent, asked, self.present)
         )
 
     def _laid(self, asked: Mapping[str, float]) -> VariationMap:
-        """Lay out a map after which features can be made anew."""
+        """Lay out a map after which features can be drawn again."""
         vmap = compose_map(self.parent, asked, self.layout)
         self._featured(vmap, asked)
         return vmap
@@ -197,12 +196,14 @@ class AdmissibleValues:
     def _alone(self, name: str) -> Callable[[float], VariationMap]:
         return lambda value: self._laid({name: value})
 
-    def _told(self, error: FoldError, asked: Mapping[str, float]) -> FoldError:
+    def _with_interval(self, error: FoldError, asked: Mapping[str, float]) -> FoldError:
         """Add to a fold between which values the parameter at fault may be asked for."""
         name = error.field or error.layer
         if name not in asked:
             return error
         low, high = self.interval(name)
+        # where the value can be had alone, the others are at fault too: say how much of all can be
+        # had
         alone = low <= asked[name] <= high
         return attrs.evolve(
             error, interval=(low, high), unit=CATALOGUE[name].unit,
@@ -210,7 +211,7 @@ class AdmissibleValues:
         )  # fmt: skip
 
     def _part(self, asked: Mapping[str, float]) -> float:
-        """Give how much of all changes is certified."""
+        """Give the part of all changes together, 0 to 1, that is certified."""
 
         def laid(part: float) -> VariationMap:
             values = {
@@ -222,6 +223,7 @@ class AdmissibleValues:
         return admissible_amplitudes(laid, self.box, first=_STEP)[1]
 
     def _refused(self, name: str, value: float) -> bool:
+        """Tell whether a value cannot be had even alone."""
         try:
             self._laid({name: value})
         except BadInputError:
@@ -229,15 +231,16 @@ class AdmissibleValues:
         return False
 
     def _outside(self, name: str, value: float, why: str) -> OutOfRangeError:
+        """Give the error for a value out of its interval."""
         low, high = self.interval(name)
         return OutOfRangeError(name, value, "in vary", why, low, high, CATALOGUE[name].unit)
 
 
 # --------------------------------------------------------------------------------------
-# What may be asked of a parent: present values, admissible intervals, conflicts.
+# The list of parameters.
 
 _DIGITS = 4
-"""Of the ends of intervals, which are rounded inward."""
+"""Significant digits of the ends of intervals, which are rounded inward."""
 
 _HEAD = ("parameter", "present", "", "from", "to", "what it is")
 _FOOT = """\
@@ -287,8 +290,8 @@ class ListedParameter:
 
     @property
     def _low(self) -> str:
-        nil = self.low == 0.0 and CATALOGUE[self.name].positive
-        return "> 0" if nil else _end(self.low, math.ceil)
+        open_ = self.low == 0.0 and CATALOGUE[self.name].positive
+        return "> 0" if open_ else _end(self.low, math.ceil)
 
 
 def parameter_table(found: Sequence[ListedParameter]) -> str:
@@ -315,7 +318,7 @@ def parameter_table(found: Sequence[ListedParameter]) -> str:
 
 
 def _end(value: float | None, inward: Callable[[float], int]) -> str:
-    """Give an end of an interval, rounded inward."""
+    """Give an end of an interval with four digits, rounded inward: what is listed can be had."""
     if value is None:
         return "any"
     whole = math.floor(math.log10(abs(value))) if value else 0

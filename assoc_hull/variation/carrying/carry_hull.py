@@ -1,8 +1,8 @@
 """A map carried out on a hull, as one step: lines, features, principal dimensions.
 
-`apply_map` carries the net within an open transaction: drivers exactly, all others cut again.
-`carry_out` does it on a document, with the lines that a request names, and changes the principal
-dimensions with it.
+`apply_map` carries the net within an open transaction: drivers exactly, all others cut again at
+their own planes. Drivers are by default all lines whose planes the map keeps. `carry_out` does it
+on a document, with the lines that a request names, and changes the principal dimensions with it.
 """
 
 from __future__ import annotations
@@ -37,12 +37,6 @@ __all__ = [
     "resized_particulars",
 ]
 
-# --------------------------------------------------------------------------------------
-# A map carries a net: which lines drive, which follow, and what changes with them.
-#
-# Drivers are by default all lines whose planes the map keeps: their images are exact. A line
-# whose plane would bend is cut again, at its own plane, from the drivers.
-
 Stations = Literal["number", "x"]
 
 
@@ -54,12 +48,12 @@ class AppliedMap:
     ----------
     drivers : tuple of str
         Names of the lines that drove, boundary curves among them.
-    driving : Driving
+    driving : DrivingLines
         How they were chosen.
     added : int
         How many adopted points hold the drivers to their images.
-    regions : tuple of Region
-        Boxes of the profile plane in which features that were made anew change the map.
+    regions : tuple of FieldRegion
+        Boxes of the profile plane in which features that were drawn again change the map.
     """
 
     drivers: tuple[str, ...]
@@ -85,7 +79,7 @@ def apply_map(
     ----------
     edit : Transaction
         The edit: one undo step, refused as a whole.
-    vmap : VMap
+    vmap : VariationMap
         The map.
     drivers : sequence of int or None
         Numbers of the driving lines; None for all whose planes the map keeps.
@@ -122,13 +116,10 @@ def apply_map(
 
 
 def _names(state: HullState, lines: Sequence[int]) -> tuple[str, ...]:
+    """Give the names of driving lines, with all boundary curves, in the order of their keys."""
     boundary = state.live("lines")[state.lines.boundary.data[state.live("lines")] >= 0]
     every = sorted({*lines, *boundary.tolist()}, key=lambda line: str(state.lines.key.data[line]))
     return tuple(str(state.lines.name.data[line]) for line in every)
-
-
-# --------------------------------------------------------------------------------------
-# A map carried out on a hull, as one step: lines, features, principal dimensions.
 
 
 def carry_out(
@@ -146,11 +137,11 @@ def carry_out(
     ----------
     document : Document
         The hull.
-    vmap : VMap
+    vmap : VariationMap
         The map.
     parent : Parent
         What is measured of the hull.
-    ask : Ask
+    ask : VariationRequest
         Which lines drive, how near they stay to their images, and so on.
     was : mapping of str to float
         Present values of named parameters.
@@ -191,7 +182,7 @@ def resized_particulars(
     ----------
     state : HullState
         The tables, before.
-    vmap : VMap
+    vmap : VariationMap
         The map; the deck amidships tells what becomes of the depth.
     parent : Parent
         What is measured of the hull.
@@ -215,5 +206,5 @@ def resized_particulars(
 
 
 def _in_proportion(stored: float, measured: float, asked: float) -> float:
-    """Give what becomes of a stored dimension whose measured value differs a little."""
+    """Give a stored dimension (m) in the ratio of asked and measured, which may differ from it."""
     return asked if stored == measured else stored * (asked / measured)

@@ -1,8 +1,8 @@
 """Which lines of a net drive when a map carries it, and where the planes of sections go.
 
-A line whose plane the map keeps can be carried exactly, so it drives; one whose plane would bend
-is cut again from the drivers. Stations go by the part of a map that moves whole planes along the
-ship.
+A line whose plane the map keeps has an image that lies in a plane again, so it can be carried
+exactly and drives; one whose plane would bend is cut again from the drivers, as a designer's
+sections stay plane. Stations go by the part of a map that moves whole planes along the ship.
 """
 
 from __future__ import annotations
@@ -32,14 +32,8 @@ __all__ = [
     "stations_along",
 ]
 
-# --------------------------------------------------------------------------------------
-# Which planes of a net a map keeps, and which lines therefore drive.
-#
-# A line whose plane is kept has an image that lies in a plane again, so it can be carried
-# exactly. One whose plane would bend is better cut again: a designer's sections stay plane.
-
 _SAMPLES = 4
-"""Places a segment at which a map is asked."""
+"""Places a segment at which a map is evaluated."""
 
 
 @attrs.frozen(eq=False)
@@ -68,7 +62,7 @@ class DrivingLines:
         Their numbers; boundary curves drive besides.
     follow : bool
         Whether planes of waterlines and buttocks go along.
-    keeps : Keeps
+    keeps : KeptPlanes
         Which planes the map keeps.
     """
 
@@ -118,8 +112,9 @@ def find_kept_planes(state: HullState, space: SpaceMap) -> KeptPlanes:
 
     Returns
     -------
-    Keeps
-        Nil along lines that are not alive, and for axes that are not theirs.
+    KeptPlanes
+        By number of line; of lines that are not alive, and of axes other than a line's own, the
+        entries mean nothing.
     """
     curves = state.live("curves")
     start, xyz = sample(SplineBatch.join([state.spline(c) for c in curves.tolist()]), _SAMPLES)
@@ -136,9 +131,11 @@ def find_kept_planes(state: HullState, space: SpaceMap) -> KeptPlanes:
 
 
 def _spread(line: IntArray, level: FloatArray, count: int) -> FloatArray:
-    """Give how far apart places of each line lie along an axis, (l,), m; nil without places.
+    """Give how far apart places of each line lie along an axis, (l,), m; zero without places.
 
-    A circle drawn anew moves its own points by less than a slope tells.
+    A circle drawn again moves its own points by less than a slope tells.
+
+
     """
     low, high = np.full(count, np.inf), np.full(count, -np.inf)
     np.minimum.at(low, line, level)
@@ -150,7 +147,7 @@ def _spread(line: IntArray, level: FloatArray, count: int) -> FloatArray:
 def planes_go(state: HullState, space: SpaceMap) -> bool:
     """Tell whether a map sends at least half of each waterline and buttock to a parallel plane.
 
-    If some went and others stayed, lines of one sort could pass each other.
+    If some went and others stayed, lines of one family could pass each other.
     """
     for line in state.live("lines").tolist():
         axis = state.family(line).axis
@@ -172,7 +169,7 @@ def default_drivers(
     ----------
     state : HullState
         The tables.
-    kept : Keeps
+    kept : KeptPlanes
         What the map keeps.
     stations : {"number", "x"}
         Whether sections may go with the map.
@@ -198,10 +195,6 @@ def default_drivers(
             "vary in two steps, or name the drivers that may become curves in space",
         )  # fmt: skip
     return tuple(chosen)
-
-
-# --------------------------------------------------------------------------------------
-# Where the stations of a net go: by what a map moves along the ship alike at all heights.
 
 
 def stations_along(layers: Iterable[Layer], x: FloatArray) -> FloatArray:

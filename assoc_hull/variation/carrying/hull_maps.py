@@ -34,11 +34,12 @@ class LaidMap:
 
     Attributes
     ----------
-    vmap : VMap
+    vmap : VariationMap
         The map without features.
     map : FeatureMap
         The map with circles and bilges drawn anew.
-    planes : Planes
+    planes : TransformedPlanes
+
         Where the planes of the parent's lines go.
     features : tuple of Feature
         The parent's features with the numbers that they get.
@@ -58,9 +59,9 @@ class HullMaps:
 
     Attributes
     ----------
-    room : Room
+    room : AdmissibleValues
         Lays out maps of named parameters, and certifies them.
-    ask : Ask
+    ask : VariationRequest
         What is asked for besides.
     aim : mapping of str to float
         What the map is to give the parameters that are set, m or degrees: what is asked for, and

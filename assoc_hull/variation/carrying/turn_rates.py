@@ -32,11 +32,11 @@ def turn_rates(
     ----------
     state : HullState
         The tables of the carried hull.
-    ground : Ground
+    ground : SlideSurface
         Planes that directions stay in.
-    here : Laid
+    here : LaidMap
         The map by which the hull was carried.
-    pair : sequence of Laid
+    pair : sequence of LaidMap
         Maps on both sides of it.
     source : (rows, 3), m
         Where points come from.

@@ -61,7 +61,7 @@ def enclose_field(
 
     Parameters
     ----------
-    field : Field or Rake
+    field : StackedField or Rake
     lower, upper : (m, 2), m
         x and z of the boxes.
     """

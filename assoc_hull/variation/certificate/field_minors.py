@@ -1,9 +1,10 @@
 """The least principal minors of a layer of fields, each found in the sharpest way there is for it.
 
 With level boundaries the minors are polynomials on cells between nodes and boundaries; that of a
-single field with any boundaries is a quotient of polynomials in its strips; of fields that widen
-it is a polynomial of the half-breadth as well. Several fields whose boundaries run across one
-another are left to intervals on boxes that are quartered. `field_minors` at the end chooses.
+single field with any boundaries is a quotient of polynomials in its strips; that of fields that
+widen the hull depends on the half-breadth as well. Several fields whose boundaries are not all
+level are left to intervals on boxes that are halved across every side. `field_minors` at the end
+chooses. X_x, Y_y, Z_z are entries of the Jacobian, D is the determinant in x and z.
 """
 
 from __future__ import annotations
@@ -46,11 +47,8 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The minors of a layer of fields, as polynomials on the cells between nodes and boundaries.
-#
-# Between the nodes along the ship and the level boundaries of the stacks, the derivatives of all
-# fields are polynomials of x and z, and so are the minors. Every strip below, between and above the
-# boundaries is a row of cells.
+# Level boundaries: cells along the ship between nodes, and up the hull between boundaries, on
+# which the derivatives of all fields, and so the minors, are polynomials of x and z.
 
 
 def is_level(field: StackedField | Rake) -> bool:
@@ -62,7 +60,7 @@ def is_level(field: StackedField | Rake) -> bool:
 
 
 def strip_heights(fields: Iterable[StackedField | Rake], box: FloatArray) -> FloatArray:
-    """Give the heights, rising, between which no field has a level boundary."""
+    """Give the heights, rising, m, between which no field has a level boundary."""
     low, high = float(box[0, 2]), float(box[1, 2])
     found = [low, high]
     for field in fields:
@@ -76,7 +74,7 @@ def strip_heights(fields: Iterable[StackedField | Rake], box: FloatArray) -> Flo
 
 
 def node_columns(fields: Iterable[StackedField | Rake], box: FloatArray) -> FloatArray:
-    """Give the places along the ship, rising, between which no course has a node."""
+    """Give the places along the ship, rising, m, between which no function of x has a node."""
     low, high = float(box[0, 0]), float(box[1, 0])
     found = [low, high]
     for course in field_functions(fields):
@@ -98,6 +96,7 @@ def field_functions(fields: Iterable[StackedField | Rake]) -> list[BoundedFuncti
 
 
 def _between(found: Sequence[float], low: float, high: float) -> FloatArray:
+    """Give places within an interval, rising, its two ends at least."""
     places = np.unique(np.clip(np.array(found), low, high))
     return places if len(places) > 1 else np.array([low, high])
 
@@ -113,7 +112,8 @@ def field_cells(
     return lower, upper
 
 
-def _places(y: float, parameters: FloatArray) -> FloatArray:
+def _at_breadth(y: float, parameters: FloatArray) -> FloatArray:
+    """Give places (n, 3) of parameters x and z, (n, 2), at half-breadth y."""
     return np.insert(parameters, 1, y, axis=1)
 
 
@@ -123,10 +123,10 @@ def plane_minor(
     up: Sequence[StackedField | Rake],
     box: FloatArray,
 ) -> Minor:
-    """Give X_x of x-fields, Z_z of z-fields, or the determinant of both."""
+    """Give X_x of x-fields, Z_z of z-fields, or the determinant D of both, over x and z."""
 
     def at(parameters: FloatArray) -> FloatArray:
-        xyz = _places(0.0, parameters)
+        xyz = _at_breadth(0.0, parameters)
         x_x, x_z = field_gradients(along, xyz)
         z_x, z_z = field_gradients(up, xyz)
         whole: FloatArray = (1.0 + x_x) * (1.0 + z_z) - x_z * z_x
@@ -135,7 +135,7 @@ def plane_minor(
     degrees = degrees_of(along), degrees_of(up)
     total = degrees[0][0] + degrees[1][0], degrees[0][1] + degrees[1][1]
     lower, upper = field_cells([*along, *up], box)
-    return Minor(name, lower, upper, total, at, lambda parameters: _places(0.0, parameters))
+    return Minor(name, lower, upper, total, at, lambda parameters: _at_breadth(0.0, parameters))
 
 
 def field_gradients(
@@ -149,7 +149,7 @@ def field_gradients(
 
 
 def degrees_of(fields: Sequence[StackedField | Rake]) -> tuple[int, int]:
-    """Give the degrees in x and z of the own derivative of fields; 0 of none."""
+    """Give the degrees in x and z of what fields add to their own derivative; 0 of none."""
     if not fields:
         return 0, 0
     along = max(course.degree for course in field_functions(fields))
@@ -158,10 +158,9 @@ def degrees_of(fields: Sequence[StackedField | Rake]) -> tuple[int, int]:
 
 
 # --------------------------------------------------------------------------------------
-# The minor Y_y of fields that widen: a polynomial of x, z and the half-breadth.
-#
-# A tube's psi is one between its radius, where it begins to fall, and where it is nil. So cells
-# have three sides: along the ship, up, and outward. Half-breadths count; both sides are alike.
+# Fields that widen the hull: Y_y is a polynomial of x, z and the half-breadth. The psi of a tube
+# goes over at its radius, where it begins to fall, and where it is zero, so cells have a third
+# side outward. Half-breadths count; both sides are alike.
 
 _Fields = Sequence[StackedField | Rake]
 
@@ -178,7 +177,7 @@ def _tube(field: StackedField | Rake) -> Tube | None:
 
 
 def breadth_minor(fields: _Fields, box: FloatArray) -> Minor:
-    """Give Y_y over parameters x, z and half-breadth."""
+    """Give Y_y over parameters x, z and half-breadth, m."""
     tubes = [tube for tube in map(_tube, fields) if tube is not None]
     low, high = half_breadths(box)
     ends = [end for tube in tubes for end in (tube.radius, tube.n * tube.radius)]
@@ -192,21 +191,22 @@ def breadth_minor(fields: _Fields, box: FloatArray) -> Minor:
     degrees = *degrees_of(fields), max((tube.blend.degree for tube in tubes), default=0)
 
     def at(parameters: FloatArray) -> FloatArray:
-        xyz = _certify_breadth_places(parameters)
+        xyz = _breadth_places(parameters)
         total = np.ones(len(xyz))
         for field in fields:
             total += field.gradient(xyz)[:, 1]
         return total
 
-    return Minor("Y_y", lower, upper, degrees, at, _certify_breadth_places)
+    return Minor("Y_y", lower, upper, degrees, at, _breadth_places)
 
 
-def _certify_breadth_places(parameters: FloatArray) -> FloatArray:
+def _breadth_places(parameters: FloatArray) -> FloatArray:
+    """Give places (n, 3) of parameters x, z, half-breadth: port side."""
     return parameters[:, [0, 2, 1]]
 
 
 def psi_bounds(field: StackedField | Rake, low: FloatArray, high: FloatArray) -> Interval:
-    """Enclose psi' of a y-field on intervals of the half-breadth, exactly."""
+    """Enclose psi' of a y-field on intervals of the half-breadth, exactly; 1 without a tube."""
     tube = _tube(field)
     if tube is None:
         return np.ones(len(low)), np.ones(len(low))
@@ -220,7 +220,7 @@ def psi_bounds(field: StackedField | Rake, low: FloatArray, high: FloatArray) ->
 
 
 def psi_extremes(field: StackedField, box: FloatArray) -> list[tuple[float, float]]:
-    """Give the least and the greatest psi' of a y-field in a box, each with where it is."""
+    """Give the least and the greatest psi' of a y-field in a box, each with its half-breadth, m."""
     low, high = half_breadths(box)
     if field.tube is None:
         return [(1.0, low)]
@@ -231,7 +231,7 @@ def psi_extremes(field: StackedField, box: FloatArray) -> list[tuple[float, floa
 
 
 def _turns(tube: Tube) -> list[float]:
-    """Give where psi' turns: there 2 b' + b'' (s + 1 / (n - 1)) is nil."""
+    """Give the half-breadths at which psi' turns, m: where 2 b' + b'' (s + 1 / (n - 1)) is zero."""
     s = np.polynomial.Polynomial([0.0, 1.0])
     blends = {"cubic": 3 * s**2 - 2 * s**3, "quintic": 10 * s**3 - 15 * s**4 + 6 * s**5}
     blend = blends[tube.blend.name]
@@ -241,23 +241,21 @@ def _turns(tube: Tube) -> list[float]:
 
 
 # --------------------------------------------------------------------------------------
-# The fold check by intervals: for fields whose boundaries run across one another.
-#
-# Minors are enclosed on boxes of the profile plane. A box on which one may be below the margin is
-# parted in four.
+# Several fields, boundaries not all level: minors are enclosed by intervals on boxes of the
+# profile plane. A box on which a minor may be below the margin is halved across every side.
 
 _DEPTH = 14
 _MOST = 400_000
-"""So many boxes, before a map counts as undecided."""
+"""Boxes at most, before a map counts as undecided."""
 
 _REFUSED = 20_000
 _SHARP = 1e-3
-"""What is refused is looked at in so many boxes, to find its least value to so much."""
+"""Of a map that is refused the least value is sought to `_SHARP`, on so many boxes at most."""
 
 _ZOOMS = 18
 _CLOSER = 0.4
 _SAMPLES = {1: 5, 2: 5, 3: 3}
-"""A side of a box, by how many sides boxes have: what they miss, halving them finds."""
+"""Places on a side, by how many sides boxes have; what they miss is found by halving boxes."""
 
 _Lows = Callable[[FloatArray, FloatArray], FloatArray]
 _Values = Callable[[FloatArray], FloatArray]
@@ -282,9 +280,9 @@ def search_boxes(
     Returns
     -------
     least, bound : float
-        Least value met; lower bound, exact only as far as it decides.
+        Least value found; lower bound, exact only as far as it decides.
     place : (k,)
-        Where the least was met.
+        Where the least was found.
     boxes, splits : int
     """
     lower, upper = box
@@ -297,6 +295,8 @@ def search_boxes(
         if met.min() < least:
             best = int(met.argmin())
             least, where = _lowest(values, centre[best], lower[best], upper[best])
+        # certified so far: only what may be below the margin matters; refused: sharpen the least
+        # value
         open_ = low < (enough if least >= enough else least - _SHARP)
         bound = min(bound, float(low[~open_].min(initial=np.inf)))
         most = _MOST if least >= enough else _REFUSED
@@ -371,6 +371,7 @@ def box_breadth(fields: _Fields, box: FloatArray, enough: float) -> LeastMinor:
 
 
 def _decide(minor: Minor, lows: _Lows, enough: float) -> LeastMinor:
+    """Search the boxes of a minor and name the place of its least value."""
     least, bound, where, boxes, splits = search_boxes(
         lows, minor.at, (minor.lower, minor.upper), enough
     )
@@ -393,8 +394,9 @@ def _enclose_plane(along: _Fields, up: _Fields, lower: FloatArray, upper: FloatA
 def _derivatives(
     fields: _Fields, lower: FloatArray, upper: FloatArray
 ) -> tuple[Interval, Interval]:
-    nil = np.zeros(len(lower))
-    by_x, by_z = (nil, nil), (nil, nil)
+    """Enclose the sums of the derivatives of fields by x and by z on boxes."""
+    none = np.zeros(len(lower))
+    by_x, by_z = (none, none), (none, none)
     for field in fields:
         found = enclose_field(field, lower, upper)
         by_x, by_z = interval_sum(by_x, found.along), interval_sum(by_z, found.up)
@@ -406,16 +408,13 @@ def _ones(count: int) -> Interval:
 
 
 # --------------------------------------------------------------------------------------
-# The minor of one field whose boundaries follow chains or contours: a quotient of polynomials.
-#
-# In the strip between two boundaries, with ``z = h + s g``, the minor times the gap g is a
-# polynomial of x and s between the nodes along the ship:
+# One field, boundaries along chains or contours. In the strip between two of them, with z = h + s
+# g, the minor times the gap g is a polynomial of x and s between the nodes along the ship; D is
+# the difference of the two pieces. Below and above the stack the minor is a function of x alone.
 #
 #     z-field   g (1 + a + Da b) + De b'
 #     x-field   g (1 + e_x + De_x b) - De b' (h' + s g')
 #     y-field   g (1 + psi' (a + Da b))
-#
-# with D the difference of the two pieces. Below and above the stack it is a function of x alone.
 
 _Mask = np.typing.NDArray[np.bool_]
 _Where = tuple[
@@ -432,14 +431,8 @@ def strip_minors(
 ) -> list[Minor]:
     """Give the own minor of a field, strip by strip, from below the stack to above it.
 
-    Parameters
-    ----------
-    field : Field
-    box : (2, 3), m
-    psi : float
-        psi' of a y-field's tube, an extreme of it.
-    y : float, m
-        Where it has that, for the witness.
+    `psi` is an extreme of the tube's psi' for a y-field, `y` the half-breadth (m) where it has
+    that, for the witness.
     """
     last = len(field.boundaries) - 1
     inner = [_strip(field, box, k, psi, y) for k in range(last)]
@@ -447,6 +440,7 @@ def strip_minors(
 
 
 def _cells(field: StackedField, box: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give least and greatest (x, s), (m, 2) each, of the cells of a strip; s from 0 to 1."""
     x = node_columns([field], box)
     lower = np.stack([x[:-1], np.zeros(len(x) - 1)], axis=1)
     upper = np.stack([x[1:], np.ones(len(x) - 1)], axis=1)
@@ -561,17 +555,13 @@ def _strip(field: StackedField, box: FloatArray, k: int, psi: float, y: float) -
 
 
 # --------------------------------------------------------------------------------------
-# The least minors of a layer of fields, each found in the sharpest way there is for it.
-#
-# Minors of fields with level boundaries are polynomials on cells; that of a single field with any
-# boundaries is a quotient of such in its strips. Several fields with boundaries that run across
-# one another are left to intervals.
+# Which of these ways serves a layer.
 
 
 def field_minors(layer: FieldLayer, box: FloatArray, margin: float) -> list[LeastMinor]:
     """Give the least value of every principal minor that is not 1 by itself.
 
-    The derivatives of y by x and z are no part of any; those of x and z by y are nil. So X_x,
+    The derivatives of y by x and z are no part of any; those of x and z by y are zero. So X_x,
     Z_z, their determinant D, and Y_y are all there is to check. Fields that move nothing in the
     box are left out: one field alone is checked more sharply than two.
     """
@@ -590,7 +580,7 @@ def field_minors(layer: FieldLayer, box: FloatArray, margin: float) -> list[Leas
 
 
 def _acts(field: StackedField | Rake, box: FloatArray) -> bool:
-    """Tell whether a field's region meets a box."""
+    """Tell whether a field's region and a box intersect in the profile plane."""
     region = field.region()
     return all(
         low <= high and low <= box[1, axis] and high >= box[0, axis]
@@ -601,6 +591,7 @@ def _acts(field: StackedField | Rake, box: FloatArray) -> bool:
 def _plane(
     name: str, along: _Fields, up: _Fields, box: FloatArray, margin: float
 ) -> list[LeastMinor]:
+    """Give the least value of a minor of x and z, by cells, strips or boxes."""
     fields = [*along, *up]
     if all(is_level(each) for each in fields):
         return [find_least_minor(plane_minor(name, along, up, box), margin)]
@@ -611,6 +602,7 @@ def _plane(
 
 
 def _breadth(fields: _Fields, box: FloatArray, margin: float) -> list[LeastMinor]:
+    """Give the least Y_y; a strip's is linear in psi', so both extremes of psi' are enough."""
     if all(is_level(each) for each in fields):
         return [find_least_minor(breadth_minor(fields, box), margin)]
     alone = fields[0]

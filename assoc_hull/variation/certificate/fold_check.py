@@ -1,9 +1,10 @@
 """The fold check: whether a map is one to one, with something to spare.
 
-All principal minors of the Jacobian of every layer must stay above a margin on a box (Gale and
-Nikaido 1965); each layer is checked on the box that the layers before it make of the hull's. The
-result is a certificate: it tells the least minor, where it is, and which field between which
-boundary curves is the cause. Folds beyond the hull are harmless, and told as a warning only.
+A positive determinant alone does not make a map one to one; all principal minors of the Jacobian
+positive on a box do (D. Gale, H. Nikaido, "The Jacobian matrix and global univalence of mappings",
+Mathematische Annalen 159, 1965). Each layer is checked alone, on the box that the layers before it
+make of the hull's. The `Certificate` has the least minor, where it is, and which field between
+which boundary curves is the cause. Folds beyond the hull are harmless and reported as a warning.
 """
 
 from __future__ import annotations
@@ -55,9 +56,6 @@ __all__ = [
     "image_box",
 ]
 
-# --------------------------------------------------------------------------------------
-# What a fold check found, as a record.
-
 Reason = Literal["certified", "folds", "thin", "undecided"]
 
 
@@ -68,7 +66,7 @@ class Certificate:
     Attributes
     ----------
     reason : {"certified", "folds", "thin", "undecided"}
-        ``"folds"``: a minor of the Jacobian is nil or negative at the witness. ``"thin"``: all
+        ``"folds"``: a minor of the Jacobian is zero or negative at the witness. ``"thin"``: all
         are positive as far as was searched, but one is below the margin. ``"undecided"``: the
         bounds did not become sharp enough; such a layer is refused as well.
     least : float
@@ -82,7 +80,7 @@ class Certificate:
     margin : float
         What every minor must reach.
     boxes, splits : int
-        How many boxes were looked at, and how many of them halved.
+        How many boxes were searched, and how many of them halved.
     layer, field : str
         The layer, and the field of it that makes the minor small; empty if there is none.
     between : tuple of (str, float)
@@ -127,12 +125,8 @@ class Certificate:
             )  # fmt: skip
 
 
-# --------------------------------------------------------------------------------------
-# Which field makes a minor small at a place, and between which of its boundary curves.
-
-
 class FoldCause(TypedDict):
-    """The entries of a certificate that tell it."""
+    """The entries of a certificate that name the cause; heights and node in m."""
 
     field: str
     between: tuple[tuple[str, float], ...]
@@ -165,7 +159,7 @@ def fold_cause(layer: FieldLayer, axes: str, place: tuple[float, float, float]) 
 def _between(
     field: StackedField | Rake, place: tuple[float, float, float]
 ) -> tuple[tuple[str, float], ...]:
-    """Give the boundary curves below and above a place, those there are."""
+    """Give name and height (m) of the boundary curves next below and above a place."""
     if isinstance(field, Rake):
         return ()
     x = np.array([place[0]])
@@ -176,7 +170,7 @@ def _between(
 
 
 def _node(field: StackedField | Rake, x: float) -> float | None:
-    """Give the node nearest to a place, of the courses that vary."""
+    """Give the node nearest to a place along the ship, m, of the functions that vary."""
     parts = [field.course] if isinstance(field, Rake) else [
         part for each in field.pieces for part in (each.a, each.d)
     ]  # fmt: skip
@@ -185,10 +179,10 @@ def _node(field: StackedField | Rake, x: float) -> float | None:
 
 
 # --------------------------------------------------------------------------------------
-# The box that a layer makes of a box: what encloses the image, for the layer after it.
+# The image of a box, enclosed by a box, for the layer after it.
 
 _PARTS = 8
-"""Every cell is looked at in so many parts a side: bounds of sums become sharper."""
+"""Every cell is divided into so many parts a side: bounds of sums become sharper."""
 
 
 def image_box(layer: Layer, box: FloatArray) -> FloatArray:
@@ -219,7 +213,7 @@ def image_box(layer: Layer, box: FloatArray) -> FloatArray:
 
 
 def _parted(low: FloatArray, high: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Part boxes (m, k) into equal ones."""
+    """Divide boxes (m, k), (m, k) into `_PARTS` equal ones a side."""
     k = low.shape[1]
     step = np.array(list(np.ndindex(*(_PARTS,) * k)))
     size = (high - low)[:, None, :] / _PARTS
@@ -251,7 +245,7 @@ def _of_fields(layer: FieldLayer, box: FloatArray) -> FloatArray:
         elif field.axis == "z":
             z = interval_sum(z, found.u)
         else:
-            # psi lies between nil and the half-breadth
+            # psi lies between zero and the half-breadth
             wide = interval_sum(wide, interval_product(found.own, (np.zeros(len(lower)), y[1])))
     return _around(x, wide, z)
 
@@ -270,6 +264,7 @@ def _of_corner(layer: CornerLayer, box: FloatArray) -> FloatArray:
         new.append(
             interval_sum(part, interval_product(interval_product((size, size), weight), part))
         )
+    # back from the skew coordinates: y = y_c - eta cos, z = z_c + zeta - eta sin
     cos, sin = (np.array([part(layer.rise)]) for part in (math.cos, math.sin))
     corner = np.array([layer.y]), np.array([layer.z])
     y = interval_difference((corner[0], corner[0]), interval_product((cos, cos), new[0]))
@@ -311,13 +306,7 @@ def _product(factors: Factors, sides: tuple[Interval, Interval, Interval]) -> In
 
 
 # --------------------------------------------------------------------------------------
-# The fold check: whether a map is one to one, with something to spare.
-#
-# A positive determinant alone does not make a map one to one. All principal minors of the Jacobian
-# positive on a box do (D. Gale, H. Nikaido, "The Jacobian matrix and global univalence of
-# mappings",
-# Mathematische Annalen 159, 1965). Each layer is checked alone, on the box that the layers before
-# it make of the hull's.
+# The check, layer by layer.
 
 MARGIN = 0.05
 """What minors must reach: less is a legal map, and useless lines."""
@@ -330,7 +319,7 @@ def certify(what: VariationMap | Layer, box: ArrayLike, least: float = MARGIN) -
 
     Parameters
     ----------
-    what : VMap or Layer
+    what : VariationMap or Layer
     box : (2, 3), m
         Least and greatest coordinates.
     least : float
@@ -385,11 +374,13 @@ def _box(box: ArrayLike) -> FloatArray:
 
 
 def _nothing(box: FloatArray, margin: float, layer: str = "") -> Certificate:
+    """Give the certificate of what moves nothing: all minors are 1."""
     x, y, z = box[0].tolist()
     return Certificate("certified", 1.0, "D", (x, y, z), 1.0, margin, layer=layer)
 
 
 def _layer(layer: Layer, box: FloatArray, margin: float) -> Certificate:
+    """Certify one layer on the box that it acts on."""
     found = _minors(layer, box, margin)
     if not found:
         return _nothing(box, margin, layer.name)
@@ -421,6 +412,7 @@ def _minors(layer: Layer, box: FloatArray, margin: float) -> list[LeastMinor]:
 
 
 def _by_minor(found: Sequence[LeastMinor]) -> tuple[tuple[str, float], ...]:
+    """Give the least value found of each minor, over strips."""
     least = dict[str, float]()
     for each in found:
         least[each.minor] = min(each.least, least.get(each.minor, each.least))
@@ -435,11 +427,8 @@ def _reason(least: float, bound: float, margin: float) -> Reason:
     return "certified" if bound >= margin else "undecided"
 
 
-# --------------------------------------------------------------------------------------
-# Folds beyond the hull: harmless to it, but worth a warning.
-
 _BEYOND = 0.25
-"""Where a region has no end, so much of the box's own extent is looked at."""
+"""Where a region has no end, the check reaches beyond the box by this part of its extent."""
 
 
 def fold_outside(what: VariationMap | Layer, box: ArrayLike) -> Certificate | None:
@@ -447,7 +436,7 @@ def fold_outside(what: VariationMap | Layer, box: ArrayLike) -> Certificate | No
 
     Parameters
     ----------
-    what : VMap or Layer
+    what : VariationMap or Layer
     box : (2, 3), m
         Least and greatest coordinates of the hull.
 
@@ -478,7 +467,7 @@ def fold_outside(what: VariationMap | Layer, box: ArrayLike) -> Certificate | No
 
 
 def _reach(what: VariationMap | Layer, box: FloatArray) -> FloatArray:
-    """Give the box that holds the hull's and all regions."""
+    """Give the box (2, 3), m, around the hull's and all regions."""
     wide = box.copy()
     size = _BEYOND * (box[1] - box[0])
     for region in what.regions():
@@ -491,4 +480,5 @@ def _reach(what: VariationMap | Layer, box: FloatArray) -> FloatArray:
 
 
 def _end(place: float, instead: float) -> float:
+    """Give an end of a region; another place instead where it has none."""
     return place if math.isfinite(place) else instead

@@ -1,8 +1,8 @@
-"""Least principal minors of layers that are no fields: corner, deadrise, additive functions.
+"""Least principal minors of the corner, deadrise and additive layers.
 
-Each kind has minors of a form of its own, given above its part. Where they are products of
-functions of one coordinate the exact bounds of these are enough; else polynomials or boxes are
-searched as for fields.
+In each kind some coordinates stay, so few minors are left to check; their formulas stand above the
+functions. Where a minor is a product of functions of one coordinate the exact bounds of these are
+enough; else polynomials or boxes are searched as for fields.
 """
 
 from __future__ import annotations
@@ -32,24 +32,22 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The minors of a corner layer: polynomials of the fade along the ship, of eta and of zeta.
-#
-# In the skew coordinates along bottom and side the layer stretches both by a product of fades, and
-# x stays. So of the principal minors there are those of eta, of zeta and of both; with the course
-# A, the fades c and k, and p and q the ratios less one,
+# Corner layer: in the skew coordinates along bottom (eta) and side (zeta) it stretches both by a
+# product of fades, and x stays. With A along the ship, the fades c and k, and p and q the ratios
+# less one, the minors of eta, of zeta and of both are polynomials of A, eta and zeta:
 #
 #     1 + p A k (c + eta c'),   1 + q A c (k + zeta k'),
 #     their product less p q A^2 (eta c k') (zeta k c')
 
 _PLACES = 2000
-"""Along the ship, to find where the course has a value."""
+"""Places along the ship, to find where A has a value."""
 
 _ZOOMS = 4
 _FINER = np.linspace(-1.0, 1.0, 41)
 
 
 def skew_box(layer: CornerLayer, box: FloatArray) -> tuple[tuple[float, float], ...]:
-    """Give least and greatest eta and zeta of a box."""
+    """Give least and greatest eta and zeta, m, of a box."""
     low, high = half_breadths(box)
     inward = layer.y - high, layer.y - low
     lift = sorted(each * math.tan(layer.rise) for each in inward)
@@ -58,13 +56,14 @@ def skew_box(layer: CornerLayer, box: FloatArray) -> tuple[tuple[float, float], 
 
 
 def corner_minors(layer: CornerLayer, box: FloatArray, margin: float) -> list[LeastMinor]:
-    """Give the least value of every principal minor, and of the grip at the centre plane."""
+    """Give the least value of every principal minor, and a fold at the centre plane if any."""
     found = [find_least_minor(each, margin) for each in _minors(layer, box)]
     centre = _centre(layer, box)
     return found if centre is None else [*found, centre]
 
 
 def _minors(layer: CornerLayer, box: FloatArray) -> list[Minor]:
+    """Give Y_y, Z_z and D over the parameters A, eta and zeta, which vary independently."""
     low, high = layer.course.bounds(box[0, :1], box[1, :1])
     spans = [(float(low[0]), float(high[0])), *skew_box(layer, box)]
     parts = [[spans[0]]]
@@ -98,7 +97,7 @@ def _minors(layer: CornerLayer, box: FloatArray) -> list[Minor]:
 def _derivatives(
     layer: CornerLayer, parameters: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Give both entries of the diagonal, and the product of the others."""
+    """Give both entries of the diagonal, and the product of the other two."""
     a, eta, zeta = parameters.T
     c, c_eta = layer.fade.at(eta), layer.fade.slope(eta)
     k, k_zeta = layer.fade.at(zeta), layer.fade.slope(zeta)
@@ -108,6 +107,7 @@ def _derivatives(
 
 
 def _place(layer: CornerLayer, box: FloatArray, parameters: FloatArray) -> FloatArray:
+    """Give the places (n, 3), m, of parameters A, eta, zeta; any x that has that A."""
     a, eta, zeta = parameters.T
     inward = eta * math.cos(layer.rise)
     z = zeta + layer.z - inward * math.tan(layer.rise)
@@ -115,7 +115,7 @@ def _place(layer: CornerLayer, box: FloatArray, parameters: FloatArray) -> Float
 
 
 def _along(course: BoundedFunction, span: FloatArray, a: FloatArray) -> FloatArray:
-    """Find where a course has given values (n,), on ever finer grids."""
+    """Find x, m, where a function along the ship has given values (n,), on ever finer grids."""
     every = np.append(np.linspace(span[0], span[1], _PLACES), np.clip(course.nodes, *span))
     x = np.broadcast_to(every, (len(a), len(every)))
     reach = float(span[1] - span[0]) / _PLACES
@@ -133,7 +133,7 @@ def _nearest(course: BoundedFunction, x: FloatArray, a: FloatArray) -> FloatArra
 
 
 def _centre(layer: CornerLayer, box: FloatArray) -> LeastMinor | None:
-    """Tell that the layer pulls the centre plane apart, or across itself."""
+    """Give a fold (minus infinity) where the layer moves the centre plane off itself; else None."""
     low, _ = half_breadths(box)
     reach = layer.y / math.cos(layer.rise)
     if low > 0.0 or layer.eta_ratio == 1.0 or float(layer.fade.at(np.array([reach]))[0]) == 0.0:
@@ -146,12 +146,10 @@ def _centre(layer: CornerLayer, box: FloatArray) -> LeastMinor | None:
 
 
 # --------------------------------------------------------------------------------------
-# The minor of a deadrise layer: heights alone move, so Z_z is all there is to check.
-#
-# ``Z_z = 1 + A(x) q r(y) c'(z)`` is a product of functions of one coordinate each, whose exact
-# bounds give exact bounds of it.
+# Deadrise layer: heights alone move, so Z_z = 1 + A(x) q r(y) c'(z) is all there is to check: a
+# product of functions of one coordinate each, with exact bounds.
 
-_CERTIFY_SHEAR_PLACES = 101
+_WITNESS_PLACES = 101
 """Looked at along either coordinate for a witness; the bound does not depend on them."""
 
 
@@ -180,25 +178,23 @@ def _ordered(one: FloatArray, other: FloatArray) -> tuple[FloatArray, FloatArray
 
 
 def _places(course: BoundedFunction, span: FloatArray) -> FloatArray:
-    """Give places near which a course has its extremes: ends, nodes, middles between, others."""
+    """Give places near which a function has its extremes: ends, nodes, middles between, a grid."""
     nodes = course.nodes
     middles = 0.5 * (nodes[1:] + nodes[:-1])
-    others = np.linspace(span[0], span[1], _CERTIFY_SHEAR_PLACES)
+    others = np.linspace(span[0], span[1], _WITNESS_PLACES)
     return np.unique(np.clip(np.concatenate([others, nodes, middles]), *span))
 
 
 # --------------------------------------------------------------------------------------
-# The minors of a layer of additive functions: one of x alone, and three of all coordinates.
-#
-# The Jacobian has an x of its own and a block of y and z,
+# Additive layer: the Jacobian has an x of its own and a block of y and z,
 #
 #     1 + F1'                        at the place x
 #     [1 + F2 F3' F4    F2 F3 F4']
 #     [F5 F6' F7    1 + F5 F6 F7']   at the place (x, |y|, z)
 #
-# so the principal minors are positive if 1 + F1', both entries of the block's diagonal and its
-# determinant are. Each F has exact bounds on an interval; the box is parted where their pieces
-# join, and further where bounds do not decide.
+# so the principal minors are 1 + F1', both entries of the block's diagonal and its determinant.
+# Each F has exact bounds on an interval; the box is divided where their pieces join, and further
+# where bounds do not decide.
 
 
 def additive_minors(layer: AdditiveLayer, box: FloatArray, margin: float) -> list[LeastMinor]:
@@ -213,6 +209,8 @@ def additive_minors(layer: AdditiveLayer, box: FloatArray, margin: float) -> lis
 
 
 def _minor(layer: AdditiveLayer, name: str, cells: Interval, margin: float) -> LeastMinor:
+    """Search a minor on boxes of x, half-breadth and z."""
+
     def lows(lower: FloatArray, upper: FloatArray) -> FloatArray:
         return _enclosed(layer, name, lower, upper)[0]
 
@@ -229,7 +227,7 @@ def _minor(layer: AdditiveLayer, name: str, cells: Interval, margin: float) -> L
 
 
 def _cells(layer: AdditiveLayer, box: FloatArray) -> Interval:
-    """Part the port half of a box where pieces of the functions join."""
+    """Divide the port half of a box at the nodes of the functions."""
     low, high = half_breadths(box)
     sides = (box[0, 0], box[1, 0]), (low, high), (box[0, 2], box[1, 2])
     parts = []
@@ -268,8 +266,8 @@ def _slopes(
 ) -> tuple[Interval, Interval]:
     """Enclose the derivatives of a product by half-breadth and by z."""
     if factors is None:
-        nil = np.zeros(len(lower)), np.zeros(len(lower))
-        return nil, nil
+        zero = np.zeros(len(lower)), np.zeros(len(lower))
+        return zero, zero
     first, second, third = (
         course.bounds(lower[:, axis], upper[:, axis]) for axis, course in enumerate(factors)
     )

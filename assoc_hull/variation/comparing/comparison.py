@@ -1,7 +1,8 @@
 """A parent and a variant of it side by side: lines, numbers, fairness, points, features.
 
-`compare` gives a `HullComparison`. The rows of its tables are the same on a terminal, on paper and
-in the plots; they come second, then the text, then JSON, whose schema is in `io`.
+`compare` gives a `HullComparison`. The rows of its tables are made once and are the same on a
+terminal, on paper and in the plots. All differences are variant less parent; lengths in m, shifts
+of lines printed in mm. The schema of its JSON is in `assoc_hull.io.tables.comparison`.
 """
 
 from __future__ import annotations
@@ -57,9 +58,6 @@ __all__ = [
     "reason_words",
 ]
 
-# --------------------------------------------------------------------------------------
-# A parent and a variant of it side by side: lines, numbers, fairness, points, features.
-
 _WHERE = "in compare"
 
 
@@ -107,7 +105,7 @@ class HullComparison:
     lines : tuple of LineComparison
         Every line of either, in the order of the variant; those that went come last.
     hydrostatics : tuple of NumberComparison
-        As `assoc_hull.hydrostatics` gives them, under its names.
+        As `Hull.hydrostatics` gives them, under its names.
     parameters : tuple of NumberComparison
         All form parameters, in the order of the tables of the catalogue.
     points : PointsComparison
@@ -166,7 +164,7 @@ class HullComparison:
         by : {"shift", "course", "comb", "signs"}
             The largest shift; that beside the shift of the plane; the ratio of the comb
             integrals; changes of sign of curvature that were added. A line of which this is
-            nil does not come, nor one whose comb has not risen.
+            zero does not come, nor one whose comb has not risen.
 
         Raises
         ------
@@ -220,7 +218,7 @@ def compare(
     """Compare a variant with its parent, or any two hulls.
 
     Lines are paired by name, and by key where one was renamed. Of each pair the largest shift
-    is told, measured curve to curve in the plane of the line (see
+    is reported, measured curve to curve in the plane of the line (see
     `assoc_hull.variation.comparing.line_comparison`), and how fair it is before and after. All
     differences are variant less parent: with both exchanged, they change their signs.
 
@@ -249,7 +247,7 @@ def compare(
     --------
     >>> import assoc_hull as ah
     >>> parent = ah.examples.wigley()
-    >>> found = ah.compare(parent, ah.vary(parent, set={"breadth": 11.0}).hull, draught=5.0)
+    >>> found = parent.compare(parent.vary(set={"breadth": 11.0}).hull, draught=5.0)
     >>> print(f"{found.parameter('BMT').percent:.3f} %")
     21.000 %
     """
@@ -259,8 +257,8 @@ def compare(
     was, now = (numbers_of(hull, draught, screw) for hull in (parent, variant))
     hydrostatics, parameters = compare_numbers(was, now)
     return HullComparison(
-        _hull(old, draught, was.doubts),
-        _hull(new, draught, now.doubts),
+        _compared(old, draught, was.doubts),
+        _compared(new, draught, now.doubts),
         compare_lines(old, new),
         hydrostatics,
         parameters,
@@ -269,14 +267,11 @@ def compare(
     )
 
 
-def _hull(state: HullState, draught: float | None, doubts: Iterable[str]) -> ComparedHull:
+def _compared(state: HullState, draught: float | None, doubts: Iterable[str]) -> ComparedHull:
     ship = state.particulars
     level = ship.draught if draught is None else float(draught)
     return ComparedHull(ship, fingerprint(state), level, tuple(doubts))
 
-
-# --------------------------------------------------------------------------------------
-# The rows of a comparison as they are printed, on a terminal as on paper.
 
 PRINCIPAL = (
     "volume", "displacement", "lcb", "lcb_percent", "kb", "kmt", "kml", "waterplane_area", "lcf",
@@ -287,28 +282,28 @@ PRINCIPAL = (
 LINE_HEAD = (
     "line", "shift mm", "direction", "at x, y, z (m)", "plane mm", "signs", "comb", "points",
 )  # fmt: skip
-"""Over `line_cells`: the largest shift, where it is on the variant, that of the plane alone;
+"""Head of `line_cells`: the largest shift, where it is on the variant, that of the plane alone;
 changes of sign of curvature, ratio of the comb integrals, points that define the line."""
 
 NUMBER_HEAD = ("", "unit", "parent", "variant", "difference", "%")
-"""Over `number_cells`."""
+"""Head of `number_cells`."""
 
-_TOLD = 10
+_LISTED = 10
 """At most so many points are listed."""
 
-_WHATS = ("same", "moved", "came", "went")
+_STATES = ("same", "moved", "came", "went")
 
 
 def hull_words(hull: ComparedHull) -> str:
-    """Tell name and dimensions of a hull, and at which draught it was measured."""
+    """Give name, dimensions (m) and measured draught of a hull as text."""
     ship = hull.particulars
     sizes = f"Lpp {ship.length:.3f}, B {ship.breadth:.3f}, D {ship.depth:.3f}, T {ship.draught:.3f}"
     return f"{ship.name}: {sizes} m; measured at {hull.draught:.3f} m"
 
 
 def counts(found: HullComparison) -> str:
-    """Tell how many lines moved, came and went."""
-    return ", ".join(f"{len(found.of(what))} {what}" for what in _WHATS)
+    """Give how many lines are the same, moved, came and went, as text."""
+    return ", ".join(f"{len(found.of(what))} {what}" for what in _STATES)
 
 
 def line_cells(line: LineComparison) -> list[str]:
@@ -328,7 +323,7 @@ def line_cells(line: LineComparison) -> list[str]:
 
 
 def line_words(found: HullComparison) -> Iterator[str]:
-    """Tell which lines came, went, and were renamed, and how fair all are together."""
+    """Give which lines came, went or were renamed, and the fairness of all together."""
     for what in ("came", "went"):
         names = ", ".join(each.name for each in found.of(what))
         if names:
@@ -360,12 +355,15 @@ def number_cells(number: NumberComparison) -> list[str]:
 
 
 def amount(value: float | None, digits: int) -> str:
-    """Give a number as it is printed; a dash where there is none."""
+    """Give a number with fixed digits; a dash where there is none.
+
+    Adding 0.0 turns -0.0 into 0.0, which prints without a sign.
+    """
     return "-" if value is None else f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 def reason_words(numbers: Sequence[NumberComparison]) -> Iterator[str]:
-    """Tell why numbers are missing, each reason once."""
+    """Give why numbers are missing, each reason once."""
     reasons = dict[str, list[str]]()
     for each in numbers:
         if each.reason is not None:
@@ -374,22 +372,22 @@ def reason_words(numbers: Sequence[NumberComparison]) -> Iterator[str]:
 
 
 def object_words(found: HullComparison) -> Iterator[str]:
-    """Tell which points came and went, and which features changed."""
+    """Give which points came and went, and which features changed."""
     points = found.points
     yield "points: " + ", ".join(
         f"{count} > {points.after[sort]} {sort}" for sort, count in points.before.items()
     )
     for what, names in (("came", points.came), ("went", points.went)):
         if names:
-            more = f" and {len(names) - _TOLD} more" if len(names) > _TOLD else ""
-            yield f"{len(names)} {what}: {', '.join(names[:_TOLD])}{more}"
+            more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
+            yield f"{len(names)} {what}: {', '.join(names[:_LISTED])}{more}"
     for each in found.features:
         if each.what != "same":
             yield f"feature {each.name} ({each.kind}) {each.what}{_parameters(each)}"
 
 
 def _parameters(feature: FeatureComparison) -> str:
-    """Tell the parameters of a feature that differ."""
+    """Give the parameters of a feature that differ, before and after."""
     old, new = feature.before, feature.after
     if old is None or new is None:
         return ""
@@ -408,7 +406,7 @@ def _value(value: float | Place) -> str:
 
 
 # --------------------------------------------------------------------------------------
-# A comparison of two hulls as a table for a terminal.
+# The table for a terminal.
 
 
 def comparison_text(found: HullComparison, lines: int = 10) -> str:
@@ -426,7 +424,7 @@ def comparison_text(found: HullComparison, lines: int = 10) -> str:
     >>> import assoc_hull as ah
     >>> from assoc_hull.variation.comparing.comparison import comparison_text
     >>> hull = ah.examples.wigley()
-    >>> print(comparison_text(ah.compare(hull, hull)).splitlines()[3])
+    >>> print(comparison_text(hull.compare(hull)).splitlines()[3])
     lines: 31 same, 0 moved, 0 came, 0 went
     """
     parts = [
@@ -466,7 +464,7 @@ def _numbers(title: str, numbers: Sequence[NumberComparison]) -> Iterator[str]:
 
 
 def _laid_out(rows: Iterable[Sequence[str]], sides: str) -> Iterator[str]:
-    """Put cells below one another, each column to one side."""
+    """Put cells below one another, each column to the side "<" or ">"."""
     cells = [list(row) for row in rows]
     wide = [max(len(each) for each in column) for column in zip(*cells, strict=True)]
     for row in cells:
@@ -475,11 +473,11 @@ def _laid_out(rows: Iterable[Sequence[str]], sides: str) -> Iterator[str]:
 
 
 # --------------------------------------------------------------------------------------
-# A comparison of two hulls as JSON. Its schema is `assoc_hull.io.tables.comparison`.
+# The comparison as JSON.
 
 COMPARISON_FORMAT = "assoc-hull comparison"
 SCHEMA = 1
-"""Version of the form."""
+"""Version of the schema."""
 
 
 def comparison_json(found: HullComparison) -> str:
@@ -492,25 +490,25 @@ def comparison_document(found: HullComparison) -> dict[str, Any]:
     return {
         "format": COMPARISON_FORMAT,
         "schema": SCHEMA,
-        "parent": _json_hull(found.parent),
-        "variant": _json_hull(found.variant),
+        "parent": _hull_data(found.parent),
+        "variant": _hull_data(found.variant),
         "lines": [_line(each) for each in found.lines],
         "hydrostatics": [_number(each) for each in found.hydrostatics],
         "parameters": [_number(each) for each in found.parameters],
-        "points": _told(found.points),
-        "features": [_told(each) for each in found.features],
+        "points": _as_data(found.points),
+        "features": [_as_data(each) for each in found.features],
     }
 
 
-def _told(thing: PointsComparison | FeatureComparison) -> dict[str, Any]:
-    """Give the attributes of a thing; mappings that nobody can change become dicts."""
+def _as_data(thing: PointsComparison | FeatureComparison) -> dict[str, Any]:
+    """Give the attributes of a thing; read-only mappings become dicts."""
     told = attrs.asdict(thing, recurse=False)
     return {
         name: dict(value) if isinstance(value, Mapping) else value for name, value in told.items()
     }
 
 
-def _json_hull(hull: ComparedHull) -> dict[str, Any]:
+def _hull_data(hull: ComparedHull) -> dict[str, Any]:
     return {
         **attrs.asdict(hull.particulars), "fingerprint": hull.fingerprint,
         "at_draught": hull.draught, "doubts": list(hull.doubts),

@@ -1,8 +1,8 @@
 """The lines of a parent and of a variant side by side: shift, fairness, points.
 
-Lines are paired by name, those left over by key. The shift of a line is told apart into what its
-plane did, and how far the line lies from the parent's within the plane, which is the distance of
-two curves and not of their points.
+Lines are the same if they have one name; those left over, if they have one key: then the variant's
+has been renamed. A shift is divided into what the plane of the line did, along its normal, and how
+far the line lies from the parent's within the plane: the distance of two curves, not of points.
 """
 
 from __future__ import annotations
@@ -32,14 +32,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# How far a line of a variant lies from the parent's: its plane, and its course within the plane.
-#
-# A plane that went along its normal is told apart from what the line did in it: the line is laid
-# into the parent's plane first. There the distance is that of two curves: of every place of
-# either the nearest of the other, and of these pairs the farthest
-# (`assoc_hull.geometry.splines.distance`). A
-# line in space, or one whose plane has turned, is compared as it lies. A line in which nothing
-# but its ends moved has their distance: what is longer or shorter counts, too.
+# A line whose plane went along its normal is laid into the parent's plane first, and the curves
+# are compared there: of every place of either the nearest of the other, and of these pairs the
+# farthest. A line in space, or one whose plane has turned, is compared as it lies. Where nothing
+# but ends moved, their distance counts: a line that is longer or shorter has moved.
 
 LEAST = 1e-6
 """A line that lies less than this (m) from the parent's has not moved."""
@@ -48,7 +44,7 @@ _TURNED = 1e-9
 """Unit normals that differ by more belong to planes that are not parallel."""
 
 _SIDE = 0.4
-"""A coordinate with less than this part of the largest one is not told as a direction."""
+"""A coordinate with less than this part of the largest one is not named as a direction."""
 
 _WAYS = (("forward", "aft"), ("out", "in"), ("up", "down"))
 
@@ -166,6 +162,7 @@ class _Laid:
 
     @classmethod
     def of(cls, parent: HullState, old: int, variant: HullState, new: int) -> _Laid:
+        """Take a line of both hulls by its numbers."""
         plane = _plane(parent, old, variant, new)
         back = np.zeros(3) if plane is None else plane * variant.lines.normal.data[new]
         after = [_moved(spline, -back) for spline in _splines(variant, new)]
@@ -197,19 +194,13 @@ def _plane(parent: HullState, old: int, variant: HullState, new: int) -> float |
 
 
 def _moved(spline: SplineBatch, by: FloatArray) -> SplineBatch:
+    """Give a spline moved by a vector (3,), m; unmoved splines keep their identity."""
     return attrs.evolve(spline, xyz=spline.xyz + by, home=None) if by.any() else spline
 
 
 def _place(point: FloatArray) -> Place:
     x, y, z = point.tolist()
     return x, y, z
-
-
-# --------------------------------------------------------------------------------------
-# The lines of a parent and of a variant, line by line: shift, fairness, points.
-#
-# Lines are the same if they have one name; of those left over, if they have one key: then the
-# variant's has been renamed.
 
 
 @attrs.frozen(eq=False)

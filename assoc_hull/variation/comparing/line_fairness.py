@@ -199,13 +199,16 @@ def measure_fairness(
     table = state.lines
     wanted = state.live("lines").tolist() if lines is None else [int(line) for line in lines]
     for line in wanted:
+        # A negative number would count from the end of the table.
         if not 0 <= line < table.count or not table.alive.data[line]:
             what = f"there is no line {line}"
             raise BadInputError(what, "in measure_fairness", "give numbers of live lines")
     curves = [(line, curve) for line in wanted for curve in state.curves_of(line)]
+    # Lines without curves go: the sums come one for each line that has some.
     wanted = list(dict.fromkeys(line for line, _ in curves))
     views = {line: _views(state, line, like or {}) for line in wanted}
     seen = [(line, curve, view) for line, curve in curves for view in views[line]]
+    # An empty list of splines cannot be joined.
     if not seen:
         return {}
     batch = SplineBatch.join([state.spline(curve) for _, curve, _ in seen])

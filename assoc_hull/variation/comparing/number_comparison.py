@@ -82,7 +82,7 @@ class Numbers:
     ----------
     record : Hydrostatics or None
         Upright at even keel.
-    parameters : mapping of str to Value
+    parameters : mapping of str to FormValue
         Form parameters by symbol; none where the hull cannot be measured.
     trouble : str or None
         Why it cannot.
@@ -133,7 +133,7 @@ def compare_numbers(
 
     Examples
     --------
-    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.hull.sources import examples
     >>> from assoc_hull.variation.comparing.number_comparison import compare_numbers, numbers_of
     >>> numbers = numbers_of(examples.wigley(), None, None)
     >>> (volume, *_), _ = compare_numbers(numbers, numbers)

@@ -1,8 +1,9 @@
 """Curves through points are pulled through places: their defining points change least.
 
-The loft depends on the points also through its chord-length parameters, so Newton's method takes
-least steps with the exact derivatives of the loft. `pull_through` does it to a curve of a hull
-within an open edit; only points that the designer may move are moved, all lines follow.
+The shape depends on the points directly and through the chord-length parameters, so a place on the
+curve is not linear in them. With the exact derivatives of the loft, Newton's method takes the
+least step to what is asked and squares what is left of it, step by step. `pull_through` does it to
+a curve of a hull within an open edit: only points that the designer may move are moved.
 """
 
 from __future__ import annotations
@@ -40,20 +41,16 @@ __all__ = [
     "pull_through",
 ]
 
-# --------------------------------------------------------------------------------------
-# Curves through points are pulled: their defining points change least.
-#
-# The shape depends on the points directly and through the chord-length parameters, so a place on
-# the curve is not linear in them. With the exact derivatives of the loft, Newton's method takes
-# the least step to what is asked and squares what is left of it, step by step. What is held of a
-# place is its segment and the fraction along it: a fraction of the whole length would slide.
+# What is held of a place is its segment and the fraction along it: a fraction of the whole length
+# would slide.
 
 _STEPS = 20
 _DONE = 1e-13
-"""What may be left, as a part of the largest coordinate."""
+"""Residual that may be left, as a part of the largest coordinate."""
 
 _UNREACHED = 1e-9
-"""A direction (relative), or a distance (m), that no point can do anything about."""
+"""A motion (relative) as small as this has no effect; without one, a distance (m) up to this may
+be left."""
 
 
 @attrs.frozen(eq=False)
@@ -96,7 +93,7 @@ class PulledCurve:
 
 @attrs.frozen(eq=False)
 class _Asked:
-    """Equations at one stage: rows (k, m), what is left (k, 1), names, and the largest left."""
+    """Equations at one stage: rows (k, m), residuals (k, 1), names, and the largest residual."""
 
     rows: FloatArray
     left: FloatArray
@@ -130,14 +127,14 @@ def pass_through(
     ----------
     data : CurveData
         One curve of n points.
-    targets : sequence of Held
+    targets : sequence of HeldPlace
         What is asked; a place that is asked to stay where it is pins the curve there.
     freedom : (m, n, 3) or None
         How the points may move: m unit motions, orthogonal to one another. Anywhere if None.
 
     Returns
     -------
-    Passed
+    PulledCurve
         The points, and how Newton's method came to them.
 
     Raises
@@ -184,7 +181,7 @@ def pass_places(
 
     Returns
     -------
-    Passed
+    PulledCurve
         The points, and how Newton's method came to them.
 
     Raises
@@ -248,7 +245,7 @@ def _equations(
     motions: FloatArray,
     held: tuple[IntArray, FloatArray] | None,
 ) -> _Asked:
-    """Set up what is asked of the motions, without what no motion changes."""
+    """Set up the equations for the motions, without those that no motion changes."""
     if held is None:
         spline = loft(data)
         at = closest_points(spline, 0, wanted)[0]
@@ -257,6 +254,7 @@ def _equations(
         segment, fraction = held
     reached, along = _places(data, motions, segment, fraction)
     left = wanted - reached.value
+    # held places need all three coordinates, others only what lies across the tangent
     axes = np.tile(np.eye(3), (len(wanted), 1, 1)) if held else _across(along)
     rows, right, names = [], [], []
     for i, frame in enumerate(axes):
@@ -304,10 +302,8 @@ def _reachable(rows: FloatArray, left: FloatArray, name: str) -> tuple[FloatArra
 
 
 # --------------------------------------------------------------------------------------
-# An edit: a curve of the net is made to pass through places, its points moving least.
-#
-# What moves are points that the designer may move: shared crossings and placed points, each
-# along its freedom. Driven points stay, adopted ones that have to move become placed.
+# The curve of a hull: shared crossings and placed points may move, each along its freedom. Driven
+# points stay, adopted ones that have to move become placed.
 
 _MOVED = 1e-12
 """A point moved by less (m) is left alone."""
@@ -398,7 +394,8 @@ def _directions(state: HullState, row: int) -> FloatArray:
     normals = [state.lines.normal.data[line] for line in lines if state.lines.planar.data[line]]
     if not normals:
         return np.eye(3)
-    # The planes' normals span what is forbidden; the rest of a full basis is free.
+    # the normals of the planes span what is forbidden; the rest of a full basis is free
+
     _, value, right = np.linalg.svd(np.array(normals), full_matrices=True)
     free: FloatArray = right[int((value > 1e-9).sum()) :]
     return free

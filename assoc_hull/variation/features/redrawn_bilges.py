@@ -1,8 +1,10 @@
 """Bilge arcs of sections that are drawn again after a map that bends the corner they lie in.
 
 A bilge is a fillet between a straight bottom and an upright side. After a map both are straight
-again, the arc is none: it is drawn again between the two, with the radius that the map gives it,
-and the ends slide along bottom and side. The last part finds the bilges of a net.
+again, but the image of the arc is no arc: it is drawn again between the two, with the radius that
+the map gives it. Its ends lie elsewhere on bottom and side than the images of the old ones; that
+is spread along both, where it moves nothing off them, and fades fore and aft. Lengths in m, y, z
+of the port half. `bilge_map` at the end finds the bilges of a net.
 """
 
 from __future__ import annotations
@@ -32,9 +34,6 @@ __all__ = [
     "bilge_map",
     "fillet_bilge",
 ]
-
-# --------------------------------------------------------------------------------------
-# The bilge as it is drawn: an arc between a bottom, level or rising, and an upright side.
 
 
 @attrs.frozen(eq=False)
@@ -134,20 +133,11 @@ def fillet_bilge(
     return BilgeFillet(y, z, r, floor, np.array([side, z]))
 
 
-# --------------------------------------------------------------------------------------
-# The bilge arcs of sections, drawn anew after a map that bends the corner they lie in.
-#
-# An arc between a straight bottom and an upright side is a fillet. Turned, the bottom is straight
-# again, and the side upright, but the arc's image is no arc: it is drawn again between the two,
-# with the radius that the map gives it. The ends of the new arc lie elsewhere on bottom and side
-# than the images of the old ones do; that is spread along both, where it moves nothing off them.
-# Fore and aft of the arcs it fades as well.
-
 _Map = Callable[[FloatArray], FloatArray]
 
 _CURVE = 1e-4
-"""The curve through the points of an arc lies as near to it, in radii; all that does is put on
-the new one."""
+"""The curve through the points of an arc lies as near to it, in radii; places as near as this are
+put on the new arc."""
 
 
 @attrs.frozen(eq=False)
@@ -160,7 +150,7 @@ class BilgeArc:
         Of the feature.
     x : float, m
         Of the section, before.
-    before, after : Bilge
+    before, after : BilgeFillet
     reach : (float, float), m
         How far along the bottom and up the side the correction fades, before the map.
     image, slope : callable
@@ -193,6 +183,7 @@ class BilgeArc:
         return np.asarray(new - (slope * old[:, None, :]).sum(axis=2))
 
     def _places(self, part: FloatArray) -> FloatArray:
+        """Give places (n, 3), m, of the section at parts of the old arc."""
         return np.column_stack([np.full(len(part), self.x), self.before.at(part)])
 
     def most(self) -> float:
@@ -213,6 +204,8 @@ class BilgeArc:
         down = (old.floor - [old.y, old.z]) / old.radius
         keelward = np.array([down[1], -down[0]])
         inward, upward = away @ keelward, away[:, 1]
+        # three zones: inward of the tangent point on the floor, above that on the side, and the
+        # arc
         floor = inward > 0.0
         side = ~floor & (upward > 0.0)
         past = np.where(floor, inward, np.where(side, upward, 0.0))
@@ -253,7 +246,7 @@ class BilgeMap:
     ----------
     image, slope : callable
         The map of places (n, 3), m, and its Jacobian, (n, 3, 3).
-    arcs : tuple of Arc
+    arcs : tuple of BilgeArc
         From aft forward; without any it is the map.
     """
 
@@ -264,26 +257,28 @@ class BilgeMap:
     def __call__(self, xyz: FloatArray) -> FloatArray:
         """Map places (n, 3), m; those that no arc reaches keep the bits of the map."""
         found = self.image(xyz)
-        for arc, course in zip(self.arcs, self._courses(), strict=True):
-            some = np.flatnonzero(course.at(xyz[:, 0]) != 0.0)
+        for arc, share in zip(self.arcs, self._shares(), strict=True):
+            some = np.flatnonzero(share.at(xyz[:, 0]) != 0.0)
             if len(some):
                 x, y, z = xyz[some].T
-                step = course.at(x)[:, None] * arc.correction(np.abs(y), z)[0]
+                step = share.at(x)[:, None] * arc.correction(np.abs(y), z)[0]
+                # starboard is the mirror of port
                 step[:, 0] = np.where(y < 0.0, -step[:, 0], step[:, 0])
+                # what has no step keeps its bits, a negative zero as well
                 found[some, 1:] = np.where(step != 0.0, found[some, 1:] + step, found[some, 1:])
         return found
 
     def jacobian(self, xyz: FloatArray) -> FloatArray:
         """Give the derivatives of the places after by those before, (n, 3, 3)."""
         found = self.slope(xyz)
-        for arc, course in zip(self.arcs, self._courses(), strict=True):
-            some = np.flatnonzero(course.at(xyz[:, 0]) != 0.0)
+        for arc, share in zip(self.arcs, self._shares(), strict=True):
+            some = np.flatnonzero(share.at(xyz[:, 0]) != 0.0)
             if len(some):
                 x, y, z = xyz[some].T
                 step, slope = arc.correction(np.abs(y), z)
                 more = np.zeros((len(some), 3, 3))
-                more[:, 1:, 0] = course.slope(x)[:, None] * step
-                more[:, 1:, 1:] = course.at(x)[:, None, None] * slope
+                more[:, 1:, 0] = share.slope(x)[:, None] * step
+                more[:, 1:, 1:] = share.at(x)[:, None, None] * slope
                 mirror = np.where((y < 0.0)[:, None], [1.0, -1.0, 1.0], 1.0)
                 found[some] += mirror[:, :, None] * more * mirror[:, None, :]
         return found
@@ -291,12 +286,12 @@ class BilgeMap:
     def regions(self) -> tuple[FieldRegion, ...]:
         """Give the boxes of the profile plane in which arcs change the map."""
         return tuple(
-            FieldRegion(arc.name, (float(course.nodes[0]), float(course.nodes[-1])), _heights(arc))
-            for arc, course in zip(self.arcs, self._courses(), strict=True)
+            FieldRegion(arc.name, (float(share.nodes[0]), float(share.nodes[-1])), _heights(arc))
+            for arc, share in zip(self.arcs, self._shares(), strict=True)
         )
 
-    def _courses(self) -> list[BlendChain]:
-        """Give how much each arc counts along the ship: between two they add up to one."""
+    def _shares(self) -> list[BlendChain]:
+        """Give how much each arc counts along the ship: those of two neighbours add up to one."""
         x = [arc.x for arc in self.arcs]
         low = [arc.x - JOIN * arc.before.radius for arc in self.arcs[:1]] + x[:-1]
         high = x[1:] + [arc.x + JOIN * arc.before.radius for arc in self.arcs[-1:]]
@@ -307,19 +302,20 @@ class BilgeMap:
 
 
 def _heights(arc: BilgeArc) -> tuple[float, float]:
+    """Give between which heights, m, an arc changes the map."""
     old = arc.before
     low = min(float(old.floor[1]), float(old.floor[1]) - arc.reach[0]) - old.radius
     return low, float(old.side[1]) + arc.reach[1]
 
 
 # --------------------------------------------------------------------------------------
-# Which arcs of a hull are bilges, and what a map leaves to be drawn anew of them.
+# Which arcs of a hull are bilges, and which of them a map leaves to be drawn again.
 
 _ON = 1e-6
-"""Points as near (m) to a straight line are on it."""
+"""Points as near as this (m) to a straight line are on it."""
 
 _LARGEST = 0.1
-"""An arc may lie off the image by so many of its radii."""
+"""An arc may lie off the image by this part of its radius."""
 
 
 @attrs.frozen(eq=False)
@@ -330,7 +326,7 @@ class _Between:
     ----------
     x : float, m
         Of the section.
-    bilge : Bilge
+    bilge : BilgeFillet
     inner, upper : (2,), m
         y and z at which the straight bottom begins, and the straight side ends.
     """
@@ -352,27 +348,28 @@ class _Between:
 
 
 def bilge_map(state: HullState, vmap: VariationMap) -> BilgeMap:
-    """Draw the bilge arcs of a hull anew for a map.
+    """Draw the bilge arcs of a hull again for a map.
 
-    Where it scales all about a bilge alike, nothing is drawn: a similarity makes an arc of it,
-    other ratios of the whole hull an oval. An image is left as it is, too, that lies farther from
-    any arc than a tenth of the radius.
+    Where the map scales all about a bilge alike, nothing is drawn: a similarity makes an arc of it,
+    other ratios of the whole hull an oval. An image that lies farther from the new arc than a tenth
+    of the radius is left as it is, too.
 
     Parameters
     ----------
     state : HullState
         The tables, before the map.
-    vmap : VMap
+    vmap : VariationMap
         The map.
     """
     arcs = [_drawn(state, each, vmap) for each in state.features if each.kind == "arc"]
     found = sorted((each for each in arcs if each is not None), key=lambda arc: arc.x)
+    # one arc a station: the shares along the ship need rising nodes
     alone = [arc for i, arc in enumerate(found) if i == 0 or arc.x != found[i - 1].x]
     return BilgeMap(vmap, vmap.jacobian, tuple(alone))
 
 
 def _drawn(state: HullState, feature: Feature, vmap: VariationMap) -> BilgeArc | None:
-    """Draw one arc anew; None if it is no bilge, or need not be, or cannot."""
+    """Draw one arc again; None if it is no bilge, need not be drawn again, or cannot."""
     found = _between(state, feature)
     if found is None or _even(found, vmap):
         return None
@@ -393,6 +390,7 @@ def _between(state: HullState, feature: Feature) -> _Between | None:
     rows = state.curves.rows.data[curve].tolist()
     xyz = state.rows.xyz.data[rows]
     first, last = (rows.index(feature.points[i]) for i in (0, -1))
+    # from the bottom up, whichever way the curve runs
     if xyz[first, 2] > xyz[last, 2]:
         xyz = xyz[::-1]
         first, last = len(rows) - 1 - first, len(rows) - 1 - last
@@ -400,6 +398,7 @@ def _between(state: HullState, feature: Feature) -> _Between | None:
     low, high = xyz[first, 1:], xyz[last, 1:]
     if abs(normal[0]) != 1.0 or not first < last or np.abs(high - [y + r, z]).max() > _ON:
         return None
+    # the tangent of the arc at its foot, outward: the bottom must run on straight from there
     ahead = np.array([z - low[1], low[0] - y]) / r
     inner, upper = _run(xyz[first::-1, 1:], -ahead), _run(xyz[last:, 1:], np.array([0.0, 1.0]))
     if inner is None or upper is None or ahead[0] <= 0.0 or inner[0] < 0.0:

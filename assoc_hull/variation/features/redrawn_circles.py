@@ -1,8 +1,9 @@
 """Circles that are drawn again after a map, and the map that takes their neighbourhood along.
 
 A map blurs a circle, the end of a bossing for instance. It is drawn again about the image of its
-centre, with the radius that is asked for or that of as much area. What the drawn circle lies off
-the image is spread over the neighbourhood, fading with the distance, so that joins stay smooth.
+centre, with the radius that is asked for or that of as much area; each point keeps its angle. The
+correction, from the image to the drawn circle, is spread over the neighbourhood: in full on the
+circle, and fading with the distance, so that joins stay smooth. Lengths in m.
 """
 
 from __future__ import annotations
@@ -35,30 +36,22 @@ __all__ = [
     "tangent_point",
 ]
 
-# --------------------------------------------------------------------------------------
-# Circles that are made anew after a map: the end of a bossing, any round end.
-#
-# A map blurs a circle. What it was drawn as is known, so it is drawn again: about the image of
-# its centre with the radius that is asked for, or else with one of as much area as the image has.
-# Each point keeps its angle. How far the drawn circle lies off the image is the correction, which
-# the neighbourhood takes part in (see `features_map`).
-
 _Map = Callable[[FloatArray], FloatArray]
 
 TOUCH = 1e-6
-"""A plane as near as this (m) to being tangent to a circle touches it."""
+"""A plane as near as this (m) to a tangent plane of a circle touches it."""
 
 GAP = 5e-6
-"""A spline through points of a circle lies as near (m) to it."""
+"""Places as near as this (m) lie on a circle: a spline through points of it leaves it by less."""
 
 _ROUNDING = 1e-13
-"""A correction by less than so many radii is rounding."""
+"""A correction by less than this part of the radius is rounding."""
 
 _LARGEST = 0.1
-"""A circle may lie off the image by so many of its radii."""
+"""A circle may lie off the image by this part of its radius."""
 
 _WITHIN = 1e-6
-"""A curve through points of a circle is to be the circle within this (m)."""
+"""A curve through points of a circle may leave it by this (m), else points are added."""
 
 _ROUNDS = 12
 
@@ -107,7 +100,7 @@ class SpaceCircle:
     def unit(self, xyz: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give the directions (n, 3) in which places lie from the axis, and how far, (n,), m.
 
-        The direction stands for the angle. Places on the axis have none: they are given nil.
+        The direction stands for the angle. Places on the axis have none: they are given zero.
         """
         away = xyz - self.centre
         flat = away - (away * self.normal).sum(axis=1)[:, None] * self.normal
@@ -132,7 +125,7 @@ class RedrawnCircle:
     Attributes
     ----------
     name : str
-    before, after : Circle
+    before, after : SpaceCircle
         Of the same plane direction.
     image : callable
         The map.
@@ -163,6 +156,7 @@ class RedrawnCircle:
         return bool(same) and bool((self.image(places) == places).all())
 
     def _around(self, count: int = 72) -> FloatArray:
+        """Give directions (n, 3) evenly around the circle."""
         one, two = _across(self.before.normal)
         angle = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)[:, None]
         return np.asarray(np.cos(angle) * one + np.sin(angle) * two)
@@ -198,7 +192,7 @@ def redraw_circle(
     ----------
     name : str
         For messages.
-    before : Circle
+    before : SpaceCircle
         The circle.
     image, slope : callable
         The map of places (n, 3), m, and its Jacobian, (n, 3, 3).
@@ -251,6 +245,7 @@ def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _refuse_far(found: RedrawnCircle) -> None:
+    """Refuse a circle that lies off its image by more than a tenth of its radius."""
     most = found.most()
     if most > _LARGEST * found.after.radius:
         raise BadInputError(
@@ -262,12 +257,12 @@ def _refuse_far(found: RedrawnCircle) -> None:
 def tangent_point(circle: SpaceCircle, normal: ArrayLike, offset: float) -> FloatArray | None:
     """Give where a plane touches a circle, (3,), m; None where it passes by or through.
 
-    A tangent plane meets a circle in a double root, which rounding would decide on. So what is
-    within 1e-6 m of tangent touches, at the circle's own place.
+    A tangent plane intersects a circle in a double root, which rounding would decide on. So what
+    is within 1e-6 m of tangent touches, at the circle's own place.
 
     Parameters
     ----------
-    circle : Circle
+    circle : SpaceCircle
     normal : (3,)
         Unit normal of the plane.
     offset : float, m
@@ -290,6 +285,7 @@ def tangent_point(circle: SpaceCircle, normal: ArrayLike, offset: float) -> Floa
         return None
     found: FloatArray = circle.at(np.copysign(1.0, away) * (flat / size)[None])[0]
     exact = np.abs(across) == 1.0
+    # a plane x, y or z = const gets its coordinate to the last bit
     found[exact] = offset * across[exact]
     return found
 
@@ -301,7 +297,7 @@ def directions_to_add(circle: SpaceCircle, units: FloatArray) -> FloatArray:
 
     Parameters
     ----------
-    circle : Circle
+    circle : SpaceCircle
     units : (n, 3)
         Directions of the points that are there, in order along the arc, less than half a turn
         from one to the next.
@@ -337,6 +333,7 @@ def circle_deviation(circle: SpaceCircle, units: FloatArray) -> FloatArray:
 
     Clamped: it ends with the circle's tangents.
     """
+    # the sum of the turns is the normal, in the sense in which the points go round
     turn = np.cross(units[:-1], units[1:]).sum(axis=0)
     tangent = np.cross(turn / np.sqrt((turn * turn).sum()), units[[0, -1]])
     batch = loft(
@@ -353,26 +350,17 @@ def circle_deviation(circle: SpaceCircle, units: FloatArray) -> FloatArray:
 
 
 # --------------------------------------------------------------------------------------
-# A map that makes features anew: after it circles are circles, and what joins them follows.
-#
-# A circle that is drawn anew lies a little off the image of the old one. That correction is not
-# put into the circle's points alone, which would dent what joins it: it is spread over the
-# neighbourhood, in full on the circle, and fading with the distance from it,
-#
-#     w = 1 - b5(distance / (6 r))
-#
-# so that the join stays smooth and the fade turns nowhere more than the hull does. Between two
-# circles each counts in full at its own and not at all at the other, and their shares add up: what
-# is straight between two that move alike stays straight. Beyond the fade nothing is added, and
-# places keep the bits of the map. The tangent of the image of the circle is that of
-# the new circle.
+# Put into the circle's points alone, the correction would dent what joins the circle. Its weight w
+# = 1 - b5(distance / (6 r)) falls so slowly that the fade turns no more than the hull does.
+# Between two circles the shares add up to one: what is straight between two that move alike stays
+# straight.
 
 JOIN = 6.0
 """A correction fades within so many radii of its circle."""
 
 
 def distance_fade(away: FloatArray, reach: float) -> FloatArray:
-    """Give the part of a correction that is left at a distance: 1 at 0, nil from `reach` on.
+    """Give the part of a correction that is left at a distance: 1 at 0, zero from `reach` on.
 
     Examples
     --------
@@ -386,13 +374,13 @@ def distance_fade(away: FloatArray, reach: float) -> FloatArray:
 
 @attrs.frozen(eq=False)
 class FeatureMap:
-    """A map and the circles that are drawn anew after it.
+    """A map and the circles that are drawn again after it.
 
     Attributes
     ----------
     image, slope : callable
         The map of places (n, 3), m, and its Jacobian, (n, 3, 3).
-    circles : tuple of Redrawn
+    circles : tuple of RedrawnCircle
         Apart from one another.
 
     Examples
@@ -422,6 +410,7 @@ class FeatureMap:
             if not circle.carried:
                 weight = self._weight(i, away[:, some])[0][:, None]
                 moved = moved + weight * circle.correction(unit)
+            # on the circle its own place, not the image with a correction: bits of the new circle
             moved[away[i, some] == 0.0] = circle.after.at(unit[away[i, some] == 0.0])
             level = np.abs((xyz[some] - circle.before.centre) @ circle.before.normal)
             moved[np.maximum(size, level) <= circle.gap] = circle.after.centre
@@ -438,6 +427,8 @@ class FeatureMap:
             if circle.carried:
                 continue
             unit, size = circle.before.unit(xyz[some])
+            # derivative of the direction by the place: across axis and direction, over the
+            # distance
             about = np.eye(3) - circle.before.normal[:, None] * circle.before.normal
             about = about - unit[:, :, None] * unit[:, None, :]
             about = about / np.where(size > 0.0, size, np.inf)[:, None, None]
@@ -458,15 +449,17 @@ class FeatureMap:
         return np.array([_distance(each, xyz) for each in self.circles])
 
     def _near(self, away: FloatArray) -> np.typing.NDArray[np.bool_]:
+        """Tell which circles (c) reach which places (n): the fade is not zero there."""
         return np.asarray(away < self._reach()[:, None])
 
     def _reach(self) -> FloatArray:
+        """Give how far each circle's correction fades, (c,), m."""
         return np.array([JOIN * each.before.radius for each in self.circles])
 
     def _weight(self, i: int, away: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give the weight of a circle at places, (n,), and its slopes by the distances, (c, n).
 
-        The fade of all circles together, parted among them.
+        It is the fade of all circles together, divided among them.
         """
         each = [self._part(k, away) for k in range(len(away))]
         part, turn = np.array([p for p, _ in each]), np.array([t for _, t in each])
@@ -500,18 +493,19 @@ class FeatureMap:
         return np.prod(part, axis=0), turn
 
     def _ahead(self, xyz: FloatArray, away: FloatArray) -> FloatArray:
-        """Give the unit vectors in which the distances grow, (c, n, 3); nil on a circle."""
+        """Give the unit vectors in which the distances grow, (c, n, 3); zero on a circle."""
         steps = np.array([xyz - each.before.foot(xyz)[0] for each in self.circles])
         return np.asarray(steps / np.where(away > 0.0, away, np.inf)[:, :, None])
 
 
 def _distance(circle: RedrawnCircle, xyz: FloatArray) -> FloatArray:
-    """Give how far places lie from a circle; nil for those that count as on it."""
+    """Give how far places lie from a circle; zero for those that count as on it."""
     away = circle.before.foot(xyz)[1]
     return np.asarray(np.where(away <= circle.gap, 0.0, away))
 
 
 def _region(circle: RedrawnCircle) -> FieldRegion:
+    """Give the box around the fade of a circle; a radius more for what it lies around."""
     reach = (JOIN + 1.0) * circle.before.radius
     x, _, z = circle.before.centre.tolist()
     return FieldRegion(circle.name, (x - reach, x + reach), (z - reach, z + reach))

@@ -100,7 +100,7 @@ def redraw_features(
     ----------
     state : HullState
         The tables, before the map.
-    vmap : VMap
+    vmap : VariationMap
         The map.
     radii : mapping of str to float, m, or None
         Radii that are asked for, by the keys of features.

@@ -1,8 +1,8 @@
 """Fields laid out over anchors, so that each anchor moves by exactly what is asked.
 
-The rounded hat joins the displacements of the anchors by straight lines that are blended into one
-another; this is the usual way. Ratio curves are the way of the source paper (Choi & Lee 1999), for
-who wants to compare. Both give an ordinary field of `fields.field`.
+An anchor is a height with a displacement. The rounded hat joins the displacements by straight
+lines that are blended into one another; this is the usual way. Ratio curves are the way of Choi &
+Lee (1999), kept for comparison with their paper. Both give a `StackedField`.
 """
 
 from __future__ import annotations
@@ -22,11 +22,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The rounded hat: how a field is laid out so that anchors move by what is asked.
-#
-# Straight lines join the anchors and their displacements; at each anchor one line is blended
-# into the next within a window. The lines agree at the anchor, so it moves by exactly what is
-# asked, whatever the blend, and slopes stay near those of the lines.
+# The rounded hat. Straight lines join the anchors and their displacements; at each anchor one line
+# is blended into the next within a window. The lines agree at the anchor, so it moves by exactly
+# what is asked, whatever the blend, and slopes stay near those of the lines.
 
 _WINDOW = 0.3
 """Half-width of a window as a part of the smaller gap beside its anchor. At one half two
@@ -53,7 +51,7 @@ def hat_field(
     anchors : sequence of (str, float, float)
         Name, height (m) and displacement (m). Below the first and above the last the
         displacement stays what it is there.
-    course : Course
+    course : BoundedFunction
         How it fades along the ship, 1 where it is full.
     axis : {"x", "z"}
         What is displaced.
@@ -67,7 +65,7 @@ def hat_field(
     Raises
     ------
     BadInputError
-        Anchors that do not rise, or fewer than two; windows that meet.
+        Anchors that do not rise, or fewer than two; windows that touch.
 
     Examples
     --------
@@ -89,6 +87,7 @@ def hat_field(
     gap = np.diff(z)
     beside = np.column_stack([np.append(gap[0], gap), np.append(gap, gap[-1])])
     special = windows or {}
+    # below the first and above the last anchor the displacement stays
     slope = np.concatenate([[0.0], np.diff(d) / gap, [0.0]])
     labels, heights, pieces = list[str](), list[float](), list[AffinePiece]()
     for j, anchor in enumerate(names):
@@ -138,7 +137,8 @@ def level_window(below: float, above: float, blend: Blend = QUINTIC) -> float:
     Notes
     -----
     The lines rise by D / below and fall by D / above. Both give D at the anchor, so that the
-    slope there is D / below - b(s) (D / below + D / above), nil for b(s) = above / (below + above).
+    slope there is D / below - b(s) (D / below + D / above): zero for
+    b(s) = above / (below + above).
 
     Examples
     --------
@@ -146,6 +146,7 @@ def level_window(below: float, above: float, blend: Blend = QUINTIC) -> float:
     >>> level_window(5.0, 5.0)
     1.0
     """
+    # bisection: the blend has no inverse in closed form
     wanted = above / (below + above)
     low, high = 0.0, 1.0
     for _ in range(_HALVINGS):
@@ -158,12 +159,10 @@ def level_window(below: float, above: float, blend: Blend = QUINTIC) -> float:
 
 
 # --------------------------------------------------------------------------------------
-# Ratio curves: how the source paper lays out a field, for who wants to compare with it.
-#
-# A boundary curve through each anchor carries the ratio of the anchor's coordinate after and
-# before; between two of them the ratio is blended, so a place keeps nothing of the lines that
-# join the anchors. Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
-# Associative Geometry Objects", J. SNAK 36(4), 1999, section 3.4, formulas 3.1 to 3.3.
+# Ratio curves: a boundary through each anchor carries the ratio of the anchor's coordinate after
+# and before, blended between two of them, so that a place is not moved by the lines that join the
+# anchors. Choi & Lee, "A Study on the Hull Form Design System on the Basis of the Associative
+# Geometry Objects", J. SNAK 36(4), 1999, section 3.4, formulas 3.1 to 3.3.
 
 _GRIP = 1e-6
 """A height below this part of the highest anchor's has no ratio."""
@@ -183,7 +182,7 @@ def ratio_field(
     name : str
     anchors : sequence of (str, float, float)
         Name, height (m, above the base) and displacement (m), from below.
-    course : Course
+    course : BoundedFunction
         How it fades along the ship, 1 where it is full.
     blend : Blend
 

@@ -79,7 +79,7 @@ class FieldPlan:
         The places in the parent.
     count : int
         Number of amplitudes.
-    moving : tuple of Moving
+    moving : tuple of MovingCoordinate
         What moves, at most one for each coordinate.
 
     Examples

@@ -1,9 +1,10 @@
-"""Functions of one coordinate with exact bounds: chains, contours, ramps, polynomials.
+"""Functions of one coordinate with exact bounds: blends, chains, contours, ramps, polynomials.
 
-A field is laid out by such functions along the ship and up the hull. Each of them gives its value,
-its slope, and exact bounds of both on any interval: the fold check works on these bounds. A chain
-goes from node to node by a blend; at a node and outside all nodes its value is the node's to the
-last bit, which keeps a hull the same outside the region of a variation.
+Fields are laid out by such functions along the ship and up the hull. Each of them gives its value,
+its slope, and exact bounds of both on any interval, which the fold check works on; where a bound
+is sought at inner places too, these are the roots of the derivative. At a node and outside all
+nodes a chain gives the node's value without arithmetic, to the last bit: that keeps a hull the
+same outside the region of a variation.
 """
 
 from __future__ import annotations
@@ -33,11 +34,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Blends: how a field goes over from one piece to the next, and their integrals.
-#
 # A blend b rises from 0 at s = 0 to 1 at s = 1 with level ends. The cubic one has continuous
-# slope, the quintic one continuous curvature as well. A ramp is the integral of a blend: it
-# leaves 0 as smoothly and ends in a straight line of slope 1.
+# slope, the quintic one continuous curvature as well. A ramp is the integral of a blend: it leaves
+# 0 as smoothly and ends in a straight line of slope 1.
 
 
 @attrs.frozen
@@ -63,7 +62,7 @@ class Blend:
 
     @property
     def degree(self) -> int:
-        """That of b between 0 and 1."""
+        """Degree of b between 0 and 1."""
         return 3 if self.name == "cubic" else 5
 
     def value(self, s: FloatArray) -> FloatArray:
@@ -74,13 +73,16 @@ class Blend:
         return np.asarray(s * s * s * (10.0 + s * (6.0 * s - 15.0)))
 
     def slope(self, s: FloatArray) -> FloatArray:
-        """Give b'(s), nil outside 0 <= s <= 1."""
+        """Give b'(s), zero outside 0 <= s <= 1."""
         s = _within(s)
         part = s * (1.0 - s)
         return np.asarray(6.0 * part if self.name == "cubic" else 30.0 * part * part)
 
     def second(self, s: FloatArray) -> FloatArray:
-        """Give b''(s), nil outside 0 <= s <= 1; the cubic's jumps there, its inner value counts."""
+        """Give b''(s), zero outside 0 <= s <= 1.
+
+        The cubic's jumps at both ends; there its inner value is given.
+        """
         inside = (s >= 0.0) & (s <= 1.0)
         s = _within(s)
         bend = 6.0 - 12.0 * s
@@ -89,7 +91,7 @@ class Blend:
         return np.where(inside, bend, 0.0)
 
     def ramp(self, t: FloatArray) -> FloatArray:
-        """Give the integral of b from 0 to t: nil below 0, t - 1/2 above 1."""
+        """Give the integral of b from 0 to t: zero below 0, t - 1/2 above 1."""
         s = _within(t)
         if self.name == "cubic":
             rise = s * s * s * (1.0 - 0.5 * s)
@@ -120,17 +122,13 @@ BLENDS = {"cubic": CUBIC, "quintic": QUINTIC}
 
 
 # --------------------------------------------------------------------------------------
-# Functions of one coordinate that lay out a field: chains, contours, bumps.
-#
-# A chain goes from node to node by a blend and is constant outside. At a node and outside, the
-# node's own value is given without arithmetic: that is what keeps a hull outside a variation's
-# region the same to the last bit.
+# Functions that fields are laid out by.
 
 
 class BoundedFunction(Protocol):
-    """A function of one coordinate with exact bounds.
+    """A function of one coordinate with exact bounds: a polynomial between its nodes.
 
-    Between its nodes it is a polynomial; `scaled` gives it times a factor.
+    Values, slopes and bounds are elementwise on arrays of any shape; x in m.
     """
 
     @property
@@ -243,12 +241,12 @@ class BlendChain:
 
     @cached_property
     def level(self) -> bool:
-        """Whether it is the same everywhere; most are, and those are evaluated at once."""
+        """Whether the value is the same everywhere: most chains are, and need no pieces."""
         return bool((self.v == self.v[0]).all())
 
     @property
     def degree(self) -> int:
-        """That of the blend; 0 if it is level."""
+        """Degree of the blend; 0 if the chain is level."""
         return 0 if self.level else self.blend.degree
 
     def scaled(self, factor: float) -> BlendChain:
@@ -256,7 +254,7 @@ class BlendChain:
         return BlendChain(self.x.copy(), self.v * factor, self.blend)
 
     def _piece(self, x: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Give place within, width, first value and rise of the pieces that x lie in."""
+        """Give the part s (0 to 1) of the piece at each x, and its width, first value and rise."""
         inner, widths, rises = self._pieces
         i = np.searchsorted(inner, x, side="right")
         width = widths[i]
@@ -290,7 +288,7 @@ class BlendChain:
         return np.asarray(rise * self.blend.second(s) / (width * width))
 
     def bounds(self, low: FloatArray, high: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give least and greatest value on intervals: of both ends and the nodes between."""
+        """Give least and greatest value on intervals: pieces are monotone, so ends and nodes do."""
         low, high = np.asarray(low, np.float64), np.asarray(high, np.float64)
         first, last = self.at(low), self.at(high)
         least, most = np.minimum(first, last), np.maximum(first, last)
@@ -301,7 +299,7 @@ class BlendChain:
         return least, most
 
     def slope_bounds(self, low: FloatArray, high: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give least and greatest slope on intervals: ends, middles of pieces, level nodes."""
+        """Give least and greatest slope on intervals: of ends, nodes (0) and middles of pieces."""
         low, high = np.asarray(low, np.float64), np.asarray(high, np.float64)
         first, last = self.slope(low), self.slope(high)
         least, most = np.minimum(first, last), np.maximum(first, last)
@@ -320,8 +318,8 @@ class BlendChain:
 class Contour:
     """A boundary that follows a contour: a cubic spline through nodes, level outside.
 
-    Between more than two nodes a chain would make a staircase; a spline does not. Its slope
-    is nil at both ends, so that it goes over smoothly into the constants outside.
+    Between more than two nodes a chain would make a staircase; a spline does not. Its slope is
+    zero at both ends, so that it goes over smoothly into the constants outside.
 
     Attributes
     ----------
@@ -354,7 +352,7 @@ class Contour:
 
     @property
     def degree(self) -> int:
-        """That of a cubic spline."""
+        """Degree of a cubic spline."""
         return 3
 
     def scaled(self, factor: float) -> Contour:
@@ -383,6 +381,7 @@ class Contour:
     def _within(
         self, low: FloatArray, high: FloatArray, order: int
     ) -> tuple[FloatArray, FloatArray]:
+        """Give bounds of the value (order 0) or the slope (order 1) on intervals."""
         low, high = np.asarray(low, np.float64), np.asarray(high, np.float64)
         give = self.slope if order else self.at
         first, last = give(low), give(high)
@@ -396,28 +395,24 @@ class Contour:
         return least, most
 
     def _turns(self, order: int) -> FloatArray:
+        """Give where value (order 0) or slope (order 1) has an extreme between nodes, m."""
         found = self._spline.derivative(order + 1).roots(extrapolate=False)
         places: FloatArray = found[np.isfinite(found)]
         return places
 
 
-# --------------------------------------------------------------------------------------
-# Further functions of one coordinate: ramps and polynomials, with exact bounds.
-#
-# Both are a `Course` as a chain is, so that a layer can be made of any of them.
-
 _NEGLIGIBLE = 1e-60
-"""A coefficient so much smaller than the others means nothing anywhere on a ship."""
+"""A coefficient smaller than the largest by this factor changes nothing anywhere on a ship."""
 
 
 @attrs.frozen
 class Ramp:
-    """Nil up to a place, then going over into a straight line.
+    """Zero up to a place, then going over into a straight line.
 
     Attributes
     ----------
     begin : float, m
-        Up to here it is exactly nil.
+        Up to here it is exactly zero.
     width : float, m
         Over so much it becomes straight; negative for a ramp that runs the other way.
     slope : float
@@ -451,7 +446,7 @@ class Ramp:
 
     @property
     def degree(self) -> int:
-        """That of the blend's integral."""
+        """Degree of the integral of the blend."""
         return self.blend.degree + 1
 
     def scaled(self, factor: float) -> Ramp:
@@ -482,12 +477,12 @@ class Ramp:
 
 @attrs.frozen(eq=False)
 class Polynomial:
-    """A polynomial.
+    """A polynomial of x in m.
 
     Attributes
     ----------
     c : (k,)
-        Coefficients of 1, x, x^2 ..; x in m.
+        Coefficients of 1, x, x^2 ...
 
     Examples
     --------
@@ -519,7 +514,7 @@ class Polynomial:
 
     @property
     def nodes(self) -> FloatArray:
-        """No places: it is of one piece."""
+        """None: it is of one piece."""
         return np.zeros(0)
 
     @cached_property
@@ -530,9 +525,9 @@ class Polynomial:
 
     @cached_property
     def _turns(self) -> FloatArray:
-        """Where its slope is nil, and more places.
+        """Where its slope is zero, and more places.
 
-        A leading coefficient near nil spoils all roots, so that the roots without it are taken as
+        A leading coefficient near zero spoils all roots, so the roots without it are taken as
         well; values at further places do no harm to a bound.
         """
         slope = self._derivative.c
@@ -542,7 +537,7 @@ class Polynomial:
 
     @property
     def degree(self) -> int:
-        """Its own."""
+        """Its degree."""
         return len(self.c) - 1
 
     def scaled(self, factor: float) -> Polynomial:
@@ -552,6 +547,7 @@ class Polynomial:
     def at(self, x: FloatArray) -> FloatArray:
         """Give values."""
         value: FloatArray = np.zeros(np.shape(x)) + self.c[-1]
+
         for each in self.c[-2::-1].tolist():
             value = value * x + each
         return np.asarray(value)
@@ -561,7 +557,7 @@ class Polynomial:
         return self._derivative.at(x)
 
     def bounds(self, low: FloatArray, high: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give least and greatest value on intervals: at their ends or where the slope is nil."""
+        """Give least and greatest value on intervals: at their ends or where the slope is zero."""
         low, high = np.asarray(low, np.float64), np.asarray(high, np.float64)
         first, last = self.at(low), self.at(high)
         least, most = np.minimum(first, last), np.maximum(first, last)

@@ -1,8 +1,10 @@
 """Fields: displacements of one coordinate, laid out in the profile plane.
 
-A field is a stack of boundary curves with an affine piece on each, blended from one to the next
-in between. Its boundary curves must not touch: the least gap of two of them is found by bounds
-that cannot miss it, and a field that has none left is refused when it is made.
+A field moves one coordinate c by ``u``, evaluated at the place before the map. A stack of boundary
+curves ``h_0(x) < h_1(x) < ..`` divides the profile plane; each carries an affine piece, and
+between two of them u goes over from one piece to the next. Boundary curves must not touch: their
+least gap is found by bounds that cannot miss it, and a field without a gap is refused when it is
+made. Lengths in m, x from AP forward, z from the base line up.
 """
 
 from __future__ import annotations
@@ -38,10 +40,9 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The least gap between two boundary curves, by bounds that cannot miss it.
-#
-# Both curves give exact bounds of value and slope on any interval. An interval whose lower bound
-# lies above the least gap met so far is put aside, every other one is halved.
+# The least gap of two boundary curves. Both give exact bounds of value and slope on any interval;
+# an interval whose lower bound lies above the least gap found so far is left, every other one
+# halved.
 
 _NEAR = 1e-9
 """The least gap is known to so many m."""
@@ -54,7 +55,7 @@ def least_gap(lower: BoundedFunction, upper: BoundedFunction) -> tuple[float, fl
 
     Parameters
     ----------
-    lower, upper : Course
+    lower, upper : BoundedFunction
         Heights, m, over x.
 
     Returns
@@ -79,6 +80,7 @@ def least_gap(lower: BoundedFunction, upper: BoundedFunction) -> tuple[float, fl
         bound, middle, value = _bound(lower, upper, begin, end)
         if len(value) and value.min() < least:
             place, least = float(middle[value.argmin()]), float(value.min())
+        # only what may hold a smaller gap is looked at again
         left = bound < least - _NEAR
         if not left.any():
             break
@@ -90,7 +92,7 @@ def least_gap(lower: BoundedFunction, upper: BoundedFunction) -> tuple[float, fl
 def _bound(
     lower: BoundedFunction, upper: BoundedFunction, begin: FloatArray, end: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Give the lower bound of the gap on intervals, their middles, and the gap there."""
+    """Give the lower bound of the gap on intervals, their middles, and the gap there; (n,), m."""
     middle = 0.5 * (begin + end)
     value = upper.at(middle) - lower.at(middle)
     plain = upper.bounds(begin, end)[0] - lower.bounds(begin, end)[1]
@@ -117,20 +119,15 @@ def check_gaps(field: str, stack: Sequence[tuple[str, BoundedFunction]]) -> None
 
 
 # --------------------------------------------------------------------------------------
-# Fields: displacements of one coordinate, laid out in the profile plane.
-#
-# A field moves one coordinate c by ``u``, evaluated at the place before the map. A stack of
-# boundary curves ``h_0(x) < h_1(x) < ..`` parts the profile plane; each carries an affine piece
+# With the pieces and the blend b,
 #
 #     e_k(x, c) = a_k(x) (c - p_k) + d_k(x)
+#     u = e_k + (e_{k+1} - e_k) b(s),   s = (z - h_k) / (h_{k+1} - h_k)
 #
-# and between two of them u goes over from one piece to the next by the blend of
-# ``s = (z - h_k) / (h_{k+1} - h_k)``. Below the stack u = e_0, above it u = e_m.
-#
-# With p = 0 and d = 0 this is the variation-ratio field of Choi & Lee, "A Study on the Hull Form
-# Design System on the Basis of the Associative Geometry Objects", J. SNAK 36(4), 1999, section 3.4:
-# a = ratio - 1. Pivot and shift let a field carry a place at coordinate nil, and make a circle a
-# circle.
+# and u = e_0 below the stack, the last piece above it. With p = 0 and d = 0 this is the
+# variation-ratio field of Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
+# Associative Geometry Objects", J. SNAK 36(4), 1999, section 3.4: a = ratio - 1. Pivot p and shift
+# d let a field move a place at coordinate zero, and make a circle a circle.
 
 Axis = Literal["x", "y", "z"]
 
@@ -143,7 +140,7 @@ class Boundary:
     ----------
     name : str
         For messages: ``"T"``, ``"shaft+r"``.
-    height : Course
+    height : BoundedFunction
         h(x), m.
     """
 
@@ -153,14 +150,14 @@ class Boundary:
 
 @attrs.frozen(eq=False)
 class AffinePiece:
-    """An affine piece ``a(x) (c - pivot) + d(x)``.
+    """An affine piece ``a(x) (c - pivot) + d(x)`` of a displacement, m.
 
     Attributes
     ----------
-    a : Course
+    a : BoundedFunction
         Departure: ratio - 1.
     pivot : float, m
-    d : Course
+    d : BoundedFunction
         Shift, m.
     """
 
@@ -170,7 +167,7 @@ class AffinePiece:
 
     @classmethod
     def along(cls, course: BoundedFunction, a: float, d: float, pivot: float = 0.0) -> AffinePiece:
-        """Give a piece whose departure and shift fade by one course."""
+        """Give a piece whose departure a and shift d (m) fade along the ship by one function."""
         return cls(course.scaled(a), pivot, course.scaled(d))
 
     def scaled(self, factor: float) -> AffinePiece:
@@ -180,7 +177,7 @@ class AffinePiece:
 
 @attrs.frozen
 class Tube:
-    """psi(y) in place of y: the identity within a radius, nil beyond n radii.
+    """psi(y) in place of y: the identity within a radius, zero beyond n radii.
 
     It keeps the widening of a slender part, a bossing, from widening the hull beside it.
 
@@ -206,6 +203,7 @@ class Tube:
         return np.asarray(1.0 - self.blend.value(s) - fade)
 
     def _s(self, y: FloatArray) -> FloatArray:
+        """Give the part of the fade: 0 at the radius, 1 at n radii."""
         s: FloatArray = (np.abs(y) / self.radius - 1.0) / (self.n - 1.0)
         return s
 
@@ -237,7 +235,7 @@ class StackedField:
         The coordinate that it moves.
     boundaries : tuple of Boundary
         From below.
-    pieces : tuple of Piece
+    pieces : tuple of AffinePiece
         One a boundary. Those of a y-field have no pivot and no shift: the centre plane stays.
     blend : Blend
     tube : Tube or None
@@ -290,7 +288,7 @@ class StackedField:
         return attrs.evolve(self, pieces=tuple(each.scaled(factor) for each in self.pieces))
 
     def displacement(self, xyz: FloatArray) -> FloatArray:
-        """Give u, (n,), m, at places (n, 3), m; only those in the region are looked at."""
+        """Give u, (n,), m, at places (n, 3), m; only those in the region are evaluated."""
         some = self._touched(xyz)
         u = np.zeros(len(xyz))
         u[some] = self._displacement(xyz[some])
@@ -307,6 +305,7 @@ class StackedField:
         return np.flatnonzero(found)
 
     def _displacement(self, xyz: FloatArray) -> FloatArray:
+        """Give u at places in the region; pieces are evaluated only where they count."""
         x, z = xyz[:, 0], xyz[:, 2]
         c = self._own(xyz)
         low, s = self.strip(x, z)
@@ -324,13 +323,14 @@ class StackedField:
         return u
 
     def gradient(self, xyz: FloatArray) -> FloatArray:
-        """Give du/dx, du/dy, du/dz, (n, 3); only places in the region are looked at."""
+        """Give du/dx, du/dy, du/dz, (n, 3); only places in the region are evaluated."""
         some = self._touched(xyz)
         found = np.zeros((len(xyz), 3))
         found[some] = self._gradient(xyz[some])
         return found
 
     def _gradient(self, xyz: FloatArray) -> FloatArray:
+        """Give the derivatives of u at places in the region, by the formulas of the module."""
         x, z, c = xyz[:, 0], xyz[:, 2], self._own(xyz)
         low, s = self.strip(x, z)
         high = np.minimum(low + 1, len(self.pieces) - 1)
@@ -338,6 +338,7 @@ class StackedField:
         f, f_x, f_c = self._chosen(high, x, c)
         h, h_x = self._heights(low, x)
         g, g_x = (top - foot for top, foot in zip(self._heights(high, x), (h, h_x), strict=True))
+        # below and above the stack there is one piece and no gap
         g = np.where(high > low, g, 1.0)
         b, turn = self.blend.value(s), self.blend.slope(s) * (f - e)
         own = e_c + (f_c - e_c) * b
@@ -350,7 +351,7 @@ class StackedField:
         return found
 
     def strip(self, x: FloatArray, z: FloatArray) -> tuple[np.typing.NDArray[np.int64], FloatArray]:
-        """Give below which boundaries places lie at or above, and where between it and the next.
+        """Find the boundary next below places, and where between it and the next they lie.
 
         Returns
         -------
@@ -368,7 +369,7 @@ class StackedField:
         return low, np.where(top > foot, np.clip((z - foot) / gap, 0.0, 1.0), 0.0)
 
     def region(self) -> FieldRegion:
-        """Give the box of the profile plane outside which u is exactly nil."""
+        """Give the box of the profile plane outside which u is exactly zero."""
         return self._region
 
     @cached_property
@@ -395,13 +396,14 @@ class StackedField:
         return self.tube.at(c) if self.tube else c
 
     def _piece(self, k: int, x: FloatArray, c: FloatArray) -> FloatArray:
+        """Give e_k at places, m."""
         piece = self.pieces[k]
         return piece.a.at(x) * (c - piece.pivot) + piece.d.at(x)
 
     def _chosen(
         self, chosen: np.typing.NDArray[np.int64], x: FloatArray, c: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Give value and derivatives by x (c held) and c of one piece a place."""
+        """Give value and derivatives by x (c held) and by c of the piece chosen for each place."""
         e, e_x, e_c = np.zeros(len(x)), np.zeros(len(x)), np.zeros(len(x))
         for k, piece in enumerate(self.pieces):
             some = np.flatnonzero(chosen == k)
@@ -415,6 +417,7 @@ class StackedField:
     def _heights(
         self, chosen: np.typing.NDArray[np.int64], x: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
+        """Give height (m) and slope of the boundary chosen for each place."""
         h, h_x = np.zeros(len(x)), np.zeros(len(x))
         for k, each in enumerate(self.boundaries):
             some = np.flatnonzero(chosen == k)
@@ -445,13 +448,13 @@ def level_boundaries(names: Sequence[str], heights: Sequence[float]) -> tuple[Bo
 
 
 def _acts(course: BoundedFunction) -> bool:
-    """Tell whether a course is anywhere other than nil."""
+    """Tell whether a function is anywhere other than zero."""
     low, high = course.bounds(np.array(-np.inf), np.array(np.inf))
     return bool(low != 0.0) or bool(high != 0.0)
 
 
 def nonzero_span(course: BoundedFunction) -> tuple[float, float]:
-    """Give between which x a course is other than nil."""
+    """Give between which x, m, a function is other than zero; infinite where it has no end."""
     nodes = course.nodes
     value = course.at(nodes)
     first = -np.inf if value[0] != 0.0 else float(nodes[0])

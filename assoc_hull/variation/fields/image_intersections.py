@@ -1,9 +1,9 @@
 """Intersections of the exact image of curves with planes, without lofting anything again.
 
-The image of a parent curve under a map meets a plane at roots along the curve. Between the places
-where pieces of a layer join (its creases) the map is smooth, so brackets begin and end there, at
-knots, and where the image turns toward the plane. The result tells how far a line that was lofted
-again is from the exact one.
+The image of a parent curve P(t) under the map M intersects the plane x, y or z = c where ``g(t) =
+M(P(t)) - c``, of that coordinate, has a root. Where no pieces of a layer join (between its
+creases) g is smooth, so brackets begin and end at creases, at knots, and where g turns toward the
+plane. The result tells how far a line that was lofted again is from the exact one.
 """
 
 from __future__ import annotations
@@ -32,10 +32,8 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Where the pieces of a layer join: functions of the place that change sign there.
-#
-# Between its creases a layer is a smooth function without narrow parts, which is what a search
-# for roots along a curve needs to know.
+# Creases: where pieces of a layer join. Between them a layer is a smooth function without narrow
+# parts, which is what a search for roots along a curve needs to know.
 
 
 @runtime_checkable
@@ -43,12 +41,12 @@ class Creased(Protocol):
     """A layer of another kind that says itself where its pieces join."""
 
     def creases(self, xyz: FloatArray) -> FloatArray:
-        """Give functions of places (n, 3), m, that are nil on the creases, (n, k)."""
+        """Give functions of places (n, 3), m, that are zero on the creases, (n, k)."""
         ...
 
 
 def creases(layer: Layer, xyz: FloatArray) -> FloatArray:
-    """Give functions of places that are nil where pieces of a layer join.
+    """Give functions of places that are zero where pieces of a layer join.
 
     Parameters
     ----------
@@ -83,11 +81,13 @@ def creases(layer: Layer, xyz: FloatArray) -> FloatArray:
 
 
 def _less(value: FloatArray, places: FloatArray) -> FloatArray:
+    """Give a value less each of some places, (n, k), m: zero at them."""
     found: FloatArray = value[:, None] - places
     return found
 
 
 def _joined(xyz: FloatArray, parts: list[FloatArray]) -> FloatArray:
+    """Put columns beside one another, (n, k); none give (n, 0)."""
     return np.concatenate([np.zeros((len(xyz), 0)), *parts], axis=1)
 
 
@@ -117,31 +117,27 @@ def _corner(layer: CornerLayer, xyz: FloatArray) -> list[FloatArray]:
 
 
 # --------------------------------------------------------------------------------------
-# Cutting the varied hull by planes x = c, y = c or z = c without lofting it again.
-#
-# The image of a parent curve P(t) under the map M meets the plane where ``g(t) = M(P(t)) - c`` has
-# a root, coordinate by coordinate. Brackets begin and end at parent knots, where the curve crosses
-# from one piece of a layer into the next, and where g turns (roots of g'), so that a curve that
-# only just passes a plane and comes back is met twice.
+# Roots along the curves. Turns of g (roots of g') end brackets as well, so that a curve that only
+# just passes a plane and comes back is found twice.
 
 _SAMPLES = 8
-"""Places a segment; between creases a map has no narrow parts."""
+"""Intervals a segment; between creases a map has no narrow parts."""
 
 _NARROW = 4
-"""Places more in every interval that ends on a crease."""
+"""Parts of every interval that ends on a crease."""
 
 _ASIDE = 1e-9
-"""Part of an interval within its ends where slopes are taken: a knuckle has two."""
+"""Slopes are taken so far inside an interval, in parts of it: a knuckle has two at its place."""
 
 
 def intersect_images(
     vmap: VariationMap, batch: SplineBatch, axis: Axis, value: float
 ) -> ImageIntersections:
-    """Meet the exact images of curves with a plane.
+    """Intersect the exact images of curves with a plane.
 
     Parameters
     ----------
-    vmap : VMap
+    vmap : VariationMap
     batch : SplineBatch
         Curves of the parent.
     axis : {"x", "y", "z"}
@@ -151,8 +147,8 @@ def intersect_images(
 
     Returns
     -------
-    Roots
-        Sorted by curve and parameter; a curve that only touches the plane does not meet it.
+    ImageIntersections
+        Sorted by curve and parameter; a curve that only touches the plane has none.
 
     Raises
     ------
@@ -177,7 +173,7 @@ def intersect_images(
     [5.0]
     """
     row = "xyz".index(choice(axis, "axis", "xyz", "in cut"))
-    walk = _Walk(vmap, batch, row, number(value, "value", "in cut"))
+    walk = _HeightAlong(vmap, batch, row, number(value, "value", "in cut"))
     begin, end = segment_start(batch), segment_start(batch) + 1
     low, high = _parts(batch.knot[begin], batch.knot[end], _SAMPLES)
     owner = np.repeat(segment_curve(batch), _SAMPLES)
@@ -187,8 +183,8 @@ def intersect_images(
 
 
 @attrs.frozen(eq=False)
-class _Walk:
-    """The height of images over a plane, along curves."""
+class _HeightAlong:
+    """The signed height g of images over a plane along curves, m; parameters t (n,), m."""
 
     vmap: VariationMap
     batch: SplineBatch
@@ -196,10 +192,12 @@ class _Walk:
     value: float
 
     def height(self, curve: IntArray, t: FloatArray) -> FloatArray:
+        """Give g, (n,), m; its sign says on which side of the plane an image lies."""
         level: FloatArray = self.vmap(evaluate(self.batch, curve, t))[:, self.row] - self.value
         return level
 
     def rise(self, curve: IntArray, t: FloatArray) -> FloatArray:
+        """Give g', the derivative of g by the parameter, (n,)."""
         slope = self.vmap.jacobian(evaluate(self.batch, curve, t))[:, self.row]
         found: FloatArray = (slope * derivative(self.batch, curve, t)).sum(axis=1)
         return found
@@ -217,7 +215,7 @@ Intervals = tuple[IntArray, FloatArray, FloatArray]
 
 
 def _parts(low: FloatArray, high: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
-    """Part intervals equally; the outer ends keep their bits."""
+    """Divide intervals into equal ones; the outer ends keep their bits."""
     cuts = low[:, None] + (high - low)[:, None] * (np.arange(count + 1) / count)
     cuts[:, -1] = high
     return cuts[:, :-1].ravel(), cuts[:, 1:].ravel()
@@ -225,7 +223,7 @@ def _parts(low: FloatArray, high: FloatArray, count: int) -> tuple[FloatArray, F
 
 def _split(owner: IntArray, low: FloatArray, high: FloatArray, rows: IntArray,
            at: FloatArray) -> Intervals:  # fmt: skip
-    """Part intervals at places within them, of which one may have several."""
+    """Divide intervals (rows) at places within them; one interval may have several places."""
     curve = np.concatenate([owner, owner[rows]])
     begin, end = np.concatenate([low, at]), np.concatenate([high, high[rows]])
     order = np.lexsort((begin, curve))
@@ -236,7 +234,10 @@ def _split(owner: IntArray, low: FloatArray, high: FloatArray, rows: IntArray,
     return curve[some], begin[some], end[some]
 
 
-def _split_at_creases(walk: _Walk, owner: IntArray, low: FloatArray, high: FloatArray) -> Intervals:
+def _split_at_creases(
+    walk: _HeightAlong, owner: IntArray, low: FloatArray, high: FloatArray
+) -> Intervals:
+    """Divide where a crease function changes sign, and intervals beside that more finely."""
     first, last = walk.creases(owner, low), walk.creases(owner, high)
     rows, column = np.nonzero((first >= 0.0) != (last >= 0.0))
     if not len(rows):
@@ -254,8 +255,10 @@ def _split_at_creases(walk: _Walk, owner: IntArray, low: FloatArray, high: Float
     return _split(owner, low, high, np.repeat(near, _NARROW - 1), inner)
 
 
-def _split_at_turns(walk: _Walk, owner: IntArray, low: FloatArray, high: FloatArray) -> Intervals:
-    """Part where the height turns toward the plane and away again on one side of it."""
+def _split_at_turns(
+    walk: _HeightAlong, owner: IntArray, low: FloatArray, high: FloatArray
+) -> Intervals:
+    """Divide where the height turns toward the plane and away again on one side of it."""
     above = walk.height(owner, low) >= 0.0
     near = _ASIDE * (high - low)
     begin, end = low + near, high - near
@@ -271,7 +274,10 @@ def _split_at_turns(walk: _Walk, owner: IntArray, low: FloatArray, high: FloatAr
     return _split(owner, low, high, rows, at)
 
 
-def _roots(walk: _Walk, owner: IntArray, low: FloatArray, high: FloatArray) -> ImageIntersections:
+def _roots(
+    walk: _HeightAlong, owner: IntArray, low: FloatArray, high: FloatArray
+) -> ImageIntersections:
+    """Find one root in every interval at whose ends the height has other signs."""
     first, last = walk.height(owner, low), walk.height(owner, high)
     rows = np.flatnonzero((first >= 0.0) != (last >= 0.0))
     curve = owner[rows]
@@ -285,7 +291,7 @@ def _roots(walk: _Walk, owner: IntArray, low: FloatArray, high: FloatArray) -> I
 
 @attrs.frozen(eq=False)
 class _Whole:
-    """A whole map as one layer."""
+    """A whole map as one layer, to solve for one coordinate of it."""
 
     vmap: VariationMap
     name: str = "whole map"
@@ -309,7 +315,7 @@ def plane_source(vmap: VariationMap, axis: Axis, value: float, xyz: ArrayLike) -
 
     Parameters
     ----------
-    vmap : VMap
+    vmap : VariationMap
     axis : {"x", "y", "z"}
         What is constant on the plane.
     value : float, m

@@ -1,9 +1,9 @@
 """The layers that a map is composed of: fields that add, corner, deadrise, additive functions.
 
-A layer gives displacements, and their derivatives, at the places before it. Fields of one layer
-add. The corner layer stretches about the corner of side and bottom and keeps a bilge round, the
-deadrise layer turns the bottom, additive functions are those of Soeding and Rabien (1977).
-A layer of any of these kinds can be scaled, which is how a solver finds its strength.
+A layer gives displacements (m) and their derivatives at the places before it; the next layer acts
+on the places after it. Fields of one layer add. The corner layer stretches about the corner of
+side and bottom, the deadrise layer turns the bottom, additive functions are those of Soeding and
+Rabien (1977). A layer of any of these kinds can be scaled: a solver finds its strength.
 """
 
 from __future__ import annotations
@@ -73,15 +73,11 @@ def _scaled(factors: Factors | None, factor: float) -> Factors | None:
     return None if factors is None else (factors[0].scaled(factor), factors[1], factors[2])
 
 
-# --------------------------------------------------------------------------------------
-# A layer of a map: displacements that are evaluated at the places before it.
-
-
 @runtime_checkable
 class Layer(Protocol):
     """What a map is composed of.
 
-    Outside its regions a layer's displacement is exactly nil and its Jacobian exactly the unit
+    Outside its regions a layer's displacement is exactly zero and its Jacobian exactly the unit
     matrix, so that places there stay the same to the last bit.
     """
 
@@ -103,10 +99,6 @@ class Layer(Protocol):
         ...
 
 
-# --------------------------------------------------------------------------------------
-# A layer of fields that add: all read the places before the map.
-
-
 @attrs.frozen(eq=False)
 class Rake:
     """An x-field that grows upward as a ramp: ``A(x) q w ramp((z - z0) / w)``.
@@ -114,10 +106,10 @@ class Rake:
     Attributes
     ----------
     name : str
-    course : Course
-        A(x).
+    course : BoundedFunction
+        A(x): how much of it acts along the ship, 1 where all of it.
     q : float
-        Tangent of the angle that is added, aft to fore.
+        Tangent of the angle that is added; positive leans forward.
     z0, w : float, m
         Where the ramp begins, and over what height it becomes straight.
     blend : Blend
@@ -155,7 +147,7 @@ class Rake:
         return found
 
     def region(self) -> FieldRegion:
-        """Give the box of the profile plane outside which u is exactly nil."""
+        """Give the box of the profile plane outside which u is exactly zero."""
         nodes, value = self.course.nodes, self.course.at(self.course.nodes)
         first = -np.inf if value[0] != 0.0 else float(nodes[0])
         last = np.inf if value[-1] != 0.0 else float(nodes[-1])
@@ -169,7 +161,7 @@ class FieldLayer:
     Attributes
     ----------
     name : str
-    fields : tuple of Field or Rake
+    fields : tuple of StackedField or Rake
 
     Examples
     --------
@@ -205,12 +197,8 @@ class FieldLayer:
         return tuple(field.region() for field in self.fields)
 
 
-# --------------------------------------------------------------------------------------
-# The corner layer: a bilge made larger or smaller about the corner of side and bottom.
-#
-# A circular fillet between two straight lines is homothetic about their corner. So with equal
-# ratios along both lines an arc of radius r becomes one of radius r', exactly, as far as the
-# factor of the fade is one.
+# A circular fillet between two straight lines is homothetic about their corner: with equal ratios
+# along both lines an arc of radius r becomes one of radius r', exactly, as far as the fade is 1.
 
 
 @attrs.frozen(eq=False)
@@ -224,7 +212,7 @@ class CornerLayer:
     Attributes
     ----------
     name : str
-    course : Course
+    course : BoundedFunction
         A(x): 1 where the bilge is full.
     y, z : float, m
         The corner, to port; starboard is its mirror.
@@ -232,7 +220,7 @@ class CornerLayer:
         Of the bottom line, outward from the keel.
     eta_ratio, zeta_ratio : float
         r' / r along the bottom and up the side.
-    fade : Chain
+    fade : BlendChain
         c: 1 as far as the bilge reaches (m), 0 beyond.
 
     Examples
@@ -257,7 +245,7 @@ class CornerLayer:
     fade: BlendChain
 
     def skew(self, xyz: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Give the side (+1 port), eta and zeta of places."""
+        """Give the side (+1 port, -1 starboard), eta and zeta (m) of places; each (n,)."""
         side = np.where(xyz[:, 1] < 0.0, -1.0, 1.0)
         inward = self.y - np.abs(xyz[:, 1])
         return side, inward / math.cos(self.rise), xyz[:, 2] - self.z + inward * math.tan(self.rise)
@@ -304,26 +292,24 @@ class CornerLayer:
         return (FieldRegion(self.name, (first, last), (-np.inf, top)),)
 
 
-# --------------------------------------------------------------------------------------
-# The deadrise layer: the bottom turned about the side of the keel, in planes across the ship.
-
-
 @attrs.frozen(eq=False)
 class DeadriseLayer:
-    """A shear ``z' = z + A(x) q r(|y| - y_k) c(z)``: r is max(., 0), or a ramp of width w.
+    """Turn the bottom about the side of the keel, in planes across the ship.
+
+    It is a shear ``z' = z + A(x) q r(|y| - y_k) c(z)``: r is max(., 0), or a ramp of width w.
 
     Attributes
     ----------
     name : str
-    course : Course
-        A(x).
+    course : BoundedFunction
+        A(x): 1 where the whole change acts.
     q : float
         Change of the tangent of the deadrise.
     keel : float, m
         y_k, half-breadth of the level keel plate.
     width : float, m
         Over what half-breadth the ramp becomes straight; 0 for a corner at the keel's side.
-    fade : Chain
+    fade : BlendChain
         c(z): 1 up to the top of the bilge, 0 above.
     blend : Blend
     """
@@ -337,7 +323,7 @@ class DeadriseLayer:
     blend: Blend = QUINTIC
 
     def ramp(self, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give r and its derivative by the half-breadth."""
+        """Give r (m) and its derivative by the half-breadth, (n,) each."""
         out = np.abs(y) - self.keel
         if self.width == 0.0:
             return np.maximum(out, 0.0), np.where(out >= 0.0, 1.0, 0.0)
@@ -370,17 +356,16 @@ class DeadriseLayer:
 
 
 # --------------------------------------------------------------------------------------
-# Additive functions: displacements that are products of functions of one coordinate each.
+# Additive functions: displacements are products of functions of one coordinate each.
 #
 #     x' = x + F1(x)
 #     y' = y + F2(x) F3(y) F4(z)
 #     z' = z + F5(x) F6(y) F7(z)
 #
-# Each F is a chain, a ramp or a polynomial. This is the method of Soeding and Rabien, "Hull surface
-# design by modifying an existing hull", First International Symposium on Computer-Aided Hull
-# Surface Definition, Annapolis 1977. It moves a place by what is asked and needs no pivot, but
-# knows no affine part, unless ``F3(y) = y``: a half-breadth that fades in over the half-breadth
-# by a blend leaves the scaled hull by a tenth of what the side moves.
+# H. Soeding, U. Rabien, "Hull surface design by modifying an existing hull", First International
+# Symposium on Computer-Aided Hull Surface Definition, Annapolis 1977. A place moves by what is
+# asked without a pivot, but there is no affine part unless F3(y) = y: a half-breadth that fades in
+# over the half-breadth by a blend leaves the scaled hull by a tenth of what the side moves.
 
 Factors = tuple[BoundedFunction, BoundedFunction, BoundedFunction]
 """Functions of x, of the half-breadth, and of z."""
@@ -393,11 +378,11 @@ class AdditiveLayer:
     Attributes
     ----------
     name : str
-    x : Course or None
+    x : BoundedFunction or None
         F1, m.
-    y : (Course, Course, Course) or None
-        F2, F3, F4: their product is m. F3 is nil at the centre plane, which stays.
-    z : (Course, Course, Course) or None
+    y : Factors or None
+        F2, F3, F4: their product is m. F3 is zero at the centre plane, which stays.
+    z : Factors or None
         F5, F6, F7: their product is m.
 
     Examples
@@ -461,12 +446,13 @@ class AdditiveLayer:
 
 
 def _sided(xyz: FloatArray) -> tuple[FloatArray, tuple[FloatArray, FloatArray, FloatArray]]:
-    """Give the side, 1 to port and at the centre, and x, half-breadth and z."""
+    """Give the side (1 to port and at the centre, -1 to starboard), and x, half-breadth and z."""
     side = np.where(xyz[:, 1] < 0.0, -1.0, 1.0)
     return side, (xyz[:, 0], np.abs(xyz[:, 1]), xyz[:, 2])
 
 
 def _product(factors: Factors, at: tuple[FloatArray, FloatArray, FloatArray]) -> FloatArray:
+    """Give the product of three factors at x, half-breadth and z, (n,), m."""
     first, second, third = (course.at(c) for course, c in zip(factors, at, strict=True))
     return np.asarray(first * second * third)
 
@@ -479,7 +465,7 @@ def _gradient(factors: Factors, at: tuple[FloatArray, FloatArray, FloatArray]) -
 
 
 def _span(course: BoundedFunction) -> tuple[float, float]:
-    """Give between which places a course is other than nil."""
+    """Give between which x or z, m, a function is not zero; infinite where there is no end."""
     if isinstance(course, Polynomial):
         return (-np.inf, np.inf) if course.c.any() else (np.inf, -np.inf)
     return nonzero_span(course)

@@ -1,8 +1,8 @@
 """Shapes of shifts along the ship: bumps, and straight lines from node to node.
 
-Both are functions of one coordinate with exact bounds, as chains are. A bump rises from zero and
-comes back to zero between two terminals; straight lines are the classical shift by 1 - CP. Shifts
-of sections, raw fields and the named shifts of both bodies are made of them.
+Both are a `BoundedFunction` of x (m from AP). A bump rises from zero and comes back to zero between
+two terminals; straight lines are the classical shift by 1 - CP. Shifts of sections, raw fields and
+the named parameters `fore_shift` and `aft_shift` are made of them.
 """
 
 from __future__ import annotations
@@ -23,9 +23,6 @@ __all__ = [
     "Polyline",
 ]
 
-# --------------------------------------------------------------------------------------
-# Bumps: shapes that rise from nil and come back to nil, for shifts along the ship.
-
 _Give = Callable[[FloatArray], FloatArray]
 
 BumpShape = Literal["c1", "c2", "end", "half", "lackenby"]
@@ -42,7 +39,7 @@ BUMP_SHAPES: dict[str, tuple[float, int, int]] = {
 
 @attrs.frozen(eq=False)
 class Bump:
-    """A shape f xi^m (1 - xi)^n between two terminals, exactly nil outside.
+    """A shape f xi^m (1 - xi)^n between two terminals, exactly zero outside.
 
     Attributes
     ----------
@@ -51,7 +48,7 @@ class Bump:
     size : float
         Factor of the shape.
     shape : {"c1", "c2", "end", "half", "lackenby"}
-        ``c2`` has slope and curvature nil at both terminals.
+        ``c2`` has slope and curvature zero at both terminals.
 
     Examples
     --------
@@ -80,7 +77,7 @@ class Bump:
 
     @property
     def degree(self) -> int:
-        """That of the shape."""
+        """Degree m + n of the shape."""
         _, m, n = BUMP_SHAPES[self.shape]
         return m + n
 
@@ -95,6 +92,7 @@ class Bump:
         return attrs.evolve(self, size=self.size * factor)
 
     def _xi(self, x: FloatArray) -> FloatArray:
+        """Give the place between the terminals, 0 to 1."""
         xi: FloatArray = np.clip((x - self.begin) / (self.end - self.begin), 0.0, 1.0)
         return xi
 
@@ -114,7 +112,7 @@ class Bump:
         return self._at(self._xi(x))
 
     def slope(self, x: FloatArray) -> FloatArray:
-        """Give first derivatives, nil outside the terminals and at them."""
+        """Give first derivatives, zero outside the terminals and at them."""
         xi = self._xi(x)
         return np.where((xi > 0.0) & (xi < 1.0), self._slope(xi), 0.0)
 
@@ -136,6 +134,7 @@ class Bump:
     def _within(
         self, low: FloatArray, high: FloatArray, give: _Give, turns: FloatArray, value: _Give
     ) -> tuple[FloatArray, FloatArray]:
+        """Give bounds over the ends of intervals and the values at turns (places of xi) within."""
         low, high = np.asarray(low, np.float64), np.asarray(high, np.float64)
         first, last = give(low), give(high)
         least, most = np.minimum(first, last), np.maximum(first, last)
@@ -150,13 +149,9 @@ class Bump:
         return least, most
 
 
-# --------------------------------------------------------------------------------------
-# Straight lines from node to node, level outside: the classical shift by 1 - CP.
-
-
 @attrs.frozen(eq=False)
 class Polyline:
-    """A course of straight lines; its slope jumps at the nodes.
+    """Straight lines from node to node, level outside; the slope jumps at the nodes.
 
     Attributes
     ----------
@@ -186,14 +181,15 @@ class Polyline:
 
     @property
     def degree(self) -> int:
-        """That of straight lines."""
+        """1, that of straight lines."""
         return 1
 
     def scaled(self, factor: float) -> Polyline:
-        """Give the course times a factor."""
+        """Give the function times a factor."""
         return Polyline(self.x.copy(), self.v * factor)
 
     def _piece(self, x: FloatArray) -> np.typing.NDArray[np.int64]:
+        """Give the line that each x lies on; at a node that forward of it."""
         return np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, len(self.x) - 2)
 
     def at(self, x: FloatArray) -> FloatArray:
@@ -209,7 +205,7 @@ class Polyline:
         return np.asarray(np.diff(self.v) / np.diff(self.x))
 
     def slope(self, x: FloatArray) -> FloatArray:
-        """Give first derivatives, at a node that of the line forward of it; nil outside."""
+        """Give first derivatives, at a node that of the line forward of it; zero outside."""
         inside = (x >= self.x[0]) & (x < self.x[-1])
         return np.where(inside, self._slopes[self._piece(x)], 0.0)
 
@@ -218,7 +214,7 @@ class Polyline:
         return self._within(low, high, self.at(low), self.at(high), self.x, self.x, self.v)
 
     def slope_bounds(self, low: FloatArray, high: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give least and greatest slope on intervals: of all lines that they meet."""
+        """Give least and greatest slope on intervals: of all lines that they touch."""
         ends = self.slope(np.asarray(low)), self.slope(np.asarray(high))
         return self._within(low, high, *ends, self.x[:-1], self.x[1:], self._slopes)
 
@@ -226,6 +222,7 @@ class Polyline:
         self, low: FloatArray, high: FloatArray, first: FloatArray, last: FloatArray,
         begin: FloatArray, end: FloatArray, values: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
+        """Give bounds over the ends (first, last) and the stretches (begin, end) with values."""
         low, high = np.asarray(low, np.float64), np.asarray(high, np.float64)
         least, most = np.minimum(first, last), np.maximum(first, last)
         for i, value in enumerate(values.tolist()):

@@ -1,8 +1,10 @@
 """The map of a variation, and its inverse.
 
-A map is a tuple of layers that act one after the other. Its inverse undoes them in reverse order
-by Newton's method, block by block of the coordinates that a layer couples, with nested bracketed
-roots where Newton's method stalls; the fold check is what makes these brackets safe.
+A map is a tuple of layers that act one after the other on places (n, 3), m. Its inverse undoes
+them in reverse order by Newton's method, block by block of the coordinates that a layer couples,
+with nested bracketed roots where Newton's method stalls. The fold check makes these brackets safe:
+if all principal minors are positive, the innermost equation rises in its unknown, and so does
+every outer one once the inner ones are solved.
 """
 
 from __future__ import annotations
@@ -31,33 +33,27 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The inverse of a map: where places of the varied hull come from.
-#
-# Layers are undone in reverse order. A layer of fields moves x and z by what depends on x and z
-# alone: these two first, by Newton's rule, then y. A corner or deadrise layer leaves x, additive
-# functions have an x of their own; both couple y and z. Any other layer is solved for all three at
-# once. A step is halved as long as the residual grows. Where the rule stalls, nested bracketed
-# roots
-# take over: if all principal minors of the Jacobian are positive (which the fold check demands),
-# the innermost equation rises in its unknown, and so does every outer one once the inner ones are
-# solved.
+# A layer of fields moves x and z by what depends on x and z alone: these two are solved first,
+# then y. Corner and deadrise layers leave x, additive functions have an x of their own; all three
+# couple y and z. Any other layer is solved for all three at once. A step is halved while the
+# residual grows.
 
 Axes = tuple[int, ...]
 
 _EPS = float(np.finfo(np.float64).eps)
 
 _ENOUGH = 8.0
-"""Residuals of so many roundings of the coordinates are those of evaluating the map itself."""
+"""Residuals of so many roundings of the coordinates come from evaluating the map itself."""
 
 _MOST = 128.0
-"""So many roundings are left at most where a steep field makes its own rounding larger."""
+"""So many roundings are accepted at last: a steep field makes its own rounding larger."""
 
 _STEPS = 40
 _HALVINGS = 40
 _DOUBLINGS = 64
 
 _FAR = 1e6
-"""A bracket reaches so far at most, m: beyond, no place has a meaning."""
+"""A bracket reaches so far at most, m: beyond, no place has a meaning for a ship."""
 
 _BLOCKS: dict[type, tuple[Axes, ...]] = {
     AdditiveLayer: ((0,), (1, 2)),
@@ -125,7 +121,7 @@ def solve_coordinates(layer: Layer, image: FloatArray, found: FloatArray, axes: 
     Raises
     ------
     BadInputError
-        Neither Newton's rule nor nested bracketed roots find a place.
+        Neither Newton's method nor nested bracketed roots find a place.
     """
     enough = _ENOUGH * _EPS * (np.abs(image[:, axes]).sum(axis=1) + 1.0)
     rows = _newton(layer, image, found, axes, enough)
@@ -146,7 +142,7 @@ def solve_coordinates(layer: Layer, image: FloatArray, found: FloatArray, axes: 
 
 
 def _residual(layer: Layer, image: FloatArray, found: FloatArray, axes: Axes) -> FloatArray:
-    """Give by how much the places before miss those after, (n, k), m."""
+    """Give the residual of places before a layer: their images less the places after, (n, k), m."""
     away: FloatArray = (found + layer.displacement(found) - image)[:, axes]
     return away
 
@@ -154,7 +150,7 @@ def _residual(layer: Layer, image: FloatArray, found: FloatArray, axes: Axes) ->
 def _newton(
     layer: Layer, image: FloatArray, found: FloatArray, axes: Axes, enough: FloatArray
 ) -> IntArray:
-    """Step by Newton's rule; give the rows that it does not solve.
+    """Step by Newton's method in place; give the rows that it does not solve.
 
     Those it solves make one step more, if that still lessens the residual: it costs little, and
     roundings of several layers add up.
@@ -178,7 +174,7 @@ def _damped(
     layer: Layer, image: FloatArray, found: FloatArray, axes: Axes, open_: IntArray,
     away: FloatArray, trials: int,
 ) -> np.typing.NDArray[np.bool_]:  # fmt: skip
-    """Take the largest of the halved steps that lessen the residual; tell where there is one."""
+    """Take the largest of the halved steps that lessen the residual; say where there is one."""
     step = _cramer(layer.jacobian(found[open_])[:, axes][:, :, axes], away[open_])
     before = np.abs(away[open_]).sum(axis=1)
     better = np.zeros(len(open_), bool)
@@ -232,6 +228,7 @@ def _nested(
     low = image[:, axis].copy()
     at_low = give(every, low)
     high, at_high = low.copy(), at_low.copy()
+    # the residual rises in the unknown, so its sign says on which side the root lies
     reach = np.where(at_low >= 0.0, -1.0, 1.0) * (np.abs(at_low) + enough)
     for _ in range(_DOUBLINGS):
         rows = np.flatnonzero(((at_low >= 0.0) == (at_high >= 0.0)) & (np.abs(reach) < _FAR))
@@ -243,10 +240,6 @@ def _nested(
     found = xyz.copy()
     found[:, axis] = false_position(give, low, high, at_low, at_high, enough)
     return _nested(layer, image, found, inner, enough)
-
-
-# --------------------------------------------------------------------------------------
-# The map of a variation: layers, one after the other.
 
 
 @attrs.frozen(eq=False)

@@ -1,8 +1,8 @@
 """The catalogue of named parameters, and what a solver may change of them.
 
-An entry tells name, unit, meaning, and what lays out the fields. `Freedom` is a parameter of the
-catalogue, or the strength of a raw layer, whose value is sought; it knows a usual change, by which
-changes of different kinds are compared.
+An entry has name, unit, meaning, and the function that lays out its fields. `Freedom` is a
+parameter of the catalogue, or the strength of a raw layer, whose value is sought; it has a usual
+change, by which changes of different kinds are compared.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Callable
 import attrs
 
 from assoc_hull.variation.fields.layers import Layer, scaled_layer
-from assoc_hull.variation.parameters import parameter_fields as layouts_body
+from assoc_hull.variation.parameters import parameter_fields
 from assoc_hull.variation.parameters.field_layout import Layout, Share
 from assoc_hull.variation.parameters.parent import Parent
 
@@ -23,13 +23,10 @@ __all__ = [
     "NamedParameter",
 ]
 
-# --------------------------------------------------------------------------------------
-# The named parameters: what they are, and what lays out their fields.
-
 _SIGNED = frozenset(
     {"deadrise_deg", "stem_rake_deg", "parallel_body_start", "parallel_body_end", "transom_height"}
 )
-"""Parameters that may be nil or negative."""
+"""Parameters that may be zero or negative."""
 
 _Lays = Callable[[Parent, float, Layout], Share | Layer]
 
@@ -88,7 +85,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "D",
             "m",
             "height of the deck edge amidships",
-            layouts_body.depth_field,
+            parameter_fields.depth_field,
             "ratio of z from the deck up, nothing below T",
         ),
         entry(
@@ -96,7 +93,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "z_deck",
             "m",
             "height of the deck edge amidships",
-            layouts_body.deck_height_field,
+            parameter_fields.deck_height_field,
             "ratio of z from the deck up, nothing below T",
         ),
         entry(
@@ -104,7 +101,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "h",
             "m",
             "height of the centre of the bossing end",
-            layouts_body.shaft_height_field,
+            parameter_fields.shaft_height_field,
             "dome of z over base, shaft and 1.25 T",
         ),
         entry(
@@ -112,7 +109,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "r_b",
             "m",
             "radius of the circle of the bossing end",
-            layouts_body.bossing_radius_field,
+            parameter_fields.bossing_radius_field,
             "ratio of y in a tube, of z about the centre",
         ),
         entry(
@@ -120,7 +117,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "z_t",
             "m",
             "lowest point of the transom",
-            layouts_body.transom_height_field,
+            parameter_fields.transom_height_field,
             "hat of z; what lies above moves along",
         ),
         entry(
@@ -128,7 +125,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "y_t",
             "m",
             "greatest half-breadth of the transom",
-            layouts_body.transom_half_breadth_field,
+            parameter_fields.transom_half_breadth_field,
             "ratio of y from the transom's foot up",
         ),
         entry(
@@ -136,7 +133,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "z_b",
             "m",
             "height of the foremost point of the bulb",
-            layouts_body.bulb_height_field,
+            parameter_fields.bulb_height_field,
             "hat of z over base, tip and 1.25 T",
         ),
         entry(
@@ -144,7 +141,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "y_b",
             "m",
             "greatest half-breadth at the FP below T",
-            layouts_body.bulb_half_breadth_field,
+            parameter_fields.bulb_half_breadth_field,
             "ratio of y from the tip down",
         ),
         entry(
@@ -152,7 +149,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "l_b",
             "m",
             "from the FP to the foremost point of the bulb",
-            layouts_body.bulb_length_field,
+            parameter_fields.bulb_length_field,
             "shift of x, full from the tip down, nothing above 1.25 T",
         ),
         entry(
@@ -160,7 +157,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "r",
             "m",
             "radius of the bilge amidships",
-            layouts_body.bilge_radius_layer,
+            parameter_fields.bilge_radius_layer,
             "stretch about the corner of side and bottom",
         ),
         entry(
@@ -168,7 +165,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "beta",
             "deg",
             "rise of the bottom at the side of the keel",
-            layouts_body.deadrise_layer,
+            parameter_fields.deadrise_layer,
             "shear of z outward from the keel",
         ),
         entry(
@@ -176,7 +173,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "y_f",
             "m",
             "half-breadth of the flat bottom amidships",
-            layouts_body.flat_of_bottom_layer,
+            parameter_fields.flat_of_bottom_layer,
             "stretch about the corner of side and bottom; of y alone where the bilge is no arc",
         ),
         entry(
@@ -184,7 +181,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "x_s",
             "m",
             "x of the after end of the parallel body",
-            layouts_body.parallel_body_start_field,
+            parameter_fields.parallel_body_start_field,
             "shift of x, nothing at AP and at the fore end",
         ),
         entry(
@@ -192,7 +189,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "x_e",
             "m",
             "x of the fore end of the parallel body",
-            layouts_body.parallel_body_end_field,
+            parameter_fields.parallel_body_end_field,
             "shift of x, nothing at the after end and at FP",
         ),
         entry(
@@ -200,7 +197,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "rake",
             "deg",
             "rake of the stem from T to its top",
-            layouts_body.stem_rake_field,
+            parameter_fields.stem_rake_field,
             "ramp of x above T",
         ),
         entry(
@@ -208,7 +205,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "c_f",
             "m",
             "largest movement of the fore stations, + forward",
-            layouts_body.fore_shift_field,
+            parameter_fields.fore_shift_field,
             "bump of x between parallel body and rising profile",
         ),
         entry(
@@ -216,7 +213,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "c_a",
             "m",
             "largest movement of the after stations, + forward",
-            layouts_body.aft_shift_field,
+            parameter_fields.aft_shift_field,
             "bump of x between rising profile and parallel body",
         ),
     )
@@ -228,11 +225,8 @@ CATALOGUE = {each.name: each for each in _entries()}
 NAMES = tuple(CATALOGUE)
 
 
-# --------------------------------------------------------------------------------------
-# What a solver may change: a named parameter, or how much there is of a layer of raw fields.
-
 _SHIFT, _SIZE, _ANGLE = 0.01, 0.05, 2.0
-"""Usual changes: of shifts in parts of Lpp, of lengths in parts of themselves, of angles."""
+"""Usual changes: of shifts in parts of Lpp, of lengths in parts of themselves, of angles in deg."""
 
 
 @attrs.frozen(eq=False)
@@ -245,7 +239,7 @@ class Freedom:
     unit : str
         Of the amplitude: m, deg, or nothing for a layer.
     present : float
-        The value of amplitude nil; 0 for shifts and layers.
+        The value of amplitude zero; 0 for shifts and layers.
     usual : float
         A usual change, by which amplitudes are compared.
     layer : Layer or None

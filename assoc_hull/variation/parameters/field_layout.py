@@ -1,8 +1,8 @@
 """How far the fields of named parameters reach, and what one parameter puts into a map.
 
 `Layout` has a number for each rule by which fields are laid out; all of them may be changed. A
-`Share` is what a layout of one parameter gives: unit fields, and the place where they must give
-what change, so that sizes of several parameters can be solved for together.
+`Share` is what the layout of one parameter gives: fields for the asked change, and the place where
+they must give it, so that the sizes of several parameters can be solved for together.
 """
 
 from __future__ import annotations
@@ -25,9 +25,6 @@ __all__ = [
     "Layout",
     "Share",
 ]
-
-# --------------------------------------------------------------------------------------
-# How far the fields of named parameters reach: a number for each rule, to be changed at will.
 
 
 @attrs.frozen
@@ -121,7 +118,7 @@ class Layout:
         outward: Sequence[str] = (),
         windows: Mapping[str, tuple[float, float]] | None = None,
     ) -> StackedField:
-        """Lay out a z-field over anchors (name, height, displacement), m, as `hat` or `ratios`."""
+        """Lay out a z-field over anchors (name, height, displacement), m, by hat or ratios."""
         if self.blend == "paper":
             return ratio_field(name, anchors, course, blend=self.curve)
         return hat_field(
@@ -157,7 +154,7 @@ _WORDS = {
     "shift": ("c1", "c2", "end", "half", "lackenby"),
 }
 _LEAST = {"draught_top": 1.0, "tube": 1.0, "bilge": 1.0}
-"""Reaches that begin at 1 and end at what is given."""
+"""Reaches that begin at 1, of draught or radius, and end at what is given; others begin at 0."""
 
 
 def _check(name: str, value: Any) -> None:
@@ -173,10 +170,6 @@ def _check(name: str, value: Any) -> None:
         raise BadInputError(
             f"{name} is {value:g}", "in vary", f"give a number above {_LEAST[name]:g}"
         )
-
-
-# --------------------------------------------------------------------------------------
-# What one named parameter puts into a map: fields, and where they must give what change.
 
 
 @attrs.frozen(eq=False)
@@ -195,7 +188,7 @@ class Share:
         The anchor; further places are subtracted by their weights.
     weights : (k,)
         1 for the anchor itself.
-    fields : tuple of Field or Rake
+    fields : tuple of StackedField or Rake
         Which alone give the change.
     """
 

@@ -1,7 +1,8 @@
 """Measures of the hull and of its ends: dimensions, deck, bulb, stem, shaft, bossing, transom.
 
 Each function takes the drawn curves and gives a `MeasuredParameter`; its name is the name of the
-parameter. Extremes are roots of derivatives of the splines, not defining points.
+parameter, and what it puts into `numbers` stands in its docstring, in m. x from AP forward, z from
+the base line up. Extremes are roots of derivatives of the splines, not defining points.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Measures of the whole hull: dimensions and deck.
+# The whole hull: dimensions and deck.
 
 _NO_DECK = "parent has no deck edge amidships"
 
@@ -43,7 +44,7 @@ _NO_DECK = "parent has no deck edge amidships"
 def fore_end_at_draught(hull: DrawnCurves) -> FloatArray | None:
     """Give where the stem passes the design draught, (3,), m; None without a profile there.
 
-    Of several places the aftmost: before it lies the bulb, where its top is above the draught.
+    Of several places the aftmost: those before it are of a bulb whose top is above the draught.
     """
     xyz = hull.across(hull.profile, 2, hull.ship.draught).xyz
     fore = xyz[xyz[:, 0] > hull.middle]
@@ -115,10 +116,10 @@ def _deck_at(hull: DrawnCurves, x: float) -> FloatArray | None:
 
 
 # --------------------------------------------------------------------------------------
-# Measures of the bow: bulb and stem.
+# The bow: bulb and stem.
 
 _ON = 1e-4
-"""So near to FP (m) a section is that at FP."""
+"""A section as near as this (m) to FP is that at FP."""
 
 _APART = 1e-3
 """Waterlines nearer than this (m) to the profile give no place of their own to a section."""
@@ -139,7 +140,8 @@ def bulb_tip(hull: DrawnCurves) -> FloatArray | None:
     return found
 
 
-def _none(hull: DrawnCurves, name: str) -> MeasuredParameter:
+def _no_bulb(hull: DrawnCurves, name: str) -> MeasuredParameter:
+    """Give the measure of a bulb that the hull does not have."""
     reason = f"no profile forward of FP below z={hull.ship.draught:.3f}"
     return MeasuredParameter(name, "m", None, reason=reason)
 
@@ -162,7 +164,7 @@ def bulb_length(hull: DrawnCurves) -> MeasuredParameter:
     """Give how far the bulb reaches before FP; `x`, `z`, `low`, `top`: tip, and bulb at FP."""
     tip = bulb_tip(hull)
     if tip is None:
-        return _none(hull, "bulb_length")
+        return _no_bulb(hull, "bulb_length")
     return MeasuredParameter(
         "bulb_length", "m", float(tip[0]) - hull.length, "x of the bulb's tip from FP", [tip],
         hull.keys(hull.profile), _shape(hull, tip),
@@ -173,7 +175,7 @@ def bulb_height(hull: DrawnCurves) -> MeasuredParameter:
     """Give the height of the bulb's tip; `x`, `z`, `low`, `top`: tip, and bulb at FP."""
     tip = bulb_tip(hull)
     if tip is None:
-        return _none(hull, "bulb_height")
+        return _no_bulb(hull, "bulb_height")
     return MeasuredParameter(
         "bulb_height", "m", float(tip[2]), "z of the bulb's tip", [tip],
         hull.keys(hull.profile), _shape(hull, tip),
@@ -187,7 +189,7 @@ def bulb_half_breadth(hull: DrawnCurves) -> MeasuredParameter:
     """
     tip = bulb_tip(hull)
     if tip is None:
-        return _none(hull, "bulb_half_breadth")
+        return _no_bulb(hull, "bulb_half_breadth")
     used, curves, how = _section_at_fp(hull, tip)
     if curves is None:
         why = "fewer than two waterlines pass the bulb at FP, and no section stands there"
@@ -215,6 +217,7 @@ def _section_at_fp(hull: DrawnCurves, tip: FloatArray) -> tuple[list[int], Splin
     found = hull.across(hull.waterlines.tolist(), 0, hull.length)
     inside = (found.xyz[:, 2] > low + _APART) & (found.xyz[:, 2] < top - _APART)
     xyz, curve = found.xyz[inside], found.curve[inside]
+    # from below, and of several at one height the outermost first: only that is kept
     order = np.lexsort((-xyz[:, 1], xyz[:, 2]))
     xyz, curve = xyz[order], curve[order]
     outer = np.append(True, np.diff(xyz[:, 2]) > _APART)
@@ -251,13 +254,13 @@ def stem_rake_deg(hull: DrawnCurves) -> MeasuredParameter:
 
 
 # --------------------------------------------------------------------------------------
-# Measures of the stern: shaft, bossing, transom.
+# The stern: shaft, bossing, transom.
 
 _ROUND = 1e-6
-"""Defining points of a circle lie so near to it (m)."""
+"""Defining points of a circle lie as near as this (m) to it."""
 
 _BETWEEN = 20e-6
-"""So near (m) lies a spline through points on a circle to it between them."""
+"""A spline through points of a circle lies as near as this (m) to it between them."""
 
 _NO_TRANSOM = "parent has no transom across the ship"
 
@@ -314,6 +317,7 @@ def shaft_height(hull: DrawnCurves) -> MeasuredParameter:
 
 
 def _hub(hull: DrawnCurves) -> MeasuredParameter:
+    """Give the shaft's height from the profile: the aftmost place of a rounded hub."""
     places = tips(hull.some(hull.profile), -1.0) if hull.profile else np.zeros((0, 3))
     z = places[:, 2]
     hubs = places[(places[:, 0] < hull.middle) & (z > 0.0) & (z < hull.ship.draught)]

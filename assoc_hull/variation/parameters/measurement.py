@@ -1,8 +1,8 @@
 """What named parameters are measured on, and what a measurement gives.
 
 `DrawnCurves` offers the lofted curves of a hull to the measures: profile, sections, borders of
-flats, deck, and their intersections. A measurement gives a number, or the reason why the hull has
-no such parameter, and the places on which the fields of a variation hold on.
+flats, deck, and their intersections. A measurement gives a number (m or degrees), or the reason
+why the hull has no such parameter, and the places at which the fields of a variation are anchored.
 """
 
 from __future__ import annotations
@@ -35,9 +35,6 @@ __all__ = [
     "Measures",
 ]
 
-# --------------------------------------------------------------------------------------
-# What is measured of a hull for its variation: a number, and the places it was taken at.
-
 
 def _places(value: ArrayLike) -> FloatArray:
     found = np.array(value, np.float64).reshape(-1, 3)
@@ -51,7 +48,7 @@ def _numbers(value: Mapping[str, float]) -> Mapping[str, float]:
 
 @attrs.frozen(eq=False)
 class MeasuredParameter:
-    """A named parameter of a hull as it is: what a variation of it holds on to.
+    """A named parameter of a hull as it is, and where fields of a variation are anchored.
 
     Attributes
     ----------
@@ -95,12 +92,12 @@ class Measures(Mapping[str, float]):
 
     Parameters
     ----------
-    anchors : iterable of Anchor
+    anchors : iterable of MeasuredParameter
         In order.
 
     Attributes
     ----------
-    anchors : mapping of str to Anchor
+    anchors : mapping of str to MeasuredParameter
         All that were asked for, also those without a value.
     absent : mapping of str to str
         Why a hull has no value, for those it has none of.
@@ -152,9 +149,6 @@ class Measures(Mapping[str, float]):
         return f"<Measures: {values}>"
 
 
-# --------------------------------------------------------------------------------------
-# The drawn curves of a hull, as its named parameters are measured on them.
-
 Measured = TypeVar("Measured")
 
 
@@ -172,7 +166,7 @@ class DrawnCurves:
     _kept: dict[object, object] = attrs.field(factory=dict, init=False, repr=False)
 
     def take(self, measure: Callable[[DrawnCurves], Measured]) -> Measured:
-        """Give what a measure says of this hull; it is asked once."""
+        """Give what a measure returns for this hull; it is called once and kept."""
         if measure not in self._kept:
             self._kept[measure] = measure(self)
         return cast(Measured, self._kept[measure])
@@ -210,7 +204,7 @@ class DrawnCurves:
         return tuple(str(self.state.curves.key.data[self.net.curve[i]]) for i in curves)
 
     def across(self, curves: Iterable[int], axis: int, value: float) -> PointsOnCurves:
-        """Give where curves have an x (axis 0), y or z, m; `Places.curve` counts in `curves`."""
+        """Give where curves have an x (axis 0), y or z, m; `curve` counts in `curves`."""
         chosen = list(curves)
         return points_at_coordinate(self.some(chosen) if chosen else _NOTHING, axis, value)
 

@@ -2,7 +2,8 @@
 
 The bilge is sought on the section nearest to midship: between the borders of the flats, or between
 the straight runs of bottom and side. The parallel body is where the borders of all flats run
-level; without them, where sections are as large as the largest.
+level; without them, where sections are as large as the largest. A function's name is that of its
+parameter; what it puts into `numbers` stands in its docstring, in m or degrees.
 """
 
 from __future__ import annotations
@@ -35,22 +36,23 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# The bilge of a section: where the bottom ends and the side begins, and how round it is.
+# The bilge of a section.
 
 _ROUND = 1e-4
-"""Defining points of an arc lie so near to its circle, in parts of the radius."""
+"""Defining points of an arc lie as near as this to its circle, in parts of the radius."""
 
 _STRAIGHT = 1e-6
-"""A segment whose slopes are those of its chord to this is straight."""
+"""A segment whose unit tangents differ from its chord by no more is straight."""
 
 _TURN = 1.0
-"""Bottom and side differ in direction by more than this (radians)."""
+"""Bottom and side differ in direction by more than this, radians."""
 
 _CORNER = 1e-3
-"""A bilge whose ends are nearer (m) is a corner."""
+"""A bilge whose ends are nearer than this (m) is a corner; with a sagitta below this part of its
+chord it is not round."""
 
 _KNOT = 1e-9
-"""A knot so near (m) to an end of the bilge is that end."""
+"""A knot as near as this (m) to an end of the bilge belongs to it."""
 
 
 @attrs.frozen(eq=False)
@@ -111,6 +113,7 @@ def measure_bilge(hull: DrawnCurves) -> MeasuredBilge | str:
 def _bilge(
     section: int, ends: FloatArray, circle: CircleFit, knots: FloatArray, *, arc: bool
 ) -> MeasuredBilge:
+    """Put together a bilge of its ends and circle."""
     low, high = ends[0].copy(), ends[1].copy()
     off = _off(circle, knots)
     return MeasuredBilge(section, low, high, circle.centre.copy(), circle.radius, off, arc)
@@ -123,9 +126,12 @@ def _off(circle: CircleFit, places: FloatArray) -> float:
 
 
 def _between_flats(hull: DrawnCurves, section: int) -> tuple[float, float] | None:
-    """Give where a section meets the border of the flat of bottom, and lowest that of side."""
-    bottom = _meets(hull, section, hull.flats_of_bottom)
-    side = _meets(hull, section, hull.flats_of_side)
+    """Give where a section crosses the flat of bottom's border outermost, and that of side lowest.
+
+    Places along the section, m; None without both.
+    """
+    bottom = _intersections(hull, section, hull.flats_of_bottom)
+    side = _intersections(hull, section, hull.flats_of_side)
     if not len(bottom) or not len(side):
         return None
     curve = hull.one(section)
@@ -135,7 +141,7 @@ def _between_flats(hull: DrawnCurves, section: int) -> tuple[float, float] | Non
     return float(bottom[low]), float(side[high])
 
 
-def _meets(hull: DrawnCurves, section: int, borders: list[int]) -> FloatArray:
+def _intersections(hull: DrawnCurves, section: int, borders: list[int]) -> FloatArray:
     """Give where a section crosses borders of flats, (k,), m along it."""
     meets, place = hull.net.meets, hull.net.place
     found = [
@@ -146,15 +152,16 @@ def _meets(hull: DrawnCurves, section: int, borders: list[int]) -> FloatArray:
 
 
 def _between_straights(curve: SplineBatch) -> tuple[float, float] | None:
-    """Give where the straight run from the keel ends, and where the next of another sense begins.
+    """Give where the straight run from the keel ends, and where the straight side begins.
 
-    Places along the curve, m.
+    Places along the curve, m; None without both.
     """
     chord = np.diff(curve.xyz, axis=0)
     ahead = chord / np.sqrt((chord * chord).sum(axis=1))[:, None]
     straight = np.abs(curve.leave[:-1] - ahead).max(axis=1) <= _STRAIGHT
     straight &= np.abs(curve.arrive[1:] - ahead).max(axis=1) <= _STRAIGHT
     begin, end = curve.knot[:-1], curve.knot[1:]
+    # from the keel up, whichever way the curve runs
     if curve.xyz[0, 2] > curve.xyz[-1, 2]:
         straight, ahead = straight[::-1], -ahead[::-1]
         begin, end = end[::-1], begin[::-1]
@@ -191,10 +198,11 @@ def _through_three(
 
 
 # --------------------------------------------------------------------------------------
-# Measures of the midship section: bilge, deadrise, flat of bottom.
+# The midship section.
 
 _LEVEL = 1e-6
-"""So near to the lowest place (m) the bottom is level."""
+"""m: the bottom is level as far as it rises no more above its lowest place. Also a part of the
+breadth by which the border of a flat may leave its level run."""
 
 
 def bilge_radius(hull: DrawnCurves) -> MeasuredParameter:
@@ -202,7 +210,7 @@ def bilge_radius(hull: DrawnCurves) -> MeasuredParameter:
 
     `yc`, `zc`: centre; `low_y`, `low_z`, `high_y`, `high_z`: where it leaves bottom and side;
     `rise_deg`: slope of the bottom; `off`: how far its defining points lie off the circle, m;
-    `corner_y`, `corner_z`: where bottom and side would meet.
+    `corner_y`, `corner_z`: where bottom and side intersect.
     """
     bilge = hull.take(measure_bilge)
     if isinstance(bilge, str):
@@ -231,7 +239,7 @@ def deadrise_deg(hull: DrawnCurves) -> MeasuredParameter:
 
     With a bilge it is that of the chord over the outer half of the bottom, which a level keel
     plate and a rounding beside it do not change; else that of the section at the keel. `keel`:
-    half-breadth of the level part at the keel, nil if all is level; `x`; `edge_y`, `edge_z`: where
+    half-breadth of the level part at the keel, zero if all is level; `x`; `edge_y`, `edge_z`: where
     the bottom ends.
     """
     bilge = hull.take(measure_bilge)
@@ -264,6 +272,7 @@ def _keel(hull: DrawnCurves, bilge: MeasuredBilge) -> float:
 
 
 def _at_keel(hull: DrawnCurves) -> MeasuredParameter:
+    """Give the deadrise at the keel, of a section without a bilge."""
     section = hull.section_amidships
     if section is None:
         reason = "parent has no section across the ship"
@@ -298,6 +307,7 @@ def flat_of_bottom(hull: DrawnCurves) -> MeasuredParameter:
 
 
 def _edge(place: FloatArray, how: str, hull: DrawnCurves, curves: list[int]) -> MeasuredParameter:
+    """Give the measure of the flat of bottom with its edge at a place."""
     return MeasuredParameter(
         "flat_of_bottom", "m", float(place[1]), how, [place], hull.keys(curves),
         {"x": float(place[0]), "z": float(place[2])},
@@ -305,18 +315,15 @@ def _edge(place: FloatArray, how: str, hull: DrawnCurves, curves: list[int]) -> 
 
 
 # --------------------------------------------------------------------------------------
-# Measures of the parallel middle body: where it begins and ends.
-#
-# Where borders of the flats of bottom and side are drawn and run level for a while, the parallel
-# body is where both do. Its ends are then defining points of the borders, which a map carries
-# exactly. Section areas would tell less: they are within 1e-4 of the largest over many metres more,
-# and a waterline that is a millimetre off moves the end of that by as many.
+# The parallel middle body. Ends of level borders are defining points, which a map carries exactly.
+# Section areas would tell less: they are within 1e-4 of the largest over many metres more, and a
+# waterline that is a millimetre off moves the end of that by as many.
 
 _SHORT = 0.02
-"""Of Lpp: what is level over less is no parallel middle body."""
+"""What is level over less than this part of Lpp is no parallel middle body."""
 
 _NEAR = 1e-4
-"""m: the end of a level stretch of section areas is known so well before it is sought finely."""
+"""m: the end of a level stretch of areas is known to this before it is sought finely."""
 
 
 @attrs.frozen
@@ -331,15 +338,16 @@ class _Ends:
 
 def parallel_body_start(hull: DrawnCurves) -> MeasuredParameter:
     """Give the first x of the parallel middle body; `start`, `end`: both of its ends."""
-    return _anchor(hull, "parallel_body_start", 0)
+    return _parallel_end(hull, "parallel_body_start", 0)
 
 
 def parallel_body_end(hull: DrawnCurves) -> MeasuredParameter:
     """Give the last x of the parallel middle body; `start`, `end`: both of its ends."""
-    return _anchor(hull, "parallel_body_end", 1)
+    return _parallel_end(hull, "parallel_body_end", 1)
 
 
-def _anchor(hull: DrawnCurves, name: str, end: int) -> MeasuredParameter:
+def _parallel_end(hull: DrawnCurves, name: str, end: int) -> MeasuredParameter:
+    """Give the measure of one end of the parallel body: 0 the after, 1 the fore one."""
     found = hull.take(_ends)
     if isinstance(found, str):
         return MeasuredParameter(name, "m", None, reason=found)
@@ -406,7 +414,7 @@ def _of_areas(hull: DrawnCurves) -> _Ends | str:
 
 
 def _sought(spare: Callable[[float], float], x: float, ends: tuple[float, float]) -> float:
-    """Find finely where something becomes nil within a hull, m; x if it does not near there."""
+    """Find finely where something becomes zero within a hull, m; x if it does not near there."""
     low, high = max(x - _NEAR, ends[0]), min(x + _NEAR, ends[1])
     if spare(low) * spare(high) >= 0.0:
         return x

@@ -1,9 +1,9 @@
 """The fields of the named parameters, one function each, laid out on a parent.
 
-The whole hull is scaled by its principal dimensions first. Then come deck, parallel body and
-shifts of sections, bulb and stem, shaft, bossing and transom, which are shares of one layer of
-fields, and bilge and bottom, which are layers of their own. Each function takes the parent, the
-asked value and the layout; `parameters.catalogue` says which one belongs to which name.
+The whole hull is scaled by its principal dimensions first, in a layer of its own. Deck, parallel
+body, shifts of sections, bulb and stem, shaft, bossing and transom are shares of one layer of
+fields after that; bilge and bottom are layers of their own. Each function takes the parent, the
+asked value (m or degrees) and the layout; `parameters.catalogue` says which name it belongs to.
 """
 
 from __future__ import annotations
@@ -45,9 +45,6 @@ __all__ = [
     "transom_height_field",
 ]
 
-# --------------------------------------------------------------------------------------
-# The first layer: the hull scaled as a whole by its principal dimensions.
-
 _ALL = BlendChain.constant(1.0)
 
 
@@ -72,7 +69,7 @@ def main_layer(parent: Parent, asked: Mapping[str, float], layout: Layout) -> Fi
 
 
 def _even(parent: Parent, asked: Mapping[str, float]) -> bool:
-    """Tell whether the depth is asked for in the ratio of the draught."""
+    """Tell whether the depth is asked for in the ratio of the draught: heights scale alike."""
     ratio = asked["draught"] / parent.draught
     return "depth" in asked and abs(asked["depth"] / parent.depth - ratio) <= 1e-15
 
@@ -93,7 +90,7 @@ def _draught(parent: Parent, asked: float, layout: Layout, even: bool) -> Stacke
 
 
 # --------------------------------------------------------------------------------------
-# Layouts of the named parameters of the whole body: decks, parallel body, shifts.
+# The whole body: decks, parallel body, shifts of sections.
 
 _NOTHING = AffinePiece.along(_ALL, 0.0, 0.0)
 
@@ -128,7 +125,7 @@ def deck_height_field(parent: Parent, asked: float, layout: Layout) -> Share:
 
 
 def _shift(name: str, chain: BlendChain, change: float, place: float, layout: Layout) -> Share:
-    """Shift stations by a chain, all heights alike."""
+    """Shift stations by a chain times a change (m), all heights alike, in full at `place`."""
     field = StackedField(
         name,
         "x",
@@ -140,6 +137,7 @@ def _shift(name: str, chain: BlendChain, change: float, place: float, layout: La
 
 
 def _middle(parent: Parent, name: str) -> tuple[float, float]:
+    """Give both ends of the parallel middle body, m from AP."""
     start, end = parent.at("body start", name), parent.at("body end", name)
     return float(start[0]), float(end[0])
 
@@ -213,10 +211,10 @@ def _bump(name: str, inner: float, outer: float, asked: float, layout: Layout) -
 
 
 # --------------------------------------------------------------------------------------
-# Layouts of the named parameters of the bow: bulb and stem.
+# The bow: bulb and stem.
 
 _BULB = {"base": (0.3, 0.0), "bulb": (0.95, 0.3)}
-"""Windows of the bulb's hat, as parts of the gaps: one long bend from the base up."""
+"""Windows of the bulb's hat (down, up) as parts of the gaps: one long bend from the base up."""
 
 
 def _bow_fade(parent: Parent, layout: Layout) -> BlendChain:
@@ -284,16 +282,16 @@ def stem_rake_field(parent: Parent, asked: float, layout: Layout) -> Share:
 
 
 # --------------------------------------------------------------------------------------
-# Layouts of the named parameters of the stern: shaft, bossing, transom.
+# The stern: shaft, bossing, transom.
 
 _WINDOW, _DOME, _HIGHEST = 0.3, 0.95, 0.65
-"""Windows as parts of the gaps they lie in: the usual one, that of a dome down, and most up."""
+"""Windows as parts of their gaps: the usual one, that of a dome downward, and the most upward."""
 
 _BOSS = {"boss-": (_HIGHEST, 0.0), "boss+": (0.0, _HIGHEST)}
 """Between them heights are stretched evenly, so that a circle stays one."""
 
 _SLENDER = 1.25
-"""A transom less than the ship's breadth by this factor is widened with nothing at the sides."""
+"""Where the ship is broader than the transom by this factor, a tube keeps its sides as they are."""
 
 _FOOT = {"transom foot": (_WINDOW, 0.0), "transom": (0.5, 0.5)}
 """A long slow bend from the foot up; nothing of it lies above the foot."""
@@ -423,17 +421,17 @@ def transom_half_breadth_field(parent: Parent, asked: float, layout: Layout) -> 
 
 
 # --------------------------------------------------------------------------------------
-# Layouts of the named parameters of bilge and bottom: layers of their own.
+# Bilge and bottom: layers of their own.
 
 _INNER = 0.95
-"""The centre plane stays: a corner fades out within this part of the half-breadth."""
+"""A corner fades out within this part of the half-breadth, so that the centre plane stays."""
 
 _ALIKE = 1e-6
 """m: tangents that differ by less are those of a circle."""
 
 
 def _range(parent: Parent, layout: Layout, name: str) -> BlendChain:
-    """Give 1 along the parallel body, fading beyond."""
+    """Give how much acts along the ship: 1 along the parallel body, fading beyond."""
     start = float(parent.at("body start", name)[0])
     end = float(parent.at("body end", name)[0])
     reach = layout.bilge_length * parent.length
@@ -445,7 +443,7 @@ def _range(parent: Parent, layout: Layout, name: str) -> BlendChain:
 def _corner(
     parent: Parent, layout: Layout, name: str, size: float, ratios: tuple[float, float]
 ) -> CornerLayer:
-    """Stretch about the corner, full as far as `size` (m) from it."""
+    """Stretch about the corner by ratios (bottom, side), full as far as `size` (m) from it."""
     corner, low = parent.at("corner", name), parent.at("bilge low", name)
     y, z = float(corner[1]), float(corner[2])
     rise = math.atan2(z - float(low[2]), y - float(low[1]))

@@ -1,7 +1,7 @@
 """The named parameters of a hull as it is, measured on its drawn curves.
 
 Extremes are roots of derivatives of the splines, not defining points, so that values are exact
-for the curves as drawn. Each measure takes a `Drawn` hull and gives an `Anchor`.
+for the curves as drawn. Each measure takes `DrawnCurves` and gives a `MeasuredParameter`.
 
 Examples
 --------
@@ -20,11 +20,7 @@ from types import MappingProxyType
 from assoc_hull.arguments import shown
 from assoc_hull.errors import UnknownNameError, WrongTypeError
 from assoc_hull.model.tables import HasState, HullState, state_of
-from assoc_hull.variation.parameters import hull_and_end_measures as anchors_bow
-from assoc_hull.variation.parameters import hull_and_end_measures as anchors_hull
-from assoc_hull.variation.parameters import hull_and_end_measures as anchors_stern
-from assoc_hull.variation.parameters import midship_measures as anchors_midship
-from assoc_hull.variation.parameters import midship_measures as anchors_parallel
+from assoc_hull.variation.parameters import hull_and_end_measures, midship_measures
 from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter, Measures
 
 __all__ = ["AMPLITUDES", "MEASURES", "measure", "measure_all"]
@@ -33,31 +29,31 @@ MEASURES: Mapping[str, Callable[[DrawnCurves], MeasuredParameter]] = MappingProx
     {
         each.__name__: each
         for each in (
-            anchors_hull.length,
-            anchors_hull.breadth,
-            anchors_hull.draught,
-            anchors_hull.depth,
-            anchors_hull.deck_height,
-            anchors_stern.shaft_height,
-            anchors_stern.bossing_radius,
-            anchors_stern.transom_height,
-            anchors_stern.transom_half_breadth,
-            anchors_bow.bulb_height,
-            anchors_bow.bulb_half_breadth,
-            anchors_bow.bulb_length,
-            anchors_midship.bilge_radius,
-            anchors_midship.deadrise_deg,
-            anchors_midship.flat_of_bottom,
-            anchors_parallel.parallel_body_start,
-            anchors_parallel.parallel_body_end,
-            anchors_bow.stem_rake_deg,
+            hull_and_end_measures.length,
+            hull_and_end_measures.breadth,
+            hull_and_end_measures.draught,
+            hull_and_end_measures.depth,
+            hull_and_end_measures.deck_height,
+            hull_and_end_measures.shaft_height,
+            hull_and_end_measures.bossing_radius,
+            hull_and_end_measures.transom_height,
+            hull_and_end_measures.transom_half_breadth,
+            hull_and_end_measures.bulb_height,
+            hull_and_end_measures.bulb_half_breadth,
+            hull_and_end_measures.bulb_length,
+            midship_measures.bilge_radius,
+            midship_measures.deadrise_deg,
+            midship_measures.flat_of_bottom,
+            midship_measures.parallel_body_start,
+            midship_measures.parallel_body_end,
+            hull_and_end_measures.stem_rake_deg,
         )
     }
 )
 """What measures the named parameters, by name."""
 
 AMPLITUDES = ("fore_shift", "aft_shift")
-"""Parameters that are no property of a hull: they are nil until they are asked for."""
+"""Parameters that are no property of a hull: they are zero until they are asked for."""
 
 
 def _amplitude(name: str) -> MeasuredParameter:
@@ -102,33 +98,6 @@ def _names(only: object) -> tuple[str, ...]:
 def measure(hull: HasState, *, only: Iterable[str] | None = None) -> Measures:
     """Give the present values of a hull's named parameters.
 
-    Parameters
-    ----------
-    hull : Hull
-        The hull.
-    only : iterable of str or None
-        Names of parameters; None: all of them.
-
-    Returns
-    -------
-    mapping of str to float
-        Values by name, in m, or in degrees where the name ends in ``_deg``; x from AP forward,
-        z from the base line up. `absent` tells by name why the hull has no such parameter,
-        `anchors` where and how each was measured.
-
-    Raises
-    ------
-    UnknownNameError
-        A name that is none of a parameter.
-
-    Examples
-    --------
-    >>> from assoc_hull.sources import examples
-    >>> from assoc_hull.variation.parameters.parameter_measures import measure
-    >>> found = measure(examples.series60(0.70), only=["breadth", "depth", "bossing_radius"])
-    >>> {name: round(value, 3) for name, value in found.items()}
-    {'breadth': 17.417, 'depth': 10.45}
-    >>> found.absent["bossing_radius"]
-    'parent has no bossing circle'
+    The arguments and what is raised are those of `Hull.measure`.
     """
     return measure_all(state_of(hull, "in measure"), only)

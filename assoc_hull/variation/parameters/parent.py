@@ -1,7 +1,8 @@
 """The parent as layouts of fields know it: dimensions, and places measured on its curves.
 
 `parent_of` takes both from the measured parameters of a hull, with a reason for each place that
-the hull has not. A parent can be scaled: local fields are laid out on the scaled one.
+the hull lacks. A parent can be mapped: local fields are laid out on the one that the principal
+dimensions have scaled. Lengths in m, x from AP forward, z from the base line up.
 """
 
 from __future__ import annotations
@@ -25,21 +26,18 @@ __all__ = [
     "parent_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# What a layout of fields knows of the parent: dimensions, and places measured on its curves.
-
 _MEASURED_AS = {
     "body start": "parallel_body_start", "body end": "parallel_body_end",
     "corner": "bilge_radius", "bilge low": "bilge_radius", "bilge high": "bilge_radius",
     "deck": "depth", "bulb tip": "bulb_height", "bulb top": "bulb_height",
     "boss": "shaft_height", "boss top": "bossing_radius", "transom": "transom_height",
 }  # fmt: skip
-"""The parameter by whose measure a place is known: if it is missing, that tells why."""
+"""The parameter whose measure gives a place; where the place is missing, its reason says why."""
 
 
 @attrs.frozen(eq=False)
 class Parent:
-    """Dimensions and measured places; those of a scaled parent are laid out on.
+    """Dimensions and measured places of a parent.
 
     Attributes
     ----------
@@ -102,14 +100,12 @@ class Parent:
         )  # fmt: skip
 
 
-# --------------------------------------------------------------------------------------
-# What a layout needs to know of a hull, taken from its measured anchors.
-
 _LEVEL = 1e-6
-"""So near to the lowest place (m) the keel is level."""
+"""m: the keel is level as far as it rises no more above its lowest place; also, radii and heights
+of circles that differ by no more are alike."""
 
 _ALIKE = 1e-6
-"""Areas of two stations differ by less, in parts of the largest."""
+"""Areas of two stations that differ by less than this part of the largest are alike."""
 
 _FEWEST = 3
 """Stations that a hull must have for its areas to tell anything."""
@@ -154,14 +150,17 @@ def _place(x: float, y: float, z: float) -> FloatArray:
 
 
 def _nothing(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    """Give no places: of a parameter that fields are not anchored at."""
     return {}
 
 
 def _one(name: str, anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    """Give the first place of a measure under a name."""
     return {name: anchor.places[0]}
 
 
 def _decks(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    """Give the deck at AP, midship and FP, those that were measured."""
     names = {"at_AP": "deck aft", "at_midship": "deck", "at_FP": "deck fore"}
     return {names[key]: anchor.places[i] for i, key in enumerate(anchor.numbers)}
 
@@ -175,6 +174,7 @@ def _shaft(anchor: MeasuredParameter) -> dict[str, FloatArray]:
 
 
 def _bossing(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    """Give the side of the bossing's end, at the height of its centre."""
     r = float(anchor.value or 0.0)
     return {"boss side": anchor.places[0] + _place(0.0, r, 0.0)}
 
@@ -190,6 +190,7 @@ def _cylinder(state: HullState, side: FloatArray | None) -> dict[str, FloatArray
 
 
 def _bulb(anchor: MeasuredParameter) -> dict[str, FloatArray]:
+    """Give the tip of the bulb, and the top of the bulb above it."""
     tip = anchor.places[0]
     return {"bulb tip": tip, "bulb top": _place(tip[0], 0.0, anchor.numbers["top"])}
 
@@ -242,6 +243,7 @@ def _terminals(state: HullState) -> dict[str, FloatArray]:
     if found:
         profile = np.concatenate(found)
         level = profile[profile[:, 2] <= profile[:, 2].min() + _LEVEL, 0]
+        # a keel that is level over less than a tenth of the ship counts as nowhere level
         if level.max() - level.min() > 0.1 * length:
             aft, fore = max(0.0, float(level.min())), min(length, float(level.max()))
     return {"aft terminal": _place(aft, 0.0, 0.0), "fore terminal": _place(fore, 0.0, 0.0)}

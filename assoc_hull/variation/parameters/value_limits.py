@@ -1,8 +1,9 @@
 """Between which values a named parameter may be asked for.
 
-Bounds follow from what makes a hull at all (a transom no broader than the ship) and from how far
-fields reach. The interval of a parameter goes from its present value as far as the map is
-certified, or to a bound. The box of a hull, in which maps are certified, is given here as well.
+Bounds follow from what makes a hull at all (a map may be one to one and yet make a transom broader
+than the ship) and from how far fields reach. The interval of a parameter goes from its present
+value (m or degrees) as far as the map is certified, or to a bound. The box of a hull, in which
+maps are certified, is given here as well.
 """
 
 from __future__ import annotations
@@ -32,20 +33,14 @@ __all__ = [
     "value_bounds",
 ]
 
-# --------------------------------------------------------------------------------------
-# Bounds of named parameters that follow from the hull and from how far fields reach.
-#
-# A map may be one to one and yet make no hull: a transom broader than the ship, or a bulb that is
-# drawn out so far that the stem above it overhangs.
-
 _ROUNDING = 1e-9
-"""What lies beyond a bound by no more (m, degrees) was asked for at the bound."""
+"""A value beyond a bound by no more (m, degrees) counts as the bound."""
 
 _SPARE = 1.0 - MARGIN
-"""What is left of a stretch, as of a squeeze, for the margin of minors."""
+"""A stretch is bounded as a squeeze is, by what the margin of minors leaves."""
 
 _BROADEST = 0.999
-"""A transom of so much of the breadth is the broadest part itself: widening it widens the ship."""
+"""A transom as broad as this part of the ship is its broadest: widening it widens the ship."""
 
 
 @attrs.frozen
@@ -88,7 +83,7 @@ def value_bounds(name: str, parent: Parent, present: float, layout: Layout) -> V
     >>> from assoc_hull.variation.parameters.parent import Parent
     >>> ship = Parent(300, 50, 27, 18, 27, {})
     >>> value_bounds("transom_half_breadth", ship, 12.0, Layout())
-    Bounds(low=0.0, high=25.0, why='makes the transom broader than the ship')
+    ValueBounds(low=0.0, high=25.0, why='makes the transom broader than the ship')
     """
     rule = _RULES.get(name)
     if rule is not None:
@@ -99,12 +94,14 @@ def value_bounds(name: str, parent: Parent, present: float, layout: Layout) -> V
 
 
 def _transom_half_breadth(parent: Parent, present: float, layout: Layout) -> ValueBounds:
+    """Keep the transom no broader than the ship, unless it is her broadest part."""
     half = 0.5 * parent.breadth
     high = half if present < _BROADEST * half else math.inf
     return ValueBounds(0.0, high, "makes the transom broader than the ship")
 
 
 def _flat_of_bottom(parent: Parent, present: float, layout: Layout) -> ValueBounds:
+    """Keep the edge of the flat within the half-breadth."""
     return ValueBounds(0.0, 0.5 * parent.breadth, "leaves no bilge")
 
 
@@ -131,13 +128,13 @@ _RULES: Mapping[str, Callable[[Parent, float, Layout], ValueBounds]] = {
 
 
 # --------------------------------------------------------------------------------------
-# Between which values a named parameter may be asked for.
+# Intervals: as far as maps are certified, or to a bound.
 
 _STEP = 0.02
-"""A usual change of a parameter, as a part of its value, and the least one, m or degrees."""
+"""First step of the search, as a part of the value, and the least one, m or degrees."""
 
 _NEAR = 1e-6
-"""m or degrees: an end so near to a bound is the bound."""
+"""m or degrees: an end as near as this to a bound is the bound."""
 
 _LARGEST = 1e6
 """m: no ship is larger, and nothing can be asked that is."""
@@ -175,7 +172,7 @@ def admissible_interval(
         Gives the map of a value, m or degrees.
     now : float
         The present value.
-    rule : Bounds
+    rule : ValueBounds
         What bounds it besides folds.
     box : (2, 3), m
         Of the hull.

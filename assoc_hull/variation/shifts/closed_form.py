@@ -1,8 +1,9 @@
 """The closed form of a shift: sizes from volume and moment, certified, or the limits.
 
 A task is two changes that are asked for: of the whole hull (volume and centre), or of fore and
-after body each on its own. A shift whose sections would cross is refused, with the largest
-change that can be had.
+after body each on its own. It is solved for the sizes c_f and c_a (m, + forward) of the shift, and
+1 + delta' is certified. A shift whose sections would cross is refused, with the largest change
+that can be had.
 """
 
 from __future__ import annotations
@@ -28,9 +29,6 @@ __all__ = [
     "certify_shift",
     "closed_form",
 ]
-
-# --------------------------------------------------------------------------------------
-# What a shift is to do: two changes that are asked for, and the sizes that give them.
 
 
 class ShiftTask(Protocol):
@@ -147,21 +145,16 @@ class HalfBodyTask:
         return self.sums.each(bodies)
 
 
-# --------------------------------------------------------------------------------------
-# The closed form of a shift: sizes from sums, a certificate that no sections cross, or the limits.
-#
-# What is asked for and cannot be had is refused with the largest change that can.
-
 _WHERE = "in shift_sections"
 
 _SAMPLES = 4001
-"""Places among which the largest movement is looked for."""
+"""Places among which the largest movement is sought."""
 
 _FINE = 2.0**-20
-"""The largest change is found to so much of itself."""
+"""The largest change is found to this part of itself."""
 
 _FARTHEST = 8
-"""So many times a range is doubled at most while its end is looked for."""
+"""A range is doubled so many times at most while its end is sought; then it has none."""
 
 
 @attrs.frozen(eq=False)
@@ -206,17 +199,9 @@ class CertifiedShift:
 
 
 def certify_shift(terms: ShiftTerms, sizes: FloatArray, margin: float) -> Certificate:
-    """Check that 1 + delta' reaches a margin everywhere.
+    """Check that 1 + delta' reaches a margin between the terminals, of sizes (2,), m.
 
     It is a polynomial between the nodes: its Bernstein coefficients enclose it.
-
-    Parameters
-    ----------
-    terms : ShiftTerms
-    sizes : (2,), m
-        c_f and c_a.
-    margin : float
-        What is to be reached.
     """
     at = terms.terminals
     box = np.array([[at.aft, 0.0, 0.0], [at.fore, 1.0, 1.0]])
@@ -228,12 +213,12 @@ def closed_form(task: ShiftTask, terms: ShiftTerms, margin: float = 0.0) -> Cert
 
     Parameters
     ----------
-    task : Whole or Bodies
+    task : WholeHullTask or HalfBodyTask
         What is asked for.
     terms : ShiftTerms
         What sections move by; the same that the sums of the task were made of.
     margin : float
-        What 1 + delta' must be more than everywhere; where it is nil, sections cross.
+        What 1 + delta' must be more than everywhere; where it is zero, sections cross.
 
     Raises
     ------
@@ -264,7 +249,7 @@ def closed_form(task: ShiftTask, terms: ShiftTerms, margin: float = 0.0) -> Cert
 def _tried(
     sizes: FloatArray | None, terms: ShiftTerms, margin: float
 ) -> CertifiedShift | Certificate | None:
-    """Give the shift of sizes; the certificate that it lacks; None if there are no sizes."""
+    """Give the shift of sizes; the certificate that refuses it; None if there are no sizes."""
     if sizes is None or not np.isfinite(sizes).all():
         return None
     found = certify_shift(terms, sizes, margin)
@@ -274,12 +259,13 @@ def _tried(
 def _refusal(
     task: ShiftTask, terms: ShiftTerms, margin: float, found: Certificate | None
 ) -> OutOfRangeError | BadInputError:
-    """Say which of two changes is too large, and how large it may be."""
+    """Say which of two changes is too large, and between which limits it works."""
 
     def works(changes: tuple[float, float]) -> bool:
         return isinstance(_tried(task.sizes(changes), terms, margin), CertifiedShift)
 
     first, second = task.changes
+    # blame the first beside the second, else the second beside the first, else the second alone
     ways = _Way(0, (0.0, second)), _Way(1, (first, 0.0)), _Way(1, (0.0, 0.0))
     way = next((each for each in ways if works(each.foot)), None)
     if way is None:
@@ -292,14 +278,14 @@ def _refusal(
 
 @attrs.frozen
 class _Way:
-    """Changes of which one varies from nil.
+    """A pair of changes, one of them varying from zero.
 
     Attributes
     ----------
     blamed : {0, 1}
         Which varies.
     foot : (float, float)
-        Both, where that is nil.
+        Both, where that is zero.
     """
 
     blamed: int
@@ -311,6 +297,7 @@ class _Way:
 
 
 def _why(task: ShiftTask, way: _Way, found: Certificate | None, margin: float) -> str:
+    """Say why a change cannot be had: no shift gives it, sections cross, or they come too near."""
     other = 1 - way.blamed
     asked = task.changes[other]
     beside = f" beside {asked:+.6g} {task.words[other]}" if asked else ""
@@ -337,7 +324,7 @@ def _given_folds(terms: ShiftTerms, margin: float) -> BadInputError:
 
 
 def _end(works: Callable[[float], bool], far: float) -> float:
-    """Find by bisection how far a change works, from nil outward."""
+    """Find by bisection how far a change works, from zero outward; infinite if without end."""
     near = 0.0
     for _ in range(_FARTHEST):
         if not works(far):
@@ -352,7 +339,7 @@ def _end(works: Callable[[float], bool], far: float) -> float:
 
 
 def _inward(value: float) -> float:
-    """Round toward nil to six digits: what is told can be had."""
+    """Round toward zero to six digits, so that the reported limit can be had."""
     if value == 0.0:
         return 0.0
     unit = 10.0 ** (math.floor(math.log10(abs(value))) - 5)

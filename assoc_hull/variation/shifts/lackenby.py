@@ -76,7 +76,7 @@ def half_bodies(
 
     Parameters
     ----------
-    elements : Elements
+    elements : VolumeElements
         Of the curve; the section amidships is the largest.
     length : float, m
     ends : (float, float)

@@ -1,8 +1,9 @@
-"""Sections of a hull are shifted: closed form, Newton on the hull's own hydrostatics, one step.
+"""Shift the sections of a hull: closed form, Newton's method on its own hydrostatics, one step.
 
-Values, curve of areas and terminals are taken from the hull. The lofted hull is off the closed form
-by some 1e-5, so the sizes are corrected on its hydrostatics to 1e-10. The result is published as
-a variation by raw layers, so a script repeats it.
+Values, curve of areas and terminals are measured on the hull. The curve of areas of a net that is
+lofted again through moved stations is not the moved curve, by some 1e-5, so the sizes c_f and c_a
+(m, + forward) are corrected on the hull's hydrostatics to 1e-10. The result is published as a
+variation by raw layers, so a script repeats it.
 """
 
 from __future__ import annotations
@@ -54,15 +55,12 @@ __all__ = [
     "values_of",
 ]
 
-# --------------------------------------------------------------------------------------
-# What a shift needs to know of a hull: its values, its curve of areas, its terminals.
-
 _WHERE = "in shift_sections"
 
 
 @attrs.frozen
-class _Held:
-    """Tables, as what is measured."""
+class _Tables:
+    """Tables of a hull, in the form that is measured."""
 
     state: HullState
 
@@ -86,7 +84,7 @@ def values_of(state: HullState, names: Sequence[str]) -> FloatArray:
     BadInputError
         The hull has no such value.
     """
-    hull = _Held(state)
+    hull = _Tables(state)
     if all(name in BODIES for name in names):
         forms = form_parameters(hull, only=names)
         found = [forms[name].number for name in names]
@@ -126,32 +124,28 @@ def terminals_of(parent: Parent, asked: Terminals | None) -> Terminals:
 
 
 # --------------------------------------------------------------------------------------
-# From the closed form to the hull itself: Newton's rule on its own hydrostatics.
-#
-# The curve of areas of a net that is lofted again through moved stations is not the moved curve, by
-# some 1e-5. So the sizes are corrected until the hydrostatics of the varied hull have the asked
-# values; the derivatives are those of the closed form, which are as near, so that every step
-# leaves a part of 1e-3 or less of what is missing.
+# Newton's method. The derivatives are those of the closed form, so near to those of the hull that
+# every step leaves a part of 1e-3 or less of the residual.
 
 MET = 1e-10
-"""Relative miss of a volume, miss of a centre in parts of Lpp: what is promised."""
+"""Residual that is promised: of a volume relative, of a centre in parts of Lpp."""
 
 _ENOUGH = 1e-12
-"""Nearer than rounding lets one come."""
+"""Residual at which steps end; rounding seldom allows less."""
 
 _MOST = 10
 
 
 @attrs.frozen(eq=False)
 class SizeStep:
-    """A step of Newton's rule.
+    """A step of Newton's method.
 
     Attributes
     ----------
     sizes : (float, float), m
         c_f and c_a.
     residual : float
-        The largest relative miss of a volume, or miss of a centre in parts of Lpp.
+        The larger of the two: of a volume relative, of a centre in parts of Lpp.
     """
 
     sizes: tuple[float, float]
@@ -167,7 +161,7 @@ class SoughtValues:
     names : (str, str)
     asked : (2,)
     scale : (2,)
-        Misses are told in parts of it.
+        Residuals are parts of it.
     slopes : callable
         From sizes (2,), m, to the derivatives (2, 2) of both values by c_f and c_a.
     """
@@ -185,7 +179,7 @@ def solve_sizes(
 
     Parameters
     ----------
-    aim : Aim
+    aim : SoughtValues
     values : callable
         From sizes (2,), m, to the values (2,) that the hull then has.
     sizes : (2,), m
@@ -194,7 +188,7 @@ def solve_sizes(
     Returns
     -------
     sizes : (2,), m
-    steps : tuple of Step
+    steps : tuple of SizeStep
         The first is the start.
 
     Raises
@@ -207,6 +201,7 @@ def solve_sizes(
         missed = (values(sizes) - aim.asked) / aim.scale
         residual = float(np.abs(missed).max())
         steps.append(SizeStep((float(sizes[0]), float(sizes[1])), residual))
+        # what is promised is met and rounding decides from here on
         if residual >= left and left <= MET:
             break
         if residual < left:
@@ -221,15 +216,15 @@ def solve_sizes(
 
 
 # --------------------------------------------------------------------------------------
-# A shift of a hull in the making: its present values, its closed form, its trials.
+# One shift at work: present values, closed form, trials.
 
 _LEVEL = 1e-9
-"""Of the mean section: areas that differ by less are alike."""
+"""Areas that differ by less than this part of the mean section are alike."""
 
 
 @attrs.frozen(eq=False)
 class ShiftWork:
-    """A shift in the making.
+    """One shift of a hull at work.
 
     Attributes
     ----------
@@ -239,7 +234,7 @@ class ShiftWork:
         Those of the hull whose sections shift: the parent, or that with other dimensions.
     dimensions : mapping of str to float
         Named parameters, m, that the parent is given before.
-    ask : ShiftAsk
+    ask : ShiftRequest
         What is asked for.
     terms : ShiftTerms
         What sections move by.
@@ -296,7 +291,7 @@ class ShiftWork:
 
     @property
     def scale(self) -> FloatArray:
-        """What misses are told in parts of, (2,): a volume itself, Lpp for a centre."""
+        """What residuals are parts of, (2,): a volume itself, Lpp for a centre."""
         whole = {"lcb": self.measured.particulars.length, "lcb_percent": 100.0}
         pairs = zip(self.names, self.now.tolist(), strict=True)
         return np.array([whole.get(name, now) for name, now in pairs])
@@ -317,7 +312,7 @@ class ShiftWork:
 
     @property
     def aim(self) -> SoughtValues:
-        """What Newton's rule is to reach."""
+        """What Newton's method is to reach."""
         return SoughtValues(self.names, self.asked, self.scale, self._slopes)
 
     def _slopes(self, sizes: FloatArray) -> FloatArray:
@@ -383,7 +378,7 @@ def _of(ask: ShiftRequest, alike: tuple[str, ...]) -> str:
 
 
 # --------------------------------------------------------------------------------------
-# Sections of a hull are shifted: closed form, Newton on the hull's own hydrostatics, one step.
+# The shift as a step of the hull's history.
 
 _UNITS = {"volume": "m3", "lcb": "m", "lcb_percent": "% Lpp"}
 
@@ -396,11 +391,11 @@ class ShiftReport:
     ----------
     targets : tuple of Target
         What was asked for or held: value before, asked, reached.
-    shift : Shift
+    shift : CertifiedShift
         The movement along the ship: terminals, sizes c_f and c_a, least 1 + delta', largest
         movement; `shift.moved` gives it at any x of the parent.
-    steps : tuple of Step
-        Of Newton's rule on the hydrostatics of the varied hull; the first is the closed form.
+    steps : tuple of SizeStep
+        Of Newton's method on the hydrostatics of the varied hull; the first is the closed form.
     variation : VariationReport
         What changed on the hull, as of any variation.
     notes : tuple of str
@@ -425,7 +420,7 @@ class ShiftReport:
 
     @property
     def residual(self) -> float:
-        """The largest miss: of volumes relative, of centres in parts of Lpp."""
+        """The residual reached: of volumes relative, of centres in parts of Lpp."""
         return min(each.residual for each in self.steps)
 
     @property
@@ -455,7 +450,7 @@ def shift_document(
     ----------
     document : Document
         The hull.
-    ask : ShiftAsk
+    ask : ShiftRequest
         What is asked for.
     dimensions : mapping of str to float or None
         Named parameters, m, that the hull is given before.
@@ -478,7 +473,7 @@ def shift_document(
 def _targets(
     work: ShiftWork, before: FloatArray, reached: FloatArray, shift: CertifiedShift
 ) -> tuple[Target, ...]:
-    """Tell of the two values that were sought, and of ends of the parallel body that moved."""
+    """Report the two values that were sought, and ends of the parallel body that moved."""
     found = [
         Target(name, _UNITS.get(name, "-"), *numbers)
         for name, *numbers in zip(

@@ -1,8 +1,8 @@
 """The sectional area curve as elements of volume, and its volume and moment after a shift.
 
-Sections that move along the ship without changing enclose a volume that is linear, and a moment
-that is quadratic, in the free sizes of the shift. Both hold exactly for any curve of areas, one
-that jumps at a transom included.
+Sections that move rigidly along the ship, ``A'(x + delta(x)) = A(x)``, enclose a volume that is
+linear, and a moment that is quadratic, in the free sizes of the shift. Both hold exactly for any
+curve of areas, one that jumps at a transom included. x in m from AP, + forward; moments about AP.
 """
 
 from __future__ import annotations
@@ -24,18 +24,15 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# A sectional area curve as elements of volume: places along the ship, and what stands for each.
-#
-# Sections that move rigidly along the ship, ``A'(x + delta(x)) = A(x)``, enclose
+# Elements of volume, for
 #
 #     V' = int A (1 + delta') dx        M' = int (x + delta) A (1 + delta') dx
 #
-# for any curve of areas, one that jumps at a transom included: integrated by parts, these are the
-# integrals of ``-A' delta`` with each jump of A as a part of A'. So all that is asked of a curve
-# are its areas at the places of a Gauss rule.
+# Integrated by parts these are the integrals of ``-A' delta`` with each jump of A as a part of A';
+# so all that is needed of a curve are its areas at the places of a Gauss rule.
 
 _POINTS = 8
-"""Of the Gauss rule a part: exact for cubic areas, and for all shapes that sections move by."""
+"""Points of the Gauss rule on each part: exact for cubic areas and all shapes of shifts."""
 
 _WHERE = "in shift_sections"
 
@@ -136,7 +133,7 @@ class VolumeElements:
 
 
 # --------------------------------------------------------------------------------------
-# Volume and moment of a shifted curve of areas: linear and quadratic in the free sizes.
+# Sums, with delta = g + c_f e_f + c_a e_a:
 #
 #     V' = V1 + c_f alpha_f + c_a alpha_a
 #     M' = M1 + c_f beta_f + c_a beta_a + (c_f^2 gamma_ff + 2 c_f c_a gamma_fa + c_a^2 gamma_aa) / 2
@@ -145,13 +142,13 @@ class VolumeElements:
 #     M1 = int A (x + g) (1 + g') dx  beta_i = int A ((x + g) e_i)' dx
 #                                     gamma_ij = int A (e_i e_j)' dx
 #
-# Both are exact. They are the integrals of H. Lackenby, "On the systematic geometrical variation of
-# ship forms", Trans. INA 92, 1950, without his neglect of squares.
+# Both are exact: the integrals of H. Lackenby, "On the systematic geometrical variation of ship
+# forms", Trans. INA 92, 1950, without his neglect of squares.
 
 
 @attrs.frozen(eq=False)
 class ShiftSums:
-    """What volume and moment become.
+    """Coefficients of volume and moment after a shift.
 
     Attributes
     ----------
@@ -164,7 +161,7 @@ class ShiftSums:
     by_body : (2, 2), m2
         The same of each body: a row for the fore one and a row for the after one.
     beta : (2,), m3
-        dM' by them where both are nil.
+        dM' by them where both are zero.
     gamma : (2, 2), m2
         Second derivatives of M'.
 
@@ -256,6 +253,7 @@ def _roots(a: float, b: float, c: float) -> tuple[float, ...]:
     left = b * b - 4.0 * a * c
     if left < 0.0 or (a == 0.0 and b == 0.0):
         return ()
+    # the root of larger size first, the other from the product of both: nothing cancels
     half = -0.5 * (b + np.copysign(np.sqrt(left), b))
     found = [half / a] if a != 0.0 else []
     return tuple(float(each) for each in (*found, *([c / half] if half != 0.0 else [])))

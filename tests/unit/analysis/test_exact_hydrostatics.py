@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from assoc_hull.analysis.hydrostatics.draughts_from_weight import Load, position_under_load
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import table_of
-from assoc_hull.analysis.hydrostatics.immersion import Load, position_under_load
-from assoc_hull.geometry.floating.prepared_strips import prepare_strips
+from assoc_hull.geometry.floating.immersed_strips import prepare_strips
 from tests.exact_hulls import ellipsoid, wigley
 from tests.floating_bodies import StripBody, head
 

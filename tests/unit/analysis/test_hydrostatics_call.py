@@ -1,8 +1,6 @@
 """The calls `hydrostatics`, `hydrostatic_table` and their kin: options and refusals."""
 
 import math
-import sys
-from types import SimpleNamespace
 from typing import Any
 
 import attrs
@@ -10,8 +8,9 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.analysis.hydrostatics import flotation
+from assoc_hull.analysis.hydrostatics.draughts_from_weight import deck_edge_angle, freeboard
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
-from assoc_hull.analysis.hydrostatics.immersion import deck_edge_angle, freeboard
 from tests.floating_bodies import Box
 
 TROUBLE = ("ST 7 is open by 0.31 m at (45.000, 2.100, 8.200) m", "ST 8 crosses itself")
@@ -27,28 +26,27 @@ def hull() -> ah.Hull:
 def body(monkeypatch: pytest.MonkeyPatch) -> list[Box]:
     """What is measured: the first of this list, a box."""
     bodies = [Box(breadth=10.0, depth=8.0, off=1e-6)]
-    double: Any = SimpleNamespace(flotation=lambda state: bodies[0])
-    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.hydrostatics.flotation", double)
+    monkeypatch.setattr(flotation, "flotation", lambda state: bodies[0])
     return bodies
 
 
 @pytest.mark.usefixtures("body")
 def test_one_call_gives_the_record(hull: ah.Hull) -> None:
     """At the design draught, at even keel, at draughts at the perpendiculars."""
-    assert ah.hydrostatics(hull).draught_mean == 6.25
-    assert ah.hydrostatics(hull, draught=5.0).volume == pytest.approx(5000.0)
-    found = ah.hydrostatics(hull, draughts=(5.5, 4.5), heel_deg=3.0, kg=2.0)
+    assert hull.hydrostatics().draught_mean == 6.25
+    assert hull.hydrostatics(draught=5.0).volume == pytest.approx(5000.0)
+    found = hull.hydrostatics(draughts=(5.5, 4.5), heel_deg=3.0, kg=2.0)
     assert (found.draught_mean, found.trim_by_stern) == pytest.approx((5.0, 1.0))
     assert found.tcb < 0.0
     assert found.error["volume"] == pytest.approx(5e-3, rel=1e-9)
-    assert ah.hydrostatics(hull, estimate=False).error["volume"] is None
+    assert hull.hydrostatics(estimate=False).error["volume"] is None
 
 
 @pytest.mark.usefixtures("body")
 def test_a_table_heads_its_numbers(hull: ah.Hull) -> None:
     """With the ship, its fingerprint, and what the caller chose; no date unless given."""
-    fin = ah.Appendage("fin", 2.0, (50.0, 0.0, 1.0))
-    table = ah.hydrostatic_table(hull, [4.0, 5.0, 6.0], [-1.0, 0.0], rho=1.0, appendages=[fin])
+    fin = ah.hydro.Appendage("fin", 2.0, (50.0, 0.0, 1.0))
+    table = hull.hydrostatic_table([4.0, 5.0, 6.0], [-1.0, 0.0], rho=1.0, appendages=[fin])
     head = table.header
     assert (head.ship, head.fingerprint, head.date) == ("Wigley", hull.fingerprint, None)
     assert head.water == "fresh water, 1 t/m3"
@@ -57,32 +55,32 @@ def test_a_table_heads_its_numbers(hull: ah.Hull) -> None:
     assert table.shape == (3, 2)
     assert table[1, 0].trim_by_stern == pytest.approx(-1.0)
     assert table[1, 1].volume == pytest.approx(5002.0)
-    assert ah.hydrostatic_table(hull, [4.0], date="2026-01-31").header.date == "2026-01-31"
+    assert hull.hydrostatic_table([4.0], date="2026-01-31").header.date == "2026-01-31"
 
 
 @pytest.mark.usefixtures("body")
 def test_draughts_to_the_keel_are_longer_by_its_thickness(hull: ah.Hull) -> None:
     """In the record they are moulded, whatever was given."""
-    found = ah.hydrostatics(hull, draught=5.02, keel_thickness=0.02, draught_to="keel")
+    found = hull.hydrostatics(draught=5.02, keel_thickness=0.02, draught_to="keel")
     assert found.draught_mean == pytest.approx(5.0)
-    table = ah.hydrostatic_table(hull, [5.02], keel_thickness=0.02, draught_to="keel")
+    table = hull.hydrostatic_table([5.02], keel_thickness=0.02, draught_to="keel")
     assert table[0].draught_mean == pytest.approx(5.0)
     assert table.draughts["draught_aft_extreme"][0] == pytest.approx(5.02)
-    assert ah.hydrostatics(hull, keel_thickness=0.02, draught_to="keel").draught_mean == 6.25
+    assert hull.hydrostatics(keel_thickness=0.02, draught_to="keel").draught_mean == 6.25
 
 
 def test_a_doubtful_hull_is_refused_or_reported(hull: ah.Hull, body: list[Box]) -> None:
     """The error names the section, and how to have the numbers all the same."""
     body[0] = attrs.evolve(body[0], trouble=TROUBLE)
-    with pytest.raises(ah.BadInputError, match=r"ST 7 is open .* \(and 1 more\).*report"):
-        ah.hydrostatics(hull)
-    found = ah.hydrostatics(hull, on_error="report")
+    with pytest.raises(ah.errors.BadInputError, match=r"ST 7 is open .* \(and 1 more\).*report"):
+        hull.hydrostatics()
+    found = hull.hydrostatics(on_error="report")
     assert found.volume == pytest.approx(6250.0)
     assert found.notes == TROUBLE
-    table = ah.hydrostatic_table(hull, [5.0], on_error="report")
+    table = hull.hydrostatic_table([5.0], on_error="report")
     assert table.notes == table[0].notes == TROUBLE
     body[0] = attrs.evolve(body[0], trouble=())
-    assert ah.hydrostatics(hull, on_error="report").notes == ()
+    assert hull.hydrostatics(on_error="report").notes == ()
 
 
 @pytest.mark.usefixtures("body")
@@ -114,7 +112,7 @@ def test_an_odd_option_is_refused_by_name(
 ) -> None:
     """Never guessed."""
     with pytest.raises(ah.AssocHullError, match=words):
-        ah.hydrostatics(hull, **options)
+        hull.hydrostatics(**options)
 
 
 @pytest.mark.usefixtures("body")
@@ -122,57 +120,59 @@ def test_numbers_that_come_as_text_count_as_numbers(hull: ah.Hull) -> None:
     """Wherever a number is taken, text that is one is taken alike; what is kept is the number."""
     given: dict[str, Any] = {"rho": "1.0", "shell_factor": "1.01", "kg": "4", "heel_deg": "0"}
     meant: dict[str, Any] = {"rho": 1.0, "shell_factor": 1.01, "kg": 4.0, "heel_deg": 0.0}
-    one, other = (ah.hydrostatics(hull, draught=5.0, **each) for each in (given, meant))
+    one, other = (hull.hydrostatics(draught=5.0, **each) for each in (given, meant))
     assert (one.displacement, one.gmt) == (other.displacement, other.gmt)
     del given["heel_deg"], meant["heel_deg"]
-    assert ah.immersion(hull, 5125.0, **given) == ah.immersion(hull, 5125.0, **meant)
+    assert hull.immersion(5125.0, **given) == hull.immersion(5125.0, **meant)
     assert type(FloatingPosition("6", np.float64(5.0)).draught_aft) is float  # type: ignore[arg-type]
 
 
 @pytest.mark.usefixtures("body")
 def test_weights_find_their_draughts(hull: ah.Hull) -> None:
     """And the position they give has that displacement."""
-    found = ah.immersion(hull, 5125.0, lcg=50.5, kg=3.0)
-    record = ah.hydrostatics(hull, draughts=(found.draught_aft, found.draught_fore))
+    found = hull.immersion(5125.0, lcg=50.5, kg=3.0)
+    record = hull.hydrostatics(draughts=(found.draught_aft, found.draught_fore))
     assert record.displacement == pytest.approx(5125.0, rel=1e-12)
     assert found.trim_by_stern < 0.0
-    with pytest.raises(ah.OutOfRangeError, match=r"weight of nan t is none.*from 0 to 8200 t"):
-        ah.immersion(hull, math.nan)
-    with pytest.raises(ah.BadInputError, match="weight is 'heavy'"):
-        ah.immersion(hull, "heavy")  # type: ignore[arg-type]
+    with pytest.raises(
+        ah.errors.OutOfRangeError, match=r"weight of nan t is none.*from 0 to 8200 t"
+    ):
+        hull.immersion(math.nan)
+    with pytest.raises(ah.errors.BadInputError, match="weight is 'heavy'"):
+        hull.immersion("heavy")  # type: ignore[arg-type]
     for weight in (9000.0, 2_000_000, 10**400):
-        with pytest.raises(ah.OutOfRangeError, match=r"more than .* from 0 to 8200 t"):
-            ah.immersion(hull, weight)
-    assert ah.immersion(hull, 5125) == ah.immersion(hull, 5125.0)
+        with pytest.raises(ah.errors.OutOfRangeError, match=r"more than .* from 0 to 8200 t"):
+            hull.immersion(weight)
+    assert hull.immersion(5125) == hull.immersion(5125.0)
 
 
 @pytest.mark.usefixtures("body")
 def test_a_trim_is_given_or_found(hull: ah.Hull) -> None:
     """With LCG it is found, and one that is given besides is not passed over."""
-    with pytest.raises(ah.BadInputError, match="trim_by_stern of 1 m are both given"):
-        ah.immersion(hull, 5125.0, lcg=50.0, trim_by_stern=1)
+    with pytest.raises(ah.errors.BadInputError, match="trim_by_stern of 1 m are both given"):
+        hull.immersion(5125.0, lcg=50.0, trim_by_stern=1)
 
 
 @pytest.mark.usefixtures("body")
 def test_appendages_leave_something_of_the_hull(hull: ah.Hull) -> None:
     """Recesses as large as the hull, or larger, are refused with both volumes."""
     for size in (-5000.0, -7000.0):
-        hole = ah.Appendage("hole", size, (50.0, 0.0, 1.0))
+        hole = ah.hydro.Appendage("hole", size, (50.0, 0.0, 1.0))
         words = f"appendages of {size:g} m3 leave nothing of the 5000 m3"
-        with pytest.raises(ah.BadInputError, match=words):
-            ah.hydrostatics(hull, draught=5.0, appendages=[hole])
-    assert ah.hydrostatics(hull, draught=0.5, appendages=[hole]).volume == pytest.approx(500.0)
+        with pytest.raises(ah.errors.BadInputError, match=words):
+            hull.hydrostatics(draught=5.0, appendages=[hole])
+    assert hull.hydrostatics(draught=0.5, appendages=[hole]).volume == pytest.approx(500.0)
     hole = attrs.evolve(hole, volume=-9000.0)
-    with pytest.raises(ah.BadInputError, match="-9000 m3 leave nothing of the 8000 m3"):
-        ah.immersion(hull, 500.0, appendages=[hole])
+    with pytest.raises(ah.errors.BadInputError, match="-9000 m3 leave nothing of the 8000 m3"):
+        hull.immersion(500.0, appendages=[hole])
 
 
 @pytest.mark.usefixtures("body")
 @pytest.mark.parametrize("date", [5, "", "a\nb"])
 def test_a_date_is_text_in_one_line(hull: ah.Hull, date: Any) -> None:
     """It is refused at the call, not where the table is written."""
-    with pytest.raises(ah.BadInputError, match="date is"):
-        ah.hydrostatic_table(hull, [5.0], date=date)
+    with pytest.raises(ah.errors.BadInputError, match="date is"):
+        hull.hydrostatic_table([5.0], date=date)
 
 
 @pytest.mark.usefixtures("body")
@@ -182,7 +182,7 @@ def test_freeboard_and_deck_edge_of_a_hull(hull: ah.Hull) -> None:
     up = math.tan(math.radians(5.0))
     assert freeboard(hull, place).least == pytest.approx((2 - 5 * up) / math.hypot(1, up))
     assert deck_edge_angle(hull, place) == pytest.approx(math.degrees(math.atan(0.4)))
-    with pytest.raises(ah.OutOfRangeError):
+    with pytest.raises(ah.errors.OutOfRangeError):
         freeboard(hull, FloatingPosition(9.0, 9.0))
 
 
@@ -201,4 +201,4 @@ def test_odd_draughts_of_a_table_are_refused(
 ) -> None:
     """With the range, where it is one of numbers."""
     with pytest.raises(ah.AssocHullError, match=words):
-        ah.hydrostatic_table(hull, draughts)
+        hull.hydrostatic_table(draughts)

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from assoc_hull.cli import main
-from assoc_hull.sources import examples
+from assoc_hull.hull.sources import examples
 
 Json = Callable[..., Any]
 

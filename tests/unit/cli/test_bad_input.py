@@ -12,9 +12,7 @@ from typing import Any
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.cli import inspection as look
-from assoc_hull.cli import inspection as plot
-from assoc_hull.cli import main
+from assoc_hull.cli import inspection, main
 
 Edits = Callable[[object], Path]
 
@@ -228,7 +226,7 @@ def test_the_keyboard_stops_quietly(
     def stop(_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(look, "open_hull", stop)
+    monkeypatch.setattr(inspection, "open_hull", stop)
     assert "keyboard" in error_of(["info", hull], capsys, code=130)
 
 
@@ -236,7 +234,7 @@ def test_a_fault_of_the_program_is_one_line_too(
     hull: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """With its place; the traceback only if it was asked for."""
-    monkeypatch.setattr(plot, "open_hull", lambda _: 1 / 0)
+    monkeypatch.setattr(inspection, "open_hull", lambda _: 1 / 0)
     arguments: list[object] = ["plot", hull, "-o", hull.with_name("lines.pdf")]
     assert "ZeroDivisionError inside the program" in error_of(arguments, capsys)
     monkeypatch.setenv("ASSOC_HULL_DEBUG", "1")

@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.cli import inspection as look
-from assoc_hull.cli import main
+from assoc_hull.cli import inspection, main
 from assoc_hull.io.hull_json import dumps_hull_json
 from assoc_hull.model.tables import HullState
 from tests.unit.cli.conftest import Json
@@ -73,7 +72,7 @@ def opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Opened:
     """Let the command open these tables, as a file holds them that stores them row by row."""
 
     def give(state: HullState) -> Path:
-        monkeypatch.setattr(look, "open_hull", lambda _, damaged: ah.Hull(state))
+        monkeypatch.setattr(inspection, "open_hull", lambda _, damaged: ah.Hull(state))
         return tmp_path / "ship.hull.json"
 
     return give

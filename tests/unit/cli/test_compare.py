@@ -40,7 +40,7 @@ def test_the_document_has_the_form_of_the_schema(
     assert target.read_bytes() == b"%PDF-"
     assert drawn[0].variant.draught == 6.0
     assert found["variant"]["at_draught"] == 6.0
-    own = ah.compare(ah.open(hull), ah.open(variant), draught=6.0)
+    own = ah.open(hull).compare(ah.open(variant), draught=6.0)
     volume = next(each for each in found["hydrostatics"] if each["symbol"] == "volume")
     assert volume["difference"] == own.hydrostatic("volume").difference
 

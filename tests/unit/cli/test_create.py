@@ -50,7 +50,7 @@ def test_the_report_is_told_in_words(
 def test_an_example_is_a_design(capsys: pytest.CaptureFixture[str]) -> None:
     """What is printed can be read."""
     assert main(["create", "--example"]) == 0
-    assert ah.Design.from_json(capsys.readouterr().out) == plain_ship_design()
+    assert ah.creation.Design.from_json(capsys.readouterr().out) == plain_ship_design()
 
 
 def test_the_schema_of_designs(capsys: pytest.CaptureFixture[str]) -> None:

@@ -143,10 +143,10 @@ def test_python_refuses_the_same(tmp_path: Path) -> None:
     """`hull.export` and `hull.save` to text leave hull files alone, an open one too."""
     ship = ah.examples.wigley()
     ship.save(tmp_path / "ship.hull")
-    with pytest.raises(ah.BadInputError, match="a hull file would be written over"):
+    with pytest.raises(ah.errors.BadInputError, match="a hull file would be written over"):
         ship.export(tmp_path / "ship.hull", "gf")
     (tmp_path / "kept.hull.json").write_bytes((tmp_path / "ship.hull").read_bytes())
-    with pytest.raises(ah.BadInputError, match="a hull file would be written over"):
+    with pytest.raises(ah.errors.BadInputError, match="a hull file would be written over"):
         ship.save(tmp_path / "kept.hull.json")
     with ship.edit("after") as edit:
         edit.move("WL 2.5 x ST 7", y=2.95)

@@ -12,10 +12,10 @@ from assoc_hull.cli.export import _ENDINGS, _FORMS, _SURFACES
 from assoc_hull.cli.surface import every_fourth
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
+from assoc_hull.hull.sources import examples
 from assoc_hull.io.export.write import ENDINGS, FORMS, export_form
 from assoc_hull.io.surfaces.hull_surface import SURFACE_ENDINGS, SURFACE_FORMS, net_surface_schema
 from assoc_hull.io.tables.json_schema import dumps_schema
-from assoc_hull.sources import examples
 from tests.unit.cli.conftest import Json
 
 
@@ -41,7 +41,7 @@ def test_the_command_knows_the_forms_of_its_writers() -> None:
     assert tuple(_SURFACES) == SURFACE_FORMS
     assert {**ENDINGS, **SURFACE_ENDINGS} == _ENDINGS
     for ending in SURFACE_ENDINGS:
-        with pytest.raises(BadInputError, match=r"ah.surface\(hull\).write"):
+        with pytest.raises(BadInputError, match=r"hull.surface\(\).write"):
             export_form(f"ship{ending}")
 
 

@@ -13,7 +13,7 @@ from tests.unit.cli.conftest import Json
 def test_the_document_holds_what_the_library_gives(hull: Path, facts: Json) -> None:
     """A row for each curve with its numbers, and the curves that keep no limit."""
     found = facts("fairness", hull)
-    table = ah.fairness(ah.open(hull))
+    table = ah.form.fairness(ah.open(hull))
     assert isinstance(table, FairnessTable)
     assert [each["key"] for each in found["curves"]] == list(table.keys)
     assert [each["variation"] for each in found["curves"]] == [each.variation for each in table]

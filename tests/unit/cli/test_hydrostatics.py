@@ -2,13 +2,12 @@
 
 import csv
 import math
-import sys
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.analysis.hydrostatics import flotation
 from assoc_hull.analysis.hydrostatics.record import FIELDS
 from assoc_hull.cli import main
 from tests.floating_bodies import Box
@@ -18,8 +17,8 @@ from tests.unit.cli.conftest import Json
 @pytest.fixture(autouse=True)
 def closed_form(monkeypatch: pytest.MonkeyPatch) -> None:
     """Measure a box of the hull's length and breadth instead, whose numbers are known."""
-    double = SimpleNamespace(flotation=lambda state: Box(breadth=10.0, depth=8.0, off=1e-6))
-    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.hydrostatics.flotation", double)
+    body = Box(breadth=10.0, depth=8.0, off=1e-6)
+    monkeypatch.setattr(flotation, "flotation", lambda state: body)
 
 
 def test_one_position_is_told_with_the_names_of_the_record(hull: Path, facts: Json) -> None:
@@ -105,8 +104,7 @@ def test_doubts_are_told_where_they_are_to_be_reported(
 ) -> None:
     """In words and in the document, which has them of the table and of each record."""
     body = Box(breadth=10.0, depth=8.0, trouble=("ST 7 is open",))
-    double = SimpleNamespace(flotation=lambda state: body)
-    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.hydrostatics.flotation", double)
+    monkeypatch.setattr(flotation, "flotation", lambda state: body)
     found = facts("hydrostatics", hull, "--on-error", "report")
     assert found["notes"] == found["rows"][0]["notes"] == ["ST 7 is open"]
     assert main(["hydrostatics", str(hull), "--on-error", "report"]) == 0
@@ -170,7 +168,7 @@ class TestOnTheNet:
     def test_json_and_python_say_the_same(self, hull: Path, facts: Json) -> None:
         """Every value and error, at trim and heel."""
         found = facts("hydrostatics", hull, "--draughts", 5.5, 6.5, "--heel", 4, "--kg", 3)
-        record = ah.hydrostatics(ah.open(hull), draughts=(5.5, 6.5), heel_deg=4.0, kg=3.0)
+        record = ah.open(hull).hydrostatics(draughts=(5.5, 6.5), heel_deg=4.0, kg=3.0)
         for name in FIELDS:
             value = getattr(record, name)
             expected = value if value is None else pytest.approx(value, rel=1e-9, abs=1e-9)

@@ -22,7 +22,7 @@ def test_the_document_has_the_names_of_the_python_objects(hull: Path, facts: Jso
     assert Draft202012Validator(form_schema()).is_valid(found)
     assert list(found["values"]) == list(CATALOGUE)
     assert found["position"] == {"draught_aft": 6.25, "draught_fore": 6.25, "heel_deg": 0.0}
-    own = ah.form_parameters(ah.open(hull))
+    own = ah.open(hull).form_parameters()
     assert {symbol: value["number"] for symbol, value in found["values"].items()} == {
         symbol: value.number for symbol, value in own.items()
     }

@@ -36,7 +36,7 @@ def test_words_are_those_of_the_object(shell: Path, capsys: pytest.CaptureFixtur
     """The table, advice with its caveat, the band, and notes: on standard output."""
     assert main(["plates", str(shell)]) == 0
     words, problems = capsys.readouterr()
-    assert words == f"{ah.plates(ah.examples.typical_plates())}\n"
+    assert words == f"{ah.surface.plates(ah.examples.typical_plates())}\n"
     assert "Advice only" in words
     assert problems == ""
 
@@ -90,7 +90,7 @@ def test_surfaces_are_turned_into_another_form(shell: Path, facts: Json, tmp_pat
     """Those that were read, cut at the seams that are given."""
     path = tmp_path / "cut.igs"
     assert facts("plates", shell, "--surfaces", path, "--seams-u", 0.5)["saved"] == [str(path)]
-    found = ah.read_surfaces(path)
+    found = ah.surface.read_surfaces(path)
     assert len(found) == 12
     assert found[0].name == "flat of side 1"
     assert found[0].domain == ((0.0, 0.5), (0.0, 1.0))
@@ -113,7 +113,7 @@ def test_plates_that_ship_are_written(facts: Json, tmp_path: Path) -> None:
         path = tmp_path / name
         found = facts("example", "typical-plates", "-o", path)
         assert found["saved"] == [str(path)]
-        assert [each.name for each in ah.read_surfaces(path)] == found["surfaces"]
+        assert [each.name for each in ah.surface.read_surfaces(path)] == found["surfaces"]
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ def test_the_document_is_that_of_python(hull: Path, facts: Json) -> None:
     found = facts(
         "sensitivities", hull, "--of", "volume", "Cb", "--by", "breadth", "--point", point
     )
-    own = ah.sensitivities(ah.open(hull), ["volume", "Cb"], ["breadth", "trim"])
+    own = ah.open(hull).sensitivities(["volume", "Cb"], ["breadth", "trim"])
     assert [each["name"] for each in found["parameters"]] == ["breadth", point]
     assert [row[0] for row in found["derivatives"]] == own.matrix[:, 0].tolist()
     assert [each["value"] for each in found["outputs"]] == own.values.tolist()

@@ -17,9 +17,9 @@ def test_a_shifted_hull_is_written(hull: Path, tmp_path: Path, facts: Json) -> N
     assert found["steps"][-1]["residual"] < 1e-10
     assert found["terminals"] == [0.0, 50.0, 50.0, 100.0]
     shifted = ah.open(target)
-    assert ah.hydrostatics(shifted).cb == pytest.approx(0.45, abs=1e-10)
+    assert shifted.hydrostatics().cb == pytest.approx(0.45, abs=1e-10)
     assert shifted.fingerprint == found["fingerprint"]
-    assert found["fingerprint"] == ah.vary_by(ah.open(hull), found["script"]).hull.fingerprint
+    assert found["fingerprint"] == ah.open(hull).vary_by(found["script"]).hull.fingerprint
 
 
 def test_a_swung_hull_is_written_into_its_file(hull: Path, facts: Json) -> None:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import csv
 import json
 import math
-import sys
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 
 import assoc_hull.plot.diagrams.hydrostatics  # noqa: F401  what it imports must not be a double
+from assoc_hull.analysis.hydrostatics import flotation
 from assoc_hull.cli import main
 from tests.floating_bodies import StripBody, box_body
 from tests.unit.cli.conftest import Json
@@ -21,8 +20,7 @@ HEELS = ["--heels", "0:40:10"]
 
 def double(monkeypatch: pytest.MonkeyPatch, body: StripBody) -> None:
     """Measure another body instead of the hull."""
-    module = SimpleNamespace(flotation=lambda state: body)
-    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.hydrostatics.flotation", module)
+    monkeypatch.setattr(flotation, "flotation", lambda state: body)
 
 
 @pytest.fixture(autouse=True)

@@ -22,9 +22,9 @@ def test_the_hull_is_written_with_its_new_values(hull: Path, tmp_path: Path, fac
     ]
     varied = ah.open(target)
     assert varied.particulars.breadth == 11.0
-    assert ah.measure(varied)["draught"] == 7.0
+    assert varied.measure()["draught"] == 7.0
     assert varied.fingerprint == found["fingerprint"]
-    assert ah.measure(ah.open(hull))["breadth"] == 10.0
+    assert ah.open(hull).measure()["breadth"] == 10.0
 
 
 def test_a_script_and_options_are_one_request(hull: Path, tmp_path: Path, facts: Json) -> None:
@@ -79,7 +79,7 @@ def test_targets_are_reached_by_what_is_free(hull: Path, tmp_path: Path, facts: 
     """The file has the asked volume; the document tells how it was reached, and repeats it."""
     target = tmp_path / "fuller.hull"
     found = facts("vary", hull, "--reach", "volume=2800", "--free", "breadth=9:", "-o", target)
-    volume = ah.hydrostatics(ah.open(target)).volume
+    volume = ah.open(target).hydrostatics().volume
     assert volume == pytest.approx(2800.0, rel=1e-10)
     assert found["aim"]["reached"]
     assert found["aim"]["free"] == ["breadth"]
@@ -100,7 +100,7 @@ def test_a_compromise_is_taken_where_it_is_asked_for(
     assert not target.exists()
     assert main([*asked, "--compromise"]) == 0
     assert "best compromise" in capsys.readouterr().out
-    assert ah.measure(ah.open(target))["breadth"] == pytest.approx(10.02, abs=1e-6)
+    assert ah.open(target).measure()["breadth"] == pytest.approx(10.02, abs=1e-6)
 
 
 def test_options_add_to_what_a_script_frees(hull: Path, tmp_path: Path, facts: Json) -> None:

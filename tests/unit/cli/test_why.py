@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.cli import inspection as why
-from assoc_hull.cli import main
+from assoc_hull.cli import inspection, main
 from tests.unit.cli.conftest import Json
 
 POINT = "WL 2.5 x ST 7"
@@ -25,7 +24,7 @@ def told(hull: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Mon
         edit.set_role("WL 5 x ST 7", "drives b")
     with ship.edit("fill out") as edit:
         edit.move(POINT, y=ship.points[POINT].y + 0.01)
-    monkeypatch.setattr(why, "open_hull", lambda _: ship)
+    monkeypatch.setattr(inspection, "open_hull", lambda _: ship)
 
     def ask(*arguments: str, code: int = 0) -> str:
         capsys.readouterr()

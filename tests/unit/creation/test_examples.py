@@ -24,7 +24,7 @@ def test_designs_as_json() -> None:
 
 def test_a_form_parameter_curve_made_from_its_parameters_changed() -> None:
     """A form-parameter curve: made from its parameters, changed by its vertices, read back."""
-    run = ah.FormCurve.of(
+    run = ah.creation.FormCurve.of(
         (-1.0, 0.0),
         (-0.3, 1.0),
         start_angle_deg=60.0,

@@ -19,10 +19,10 @@ LONG, ODD = {"tangents": "long"}, {"energy": "E4"}
 END = {"x", "y", "angle_deg", "curvature", "tangent", "stretch"}
 
 
-def published(name: str = "T1_run", tangents: Any = "default") -> ah.FormCurve:
+def published(name: str = "T1_run", tangents: Any = "default") -> ah.creation.FormCurve:
     """A curve of table 2 of Kim & Kang 1992."""
     g = CURVES[name]["inp"]
-    return ah.FormCurve.of(
+    return ah.creation.FormCurve.of(
         (g["x0"], g["y0"]), (g["x1"], g["y1"]),
         start_angle_deg=math.degrees(g["a0"]), finish_angle_deg=math.degrees(g["a1"]),
         start_curvature=g["k0"], finish_curvature=g["k1"],
@@ -30,7 +30,7 @@ def published(name: str = "T1_run", tangents: Any = "default") -> ah.FormCurve:
     )  # fmt: skip
 
 
-def changed(one: ah.FormCurve, two: ah.FormCurve) -> set[str]:
+def changed(one: ah.creation.FormCurve, two: ah.creation.FormCurve) -> set[str]:
     """Names of parameters that differ by more than rounding."""
     old, new = one.parameters, two.parameters
     return {n for n in old if abs(old[n] - new[n]) > 1e-12 * max(1.0, abs(old[n]))}
@@ -96,12 +96,12 @@ places = st.tuples(*(st.floats(-1.0, 1.0),) * 2)
 @given(st.lists(places, min_size=7, max_size=7))
 def test_parameters_make_the_curve_again(vertices: list[tuple[float, float]]) -> None:
     """Of any seven vertices, where no tangent and no area is nil, and the root is the near one."""
-    curve = ah.FormCurve(vertices)
+    curve = ah.creation.FormCurve(vertices)
     p = curve.parameters
     nil = min(p["start_tangent"], p["finish_tangent"]) < 1e-2 or abs(p["area"]) < 1e-2
     if nil:
         return
-    again = ah.FormCurve.from_parameters(p)
+    again = ah.creation.FormCurve.from_parameters(p)
     for name, value in again.parameters.items():
         turn = 360.0 if name.endswith("_deg") else math.inf
         off = abs(value - p[name])
@@ -124,7 +124,7 @@ def test_without_a_root_at_any_tangent_the_reason_is_told() -> None:
     """`auto` refuses as `default` does."""
     for tangents in ("default", "auto"):
         with pytest.raises(NoMiddleVertexError):
-            ah.FormCurve.of(
+            ah.creation.FormCurve.of(
                 (0.0, 0.0), (1.0, 1.0), start_angle_deg=0.0, finish_angle_deg=0.0,
                 area=0.5, centroid=7.0, tangents=tangents,
             )  # fmt: skip
@@ -140,7 +140,7 @@ def test_a_nil_tangent_keeps_the_angle_it_had() -> None:
     assert {"tangent", "C0"} <= {each.code for each in nil.messages}
     again = nil.drag(2, curve.vertices[2])
     assert again.vertices.tobytes() == curve.vertices.tobytes()
-    bare = ah.FormCurve(nil.vertices)
+    bare = ah.creation.FormCurve(nil.vertices)
     rise = bare.at(4.0) - bare.at(0.0)
     chord = math.degrees(math.atan2(rise[1], rise[0]))
     assert bare.parameters["start_angle_deg"] == pytest.approx(chord, abs=1e-12)
@@ -149,7 +149,7 @@ def test_a_nil_tangent_keeps_the_angle_it_had() -> None:
 def test_no_area_no_centroid() -> None:
     """The moment stands instead, and a message says so."""
     odd = [(k, k - 3.0) for k in range(7)]
-    curve = ah.FormCurve([(x - 3.0, y**3) for x, y in odd])
+    curve = ah.creation.FormCurve([(x - 3.0, y**3) for x, y in odd])
     assert "centroid" not in curve.parameters
     assert curve.parameters["moment"] == pytest.approx(
         float(np.trapezoid(curve.at(np.linspace(0, 4, 4001)).prod(axis=1),
@@ -176,7 +176,7 @@ def test_scaled_and_mirrored() -> None:
 
 def test_areas_may_be_large() -> None:
     """They are squares: a curve of 180 km is a curve."""
-    curve = ah.FormCurve.of((0.0, 0.0), (1.8e5, 12.0), **GOOD, area=1.2e6)
+    curve = ah.creation.FormCurve.of((0.0, 0.0), (1.8e5, 12.0), **GOOD, area=1.2e6)
     assert curve.area == pytest.approx(1.2e6, rel=1e-14)
 
 
@@ -188,22 +188,33 @@ def test_words_and_document() -> None:
     assert "-0.922173590026" in words
     assert "C6 info: area 0.55 needs an inflection" in words
     assert document["parameters"]["area"] == curve.area
-    assert ah.FormCurve(document["vertices"]).vertices.tobytes() == curve.vertices.tobytes()
+    assert (
+        ah.creation.FormCurve(document["vertices"]).vertices.tobytes() == curve.vertices.tobytes()
+    )
 
 
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: ah.FormCurve([(0.0, 0.0)] * 6), "seven finite places"),
-        (lambda: ah.FormCurve([(0.0, math.nan)] * 7), "seven finite places"),
-        (lambda: ah.FormCurve.of((0, 0), (0, 0), **GOOD), "start and finish are one place"),
-        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, centroid=0.5), "without an area"),
-        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, area=0.0, centroid=1.0), "area of 0"),
-        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD | LONG), "default or auto"),
-        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, tangents=(0.0, 1.0)), "above 0"),
-        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD | ODD), "E2 or E3 or J"),
-        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, start_curvature=1e9), "a vertex 1.04e"),
-        (lambda: ah.FormCurve.from_parameters({"start_x": 0.0}), "start_y is None"),
+        (lambda: ah.creation.FormCurve([(0.0, 0.0)] * 6), "seven finite places"),
+        (lambda: ah.creation.FormCurve([(0.0, math.nan)] * 7), "seven finite places"),
+        (
+            lambda: ah.creation.FormCurve.of((0, 0), (0, 0), **GOOD),
+            "start and finish are one place",
+        ),
+        (lambda: ah.creation.FormCurve.of((0, 0), (1, 1), **GOOD, centroid=0.5), "without an area"),
+        (
+            lambda: ah.creation.FormCurve.of((0, 0), (1, 1), **GOOD, area=0.0, centroid=1.0),
+            "area of 0",
+        ),
+        (lambda: ah.creation.FormCurve.of((0, 0), (1, 1), **GOOD | LONG), "default or auto"),
+        (lambda: ah.creation.FormCurve.of((0, 0), (1, 1), **GOOD, tangents=(0.0, 1.0)), "above 0"),
+        (lambda: ah.creation.FormCurve.of((0, 0), (1, 1), **GOOD | ODD), "E2 or E3 or J"),
+        (
+            lambda: ah.creation.FormCurve.of((0, 0), (1, 1), **GOOD, start_curvature=1e9),
+            "a vertex 1.04e",
+        ),
+        (lambda: ah.creation.FormCurve.from_parameters({"start_x": 0.0}), "start_y is None"),
         (lambda: published().at(4.5), "from 0 to 4"),
         (lambda: published().drag(7, (0.0, 0.0)), "from 0 to 6"),
         (lambda: published().drag(0, (0.0, 0.0), keep=("centroid",)), "centroid alone"),
@@ -211,7 +222,7 @@ def test_words_and_document() -> None:
         (lambda: published().drag(3, (0, 0), keep=("area", "centroid")), "another vertex"),
         (lambda: published().scaled(0.0, 1.0), "above 0"),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_used_is_refused(call: Callable[[], object], words: str) -> None:
     """In words that tell what to do."""
     with pytest.raises(BadInputError, match=words):
@@ -221,12 +232,12 @@ def test_what_cannot_be_used_is_refused(call: Callable[[], object], words: str) 
 def test_an_unknown_parameter_is_named() -> None:
     """With the nearest known one."""
     with pytest.raises(UnknownNameError, match="start_angle_deg"):
-        ah.FormCurve.from_parameters({"start_angle": 0.0})
+        ah.creation.FormCurve.from_parameters({"start_angle": 0.0})
 
 
 def test_printed_areas_are_those_of_the_half_curves_themselves() -> None:
     """Taken as fullness, or with the parallel body, the centroids of the paper cannot be."""
-    fullness = ah.FormCurve.of(
+    fullness = ah.creation.FormCurve.of(
         start=(-0.1, 1.0), start_angle_deg=0.0, finish=(1.0, 0.0), finish_angle_deg=-20.0,
         area=0.775 * 1.1, centroid=0.325, tangents="default",
     )  # fmt: skip

@@ -20,7 +20,7 @@ from assoc_hull.shipped.plain_ship import plain_ship_design
 DESIGN = plain_ship_design()
 
 
-def small(**changes: Any) -> ah.Design:
+def small(**changes: Any) -> ah.creation.Design:
     """The plain ship with few lines."""
     few: dict[str, Any] = {"stations": (0.0, 5.0, 10.0), "waterlines": (3.6,), "buttocks": ()}
     return attrs.evolve(DESIGN, **{**few, **changes})
@@ -99,7 +99,7 @@ def test_sections_have_the_areas_of_the_curve(plain_ship: Hull) -> None:
 
 def test_hydrostatics_trust_the_net(plain_ship: Hull) -> None:
     """Two routes to the volume agree, so that no doubt is told; abaft AP lies a little more."""
-    found = ah.hydrostatics(plain_ship, draught=7.2)
+    found = plain_ship.hydrostatics(draught=7.2)
     assert 0.6800 < found.cb < 0.6815
 
 
@@ -122,7 +122,7 @@ def test_the_same_design_gives_the_same_bits() -> None:
     one = ah.create(small())
     other = ah.create(small(definitions=DESIGN.definitions[::-1]))
     assert one.fingerprint == other.fingerprint
-    assert ah.create(ah.Design.from_json(small().to_json())).fingerprint == one.fingerprint
+    assert ah.create(ah.creation.Design.from_json(small().to_json())).fingerprint == one.fingerprint
 
 
 @pytest.mark.parametrize(

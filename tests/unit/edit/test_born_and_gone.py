@@ -62,7 +62,7 @@ def test_what_a_curve_in_space_cannot_do_is_said(fresh_series60_70: ah.Hull) -> 
     assert edit.report is not None
     assert before - ids(hull) <= set(edit.report.gone)
     assert any("are watched no more: a curve in space" in note for note in edit.report.notes)
-    with pytest.raises(ah.BadInputError, match="is a curve in space and has no plane"):
+    with pytest.raises(ah.errors.BadInputError, match="is a curve in space and has no plane"):
         hull.apply("shift", [{"op": "shift_line", "line": "ST 9", "position": 55.5}])
 
 
@@ -71,7 +71,7 @@ def test_a_transformation_is_not_held_closer_than_points_can(tolerance: float) -
     """Not by a tolerance of nil or less, nor by one finer than a tenth of a millimetre."""
     hull = ah.examples.wigley()
     before = hull.fingerprint
-    with pytest.raises(ah.BadInputError, match="tolerance"), hull.edit("wide") as edit:
+    with pytest.raises(ah.errors.BadInputError, match="tolerance"), hull.edit("wide") as edit:
         edit.transform(scale=[1.0, 1.1, 1.0], drivers=["sections"], tolerance=tolerance)
     assert hull.fingerprint == before
 
@@ -79,7 +79,7 @@ def test_a_transformation_is_not_held_closer_than_points_can(tolerance: float) -
 def test_a_mapping_that_gives_complex_numbers_is_refused() -> None:
     """Its imaginary part is not thrown away."""
     hull = ah.examples.wigley()
-    with pytest.raises(ah.BadInputError, match="complex"), hull.edit("wide") as edit:
+    with pytest.raises(ah.errors.BadInputError, match="complex"), hull.edit("wide") as edit:
         edit.transform(lambda p: p * (1.0 + 0.3j), ["sections"])
 
 
@@ -89,5 +89,8 @@ def test_the_angle_of_a_diagonal_may_fall_or_rise() -> None:
     with hull.edit("rising") as edit:
         edit.add_line("diagonals", np.array([3.0, -20.0]), "up")  # type: ignore[arg-type]
     for angle in (0.0, 90.0, 135.0):
-        with pytest.raises(ah.BadInputError, match="below 0 it rises"), hull.edit("bad") as edit:
+        with (
+            pytest.raises(ah.errors.BadInputError, match="below 0 it rises"),
+            hull.edit("bad") as edit,
+        ):
             edit.add_line("diagonals", (4.0, angle))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.plot import lines_plan
+from assoc_hull.plot.lines_plan.plan import lines_plan
 from tests.independent import lost_meetings, trouble
 
 PLACES = ((4.0, 30.0), (6.0, 45.0), (2.0, -10.0))
@@ -70,7 +70,7 @@ def test_a_crossing_moves_along_the_oblique_line(hull: ah.Hull) -> None:
     assert point.parent_curve is not None
     assert point.parent_curve.closest(point.position)[2] < 1e-9
     assert_sound(hull)
-    with pytest.raises(ah.FreedomError), hull.edit("wrong") as edit:
+    with pytest.raises(ah.errors.FreedomError), hull.edit("wrong") as edit:
         edit.move(point, z=1.0)
 
 
@@ -173,5 +173,5 @@ def test_what_is_no_diagonal_is_refused(position: Any) -> None:
 def test_a_number_where_the_group_is_unknown_names_those_there_are() -> None:
     """The groups of the hull, and the one that could be made."""
     hull = ah.examples.wigley(stations=9, waterlines=6)
-    with pytest.raises(ah.UnknownNameError, match="diagonals"), hull.edit("try") as edit:
+    with pytest.raises(ah.errors.UnknownNameError, match="diagonals"), hull.edit("try") as edit:
         edit.add_line("diagonal", (4.0, 30.0))

@@ -234,7 +234,7 @@ def test_features_are_named_after_their_lines(box: ah.Hull) -> None:
         edited(box, lambda edit: edit.rename("ST 2", "midship"))
         assert box.features["midship arc"].id == key
         assert {"midship straight", "midship straight 2"} <= names(box)
-        with pytest.raises(ah.UnknownNameError, match="ST 2 arc"):
+        with pytest.raises(ah.errors.UnknownNameError, match="ST 2 arc"):
             box.features["ST 2 arc"]
 
 

@@ -41,7 +41,7 @@ def test_everything_follows_and_undo_takes_it_back() -> None:
     wider = parent.state.rows.xyz.data * [1.0, 1.001, 1.0]
     assert hull.state.rows.xyz.data == pytest.approx(wider, abs=1e-12)
     assert hull.particulars.breadth == pytest.approx(10.01)
-    volume, before = (ah.hydrostatics(each).volume for each in (hull, parent))
+    volume, before = (each.hydrostatics().volume for each in (hull, parent))
     # between points curves are by their chords, which a ratio of breadths changes
     assert volume == pytest.approx(1.001 * before, rel=1e-6)
     assert hull.check() == ()

@@ -72,7 +72,7 @@ def test_the_edit_is_refused_and_the_hull_is_as_it_was(hull: ah.Hull, act: Act) 
 def test_what_is_no_direction_is_refused(hull: ah.Hull, tangent: Any) -> None:
     """Text, lists of text, mappings, ragged lists, objects, nil, numbers beyond any ship."""
     before = hull.fingerprint
-    with pytest.raises(ah.BadInputError), hull.edit("try") as edit:
+    with pytest.raises(ah.errors.BadInputError), hull.edit("try") as edit:
         edit.set_end(LINE, "start", tangent=tangent)
     assert hull.fingerprint == before
 
@@ -81,7 +81,7 @@ def test_a_fold_of_a_line_made_in_the_same_edit_is_found() -> None:
     """A new line has no shape before the edit that could excuse a fold."""
     hull = ah.examples.wigley(stations=9, waterlines=6)
     before = hull.fingerprint
-    with pytest.raises(ah.RefusedEditError):
+    with pytest.raises(ah.errors.RefusedEditError):
         _fold(hull)
     assert hull.fingerprint == before
 

@@ -196,7 +196,7 @@ def test_a_preview_of_a_refused_edit_is_refused(hull: ah.Hull) -> None:
     """It tells the same reasons, and nothing is published."""
     before = hull.fingerprint
     found = hull.preview([{"op": "move", "point": ONE, "y": 30.0}])
-    with pytest.raises(ah.RefusedEditError) as caught, hull.edit("far") as edit:
+    with pytest.raises(ah.errors.RefusedEditError) as caught, hull.edit("far") as edit:
         edit.move(ONE, y=30.0)
     assert found.report is None
     assert found.refused == caught.value.findings

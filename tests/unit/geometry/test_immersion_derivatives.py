@@ -9,15 +9,14 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves
+from assoc_hull.geometry.floating.immersed_strips import prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
     ImmersedIntegrals,
     integrate_immersed,
 )
-from assoc_hull.geometry.floating.prepared_strips import prepare_strips
 from assoc_hull.geometry.numeric.dual import Dual, as_array
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 from tests.exact_hulls import FormStrips
 
 SUMS = [

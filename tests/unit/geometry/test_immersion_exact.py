@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
     ImmersedIntegrals,
     integrate_immersed,
 )
-from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
 from tests.analytic_hulls import CASES, Case
 from tests.exact_hulls import box, ellipsoid, wigley
 

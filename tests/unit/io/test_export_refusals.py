@@ -12,6 +12,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, BadInputError, MissingExtraError
 from assoc_hull.graph.journal import Journal
+from assoc_hull.hull.sources import examples
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.export.ghs_geometry import MOST, dumps_gf
 from assoc_hull.io.lines.line_points import LinePolylines, lines_as_points
@@ -21,7 +22,6 @@ from assoc_hull.io.reports import ExportBook
 from assoc_hull.io.tables import table_text as offset_xlsx
 from assoc_hull.model.kinds import State
 from assoc_hull.model.tables import HullState, Particulars
-from assoc_hull.sources import examples
 
 TEXTS = ("britfair", "delftship", "delftship-offsets", "gf")
 TABLES = ("csv", "xlsx")

@@ -113,7 +113,7 @@ def test_an_open_edit_is_not_exported(file: Path) -> None:
     hull = ah.open(file)
     with hull.edit("half") as edit:
         edit.add_line("waterlines", 2.0)
-        with pytest.raises(ah.BadInputError, match="an edit is open, in export"):
+        with pytest.raises(ah.errors.BadInputError, match="an edit is open, in export"):
             hull.export(file.with_name("offsets.csv"))
     assert not file.with_name("offsets.csv").exists()
 

@@ -41,7 +41,7 @@ def shift(hull: ah.Hull, name: str, by: float = 0.01) -> None:
 def refused(path: Path, capfd: pytest.CaptureFixture[str], says: str) -> None:
     """Opening fails in one line, through Python and on the command line; the bytes stay."""
     before = path.read_bytes() if path.is_file() else None
-    with pytest.raises(ah.BadInputError) as caught:
+    with pytest.raises(ah.errors.BadInputError) as caught:
         ah.open(path)
     assert "\n" not in str(caught.value)
     assert says in str(caught.value)
@@ -276,7 +276,7 @@ def test_a_log_of_another_file_is_not_taken_for_its_own(file: Path) -> None:
     """A hull is not saved beside a log that may hold edits of a file that was moved away."""
     log = file.with_name("new.hull-wal")
     log.write_bytes(b"something")
-    with pytest.raises(ah.BadInputError, match="the log of another hull file"):
+    with pytest.raises(ah.errors.BadInputError, match="the log of another hull file"):
         ah.examples.wigley(stations=7, waterlines=5).save(file.with_name("new.hull"))
     assert not file.with_name("new.hull").exists()
     assert log.read_bytes() == b"something"

@@ -82,6 +82,8 @@ def test_a_newer_file_is_refused_and_left_alone(tmp_path: Path) -> None:
     database.execute(f"PRAGMA user_version = {SCHEMA + 1}")
     database.close()
     before = path.read_bytes()
-    with pytest.raises(ah.BadInputError, match=f"version {SCHEMA + 1} .* reads 1 to {SCHEMA}"):
+    with pytest.raises(
+        ah.errors.BadInputError, match=f"version {SCHEMA + 1} .* reads 1 to {SCHEMA}"
+    ):
         ah.open(path)
     assert path.read_bytes() == before

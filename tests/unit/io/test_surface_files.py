@@ -125,7 +125,7 @@ def test_files_come_back_to_the_last_bit(tmp_path: Path, ending: str) -> None:
     """Names, knots, nets and weights, through a file."""
     given, path = [spline(), SplineSurface.bezier(NET, "deck")], tmp_path / f"shell{ending}"
     write_surfaces(given, path)
-    found = ah.read_surfaces(path)
+    found = ah.surface.read_surfaces(path)
     assert isinstance(found, ReadSurfaces)
     assert (found.unit, found.notes) == ("m", ())
     for one, other in zip(given, found, strict=True):
@@ -237,7 +237,7 @@ def test_columns_of_iges_are_bytes(tmp_path: Path, coding: str) -> None:
     text = iges([shape, Entity(406, [1, f"{len(name)}H{name.decode('latin-1')}"], form=15)])
     path = tmp_path / "shell.igs"
     path.write_bytes(text.encode("latin-1"))
-    assert ah.read_surfaces(path)[0].name == "Hülle"
+    assert ah.surface.read_surfaces(path)[0].name == "Hülle"
 
 
 @pytest.mark.parametrize(
@@ -255,17 +255,17 @@ def test_other_files_are_refused(tmp_path: Path, data: bytes, words: str) -> Non
     path = tmp_path / "surfaces.dat"
     path.write_bytes(data)
     with pytest.raises(BadInputError, match=words):
-        ah.read_surfaces(path)
+        ah.surface.read_surfaces(path)
 
 
 def test_a_file_that_is_not_there_or_a_unit_that_is_none_is_refused(tmp_path: Path) -> None:
     """Without a word of Python's own."""
     with pytest.raises(BadInputError, match="cannot be read"):
-        ah.read_surfaces(tmp_path / "no.csv")
+        ah.surface.read_surfaces(tmp_path / "no.csv")
     with pytest.raises(BadInputError, match="cannot be read"):
-        ah.read_surfaces(tmp_path)
+        ah.surface.read_surfaces(tmp_path)
     with pytest.raises(BadInputError, match="unit is 'yd'"):
-        ah.read_surfaces(tmp_path / "no.csv", unit="yd")
+        ah.surface.read_surfaces(tmp_path / "no.csv", unit="yd")
 
 
 def test_a_large_file_is_refused_unread(tmp_path: Path) -> None:
@@ -274,7 +274,7 @@ def test_a_large_file_is_refused_unread(tmp_path: Path) -> None:
     with path.open("wb") as file:
         file.truncate(200_000_001)
     with pytest.raises(BadInputError, match="more than 200 MB"):
-        ah.read_surfaces(path)
+        ah.surface.read_surfaces(path)
 
 
 @pytest.mark.parametrize("name", ["shell.csv", "shell.json", "shell.igs", "shell.IGES"])
@@ -283,7 +283,7 @@ def test_the_ending_of_a_name_chooses_the_form(tmp_path: Path, name: str) -> Non
     given = ah.examples.typical_plates()
     write_surfaces(given, tmp_path / name)
     first = (tmp_path / name).read_bytes()
-    write_surfaces(ah.read_surfaces(tmp_path / name), tmp_path / name)
+    write_surfaces(ah.surface.read_surfaces(tmp_path / name), tmp_path / name)
     assert (tmp_path / name).read_bytes() == first
 
 
@@ -296,7 +296,7 @@ def test_another_ending_is_refused(tmp_path: Path) -> None:
 
 def test_six_plates_ship_one_of_each_kind() -> None:
     """Flat, rolled, convex, hollow and mixed; of a size that a shipyard handles."""
-    found = ah.plates(ah.examples.typical_plates())
+    found = ah.surface.plates(ah.examples.typical_plates())
     assert dict(zip(found.column("name"), found.column("kind"), strict=True)) == {
         "flat of side": "flat", "bilge": "cylinder", "fore bilge": "cylinder",
         "bulb shoulder": "convex", "stern hollow": "saddle", "bow flare": "mixed",

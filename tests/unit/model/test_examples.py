@@ -10,7 +10,7 @@ from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.form_definition import USES, FormDefinition
 from assoc_hull.model.generated_curves import attached_curves, attached_rows
 from assoc_hull.model.object_graph import add_definitions
-from assoc_hull.model.objects import features_by_name, handle
+from assoc_hull.model.objects import Point, features_by_name, handle
 from assoc_hull.model.tables import copy_state
 from assoc_hull.shipped.wigley import wigley
 
@@ -41,6 +41,7 @@ def test_features_as_a_designer_sees_them_name_kind_numbers() -> None:
 def test_handles_points_curves_lines_groups_and_crossings() -> None:
     """Handles: points, curves, lines, groups and crossings as a designer sees them."""
     point = handle(wigley(), "WL 2.5 x ST 7")
+    assert isinstance(point, Point)
     assert (
         repr((point, point.parent_curve, point.free, point.role))
         == "(<Point WL 2.5 x ST 7>, <Curve ST 7>, ('y',), 'defining')"
@@ -81,6 +82,6 @@ def test_which_points_come_from_definitions_now_those_of_generated() -> None:
 
 def test_definitions_in_the_graphs_of_a_hull_what_generates() -> None:
     """Definitions in the graphs of a hull: what generates which curves."""
-    found = networkx.MultiDiGraph()
+    found: networkx.MultiDiGraph[str] = networkx.MultiDiGraph()
     add_definitions(found, wigley(stations=5, waterlines=4))
     assert found.number_of_nodes() == 0

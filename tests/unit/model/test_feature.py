@@ -60,7 +60,7 @@ def circle(state: HullState) -> Feature:
 def test_a_feature_that_contradicts_itself_is_refused(change: dict[str, Any], told: str) -> None:
     """With the argument that is wrong."""
     good = on_line(small(), 2)
-    with pytest.raises(ah.BadInputError, match=told):
+    with pytest.raises(ah.errors.BadInputError, match=told):
         attrs.evolve(good, **change)
 
 
@@ -154,7 +154,7 @@ def test_a_feature_that_leads_nowhere_is_refused(change: dict[str, Any], told: s
     state = small()
     found = json.loads(json.dumps(definition(give(state, on_line(state, 3)))))
     found["features"][0] |= change
-    with pytest.raises(ah.BadInputError, match=told):
+    with pytest.raises(ah.errors.BadInputError, match=told):
         from_definition(found)
 
 
@@ -163,5 +163,5 @@ def test_two_features_of_one_key_are_refused() -> None:
     state = small()
     found = json.loads(json.dumps(definition(give(state, on_line(state, 3)))))
     found["features"] *= 2
-    with pytest.raises(ah.BadInputError, match="twice"):
+    with pytest.raises(ah.errors.BadInputError, match="twice"):
         from_definition(found)

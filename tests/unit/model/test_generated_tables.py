@@ -44,7 +44,7 @@ def test_a_hull_tells_its_definitions(hull: ah.Hull) -> None:
         each.key for each in formed_definitions()
     }
     assert hull.definitions["areas"].value("run_area") == 0.511
-    with pytest.raises(ah.UnknownNameError, match="'areas'"):
+    with pytest.raises(ah.errors.UnknownNameError, match="'areas'"):
         hull.definitions["area"]
 
 
@@ -120,7 +120,7 @@ def test_hulls_without_definitions_keep_their_fingerprint() -> None:
     assert "definitions" not in definition(hull.state)
     assert hull.state.definitions == ()
     assert hull.state.generated == ()
-    with pytest.raises(ah.BadInputError, match="no definitions"):
+    with pytest.raises(ah.errors.BadInputError, match="no definitions"):
         hull.apply("back", [{"op": "reattach", "line": "ST 1"}])
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.sources import examples
+from assoc_hull.hull.sources import examples
 
 pytest.importorskip("matplotlib")
 

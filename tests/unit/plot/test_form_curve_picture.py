@@ -9,7 +9,7 @@ from assoc_hull.plot.diagrams.form_curve import form_curve_picture
 
 def test_a_picture_is_true() -> None:
     """Both axes have one scale; a falling curve with a message is drawn whole."""
-    curve = ah.FormCurve.of(
+    curve = ah.creation.FormCurve.of(
         (0.2, 1.0), (1.0, 0.0), start_angle_deg=0.0, finish_angle_deg=-50.0,
         finish_curvature=-2.0, area=0.6, centroid=0.52, tangents="auto",
     )  # fmt: skip
@@ -27,5 +27,5 @@ def test_a_picture_is_true() -> None:
 
 def test_only_curves_are_drawn() -> None:
     """Anything else is of the wrong type."""
-    with pytest.raises(ah.BadInputError, match="give a FormCurve"):
+    with pytest.raises(ah.errors.BadInputError, match="give a FormCurve"):
         form_curve_picture(None)  # type: ignore[arg-type]

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from assoc_hull.shipped.bulk_carrier_180m import SHIP as CARRIER
-from assoc_hull.shipped.bulk_carrier_180m import bulk_carrier_180m_definitions
+from assoc_hull.shipped.bulk_carrier_180m import (
+    VERSLUIS_AREAS,
+    VERSLUIS_MOMENTS,
+    VERSLUIS_X,
+    bulk_carrier_180m_definitions,
+)
 from assoc_hull.shipped.container_ship_225m import FULL, SHIP, container_ship_225m_definitions
 from assoc_hull.shipped.series60 import todd_table
 
@@ -32,8 +37,10 @@ def test_the_definitions_of_the_225_m_container_ship() -> None:
         19,
     )
     bulb = next(each for each in container_ship_225m_definitions() if each.use == "bulb_area")
+    area = bulb.value("FP_y")
+    assert area is not None
     # of the midship section
-    assert round(bulb.value("FP_y") / FULL, 6) == 0.091
+    assert round(area / FULL, 6) == 0.091
 
 
 def test_the_offsets_of_two_series_60_parents_as_their() -> None:
@@ -44,3 +51,9 @@ def test_the_offsets_of_two_series_60_parents_as_their() -> None:
         (25, 8),
         17.417,
     )
+
+
+def test_section_areas_and_moments_of_a_bulk_carrier_as_printed() -> None:
+    """Section areas and moments of a bulk carrier, as printed."""
+    assert (VERSLUIS_X[1], VERSLUIS_AREAS[1]) == (4.5, 16.25)
+    assert round(float(VERSLUIS_MOMENTS[1] / VERSLUIS_AREAS[1]), 3) == 9.157

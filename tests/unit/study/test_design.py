@@ -83,8 +83,8 @@ def test_what_makes_no_study_is_refused(asked: dict[str, Any], words: str) -> No
 
 def test_a_parameter_that_the_parent_lacks_is_refused() -> None:
     """With what it lacks."""
-    with pytest.raises(ah.BadInputError, match="cannot vary 'bulb_length'"):
-        ah.study(ah.examples.wigley(stations=9, waterlines=6), set={"bulb_length": 3.0})
+    with pytest.raises(ah.errors.BadInputError, match="cannot vary 'bulb_length'"):
+        ah.examples.wigley(stations=9, waterlines=6).study(set={"bulb_length": 3.0})
 
 
 @pytest.mark.parametrize("asked", [{"set": {"breadth": 10.0}, "outputs": ["volum"]},
@@ -92,5 +92,5 @@ def test_a_parameter_that_the_parent_lacks_is_refused() -> None:
                          ids=["told", "aimed at"])  # fmt: skip
 def test_an_output_that_is_none_is_refused(asked: dict[str, Any]) -> None:
     """With the nearest names."""
-    with pytest.raises(ah.UnknownNameError, match="'volume'"):
-        ah.study(ah.examples.wigley(stations=9, waterlines=6), **asked)
+    with pytest.raises(ah.errors.UnknownNameError, match="'volume'"):
+        ah.examples.wigley(stations=9, waterlines=6).study(**asked)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.studies import Study
+from assoc_hull.study import Study
 from tests.unit.study.test_design import fuller
 
 FREE = ["breadth", "fore_shift", "aft_shift"]
@@ -30,8 +30,8 @@ def small() -> ah.Hull:
 @pytest.fixture(scope="module")
 def asked(parent: ah.Hull) -> dict[str, Any]:
     """Two targets within reach, and one beyond the bounds."""
-    now = ah.hydrostatics(parent, estimate=False)
-    drawn = ah.sample({"volume": (0.99 * now.volume, 1.01 * now.volume),
+    now = parent.hydrostatics(estimate=False)
+    drawn = ah.study.sample({"volume": (0.99 * now.volume, 1.01 * now.volume),
                        "lcb": (now.lcb - 0.3, now.lcb + 0.3)}, 2, seed=5)  # fmt: skip
     far = {"volume": now.volume, "lcb": now.lcb + 3.0}
     return {name: [*column, far[name]] for name, column in drawn.items()}
@@ -40,7 +40,7 @@ def asked(parent: ah.Hull) -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def found(parent: ah.Hull, asked: dict[str, Any]) -> Study:
     """The study of these."""
-    return ah.study(parent, reach=asked, free=FREE, bounds=BOUNDS)
+    return parent.study(reach=asked, free=FREE, bounds=BOUNDS)
 
 
 def test_targets_are_met_on_the_hull_itself(
@@ -50,7 +50,7 @@ def test_targets_are_met_on_the_hull_itself(
     for row in found.rows[:2]:
         assert row.failure == ""
         hull = found.hull(row.number)
-        record = ah.hydrostatics(hull, estimate=False)
+        record = hull.hydrostatics(estimate=False)
         for name in asked:
             missed = getattr(record, name) / asked[name][row.number] - 1.0
             assert abs(missed) <= 1e-10
@@ -72,7 +72,7 @@ def test_a_variant_that_is_none_is_a_row_with_its_reason(parent: ah.Hull, found:
     assert np.isnan(row.outputs).all()
     assert found.failed == (row,)
     assert str(found) == "2 of 3 variants, 1 out of range"
-    with pytest.raises(ah.BadInputError, match=r"variant 2 has no hull: \w+ of"):
+    with pytest.raises(ah.errors.BadInputError, match=r"variant 2 has no hull: \w+ of"):
         found.hull(2)
     assert parent.history == ()
 
@@ -80,8 +80,8 @@ def test_a_variant_that_is_none_is_a_row_with_its_reason(parent: ah.Hull, found:
 def test_the_change_is_nearly_the_least(small: ah.Hull) -> None:
     """Of one more free parameter than targets: `vary`, which seeks it exactly, changes the same."""
     asked = {"reach": {"volume": 2820.0}, "free": ["breadth", fuller()]}
-    alone = ah.vary(small, **asked).report.aim  # type: ignore[arg-type]
-    found = ah.study(small, **asked)  # type: ignore[arg-type]
+    alone = small.vary(**asked).report.aim  # type: ignore[arg-type]
+    found = small.study(**asked)  # type: ignore[arg-type]
     assert alone is not None
     change = (found.rows[0].values - found.run.ground.present) / found.run.ground.usual
     assert np.sqrt((change**2).sum()) == pytest.approx(alone.change, rel=1e-4)
@@ -90,7 +90,7 @@ def test_the_change_is_nearly_the_least(small: ah.Hull) -> None:
 def test_a_parameter_at_its_bound_stays_there(small: ah.Hull) -> None:
     """What else is free does the rest; where nothing is, the bound in the way is named."""
     reach, bounds = {"volume": [2820.0, 2900.0]}, {"breadth": (9.9, 10.02), "fuller": (-9.0, 9.0)}
-    found = ah.study(small, reach=reach, free=["breadth", fuller()], bounds=bounds)
+    found = small.study(reach=reach, free=["breadth", fuller()], bounds=bounds)
     assert found.rows[0].values[0] == pytest.approx(10.02, abs=1e-9)
     assert found.rows[0].residual <= 1e-10
     assert found.rows[1].reason.startswith("fuller of ")
@@ -103,19 +103,19 @@ def test_an_interrupt_leaves_what_is_done(small: ah.Hull) -> None:
         if done == 2:
             raise KeyboardInterrupt
 
-    found = ah.study(small, set={"breadth": [10.0, 10.1, 10.2, 10.3]}, progress=stop)
+    found = small.study(set={"breadth": [10.0, 10.1, 10.2, 10.3]}, progress=stop)
     assert [row.number for row in found.rows] == [0, 1]
     assert found.interrupted
     assert "interrupted" in str(found)
-    with pytest.raises(ah.BadInputError, match="variant 3 was not made"):
+    with pytest.raises(ah.errors.BadInputError, match="variant 3 was not made"):
         found.hull(3)
 
 
 def test_a_variant_is_what_vary_makes() -> None:
     """Where lines need no further points to keep to their images, both make the same hull."""
     parent, values, layer = ah.examples.wigley(), {"breadth": 10.4}, fuller()
-    found = ah.study(parent, set=values, layers=[layer])
-    alone = ah.vary(parent, set=values, layers=[layer])
+    found = parent.study(set=values, layers=[layer])
+    alone = parent.vary(set=values, layers=[layer])
     assert alone.report.added == 0
     one, two = (hull.state.rows.xyz.data for hull in (found.hull(0), alone.hull))
     np.testing.assert_allclose(one, two, rtol=0.0, atol=1e-9)
@@ -125,8 +125,8 @@ def test_a_variant_is_what_vary_makes() -> None:
 def small_studies(hull: ah.Hull) -> Iterator[Study]:
     """The same study of a hull by one process and by two."""
     for workers in (1, 2):
-        yield ah.study(
-            hull, reach={"volume": [2760.0, 2790.0, 2820.0]}, free=["breadth", fuller()],
+        yield hull.study(
+            reach={"volume": [2760.0, 2790.0, 2820.0]}, free=["breadth", fuller()],
             bounds={"fuller": (-2.0, 2.0)}, outputs=["Cp", "A x=42.5"], workers=workers,
         )  # fmt: skip
 
@@ -144,6 +144,6 @@ def test_the_number_of_processes_does_not_show(small: ah.Hull) -> None:
 
 def test_a_map_that_folds_is_a_row(small: ah.Hull) -> None:
     """With nan where numbers would stand."""
-    found = ah.study(small, layers=[fuller()], set={"fuller": [1.0, -60.0]}, outputs=["cb"])
+    found = small.study(layers=[fuller()], set={"fuller": [1.0, -60.0]}, outputs=["cb"])
     assert [row.failure for row in found.rows] == ["", "map folds"]
     assert np.isnan(found.table()["cb"]).tolist() == [False, True]

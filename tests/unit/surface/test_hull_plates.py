@@ -11,12 +11,12 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.plating import HullPlates as WritablePlates
-from assoc_hull.surface.plates.hull_plate import TOO_COARSE, CurvatureDoubt, doubled_band
-from assoc_hull.surface.plates.hull_plates import HullPlateTable, hull_plates
-from assoc_hull.surface.plates.hull_seams import HullSeams
-from assoc_hull.surface.plates.hull_shell import HullShell
-from assoc_hull.surface.plates.rival_fits import every_second_waterline
+from assoc_hull.hull.results import HullPlates as WritablePlates
+from assoc_hull.surface.plating.hull_plate import TOO_COARSE, CurvatureDoubt, doubled_band
+from assoc_hull.surface.plating.hull_plates import HullPlateTable, hull_plates
+from assoc_hull.surface.plating.hull_seams import HullSeams
+from assoc_hull.surface.plating.hull_shell import HullShell
+from assoc_hull.surface.plating.rival_fits import every_second_waterline
 from tests.formula_sides import BOWL, HYPAR, Side
 
 X, Z = (-12.0, 12.0), (-5.0, 5.0)
@@ -259,9 +259,9 @@ def test_plates_of_a_fitted_hull_are_those_of_its_formula() -> None:
     fit, without every second waterline, tells how sure that is.
     """
     hull = ah.examples.wigley()
-    seams = ah.HullSeams(x=(20.0, 40.0), z=2.0)
-    thinner = ah.surface(hull, leave_out=every_second_waterline(hull.state))
-    found = ah.plates(ah.surface(hull), seams, zero="absolute", k0=5e-4, others=(thinner,))
+    seams = ah.surface.HullSeams(x=(20.0, 40.0), z=2.0)
+    thinner = hull.surface(leave_out=every_second_waterline(hull.state))
+    found = ah.surface.plates(hull.surface(), seams, zero="absolute", k0=5e-4, others=(thinner,))
     assert found.fits == 1
     assert isinstance(found, WritablePlates)
     for name, ends in (("1.1", (0.0, 20.0)), ("2.1", (20.0, 40.0)), ("3.1", (40.0, 100.0))):

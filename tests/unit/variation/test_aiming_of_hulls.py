@@ -21,7 +21,7 @@ from assoc_hull.errors import (
     UnreachableError,
     WrongTypeError,
 )
-from assoc_hull.variants import Variation
+from assoc_hull.variation import Variation
 from assoc_hull.variation.fields.field_data import fields_from_data
 from assoc_hull.variation.fields.layers import FieldLayer
 from tests.aims import FULLER, SHIFTED, problem, small
@@ -55,7 +55,7 @@ def parent() -> ah.Hull:
 @pytest.fixture(scope="module")
 def wanted(parent: ah.Hull) -> dict[str, float]:
     """Targets near the parent."""
-    found = ah.hydrostatics(parent)
+    found = parent.hydrostatics()
     return {
         "volume": 1.01 * found.volume, "lcb": found.lcb + 0.3, "kmt": (found.kmt or 0.0) + 0.05,
     }  # fmt: skip
@@ -64,14 +64,14 @@ def wanted(parent: ah.Hull) -> dict[str, float]:
 @pytest.fixture(scope="module")
 def aimed(parent: ah.Hull, wanted: dict[str, float]) -> Variation:
     """Three targets, three that are free."""
-    return ah.vary(parent, reach=wanted, free=["breadth", SHIFTED, FULLER])
+    return parent.vary(reach=wanted, free=["breadth", SHIFTED, FULLER])
 
 
 def test_targets_are_met_on_the_hull_that_comes_out(
     aimed: Variation, wanted: dict[str, float]
 ) -> None:
     """To 1e-10 of their size, by the hydrostatics that a designer asks for."""
-    found = ah.hydrostatics(aimed.hull)
+    found = aimed.hull.hydrostatics()
     for name, value in wanted.items():
         assert getattr(found, name) == pytest.approx(value, rel=1e-10)
     assert aimed.hull.check() == ()
@@ -121,14 +121,14 @@ def test_a_script_makes_the_same_hull(aimed: Variation, parent: ah.Hull, tmp_pat
     assert script is not None
     file = tmp_path / "aim.json"
     file.write_text(json.dumps(dict(script)))
-    assert ah.vary_by(parent, file).hull.fingerprint == aimed.hull.fingerprint
+    assert parent.vary_by(file).hull.fingerprint == aimed.hull.fingerprint
 
 
 def test_bounds_and_compromise_are_in_the_script(parent: ah.Hull) -> None:
     """An open end is null; a layer that is no data leaves no script."""
-    volume = ah.hydrostatics(parent).volume
-    found = ah.vary(
-        parent, reach={"volume": 1.01 * volume}, free="breadth",
+    volume = parent.hydrostatics().volume
+    found = parent.vary(
+        reach={"volume": 1.01 * volume}, free="breadth",
         bounds={"breadth": (None, 10.05)}, exact=False,
     )  # fmt: skip
     script = found.report.script
@@ -137,18 +137,18 @@ def test_bounds_and_compromise_are_in_the_script(parent: ah.Hull) -> None:
     assert script["bounds"] == {"breadth": [None, 10.05]}
     assert found.hull.particulars.breadth == 10.05
     layer = FieldLayer("fuller", fields_from_data(FULLER["fields"]))
-    again = ah.vary(parent, reach={"volume": 1.001 * volume}, free=[layer])
+    again = parent.vary(reach={"volume": 1.001 * volume}, free=[layer])
     assert again.report.script is None
 
 
 def test_what_is_set_holds_beside_what_is_reached(parent: ah.Hull) -> None:
     """The draught to 1e-6, the volume and its centre to 1e-10."""
-    before = ah.hydrostatics(parent)
-    found = ah.vary(
-        parent, set={"draught": 6.4}, reach={"volume": 1.03 * before.volume, "lcb": before.lcb},
+    before = parent.hydrostatics()
+    found = parent.vary(
+        set={"draught": 6.4}, reach={"volume": 1.03 * before.volume, "lcb": before.lcb},
         free=["breadth", SHIFTED],
     )  # fmt: skip
-    after = ah.hydrostatics(found.hull)
+    after = found.hull.hydrostatics()
     assert after.volume == pytest.approx(1.03 * before.volume, rel=1e-10)
     assert after.lcb == pytest.approx(before.lcb, rel=1e-10)
     assert found.hull.particulars.draught == 6.4
@@ -157,8 +157,8 @@ def test_what_is_set_holds_beside_what_is_reached(parent: ah.Hull) -> None:
 
 def test_what_the_hull_has_already_changes_nothing(parent: ah.Hull) -> None:
     """Targets that are met are no step."""
-    volume = ah.hydrostatics(parent).volume
-    found = ah.vary(parent, reach={"volume": volume}, free=["breadth"])
+    volume = parent.hydrostatics().volume
+    found = parent.vary(reach={"volume": volume}, free=["breadth"])
     assert found.hull.fingerprint == parent.fingerprint
     assert not found.hull.history
 
@@ -166,17 +166,17 @@ def test_what_the_hull_has_already_changes_nothing(parent: ah.Hull) -> None:
 def test_an_unreachable_target_leaves_the_hull_as_it_was() -> None:
     """Both bounds are named, and what comes nearest; no bit and no step is left."""
     hull = small()
-    before, volume = hull.fingerprint, ah.hydrostatics(hull).volume
+    before, volume = hull.fingerprint, hull.hydrostatics().volume
     with pytest.raises(UnreachableError) as caught:
-        ah.vary(
-            hull, reach={"volume": 1.1 * volume}, free=["breadth", FULLER], in_place=True,
+        hull.vary(
+            reach={"volume": 1.1 * volume}, free=["breadth", FULLER], in_place=True,
             bounds={"breadth": (9.9, 10.1), "fuller": (-1.0, 0.5)},
         )  # fmt: skip
     assert caught.value.bounds == ("breadth", "fuller")
     assert hull.fingerprint == before
     assert not hull.history
-    nearest = ah.vary(hull, set={"breadth": 10.1}, layers=[_half_of(FULLER)]).hull
-    assert caught.value.best == pytest.approx(ah.hydrostatics(nearest).volume, rel=1e-9)
+    nearest = hull.vary(set={"breadth": 10.1}, layers=[_half_of(FULLER)]).hull
+    assert caught.value.best == pytest.approx(nearest.hydrostatics().volume, rel=1e-9)
 
 
 def _half_of(layer: dict[str, Any]) -> FieldLayer:
@@ -242,7 +242,7 @@ def test_what_cannot_be_meant_is_told(
     """One line that names what is wrong; the hull is as it was."""
     before = parent.fingerprint
     with pytest.raises(error, match=words) as caught:
-        ah.vary(parent, in_place=True, **asked)
+        parent.vary(in_place=True, **asked)
     assert "\n" not in str(caught.value)
     assert parent.fingerprint == before
 
@@ -256,10 +256,10 @@ def test_what_some_hull_has_can_be_reached(wider: float, shifted: float, fuller:
     hulls = problem(hull, ["volume", "lcb", "kmt"], free)
     values = hulls.at(changes).values
     wanted = dict(zip(hulls.outputs, values.tolist(), strict=True))
-    report = ah.vary(hull, reach=wanted, free=free, in_place=True).report.aim
+    report = hull.vary(reach=wanted, free=free, in_place=True).report.aim
     assert report is not None
     assert report.amplitudes == pytest.approx(changes, abs=0.02)
-    after = ah.hydrostatics(hull)
+    after = hull.hydrostatics()
     assert [getattr(after, name) for name in wanted] == pytest.approx(values, rel=1e-10)
     assert len(hull.history) <= 1
     for _ in hull.history:

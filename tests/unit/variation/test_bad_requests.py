@@ -124,7 +124,7 @@ def refused(hull: ah.Hull, given: Given) -> AssocHullError:
     """Vary in place; give the error, which is one line and leaves the hull as it was."""
     before, steps = hull.fingerprint, hull.history
     with pytest.raises(AssocHullError) as found:
-        ah.vary(hull, **given, in_place=True)
+        hull.vary(**given, in_place=True)
     assert "\n" not in str(found.value)
     assert len(str(found.value)) < 400
     assert (hull.fingerprint, hull.history) == (before, steps)
@@ -269,15 +269,15 @@ def test_what_a_parent_has_not_cannot_be_varied(wigley: ah.Hull, name: str, why:
 @pytest.mark.parametrize("given", [3, None, "ship.hull"])
 def test_what_is_no_hull_is_not_varied(given: Any) -> None:
     """Neither by a call nor by a script."""
-    for act in (ah.vary, ah.vary_by):
+    for act in (ah.Hull.vary, ah.Hull.vary_by):
         with pytest.raises(WrongTypeError, match=r"the hull is .*, in vary; give a Hull"):
-            act(given, **({"set": {"breadth": 11}} if act is ah.vary else {"script": SCREW}))
+            act(given, **({"set": {"breadth": 11}} if act is ah.Hull.vary else {"script": SCREW}))
 
 
 def test_a_hull_that_is_being_edited_is_not_varied(wigley: ah.Hull) -> None:
     """Neither it nor a copy of it: what would be varied is not there yet."""
     with wigley.edit("open"), pytest.raises(AssocHullError, match="vary"):
-        ah.vary(wigley, set={"breadth": 11.0})
+        wigley.vary(set={"breadth": 11.0})
     assert wigley.history == ()
 
 

@@ -13,7 +13,7 @@ def test_lines_that_come_to_end_elsewhere_keep_their_bits_outside(bulk_carrier: 
     Crossings that are computed from a driver which passes through the region may drift; all
     else that defines a curve stays, the points of followers too.
     """
-    found = ah.vary(bulk_carrier, set={"shaft_height": 6.0})
+    found = bulk_carrier.vary(set={"shaft_height": 6.0})
     before, after = bulk_carrier.state, found.hull.state
     rows = before.live("rows")
     place = before.rows.xyz.data[rows]

@@ -11,13 +11,13 @@ def test_lines_that_went_along_under_their_names_are_told() -> None:
     parent = ah.examples.wigley()
     asked = {"draught": 7.0}
     told = "10 waterlines and buttocks went along and kept their names: WL 6.25 is at 7 m"
-    assert told in ah.vary(parent, set=asked).report.notes
-    assert told not in ah.vary(parent, set=asked, planes="stay").report.notes
+    assert told in parent.vary(set=asked).report.notes
+    assert told not in parent.vary(set=asked, planes="stay").report.notes
 
 
 def test_values_that_changed_unasked_are_told() -> None:
     """On a hull whose depth goes with its draught; what was asked for is not told again."""
-    report = ah.vary(ah.examples.wigley(), set={"draught": 7.0}).report
+    report = ah.examples.wigley().vary(set={"draught": 7.0}).report
     told = [note for note in report.notes if note.startswith("also changed: ")]
     assert len(told) == 1
     assert "depth 9.375 -> 10.125 m" in told[0]

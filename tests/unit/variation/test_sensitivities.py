@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-import assoc_hull as ah
 from assoc_hull.analysis.derivatives.parameters import DRAUGHT, PointMove
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.hull import Hull
@@ -34,7 +33,7 @@ def series(shipped: Callable[[str], Hull]) -> Hull:
 @pytest.fixture(scope="module")
 def every(wigley: Hull) -> Sensitivities:
     """The usual outputs by all that the hull has."""
-    return ah.sensitivities(wigley)
+    return wigley.sensitivities()
 
 
 def test_dimensions_scale_the_hull(every: Sensitivities, wigley: Hull) -> None:
@@ -58,9 +57,9 @@ def test_what_the_hull_has_not_is_told(every: Sensitivities) -> None:
 def test_the_table_tells_what_a_variation_does(series: Hull) -> None:
     """Central differences of varied hulls, whose lines are all carried, cut and lofted anew."""
     outputs, change = ["volume", "lcb", "cb", "kmt"], 0.05
-    found = ah.sensitivities(series, outputs, ["fore_shift"])
-    ends = [ah.vary(series, set={"fore_shift": sign * change}).hull for sign in (1.0, -1.0)]
-    plus, minus = (ah.hydrostatics(each, estimate=False) for each in ends)
+    found = series.sensitivities(outputs, ["fore_shift"])
+    ends = [series.vary(set={"fore_shift": sign * change}).hull for sign in (1.0, -1.0)]
+    plus, minus = (each.hydrostatics(estimate=False) for each in ends)
     for i, field in enumerate(outputs):
         wanted = (getattr(plus, field) - getattr(minus, field)) / (2.0 * change)
         size = max(abs(wanted), abs(found.values[i]) / series.particulars.length)
@@ -75,14 +74,14 @@ def test_layers_points_and_the_draught_stand_beside_names(wigley: Hull) -> None:
         for name, size in (("deeper", -0.05), ("twice", -0.1))
     )
     point = PointMove("WL 2.5 x ST 7", follow=True)
-    found = ah.sensitivities(
-        wigley, ["volume", "kb"], [deeper, twice, point, DRAUGHT, "mean_draught", "trim"]
+    found = wigley.sensitivities(
+        ["volume", "kb"], [deeper, twice, point, DRAUGHT, "mean_draught", "trim"]
     )
     one, two = found.row("volume")[:2]
     assert one > 0.0
     assert_allclose(two, 2.0 * one, rtol=1e-6)
     assert found.of("volume", "draught") == found.of("volume", "mean_draught")
-    area = ah.hydrostatics(wigley, estimate=False).waterplane_area
+    area = wigley.hydrostatics(estimate=False).waterplane_area
     assert_allclose(found.of("volume", "mean_draught"), area, rtol=1e-4)
     assert found.of("volume", point.title) > 0.0
     assert found.per[:3] == ("-", "-", "m")
@@ -90,7 +89,7 @@ def test_layers_points_and_the_draught_stand_beside_names(wigley: Hull) -> None:
 
 def test_it_can_be_read_as_data_and_as_text(wigley: Hull) -> None:
     """JSON has all of it; the text is aligned, tells units, and what hangs on differences."""
-    found = ah.sensitivities(wigley, ["volume", "L_E"], ["breadth", "depth"])
+    found = wigley.sensitivities(["volume", "L_E"], ["breadth", "depth"])
     data = json.loads(found.to_json())
     assert data["derivatives"] == found.matrix.tolist()
     assert [each["exact"] for each in data["outputs"]] == [True, False]
@@ -121,7 +120,7 @@ def test_what_is_not_known_is_refused(
 ) -> None:
     """With the nearest names, or why not."""
     with pytest.raises(error, match=words):
-        ah.sensitivities(wigley, outputs, parameters)  # type: ignore[arg-type]
+        wigley.sensitivities(outputs, parameters)  # type: ignore[arg-type]
 
 
 def test_the_table_knows_its_names(every: Sensitivities) -> None:

@@ -31,7 +31,7 @@ def test_lines_drive_whose_planes_stay_or_may_go(
     wigley: ah.Hull, name: str, value: float, stations: Stations, planes: Planes, families: set[str]
 ) -> None:
     """Waterlines stay where they are under a breadth; all others are cut again."""
-    found = ah.vary(wigley, set={name: value}, stations=stations, planes=planes).report.drivers
+    found = wigley.vary(set={name: value}, stations=stations, planes=planes).report.drivers
     assert {each.split()[0] for each in found if each.startswith(("ST", "WL"))} == families
 
 
@@ -59,17 +59,17 @@ def test_the_stored_depth_is_that_of_the_deck(
     wigley: ah.Hull, value: dict[str, float], depth: float | None
 ) -> None:
     """A deeper ship has a higher deck, and her particulars say so."""
-    variant = ah.vary(wigley, set=value).hull
-    measured = ah.measure(variant)["depth"]
+    variant = wigley.vary(set=value).hull
+    measured = variant.measure()["depth"]
     assert variant.particulars.depth == pytest.approx(depth or measured, abs=1e-9)
-    assert measured > ah.measure(wigley)["depth"]
+    assert measured > wigley.measure()["depth"]
 
 
 def test_what_lofting_misses_is_corrected(series60_70: ah.Hull) -> None:
     """The bilge of a broader ship is measured at a curve through new points: rounds, then 1e-6."""
     asked = {"breadth": 17.25, "bilge_radius": 1.88}
-    variant = ah.vary(series60_70, set=asked)
+    variant = series60_70.vary(set=asked)
     assert variant.report.rounds > 1
-    measured = ah.measure(variant.hull, only=list(asked))
+    measured = variant.hull.measure(only=list(asked))
     assert dict(measured) == pytest.approx(asked, abs=1e-6)
     assert variant.hull.check() == ()

@@ -1,7 +1,9 @@
 """Entries that compare volumes, areas, inertias and dimensions with one another.
 
 All take values of other entries only, never the hull. Prisms have the greatest section, A_max,
-unless the definition says otherwise; waterplanes are compared with the rectangle about them.
+unless the definition says otherwise; waterplanes are compared with the rectangle about them. Each
+part counts its entries from where the part before ended: the order in this file is that of the
+catalogue.
 """
 
 from __future__ import annotations
@@ -25,12 +27,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Entries that compare volumes and section areas with boxes and prisms about them.
-#
-# Prisms have the greatest section, A_max, unless the definition says otherwise.
+# Volumes and section areas, with boxes and prisms about them.
 
 _ROUNDING = 1e-6
-"""By so much a coefficient may pass 1: a box has one of 1."""
+"""Rounding by which a coefficient may pass 1: that of a box is 1."""
 
 
 @parameter(
@@ -180,7 +180,7 @@ VOLUME_COEFFICIENTS = entries_in(vars())
 
 
 # --------------------------------------------------------------------------------------
-# Entries that compare areas and inertias of the waterplane with the rectangle about it.
+# Areas and inertias of the waterplane, with the rectangle about it.
 
 _LEAST = 1e-6
 """Of a prism: what sections leave of it must be more, or a ratio to it is one of roundings."""
@@ -324,7 +324,7 @@ WATERPLANE_COEFFICIENTS = entries_in(vars())[len(VOLUME_COEFFICIENTS) :]
 
 
 # --------------------------------------------------------------------------------------
-# Entries that compare the principal dimensions and the volume with one another.
+# The principal dimensions and the volume.
 
 
 @parameter(

@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Entries that are given, not measured: principal dimensions and draughts.
+# Given: principal dimensions and draughts.
 
 
 @parameter(
@@ -85,7 +85,7 @@ PARTICULARS = entries_in(vars())
 
 
 # --------------------------------------------------------------------------------------
-# Entries that the record of hydrostatics holds.
+# Held by the record of hydrostatics.
 
 
 def of_waterplane(number: float | None) -> MeasuredValue:

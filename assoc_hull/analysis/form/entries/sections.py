@@ -1,7 +1,8 @@
 """Entries of single sections: midship, fore body, after body.
 
-All are measured of half sections (`assoc_hull.analysis.form.half_section`): bilge radius, diagonal
-and fullness of the section with a third of the largest area, half-breadths at the screw, U or V.
+All are measured of half sections (`assoc_hull.analysis.form.half_section`), to port, m: bilge
+radius, diagonal and fullness of the section with a third of the largest area, half-breadths at the
+screw, U or V. Definitions stand in the entries; their order is that of the catalogue.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Entries of the midship section.
+# Midship.
 
 _LEAST_TURN = 60.0
 """An arc of the section that turns by less (degrees) is no bilge."""
@@ -46,7 +47,7 @@ _NOISE = 1e-5
 """Splines through points on a circle lie off it by less (m)."""
 
 _FLAT = 1e-3
-"""A section that comes so near (m) to the base line and to B/2 has a flat bottom and side."""
+"""A section that comes this near (m) to the base line and to B/2 has a flat bottom and side."""
 
 _CHORDS = 16
 """Chords of each segment of a section among which arcs are looked for."""
@@ -80,7 +81,7 @@ def _arcs(section: HalfSection) -> list[CircularArc]:
 
 
 def _smooth_runs(points: FloatArray) -> list[FloatArray]:
-    """Part a polyline at its corners, (n, 2)."""
+    """Split a polyline (n, 2), m, at its corners: turns of more than 20 degrees."""
     step = np.diff(points, axis=0)
     angle = np.unwrap(np.arctan2(step[:, 1], step[:, 0]))
     corner = np.flatnonzero(np.abs(np.diff(angle)) > math.radians(20.0)) + 1
@@ -114,7 +115,7 @@ MIDSHIP = entries_in(vars())
 
 
 # --------------------------------------------------------------------------------------
-# Entries of the section of the fore body, and of the one that has a third of the largest area.
+# Fore body, and the section that has a third of the largest area.
 
 
 @parameter(
@@ -124,6 +125,9 @@ MIDSHIP = entries_in(vars())
 )  # fmt: skip
 def fore_radius(shape: FloatingShape) -> MeasuredValue:
     return radius_of_three(section_at(shape, shape.x_of(19.5)), shape.draught)
+
+
+# Diagonal of the fore body.
 
 
 @parameter(
@@ -185,7 +189,7 @@ def on_diagonal(shape: FloatingShape, x: float) -> MeasuredValue:
 
 
 def _on_diagonal(section: HalfSection, breadth: float, draught: float) -> FloatArray:
-    """Give how far from its upper end a diagonal meets a half section, m."""
+    """Give how far from its upper end a diagonal cuts a half section, (k,), m."""
     size = math.hypot(draught, breadth)
     normal = np.array([0.0, draught, breadth]) / size
     found = points_on_plane(section.curves, normal, breadth * draught / size).xyz
@@ -207,7 +211,7 @@ FORE_SECTION = entries_in(vars())[len(MIDSHIP) :]
 
 
 # --------------------------------------------------------------------------------------
-# Entries of sections of the after body: half-breadths at the screw, U or V, fullness, radius.
+# After body: half-breadths at the screw, U or V, fullness, radius.
 
 _CHORD = (
     "between the outer skin of the half section and the chord from its lowest place to the "
@@ -258,6 +262,7 @@ def inclination(shape: FloatingShape, height: float, at_height: float) -> Measur
 
 
 def _off_chord(shape: FloatingShape, station: float, height: float) -> MeasuredValue:
+    """Give the area (m2) between outer skin and chord, from `height` to T; + outside the chord."""
     section = section_at(shape, shape.x_of(station))
     if section is None:
         return Absent(f"no section at station {station:g}")

@@ -1,8 +1,9 @@
 """Twin skegs and the tunnel between them: measures, and the entries made of them.
 
 A ship has twin skegs if the half sections of her after body run down from the centre plane to a
-lowest place off it. Between the profile, which is the tunnel's top line there, and the lowest
-places lies the skeg as seen from the side. Entries of the stern use two of the measures.
+lowest point off it. Between the profile, which is the tunnel's top line there, and these lowest
+points lies the skeg as seen from the side. Lengths in m, x from the AP. Entries of the stern use
+two of the measures.
 """
 
 from __future__ import annotations
@@ -42,11 +43,7 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Measures of twin skegs: the tunnel between them, their lower edge, their centre planes.
-#
-# A ship has twin skegs if the half sections of her after body run down from the centre plane to a
-# lowest place off it. Between the profile, which is the tunnel's top line there, and the lowest
-# places lies the skeg as seen from the side.
+# Measures.
 
 SINGLE = Absent("single skeg")
 
@@ -55,13 +52,13 @@ _DEEP = 0.02
 draughts) is one of twin skegs."""
 
 _SHALLOW = 5e-6
-"""So deep a skeg (in design draughts) has ended."""
+"""A skeg no deeper than this (in design draughts) has ended."""
 
 _STRAIGHT = 1e-5
 """A lower edge that leaves its chord by less (in lengths of the chord) is straight."""
 
 _BASE = 1e-6
-"""So near to the base line (m) a place is on it."""
+"""A point this near to the base line (m) is on it."""
 
 _POINTS, _EDGE = 4, 49
 """Gauss points between stations, and places on the lower edge to which a circle is fitted."""
@@ -195,7 +192,7 @@ def middle_of_skeg(shape: FloatingShape, x: float, z: float) -> float | None:
 
 
 # --------------------------------------------------------------------------------------
-# Entries of twin skegs and the tunnel between them.
+# Entries.
 
 _NO_SKEG = Absent("no skeg at station 1")
 

@@ -27,7 +27,7 @@ def ship() -> ah.Hull:
 @pytest.fixture(scope="module")
 def table(ship: ah.Hull) -> FairnessTable:
     """All its curves."""
-    found = ah.fairness(ship)
+    found = ah.form.fairness(ship)
     assert isinstance(found, FairnessTable)
     return found
 
@@ -55,9 +55,9 @@ def test_a_line_and_a_curve_have_the_records_of_the_net(
 ) -> None:
     """The same numbers, whatever is asked for together."""
     line = ship.lines["WL 0.75"]
-    for found in (ah.fairness(line), ah.fairness(line.curves[0])):
+    for found in (ah.form.fairness(line), ah.form.fairness(line.curves[0])):
         assert tuple(found) == table["WL 0.75"]  # type: ignore[arg-type]
-    assert tuple(ah.fairness(ship, lines=["WL 0.75"])) == table["WL 0.75"]  # type: ignore[arg-type]
+    assert tuple(ah.form.fairness(ship, lines=["WL 0.75"])) == table["WL 0.75"]  # type: ignore[arg-type]
 
 
 def test_gaps_of_watched_crossings_are_offsets(ship: ah.Hull, table: FairnessTable) -> None:
@@ -75,7 +75,7 @@ def test_wanted_inflections_go_by_name(ship: ah.Hull, table: FairnessTable) -> N
     """A line that wants as many as it has keeps the criterion; others want none."""
     [before] = table["WL 0.75"]
     assert before.inflections
-    after = ah.fairness(ship, allowed={"WL 0.75": before.inflections})
+    after = ah.form.fairness(ship, allowed={"WL 0.75": before.inflections})
     assert isinstance(after, FairnessTable)
     assert after["WL 0.75"][0].passed["inflections"] is True
     assert "WL 0.75" not in after.failures["inflections"]
@@ -90,7 +90,7 @@ def test_a_knuckle_of_the_net_is_meant() -> None:
     hull = ah.Hull.from_lines(
         source, particulars=ah.Particulars("a", 10.0, 4.0, 2.0, 1.0), associations=[]
     )
-    found = ah.fairness(hull)
+    found = ah.form.fairness(hull)
     assert isinstance(found, FairnessTable)
     [record] = found["WL 1"]
     assert (record.knuckles, record.angle_jump, record.failed) == (1, 0.0, ())
@@ -99,11 +99,11 @@ def test_a_knuckle_of_the_net_is_meant() -> None:
 def test_an_edit_is_judged_before_and_after() -> None:
     """A point pushed 30 mm: its own line bends more, lines far away are the same."""
     hull = ah.examples.wigley()
-    before = ah.fairness(hull)
+    before = ah.form.fairness(hull)
     assert isinstance(before, FairnessTable)
     with hull.edit("push") as edit:
         edit.move("WL 2.5 x ST 3", y=hull.points["WL 2.5 x ST 3"].y + 0.03)
-    after = ah.fairness(hull)
+    after = ah.form.fairness(hull)
     assert isinstance(after, FairnessTable)
     pairs = {pair.before.name: pair for pair in before.pairs(after)}
     for line in ("WL 2.5", "ST 3"):
@@ -129,7 +129,7 @@ CURVES: dict[str, Any] = {
 @pytest.mark.parametrize("kind", CURVES)
 def test_a_plane_curve_has_one_record(kind: str) -> None:
     """Classical curves and graphs, with offsets of their own."""
-    record = ah.fairness(CURVES[kind], offsets=[(0.5, 0.1)], tolerances=0.2)
+    record = ah.form.fairness(CURVES[kind], offsets=[(0.5, 0.1)], tolerances=0.2)
     assert not isinstance(record, FairnessTable)
     assert (record.name, record.offsets) == (kind, 1)
     assert record.deviation_max is not None
@@ -158,15 +158,15 @@ def test_what_a_hull_cannot_answer_is_refused(
 ) -> None:
     """One line that says what to give."""
     with pytest.raises(kind, match=message):
-        ah.fairness(ship, **call)
+        ah.form.fairness(ship, **call)
 
 
 def test_what_is_no_curve_is_refused() -> None:
     """A number, a chain of no arcs, and offsets of another count."""
     with pytest.raises(WrongTypeError, match="no curve that can be looked at"):
-        ah.fairness(3.0)  # type: ignore[arg-type]
+        ah.form.fairness(3.0)  # type: ignore[arg-type]
     none = PlaneArcs(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros(0))
     with pytest.raises(GeometryError, match="fairness: curve has no length"):
-        ah.fairness(none)
+        ah.form.fairness(none)
     with pytest.raises(GeometryError, match="offsets and tolerances differ in length"):
-        ah.fairness(CURVES["graph"], offsets=[(0, 0)], tolerances=[0.1, 0.2])
+        ah.form.fairness(CURVES["graph"], offsets=[(0, 0)], tolerances=[0.1, 0.2])

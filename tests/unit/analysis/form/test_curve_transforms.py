@@ -24,7 +24,7 @@ from assoc_hull.errors import AssocHullError, BadInputError, ForeignPointError, 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.integrals.series import composite_rule, rule_on_pieces
 from assoc_hull.hull import Hull
-from assoc_hull.sources import examples
+from assoc_hull.hull.sources import examples
 from tests.unit.test_bad_arguments import BAD
 
 AREAS = "sectional areas"

@@ -20,9 +20,7 @@ def test_an_entry_that_gives_no_number_is_refused_by_its_symbol(given: object) -
         "own", name="own", unit="-", table="measures", definition="-", source="-", needs=("B",)
     )(lambda _: given)  # type: ignore[arg-type,return-value]
     with pytest.raises(TypeError, match="'own' gives"):
-        ah.form_parameters(
-            ah.examples.wigley(stations=9, waterlines=6), only=["own"], further=[own]
-        )
+        ah.examples.wigley(stations=9, waterlines=6).form_parameters(only=["own"], further=[own])
 
 
 def test_an_entry_may_give_a_number_of_numpy() -> None:
@@ -31,7 +29,7 @@ def test_an_entry_may_give_a_number_of_numpy() -> None:
         "own", name="own", unit="-", table="measures", definition="-", source="-", needs=("B",)
     )(lambda breadth: np.float64(breadth))
     hull = ah.examples.wigley(stations=9, waterlines=6)
-    assert ah.form_parameters(hull, only=["own"], further=[own])["own"].number == 10.0
+    assert hull.form_parameters(only=["own"], further=[own])["own"].number == 10.0
 
 
 def test_an_entry_belongs_to_a_table_of_the_catalogue() -> None:
@@ -42,17 +40,17 @@ def test_an_entry_belongs_to_a_table_of_the_catalogue() -> None:
 
 def test_a_section_coefficient_above_one_is_told(bulk_carrier: ah.Hull) -> None:
     """In trim the largest section may lie deeper than the mean draught."""
-    trimmed = ah.form_parameters(bulk_carrier, draughts=(19.0, 17.0), only=["Cm"])["Cm"]
+    trimmed = bulk_carrier.form_parameters(draughts=(19.0, 17.0), only=["Cm"])["Cm"]
     assert (trimmed.number or 0.0) > 1.0
     assert "deeper than the mean draught" in (trimmed.warning or "")
-    assert ah.form_parameters(bulk_carrier, only=["Cm"])["Cm"].warning is None
+    assert bulk_carrier.form_parameters(only=["Cm"])["Cm"].warning is None
 
 
 def test_a_blunt_bow_warns_of_its_angle(bulk_carrier: ah.Hull, series60_60: ah.Hull) -> None:
     """Where the angle hangs on the place at which it is read, the value says so; a fine bow not."""
-    blunt = ah.form_parameters(bulk_carrier, draught=14.4, only=["Eangle"])["Eangle"]
+    blunt = bulk_carrier.form_parameters(draught=14.4, only=["Eangle"])["Eangle"]
     assert "0.02 B from the centre plane" in (blunt.warning or "")
-    fine = ah.form_parameters(series60_60, only=["Eangle"])["Eangle"]
+    fine = series60_60.form_parameters(only=["Eangle"])["Eangle"]
     assert fine.warning is None
 
 

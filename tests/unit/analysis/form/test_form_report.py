@@ -53,7 +53,7 @@ def test_the_particulars_stand_there_whatever_is_wanted(hull: ah.Hull) -> None:
 def test_values_are_those_of_the_mapping(hull: ah.Hull) -> None:
     """The report computes nothing of its own."""
     report = form_report(hull, draughts=(6.0, 5.5))
-    assert dict(report.values) == dict(ah.form_parameters(hull, draughts=(6.0, 5.5)))
+    assert dict(report.values) == dict(hull.form_parameters(draughts=(6.0, 5.5)))
 
 
 def test_a_reason_is_a_note_to_which_the_line_refers(hull: ah.Hull) -> None:
@@ -86,7 +86,7 @@ def test_a_part_of_the_catalogue_may_be_wanted(hull: ah.Hull) -> None:
 
 def test_the_head_says_what_the_numbers_hold_good_for(hull: ah.Hull) -> None:
     """Ship, datum, water, screw, fingerprint, and the date if there is one."""
-    screw = ah.Screw(height=2.0, diameter=3.0, x=2.5, spacing=4.0, boss_diameter=0.6)
+    screw = ah.form.Screw(height=2.0, diameter=3.0, x=2.5, spacing=4.0, boss_diameter=0.6)
     report = form_report(hull, only=["Cb"], screw=screw, date="2026-01-31", rho=1.0)
     head = dict(report.lines())
     assert head["ship"] == "Wigley"

@@ -9,7 +9,7 @@ from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.sections import areas_at
 from assoc_hull.geometry.integrals.area_moments import section_area
 from assoc_hull.hull import Hull
-from assoc_hull.sources import examples
+from assoc_hull.hull.sources import examples
 
 
 def test_a_section_between_stations_is_one_curve_from_keel_to_deck() -> None:

@@ -11,7 +11,7 @@ from assoc_hull.analysis.hydrostatics.flotation import flotation
 def test_a_hull_that_was_measured_goes_when_nobody_holds_it() -> None:
     """Neither hydrostatics nor form parameters keep a hull alive."""
     hull = ah.examples.wigley()
-    ah.hydrostatics(hull, draught=5.0, estimate=False)
+    hull.hydrostatics(draught=5.0, estimate=False)
     form_parameters(hull, draught=5.0)
     gone = weakref.ref(hull.state)
     gc.unfreeze()  # what is loaded is set aside from collections

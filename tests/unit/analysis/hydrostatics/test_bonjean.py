@@ -10,9 +10,9 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.section_areas import bonjean, section_areas
+from assoc_hull.geometry.curves import IsoCurves
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.sections import sections_and_moments_below
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 
 @pytest.mark.parametrize("name", ["wigley", "series60_70", "bulk_carrier"])

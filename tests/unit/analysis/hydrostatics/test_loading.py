@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from assoc_hull.analysis.hydrostatics.draughts_from_weight import Load, position_under_load
 from assoc_hull.analysis.hydrostatics.floating_body import (
     Appendage,
     FloatingPosition,
     deck_edge_heel,
     least_freeboard,
 )
-from assoc_hull.analysis.hydrostatics.immersion import Load, position_under_load
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from tests.floating_bodies import Box, Wigley
 

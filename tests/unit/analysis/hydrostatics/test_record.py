@@ -250,7 +250,7 @@ def test_a_table_is_indexed_by_draught_and_trim() -> None:
 
 def test_the_page_describes_every_value() -> None:
     """`docs/hydrostatics.md` has a row for each, with symbol, unit, datum, sign and formula."""
-    page = Path(__file__).resolve().parents[3] / "docs" / "hydrostatics.md"
+    page = Path(__file__).resolve().parents[4] / "docs" / "hydrostatics.md"
     rows = [line for line in page.read_text("utf-8").splitlines() if line.startswith("| `")]
     assert rows == [
         f"| `{each.name}` | {each.symbol} | {each.unit} | {each.title} | {each.formula} |"

@@ -13,9 +13,13 @@ from assoc_hull.analysis.net.curve_net import (
     station_planes,
     thinned_net,
 )
-from assoc_hull.analysis.net.strip_anchors import line_spans, strip_anchors
 from assoc_hull.analysis.net.strip_boundaries import StripBoundary, boundary_arcs, strip_boundaries
-from assoc_hull.analysis.net.surface_layout import lay_out_surface, parallel_slabs
+from assoc_hull.analysis.net.surface_layout import (
+    lay_out_surface,
+    line_spans,
+    parallel_slabs,
+    strip_anchors,
+)
 from assoc_hull.geometry.curves import PointKind
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.splines.evaluation import evaluate
@@ -143,7 +147,7 @@ def test_a_few_sections_have_numbers_and_errors(count: int) -> None:
         for x in np.linspace(0.0, 100.0, count).tolist()
     ]  # fmt: skip
     ship = ah.Particulars("box", 100.0, 20.0, 12.0, 6.0)
-    found = ah.hydrostatics(ah.Hull.from_lines(lines, particulars=ship, associations=[]))
+    found = ah.Hull.from_lines(lines, particulars=ship, associations=[]).hydrostatics()
     assert found.volume == pytest.approx(12000.0, rel=1e-12)
     assert (found.error["volume"] or 0.0) > 0.0
 
@@ -154,7 +158,7 @@ def test_two_sections_at_least() -> None:
     with hull.edit("one left") as edit:
         for name in list(hull.groups["sections"].lines)[1:]:
             edit.remove_line(hull.groups["sections"].lines[name])
-    with pytest.raises(ah.BadInputError, match=r"1 section"):
+    with pytest.raises(ah.errors.BadInputError, match=r"1 section"):
         flotation(hull.state)
 
 

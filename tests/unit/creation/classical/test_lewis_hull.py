@@ -52,7 +52,7 @@ def test_the_net_is_whole_and_has_the_areas(hull: ah.Hull) -> None:
     report = made.report(hull.state)
     volume = report.figure("volume")
     assert volume.net == pytest.approx(volume.value, rel=1e-4)
-    assert ah.hydrostatics(hull).volume == pytest.approx(volume.value, rel=1e-4)
+    assert hull.hydrostatics().volume == pytest.approx(volume.value, rel=1e-4)
     assert report.figure("centre of volume, x").net == pytest.approx(60.0, abs=1e-6)
     worst = report.worst
     assert worst is not None

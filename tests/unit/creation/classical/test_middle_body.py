@@ -49,7 +49,7 @@ def test_the_net_of_a_middle_body_is_sound_and_has_its_volume(
 ) -> None:
     """No finding; to 1e-7 of the volume, the bilge being points on a circle."""
     assert hull.check() == ()
-    found = ah.hydrostatics(hull, draught=9.0)
+    found = hull.hydrostatics(draught=9.0)
     assert found.volume == pytest.approx(body.volume(9.0), rel=1e-7)
     figure = body.report(hull.state).figure("volume")
     assert figure.net == pytest.approx(found.volume, rel=1e-12)
@@ -112,9 +112,9 @@ def test_a_chine_is_a_middle_body_without_a_bilge() -> None:
 
 def test_a_middle_body_of_impossible_dimensions_is_refused() -> None:
     """One line, with what to do."""
-    with pytest.raises(ah.BadInputError, match="let bilge < draught <= depth"):
+    with pytest.raises(ah.errors.BadInputError, match="let bilge < draught <= depth"):
         MiddleBody(MIDSHIP, length=40.0, depth=14.0, draught=15.0)
-    with pytest.raises(ah.BadInputError, match="length"):
+    with pytest.raises(ah.errors.BadInputError, match="length"):
         MiddleBody(MIDSHIP, length=0.0, depth=14.0, draught=9.0)
 
 
@@ -123,5 +123,5 @@ def test_a_report_is_plain_values_too(body: MiddleBody) -> None:
     report = body.report()
     assert json.loads(json.dumps(report.as_dict()))["figures"][0]["value"] == body.volume(9.0)
     assert str(report).count("\n") == 3
-    with pytest.raises(ah.UnknownNameError):
+    with pytest.raises(ah.errors.UnknownNameError):
         report.figure("none")

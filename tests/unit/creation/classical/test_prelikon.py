@@ -95,8 +95,8 @@ def test_the_net_of_a_middle_body_is_sound_and_has_its_volume() -> None:
         assert figure.net == pytest.approx(figure.value, rel=1e-6)
     assert report.worst is not None
     assert report.worst.distance < 1e-5
-    bare = ah.hydrostatics(hull, draught=6.0)
-    dressed = ah.hydrostatics(hull, draught=6.0, appendages=ship.appendages)
+    bare = hull.hydrostatics(draught=6.0)
+    dressed = hull.hydrostatics(draught=6.0, appendages=ship.appendages)
     assert dressed.volume - bare.volume == pytest.approx(8.0, rel=1e-9)
 
 
@@ -114,7 +114,7 @@ def test_a_net_of_two_ends_alone_is_made_and_not_measured() -> None:
 def test_the_supply_ship_takes_other_dimensions(net: ah.Hull, name: str) -> None:
     """Two hundredths more: its stern is no circle, which would stay one and bend the planes."""
     asked = 1.02 * getattr(net.particulars, name)
-    varied = ah.vary(net, set={name: asked}).hull
+    varied = net.vary(set={name: asked}).hull
     assert (varied.check(), varied.verify()) == ((), ())
     assert getattr(varied.particulars, name) == pytest.approx(asked, rel=1e-3)
 

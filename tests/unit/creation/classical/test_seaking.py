@@ -84,7 +84,7 @@ def test_a_middle_body_of_boundary_data_has_the_volume_by_hand() -> None:
     assert f"{ship.volume(9.0):.5f}" == "11249.94226"
     hull = ah.Hull(classical_net(ship)[0])
     assert hull.check() == ()
-    assert ah.hydrostatics(hull, draught=9.0).volume == pytest.approx(ship.volume(9.0), rel=1e-6)
+    assert hull.hydrostatics(draught=9.0).volume == pytest.approx(ship.volume(9.0), rel=1e-6)
     worst = ship.report(hull.state).worst
     assert worst is not None
     assert worst.distance < 1e-5
@@ -193,7 +193,7 @@ def test_a_deck_with_a_step_is_built_section_by_section() -> None:
     clear = body(deck=deck, frames=np.array([5.0, 15, 22, 28, 35]))
     hull = ah.Hull(classical_net(clear)[0])
     assert hull.check() == ()
-    assert ah.hydrostatics(hull, draught=9.0).volume == pytest.approx(ship.volume(9.0), rel=2e-4)
+    assert hull.hydrostatics(draught=9.0).volume == pytest.approx(ship.volume(9.0), rel=2e-4)
 
 
 REFUSED: dict[str, tuple[str, Callable[[], object]]] = {

@@ -29,7 +29,7 @@ def test_a_planted_defect_is_named(state: HullState, name: str) -> None:
     The hull can be opened: what is derived from its tables waits until it is needed.
     """
     defect = planted(name, state)
-    found = check(Document(state), notes=True)
+    found = check(Document(state).state, notes=True)
     mine = [each for each in found if each.kind == defect.kind]
     assert any(defect.object in each.object for each in mine), found
     for each in found:
@@ -40,11 +40,11 @@ def test_a_planted_defect_is_named(state: HullState, name: str) -> None:
 def test_a_sound_hull_has_no_findings(state: HullState) -> None:
     """Neither when made nor after an edit."""
     document = Document(state)
-    assert check(document) == ()
+    assert check(document.state) == ()
     row = row_of(state)
     with Transaction(document, "move") as edit:
         edit.write(np.array([row]), state.rows.xyz.data[[row]] + [[0.0, 0.01, 0.0]], "move")
-    assert check(document) == ()
+    assert check(document.state) == ()
 
 
 def test_a_fold_is_named_with_its_place(state: HullState) -> None:

@@ -114,14 +114,14 @@ def test_points_that_the_definitions_do_not_know_keep_a_line(hull: ah.Hull) -> N
     """A placed one, a crossing that defines it: both are named."""
     with hull.edit("insert") as edit:
         edit.insert("ST 35", (35.0, 7.995, 5.2))
-    with pytest.raises(ah.BadInputError, match="ST 35 @ placed 1 was placed there"):
+    with pytest.raises(ah.errors.BadInputError, match="ST 35 @ placed 1 was placed there"):
         hull.apply("back", [{"op": "reattach", "line": "ST 35"}])
     with hull.edit("unpin") as edit:
         edit.unpin("ST 35 @ placed 1")
     hull.apply("back", [{"op": "reattach", "line": "ST 35"}])
     assert hull.check() == ()
     hull.apply("role", [{"op": "set_role", "crossing": "WL 3 x ST 35", "role": "shared"}])
-    with pytest.raises(ah.BadInputError, match="WL 3 x ST 35 defines the line"):
+    with pytest.raises(ah.errors.BadInputError, match="WL 3 x ST 35 defines the line"):
         hull.apply("back", [{"op": "reattach", "line": "ST 35"}])
 
 
@@ -172,7 +172,7 @@ def test_both_ways_in_one_edit_are_refused(hull: ah.Hull) -> None:
 
 def test_lines_without_definitions_cannot_return(hull: ah.Hull) -> None:
     """A waterline that no definition makes; one that is attached is left as it is."""
-    with pytest.raises(ah.BadInputError, match="no definition makes WL 3"):
+    with pytest.raises(ah.errors.BadInputError, match="no definition makes WL 3"):
         hull.apply("back", [{"op": "reattach", "line": "WL 3"}])
     hull.apply("back", [{"op": "reattach", "line": "ST 35"}])
     assert not hull.history

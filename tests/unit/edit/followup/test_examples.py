@@ -38,4 +38,6 @@ def test_a_feature_after_its_line_has_changed_its_points() -> None:
     state = wigley(stations=5, waterlines=4)
     line, rows = state.lines.key.data[4], state.curves.rows.data[state.lines.curves.data[4][0]]
     run = Feature("run", "straight", "run", (line,), rows[[0, 2]].tolist())
-    assert followed_feature(state, run, line_numbers(state)).points == tuple(rows[:3].tolist())
+    found = followed_feature(state, run, line_numbers(state))
+    assert found is not None
+    assert found.points == tuple(rows[:3].tolist())

@@ -93,7 +93,7 @@ def test_a_pull_that_cannot_reach_is_refused_with_both_numbers() -> None:
     with hull.edit("hold") as edit:
         edit.insert(hull.lines["ST 3"].curves[0], point.position)
     message = refused(
-        hull, lambda edit: edit.pull(point, 0.05, RADIUS), ah.RefusedEditError, "report"
+        hull, lambda edit: edit.pull(point, 0.05, RADIUS), ah.errors.RefusedEditError, "report"
     )
     assert "WL 2.305 x ST 3 came 0.0 mm along the normal where 50.0 mm were asked" in message
     assert "ST 3 drives it" in message
@@ -106,7 +106,7 @@ def test_a_pull_of_a_point_that_slides_along_the_hull_says_so() -> None:
     with hull.edit("role") as edit:
         edit.set_role(point, "shared")
     message = refused(
-        hull, lambda edit: edit.pull(point, 0.02, RADIUS), ah.RefusedEditError, "report"
+        hull, lambda edit: edit.pull(point, 0.02, RADIUS), ah.errors.RefusedEditError, "report"
     )
     assert "came 0.0 mm along the normal where 20.0 mm were asked" in message
     assert "it is free almost along the hull only" in message
@@ -134,7 +134,7 @@ def test_driven_crossings_of_series_60_come_where_they_are_pulled(series60_70: a
     for point in rng.sample(points, 30):
         try:
             reached = pulled(hull, point, 0.02, None)[1]
-        except (ah.RefusedEditError, ah.PointRoleError):
+        except (ah.errors.RefusedEditError, ah.errors.PointRoleError):
             continue
         assert reached == pytest.approx(0.02, rel=0.01)
         hull.undo()

@@ -70,10 +70,10 @@ def test_the_hull_has_another_name(hull: ah.Hull) -> None:
 @pytest.mark.parametrize(
     ("thing", "name", "error", "remedy"),
     [
-        pytest.param("sections", "frames", ah.BadInputError, "rename its lines", id="group"),
+        pytest.param("sections", "frames", ah.errors.BadInputError, "rename its lines", id="group"),
         pytest.param(POINT, "WL 2.5", ah.AssocHullError, "another name", id="name of a line"),
-        pytest.param(POINT, "a x b", ah.BadInputError, "leave out", id="like an address"),
-        pytest.param("nothing", "a", ah.UnknownNameError, "nothing", id="unknown"),
+        pytest.param(POINT, "a x b", ah.errors.BadInputError, "leave out", id="like an address"),
+        pytest.param("nothing", "a", ah.errors.UnknownNameError, "nothing", id="unknown"),
     ],
 )
 def test_what_keeps_its_name_says_so(
@@ -101,20 +101,20 @@ def test_another_hulls_things_are_refused(hull: ah.Hull) -> None:
     for thing in (other.lines["WL 2.5"], other.crossings[POINT], other.groups["sections"], other):
         with pytest.raises(ah.AssocHullError):
             renamed(hull, thing, "a")
-    with pytest.raises(ah.ForeignPointError), hull.edit("role") as edit:
+    with pytest.raises(ah.errors.ForeignPointError), hull.edit("role") as edit:
         edit.set_role(other.crossings[POINT], "watched")
 
 
 def test_lines_are_associated_by_their_groups(hull: ah.Hull) -> None:
     """The error names the group to say."""
-    with pytest.raises(ah.BadInputError, match="say 'waterlines'"), hull.edit("try") as edit:
+    with pytest.raises(ah.errors.BadInputError, match="say 'waterlines'"), hull.edit("try") as edit:
         edit.associate("WL 2.5", "sections")
-    with pytest.raises(ah.BadInputError, match="say 'sections'"), hull.edit("try") as edit:
+    with pytest.raises(ah.errors.BadInputError, match="say 'sections'"), hull.edit("try") as edit:
         edit.dissociate("waterlines", hull.lines["ST 3"])  # type: ignore[arg-type]
 
 
 def test_a_point_is_no_line(hull: ah.Hull) -> None:
     """To remove the line of a point, name the line."""
     for address in (POINT, "ST 3 [1]"):
-        with pytest.raises(ah.UnknownNameError), hull.edit("try") as edit:
+        with pytest.raises(ah.errors.UnknownNameError), hull.edit("try") as edit:
             edit.remove_line(address)

@@ -185,7 +185,10 @@ def test_a_preview_changes_nothing(hull: ah.Hull) -> None:
 
 def test_a_driven_crossing_names_the_way_out(hull: ah.Hull) -> None:
     """A waterline is moved by its sections, and these by their definitions."""
-    with pytest.raises(ah.PointRoleError, match=r"edit\.set_form"), hull.edit("move") as edit:
+    with (
+        pytest.raises(ah.errors.PointRoleError, match=r"edit\.set_form"),
+        hull.edit("move") as edit,
+    ):
         edit.move("WL 3 x ST 35", y=5.0)
     assert not hull.history
 
@@ -208,7 +211,7 @@ def test_keep_going_refuses_what_no_definition_gives(hull: ah.Hull) -> None:
     """Points of a section have no last good place: neither those drawn nor those defined."""
     before = hull.fingerprint
     edit = hull.edit("wrong", policy="keep_going")
-    with pytest.raises(ah.RefusedEditError, match="outside the box"), edit:
+    with pytest.raises(ah.errors.RefusedEditError, match="outside the box"), edit:
         edit.set_form("waterline", full=5.0)
     assert hull.fingerprint == before
     assert hull.verify() == ()

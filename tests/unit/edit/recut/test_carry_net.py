@@ -124,13 +124,13 @@ def test_a_bent_driver_and_a_second_modification_are_refused() -> None:
     """The hull is as it was."""
     hull = net()
     before = hull.fingerprint
-    with pytest.raises(ah.BadInputError, match="leaves its plane"):
+    with pytest.raises(ah.errors.BadInputError, match="leaves its plane"):
         carried(hull, lift(0.5), "waterlines")
     state, space = hull.state, SpaceMap(swell(0.01))
     planes = carry_planes(state, space, np.zeros(0, np.int64), follow=False)
     row = state.live("rows")[state.rows.sort.data[state.live("rows")] == Sort.CROSSING][:1]
     by = NetMap(space, np.zeros(0, np.int64), planes, state.features, state.particulars)
-    with pytest.raises(ah.BadInputError, match="another modification in one edit"):
+    with pytest.raises(ah.errors.BadInputError, match="another modification in one edit"):
         _both(hull, row, by)
     assert hull.fingerprint == before
 

@@ -179,12 +179,16 @@ def test_a_waterline_passes_its_points_and_is_smooth_at_the_parallel_part() -> N
 def test_blunt_ends_are_bent_over_their_chords() -> None:
     """Without a method the chords decide; the batten still passes all points, level at the side."""
     line = ParallelWaterline.make(6, RUN + ENTRANCE, parallel=(30, 80))
-    assert [type(each).__name__ for each in line.pieces] == ["Chorded", "Level", "Chorded"]
+    assert [type(each).__name__ for each in line.pieces] == [
+        "ChordedPiece",
+        "LevelPiece",
+        "ChordedPiece",
+    ]
     given = np.array(RUN, float)
     assert line.at(given[:, 0]) == pytest.approx(given[:, 1], abs=1e-9)
     assert line.slope([30 - 1e-9, 80 + 1e-9]) == pytest.approx([0, 0], abs=1e-8)
     fine = ParallelWaterline.make(6, [(0, 0), (10, 3), (20, 5)], end_slope=(0.4, 0.1))
-    assert type(fine.pieces[0]).__name__ == "Graph"
+    assert type(fine.pieces[0]).__name__ == "GraphPiece"
     assert fine.slope([0, 20]) == pytest.approx([0.4, 0.1], abs=1e-12)
 
 

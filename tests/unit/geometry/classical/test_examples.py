@@ -176,7 +176,7 @@ def test_tangents_of_one_part_of_a_line_between_its() -> None:
 
 def test_tangents_at_points_that_have_none_slopes_of_parabolas() -> None:
     """Tangents at points that have none: slopes of parabolas through three points each."""
-    found = biarc_tangents([[0, 0], [1, 0.8], [2.5, 1.5], [4, 1.7], [6, 1.2]])
+    found = biarc_tangents([[0.0, 0.0], [1, 0.8], [2.5, 1.5], [4, 1.7], [6, 1.2]])
     assert found.leaving_angles.round(6).tolist() == [
         0.776027,
         0.570949,
@@ -189,7 +189,7 @@ def test_tangents_at_points_that_have_none_slopes_of_parabolas() -> None:
 def test_a_line_through_points_as_a_chain_of_biarcs() -> None:
     """A line through points as a chain of biarcs: tangents first, then two arcs for each
     interval."""
-    chain = biarc_chain([[0, 0], [1, 0.8], [2.5, 1.5], [4, 1.7], [6, 1.2]])
+    chain = biarc_chain([[0.0, 0.0], [1, 0.8], [2.5, 1.5], [4, 1.7], [6, 1.2]])
     assert round(chain.length, 9) == 6.539769452
     assert chain.at([0.0, chain.length]).round(12).tolist() == [[0.0, 0.0], [6.0, 1.2]]
 

@@ -62,6 +62,6 @@ def test_what_one_surface_hands_to_another_at_a_border() -> None:
     """What one surface hands to another at a border: its row, and how it goes on across it."""
     net = np.zeros((4, 4, 3))
     net[..., 0], net[..., 1] = np.mgrid[0:4, 0:4]
-    knots = [0, 0, 0, 0, 3, 3, 3, 3]
+    knots = np.repeat([0.0, 3.0], 4)
     strip = strip_of(SplineSurface("plane", (3, 3), knots, knots, net), "u1")
     assert (strip.row[0].tolist(), strip.across[0].tolist()) == ([3.0, 0.0, 0.0], [1.0, 0.0, 0.0])

@@ -6,14 +6,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves
+from assoc_hull.geometry.floating.immersed_strips import prepare_strips
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, integrate_immersed
-from assoc_hull.geometry.floating.prepared_strips import prepare_strips
 from assoc_hull.geometry.floating.raked_strips import StripSpans, strip_spans
 from assoc_hull.geometry.floating.sections import areas_at, cross_section
 from assoc_hull.geometry.floating.slices import SliceIntegrals, integrate_slice
 from assoc_hull.geometry.numeric.quadrature import gauss
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 from tests.exact_hulls import FormStrips, box, ellipsoid, wigley
 
 LENGTH, BREADTH, DRAUGHT = 100.0, 10.0, 6.25

@@ -10,14 +10,13 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, Strips
+from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
     ImmersedIntegrals,
     integrate_immersed,
 )
-from assoc_hull.geometry.floating.prepared_strips import PreparedStrips, prepare_strips
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves, Strips
 from tests.exact_hulls import FormStrips, box, ellipsoid
 
 NAMES = [field.name for field in attrs.fields(ImmersedIntegrals)]

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
+from assoc_hull.geometry.curves import Strips
+from assoc_hull.geometry.floating.immersed_strips import prepare_strips
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
-from assoc_hull.geometry.floating.prepared_strips import prepare_strips
 from assoc_hull.geometry.floating.raked_strips import strip_spans
 from assoc_hull.geometry.floating.waterlines import (
     OuterLine,
@@ -13,7 +14,6 @@ from assoc_hull.geometry.floating.waterlines import (
     outer_line,
     waterline_arcs,
 )
-from assoc_hull.geometry.surfaces.isocurves import Strips
 from tests.exact_hulls import FormStrips, box, ellipsoid, wigley
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.testing import assert_array_equal
 
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.numeric.roots import bracketed_roots, false_position
 
 
@@ -19,8 +20,9 @@ def test_roots_of_many_polynomials_at_once_each() -> None:
 def test_roots_of_any_continuous_functions_in_brackets_all() -> None:
     """Roots of any continuous functions in brackets, all at once, without derivatives."""
 
-    def square(rows, at):
-        return at * at - 2.0
+    def square(_rows: IntArray, at: FloatArray) -> FloatArray:
+        value: FloatArray = at * at - 2.0
+        return value
 
     low, high = np.array([1.0]), np.array([2.0])
     root = false_position(square, low, high, np.array([-1.0]), np.array([2.0]))

@@ -5,18 +5,18 @@ import pytest
 from scipy.spatial import cKDTree
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.arcs import (
+from assoc_hull.geometry.patches.bernstein_polynomials import multiply
+from assoc_hull.geometry.patches.bezier_patches import Patches, patch_points
+from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches
+from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs
+from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
+from assoc_hull.geometry.patches.zero_set_arcs import (
     arc_heights,
     arcs_of,
     bernstein_table,
     patch_parameters,
     sample_arcs,
 )
-from assoc_hull.geometry.patches.bernstein_polynomials import multiply
-from assoc_hull.geometry.patches.bezier_patches import Patches, patch_points
-from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches
-from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs
-from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
 from tests.curved_patches import graph_plates, patch, random_nets
 from tests.unit.geometry.patches.isolines import batch, function, plate, pointwise, polynomial
 

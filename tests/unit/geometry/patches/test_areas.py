@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.arcs import arcs_of
 from assoc_hull.geometry.patches.area_elements import elements_on_grid
 from assoc_hull.geometry.patches.area_integrals import (
     AreaIntegrator,
@@ -19,6 +18,7 @@ from assoc_hull.geometry.patches.areas_by_sign import SignAreas, sign_areas
 from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
+from assoc_hull.geometry.patches.zero_set_arcs import arcs_of
 from tests.curved_patches import graph_plates, nets, patch, random_nets, references
 
 DEVELOPABLE = ("P13_plane", "P14_cyl", "P15_cyl_rot", "P16_cone_rot")

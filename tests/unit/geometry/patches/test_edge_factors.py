@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.arcs import arcs_of, bernstein_table
 from assoc_hull.geometry.patches.bernstein_polynomials import multiply
 from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.cell_subdivision import (
@@ -14,6 +13,7 @@ from assoc_hull.geometry.patches.cell_subdivision import (
 )
 from assoc_hull.geometry.patches.cells import CellKind
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
+from assoc_hull.geometry.patches.zero_set_arcs import arcs_of, bernstein_table
 from tests.curved_patches import patch
 from tests.polynomial_parts import restricted
 from tests.unit.geometry.patches.isolines import function, plate, polynomial

@@ -7,7 +7,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from assoc_hull.geometry.patches.adjacency import SIDES, Lattice, box_clusters
 from assoc_hull.geometry.patches.arc_chains import chain_arcs, find_joints, next_pieces
-from assoc_hull.geometry.patches.arcs import arc_heights, arcs_of, sample_arcs
 from assoc_hull.geometry.patches.area_integrals import AreaIntegrator, area_series, areas_over_boxes
 from assoc_hull.geometry.patches.areas_by_sign import (
     SAMPLES,
@@ -52,6 +51,7 @@ from assoc_hull.geometry.patches.curvature_functions import (
 from assoc_hull.geometry.patches.line_ends import ZeroSetLinks, borders_without_arcs
 from assoc_hull.geometry.patches.spline_surface import SplineSurface, checked_net
 from assoc_hull.geometry.patches.triangulation import facets_of, stitch_facets
+from assoc_hull.geometry.patches.zero_set_arcs import arc_heights, arcs_of, sample_arcs
 from assoc_hull.geometry.surfaces.triangles import boundary_edges
 
 
@@ -277,7 +277,7 @@ def test_points_of_patches_and_how_much_they_stretch() -> None:
     assert_allclose(
         patch_points(Patches.single(net), np.array([0]), here), [[1.5, 0.5, 0.0]], rtol=0, atol=0.1
     )
-    assert_allclose(area_stretch(Patches.single(net), [0], here), [6.0], rtol=0, atol=0.1)
+    assert_allclose(area_stretch(Patches.single(net), np.array([0]), here), [6.0], rtol=0, atol=0.1)
 
 
 def test_points_of_patches_with_derivatives_what_every_quantity() -> None:
@@ -351,10 +351,11 @@ def test_triangles_of_surfaces_sewn_where_their_borders_run_along() -> None:
     """Triangles of surfaces sewn where their borders run along each other, however each was
     cut."""
 
-    def plate(y, count):
+    def plate(y: float, count: int) -> SplineSurface:
         net = np.zeros((count, 2, 3))
         net[..., 0], net[..., 1] = np.mgrid[0 : 1 : count * 1j, y : y + 1 : 2j]
-        return SplineSurface("", (1, 1), [0, *range(count), count - 1], [0, 0, 1, 1], net)
+        along = np.array([0, *range(count), count - 1], float)
+        return SplineSurface("", (1, 1), along, np.array([0.0, 0, 1, 1]), net)
 
     both = facets_of([plate(0.0, 3), plate(1.0, 4)], 0.01, 2.0)
     assert (

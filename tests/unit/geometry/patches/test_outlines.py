@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.arcs import sample_arcs
 from assoc_hull.geometry.patches.cells import CellKind
 from assoc_hull.geometry.patches.outlines import (
     Outlines,
@@ -12,6 +11,7 @@ from assoc_hull.geometry.patches.outlines import (
     outlines_of_region,
     outlines_of_rest,
 )
+from assoc_hull.geometry.patches.zero_set_arcs import sample_arcs
 from tests.curved_patches import graph_plates, patch, random_nets
 from tests.unit.geometry.patches.isolines import monkey
 from tests.unit.geometry.patches.joined_lines import Joined, join, join_nets

@@ -8,7 +8,6 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.arcs import arcs_of
 from assoc_hull.geometry.patches.areas_by_sign import sign_areas
 from assoc_hull.geometry.patches.bernstein_polynomials import BoundedPolynomial
 from assoc_hull.geometry.patches.bezier_patches import (
@@ -27,6 +26,7 @@ from assoc_hull.geometry.patches.curvature_functions import (
     mean_function,
     umbilic_function,
 )
+from assoc_hull.geometry.patches.zero_set_arcs import arcs_of
 from tests.curved_patches import nets
 from tests.exact_patches import Exact, bernstein, exact_rational, product, total
 from tests.rational_surfaces import arc, revolved

@@ -7,11 +7,16 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.arcs import arc_heights, arcs_of, bernstein_table, polynomials_over
 from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.cell_subdivision import FIRST_CUT, OTHER_CUT, subdivide_patches
 from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
+from assoc_hull.geometry.patches.zero_set_arcs import (
+    arc_heights,
+    arcs_of,
+    bernstein_table,
+    polynomials_over,
+)
 from tests.curved_patches import graph_plates, nets, patch, random_nets
 from tests.unit.geometry.patches.isolines import (
     Box,

@@ -38,9 +38,10 @@ def test_smooth_curves_that_meet_the_penalised_fits_of_many() -> None:
     one = fit_polyline(np.column_stack([x, np.sin(0.3 * x)]), 5e-3)
     other = fit_polyline(np.column_stack([x, np.sin(0.3 * x) + 2e-3]), 5e-3)
     up = np.array([0.0, 1.0])
+    assert one is not None
+    assert other is not None
     ties = [FitTie(0, place, up, 1, place, up, 0.0) for place in (3.0, 5.0, 7.0)]
     low, high = (fit.draw().points for fit in join_fits([one, other], ties, 1e-4))
-    slice(8, 12)
     assert bool(np.abs(np.interp(5.0, *low.T) - np.interp(5.0, *high.T)) < 3e-4)
 
 
@@ -49,6 +50,7 @@ def test_where_a_curve_leaves_a_straight_line_the_zero() -> None:
     t = np.linspace(0.0, 12.0, 121)
     u = np.where(t > 10.0, 3.0 - np.sqrt(9.0 - np.clip(t - 10.0, 0.0, 2.0) ** 2), 0.0)
     found = fit_onset(t, u, 101, 1e-3, 1e-4, 6.0)
+    assert found.radius is not None
     assert (round(found.zero, 3), round(found.radius, 3)) == (10.0, 3.0)
 
 

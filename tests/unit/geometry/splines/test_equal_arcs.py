@@ -5,11 +5,10 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, IsoCurves
 from assoc_hull.geometry.floating.wetted_curves import wet_runs
 from assoc_hull.geometry.numeric.polynomials import differentiate
 from assoc_hull.geometry.splines.arc_length import CubicChains, length_until, share_by_length
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 
 def hermite(first: FloatArray, last: FloatArray, out: FloatArray, into: FloatArray) -> FloatArray:

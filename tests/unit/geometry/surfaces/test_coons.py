@@ -5,10 +5,9 @@ import pytest
 
 from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
 from assoc_hull.analysis.net.surface_layout import blend_cubics, lay_out_surface
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, IsoCurves
 from assoc_hull.geometry.splines.backend import backend, set_backend
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
-from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 from assoc_hull.model.tables import HullState
 from assoc_hull.shipped.wigley import wigley
 from tests.nets import ellipsoid_net

@@ -239,7 +239,7 @@ def test_a_bad_file_is_not_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     """What does not come back is refused, and what was there stays."""
     path = tmp_path / "hull.step"
     path.write_bytes(b"before")
-    monkeypatch.setattr("assoc_hull.io.cad.write.sewn", lambda surfaces: unsewn())
+    monkeypatch.setattr("assoc_hull.io.cad.write.sew_surfaces", lambda surfaces: unsewn())
     with pytest.raises(BadInputError, match="4 edges within the shell are not joined"):
         write_cad(BLOCKS, path, half=True)
     assert path.read_bytes() == b"before"

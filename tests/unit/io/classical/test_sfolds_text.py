@@ -130,7 +130,7 @@ def test_definitions_are_told_by_their_first_word(tmp_path: Path) -> None:
     assert holds_definition(path)
     hull = ah.read(path)
     assert hull.check() == ()
-    made = ah.create(ah.read_classical(path))
+    made = ah.create(ah.creation.read_classical(path))
     assert made.fingerprint == hull.fingerprint
     with pytest.raises(BadInputError, match="draught, scale cannot be given"):
         ah.read(path, draught=3.0, scale=2.0)
@@ -150,7 +150,7 @@ def test_files_that_hold_no_definition(tmp_path: Path, content: bytes, what: str
     path = tmp_path / "a.txt"
     path.write_bytes(content)
     with pytest.raises(BadInputError, match=what) as caught:
-        ah.read_classical(path)
+        ah.creation.read_classical(path)
     assert "a.txt" in str(caught.value)
 
 
@@ -158,11 +158,11 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     """And a folder."""
     for path in (tmp_path / "none.txt", tmp_path):
         with pytest.raises(BadInputError, match="the file cannot be read"):
-            ah.read_classical(path)
+            ah.creation.read_classical(path)
 
 
 def test_names_in_another_encoding_are_read(tmp_path: Path) -> None:
     """As Latin-1, where the bytes are no UTF-8."""
     path = tmp_path / "a.txt"
     path.write_bytes(TEXT.replace("SFOLDS Body", 'SFOLDS "F\xe4hre"').encode("latin-1"))
-    assert ah.read_classical(path).particulars.name == "F\xe4hre"
+    assert ah.creation.read_classical(path).particulars.name == "F\xe4hre"

@@ -100,7 +100,7 @@ def test_a_drawing_becomes_a_net_again(tmp_path: Path) -> None:
     hull.export(tmp_path / "plan.dxf", "dxf-plan", "mm")
     again = ah.read(tmp_path / "plan.dxf", draught=6.25)
     assert again.check() == ()
-    volumes = [ah.hydrostatics(each, draught=6.25).volume for each in (hull, again)]
+    volumes = [each.hydrostatics(draught=6.25).volume for each in (hull, again)]
     assert volumes[1] == pytest.approx(volumes[0], rel=2e-4)
 
 

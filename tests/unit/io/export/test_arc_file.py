@@ -17,9 +17,9 @@ from assoc_hull.errors import BadInputError, GeometryError, MissingExtraError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.hull import Hull
+from assoc_hull.hull.results import ProductionArcs
 from assoc_hull.io.dxf.document import NAMES
 from assoc_hull.io.export.arcs import arc_table
-from assoc_hull.production import ProductionArcs, production_arcs
 
 WITHIN = 0.0005
 
@@ -28,7 +28,7 @@ WITHIN = 0.0005
 def arcs(series60_70: Hull) -> ProductionArcs:
     """Some lines of all families, with knuckles, a flat and one with two curves."""
     names = ["ST 2", "ST 10", "ST 17", "WL 0.25", "WL 1", "boundary", "buttocks"]
-    return production_arcs(series60_70, names, WITHIN)
+    return series60_70.production_arcs(names, WITHIN)
 
 
 @pytest.fixture(scope="module")
@@ -194,7 +194,7 @@ def test_axes_are_those_that_dxf_gives_a_plane() -> None:
 def test_a_space_curve_comes_as_two_views(shipped: Any) -> None:
     """A deck edge with sheer: plan and profile, each within the tolerance of its view."""
     hull = shipped("plain_ship")
-    found = production_arcs(hull, "deck edge", WITHIN)
+    found = hull.production_arcs("deck edge", WITHIN)
     assert [line.name for line in found.lines] == ["deck edge (plan)", "deck edge (profile)"]
     assert [line.axes[2].tolist() for line in found.lines] == [[0, 0, 1], [0, -1, 0]]
     assert found.deviation <= WITHIN
@@ -209,9 +209,9 @@ def test_a_space_curve_comes_as_two_views(shipped: Any) -> None:
 def test_a_line_too_sharp_is_left_out_or_refused_by_place(series60_70: Hull) -> None:
     """Asked for by name it is an error, among all lines a sentence in the result."""
     with pytest.raises(GeometryError, match=r"profile has a radius of .* m at \(.*, 0, .*\)") as e:
-        production_arcs(series60_70, "profile", WITHIN, 20.0)
+        series60_70.production_arcs("profile", WITHIN, 20.0)
     assert float(str(e.value.values["radius"])) < 20.0
-    among = production_arcs(series60_70, None, 0.01, 20.0)
+    among = series60_70.production_arcs(None, 0.01, 20.0)
     assert any("profile has a radius" in each for each in among.left_out)
     assert among.least_radius >= 20.0
     assert "profile" not in [line.name for line in among.lines]

@@ -58,7 +58,7 @@ def test_ghs_geometry_files_gf_the_sections_of_the_hull() -> None:
 
 def test_ghs_geometry_files_gf_reading_the_sections() -> None:
     """GHS geometry files (.GF): reading the sections of the hull; see
-    `assoc_hull.io.export.gf`."""
+    `assoc_hull.io.export.ghs_geometry`."""
     section = "3\n0,0\n10,0\n10,20,0,0,DK"
     text = f"Barge\n*\nHULL\n2\n-100,{section}\n0,{section}\n0,0,0\n****\n"
     raw = parse_gf(text, "text", Notebook())

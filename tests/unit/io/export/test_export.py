@@ -14,6 +14,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.hull import Hull
+from assoc_hull.hull.sources import examples
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.export.sections import sections_to_export
 from assoc_hull.io.export.write import FORMS
@@ -23,7 +24,6 @@ from assoc_hull.io.offsets.read import read_offsets
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.reports import ExportBook, ExportReport
 from assoc_hull.model.tables import Particulars
-from assoc_hull.sources import examples
 
 SECTIONS = ("britfair", "delftship", "gf")
 LINES = (*SECTIONS, "delftship-offsets")

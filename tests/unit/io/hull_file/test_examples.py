@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
+from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file.database import SCHEMA, create_tables
 from assoc_hull.io.hull_file.saving import close_hull_file, save_hull
 from assoc_hull.io.hull_file.steps import pack_change, report_from, report_text, unpack_change
@@ -32,7 +33,9 @@ def test_a_change_to_bytes_and_back_what_an_edit() -> None:
     document = Document(wigley())
     with Edit(document, "move") as edit:
         edit.move("WL 2.5 x ST 7", y=2.95)
-    change = change_of(document.state, document.history[-1].journal)
+    journal = document.history[-1].journal
+    assert isinstance(journal, Journal)
+    change = change_of(document.state, journal)
     again = unpack_change(pack_change(change))
     assert (
         sorted(again.bits) == sorted(change.bits),

@@ -233,7 +233,7 @@ def test_a_file_that_is_there_is_not_written_over(hull: ah.Hull, file: Path) -> 
     """Unless it is asked for."""
     shift(hull, "fuller")
     other = ah.examples.wigley(breadth=11.0)
-    with pytest.raises(ah.BadInputError, match="there is a file of this name"):
+    with pytest.raises(ah.errors.BadInputError, match="there is a file of this name"):
         other.save(file)
     hull.close()
     assert other.save(file, replace=True).written
@@ -362,15 +362,15 @@ def test_a_name_that_is_no_text_is_refused(hull: ah.Hull, file: Path, tmp_path: 
     """Of an edit, an author, a checkpoint or the ship; nothing is kept, and all goes on."""
     before = stand(hull)
     refused = r"which is no character|give printable text"
-    with pytest.raises(ah.BadInputError, match=refused):
+    with pytest.raises(ah.errors.BadInputError, match=refused):
         shift(hull, "fair \ud800")
-    with pytest.raises(ah.BadInputError, match=refused):
+    with pytest.raises(ah.errors.BadInputError, match=refused):
         hull.checkpoint("\ud800")
-    with pytest.raises(ah.BadInputError, match=refused):
+    with pytest.raises(ah.errors.BadInputError, match=refused):
         hull.author = "\ud800"
     assert stand(hull) == before == stand(ah.open(file))
     odd = HullState(attrs.evolve(hull.particulars, name="\ud800"))
-    with pytest.raises(ah.BadInputError, match="which is no character"):
+    with pytest.raises(ah.errors.BadInputError, match="which is no character"):
         ah.Hull(odd).save(tmp_path / "odd.hull")
     assert sorted(path.name for path in tmp_path.glob("odd*")) == []
     shift(hull, "fair")

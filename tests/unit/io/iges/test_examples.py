@@ -31,7 +31,9 @@ def test_the_parameters_of_one_entity_of_an_iges_file() -> None:
 
 def test_the_entities_of_an_iges_file_the_directory() -> None:
     """The entities of an IGES file: the directory, the parameters of each, units and scale."""
-    plate = SplineSurface.bezier([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], "plate")
+    plate = SplineSurface.bezier(
+        np.array([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], float), "plate"
+    )
     file = IgesFile.of_text(iges_text([plate]), "plate.igs")
     assert (file.metres, [entry.kind for entry in file.entries.values()]) == (1.0, [128, 406])
 
@@ -48,7 +50,9 @@ def test_the_sections_of_an_iges_file_that_is_written() -> None:
 
 def test_spline_surfaces_as_an_iges_file_entities_128_each() -> None:
     """Spline surfaces as an IGES file: entities 128, each with its name (406, form 15)."""
-    plate = SplineSurface.bezier([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], "plate")
+    plate = SplineSurface.bezier(
+        np.array([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], float), "plate"
+    )
     assert (
         str(iges_text([plate]).splitlines()[-1])
         == "S      1G      3D      4P      3                                        T      1"
@@ -109,6 +113,8 @@ def test_whether_the_border_of_a_face() -> None:
 
 def test_untrimmed_spline_surfaces_of_an_iges_file_moved() -> None:
     """Untrimmed spline surfaces of an IGES file, moved to where they belong, in metres."""
-    plate = SplineSurface.bezier([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], "plate")
+    plate = SplineSurface.bezier(
+        np.array([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], float), "plate"
+    )
     found, unit, _notes = surfaces_of_iges(iges_text([plate], "mm"), "plate.igs")
     assert (found[0].name, found[0].net[1, 1].tolist(), unit) == ("plate", [2.0, 1.0, 0.0], "mm")

@@ -193,7 +193,7 @@ def test_a_closed_mesh_becomes_a_net_again(tmp_path: Path) -> None:
     write_mesh(made, tmp_path / "ship.stl")
     again = ah.read(tmp_path / "ship.stl", stations=15, waterlines=8, buttocks=2, draught=6.25)
     assert again.check() == ()
-    volume = ah.hydrostatics(again, draught=6.25).volume
+    volume = again.hydrostatics(draught=6.25).volume
     assert volume == pytest.approx(made.below(6.25).volume, rel=5e-4)
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+from assoc_hull.hull.sources import examples
 from assoc_hull.io.mesh.closed_mesh import write_mesh
-from assoc_hull.sources import examples
 from assoc_hull.surface.cells.closed_mesh import closed_mesh
 
 

@@ -13,8 +13,8 @@ from assoc_hull.io.tables.form_parameters import catalogue_json
 from assoc_hull.io.tables.hull_plates import hull_plates_csv
 from assoc_hull.io.tables.spreadsheets import openpyxl_module, workbook_bytes
 from assoc_hull.io.tables.table_text import split_blocks, text_of_xlsx
-from assoc_hull.surface.plates.hull_plates import hull_plates
-from assoc_hull.surface.plates.hull_seams import HullSeams
+from assoc_hull.surface.plating.hull_plates import hull_plates
+from assoc_hull.surface.plating.hull_seams import HullSeams
 
 
 def test_xlsx_workbooks_through_openpyxl_extra_xlsx_the_same_bytes() -> None:

@@ -25,7 +25,7 @@ from assoc_hull.io.tables.json_schema import dumps_schema
 from tests.form_entries import bare, doubted, passed_on
 
 OWN = (bare, doubted, passed_on)
-SCREW = ah.Screw(height=2.0, diameter=3.0)
+SCREW = ah.form.Screw(height=2.0, diameter=3.0)
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +66,7 @@ def test_names_are_those_of_the_python_objects(values: str) -> None:
     told = {field.name for field in attrs.fields(FormParameter)} - {"compute"}
     assert set(entry) == told
     found = json.loads(values)["values"]
-    own = ah.form_parameters(ah.examples.wigley(), draughts=(6.0, 5.0), screw=SCREW, further=OWN)
+    own = ah.examples.wigley().form_parameters(draughts=(6.0, 5.0), screw=SCREW, further=OWN)
     assert {symbol: FormValue(**value) for symbol, value in found.items()} == dict(own)
 
 

@@ -19,8 +19,8 @@ from assoc_hull.io.tables.hull_plates import (
     write_hull_plates,
 )
 from assoc_hull.io.tables.json_schema import dumps_schema
-from assoc_hull.surface.plates.hull_plates import COLUMNS, HullPlateTable, hull_plates
-from assoc_hull.surface.plates.hull_seams import HullSeams
+from assoc_hull.surface.plating.hull_plates import COLUMNS, HullPlateTable, hull_plates
+from assoc_hull.surface.plating.hull_seams import HullSeams
 from tests.formula_sides import BOWL
 
 VALIDATOR = Draft202012Validator(hull_plates_schema())

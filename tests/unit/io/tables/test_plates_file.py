@@ -13,6 +13,7 @@ from jsonschema import Draft202012Validator
 
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
+from assoc_hull.hull.results import Plates
 from assoc_hull.io.tables.json_schema import dumps_schema
 from assoc_hull.io.tables.plates import (
     development_csv,
@@ -21,9 +22,8 @@ from assoc_hull.io.tables.plates import (
     plates_json,
     plates_schema,
 )
-from assoc_hull.plating import Plates
-from assoc_hull.surface.plates.development import LABEL
-from assoc_hull.surface.plates.surface_plates import COLUMNS, Seams
+from assoc_hull.surface.plating.development import LABEL
+from assoc_hull.surface.plating.surface_plates import COLUMNS, Seams
 
 VALIDATOR = Draft202012Validator(plates_schema())
 
@@ -31,7 +31,7 @@ VALIDATOR = Draft202012Validator(plates_schema())
 @pytest.fixture(scope="module")
 def plates() -> Plates:
     """The plates that ship."""
-    return ah.plates(ah.examples.typical_plates())
+    return ah.surface.plates(ah.examples.typical_plates())
 
 
 def test_a_table_has_names_units_and_rows(plates: Plates) -> None:
@@ -73,7 +73,7 @@ def test_a_document_has_what_the_table_has_and_more(plates: Plates) -> None:
 def test_every_mode_gives_a_valid_document(options: dict[str, object]) -> None:
     """What a mode does not have is null."""
     given = [ah.examples.typical_plates()[k] for k in (0, 5)]
-    VALIDATOR.validate(plates_document(ah.plates(given, **options)))  # type: ignore[call-overload]
+    VALIDATOR.validate(plates_document(ah.surface.plates(given, **options)))  # type: ignore[call-overload]
 
 
 def test_the_schema_that_ships_is_that_of_the_writer() -> None:
@@ -106,7 +106,7 @@ def test_the_ending_of_a_name_chooses_the_form(plates: Plates, tmp_path: Path) -
 
 def test_plates_that_were_saved_serve_as_earlier_ones(plates: Plates) -> None:
     """The face that writes is the same object to the search."""
-    again = ah.plates(ah.examples.typical_plates(), previous=plates)
+    again = ah.surface.plates(ah.examples.typical_plates(), previous=plates)
     assert again.computed == 0
     assert plates_json(again) == plates_json(plates)
 

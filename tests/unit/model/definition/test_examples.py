@@ -29,7 +29,9 @@ def test_definitions_and_generated_curves_in_the_definition() -> None:
 def test_the_definition_of_a_hull_its_published_values() -> None:
     """The definition of a hull, its published values, and the fingerprint of both."""
     state = HullState(Particulars("Ship", 100.0, 20.0, 10.0, 8.0))
-    assert definition(state)["particulars"]["length"] == 100.0
+    ship = definition(state)["particulars"]
+    assert isinstance(ship, dict)
+    assert ship["length"] == 100.0
     assert fingerprint(state) == fingerprint(HullState(Particulars("Ship", 100.0, 20.0, 10.0, 8.0)))
 
 

@@ -52,7 +52,7 @@ DESIGNS = {
 """Run, entrance, and how far areas are off at the stations: root mean square and most, m2."""
 
 
-def areas_of(run: tuple[float, ...], entrance: tuple[float, ...]) -> ah.FormDefinition:
+def areas_of(run: tuple[float, ...], entrance: tuple[float, ...]) -> ah.creation.FormDefinition:
     """Close a curve of areas at CB 0.75, LCB 2.90 m forward of midship."""
     names = (
         "run_end", "run_start_angle_deg", "run_start_curvature", "run_start_tangent",
@@ -63,7 +63,7 @@ def areas_of(run: tuple[float, ...], entrance: tuple[float, ...]) -> ah.FormDefi
         "entrance_start_tangent", "entrance_end_tangent",
     )  # fmt: skip
     values = {**dict(zip(names, run, strict=True)), **dict(zip(fore, entrance, strict=True))}
-    return ah.sectional_area(
+    return ah.creation.sectional_area(
         SHIP, name="areas", cm=FULL / (SHIP.breadth * SHIP.draught), cb=0.75, lcb=2.90,
         run_start_ordinate=6.08 / FULL, **values,
     )  # fmt: skip

@@ -157,7 +157,9 @@ def test_of_which_pieces_a_generated_line_is_made() -> None:
 
 def test_between_which_values_something_can_be_made_found() -> None:
     """Between which values something can be made, found by trying."""
-    low, high = reachable(lambda x: 1.0 <= x <= 2.0, 0.0, 10.0, 9.0)
+    found = reachable(lambda x: 1.0 <= x <= 2.0, 0.0, 10.0, 9.0)
+    assert found is not None
+    low, high = found
     assert (round(low, 9), round(high, 9)) == (1.0, 2.0)
 
 

@@ -10,13 +10,14 @@ from matplotlib.figure import Figure
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.plot import before_after, curvature_combs, neighbourhood, snapshot
-from assoc_hull.plot.diagrams.driver_graph import drive_links
+from assoc_hull.hull.sources import examples
+from assoc_hull.plot import before_after, snapshot
+from assoc_hull.plot.diagrams.driver_graph import drive_links, neighbourhood
 from assoc_hull.plot.lines_plan.before_after import movements
+from assoc_hull.plot.lines_plan.curvature_combs import curvature_combs
 from assoc_hull.plot.lines_plan.drawing import Drawing, drawing
 from assoc_hull.plot.sheet.labels import overlaps
 from assoc_hull.plot.sheet.paper import MARGIN, PAPERS, PaperName
-from assoc_hull.sources import examples
 
 Boxes = Callable[[Figure], dict[str, FloatArray]]
 Lines = Callable[[Figure, str], list[FloatArray]]

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot import comparison_pdf, comparison_plan
-from assoc_hull.plot.lines_plan.comparison import comparison_sheets
+from assoc_hull.plot import comparison_pdf
+from assoc_hull.plot.lines_plan.comparison import comparison_plan, comparison_sheets
 from assoc_hull.plot.sheet.report_pages import LEFT, PAGE, RIGHT
 from assoc_hull.plot.sheet.sheet_figure import Sheet, pdf_of
 from assoc_hull.variation.comparing.comparison import HullComparison
@@ -29,7 +29,7 @@ def variant() -> ah.Hull:
 @pytest.fixture(scope="module")
 def found(wigley: ah.Hull, variant: ah.Hull) -> HullComparison:
     """Both side by side."""
-    return ah.compare(wigley, variant)
+    return wigley.compare(variant)
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.plot import adoption_deviations
+from assoc_hull.plot.lines_plan.adoption_deviations import adoption_deviations
 from assoc_hull.plot.sheet.paper import PAPERS, TINT
 
 Lines = Callable[[Figure, str], list[FloatArray]]

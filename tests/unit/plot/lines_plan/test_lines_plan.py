@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from assoc_hull.errors import BadInputError, MissingExtraError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.plot import lines_plan
 from assoc_hull.plot.lines_plan.drawing import Drawing, drawing
+from assoc_hull.plot.lines_plan.plan import lines_plan
 from assoc_hull.plot.lines_plan.three_views import lay_out_views
 from assoc_hull.plot.sheet import sheet_figure as sheet
 from assoc_hull.plot.sheet.paper import PAPERS

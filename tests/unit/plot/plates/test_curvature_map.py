@@ -19,7 +19,7 @@ from assoc_hull.plot.plates.colour_legend import CURVATURE, STRAIN, shades
 from assoc_hull.plot.plates.curvature_map import curvature_figure
 from assoc_hull.plot.plates.paint_tiles import SIGNS, TINTS
 from assoc_hull.plot.sheet.paper import PAPERS
-from assoc_hull.surface.plates.surface_plates import PlateTable
+from assoc_hull.surface.plating.surface_plates import PlateTable
 from assoc_hull.surface.regions.result import RegionResult
 from tests.curved_patches import patch
 
@@ -27,15 +27,15 @@ Boxes = Callable[[Figure], dict[str, FloatArray]]
 Lines = Callable[[Figure, str], list[FloatArray]]
 
 
-def bezier(name: str) -> ah.SplineSurface:
+def bezier(name: str) -> ah.surface.SplineSurface:
     """A reference patch as a surface."""
-    return ah.SplineSurface.bezier(patch(name), name)
+    return ah.surface.SplineSurface.bezier(patch(name), name)
 
 
 @pytest.fixture(scope="module")
 def wavy() -> RegionResult:
     """A plate with all three regions and two loops."""
-    return ah.curvature_regions(bezier("P08_wavy_plate"))
+    return ah.surface.curvature_regions(bezier("P08_wavy_plate"))
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +47,7 @@ def picture(wavy: RegionResult) -> Figure:
 @pytest.fixture(scope="module")
 def shell() -> PlateTable:
     """A saddle with a slanting roll axis, a flat plate, a cylinder turned in space."""
-    return ah.plates([bezier(name) for name in ("P11_hypar", "P13_plane", "P15_cyl_rot")])
+    return ah.surface.plates([bezier(name) for name in ("P11_hypar", "P13_plane", "P15_cyl_rot")])
 
 
 def tiles(figure: Figure, name: str) -> tuple[FloatArray, FloatArray]:
@@ -151,7 +151,7 @@ def test_block_and_legend_tell_areas_and_band(wavy: RegionResult, picture: Figur
 @pytest.mark.parametrize("name", ["several", "tiny"])
 def test_all_lies_on_the_sheet(shell: PlateTable, boxes_of: Boxes, name: str) -> None:
     """Words, lines and tiles of several plates, and of one that needs no scale bar."""
-    found = shell if name == "several" else ah.curvature_regions(1e-3 * patch("P12_bowl"))
+    found = shell if name == "several" else ah.surface.curvature_regions(1e-3 * patch("P12_bowl"))
     figure = curvature_figure(found, paper="A1")
     size = PAPERS["A1"]
     for line in figure.axes[0].lines:
@@ -187,7 +187,7 @@ def test_plates_have_their_class_and_roll_axis(shell: PlateTable, lines_of: Line
 
 def test_plates_may_have_a_band_each(lines_of: Lines) -> None:
     """The block tells the least and the largest K0; each plate has the lines of its own."""
-    found = ah.plates([bezier("P08_wavy_plate"), bezier("P12_bowl")], breadth=None)
+    found = ah.surface.plates([bezier("P08_wavy_plate"), bezier("P12_bowl")], breadth=None)
     figure = curvature_figure(found, views=["plan"])
     k0 = [plate.k0 for plate in found]
     assert f"{min(k0):.3g} to {max(k0):.3g} 1/m²" in words(figure, "label/block")
@@ -198,14 +198,14 @@ def test_a_picture_in_plan_sees_the_side_of_the_normal() -> None:
     """Seen from there a net runs anticlockwise from u to v; from behind it is mirrored."""
     net = patch("P12_bowl")
     for each in (net, net[:, ::-1], net[::-1, ::-1]):
-        figure = curvature_figure(ah.curvature_regions(each), views=["plan"])
+        figure = curvature_figure(ah.surface.curvature_regions(each), views=["plan"])
         corner, _ = tiles(figure, "/plan/tiles")
         assert (turned(corner) > 0.0).all()
 
 
 def test_a_continuous_map_is_symmetric_and_names_its_lines() -> None:
     """The bar reaches equally far on both sides; further levels bear their curvature."""
-    found = ah.curvature_regions(bezier("P20_five_arcs"), levels=(-0.01,))
+    found = ah.surface.curvature_regions(bezier("P20_five_arcs"), levels=(-0.01,))
     figure = curvature_figure(found, views=["parameters"], quantity="curvature")
     corner, colour = tiles(figure, "P20_five_arcs/parameters/tiles")
     low, high = corner.min(axis=(0, 1)), corner.max(axis=(0, 1))
@@ -224,10 +224,12 @@ def test_a_continuous_map_is_symmetric_and_names_its_lines() -> None:
 
 def test_spots_that_are_unresolved_are_marked(lines_of: Lines) -> None:
     """A point contact has a ring; along a double line cells are black, and no ring stands."""
-    point = ah.curvature_regions(bezier("P02_monkey"), zero="exact", delta=0.0)
+    point = ah.surface.curvature_regions(bezier("P02_monkey"), zero="exact", delta=0.0)
     figure = curvature_figure(point, views=["plan"])
     assert len(lines_of(figure, "P02_monkey/plan/ring")) == 1
-    double = ah.curvature_regions(bezier("P07_double_cross"), zero="exact", depth=7, delta=0.0)
+    double = ah.surface.curvature_regions(
+        bezier("P07_double_cross"), zero="exact", depth=7, delta=0.0
+    )
     figure = curvature_figure(double, views=["plan"])
     assert lines_of(figure, "P07_double_cross/plan/ring") == []
     marked = [each for each in figure.axes[0].collections
@@ -240,7 +242,7 @@ def test_what_is_hidden_is_not_drawn(lines_of: Lines) -> None:
     x, y = np.mgrid[-1:1:3j, -1:1:4j]
     trough = np.stack([x, 0.2 * y, np.where(np.abs(y) == 1.0, 3.0, -1.0)], axis=-1)
     for net, hides in ((trough, True), (patch("P11_hypar"), False)):
-        figure = curvature_figure(ah.curvature_regions(net), views=["space"])
+        figure = curvature_figure(ah.surface.curvature_regions(net), views=["space"])
         edges = np.concatenate(lines_of(figure, "/space/edge"))
         assert np.isnan(edges).any() == hides
 

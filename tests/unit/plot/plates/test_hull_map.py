@@ -11,9 +11,9 @@ from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.plot.plates.hull_map import hull_map, hull_sheet
 from assoc_hull.plot.plates.hull_tiles import hull_tiles
 from assoc_hull.plot.plates.lit_surface import surface_figure
-from assoc_hull.surface.plates.hull_plates import HullPlateTable, hull_plates
-from assoc_hull.surface.plates.hull_seams import HullSeams
-from assoc_hull.surface.plates.hull_shell import HullShell
+from assoc_hull.surface.plating.hull_plates import HullPlateTable, hull_plates
+from assoc_hull.surface.plating.hull_seams import HullSeams
+from assoc_hull.surface.plating.hull_shell import HullShell
 from tests.formula_sides import BOWL
 
 AFT = BOWL.surface((-12.0, 0.0), (-5.0, 5.0), (2, 2), "body")

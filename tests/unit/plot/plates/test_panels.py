@@ -11,9 +11,9 @@ from assoc_hull.analysis.panels.hull_panels import panels
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
 from assoc_hull.hull import Hull
+from assoc_hull.hull.sources import examples
 from assoc_hull.plot.plates.panel_plan import panel_plan
 from assoc_hull.plot.sheet.paper import PAPERS
-from assoc_hull.sources import examples
 
 Boxes = Callable[[Figure], dict[str, FloatArray]]
 

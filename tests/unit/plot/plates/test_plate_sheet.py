@@ -17,8 +17,8 @@ from assoc_hull.plot.plates.development import development_figure
 from assoc_hull.plot.plates.plate_book import plate_sheet, plate_sheets
 from assoc_hull.plot.sheet.paper import PAPERS
 from assoc_hull.plot.sheet.sheet_figure import Sheet
-from assoc_hull.surface.plates.development import LABEL, Development
-from assoc_hull.surface.plates.surface_plates import COLUMNS, PlateTable
+from assoc_hull.surface.plating.development import LABEL, Development
+from assoc_hull.surface.plating.surface_plates import COLUMNS, PlateTable
 from tests.curved_patches import patch
 
 Boxes = Callable[[Figure], dict[str, FloatArray]]
@@ -27,10 +27,14 @@ Boxes = Callable[[Figure], dict[str, FloatArray]]
 @pytest.fixture(scope="module")
 def shell() -> PlateTable:
     """Seven plates with long names: more than one page of maps."""
-    return ah.plates(
-        [ah.SplineSurface.bezier(patch("P12_bowl"), f"strake {k} between frames 120 and 131")
-         for k in range(7)]
-    )  # fmt: skip
+    return ah.surface.plates(
+        [
+            ah.surface.SplineSurface.bezier(
+                patch("P12_bowl"), f"strake {k} between frames 120 and 131"
+            )
+            for k in range(7)
+        ]
+    )
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.hull import Hull
-from assoc_hull.shell import HullSurface
+from assoc_hull.hull.results import HullSurface
 from assoc_hull.surface.blocks.net_surface import FORMAT
 
 
@@ -21,12 +21,12 @@ def small() -> Hull:
 @pytest.fixture(scope="module")
 def found(small: Hull) -> HullSurface:
     """Its surface."""
-    return ah.surface(small)
+    return small.surface()
 
 
 def test_it_follows_the_formula_between_the_lines(shipped: Callable[[str], Hull]) -> None:
     """Up to the highest waterline the half-breadth is that of the formula to 5 mm of 5 m."""
-    (side,) = ah.surface(shipped("wigley")).patches
+    (side,) = shipped("wigley").surface().patches
     (u0, u1), (v0, v1) = side.domain
     u, v = np.meshgrid(np.linspace(u0, u1, 80), np.linspace(v0, v1, 40))
     x, y, z = side.at(u, v).reshape(-1, 3).T
@@ -52,7 +52,7 @@ def test_the_keel_lies_in_the_centre_plane(found: HullSurface) -> None:
 
 def test_the_same_lines_give_the_same_bits(small: Hull, found: HullSurface) -> None:
     """The surface is a pure function of the lines."""
-    again = ah.surface(small)
+    again = small.surface()
     assert again.patches[0].net.tobytes() == found.patches[0].net.tobytes()
     assert str(again) == str(found)
 
@@ -80,7 +80,7 @@ def test_the_report_is_plain_values(found: HullSurface) -> None:
 
 def test_a_line_left_out_is_measured_only(small: Hull) -> None:
     """It has no point in the fit, and its distances stand in a row of their own."""
-    found = ah.surface(small, leave_out=["WL 2.5"])
+    found = small.surface(leave_out=["WL 2.5"])
     (block,) = found.blocks
     used = {found.net.name[line] for line in block.samples.line.tolist()}
     assert "WL 2.5" not in used
@@ -91,26 +91,26 @@ def test_a_line_left_out_is_measured_only(small: Hull) -> None:
 
 def test_an_unknown_line_cannot_be_left_out(small: Hull) -> None:
     """The nearest names are told."""
-    with pytest.raises(ah.UnknownNameError, match=r"'WL 2\.51'.*WL 2\.5"):
-        ah.surface(small, leave_out=["WL 2.51"])
+    with pytest.raises(ah.errors.UnknownNameError, match=r"'WL 2\.51'.*WL 2\.5"):
+        small.surface(leave_out=["WL 2.51"])
 
 
 def test_a_line_at_which_the_hull_ends_cannot_be_left_out(small: Hull) -> None:
     """Without its profile a half hull has no border."""
-    with pytest.raises(ah.BadInputError, match="profile is to be left out"):
-        ah.surface(small, leave_out=["profile"])
+    with pytest.raises(ah.errors.BadInputError, match="profile is to be left out"):
+        small.surface(leave_out=["profile"])
 
 
 def test_it_is_stiffer_with_a_larger_penalty(small: Hull, found: HullSurface) -> None:
     """The penalty asked for is the one used, and moves the surface away from the lines."""
-    stiff = ah.surface(small, smoothing=100.0 * found.blocks[0].smoothing)
+    stiff = small.surface(smoothing=100.0 * found.blocks[0].smoothing)
     assert stiff.blocks[0].smoothing == 100.0 * found.blocks[0].smoothing
     assert stiff.blocks[0].fitted.p95 > 2.0 * found.blocks[0].fitted.p95
 
 
 def test_a_tolerance_that_is_not_kept_is_told(small: Hull) -> None:
     """A surface that keeps off its lines says by how much, and where."""
-    found = ah.surface(small, tolerance=1e-5, smoothing=1.0)
+    found = small.surface(tolerance=1e-5, smoothing=1.0)
     (note,) = (each for each in found.blocks[0].notes if each.startswith("95 %"))
     assert "over the limit of 0.0 mm; the largest is" in note
     assert f"on {found.blocks[0].fitted.line}" in note
@@ -121,7 +121,7 @@ def test_a_hull_that_was_scaled_goes_by_the_length_of_its_lines() -> None:
     model = ah.examples.wigley(stations=11, waterlines=6)
     with model.edit("model scale") as edit:
         edit.transform(scale=(0.04, 0.04, 0.04), planes="follow", drivers=["sections", "boundary"])
-    found = ah.surface(model)
+    found = model.surface()
     assert found.options.length == pytest.approx(4.0, abs=1e-9)
     assert found.notes == (
         "tolerances go by 4 m, the length of the lines: the particulars have 100 m",

@@ -46,7 +46,7 @@ def closed_by_counting(mesh: ClosedMesh) -> bool:
 
 def test_the_mesh_is_closed_and_faces_outward(wigley: ah.Hull) -> None:
     """Counted edge by edge; Euler's number is 2, and the volume is the same by x, y and z."""
-    mesh = ah.closed_mesh(wigley)
+    mesh = wigley.mesh()
     report = mesh.report
     assert closed_by_counting(mesh)
     assert report.sound
@@ -59,7 +59,7 @@ def test_the_mesh_is_closed_and_faces_outward(wigley: ah.Hull) -> None:
 
 def test_it_tells_how_far_lines_leave_their_chords(wigley: ah.Hull) -> None:
     """Half the step, a quarter of it; of parabolas of the formula it would be 0.78 mm."""
-    coarse, fine = (ah.closed_mesh(wigley, points=points) for points in (4, 8))
+    coarse, fine = (wigley.mesh(points=points) for points in (4, 8))
     assert coarse.sagitta[2] == pytest.approx(4.0 * fine.sagitta[2], rel=0.1)
     # y'' = 8 B / 2 / L^2 along waterlines, cut at stations 5 m apart and between in four.
     assert coarse.sagitta[1] == pytest.approx(4.0 * 10.0 / 100.0**2 * 1.25**2 / 8.0, rel=0.05)
@@ -68,8 +68,8 @@ def test_it_tells_how_far_lines_leave_their_chords(wigley: ah.Hull) -> None:
 
 def test_the_volume_below_the_waterline_converges_to_that_of_the_splines(wigley: ah.Hull) -> None:
     """Half a step is a quarter of the error, in the end; the centre lies at half length."""
-    splines = ah.hydrostatics(wigley, draught=6.25).volume
-    below = [ah.closed_mesh(wigley, points=points).below(6.25) for points in (2, 4, 8)]
+    splines = wigley.hydrostatics(draught=6.25).volume
+    below = [wigley.mesh(points=points).below(6.25) for points in (2, 4, 8)]
     off = [splines - each.volume for each in below]
     assert off[0] > 3.0 * off[1] > 0.0
     assert off[1] / off[2] == pytest.approx(4.0, rel=0.1)
@@ -123,7 +123,7 @@ def test_a_body_without_deck_closes_by_itself(ellipsoid: CurveNet) -> None:
 
 def test_a_half_is_open_in_the_centre_plane_only_and_has_no_volume(wigley: ah.Hull) -> None:
     """It says that it is a half; both together have twice its area."""
-    half, whole = ah.closed_mesh(wigley, half=True), ah.closed_mesh(wigley)
+    half, whole = wigley.mesh(half=True), wigley.mesh()
     assert half.half
     assert half.report.open_edges > 0
     assert half.report.off_centre == 0
@@ -141,7 +141,7 @@ def test_a_half_is_open_in_the_centre_plane_only_and_has_no_volume(wigley: ah.Hu
 
 def test_the_mesh_is_the_same_to_the_bit_at_every_call(wigley: ah.Hull) -> None:
     """And its two sides are mirror images to the bit."""
-    one, again = ah.closed_mesh(wigley), ah.closed_mesh(wigley)
+    one, again = wigley.mesh(), wigley.mesh()
     assert one.xyz.tobytes() == again.xyz.tobytes()
     assert one.triangle.tobytes() == again.triangle.tobytes()
     port = {tuple(each) for each in one.xyz[one.xyz[:, 1] > 0.0].tolist()}
@@ -160,27 +160,27 @@ def test_nets_drawn_at_random_close_or_are_refused_by_name(number: int) -> None:
     hull = fresh(number)
     ship = hull.particulars
     try:
-        mesh = ah.closed_mesh(hull)
+        mesh = hull.mesh()
     except OpenNetError as error:
         loose = {each.partition(" at ")[0] for each in error.findings}
         assert all(each.startswith("BTK ") for each in loose)
-        mesh = ah.closed_mesh(hull, leave_out=sorted(loose))
+        mesh = hull.mesh(leave_out=sorted(loose))
     assert mesh.report.sound
-    found, wanted = mesh.below(ship.draught), ah.hydrostatics(hull, draught=ship.draught)
+    found, wanted = mesh.below(ship.draught), hull.hydrostatics(draught=ship.draught)
     assert found.volume == pytest.approx(wanted.volume, rel=4e-3)
     assert found.lcb == pytest.approx(wanted.lcb, abs=2e-4 * ship.length)
 
 
 def test_chords_that_leave_lines_by_much_are_told(wigley: ah.Hull) -> None:
     """A box whose bilges are drawn by sections alone loses 5 % with four points; Wigley nothing."""
-    (note,) = ah.closed_mesh(round_box()).notes
+    (note,) = round_box().mesh().notes
     assert note.startswith("chords leave the lines by more than 0.")
-    assert ah.closed_mesh(wigley).notes == ()
+    assert wigley.mesh().notes == ()
 
 
 def test_places_that_coincide_are_one() -> None:
     """Ends with a level bottom: what is ruled from there to the centre plane comes to nothing."""
-    mesh = ah.closed_mesh(round_box(), points=8)
+    mesh = round_box().mesh(points=8)
     assert mesh.names == ("shell", "aft end", "fore end", "deck")
     assert mesh.report.collapsed > 0
     assert mesh.report.sound
@@ -272,5 +272,5 @@ def test_what_cannot_be_meant_is_refused(
 ) -> None:
     """With the value, or the line."""
     with pytest.raises(kind) as caught:
-        ah.closed_mesh(wigley, **options)  # type: ignore[arg-type]
+        wigley.mesh(**options)  # type: ignore[arg-type]
     assert told in str(caught.value)

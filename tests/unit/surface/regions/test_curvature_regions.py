@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, BadInputError, DanglingArcError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.arcs import arcs_of
 from assoc_hull.geometry.patches.cells import SignCells, ZeroSetArcs
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.geometry.patches.zero_set_arcs import arcs_of
 from assoc_hull.surface.regions import curvature_regions as solving
 from tests.curved_patches import patch, random_nets
 
@@ -31,7 +31,7 @@ def strip(points: Any) -> FloatArray:
 
 def test_a_result_says_what_was_asked_for() -> None:
     """Mode, K0, strain, breadth, delta and tolerances stand in the result."""
-    result = ah.curvature_regions(
+    result = ah.surface.curvature_regions(
         patch("P08_wavy_plate"), strain_tol=2e-3, breadth=2.0, area_tol=1e-5, depth=12,
         chord_tol=0.01, delta=1e-9,
     )  # fmt: skip
@@ -46,7 +46,7 @@ def test_delta_is_that_of_each_patch_without_a_band() -> None:
     """1e-9 of the diagonal of the patch's own box, so that it does not depend on others."""
     net = strip([[0, 0, 0], [0, 4, 0], [3, 0, 0], [3, 4, 1]])
     surfaces = [SplineSurface.bezier(each) for each in (net, 2.0 * net, patch("P08_wavy_plate"))]
-    result = ah.curvature_regions(surfaces, zero="exact")
+    result = ah.surface.curvature_regions(surfaces, zero="exact")
     small, other = (part.delta.tolist() for part in result.parts)
     assert small == pytest.approx([1e-9 * 26**0.5, 2e-9 * 26**0.5], rel=1e-12)
     assert result.delta == max(small + other)
@@ -55,7 +55,7 @@ def test_delta_is_that_of_each_patch_without_a_band() -> None:
 def test_areas_of_one_surface_and_of_all() -> None:
     """The sum of the surfaces is the result; a number that is none is refused."""
     surfaces = [SplineSurface.bezier(patch(name)) for name in ("P11_hypar", "P12_bowl")]
-    result = ah.curvature_regions(surfaces)
+    result = ah.surface.curvature_regions(surfaces)
     hypar, bowl = result.of_surface(0), result.of_surface(1)
     assert (hypar.negative_share, bowl.positive_share) == pytest.approx((1.0, 1.0), rel=1e-6)
     assert result.total == hypar.total + bowl.total
@@ -66,13 +66,13 @@ def test_areas_of_one_surface_and_of_all() -> None:
 def test_lines_of_further_levels() -> None:
     """Lines of other curvatures are given beside; areas are those without them."""
     net = patch("P20_five_arcs")
-    plain = ah.curvature_regions(net, zero="exact", delta=0.0)
-    result = ah.curvature_regions(net, zero="exact", delta=0.0, levels=[1e-3, -1e-2, 0.0])
+    plain = ah.surface.curvature_regions(net, zero="exact", delta=0.0)
+    result = ah.surface.curvature_regions(net, zero="exact", delta=0.0, levels=[1e-3, -1e-2, 0.0])
     assert result.areas == plain.areas
     assert list(dict.fromkeys(piece.level for piece in result.components)) == [0.0, 1e-3, -1e-2]
     own = [piece for piece in result.components if piece.level == 0.0]
     assert len(own) == len(plain.components) == 5
-    band = ah.curvature_regions(net, zero="absolute", k0=1e-3)
+    band = ah.surface.curvature_regions(net, zero="absolute", k0=1e-3)
     lines = [[piece.xyz[0].tolist() for piece in each.components if piece.level == 1e-3]
              for each in (band, result)]  # fmt: skip
     assert lines[0] == lines[1] != []
@@ -81,8 +81,8 @@ def test_lines_of_further_levels() -> None:
 def test_polylines_keep_the_chord_tolerance() -> None:
     """Twice as many points in between lie no farther from the chords than was asked for."""
     net, tolerance = patch("P03_circle_loop"), 1e-3
-    coarse = ah.curvature_regions(net, zero="exact", chord_tol=tolerance).components[0]
-    fine = ah.curvature_regions(net, zero="exact", chord_tol=tolerance / 100).components[0]
+    coarse = ah.surface.curvature_regions(net, zero="exact", chord_tol=tolerance).components[0]
+    fine = ah.surface.curvature_regions(net, zero="exact", chord_tol=tolerance / 100).components[0]
     chords, places = coarse.xyz[0], fine.xyz[0]
     assert len(places) > 2 * len(chords)
     assert np.array_equal(chords[0], chords[-1])
@@ -113,20 +113,20 @@ def test_polylines_keep_the_chord_tolerance() -> None:
 def test_what_is_no_surface_is_refused(surfaces: Any, told: str) -> None:
     """Each with an error of the family that says what is wrong and where."""
     with pytest.raises(AssocHullError) as caught:
-        ah.curvature_regions(surfaces)
+        ah.surface.curvature_regions(surfaces)
     assert told in str(caught.value)
 
 
 def test_a_thin_plate_is_no_line() -> None:
     """A tenth of a millimetre over ten metres is a plate; it has the area it has."""
     net = strip([[0, 0, 0], [0, 1e-4, 0], [10, 0, 0], [10, 1e-4, 0]])
-    assert ah.curvature_regions(net).zero == pytest.approx(1e-3, rel=1e-12)
+    assert ah.surface.curvature_regions(net).zero == pytest.approx(1e-3, rel=1e-12)
 
 
 def test_notes_tell_a_search_that_ended() -> None:
     """Which surface and patch, how much is left, and what may be done: sentences with numbers."""
     surface = SplineSurface.bezier(patch("P07_double_cross"), "saddle of the fourth order")
-    notes = ah.curvature_regions(surface, zero="exact", delta=0.0, budget=500).notes
+    notes = ah.surface.curvature_regions(surface, zero="exact", delta=0.0, budget=500).notes
     assert len(notes) == 2
     assert "In surface 'saddle of the fourth order' the" in notes[0]
     assert "budget of 500 cells in 1 patch (1)" in notes[0]
@@ -137,7 +137,7 @@ def test_notes_tell_a_search_that_ended() -> None:
 def test_notes_tell_spots_without_a_tangent_plane() -> None:
     """K has false zeros there: they are told apart, by their places, once for all levels."""
     net = random_nets(6, 1)[5]
-    result = ah.curvature_regions(net, zero="exact", delta=0.0, levels=(1.0,))
+    result = ah.surface.curvature_regions(net, zero="exact", delta=0.0, levels=(1.0,))
     singular = [piece for piece in result.components if piece.singular]
     assert [(piece.level, piece.kind) for piece in singular] == [(0, "junction"), (1, "junction")]
     ((x, y, z),) = singular[0].spots
@@ -153,7 +153,7 @@ def test_notes_tell_lines_that_end_at_knots() -> None:
     draw = np.random.default_rng(8).standard_normal((6, 4, 1))
     net = np.concatenate([place, 0.2 * draw], axis=-1)
     knots = np.array([0, 0, 0, 0, 1, 1, 2, 2, 2, 2]), np.repeat([0.0, 1.0], 4)
-    result = ah.curvature_regions(SplineSurface("bent", (3, 3), *knots, net), zero="exact")
+    result = ah.surface.curvature_regions(SplineSurface("bent", (3, 3), *knots, net), zero="exact")
     ends = [piece for piece in result.components if "knot-line" in piece.tags]
     assert ends
     assert any("at knots" in note and "surface 'bent'" in note for note in result.notes)
@@ -161,7 +161,7 @@ def test_notes_tell_lines_that_end_at_knots() -> None:
 
 def test_notes_tell_borders_without_curvature() -> None:
     """K = 0 along the border of a plate is no line, and is told."""
-    result = ah.curvature_regions(patch("P18_inflect_edge"), zero="exact")
+    result = ah.surface.curvature_regions(patch("P18_inflect_edge"), zero="exact")
     assert [piece.kind for piece in result.components] == ["edge_line"]
     assert any("K = 0 1/m2 along 1 border of patches (1)" in note for note in result.notes)
     (line,) = result.components[0].uv
@@ -171,7 +171,7 @@ def test_notes_tell_borders_without_curvature() -> None:
 @pytest.mark.parametrize("zero", ["strain", "exact"])
 def test_a_pole_is_no_line(zero: str) -> None:
     """Where a side is drawn together in a point, no border and no line of the curvature is told."""
-    result = ah.curvature_regions(patch("P17_pole_sphere"), zero=zero)
+    result = ah.surface.curvature_regions(patch("P17_pole_sphere"), zero=zero)
     assert (result.components, result.notes, result.unresolved) == ((), (), 0.0)
     assert result.positive == pytest.approx(result.total, rel=1e-9)
 
@@ -179,7 +179,7 @@ def test_a_pole_is_no_line(zero: str) -> None:
 @pytest.mark.parametrize("name", ["P14_cyl", "P18_inflect_edge"])
 def test_coordinates_are_known_to_their_rounding(name: str) -> None:
     """With a delta of 0, what is nil but for the rounding of the net is nil."""
-    result = ah.curvature_regions(patch(name), zero="exact", delta=0.0)
+    result = ah.surface.curvature_regions(patch(name), zero="exact", delta=0.0)
     assert result.delta == 2.0**-52 * np.abs(patch(name)).max()
     assert (result.negative, {piece.kind for piece in result.components} - {"edge_line"}) == (
         0,
@@ -198,29 +198,29 @@ def test_a_line_that_breaks_off_is_an_error(monkeypatch: pytest.MonkeyPatch) -> 
 
     monkeypatch.setattr(solving, "arcs_of", without_one)
     with pytest.raises(DanglingArcError, match="break off"):
-        ah.curvature_regions(patch("P08_wavy_plate"), zero="exact")
+        ah.surface.curvature_regions(patch("P08_wavy_plate"), zero="exact")
 
 
 def test_a_failure_leaves_the_earlier_result_as_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever fails within, what was found before can be used on."""
     net = patch("P08_wavy_plate")
-    before = ah.curvature_regions(net)
+    before = ah.surface.curvature_regions(net)
     areas, text = before.areas, str(before)
 
     def fails(*_: object) -> None:
         raise MemoryError
 
     with monkeypatch.context() as patched:
-        patched.setattr(solving, "areas", fails)
+        patched.setattr(solving, "sign_areas", fails)
         with pytest.raises(MemoryError):
-            ah.curvature_regions(net * 1.01, previous=before)
+            ah.surface.curvature_regions(net * 1.01, previous=before)
     assert (before.areas, str(before)) == (areas, text)
-    assert ah.curvature_regions(net, previous=before).computed == 0
+    assert ah.surface.curvature_regions(net, previous=before).computed == 0
 
 
 def test_what_is_found_is_frozen() -> None:
     """Arrays of a result cannot be written to."""
-    result = ah.curvature_regions(patch("P08_wavy_plate"))
+    result = ah.surface.curvature_regions(patch("P08_wavy_plate"))
     (part,), piece = result.parts, result.components[0]
     for array in (part.areas, part.delta, part.solutions[0].edges, piece.uv[0], piece.xyz[0]):
         with pytest.raises(ValueError, match="read-only"):
@@ -238,13 +238,13 @@ def test_what_is_found_is_frozen() -> None:
 def test_parts_are_the_whole_of_any_net(m: int, n: int, seed: int, zero: str, scale: float) -> None:
     """Four areas of 0 or more add up to the total; the same net gives the same bits again."""
     net = scale * np.random.default_rng(seed).standard_normal((m + 1, n + 1, 3))
-    result = ah.curvature_regions(net, zero=zero, area_tol=1e-4, depth=8)
+    result = ah.surface.curvature_regions(net, zero=zero, area_tol=1e-4, depth=8)
     areas = result.areas
     parts = areas.positive, areas.negative, areas.zero, areas.unresolved
     assert min(parts) >= 0.0
     # The total is found by another rule: within ten times area_tol.
     assert sum(parts) == pytest.approx(areas.total, rel=1e-3)
-    again = ah.curvature_regions(net.copy(), zero=zero, area_tol=1e-4, depth=8)
+    again = ah.surface.curvature_regions(net.copy(), zero=zero, area_tol=1e-4, depth=8)
     assert again.areas == areas
     assert [piece.xyz[0].tobytes() for piece in again.components] == [
         piece.xyz[0].tobytes() for piece in result.components
@@ -258,7 +258,7 @@ def test_no_order_of_hashes_is_seen() -> None:
         "from assoc_hull.geometry.patches.spline_surface import SplineSurface\n"
         "from tests.curved_patches import graph_plates\n"
         "many = [SplineSurface.bezier(n[: 3 + i % 2]) for i, n in enumerate(graph_plates(4, 3))]\n"
-        "found = ah.curvature_regions(many, levels=(0.0, 0.01))\n"
+        "found = ah.surface.curvature_regions(many, levels=(0.0, 0.01))\n"
         "told = [(c.kind, c.surface, c.xyz[0].sum()) for c in found.components]\n"
         "text = repr(found.areas) + repr(told)\n"
     )
@@ -274,10 +274,12 @@ def test_no_order_of_hashes_is_seen() -> None:
 def test_notes_tell_parts_that_count_as_nil() -> None:
     """Part of a patch that points off by delta could make developable is told, with its K."""
     net = patch("P07_double_cross")
-    (note,) = (n for n in ah.curvature_regions(net, zero="exact").notes if "count as K = 0" in n)
+    (note,) = (
+        n for n in ah.surface.curvature_regions(net, zero="exact").notes if "count as K = 0" in n
+    )
     assert "parts of patches, count as K = 0, since points that are off by delta" in note
     assert "1/m2 there: a smaller delta" in note
-    notes = ah.curvature_regions(net, zero="exact", delta=0.0).notes
+    notes = ah.surface.curvature_regions(net, zero="exact", delta=0.0).notes
     assert not any("count as K = 0" in each for each in notes)
 
 
@@ -293,7 +295,7 @@ def test_regions_do_not_know_where_a_plate_lies(seed: int) -> None:
     turn = np.linalg.qr(rng.standard_normal((3, 3)))[0]
     moved = attrs.evolve(plate, net=plate.net @ turn.T + [100.0, 20.0, 5.0])
     here, there = (
-        ah.curvature_regions(each, zero="exact", area_tol=1e-9) for each in (plate, moved)
+        ah.surface.curvature_regions(each, zero="exact", area_tol=1e-9) for each in (plate, moved)
     )
     assert abs(here.positive - there.positive) <= 1e-12 * here.total
     assert here.zero == there.zero == 0.0

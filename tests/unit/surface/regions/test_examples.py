@@ -66,7 +66,7 @@ def test_regions_of_gaussian_curvature_of_surfaces_the_face() -> None:
     """Regions of Gaussian curvature of surfaces: the face of what finds, keeps and joins them."""
     x, y = np.mgrid[0:4, 0:4] / 3.0
     net = np.stack([6 * x, 2 * y, np.zeros_like(x)], axis=-1)
-    assert ah.curvature_regions(net).zero == pytest.approx(12.0, abs=0.1)
+    assert ah.surface.curvature_regions(net).zero == pytest.approx(12.0, abs=0.1)
 
 
 def test_one_connected_piece_of_the_lines_along() -> None:
@@ -90,7 +90,8 @@ def test_lines_of_constant_curvature_as_polylines_joined_sampled() -> None:
     wave = np.array([0.0, -0.5, -0.5, 0.8])[:, None]
     net = np.stack([2 * u, v, wave + 0.1 * v * (v > 0.5)], axis=-1)
     assert [
-        (piece.kind, piece.level) for piece in ah.curvature_regions(net, zero="exact").components
+        (piece.kind, piece.level)
+        for piece in ah.surface.curvature_regions(net, zero="exact").components
     ] == [("open", 0.0)]
 
 
@@ -109,7 +110,7 @@ def test_outlines_of_the_regions_of_a_surface_over() -> None:
     u, v = np.mgrid[0:4, 0:4] / 3.0
     wave = np.array([0.0, -0.5, -0.5, 0.8])[:, None]
     net = np.stack([2 * u, v, wave + 0.1 * v * (v > 0.5)], axis=-1)
-    result = ah.curvature_regions(net, zero="exact")
+    result = ah.surface.curvature_regions(net, zero="exact")
     assert [len(result.outlines(region)) for region in ("positive", "negative", "zero")] == [
         1,
         1,

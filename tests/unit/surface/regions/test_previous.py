@@ -51,7 +51,7 @@ def bits(value: object) -> object:
 @pytest.fixture(scope="module")
 def first() -> RegionResult:
     """The regions of a spline surface."""
-    return ah.curvature_regions(spline(heights(1)), zero="exact")
+    return ah.surface.curvature_regions(spline(heights(1)), zero="exact")
 
 
 @pytest.mark.parametrize(
@@ -71,15 +71,15 @@ def test_one_control_point_computes_the_patches_it_touches(
     changed = spline(moved(heights(1), i, j))
     before, after = spline(heights(1)).patches().net, changed.patches().net
     assert (before != after).any(axis=(1, 2, 3)).sum() == touched
-    found = ah.curvature_regions(changed, zero="exact", previous=first)
-    scratch = ah.curvature_regions(changed, zero="exact")
+    found = ah.surface.curvature_regions(changed, zero="exact", previous=first)
+    scratch = ah.surface.curvature_regions(changed, zero="exact")
     assert (found.computed, scratch.computed) == (touched, len(before))
     assert bits(attrs.evolve(found, surfaces=())) == bits(attrs.evolve(scratch, surfaces=()))
 
 
 def test_nothing_changed_computes_nothing(first: RegionResult) -> None:
     """The same surface once more is taken whole."""
-    again = ah.curvature_regions(spline(heights(1)), zero="exact", previous=first)
+    again = ah.surface.curvature_regions(spline(heights(1)), zero="exact", previous=first)
     assert again.computed == 0
     assert bits(again.parts) == bits(first.parts)
     assert bits(again.components) == bits(first.components)
@@ -88,19 +88,19 @@ def test_nothing_changed_computes_nothing(first: RegionResult) -> None:
 def test_patches_are_known_wherever_they_stand() -> None:
     """Surfaces in another order, one left out, another added: only the new one is computed."""
     one, two, three = (spline(heights(seed)) for seed in (1, 2, 3))
-    result = ah.curvature_regions([one, two], zero="exact")
-    turned = ah.curvature_regions([two, one], zero="exact", previous=result)
+    result = ah.surface.curvature_regions([one, two], zero="exact")
+    turned = ah.surface.curvature_regions([two, one], zero="exact", previous=result)
     assert turned.computed == 0
     assert [turned.of_surface(i) for i in (0, 1)] == [result.of_surface(i) for i in (1, 0)]
     assert turned.areas == result.areas
-    more = ah.curvature_regions([three, two], zero="exact", previous=result)
+    more = ah.surface.curvature_regions([three, two], zero="exact", previous=result)
     assert more.computed == more.count // 2 == 30
 
 
 def test_a_net_that_occurs_twice_is_computed_once() -> None:
     """Two plates of one shape are one piece of work, and have the same areas."""
     net = heights(1)[:4, :4]
-    result = ah.curvature_regions([SplineSurface.bezier(net)] * 2, zero="exact")
+    result = ah.surface.curvature_regions([SplineSurface.bezier(net)] * 2, zero="exact")
     assert (result.computed, result.count) == (1, 2)
     assert result.of_surface(0) == result.of_surface(1)
     assert {piece.patches for piece in result.components} == {(0,), (1,)}
@@ -120,8 +120,8 @@ def test_a_net_that_occurs_twice_is_computed_once() -> None:
 def test_other_options_compute_all_anew(first: RegionResult, options: dict[str, Any]) -> None:
     """What was found under other options is not taken."""
     net = heights(1)[:4, :4]
-    one = ah.curvature_regions(net, zero="exact")
-    assert ah.curvature_regions(net, **options, previous=one).computed == 1
+    one = ah.surface.curvature_regions(net, zero="exact")
+    assert ah.surface.curvature_regions(net, **options, previous=one).computed == 1
 
 
 def test_surfaces_of_other_degrees_are_kept_apart() -> None:
@@ -129,12 +129,12 @@ def test_surfaces_of_other_degrees_are_kept_apart() -> None:
     nets = [heights(1)[:m, :n] for m, n in ((4, 4), (3, 4), (2, 2), (4, 4))]
     nets[3] = moved(nets[3], 0, 0)
     surfaces = [SplineSurface.bezier(net) for net in nets]
-    result = ah.curvature_regions(surfaces)
+    result = ah.surface.curvature_regions(surfaces)
     assert len(result.parts) == 3
-    later = ah.curvature_regions(surfaces[::-1], previous=result)
+    later = ah.surface.curvature_regions(surfaces[::-1], previous=result)
     assert later.computed == 0
     for number in range(4):
-        alone = ah.curvature_regions(surfaces[number]).areas
+        alone = ah.surface.curvature_regions(surfaces[number]).areas
         assert later.of_surface(3 - number) == result.of_surface(number) == alone
 
 
@@ -144,15 +144,15 @@ def test_weights_are_part_of_what_a_patch_is() -> None:
     net = np.stack([corner, corner + np.array([0.0, 0.0, 3.0])], axis=1)
     weights = np.repeat([[1.0], [np.sqrt(0.5)], [1.0]], 2, axis=1)
     round_one = SplineSurface.bezier(net, weights=weights)
-    result = ah.curvature_regions(round_one)
+    result = ah.surface.curvature_regions(round_one)
     assert abs(result.zero - 1.5 * np.pi) <= result.error_estimate
     for other in (SplineSurface.bezier(net), SplineSurface.bezier(net, weights=weights**2)):
-        found = ah.curvature_regions([other, round_one], previous=result)
+        found = ah.surface.curvature_regions([other, round_one], previous=result)
         assert (found.computed, found.of_surface(1)) == (1, result.areas)
-        assert found.of_surface(0) == ah.curvature_regions(other).areas != result.areas
+        assert found.of_surface(0) == ah.surface.curvature_regions(other).areas != result.areas
 
 
 def test_what_is_no_result_is_refused() -> None:
     """`previous` takes a result and nothing else."""
     with pytest.raises(WrongTypeError, match="previous is 3"):
-        ah.curvature_regions(heights(1)[:4, :4], previous=3)  # type: ignore[arg-type]
+        ah.surface.curvature_regions(heights(1)[:4, :4], previous=3)  # type: ignore[arg-type]

@@ -13,7 +13,7 @@ from tests.curved_patches import graph_plates, patch
 
 def components(net: FloatArray) -> tuple[LevelLine, ...]:
     """The lines K = 0 of a patch."""
-    return ah.curvature_regions(net, zero="exact", delta=1e-14).components
+    return ah.surface.curvature_regions(net, zero="exact", delta=1e-14).components
 
 
 def enclosed(line: FloatArray) -> float:
@@ -55,7 +55,7 @@ def test_places_agree_in_parameters_and_in_space() -> None:
     net = np.concatenate([place, 0.2 * draw], axis=-1)
     knots = np.array([2.0] * 4 + [3, 3.5] + [5] * 4), np.array([-1.0] * 4 + [0] + [1] * 4)
     surface = SplineSurface("spline", (3, 3), *knots, net)
-    result = ah.curvature_regions(surface, zero="exact")
+    result = ah.surface.curvature_regions(surface, zero="exact")
     assert max(len(piece.patches) for piece in result.components) > 1
     for piece in result.components:
         for uv, xyz in zip(piece.uv, piece.xyz, strict=True):
@@ -98,7 +98,7 @@ def test_components_stand_in_the_order_of_levels_and_surfaces() -> None:
     cubic = patch("P08_wavy_plate")
     raised = graph_plates(2, 4)
     nets = [cubic, raised[0][:, :3], raised[1], raised[1][:, :3]]
-    result = ah.curvature_regions([SplineSurface.bezier(net) for net in nets])
+    result = ah.surface.curvature_regions([SplineSurface.bezier(net) for net in nets])
     assert len(result.parts) == 2
     order = [(-piece.level, piece.surface) for piece in result.components]
     assert order == sorted(order)

@@ -20,7 +20,7 @@ def enclosed(outline: RegionOutline) -> float:
 def test_outlines_part_the_surface(k0: float | None) -> None:
     """The three regions of a surface of 15 patches enclose its parameters, and lie on it."""
     surface = spline(3)
-    result = ah.curvature_regions(surface, zero="absolute" if k0 else "exact", k0=k0)
+    result = ah.surface.curvature_regions(surface, zero="absolute" if k0 else "exact", k0=k0)
     outlines = [each for region in REGIONS for each in result.outlines(region)]
     assert sum(enclosed(each) for each in outlines) == pytest.approx(15.0, abs=1e-12)
     for each in outlines:
@@ -31,7 +31,7 @@ def test_outlines_part_the_surface(k0: float | None) -> None:
 
 def test_chords_of_outlines_keep_the_tolerance() -> None:
     """Along the border of a bowl, the polygon strays by no more than the tolerance."""
-    result = ah.curvature_regions(patch("P12_bowl"), chord_tol=1e-3)
+    result = ah.surface.curvature_regions(patch("P12_bowl"), chord_tol=1e-3)
     (outline,) = result.outlines("positive")
     uv = 0.5 * (outline.uv + np.roll(outline.uv, -1, axis=0))
     middle = 0.5 * (outline.xyz + np.roll(outline.xyz, -1, axis=0))
@@ -41,12 +41,14 @@ def test_chords_of_outlines_keep_the_tolerance() -> None:
 
 def test_a_hole_is_told() -> None:
     """The saddle region about a convex disc has an outline and a hole, in this order."""
-    outlines = ah.curvature_regions(patch("P03_circle_loop"), zero="exact").outlines("negative")
+    outlines = ah.surface.curvature_regions(patch("P03_circle_loop"), zero="exact").outlines(
+        "negative"
+    )
     assert [each.hole for each in outlines] == [False, True]
 
 
 def test_other_regions_are_refused() -> None:
     """A region that is not known is an error that names those that are."""
-    result = ah.curvature_regions(patch("P12_bowl"))
+    result = ah.surface.curvature_regions(patch("P12_bowl"))
     with pytest.raises(BadInputError, match="positive"):
         result.outlines("convex")

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares, minimize
 
-import assoc_hull as ah
 from assoc_hull.errors import (
     BadInputError,
     DependentTargetsError,
@@ -118,7 +117,7 @@ def test_more_freedom_gives_the_least_change() -> None:
 def test_a_hull_of_the_kernel_gets_the_least_change_that_meets_its_targets() -> None:
     """Two targets, four freedoms: 12 steps to 1e-10 and KKT 1e-6, below plain shortest steps."""
     hull = small()
-    now = ah.hydrostatics(hull)
+    now = hull.hydrostatics()
     targets = [1.03 * now.volume, now.lcb + 0.4]
     free = ["breadth", "draught", SHIFTED, FULLER]
     found, plain = (

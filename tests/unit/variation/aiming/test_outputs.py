@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-import assoc_hull as ah
 from assoc_hull.analysis.derivatives.curve_tangents import curve_tangents
 from assoc_hull.analysis.derivatives.given_motion import Moves
 from assoc_hull.analysis.derivatives.hydrostatic_derivatives import hydrostatic_derivatives
@@ -145,7 +144,7 @@ def test_the_floating_position_changes_form_parameters(hulls: dict[str, Hull]) -
         ends = []
         for step in (h, -h):
             at = draught + step * aft, draught + step * fore
-            found = ah.form_parameters(hull, draughts=at, only=names)
+            found = hull.form_parameters(draughts=at, only=names)
             ends.append(np.array([found[each].number for each in names]))
         wanted = (ends[0] - ends[1]) / (2.0 * h)
         assert_allclose(jacobian[:, k], wanted, rtol=1e-6)
@@ -155,7 +154,7 @@ def test_fields_are_those_of_hydrostatics(hulls: dict[str, Hull]) -> None:
     """Values to the bit, and derivatives by a point."""
     hull = hulls["series60_70"]
     outputs = Outputs.of(hull.state, ["volume", "lcb", "gmt"], kg=5.0)
-    record = ah.hydrostatics(hull, kg=5.0, estimate=False)
+    record = hull.hydrostatics(kg=5.0, estimate=False)
     found = outputs.differentiated(hull.state, [PointMove("WL 0.66 x ST 14"), DRAUGHT])
     assert found.values.tolist() == [record.volume, record.lcb, record.gmt]
     wanted = hydrostatic_derivatives(hull, [PointMove("WL 0.66 x ST 14"), DRAUGHT], kg=5.0)

@@ -38,7 +38,7 @@ def test_layers_that_move_nothing_along_the_ship_move_no_station() -> None:
 def test_a_map_that_lengthens_the_ship_and_rakes_her_stem_keeps_the_order_of_her_sections() -> None:
     """The section through the rake is cut again where the length sends it."""
     parent = ah.examples.wigley()
-    variant = ah.vary(parent, set={"length": 103.3, "stem_rake_deg": 0.7}).hull
+    variant = parent.vary(set={"length": 103.3, "stem_rake_deg": 0.7}).hull
     before, after = parent.groups["sections"].lines, variant.groups["sections"].lines
     assert list(after) == list(before)
     old = np.array([line.curves[0].spline.xyz[0, 0] for line in before.values()])

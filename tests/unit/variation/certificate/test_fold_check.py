@@ -13,18 +13,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.certificate import (
-    field_enclosures as field_bounds,
-)
-from assoc_hull.variation.certificate import (
-    field_minors as certify_fields,
-)
-from assoc_hull.variation.certificate import (
-    field_minors as certify_layer,
-)
-from assoc_hull.variation.certificate import (
-    field_minors as certify_strip,
-)
+from assoc_hull.variation.certificate import field_enclosures, field_minors
 from assoc_hull.variation.certificate.field_minors import is_level
 from assoc_hull.variation.certificate.fold_check import MARGIN
 from assoc_hull.variation.fields.field import StackedField
@@ -120,12 +109,12 @@ def test_bounds_of_the_strip_beside_are_found_out(
     cases: list[Case], monkeypatch: pytest.MonkeyPatch, shift: int
 ) -> None:
     """Intervals taken from the next strip, up or down, contradict the samples."""
-    right = field_bounds._in_strip
+    right = field_enclosures._in_strip
 
     def wrong(field: Any, k: int, ends: Any, *rest: Any) -> Any:
         return right(field, int(np.clip(k + shift, -1, len(ends) - 1)), ends, *rest)
 
-    monkeypatch.setattr(field_bounds, "_in_strip", wrong)
+    monkeypatch.setattr(field_enclosures, "_in_strip", wrong)
     assert contradictions(cases, beside)
 
 
@@ -134,12 +123,12 @@ def test_pieces_of_the_boundary_beside_are_found_out(
     cases: list[Case], monkeypatch: pytest.MonkeyPatch, shift: int
 ) -> None:
     """Strips between sloping boundaries that are one off their pieces contradict the samples."""
-    right = certify_strip._piece
+    right = field_minors._piece
 
     def wrong(field: Any, k: int, *rest: Any) -> Any:
         return right(field, int(np.clip(k + shift, 0, len(field.pieces) - 1)), *rest)
 
-    monkeypatch.setattr(certify_strip, "_piece", wrong)
+    monkeypatch.setattr(field_minors, "_piece", wrong)
     assert contradictions(cases, alone)
 
 
@@ -147,13 +136,13 @@ def test_a_level_boundary_left_out_is_found_out(
     cases: list[Case], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Two level strips taken for one contradict the samples."""
-    right = certify_layer.strip_heights
+    right = field_minors.strip_heights
 
     def wrong(fields: Any, box: FloatArray) -> FloatArray:
         found = right(fields, box)
         return np.delete(found, len(found) // 2) if len(found) > 2 else found
 
-    monkeypatch.setattr(certify_layer, "rows", wrong)
+    monkeypatch.setattr(field_minors, "strip_heights", wrong)
     assert contradictions(cases, level)
 
 
@@ -161,12 +150,12 @@ def test_a_determinant_left_out_is_found_out(
     cases: list[Case], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Without D maps are accepted that fold."""
-    right = certify_fields._plane
+    right = field_minors._plane
 
     def wrong(name: str, *rest: Any) -> Any:
         return [] if name == "D" else right(name, *rest)
 
-    monkeypatch.setattr(certify_fields, "_plane", wrong)
+    monkeypatch.setattr(field_minors, "_plane", wrong)
     folding = [case for case in cases if case.sampled.minor == "D" and case.sampled.value < 0.0]
     found = contradictions(folding, lambda _: True)
     assert any(text.startswith("accepted, but D is -") for text in found)

@@ -35,19 +35,19 @@ def parent() -> ah.Hull:
 @pytest.fixture(scope="module")
 def broader(parent: ah.Hull) -> ah.Hull:
     """A tenth broader."""
-    return ah.vary(parent, set={"breadth": 11.0}).hull
+    return parent.vary(set={"breadth": 11.0}).hull
 
 
 @pytest.fixture(scope="module")
 def found(parent: ah.Hull, broader: ah.Hull) -> HullComparison:
     """Both side by side."""
-    return ah.compare(parent, broader)
+    return parent.compare(broader)
 
 
 @pytest.fixture(scope="module")
 def other(parent: ah.Hull) -> HullComparison:
     """The Wigley hull beside a broader one with fewer lines, of which one is elsewhere."""
-    return ah.compare(parent, ah.examples.wigley(breadth=11.0, stations=11, waterlines=6))
+    return parent.compare(ah.examples.wigley(breadth=11.0, stations=11, waterlines=6))
 
 
 def half_breadth(x: float, z: float) -> float:
@@ -77,7 +77,7 @@ def test_every_shift_is_that_of_the_formula(parent: ah.Hull, found: HullComparis
 
 def test_a_plane_that_went_is_told_apart_from_the_course(parent: ah.Hull) -> None:
     """A deeper hull's waterlines lie lower or higher, and keep their shape in their planes."""
-    deeper = ah.vary(parent, set={"draught": 7.5}).hull
+    deeper = parent.vary(set={"draught": 7.5}).hull
     lines = {each.name: each for each in compare_lines(parent.state, deeper.state)}
     for name in ("WL 0.625", "WL 2.5", "WL 6.25"):
         shift = lines[name].shift
@@ -119,7 +119,7 @@ def test_what_has_no_number_has_a_reason(parent: ah.Hull, found: HullComparison)
 
 def test_a_hull_differs_not_from_itself(parent: ah.Hull) -> None:
     """Every shift and difference is nil; the text says that it is one hull."""
-    same = ah.compare(parent, parent)
+    same = parent.compare(parent)
     assert same.is_same
     assert {line.what for line in same.lines} == {"same"}
     assert {line.length for line in same.lines} == {0.0}
@@ -145,7 +145,7 @@ def test_lines_and_points_that_came_or_went_are_named(other: HullComparison) -> 
 
 def test_exchanged_hulls_turn_the_signs(parent: ah.Hull, other: HullComparison) -> None:
     """What went came, every shift points the other way, every difference is its negative."""
-    turned = ah.compare(ah.examples.wigley(breadth=11.0, stations=11, waterlines=6), parent)
+    turned = ah.examples.wigley(breadth=11.0, stations=11, waterlines=6).compare(parent)
     assert {line.name for line in turned.of("came")} == {line.name for line in other.of("went")}
     assert turned.points.came == other.points.went
     for line in other.lines:
@@ -216,14 +216,13 @@ def test_the_text_tells_what_differs(found: HullComparison, other: HullCompariso
 
 def test_the_draught_is_as_asked(parent: ah.Hull, broader: ah.Hull) -> None:
     """For both hulls; one at which a hull does not float is refused, with the range."""
-    low = ah.compare(parent, broader, draught=3.0)
+    low = parent.compare(broader, draught=3.0)
     assert low.parent.draught == 3.0
     assert (
-        low.hydrostatic("volume").before
-        == ah.hydrostatics(parent, draught=3.0, estimate=False).volume
+        low.hydrostatic("volume").before == parent.hydrostatics(draught=3.0, estimate=False).volume
     )
     with pytest.raises(OutOfRangeError, match=r"9\.375"):
-        ah.compare(parent, broader, draught=20.0)
+        parent.compare(broader, draught=20.0)
 
 
 @pytest.mark.parametrize(
@@ -238,7 +237,7 @@ def test_the_draught_is_as_asked(parent: ah.Hull, broader: ah.Hull) -> None:
 def test_what_is_no_hull_is_refused(parent: ah.Hull, given: dict[str, Any], holds: str) -> None:
     """In one line that names it."""
     with pytest.raises(BadInputError, match=holds) as caught:
-        ah.compare(**{"parent": parent, "variant": parent, **given})
+        ah.variation.compare(**{"parent": parent, "variant": parent, **given})
     assert "\n" not in str(caught.value)
 
 

@@ -15,7 +15,7 @@ from assoc_hull.geometry.fairness.combs import (
 )
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
-from assoc_hull.sources import examples
+from assoc_hull.hull.sources import examples
 from assoc_hull.variation.comparing.line_fairness import compare_fairness, measure_fairness
 from tests.taken_back import taken_back
 

@@ -13,8 +13,8 @@ from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
+from assoc_hull.hull.sources import examples
 from assoc_hull.model.objects import Curve, Line
-from assoc_hull.sources import examples
 from assoc_hull.variation.direct.pull_curve_through import (
     HeldPlace,
     all_free,

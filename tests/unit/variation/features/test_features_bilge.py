@@ -6,7 +6,6 @@ import attrs
 import numpy as np
 import pytest
 
-import assoc_hull as ah
 from assoc_hull import Hull
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
@@ -156,8 +155,8 @@ def test_the_bilges_of_a_varied_ship_are_arcs(
     bulk_carrier: Hull, name: str, value: float, radius: float
 ) -> None:
     """Measured on the net, known as features, and taken back by undo."""
-    hull = ah.vary(bulk_carrier, set={name: value}).hull
-    found = ah.measure(hull, only=["bilge_radius"]).anchors["bilge_radius"]
+    hull = bulk_carrier.vary(set={name: value}).hull
+    found = hull.measure(only=["bilge_radius"]).anchors["bilge_radius"]
     assert found.value == pytest.approx(radius, abs=1e-9)
     assert found.how == "circle through the bilge amidships"
     for each in ("ST 8 arc", "ST 10 arc", "ST 12 arc"):

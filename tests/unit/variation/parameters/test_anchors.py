@@ -117,7 +117,7 @@ def test_the_bulb_is_that_of_the_drawn_curves(bulk_carrier: ah.Hull, carrier: Me
 
 def test_measures_agree_with_form_parameters(bulk_carrier: ah.Hull, carrier: Measures) -> None:
     """What the catalogue of form parameters measures as well has one value."""
-    other = ah.form_parameters(bulk_carrier, only=["BL", "BH", "TH", "SCH", "BW"])
+    other = bulk_carrier.form_parameters(only=["BL", "BH", "TH", "SCH", "BW"])
     pairs = {
         "BL": "bulb_length",
         "BH": "bulb_height",
@@ -342,7 +342,7 @@ def test_the_dtc_is_measured_at_its_own_length(dtc: ah.Hull) -> None:
     assert found["transom_height"] == pytest.approx(15.3, abs=0.01)
     assert found["bilge_radius"] == pytest.approx(4.71, abs=0.02)
     assert found["flat_of_bottom"] == pytest.approx(20.85, abs=0.1)
-    areas = ah.form_parameters(ah.Hull(state), only=["PMBs", "PMBe"])
+    areas = ah.Hull(state).form_parameters(only=["PMBs", "PMBe"])
     for name, symbol in (("parallel_body_start", "PMBs"), ("parallel_body_end", "PMBe")):
         number = areas[symbol].number
         assert number is not None

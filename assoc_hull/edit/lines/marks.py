@@ -1,0 +1,376 @@
+"""Marks: where the plane of a new line meets the net, and which of them it must be made through.
+
+A new line is cut from curves of lower rank and from boundary curves. Lines of higher rank were
+fitted to the hull too: their places come among its marks as guides. Beside those that the role
+rule chooses, marks are required that the line would else pass too far off. Where a curve touches
+the plane, a tangency replaces its double root.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.followup.crossings import ONE_PLACE
+from assoc_hull.edit.followup.tangencies import (
+    NO_ROOT,
+    parameter_at_tangency,
+    stays_near_plane,
+    without_double_roots,
+)
+from assoc_hull.errors import NoMeetingError
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.plane_intersections import PlaneIntersections, intersect_planes
+from assoc_hull.model.gaps import crossing_normals, tangents
+from assoc_hull.model.kinds import FAMILIES, BoundaryKind
+from assoc_hull.model.roles import BoolArray
+from assoc_hull.model.tables import HullState
+
+if TYPE_CHECKING:
+    from assoc_hull.edit.followup.tangencies import PlaneTangency
+
+__all__ = [
+    "Marks",
+    "distinct_marks",
+    "find_guides",
+    "find_marks",
+    "required_marks",
+    "with_guides",
+    "with_tangencies",
+]
+
+
+def with_tangencies(
+    state: HullState, marks: Marks, line: int, touches: Sequence[PlaneTangency]
+) -> Marks:
+    """Put the tangencies of a line among its marks, and take out the double roots they stand for.
+
+    Those of boundary curves on which lines end become marks at which the line turns.
+    """
+    normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
+    kept = np.ones(len(marks.curve), bool)
+    for each in touches:
+        kept &= ~((marks.curve == each.curve) & ~without_double_roots(marks.xyz, each.xyz))
+        kept &= ~_along(state, marks, each, normal, offset)
+    found = marks.take(np.flatnonzero(kept))
+    ends = [
+        each for each in touches
+        if state.lines.boundary.data[state.line_of(each.curve)] == BoundaryKind.END
+    ]  # fmt: skip
+    return found.join(_as_marks(state, ends)) if ends else found
+
+
+def _as_marks(state: HullState, touches: Sequence[PlaneTangency]) -> Marks:
+    count = len(touches)
+    at = [
+        float(closest_points(state.spline(each.curve), 0, each.xyz[None])[0][0]) for each in touches
+    ]
+    return Marks(
+        np.array([each.curve for each in touches], np.int64),
+        np.array(at),
+        np.array([each.xyz for each in touches]),
+        np.zeros(count, np.int64),
+        np.full(count, int(BoundaryKind.KNUCKLE)),
+        np.full(count, NO_ROOT),
+        np.zeros(count, bool),
+    )
+
+
+def _along(
+    state: HullState, marks: Marks, touch: PlaneTangency, normal: FloatArray, offset: float
+) -> np.typing.NDArray[np.bool_]:
+    """Tell which marks lie on curves that run nearly in the plane from a tangency to the mark."""
+    found = np.zeros(len(marks.curve), bool)
+    for curve in np.unique(marks.curve).tolist():
+        start = parameter_at_tangency(state, curve, touch.xyz)
+        for i in np.flatnonzero(marks.curve == curve).tolist() if start is not None else []:
+            found[i] = stays_near_plane(
+                state, curve, (start or 0.0, float(marks.at[i])), (normal, offset)
+            )
+    return found
+
+
+# --------------------------------------------------------------------------------------
+# Marks of a new plane.
+
+
+@attrs.frozen(eq=False)
+class Marks:
+    """Where the new plane meets the net.
+
+    Attributes
+    ----------
+    curve : (k,) int
+        The curve met.
+    at : (k,), m
+        Parameter on it.
+    xyz : (k, 3), m
+        The place, exactly in both planes.
+    sign : (k,) int
+        Sense in which it passes the new plane: +1 to the positive side, -1 or 0.
+    boundary : (k,) int
+        A `BoundaryKind`, or -1 on other lines.
+    root : (k,) int
+        Which of the curve's intersections with the plane it is, counted along the curve;
+        `NO_ROOT` at a tangency.
+    guide : (k,) bool
+        Whether the new line is not cut from it, but is to pass it.
+    ring : bool
+        Whether the last is followed by the first.
+    """
+
+    curve: IntArray
+    at: FloatArray
+    xyz: FloatArray
+    sign: IntArray
+    boundary: IntArray
+    root: IntArray
+    guide: BoolArray
+    ring: bool = False
+
+    def take(self, chosen: IntArray) -> Marks:
+        """Give some of the marks, in the order of the indices."""
+        return Marks(
+            self.curve[chosen],
+            self.at[chosen],
+            self.xyz[chosen],
+            self.sign[chosen],
+            self.boundary[chosen],
+            self.root[chosen],
+            self.guide[chosen],
+            self.ring,
+        )
+
+    def join(self, other: Marks) -> Marks:
+        """Give these marks and after them those of another set."""
+        return Marks(
+            np.concatenate([self.curve, other.curve]),
+            np.concatenate([self.at, other.at]),
+            np.concatenate([self.xyz, other.xyz]),
+            np.concatenate([self.sign, other.sign]),
+            np.concatenate([self.boundary, other.boundary]),
+            np.concatenate([self.root, other.root]),
+            np.concatenate([self.guide, other.guide]),
+            self.ring,
+        )
+
+
+def _linked(state: HullState, group: int) -> list[int]:
+    """Give the groups associated with a group, the lowest rank first."""
+    names = state.groups.name.data
+    mine = names[group]
+    linked = {pair.b for pair in state.associations if pair.a == mine}
+    linked |= {pair.a for pair in state.associations if pair.b == mine}
+    return sorted(
+        (i for i in range(len(names)) if names[i] in linked),
+        key=lambda i: (_rank(state, i), names[i]),
+    )
+
+
+def _rank(state: HullState, group: int) -> int:
+    return FAMILIES[state.groups.family.data[group]].rank
+
+
+def _sources(state: HullState, group: int) -> list[int]:
+    """Give the groups a new line is cut from: lower ranks, or all if there is but one."""
+    others = _linked(state, group)
+    lower = [i for i in others if _rank(state, i) < _rank(state, group)]
+    if any(_rank(state, i) > 0 for i in lower):
+        return lower
+    return lower + [i for i in others if _rank(state, i) > _rank(state, group)][:1]
+
+
+def find_marks(state: HullState, group: int, normal: FloatArray, position: float) -> Marks:
+    """Meet every curve that a line of a group is cut from with a new plane.
+
+    Raises
+    ------
+    NoMeetingError
+        If the plane meets fewer than two places.
+    """
+    found = _meet(state, _sources(state, group), normal, position, guide=False)
+    if len(found.curve) < 2:
+        raise _misses(state, group, normal, position)
+    return found
+
+
+def find_guides(state: HullState, group: int, normal: FloatArray, position: float) -> Marks:
+    """Meet every curve of higher rank, that a line of a group is not cut from, with a new plane."""
+    others = set(_linked(state, group)) - set(_sources(state, group))
+    return _meet(state, sorted(others), normal, position, guide=True)
+
+
+def _meet(
+    state: HullState, groups: list[int], normal: FloatArray, position: float, *, guide: bool
+) -> Marks:
+    """Meet every curve of some groups with a new plane."""
+    curves = state.live("curves")
+    curves = curves[np.isin(state.lines.group.data[state.curves.line.data[curves]], groups)]
+    if not len(curves):
+        return _no_marks()
+    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+    met = intersect_planes(batch, normal, np.array([position]))
+    owner = curves[met.curve]
+    lines = state.curves.line.data[owner]
+    root = np.arange(len(owner)) - np.searchsorted(met.curve, met.curve)
+    # the coordinate of the met line's own plane to the last bit, not to rounding
+    xyz = met.xyz.copy()
+    own = (state.lines.normal.data[lines] == 1.0) & state.lines.planar.data[lines][:, None]
+    xyz[own] = np.broadcast_to(state.lines.offset.data[lines][:, None], xyz.shape)[own]
+    return Marks(
+        owner,
+        met.t.copy(),
+        xyz,
+        met.sign.astype(np.int64),
+        state.lines.boundary.data[lines].astype(np.int64),
+        root,
+        np.full(len(owner), guide),
+    )
+
+
+def _no_marks() -> Marks:
+    none = np.zeros(0, np.int64)
+    return Marks(none, np.zeros(0), np.zeros((0, 3)), none, none, none, np.zeros(0, np.bool_))
+
+
+def _misses(state: HullState, group: int, normal: FloatArray, position: float) -> NoMeetingError:
+    curves = state.live("curves")
+    reach = np.concatenate([state.spline(curve).xyz @ normal for curve in curves.tolist()])
+    nearest = max(0.0, float(reach.min() - position), float(position - reach.max()))
+    return NoMeetingError(
+        f"the plane at {position:g} m of {state.groups.name.data[group]}",
+        nearest,
+        f"choose a position between {reach.min():.3f} and {reach.max():.3f} m",
+    )
+
+
+def distinct_marks(marks: Marks) -> Marks:
+    """Drop marks that coincide with one that is kept: contacts first, then lower rank."""
+    order = np.lexsort((np.arange(len(marks.curve)), -marks.boundary, marks.guide))
+    kept: list[int] = []
+    for item in order.tolist():
+        away = np.abs(marks.xyz[kept] - marks.xyz[item]).max(axis=1) if kept else np.array([np.inf])
+        if away.min() > 1e-3:
+            kept.append(item)
+    return marks.take(np.array(sorted(kept), np.int64))
+
+
+# --------------------------------------------------------------------------------------
+# Guides: between its marks, lines of higher rank know better where the new line, made through its
+# marks, would pass them far off or not come to their planes at all.
+
+
+def with_guides(state: HullState, line: int, pieces: list[Marks]) -> list[Marks]:
+    """Put the places where lines of higher rank pass a new line's plane among its marks.
+
+    `pieces` are in order along the line; each guide goes between the marks of the nearest one, or
+    is left out where it lies farther than `ONE_PLACE` from all.
+    """
+    normal, offset = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
+    guides = find_guides(state, int(state.lines.group.data[line]), normal, offset)
+    if not len(guides.curve) or not pieces:
+        return pieces
+    shapes = SplineBatch.join([loft(CurveData.single(piece.xyz)) for piece in pieces])
+    feet = [closest_points(shapes, i, guides.xyz) for i in range(len(pieces))]
+    away = np.array([foot[2] for foot in feet])
+    nearest = np.where(away.min(axis=0) <= ONE_PLACE, away.argmin(axis=0), -1)
+    found: list[Marks] = []
+    for i, piece in enumerate(pieces):
+        mine = np.flatnonzero(nearest == i)
+        knots = shapes.knot[shapes.start[i] : shapes.start[i + 1]]
+        at = np.concatenate([knots, _between(feet[i][0][mine], knots)])
+        found.append(piece.join(guides.take(mine)).take(np.argsort(at, kind="stable")))
+    return found
+
+
+def _between(at: FloatArray, knots: FloatArray) -> FloatArray:
+    """Keep parameters off the ends of a piece: these are boundary curves' and stay the ends."""
+    found: FloatArray = np.clip(at, np.nextafter(knots[0], np.inf), np.nextafter(knots[-1], 0.0))
+    return found
+
+
+# --------------------------------------------------------------------------------------
+# Required marks. A line through those of the role rule alone may pass another mark too far off, or
+# never come to the plane of the mark's line near it. Then the crossing there would be lost, though
+# both lines pass: it would die, and be born again farther on, with the hull's shape the same.
+
+
+def required_marks(
+    state: HullState,
+    marks: Marks,
+    kind: np.typing.NDArray[np.int8],
+    direction: FloatArray,
+    ruled: BoolArray,
+) -> BoolArray:
+    """Add the marks that a line through those of the rule alone would pass too far off.
+
+    Without them a short piece between two ends would be straight, and its crossings lost.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    marks : Marks
+        Where the line passes, in order along it, with guides.
+    kind, direction : (k,) int8, (k, 3)
+        Of the line at its marks.
+    ruled : (k,) bool
+        What the rule chooses.
+
+    Returns
+    -------
+    (k,) bool
+        The marks that the line is to be made through. It meets the planes of all others
+        near them; those it is cut from it passes within the tolerance of adoption.
+    """
+    picked = ruled.copy()
+    while not picked.all():
+        spline = loft(CurveData.single(marks.xyz[picked], kind[picked], direction[picked]))
+        rest = np.flatnonzero(~picked)
+        away = closest_points(spline, 0, marks.xyz[rest])[2]
+        far = (away > state.tolerances.adoption) & ~marks.guide[rest]
+        far |= _unmet(state, marks, spline)[rest]
+        if not far.any():
+            break
+        picked[rest[int(np.where(far, away, -1.0).argmax())]] = True
+    return picked
+
+
+def _unmet(state: HullState, marks: Marks, spline: SplineBatch) -> BoolArray:
+    """Tell at which marks of plane lines a line has no intersection near with their planes."""
+    lines = state.curves.line.data[marks.curve]
+    planar = state.lines.planar.data[lines] & (marks.boundary < 0)
+    unmet: BoolArray = planar.copy()
+    for normal in sorted({tuple(row) for row in state.lines.normal.data[lines[planar]].tolist()}):
+        mine = np.flatnonzero(planar & (state.lines.normal.data[lines] == normal).all(axis=1))
+        offsets, plane = np.unique(state.lines.offset.data[lines[mine]], return_inverse=True)
+        met = intersect_planes(spline, np.array(normal), offsets)
+        unmet[mine[_paired(state, marks.take(mine), plane, spline, met)]] = False
+    return unmet
+
+
+def _paired(
+    state: HullState, marks: Marks, plane: IntArray, spline: SplineBatch, met: PlaneIntersections
+) -> IntArray:
+    """Give the marks that have an intersection of their own near, the nearest pairs first."""
+    mark, root = np.nonzero(plane[:, None] == met.plane[None, :])
+    step = marks.xyz[mark] - met.xyz[root]
+    apart = np.sqrt((step * step).sum(axis=1))
+    theirs = tangents(state, marks.curve, marks.at)[mark]
+    slope = derivative(spline, np.zeros(len(root), np.int64), met.t[root])
+    own = slope / np.sqrt((slope * slope).sum(axis=1))[:, None]
+    gap = np.abs((step * crossing_normals(own, theirs)).sum(axis=1))
+    near = (apart <= ONE_PLACE) & (gap <= state.tolerances.adoption)
+    taken: tuple[set[int], set[int]] = set(), set()
+    for i in np.flatnonzero(near)[np.argsort(apart[near], kind="stable")].tolist():
+        one, other = int(mark[i]), int(root[i])
+        if one not in taken[0] and other not in taken[1]:
+            taken[0].add(one)
+            taken[1].add(other)
+    return np.array(sorted(taken[0]), np.int64)

@@ -1,1 +1,0 @@
-"""A line cut from those that are there: added, shifted, removed."""

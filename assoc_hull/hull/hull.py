@@ -1,0 +1,2074 @@
+"""The public hull: a thin face, each method one call downward.
+
+Longer than other modules, as it is the one page a user reads: what starts from one hull is a
+method here, with all that is to be known of its arguments; the functions called have a line.
+What a method needs is imported when it is called first. Results that hold hulls, or that can be
+written, stand in `results`; pictures in `pictures`; where hulls come from in `sources`.
+
+Examples
+--------
+>>> import assoc_hull as ah
+>>> hull = ah.examples.wigley()
+>>> hull["WL 2.5 x ST 7"].parent_curve
+<Curve ST 7>
+>>> hull.check(), len(hull.history)
+((), 0)
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+from assoc_hull.arguments import flag, instance, integer, not_negative, number, text
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
+from assoc_hull.edit.session import Edit
+from assoc_hull.errors import UnknownNameError
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.kinds import FAMILIES
+from assoc_hull.model.line_source import LineSource
+from assoc_hull.model.named_mapping import NamedMapping
+from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, Points, handle
+from assoc_hull.model.tables import Association, HullState, Particulars, copy_state, state_of
+from assoc_hull.tolerance import Tolerances
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+    from os import PathLike
+    from typing import Any, Literal
+
+    import networkx
+    from numpy.typing import ArrayLike
+
+    from assoc_hull.analysis.derivatives.hydrostatic_derivatives import Derivatives
+    from assoc_hull.analysis.derivatives.parameters import Parameter
+    from assoc_hull.analysis.fairness.line_fairness import FairnessTable
+    from assoc_hull.analysis.form.curve_transform import CurveTransform, Kind
+    from assoc_hull.analysis.form.floating_shape import Screw
+    from assoc_hull.analysis.form.parameter import FormParameter, FormValue
+    from assoc_hull.analysis.hydrostatics.floating_body import (
+        Appendage,
+        FloatingPosition,
+        Freeboard,
+    )
+    from assoc_hull.analysis.hydrostatics.hull_hydrostatics import DraughtTo
+    from assoc_hull.analysis.hydrostatics.record import Hydrostatics, HydrostaticTable
+    from assoc_hull.analysis.hydrostatics.section_areas import Bonjean
+    from assoc_hull.analysis.panels.hull_panels import Side, Spacing
+    from assoc_hull.analysis.stability.condition import OnError
+    from assoc_hull.analysis.stability.cross_curves import CrossCurves
+    from assoc_hull.analysis.stability.equilibrium import Equilibrium
+    from assoc_hull.analysis.stability.flooding import FloodingPoint
+    from assoc_hull.analysis.stability.righting_lever import TrimRule
+    from assoc_hull.analysis.stability.stability_report import Stability
+    from assoc_hull.creation.creation_report import CreationReport
+    from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
+    from assoc_hull.edit.checks.finding import Finding
+    from assoc_hull.edit.explain.causes import Thing, Why
+    from assoc_hull.edit.explain.compare_states import Comparison
+    from assoc_hull.edit.explain.hull_graph import OnlyName
+    from assoc_hull.edit.explain.preview import Preview
+    from assoc_hull.edit.script import Replayed
+    from assoc_hull.edit.step_storage import Label
+    from assoc_hull.geometry.curves import FloatArray
+    from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
+    from assoc_hull.hull.pictures import HullPictures
+    from assoc_hull.hull.results import (
+        HullPlates,
+        HullSurface,
+        ProductionArcs,
+        Shifted,
+        Study,
+        Variation,
+    )
+    from assoc_hull.io.hull_file.saving import Saved
+    from assoc_hull.io.reports import ExportReport
+    from assoc_hull.model.definition.verify import Difference
+    from assoc_hull.model.form_definition import FormDefinition
+    from assoc_hull.model.objects import FeatureHandle
+    from assoc_hull.model.tables import HasState
+    from assoc_hull.surface.blocks.net_surface import NetSurface
+    from assoc_hull.surface.cells.closed_mesh import ClosedMesh
+    from assoc_hull.surface.plating.hull_seams import HullSeams
+    from assoc_hull.variation.comparing.comparison import HullComparison
+    from assoc_hull.variation.parameters.field_layout import Layout
+    from assoc_hull.variation.parameters.measurement import Measures
+    from assoc_hull.variation.request import Planes, Stations
+    from assoc_hull.variation.sensitivities import Sensitivities
+    from assoc_hull.variation.shifts.shift_terms import Fade, ShiftShape, Terminals
+
+__all__ = ["Hull"]
+
+
+class Hull:
+    """A ship hull form, with its history; `adoption` tells how it was made of lines, if here."""
+
+    def __init__(self, state: HullState | Document) -> None:
+        if not isinstance(state, Document):
+            state = Document(instance(state, HullState, "state", "in Hull"))
+        self.document = state
+        self.adoption: AdoptionReport | None = None
+        self._open: Edit | None = None
+
+    @classmethod
+    def from_lines(
+        cls,
+        lines: Sequence[LineSource],
+        *,
+        particulars: Particulars,
+        associations: Sequence[Association],
+        tolerances: Tolerances | None = None,
+    ) -> Self:
+        """Make a net of given lines; see `assoc_hull.edit.adoption.adopt_lines.adopt`."""
+        from assoc_hull.edit.adoption.adopt_lines import adopt
+
+        state, report = adopt(lines, particulars, associations, tolerances)
+        hull = cls(state)
+        hull.adoption = report
+        return hull
+
+    def __repr__(self) -> str:
+        ship = self.particulars
+        return f"<Hull {ship.name}, {len(self.lines)} lines, {len(self.document.history)} edits>"
+
+    @property
+    def state(self) -> HullState:
+        """The tables."""
+        return self.document.state
+
+    @property
+    def particulars(self) -> Particulars:
+        """Name and principal dimensions, m."""
+        return self.state.particulars
+
+    @property
+    def groups(self) -> Mapping[str, Group]:
+        """The groups of lines by name, in the order of the ranks."""
+        found = [Group.of(self.state, i) for i in self.state.live("groups").tolist()]
+        found.sort(key=lambda each: (FAMILIES[each.family].rank, each.name))
+        return NamedMapping("group", {each.name: each for each in found})
+
+    @property
+    def lines(self) -> Mapping[str, Line]:
+        """All lines by name; by group and name where two groups have one of the same name."""
+        book, live = AddressBook(self.state), self.state.live("lines").tolist()
+        return NamedMapping("line", {book.line_name(i): Line.of(self.state, i) for i in live})
+
+    @property
+    def points(self) -> Points:
+        """All points by address."""
+        return Points(self.state)
+
+    @property
+    def crossings(self) -> Mapping[str, Crossing]:
+        """All crossings by address."""
+        book, table = AddressBook(self.state), self.state.rows
+        live = [row for row in self.state.live("rows").tolist() if table.curve.data[row, 1] >= 0]
+        return NamedMapping("crossing", {book.address(i): Crossing.of(self.state, i) for i in live})
+
+    @property
+    def features(self) -> Mapping[str, FeatureHandle]:
+        """Circles, arcs, flats, straight runs, knuckle lines and joins by name."""
+        from assoc_hull.model.objects import features_by_name
+
+        return features_by_name(self.state)
+
+    @property
+    def definitions(self) -> Mapping[str, FormDefinition]:
+        """Definitions by form parameters by name; `values` of each holds its numbers."""
+        return NamedMapping("definition", {each.name: each for each in self.state.definitions})
+
+    @property
+    def creation(self) -> CreationReport:
+        """The hull beside its definitions; BadInputError if it has none."""
+        from assoc_hull.creation.creation_report import creation_report
+
+        return creation_report(self.state)
+
+    @property
+    def history(self) -> tuple[EditReport, ...]:
+        """The reports of all committed edits, oldest first."""
+        return tuple(step.report for step in self.document.history)
+
+    @property
+    def undone(self) -> tuple[EditReport, ...]:
+        """The reports of edits that were taken back, the last one taken back last."""
+        return tuple(step.report for step in self.document.undone)
+
+    @property
+    def author(self) -> str:
+        """Who edits; every step keeps it."""
+        return self.document.author
+
+    @author.setter
+    def author(self, name: str) -> None:
+        self.document.author = text(name, "the name", "in author")
+
+    @property
+    def labels(self) -> Mapping[str, Label]:
+        """Checkpoints, and branches that undone edits were left on, by name."""
+        return NamedMapping("checkpoint or branch", dict(self.document.labels))
+
+    def edit(
+        self, name: str, policy: PolicyName = "all_or_nothing", gaps: GapsName = "refuse"
+    ) -> Edit:
+        """Begin an edit, for a ``with`` statement; inside another one it joins that.
+
+        Raises
+        ------
+        BadInputError
+            An unknown policy, or an unknown treatment of gaps.
+        """
+        settings = settings_of(policy, gaps)
+        text(name, "the name", "in edit")
+        if self._open is None or not self._open.active:
+            self._open = Edit(self.document, name, settings)
+        return self._open
+
+    def preview(
+        self,
+        edits: Changes,
+        policy: PolicyName = "all_or_nothing",
+        gaps: GapsName = "refuse",
+        *,
+        name: str = "preview",
+        why: Sequence[Thing | str] = (),
+    ) -> Preview:
+        """Run edits, publish nothing, and tell what they would do.
+
+        Parameters
+        ----------
+        edits : callable, or sequence of mappings
+            Called with the edit; or ``{"op": "move", "point": ..., "y": ...}`` and so on.
+        policy, gaps
+            As for `edit`.
+        name, why : str, sequence of objects or addresses
+            Name of the edit, for its report; of what to tell why it would change.
+
+        Returns
+        -------
+        Preview
+            The report, or why it would be refused; lines that would change; volume and LCB.
+        """
+        from assoc_hull.edit.explain.preview import preview
+
+        return preview(
+            self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps), name, why
+        )
+
+    def apply(self, name: str, edits: Changes | None = None) -> EditReport | None:
+        """Carry out edits given as for `preview`; None if they joined one that is still open.
+
+        Raises
+        ------
+        BadInputError
+            No name, no edits, or one that no method of `Edit` fits.
+        """
+        with self.edit(name) as edit:
+            carry_out(edit, edits)
+        return edit.report
+
+    def undo(self, n: int = 1) -> None:
+        """Take back the last edits; stored values come back, nothing is computed."""
+        self.document.undo(n)
+
+    def redo(self, n: int = 1) -> None:
+        """Make edits that were taken back again."""
+        self.document.redo(n)
+
+    def checkpoint(self, name: str) -> None:
+        """Name the present state, to return to it or compare with it.
+
+        Raises
+        ------
+        NameTakenError
+            The name is in use.
+        """
+        self.document.label(name)
+
+    def go(self, name: str) -> None:
+        """Return to a checkpoint or branch; what is left is reachable by a name, too.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no such name.
+        """
+        self.document.go(name)
+
+    def diff(self, before: str, after: str | None = None) -> Comparison:
+        """Compare two checkpoints or branches, or one with the present state."""
+        from assoc_hull.edit.explain.compare_states import compare_labelled
+
+        return compare_labelled(self.document, before, after)
+
+    def replay(self, other: Hull, *, skip: bool = False) -> tuple[Replayed, ...]:
+        """Make the edits of another hull again on this one; see `assoc_hull.edit.script`."""
+        from assoc_hull.edit.script import replay
+
+        steps = instance(other, Hull, "other", "in replay").document.history
+        return replay(self.document, steps, skip=flag(skip, "skip", "in replay"))
+
+    def __getitem__(self, address: str) -> Group | Line | Curve | Point:
+        """Give the line, point, curve or group that an address names, as `find` does."""
+        return handle(self.state, address)
+
+    def __contains__(self, address: object) -> bool:
+        """Whether an address names a line, point, curve or group of the hull."""
+        try:
+            handle(self.state, text(address, "the address", "in a look-up"))
+        except UnknownNameError:
+            return False
+        return True
+
+    # A hull is no sequence: without this, Python would ask it for hull[0], hull[1], ...
+    __iter__ = None
+
+    def find(self, address: str) -> Group | Line | Curve | Point:
+        """Give what an address names; see `assoc_hull.model.address`."""
+        return handle(self.state, address)
+
+    def why(self, thing: Thing | FormDefinition | str) -> Why:
+        """Explain the last change of a point, curve, definition, or a line's first curve.
+
+        Raises
+        ------
+        UnknownNameError, ForeignPointError, BadInputError
+            Nothing that this hull has, or a group.
+        """
+        from assoc_hull.edit.explain.causes import node_of, why
+
+        return why(self.document, node_of(self.state, thing))
+
+    def check(self, notes: bool = False) -> tuple[Finding, ...]:
+        """Give what is wrong with the hull; empty if nothing is."""
+        from assoc_hull.edit.checks.hull_findings import check
+
+        return check(self.document.state, flag(notes, "notes", "in check"))
+
+    def verify(self, relative: float = 0.0) -> tuple[Difference, ...]:
+        """Rebuild the hull beside the published one, look through its file: all that differs."""
+        from assoc_hull.io.hull_file.saving import file_damages
+        from assoc_hull.model.definition.verify import verify
+
+        found = verify(self.state, not_negative(relative, "relative", "in verify"))
+        return (*found, *file_damages(self.document))
+
+    @property
+    def fingerprint(self) -> str:
+        """SHA-256 of definition and published values; undo gives the old one back."""
+        from assoc_hull.model.definition.fingerprint import fingerprint
+
+        return fingerprint(self.state)
+
+    def graph(
+        self,
+        *,
+        around: Thing | FormDefinition | str | None = None,
+        up: int = 1,
+        down: int = 1,
+        only: OnlyName | None = None,
+        edit: int | None = None,
+    ) -> networkx.MultiDiGraph[str]:
+        """Give objects and links as a graph; see `assoc_hull.edit.explain.hull_graph.graph_of`."""
+        from assoc_hull.edit.explain.hull_graph import graph_of
+
+        hops = integer(up, "up", "in graph", least=0), integer(down, "down", "in graph", least=0)
+        return graph_of(self.document, around, hops, only, edit)
+
+    def dependencies(self, points: bool = False) -> networkx.DiGraph[str]:
+        """Give who drives whom now; see `assoc_hull.model.object_graph.dependencies`."""
+        from assoc_hull.model.object_graph import dependencies
+
+        return dependencies(self.state, flag(points, "points", "in dependencies"))
+
+    def half_breadth(self, x: float, z: float) -> float:
+        """Give the half-breadth (m) at x and z (m); see `assoc_hull.model.half_breadth`."""
+        from assoc_hull.model.half_breadth import half_breadth
+
+        where = "in half_breadth"
+        return half_breadth(self.state, number(x, "x", where), number(z, "z", where))
+
+    # ----------------------------------------------------------------------------------
+    # Numbers of the hull as she floats.
+
+    def hydrostatics(
+        self,
+        *,
+        draught: float | None = None,
+        draughts: tuple[float, float] | None = None,
+        heel_deg: float = 0.0,
+        rho: float = 1.025,
+        shell_factor: float = 1.0,
+        kg: float | None = None,
+        transom: bool = False,
+        on_error: OnError = "refuse",
+        appendages: Iterable[Appendage] = (),
+        keel_thickness: float = 0.0,
+        draught_to: DraughtTo = "moulded",
+        estimate: bool = True,
+    ) -> Hydrostatics:
+        """Compute the hydrostatics of a hull at one floating position.
+
+        Parameters
+        ----------
+        draught : float, m
+            At even keel; or `draughts`. The design draught if neither is given.
+        draughts : (float, float), m
+            T_A and T_F, on the centre line at the perpendiculars.
+        heel_deg : float, degrees
+            + starboard down.
+        rho : float, t/m3
+            Density of the water: 1.025 salt, 1.000 fresh.
+        shell_factor : float
+            Displacement over that of the moulded volume.
+        kg : float or None, m
+            Centre of gravity above the base line.
+        transom : bool
+            Count the immersed transom, and other flat ends, as wetted surface.
+        on_error : "refuse" or "report"
+            What to do if the integrals are doubtful: a section that is open or crosses itself, two
+            routes that disagree. What is reported stands in the `notes` of the record.
+        appendages : iterable of Appendage
+            That are added to the moulded hull.
+        keel_thickness : float, m
+            From the base line down to the underside of keel.
+        draught_to : "moulded" or "keel"
+            Whether draughts are given to the base line, or to the underside of keel; the record is
+            always of moulded ones.
+        estimate : bool
+            Estimate how far each value may be off by the integration of these lines. Without,
+            numbers are not compared with those of other routes either: only the lines can make it
+            doubtful.
+
+        Returns
+        -------
+        Hydrostatics
+            The record.
+
+        Raises
+        ------
+        OutOfRangeError
+            A position in which the hull does not float, with the range.
+        BadInputError
+            A number that cannot be used; a doubtful hull.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> round(hull.hydrostatics(draught=6.25).cb, 3)  # 4/9
+        0.444
+        """
+        from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
+
+        return hydrostatics(
+            self,
+            draught=draught,
+            draughts=draughts,
+            heel_deg=heel_deg,
+            rho=rho,
+            shell_factor=shell_factor,
+            kg=kg,
+            transom=transom,
+            on_error=on_error,
+            appendages=appendages,
+            keel_thickness=keel_thickness,
+            draught_to=draught_to,
+            estimate=estimate,
+        )
+
+    def hydrostatic_table(
+        self,
+        draughts: Sequence[float],
+        trims: Sequence[float] = (0.0,),
+        *,
+        heel_deg: float = 0.0,
+        rho: float = 1.025,
+        shell_factor: float = 1.0,
+        kg: float | None = None,
+        transom: bool = False,
+        on_error: OnError = "refuse",
+        appendages: Iterable[Appendage] = (),
+        keel_thickness: float = 0.0,
+        draught_to: DraughtTo = "moulded",
+        estimate: bool = True,
+        date: str | None = None,
+    ) -> HydrostaticTable:
+        """Compute a table of hydrostatics over draughts and trims, all in one go.
+
+        Parameters
+        ----------
+        draughts : (n,), m
+            Mean draughts, rising.
+        trims : (k,), m
+            T_A - T_F: + by the stern, rising.
+        heel_deg, rho, shell_factor, kg, transom, on_error, appendages, keel_thickness
+            As for `hydrostatics`.
+        draught_to, estimate
+            As for `hydrostatics`.
+        date : str or None
+            For the head of the table.
+
+        Raises
+        ------
+        OutOfRangeError, BadInputError
+            As `hydrostatics`; also draughts or trims that do not rise.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> table = ah.examples.wigley().hydrostatic_table([2.0, 4.0, 6.0], [0.0, 0.5])
+        >>> table.shape, table[2, 1].trim_by_stern
+        ((3, 2), 0.5)
+        """
+        from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatic_table
+
+        return hydrostatic_table(
+            self,
+            draughts,
+            trims,
+            heel_deg=heel_deg,
+            rho=rho,
+            shell_factor=shell_factor,
+            kg=kg,
+            transom=transom,
+            on_error=on_error,
+            appendages=appendages,
+            keel_thickness=keel_thickness,
+            draught_to=draught_to,
+            estimate=estimate,
+            date=date,
+        )
+
+    def hydrostatic_derivatives(
+        self,
+        wrt: Iterable[Parameter],
+        *,
+        draught: float | None = None,
+        draughts: tuple[float, float] | None = None,
+        heel_deg: float = 0.0,
+        rho: float = 1.025,
+        shell_factor: float = 1.0,
+        kg: float | None = None,
+        transom: bool = False,
+        on_error: OnError = "refuse",
+        appendages: Iterable[Appendage] = (),
+        keel_thickness: float = 0.0,
+        draught_to: DraughtTo = "moulded",
+    ) -> Derivatives:
+        """Differentiate the hydrostatics of a hull at one floating position.
+
+        Parameters
+        ----------
+        wrt : iterable of k parameters
+            By what: `DRAUGHT`, `TRIM`, `DRAUGHT_AFT`, `DRAUGHT_FORE` (m), `HEEL` (degree),
+            `PointMove` (m), `Deformation`; of `assoc_hull.analysis.derivatives.parameters`; or
+            `Moves`.
+        draught, draughts, heel_deg, rho, shell_factor, kg, transom, on_error, appendages
+            As for `hydrostatics`.
+        keel_thickness, draught_to
+            As for `hydrostatics`.
+
+        Returns
+        -------
+        Derivatives
+            The record, and its derivatives.
+
+        Raises
+        ------
+        WrongTypeError, BadInputError, UnknownNameError, FreedomError, PointRoleError
+            A parameter that cannot be used; else as `hydrostatics`.
+
+        Notes
+        -----
+        Draughts, water, KG and appendages stay as they are, and so do Lpp and B but where a
+        parameter has rates for them (`assoc_hull.analysis.derivatives.given_motion.Moves`). The
+        layout of the surface is that of the hull as it stands; where a value has a kink (the
+        largest station changes, a section begins to be wet) the derivative is that to one side.
+
+        Examples
+        --------
+        >>> from assoc_hull.analysis.derivatives.parameters import DRAUGHT, PointMove
+        >>> import assoc_hull as ah
+        >>> wrt = [DRAUGHT, PointMove("WL 2.5 x ST 7")]
+        >>> found = ah.examples.wigley().hydrostatic_derivatives(wrt, draught=6.25)
+        >>> found.of("volume").round(2).tolist(), round(found.value.waterplane_area, 2)
+        ([666.63, 6.25], 666.63)
+        """
+        from assoc_hull.analysis.derivatives.hydrostatic_derivatives import hydrostatic_derivatives
+
+        return hydrostatic_derivatives(
+            self,
+            wrt,
+            draught=draught,
+            draughts=draughts,
+            heel_deg=heel_deg,
+            rho=rho,
+            shell_factor=shell_factor,
+            kg=kg,
+            transom=transom,
+            on_error=on_error,
+            appendages=appendages,
+            keel_thickness=keel_thickness,
+            draught_to=draught_to,
+        )
+
+    def immersion(
+        self,
+        weight: float,
+        *,
+        lcg: float | None = None,
+        kg: float | None = None,
+        trim_by_stern: float = 0.0,
+        heel_deg: float = 0.0,
+        rho: float = 1.025,
+        shell_factor: float = 1.0,
+        appendages: Iterable[Appendage] = (),
+    ) -> FloatingPosition:
+        """Find the draughts at which a hull carries a weight (`loading`).
+
+        Parameters
+        ----------
+        weight : float, t
+            All of it.
+        lcg, kg : float or None, m
+            Centre of gravity from AP and above base; without `lcg` the trim is as given.
+        trim_by_stern, heel_deg : m, degrees
+            Of the ship; with `lcg` the trim is found, and none may be given.
+        rho, shell_factor, appendages
+            As for `hydrostatics`.
+
+        Raises
+        ------
+        OutOfRangeError
+            A weight that the hull does not carry, with the range.
+        BadInputError
+            A number that cannot be used; trim and `lcg` both; no trim at which the hull would
+            float.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> round(ah.examples.wigley().immersion(2777.8 * 1.025).draught_aft, 2)
+        6.25
+        """
+        from assoc_hull.analysis.hydrostatics.draughts_from_weight import immersion
+
+        return immersion(
+            self,
+            weight,
+            lcg=lcg,
+            kg=kg,
+            trim_by_stern=trim_by_stern,
+            heel_deg=heel_deg,
+            rho=rho,
+            shell_factor=shell_factor,
+            appendages=appendages,
+        )
+
+    def equilibrium(
+        self,
+        weight: float,
+        *,
+        lcg: float,
+        kg: float,
+        tcg: float = 0.0,
+        rho: float = 1.025,
+        shell_factor: float = 1.0,
+        appendages: Iterable[Appendage] = (),
+        on_error: OnError = "refuse",
+    ) -> Equilibrium:
+        """Find the draughts and the heel at which a ship comes to rest from upright.
+
+        Parameters
+        ----------
+        weight : float, t
+            All of it.
+        lcg, tcg, kg : float, m
+            Centre of gravity from AP, to port, and above the base line.
+        rho, shell_factor, appendages, on_error
+            As for `stability`.
+
+        Returns
+        -------
+        Equilibrium
+            Position, and how stable it is.
+
+        Raises
+        ------
+        OutOfRangeError
+            A weight that she does not carry, with the range.
+        BadInputError
+            A number that cannot be used; she does not come to rest before 85 degrees, or before the
+            edge of her open deck goes under.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.wigley().equilibrium(2847.0, lcg=51.0, tcg=-0.1, kg=4.0)
+        >>> found.kind, round(found.position.heel_deg, 2)
+        ('list', 4.46)
+        """
+        from assoc_hull.analysis.stability.equilibrium import equilibrium
+
+        return equilibrium(
+            self,
+            weight,
+            lcg=lcg,
+            kg=kg,
+            tcg=tcg,
+            rho=rho,
+            shell_factor=shell_factor,
+            appendages=appendages,
+            on_error=on_error,
+        )
+
+    def stability(
+        self,
+        *,
+        kg: float,
+        weight: float | None = None,
+        draught: float | None = None,
+        draughts: tuple[float, float] | None = None,
+        lcg: float | None = None,
+        tcg: float = 0.0,
+        trim: TrimRule = "fixed",
+        heels: Sequence[float] | None = None,
+        flooding: Iterable[FloodingPoint] = (),
+        rho: float = 1.025,
+        shell_factor: float = 1.0,
+        appendages: Iterable[Appendage] = (),
+        on_error: OnError = "refuse",
+        date: str | None = None,
+    ) -> Stability:
+        """Compute the righting levers of a ship in a condition, and judge them.
+
+        Parameters
+        ----------
+        kg : float, m
+            Centre of gravity above the base line, corrected for free surfaces by the caller.
+        weight : float, t
+            All of it; or `draught`, or `draughts`; the design draught if none is given.
+        draught, draughts : float or (float, float), m
+            At even keel, or T_A and T_F: upright, moulded.
+        lcg : float or None, m
+            With `weight`: centre of gravity from AP. Without, she is at even keel upright.
+        tcg : float, m
+            Centre of gravity to port.
+        trim : "fixed" or "free"
+            Keep the trim that she has upright, or find that of equilibrium at each heel.
+        heels : (d,), degrees
+            For the table: rising, + starboard down, from -90 to 90.
+        flooding : iterable of FloodingPoint
+            Openings through which water comes in.
+        rho, shell_factor, appendages, on_error
+            As for `hydrostatics`.
+        date : str or None
+            For the head.
+
+        Returns
+        -------
+        Stability
+            Levers, angles and criteria.
+
+        Raises
+        ------
+        OutOfRangeError
+            A weight that she does not carry, draughts at which she does not float, with the range.
+        BadInputError
+            A number that cannot be used; a doubtful hull.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.wigley().stability(draught=6.25, kg=4.0, heels=[0, 10, 20, 30])
+        >>> found.kn.round(3).tolist()
+        [0.0, 0.918, 1.82, 2.694]
+        """
+        from assoc_hull.analysis.stability.condition import HEELS
+        from assoc_hull.analysis.stability.stability_report import stability
+
+        return stability(
+            self,
+            kg=kg,
+            weight=weight,
+            draught=draught,
+            draughts=draughts,
+            lcg=lcg,
+            tcg=tcg,
+            trim=trim,
+            flooding=flooding,
+            rho=rho,
+            shell_factor=shell_factor,
+            appendages=appendages,
+            on_error=on_error,
+            date=date,
+            heels=HEELS if heels is None else heels,
+        )
+
+    def cross_curves(
+        self,
+        *,
+        weights: Sequence[float] | None = None,
+        draughts: Sequence[float] | None = None,
+        heels: Sequence[float] | None = None,
+        trim_by_stern: float = 0.0,
+        trim: TrimRule = "fixed",
+        rho: float = 1.025,
+        shell_factor: float = 1.0,
+        kg: float | None = None,
+        appendages: Iterable[Appendage] = (),
+        on_error: OnError = "refuse",
+        date: str | None = None,
+    ) -> CrossCurves:
+        """Compute KN over displacement and heel, all in one go.
+
+        Parameters
+        ----------
+        weights : (n,), t
+            Displacements at even keel, rising; or `draughts`.
+        draughts : (n,), m
+            Mean draughts upright, rising.
+        heels : (k,), degrees
+            Rising, + starboard down, from -90 to 90.
+        trim_by_stern : float, m
+            Of the draughts, upright.
+        trim : "fixed" or "free"
+            Keep the trim that she has upright, or find that of equilibrium at each heel, with the
+            centre of gravity where it balances her upright.
+        kg : float or None, m
+            Where it lies above the base line, for the trim of equilibrium; None: at each heel as
+            high as the centre of buoyancy.
+        rho, shell_factor, appendages, on_error, date
+            As for `stability`.
+
+        Raises
+        ------
+        OutOfRangeError
+            A displacement that she does not carry, or a draught at which she does not float.
+        BadInputError
+            Neither weights nor draughts, or both; a number that cannot be used; a doubtful hull.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.wigley().cross_curves(draughts=[5.0, 6.25], heels=[10, 30])
+        >>> found.kn.shape, found.kn[1].round(3).tolist()
+        ((2, 2), [0.918, 2.694])
+        """
+        from assoc_hull.analysis.stability.cross_curves import ANGLES, cross_curves
+
+        return cross_curves(
+            self,
+            weights=weights,
+            draughts=draughts,
+            trim_by_stern=trim_by_stern,
+            trim=trim,
+            rho=rho,
+            shell_factor=shell_factor,
+            kg=kg,
+            appendages=appendages,
+            on_error=on_error,
+            date=date,
+            heels=ANGLES if heels is None else heels,
+        )
+
+    def freeboard(self, position: FloatingPosition) -> Freeboard:
+        """Give the least height of the deck edge above the water, and where.
+
+        Parameters
+        ----------
+        position : FloatingPosition
+            Where it floats, moulded.
+
+        Raises
+        ------
+        OutOfRangeError
+            It does not float there.
+        """
+        from assoc_hull.analysis.hydrostatics.draughts_from_weight import freeboard
+
+        return freeboard(self, position)
+
+    def deck_edge_angle(
+        self, position: FloatingPosition, appendages: Iterable[Appendage] = ()
+    ) -> float | None:
+        """Give the heel (degrees) at which the deck edge goes under, at this displacement and trim.
+
+        Parameters
+        ----------
+        position : FloatingPosition
+            Where it floats upright, moulded.
+        appendages : iterable of Appendage
+            That carry as well.
+
+        Raises
+        ------
+        OutOfRangeError
+            It does not float there.
+        """
+        from assoc_hull.analysis.hydrostatics.draughts_from_weight import deck_edge_angle
+
+        return deck_edge_angle(self, position, appendages)
+
+    def bonjean(self, levels: int = 41) -> Bonjean:
+        """Give the Bonjean curves of a hull, from the keel to the deck edge.
+
+        Parameters
+        ----------
+        levels : int
+            At so many heights: from the lowest place of the hull to the lowest of an open deck
+            edge, or the highest of a closed one.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> curves = ah.examples.wigley().bonjean(5)
+        >>> curves.stations.area.shape == curves.moment.shape == (5, len(curves.stations.x))
+        True
+        """
+        from assoc_hull.analysis.hydrostatics.section_areas import bonjean
+
+        return bonjean(self, levels)
+
+    def section_points(
+        self,
+        x: object,
+        *,
+        points: int = 20,
+        draught: float | None = None,
+        draughts: tuple[float, float] | None = None,
+    ) -> FloatArray:
+        """Part immersed half sections of an upright hull into equal lengths.
+
+        All pieces of a section (bulb and stem, bossing and counter) are one length, one after the
+        other from below; the way from one to the next does not count.
+
+        Parameters
+        ----------
+        x : float or (k,), m
+            Where the sections are, from AP.
+        points : int
+            On each, from the keel to the waterline, both ends counted.
+        draught : float, m
+            At even keel; or `draughts`. The design draught if neither is given.
+        draughts : (float, float), m
+            T_A and T_F, on the centre line at the perpendiculars.
+
+        Returns
+        -------
+        (k, points, 3), m
+            Port side, in the axes of the ship; nan where nothing is wet. Beyond the last stations
+            the curves of the surface lean: there they are those whose place is x by proportion.
+
+        Raises
+        ------
+        OutOfRangeError
+            A position in which the hull does not float, with the range.
+        BadInputError
+            A number that cannot be used.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.bulk_carrier_207k().section_points(150.0, points=4)
+        >>> found[0, :, 1:].round(3).tolist()
+        [[0.0, 0.0], [13.99, 0.0], [25.0, 4.01], [25.0, 18.0]]
+        """
+        from assoc_hull.analysis.panels.section_points import section_points
+
+        return section_points(self, x, points=points, draught=draught, draughts=draughts)
+
+    def panels(
+        self,
+        *,
+        draught: float | None = None,
+        draughts: tuple[float, float] | None = None,
+        heel_deg: float = 0.0,
+        count: int | None = None,
+        stations: int | Sequence[float] | None = None,
+        points: int | None = None,
+        spacing: Spacing = "arc",
+        side: Side | None = None,
+        knuckle_deg: float | None = None,
+        transom: bool = True,
+        origin: float | None = None,
+        on_error: Literal["refuse", "report"] = "refuse",
+    ) -> PanelMesh:
+        """Divide the immersed hull into panels, for seakeeping codes.
+
+        Half sections are parted into equal lengths from keel to waterline, and neighbouring ones
+        joined by quadrilaterals, by triangles where a section is a point. The mesh follows the
+        surface that hydrostatics integrates; it is closed but for the water surface.
+
+        Parameters
+        ----------
+        draught : float, m
+            At even keel; or `draughts`. The design draught if neither is given.
+        draughts : (float, float), m
+            T_A and T_F, on the centre line at the perpendiculars.
+        heel_deg : float, degrees
+            + starboard down.
+        count : int or None
+            How many panels to aim at, of the half or the full mesh; instead of `stations` and
+            `points`, or with one of them.
+        stations : int, (k,) m, or None
+            How many sections to join, or at which x; sections at which the hull ends, branches or
+            joins are added. By the shape of the panels if not given.
+        points : int or None
+            On a half section, both ends counted; 20 if neither this nor `count` is given.
+        spacing : "arc" or "cosine"
+            Sections by equal lengths along the waterline, or close together at both ends.
+        side : "half", "full" or None
+            Port only, to be mirrored by the code, or both sides. None: half if upright.
+        knuckle_deg : float or None
+            Put points on knuckles that turn by more; the lengths between share the panels by the
+            largest remainder. None: points are spaced equally throughout.
+        transom : bool
+            Close immersed transoms and other ends of the surface by panels.
+        origin : float or None, m
+            x from AP of the origin of the mesh; midship, Lpp / 2, if None.
+        on_error : "refuse" or "report"
+            What to do if lines make the surface doubtful.
+
+        Returns
+        -------
+        PanelMesh
+            With the water surface at z = 0, x forward in it, y to port.
+
+        Raises
+        ------
+        OutOfRangeError
+            A position in which the hull does not float, or a station beyond what is wet of it, with
+            the range.
+        BadInputError
+            A number that cannot be used; half of a heeled hull; a doubtful hull.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> mesh = ah.examples.wigley().panels(stations=41, points=11)
+        >>> mesh.count, mesh.mirror_y, round(float(mesh.volumes[0]), 1)  # exactly 2777.8
+        (400, True, 2768.2)
+        """
+        from assoc_hull.analysis.panels.hull_panels import panels
+
+        return panels(
+            self,
+            draught=draught,
+            draughts=draughts,
+            heel_deg=heel_deg,
+            count=count,
+            stations=stations,
+            points=points,
+            spacing=spacing,
+            side=side,
+            knuckle_deg=knuckle_deg,
+            transom=transom,
+            origin=origin,
+            on_error=on_error,
+        )
+
+    # ----------------------------------------------------------------------------------
+    # Numbers of her form.
+
+    def form_parameters(
+        self,
+        *,
+        draught: float | None = None,
+        draughts: tuple[float, float] | None = None,
+        screw: Screw | None = None,
+        rho: float = 1.025,
+        shell_factor: float = 1.0,
+        transom: bool = False,
+        only: Iterable[str] | None = None,
+        further: Iterable[FormParameter] = (),
+    ) -> Mapping[str, FormValue]:
+        """Give the form parameters of a hull, upright at a draught.
+
+        Values are computed once: until a line of the hull changes, asking again costs nothing.
+
+        Parameters
+        ----------
+        draught : float, m
+            At even keel; or `draughts`. The design draught if neither is given.
+        draughts : (float, float), m
+            T_A and T_F, on the centre line at the perpendiculars.
+        screw : Screw or None
+            Without it, what depends on screw and shaft has no value.
+        rho, shell_factor, transom
+            As for `hydrostatics`.
+        only : iterable of str or None
+            Symbols of the entries wanted; None: all of them.
+        further : iterable of FormParameter
+            Entries of one's own, which may need others of the catalogue.
+
+        Returns
+        -------
+        mapping of str to FormValue
+            By symbol: a number with its unit, or the reason why there is none.
+
+        Raises
+        ------
+        OutOfRangeError
+            A position in which the hull does not float, with the range.
+        UnknownNameError
+            A symbol that is no entry.
+        BadInputError
+            A number that cannot be used; entries that do not fit into the catalogue.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.wigley().form_parameters(draught=6.25)
+        >>> round(found["Cb"].number, 3), found["Cb"].unit  # 4/9
+        (0.444, '-')
+        """
+        from assoc_hull.analysis.form.form_parameters import form_parameters
+
+        return form_parameters(
+            self,
+            draught=draught,
+            draughts=draughts,
+            screw=screw,
+            rho=rho,
+            shell_factor=shell_factor,
+            transom=transom,
+            only=only,
+            further=further,
+        )
+
+    def measure(self, *, only: Iterable[str] | None = None) -> Measures:
+        """Give the present values of a hull's named parameters.
+
+        Parameters
+        ----------
+        only : iterable of str or None
+            Names of parameters; None: all of them.
+
+        Returns
+        -------
+        mapping of str to float
+            Values by name, in m, or in degrees where the name ends in ``_deg``; x from AP forward,
+            z from the base line up. `absent` tells by name why the hull has no such parameter,
+            `anchors` where and how each was measured.
+
+        Raises
+        ------
+        UnknownNameError
+            A name that is none of a parameter.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.series60(0.70).measure(only=["breadth", "depth", "bossing_radius"])
+        >>> {name: round(value, 3) for name, value in found.items()}
+        {'breadth': 17.417, 'depth': 10.45}
+        >>> found.absent["bossing_radius"]
+        'parent has no bossing circle'
+        """
+        from assoc_hull.variation.parameters.parameter_measures import measure
+
+        return measure(self, only=only)
+
+    def sensitivities(
+        self,
+        outputs: Iterable[str] | None = None,
+        parameters: Iterable[object] | None = None,
+        *,
+        kg: float | None = None,
+        layout: Mapping[str, Any] | Layout | None = None,
+    ) -> Sensitivities:
+        """Differentiate outputs of a hull by parameters of its shape and position.
+
+        The hull floats upright at its design draught, the new one where a parameter changes that.
+
+        Parameters
+        ----------
+        outputs : iterable of m str or None
+            Fields of the record of hydrostatics ("volume", "lcb"), symbols of form parameters
+            ("Cpa"), section areas ("A ST 5", "A x=42.5"); None: `USUAL_OUTPUTS`.
+        parameters : iterable of k or None
+            Each the name of a parameter that `vary` knows ("breadth", m or degrees),
+            "mean_draught" or "trim" (m), a raw layer (by its strength), or one of
+            `assoc_hull.analysis.derivatives.parameters` such as a `PointMove`; None: all that
+            `vary` knows and this hull has.
+        kg : float or None, m
+            Centre of gravity above the base line, for metacentric heights.
+        layout : mapping or Layout or None
+            How far the fields of named parameters reach, as for `vary`.
+
+        Returns
+        -------
+        Sensitivities
+            The table. A named parameter changes alone, as in `vary` with it alone: lines,
+            dimensions and features go along, other parameters may change with it.
+
+        Raises
+        ------
+        UnknownNameError
+            No such output or parameter, with the nearest names.
+        BadInputError
+            The hull lacks one; a name that stands twice; a hull that is doubtful.
+        WrongTypeError, OutOfRangeError
+            What is no parameter; a hull that does not float at its design draught.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.wigley().sensitivities(
+        ...     ["volume", "cb"], ["breadth", "mean_draught"]
+        ... )
+        >>> print(found)
+                      per   volume           cb
+                                m3            -
+        now                2777.45     0.444392
+        breadth         m  277.747  2.97793e-07
+        mean_draught    m  666.625    0.0355574
+        """
+        from assoc_hull.variation.sensitivities import sensitivities
+
+        return sensitivities(self, outputs, parameters, kg=kg, layout=layout)
+
+    def fairness(
+        self, *, lines: Iterable[str] | None = None, allowed: int | Mapping[str, int] = 0
+    ) -> FairnessTable:
+        """Take the five criteria of fairness as numbers; they are never put into one score.
+
+        Parameters
+        ----------
+        lines : iterable of str, optional
+            Names of lines of the hull; all of them by default.
+        allowed : int or mapping of str to int
+            Inflections that are wanted: of each curve, or by name of line (others: none).
+
+        Returns
+        -------
+        FairnessTable
+            A record for each curve. `assoc_hull.form.fairness` takes single lines and plane curves.
+
+        Raises
+        ------
+        GeometryError
+            ``"fairness: curve has no length"``.
+        UnknownNameError
+            There is no such line.
+        BadInputError
+            A number of wanted inflections that is none.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.wigley().fairness()
+        >>> found["WL 2.5"][0].failed
+        ()
+        """
+        from assoc_hull.analysis.fairness.line_fairness import hull_fairness
+
+        return hull_fairness(self, lines, allowed)
+
+    def curve_transform(
+        self,
+        curve: Line | Curve | str,
+        kind: Kind = "chebyshev",
+        terms: int = 12,
+        *,
+        along: str | None = None,
+        across: str | None = None,
+        span: tuple[float, float] | Literal["perpendiculars"] | None = None,
+        relative: bool | None = None,
+        draught: float | None = None,
+        draughts: tuple[float, float] | None = None,
+        heel_deg: float = 0.0,
+    ) -> CurveTransform:
+        """Give the coefficients of a curve of a hull as a series.
+
+        Parameters
+        ----------
+        curve : Line, Curve or str
+            A line, one of its curves, the address of either, or ``"sectional areas"``.
+        kind : "chebyshev", "sine" or "fourier"
+            Chebyshev or half-range sine series of an ordinate over an abscissa; or Fourier
+            descriptors of a section, or of a line seen from above, closed with its mirror image.
+        terms : int
+            Number of coefficients; of Fourier descriptors, harmonics to each side.
+        along, across : "x", "y" or "z"
+            Abscissa and ordinate. By default half breadth over x; of a section half breadth over z,
+            of a buttock z over x. Fourier descriptors take y as one of the two.
+        span : (float, float), "perpendiculars" or None, m
+            Range of the abscissa: between two places, from AP to FP, or the whole curve (the wetted
+            length, of sectional areas). Beyond the curve the ordinate is nil. Of Fourier
+            descriptors, range of the coordinate that is not y.
+        relative : bool or None
+            Divide by the largest ordinate; None does so for sectional areas only.
+        draught, draughts, heel_deg
+            The floating position of sectional areas, as in `hydrostatics`.
+
+        Returns
+        -------
+        CurveTransform
+            The coefficients and what they leave out.
+
+        Raises
+        ------
+        BadInputError
+            A curve that is not single-valued in the abscissa or has gaps; a number that cannot be
+            used.
+        OutOfRangeError
+            A position in which the hull does not float.
+        UnknownNameError
+            No line has this address.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> found = hull.curve_transform("sectional areas", terms=3)  # A / Amax = 1 - xi^2
+        >>> (found.coefficients + 0.0).round(3).tolist()
+        [0.5, 0.0, -0.5]
+        """
+        from assoc_hull.analysis.form.curve_transform import curve_transform
+
+        return curve_transform(
+            self,
+            curve,
+            kind,
+            terms,
+            along=along,
+            across=across,
+            span=span,
+            relative=relative,
+            draught=draught,
+            draughts=draughts,
+            heel_deg=heel_deg,
+        )
+
+    def compare(
+        self, variant: HasState, *, draught: float | None = None, screw: Screw | None = None
+    ) -> HullComparison:
+        """Compare this hull, as the parent, with a variant or any other hull.
+
+        Lines are paired by name, and by key where one was renamed. Of each pair the largest shift
+        is reported, measured curve to curve in the plane of the line (see
+        `assoc_hull.variation.comparing.line_comparison`), and how fair it is before and after. All
+        differences are variant less parent: with both exchanged, they change their signs.
+
+        Parameters
+        ----------
+        variant : Hull
+            The other hull; neither is changed.
+        draught : float or None, m
+            Moulded, at even keel, for the numbers of both; each at its design draught if not given.
+        screw : Screw or None
+            For the form parameters that need it.
+
+        Returns
+        -------
+        HullComparison
+            Everything; what has no number has a reason.
+
+        Raises
+        ------
+        OutOfRangeError
+            One of both does not float at the draught that was asked.
+        BadInputError
+            No hull, or a number that cannot be used.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> parent = ah.examples.wigley()
+        >>> found = parent.compare(parent.vary(set={"breadth": 11.0}).hull, draught=5.0)
+        >>> print(f"{found.parameter('BMT').percent:.3f} %")
+        21.000 %
+        """
+        from assoc_hull.variation.comparing.comparison import compare
+
+        return compare(self, variant, draught=draught, screw=screw)
+
+    # ----------------------------------------------------------------------------------
+    # Other hulls from this one.
+
+    def vary(
+        self,
+        *,
+        set: Mapping[str, float] | None = None,
+        reach: Mapping[str, float] | None = None,
+        free: Sequence[object] | str = (),
+        bounds: Mapping[str, tuple[float | None, float | None]] | None = None,
+        exact: bool = True,
+        layers: Sequence[object] = (),
+        layout: Mapping[str, Any] | Layout | None = None,
+        drivers: Sequence[Group | Line | str] | None = None,
+        stations: Stations = "number",
+        planes: Planes = "follow",
+        tolerance: float = 2e-3,
+        name: str | None = None,
+        in_place: bool = False,
+    ) -> Variation[Hull]:
+        """Vary a hull so that named parameters, and outputs, have asked values; all lines follow.
+
+        The map is certified not to fold, the lines that drive are carried exactly, all others are
+        cut again from them, and the asked values are measured on the lines of the result to 1e-6.
+        Values that the hull has already change nothing, and make no step in the history; beside
+        others they say that these values are to stay. Outputs are reached by what is free for it,
+        on the hydrostatics of the result, to 1e-10 of their size.
+
+        Parameters
+        ----------
+        set : mapping of str to float
+            Values by name, m, or degrees where the name ends in ``_deg``; x from AP forward, z from
+            the base line up. `measure` gives the names and the present values.
+        reach : mapping of str to float
+            Values of outputs by name, in their units, at the design draught: fields of
+            `hydrostatics`, form parameters, sectional areas; see
+            `assoc_hull.variation.aiming.outputs.Outputs`.
+        free : sequence of str, layer or mapping
+            What may change so that they are reached: named parameters that are not `set`, and
+            layers, of which the strength is found: 1 is the layer as given, 0 none of it. Layers as
+            for `layers`, or as data ``{"name": ..., "fields": [...]}``. Where there is more
+            freedom than targets the change is the least.
+        bounds : mapping of str to (float or None, float or None)
+            Least and greatest values by the names of what is free, m, degrees, or strengths of
+            layers; None leaves an end open.
+        exact : bool
+            Whether targets must all be met; otherwise the best compromise is taken where they
+            cannot be.
+        layers : sequence
+            Raw layers that act after those of the named parameters: a `FieldLayer`,
+            `AdditiveLayer`, `CornerLayer` or `DeadriseLayer`, or a list of fields as data (see
+            `assoc_hull.variation.fields.field_data`).
+        layout : mapping or Layout
+            How far the fields reach; see `assoc_hull.variation.parameters.field_layout.Layout`.
+        drivers : sequence of Group, Line or str
+            Lines whose images are taken exactly; boundary curves always are. By default all lines
+            whose planes the map keeps.
+        stations : {"number", "x"}
+            Sections go with the map and keep their numbers, or stay where they are.
+        planes : {"follow", "stay"}
+            Waterlines and buttocks go with a map that sends their planes to parallel ones, as a
+            change of breadth, draught or depth does, and keep their names; or they stay at their
+            heights and half-breadths and are cut again. If a map bends the planes of some over more
+            than half of their length, all stay.
+        tolerance : float, m
+            How far a driver may leave its exact image.
+        name : str
+            Of the step in the history; by default it tells the values.
+        in_place : bool
+            Vary this hull, as a step that can be undone; else a copy of it.
+
+        Returns
+        -------
+        Variation
+            The hull, what was reached, and the map.
+
+        See Also
+        --------
+        vary_by : the same from data or a file.
+        measure : present values.
+
+        Raises
+        ------
+        UnknownNameError
+            No such parameter or output.
+        UnreachableError, DependentTargetsError, TooFewFreeError
+            Targets that cannot be reached by what is free: how near one comes, and what is in the
+            way.
+        FoldError
+            The map folds, or nearly; where, and between which values one may ask.
+        OutOfRangeError
+            What comes out is no ship; with the interval.
+        BadInputError
+            The parent has not what is asked for; two parameters contradict each other. The hull is
+            unchanged, whatever the error.
+        RefusedEditError
+            A line would fold or lose its order. The hull is unchanged.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> variant = ah.examples.wigley().vary(set={"breadth": 11.0, "draught": 7.0})
+        >>> [target.reached for target in variant.report.targets]
+        [11.0, 7.0]
+        >>> variant = ah.examples.wigley().vary(reach={"volume": 2800.0}, free=["breadth"])
+        >>> round(variant.hull.hydrostatics().volume, 7), round(variant.hull.particulars.breadth, 4)
+        (2800.0, 10.0812)
+        """
+        from assoc_hull.hull.results import Variation
+        from assoc_hull.variation.request import VariationRequest
+        from assoc_hull.variation.vary import vary_document
+
+        ask = VariationRequest.of(
+            set, reach=reach, free=free, bounds=bounds, exact=exact, layers=layers, layout=layout,
+            drivers=drivers, stations=stations, planes=planes, tolerance=tolerance, name=name,
+        )  # fmt: skip
+        varied = _to_change(self, "vary", in_place=in_place)
+        space_map, report = vary_document(varied.document, ask)
+        return Variation(varied, report, space_map)
+
+    def vary_by(
+        self, script: Mapping[str, Any] | str | PathLike[str], *, in_place: bool = False
+    ) -> Variation[Hull]:
+        """Vary a hull by a script: the arguments of `vary` as data, or a JSON file of them.
+
+        The same parent and the same script give the same hull, to the last bit.
+
+        Parameters
+        ----------
+        script : mapping or path
+            See `assoc_hull.variation.request`. `VariationReport.script` is such a one.
+        in_place : bool
+            As in `vary`.
+
+        Raises
+        ------
+        AssocHullError
+            As `vary`; a file that cannot be read.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> str(ah.examples.wigley().vary_by({"set": {"breadth": 11.0}}).report.targets[0])
+        'breadth 10 -> 11 m'
+        """
+        from assoc_hull.hull.results import Variation
+        from assoc_hull.variation.request import read_script, request_from_data
+        from assoc_hull.variation.vary import vary_document
+
+        ask = request_from_data(script if isinstance(script, Mapping) else read_script(script))
+        varied = _to_change(self, "vary", in_place=in_place)
+        space_map, report = vary_document(varied.document, ask)
+        return Variation(varied, report, space_map)
+
+    def shift_sections(
+        self,
+        *,
+        to: Mapping[str, float] | None = None,
+        by: Mapping[str, float] | None = None,
+        shape: ShiftShape = "c2",
+        terminals: ArrayLike | Terminals | None = None,
+        fade: Fade = "b5",
+        tolerance: float = 2e-3,
+        name: str | None = None,
+        in_place: bool = False,
+    ) -> Shifted[Hull]:
+        """Shift the sections of a hull along the ship so that its volume and centre are as asked.
+
+        Every section keeps its shape; the ends of the hull stay where they are. After Lackenby
+        (1950), by a closed form that is exact for the curve of areas, then by Newton's rule on the
+        hydrostatics of the varied hull, to 1e-10. What is not asked for is held: the block
+        coefficient, the centre of buoyancy, the other body, the ends of the parallel body.
+
+        Parameters
+        ----------
+        to : mapping of str to float
+            Values that are to be had at the design draught: one of ``cb``, ``cp``, ``volume`` (m3),
+            and one of ``lcb`` (m from AP) and ``lcb_percent`` (% Lpp from midship, + forward); or
+            ``Cpf`` and ``Cpa``, the prismatic coefficients of fore and after body, each on its own.
+            With either, ``parallel_body_start`` and ``parallel_body_end`` (m from AP): where the
+            inner two terminals are to be.
+        by : mapping of str to float
+            Changes of present values, by the same names; what is in `to` cannot be here.
+        shape : str
+            Of the movement between parallel body and end: ``"c2"`` leaves with slope and curvature
+            nil at both; ``"c1"``, ``"end"``, ``"half"``, ``"lackenby"`` are those of
+            `assoc_hull.variation.fields.shift_shapes.BUMP_SHAPES`; ``"1-cp"`` is a straight line,
+            which lengthens the parallel body.
+        terminals : (4,), m from AP, or Terminals
+            After terminal, start and end of the parallel body, fore terminal. Nothing moves abaft
+            the first and forward of the last. By default where the profile begins to rise, and the
+            measured ends of the parallel body; on a hull without one, the two stations with the
+            largest areas.
+        fade : {"b5", "linear"}
+            How the movement of an end of the parallel body fades out to the terminal.
+        tolerance : float, m
+            How far a line may leave its exact image.
+        name : str
+            Of the step in the history; by default it tells the values.
+        in_place : bool
+            Shift this hull, as a step that can be undone; else a copy of it.
+
+        Returns
+        -------
+        Shifted
+            The hull, what was reached, and the map.
+
+        Raises
+        ------
+        OutOfRangeError
+            Sections would cross, or no shift gives what is asked for; with the largest change that
+            can be had.
+        UnknownNameError, BadInputError, WrongTypeError
+            What is asked for is not clear, or the hull has not what it takes.
+        RefusedEditError
+            A line would fold or lose its order. The hull is unchanged, whatever the error.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.wigley().shift_sections(by={"lcb_percent": 0.5}, to={"cb": 0.45})
+        >>> [f"{target.reached:.6f}" for target in found.report.targets]
+        ['0.450000', '0.500000']
+        """
+        from assoc_hull.hull.results import Shifted
+        from assoc_hull.variation.shifts.shift_hull import shift_document
+        from assoc_hull.variation.shifts.shift_request import ShiftRequest
+
+        ask = ShiftRequest.of(
+            to, by, shape=shape, terminals=terminals, fade=fade, tolerance=tolerance, name=name
+        )
+        varied = _to_change(self, "shift_sections", in_place=in_place)
+        space_map, report = shift_document(varied.document, ask)
+        return Shifted(varied, report, space_map)
+
+    def swing(
+        self,
+        *,
+        length: float | None = None,
+        breadth: float | None = None,
+        draught: float | None = None,
+        name: str | None = None,
+        in_place: bool = False,
+    ) -> Shifted[Hull]:
+        """Change breadth against draught, or length against both; volume and coefficients stay.
+
+        The map is affine, heights above the draught included. What lofting again leaves over of
+        volume and centre (1e-6) is taken away by a shift of sections of less than a millimetre or
+        so, so that volume, CB, and LCB in parts of Lpp are held to 1e-10.
+
+        Parameters
+        ----------
+        length, breadth, draught : float, m
+            One or two of them. The rest gives way: breadth to draught and draught to breadth; with
+            a length alone, both in one ratio.
+        name : str
+            Of the step in the history.
+        in_place : bool
+            Vary this hull, as a step that can be undone; else a copy of it.
+
+        Returns
+        -------
+        Shifted
+            The hull, what was reached, and the map.
+
+        Raises
+        ------
+        BadInputError
+            None of the three is given, or all; one is no positive number. The hull is unchanged.
+
+        See Also
+        --------
+        vary : dimensions one by one; CB is held by each of them, the volume is not.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> variant = ah.examples.wigley().swing(breadth=12.5).hull
+        >>> variant.state.particulars.draught, round(variant.hydrostatics().cb, 3)
+        (5.0, 0.444)
+        """
+        from assoc_hull.hull.results import Shifted
+        from assoc_hull.variation.shifts.swing_hull import swing_document
+
+        asked = {"length": length, "breadth": breadth, "draught": draught}
+        varied = _to_change(self, "swing", in_place=in_place)
+        space_map, report = swing_document(varied.document, asked, name)
+        return Shifted(varied, report, space_map)
+
+    def study(
+        self,
+        *,
+        set: Mapping[str, object] | None = None,
+        reach: Mapping[str, object] | Sequence[Mapping[str, object]] | None = None,
+        free: object = (),
+        bounds: Mapping[str, object] | None = None,
+        layers: Sequence[object] = (),
+        outputs: Sequence[str] | None = None,
+        layout: Mapping[str, Any] | Layout | None = None,
+        workers: int = 1,
+        progress: Callable[[str, int, int], None] | None = None,
+    ) -> Study[Hull]:
+        """Make many variants of a hull: certified, lofted again, checked, measured.
+
+        All variants have the structure of the parent: its points go where the map of the variant
+        sends them, none comes or goes. Where a variant needs other points there is a row with the
+        reason; `vary` carries such a hull. The hull itself is not changed.
+
+        Parameters
+        ----------
+        set : mapping of str to float or (n,)
+            Values of named parameters (m, degrees), or factors on layers: one, or one per variant.
+        reach : mapping of str to float or (n,), or sequence of mappings
+            Targets by the names of outputs: one, or one per variant; or a mapping per variant. See
+            `assoc_hull.variation.aiming.outputs.Outputs`: fields of hydrostatics, symbols of form
+            parameters, areas of sections.
+        free : sequence of str or layer
+            Parameters whose values are sought, as in `vary`; as many as there are targets, or more:
+            then the variant is one of nearly the least change.
+        bounds : mapping of str to (float, float)
+            Least and greatest values of free parameters.
+        layers : sequence
+            Raw layers, as in `vary`, which `set` and `free` may name; one that they do not name
+            acts as it is.
+        outputs : sequence of str
+            What is told of each variant, by the same names.
+        layout : mapping or Layout
+            How far the fields of named parameters reach.
+        workers : int
+            Processes. The rows are the same to the last bit, whatever their number. A program that
+            asks for more than one begins under ``if __name__ == "__main__":``, as new processes
+            import it.
+        progress : callable
+            Is called with what is done, how many variants are, and of how many.
+
+        Returns
+        -------
+        Study
+            A row per variant. After an interrupt (Ctrl-C) those that were finished.
+
+        Raises
+        ------
+        UnknownNameError, WrongTypeError, BadInputError
+            What is asked for cannot be understood, or does not fit the hull.
+
+        See Also
+        --------
+        sample : values drawn within intervals.
+        vary : one variant, with the structure that it needs.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> parent = ah.examples.wigley()
+        >>> asked = ah.study.sample({"volume": (2760.0, 2800.0)}, 2, seed=1)
+        >>> found = parent.study(reach=asked, free=["breadth"])
+        >>> print(found)
+        2 of 2 variants
+        >>> bool((abs(found.table()["volume"] - asked["volume"]) < 1e-6).all())
+        True
+        """
+        from assoc_hull.hull.results import make_study
+        from assoc_hull.study.design import OUTPUTS, StudyDesign
+
+        design = StudyDesign.of(
+            set=set, reach=reach, free=free, bounds=bounds, layers=layers,
+            outputs=OUTPUTS if outputs is None else outputs, layout=layout,
+        )  # fmt: skip
+        return make_study(self, design, Hull, workers=workers, progress=progress)
+
+    # ----------------------------------------------------------------------------------
+    # Surfaces, plates, arcs.
+
+    def surface(
+        self,
+        *,
+        leave_out: Sequence[str] = (),
+        previous: NetSurface | None = None,
+        smoothing: float | None = None,
+        tolerance: float | None = None,
+        cutoff: float = 1e-7,
+    ) -> HullSurface:
+        """Fit a surface to the lines of a hull.
+
+        Parameters
+        ----------
+        leave_out : sequence of str
+            Names of lines that nothing is fitted to, but from which the surface is measured.
+        previous : HullSurface, optional
+            An earlier surface of the hull: blocks whose lines have not moved are taken from it. One
+            that was made with other options, or other lines left out, is of no use, and no error.
+        smoothing : float, m3, optional
+            The factor of the penalty on second derivatives; ``9.6e-10 length**3`` without it.
+        tolerance : float, m, optional
+            What 95 % of the distances of the body should keep; 8 mm at a length of 300 m without
+            it.
+        cutoff : float, m
+            With `previous`, points of lines that have moved by less since the fit of their block
+            was made count as unmoved, and so do control points. With 0 only what is the same in
+            every bit is taken over: the surface then is, in every bit, the one that comes without
+            `previous`.
+
+        Returns
+        -------
+        HullSurface
+            One spline surface a block, for the half y >= 0; `refitted` names the blocks fitted.
+
+        Raises
+        ------
+        BadInputError, UnknownNameError
+            A curve of the hull has failed; there is no such line; lines that no blocks were found
+            between; numbers that are none, or below nil.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> found = hull.surface()
+        >>> found.refitted, hull.surface(previous=found).refitted
+        (('body',), ())
+        """
+        from assoc_hull.hull.results import surface_of_hull
+
+        return surface_of_hull(
+            self, leave_out=leave_out, previous=previous, smoothing=smoothing,
+            tolerance=tolerance, cutoff=cutoff,
+        )  # fmt: skip
+
+    def mesh(
+        self, *, half: bool = False, points: int = 4, leave_out: Sequence[str] = ()
+    ) -> ClosedMesh:
+        """Make a closed mesh on the lines of a hull: for panels, printing, a check of volumes.
+
+        The lines part the hull into cells; these are filled with elements that fit together along
+        every edge. Deck and transom are covered, whatever the particulars say of the deck, and the
+        half is mirrored. The mesh comes from the lines alone: it shares nothing with
+        `Hull.hydrostatics` but these.
+
+        Parameters
+        ----------
+        half : bool
+            The port half only, open in the centre plane.
+        points : int
+            Into how many parts each piece of a line between two crossings is cut: even, 2 to 64.
+        leave_out : sequence of str
+            Names of lines to do without.
+
+        Returns
+        -------
+        ClosedMesh
+            Checked: every edge is that of two triangles, once in each sense.
+
+        Raises
+        ------
+        BadInputError
+            A curve of the hull has failed, or an option is out of its range.
+        UnknownNameError
+            A line to leave out does not exist.
+        OpenNetError
+            The lines do not part the hull into cells; those at fault are named.
+        OpenMeshError
+            The mesh does not close all the same.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> mesh = hull.mesh()
+        >>> mesh.names, mesh.report.euler, mesh.report.open_edges
+        (('shell', 'deck'), 2, 0)
+        >>> round(mesh.below(6.25).volume, 1), round(hull.hydrostatics(draught=6.25).volume, 1)
+        (2776.3, 2777.4)
+        """
+        from assoc_hull.surface.cells.closed_mesh import closed_mesh
+
+        return closed_mesh(self, half=half, points=points, leave_out=leave_out)
+
+    def plates(
+        self,
+        seams: HullSeams,
+        *,
+        zero: str = "strain",
+        strain_tol: float = 1e-3,
+        breadth: float = 2.5,
+        k0: float | None = None,
+        sagitta_tol: float = 3e-3,
+        sagitta_length: float | None = None,
+        share: float = 0.95,
+        suggestions: Mapping[str, str] | None = None,
+        others: Sequence[NetSurface] | None = None,
+        previous: HullPlates | None = None,
+    ) -> HullPlates:
+        """Tell of each plate of the hull how it is curved, and how sure that is.
+
+        A surface is fitted to the lines, and two more to compare with. A butt x = constant, a seam
+        z = constant is a plane; plates and the regions in them have the areas of the surface
+        itself, to the tolerance of `assoc_hull.surface.curvature_regions`. Roll axes, radii and
+        strains are found at 7 by 7 nodes on each patch.
+
+        Parameters
+        ----------
+        seams : HullSeams
+            Butts and seams.
+        zero : {"strain", "absolute"}
+            What counts as no Gaussian curvature; see `assoc_hull.surface.curvature_regions`.
+        strain_tol : float
+            The strain of the mode "strain", K0 = 8 strain_tol / breadth**2.
+        breadth : float, m
+            The breadth that K0, and the sagitta of what is flat, are meant for.
+        k0 : float, 1/m2
+            Half the width of the band of the mode "absolute".
+        sagitta_tol, sagitta_length, share, suggestions
+            See `assoc_hull.surface.plates`.
+        others : sequence of HullSurface, optional
+            Other fits of the same hull: by what they change, a plate's dK is found. By default a
+            stiffer one, and one without every second waterline.
+        previous : HullPlates, optional
+            Earlier plates; Bezier patches with the same nets under the same options are taken from
+            them.
+
+        Returns
+        -------
+        HullPlates
+            A row for each plate, from aft forward and from below upward; its `save` writes a table.
+
+        Raises
+        ------
+        BadInputError, WrongTypeError
+            No seams, numbers that are none or that the mode does not use; seams that leave no
+            plate.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.wigley().plates(ah.surface.HullSeams(x=(30.0, 70.0)))
+        >>> [str(each.range) for each in found.rows]
+        ['x below 30 m', 'x 30 to 70 m', 'x above 70 m']
+        """
+        from assoc_hull.hull.results import plates_of_hull
+
+        given = {} if others is None else {"others": others}
+        return plates_of_hull(
+            self,
+            seams,
+            zero=zero,
+            strain_tol=strain_tol,
+            breadth=breadth,
+            k0=k0,
+            sagitta_tol=sagitta_tol,
+            sagitta_length=sagitta_length,
+            share=share,
+            suggestions=suggestions,
+            previous=previous,
+            **given,
+        )
+
+    def production_arcs(
+        self,
+        lines: Sequence[Group | Line | Curve | str] | Group | Line | Curve | str | None = None,
+        within: float = 0.0005,
+        least_radius: float = 0.0,
+    ) -> ProductionArcs:
+        """Make chains of circular arcs and straight lines of the lines of a hull.
+
+        Neighbouring arcs have one tangent where they meet, and meet on the line; at knuckles both
+        tangents are kept; straight runs are straight lines. Every line lies within the tolerance of
+        its arcs, and every arc of its line, measured on ten times as many places as the search
+        used.
+
+        Parameters
+        ----------
+        lines : names, or handles of groups, lines or curves
+            Which lines; all by default. Of a line that lies in no plane its plan and profile are
+            given (of one athwart ships plan and body plan).
+        within : float, m
+            The tolerance, 0.001 mm to 1 m.
+        least_radius : float, m
+            Of all arcs; 0 leaves them free.
+
+        Returns
+        -------
+        ProductionArcs
+            A chain for each curve, number of arcs and deviations, what was left out and why; its
+            `save` writes DXF or a table.
+
+        Raises
+        ------
+        GeometryError
+            A line that was named is bent more than the least radius and the tolerance allow; if all
+            are asked for, it is left out, and the result says so.
+        UnknownNameError, WrongTypeError, BadInputError
+            Lines that are not there; a tolerance or radius that is no length.
+
+        Notes
+        -----
+        Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for
+        Design and Production", J. SNAK.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> arcs = ah.examples.wigley().production_arcs(lines=["WL 5"], within=0.001)
+        >>> line = arcs.lines[0]
+        >>> len(line.arcs) == arcs.count, bool(line.deviation.max() <= 0.001)
+        (True, True)
+        """
+        from assoc_hull.hull.results import arcs_of_hull
+
+        return arcs_of_hull(self, lines, within, least_radius)
+
+    # ----------------------------------------------------------------------------------
+    # Files.
+
+    @property
+    def plot(self) -> HullPictures:
+        """Pictures of the hull, one method each; they need the extra `plot`."""
+        from assoc_hull.hull.pictures import HullPictures
+
+        return HullPictures(self)
+
+    @property
+    def path(self) -> Path | None:
+        """The hull file that holds every edit; None for a hull in memory."""
+        from assoc_hull.io.hull_file.saving import path_of
+
+        return path_of(self.document)
+
+    def save(self, path: str | os.PathLike[str] | None = None, *, replace: bool = False) -> Saved:
+        """Write the hull; see `assoc_hull.io.hull_file.saving`.
+
+        Parameters
+        ----------
+        path : path or None
+            ``ship.hull.json``: the canonical text is written. ``ship.hull``: a hull file, with
+            the history, in which every edit is kept from then on. None: the hull file that
+            this hull is in; there is nothing to write, and the answer says so.
+        replace : bool
+            Write over a hull file that is there, with its history.
+
+        Raises
+        ------
+        BadInputError, HullFileError
+            There is such a file; it cannot be written; no name for a hull in memory.
+        """
+        from assoc_hull.io.hull_file.saving import save_hull
+
+        return save_hull(self.document, path, replace=flag(replace, "replace", "in save"))
+
+    def export(
+        self, path: str | os.PathLike[str], form: str | None = None, unit: str | None = None
+    ) -> ExportReport:
+        """Write offsets or lines for other programs."""
+        from assoc_hull.io.export.write import export_hull
+
+        self.document.require_ended("export")
+        return export_hull(self.state, path, form, unit)
+
+    def refresh(self) -> None:
+        """Take over what another process has committed to the hull file since."""
+        from assoc_hull.io.hull_file.saving import refresh_hull
+
+        refresh_hull(self.document)
+
+    def detach(self) -> None:
+        """Edit in memory from now on; the hull file stays as it is until the hull is saved."""
+        from assoc_hull.io.hull_file.saving import detach_hull
+
+        detach_hull(self.document)
+
+    def close(self) -> None:
+        """Let go of the hull file; the hull can be read on, and not be edited, nor its history."""
+        from assoc_hull.io.hull_file.saving import close_hull_file
+
+        close_hull_file(self.document)
+
+
+def _to_change(hull: Hull, act: str, *, in_place: object) -> Hull:
+    """Give the hull that an act changes: this one, or a copy of it in memory."""
+    state = state_of(hull, f"in {act}")
+    hull.document.require_ended(act)
+    return hull if flag(in_place, "in_place", f"in {act}") else Hull(copy_state(state))

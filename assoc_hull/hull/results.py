@@ -1,0 +1,476 @@
+"""What methods of a hull give back, where it holds hulls or can be written to files.
+
+`Variation`, `Shifted` and `Study` are generic in the class of the hulls that they hold, as they
+stand below it; users meet them with `assoc_hull.Hull` only. The others add to what `surface` and
+`analysis` find that it can be written, which these packages, below `io`, cannot know.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Callable, Sequence
+from functools import wraps
+from os import PathLike
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar, overload
+
+import attrs
+from numpy.typing import NDArray
+
+from assoc_hull.analysis.production_arcs import ArcLines, arc_lines
+from assoc_hull.arguments import (
+    all_of,
+    file_path,
+    instance,
+    integer,
+    not_negative,
+    number,
+    positive,
+    shown,
+)
+from assoc_hull.edit.document import Document
+from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.geometry.patches.volume_below import VolumeBelow, integrate_below
+from assoc_hull.io.export.arcs import write_arcs
+from assoc_hull.io.tables.hull_plates import write_hull_plates
+from assoc_hull.io.tables.plates import write_plates
+from assoc_hull.io.tables.study import study_csv, study_json
+from assoc_hull.io.write_file import write_whole
+from assoc_hull.model.objects import Curve, Group, Line
+from assoc_hull.model.tables import HasState, copy_state, state_of
+from assoc_hull.study.design import StudyDesign
+from assoc_hull.study.run import StudyRow, StudyRun, run_study, study_columns
+from assoc_hull.surface.blocks.fit_net import surface_of_net
+from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options, length_of
+from assoc_hull.surface.blocks.net_surface import NetSurface, ResidualTable, document_of, text_of
+from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
+from assoc_hull.surface.plating.hull_plates import HullPlateTable, hull_plates
+from assoc_hull.surface.plating.hull_seams import HullSeams
+from assoc_hull.surface.plating.rival_fits import other_fits
+from assoc_hull.surface.plating.surface_plates import PlateTable, Seams
+from assoc_hull.surface.plating.surface_plates import plates as find_plates
+from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.shifts.shift_hull import ShiftReport
+from assoc_hull.variation.vary import VariationReport
+
+if TYPE_CHECKING:
+    from assoc_hull.io.cad.write import CadReport
+    from assoc_hull.io.mesh.closed_mesh import MeshFile
+
+__all__ = [
+    "HullPlates",
+    "HullSurface",
+    "Plates",
+    "ProductionArcs",
+    "Shifted",
+    "Study",
+    "Variation",
+    "arcs_of_hull",
+    "make_study",
+    "plates",
+    "plates_of_hull",
+    "surface_of_hull",
+]
+
+HullType = TypeVar("HullType")
+
+_WORKERS = 256
+_FINEST, _COARSEST = 1e-6, 1.0
+"""m: finer is the rounding of coordinates, coarser are no lines of a ship."""
+
+
+class HasDocument(HasState, Protocol):
+    """A hull, as far as these functions know it: tables, and the history they belong to."""
+
+    @property
+    def document(self) -> Document:
+        """Tables with their history."""
+        ...
+
+
+@attrs.frozen(eq=False)
+class Variation(Generic[HullType]):
+    """A varied hull.
+
+    Attributes
+    ----------
+    hull : Hull
+        The variant; undo gives the parent back.
+    report : VariationReport
+        What was asked, reached and changed.
+    map : VariationMap
+        The map that carries places of the parent to those of the variant, m.
+    """
+
+    hull: HullType
+    report: VariationReport
+    map: VariationMap
+
+    def __str__(self) -> str:
+        return str(self.report)
+
+
+@attrs.frozen(eq=False)
+class Shifted(Generic[HullType]):
+    """A hull whose sections were shifted, or that was swung.
+
+    Attributes
+    ----------
+    hull : Hull
+        The variant; undo gives the parent back.
+    report : ShiftReport
+        What was asked, reached and moved.
+    map : VariationMap
+        The map that carries places of the parent to those of the variant, m.
+    """
+
+    hull: HullType
+    report: ShiftReport
+    map: VariationMap
+
+    def __str__(self) -> str:
+        return str(self.report)
+
+
+@attrs.frozen(eq=False)
+class Study(Generic[HullType]):
+    """Variants of a hull.
+
+    Attributes
+    ----------
+    run : StudyRun
+        What was asked for, and the parent.
+    rows : tuple of StudyRow
+        What became of each variant, in their order; fewer than were asked for after an interrupt.
+    interrupted : bool
+        Whether it was interrupted.
+    make : callable
+        Makes a hull of a document.
+    """
+
+    run: StudyRun = attrs.field(repr=False)
+    rows: tuple[StudyRow, ...]
+    interrupted: bool
+    make: Callable[[Document], HullType] = attrs.field(repr=False)
+
+    @property
+    def design(self) -> StudyDesign:
+        """What was asked for."""
+        return self.run.design
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    @property
+    def failed(self) -> tuple[StudyRow, ...]:
+        """Rows of variants of which there is no hull, each with its reason."""
+        return tuple(row for row in self.rows if row.failure)
+
+    def table(self) -> dict[str, NDArray[Any]]:
+        """Give all rows as arrays (n,) by name.
+
+        Returns
+        -------
+        dict of str to (n,)
+            ``number``; the parameters by name (m, degrees, factors); ``asked NAME`` of each
+            target; the outputs by name; ``margin``, ``shift`` (m), ``residual``, ``trials``;
+            ``failure`` and ``reason``. Numbers that a variant does not have are nan.
+        """
+        return study_columns(self.design, self.rows)
+
+    def hull(self, number: int) -> HullType:
+        """Give a variant as a hull: the parent, and one step that can be undone.
+
+        Its hydrostatics are those of the row.
+
+        Parameters
+        ----------
+        number : int
+            Which variant; the first is 0.
+
+        Raises
+        ------
+        BadInputError
+            There is no such variant, or no hull of it.
+        """
+        wanted = integer(number, "number", "in Study.hull", least=0, most=self.design.count - 1)
+        row = next((each for each in self.rows if each.number == wanted), None)
+        if row is None or row.failure:
+            why = "was not made" if row is None else f"has no hull: {row.reason}"
+            raise BadInputError(f"variant {wanted} {why}", "in Study.hull", "take another one")
+        return self.make(self.run.ground.variant(row.values, f"variant {wanted}").document)
+
+    def to_csv(self, path: str | PathLike[str] | None = None) -> str:
+        """Give the table as comma-separated text, and write it to a file if one is named."""
+        return _put(study_csv(self.run, self.rows), path)
+
+    def to_json(self, path: str | PathLike[str] | None = None) -> str:
+        """Give the table as JSON, with all digits, and write it to a file if one is named."""
+        return _put(study_json(self.run, self.rows), path)
+
+    def __str__(self) -> str:
+        good = len(self.rows) - len(self.failed)
+        words = [f"{good} of {self.design.count} variants"]
+        counts = Counter(row.failure for row in self.failed)
+        words += [f"{count} {kind}" for kind, count in sorted(counts.items())]
+        return ", ".join(words) + (", interrupted" if self.interrupted else "")
+
+
+def _put(text: str, path: str | PathLike[str] | None) -> str:
+    if path is not None:
+        write_whole(file_path(path, "in study"), text.encode())
+    return text
+
+
+def make_study(
+    hull: HasDocument,
+    design: StudyDesign,
+    make: Callable[[Document], HullType],
+    *,
+    workers: int,
+    progress: Callable[[str, int, int], None] | None,
+) -> Study[HullType]:
+    """Run a study of variants of a hull; `make` makes a hull of the document of a variant."""
+    where = "in study"
+    state_of(hull, where)
+    hull.document.require_ended("study")
+    count = integer(workers, "workers", where, least=1, most=_WORKERS)
+    if progress is not None and (isinstance(progress, type) or not callable(progress)):
+        raise WrongTypeError(f"progress is {shown(progress)}", where, "give a function")
+    run = StudyRun.of(copy_state(hull.state), design)
+    rows, interrupted = run_study(run, range(design.count), workers=count, tell=progress)
+    return Study(run, rows, interrupted, make)
+
+
+@attrs.frozen(eq=False)
+class ProductionArcs(ArcLines):
+    """Lines of a hull as arcs and straight pieces, which can be written."""
+
+    def save(self, path: str | os.PathLike[str], entities: str = "polylines") -> None:
+        """Write the arcs, as a drawing (``.dxf``) or as a table (``.csv``).
+
+        Parameters
+        ----------
+        path : path
+            The file; what was there is replaced by the whole of it, or stays.
+        entities : {"polylines", "arcs"}
+            Of a drawing: one polyline a curve, exact to the last digit; or ARC and LINE one by
+            one, for machines that read nothing else.
+
+        Raises
+        ------
+        BadInputError, MissingExtraError
+            Another ending, other entities, a file that cannot be written; no ezdxf for a drawing.
+        """
+        write_arcs(self, path, entities)
+
+
+def arcs_of_hull(
+    hull: HasDocument,
+    lines: Sequence[Group | Line | Curve | str] | Group | Line | Curve | str | None,
+    within: float,
+    least_radius: float,
+) -> ProductionArcs:
+    """Make chains of arcs of the lines of a hull; lengths in m."""
+    where = "in production_arcs"
+    state = state_of(hull, where)
+    hull.document.require_ended("production_arcs")
+    tolerance = positive(within, "within", where)
+    if not _FINEST <= tolerance <= _COARSEST:
+        what = f"within is {tolerance:g} m"
+        raise BadInputError(what, where, f"give {_FINEST:g} to {_COARSEST:g} m")
+    radius = not_negative(least_radius, "least_radius", where)
+    found = arc_lines(state, lines, tolerance, radius)
+    return ProductionArcs(*attrs.astuple(found, recurse=False))
+
+
+@attrs.frozen(eq=False)
+class Plates(PlateTable):
+    """Plates that can be written; see `assoc_hull.surface.plating.surface_plates.PlateTable`."""
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the plates, as a table (``.csv``) or as a document (``.json``).
+
+        `assoc_hull.plot.plates.plate_book.plate_sheet` draws them on a sheet, with the same table.
+
+        Parameters
+        ----------
+        path : path
+            The file; what was there is replaced by the whole of it, or stays.
+
+        Raises
+        ------
+        BadInputError
+            Another ending, or a file that cannot be written.
+        """
+        write_plates(self, path)
+
+
+@attrs.frozen(eq=False)
+class HullPlates(HullPlateTable):
+    """Plates of a hull that can be written.
+
+    What they hold says `assoc_hull.surface.plating.hull_plates.HullPlateTable`.
+    """
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the plates, as a table (``.csv``) or as a document (``.json``).
+
+        `assoc_hull.plot.plates.hull_map.hull_map` draws them on the hull.
+
+        Parameters
+        ----------
+        path : path
+            The file; what was there is replaced by the whole of it, or stays.
+
+        Raises
+        ------
+        BadInputError
+            Another ending, or a file that cannot be written.
+        """
+        write_hull_plates(self, path)
+
+
+Surfaces = SplineSurface | Sequence[SplineSurface] | FloatArray
+"""What is cut along lines of constant parameter, or not at all."""
+
+
+@overload
+def plates(
+    surfaces: HasState | NetSurface | Sequence[SplineSurface], seams: HullSeams, **options: Any
+) -> HullPlates: ...
+
+
+@overload
+def plates(
+    surfaces: Surfaces | NetSurface,
+    seams: Seams | Sequence[Seams | None] | None = None,
+    *args: Any,
+    **options: Any,
+) -> Plates: ...
+
+
+@wraps(find_plates)
+def plates(surfaces: Any, seams: Any = None, *args: Any, **options: Any) -> Plates | HullPlates:
+    """Find plates of surfaces, or of a hull; see `find_plates` and `plates_of_hull`."""
+    if isinstance(seams, HullSeams):
+        return plates_of_hull(surfaces, seams, *args, **options)
+    given = surfaces.patches if isinstance(surfaces, NetSurface) else surfaces
+    return Plates(*attrs.astuple(find_plates(given, seams, *args, **options), recurse=False))
+
+
+@wraps(hull_plates)
+def plates_of_hull(surface: Any, seams: HullSeams, *args: Any, **options: Any) -> HullPlates:
+    """Find plates of a hull; of a hull its surface is made, and two more to compare with."""
+    if hasattr(surface, "state"):
+        state = state_of(surface, "in plates of a hull")
+        usual = fit_options(length_of(state))
+        if "others" not in options:
+            options["others"] = other_fits(state, usual)
+        surface = surface_of_net(state, usual)
+    found = hull_plates(surface, seams, *args, **options)
+    return HullPlates(*attrs.astuple(found, recurse=False))
+
+
+@attrs.frozen(eq=False)
+class HullSurface(NetSurface):
+    """The surface of a half hull: a `NetSurface` that can be measured, meshed and written."""
+
+    @property
+    def residuals(self) -> ResidualTable:
+        """How far the lines lie from the surface, block by block."""
+        return ResidualTable(self.blocks, self.whole)
+
+    def below(self, draught: float | None = None) -> VolumeBelow:
+        """Give volume, moments and area of the half below a waterplane, from the surface alone.
+
+        Parameters
+        ----------
+        draught : float, m
+            Of the waterplane, at even keel; the design draught if None.
+        """
+        level = (
+            self.particulars.draught
+            if draught is None
+            else number(draught, "draught", "in surface")
+        )
+        return integrate_below(self.patches, level)
+
+    def mesh(self, *, half: bool = False, points: int = 4) -> ClosedMesh:
+        """Give the closed mesh on the lines that the surface was fitted to.
+
+        It is made of the lines, not of the surface: see `Hull.mesh`.
+
+        Parameters
+        ----------
+        half : bool
+            The port half only, open in the centre plane.
+        points : int
+            Into how many parts each piece of a line between two crossings is cut: even, 2 to 64.
+
+        Raises
+        ------
+        BadInputError, OpenNetError, OpenMeshError
+            As `Hull.mesh`.
+        """
+        return mesh_of_net(self.net, half=half, points=points)
+
+    def document(self) -> dict[str, Any]:
+        """Give the report as plain values: lengths in m, angles in degrees."""
+        return document_of(self)
+
+    def write(
+        self,
+        path: str | os.PathLike[str],
+        form: str | None = None,
+        *,
+        unit: str | None = None,
+        half: bool = False,
+    ) -> CadReport | MeshFile:
+        """Write it for CAD programs, or the closed mesh.
+
+        Parameters
+        ----------
+        path : path
+            ``.step``, ``.stp``, ``.igs`` or ``.iges``; a mesh: ``.stl``, ``.obj``, ``.ply``,
+            ``.glb``.
+        form : str or None
+            Where the ending does not tell it, such as "iges-surfaces" or "stl-text".
+        unit : {"m", "mm"} or None
+            Of the file: mm of CAD files if None, m of meshes.
+        half : bool
+            The half y >= 0 only; both sides otherwise.
+
+        Raises
+        ------
+        BadInputError, MissingExtraError, OpenNetError, OpenMeshError
+            See there.
+        """
+        from assoc_hull.io.surfaces.hull_surface import write_surface
+
+        return write_surface(self, path, form, unit=unit, half=half)
+
+    def __str__(self) -> str:
+        return text_of(self)
+
+
+def surface_of_hull(
+    hull: HasState,
+    *,
+    leave_out: Sequence[str] = (),
+    previous: NetSurface | None = None,
+    smoothing: float | None = None,
+    tolerance: float | None = None,
+    cutoff: float = CUTOFF,
+) -> HullSurface:
+    """Fit a surface to the lines of a hull."""
+    where = "in surface"
+    state = state_of(hull, where)
+    if previous is not None:
+        instance(previous, NetSurface, "previous", where)
+    options = fit_options(length_of(state), smoothing, tolerance, cutoff)
+    names = all_of(leave_out, str, "leave_out", where)
+    found = surface_of_net(state, options, tuple(names), previous)
+    return HullSurface(*attrs.astuple(found, recurse=False))

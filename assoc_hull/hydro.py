@@ -1,0 +1,56 @@
+"""What hydrostatics and stability of a hull take and give; the verbs are methods of `Hull`.
+
+Besides, hydrostatics of a triangulated body (`mesh_flotation`), and the parameters by which
+`Hull.hydrostatic_derivatives` differentiates.
+"""
+
+from assoc_hull.analysis.derivatives.given_motion import Moves
+from assoc_hull.analysis.derivatives.hydrostatic_derivatives import Derivatives
+from assoc_hull.analysis.derivatives.parameters import (
+    DRAUGHT,
+    DRAUGHT_AFT,
+    DRAUGHT_FORE,
+    HEEL,
+    TRIM,
+    Deformation,
+    PointMove,
+    Position,
+    Rates,
+)
+from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingPosition
+from assoc_hull.analysis.hydrostatics.mesh_flotation import mesh_flotation
+from assoc_hull.analysis.hydrostatics.record import FRESH, SALT, Hydrostatics, HydrostaticTable
+from assoc_hull.analysis.stability.cross_curves import CrossCurves
+from assoc_hull.analysis.stability.equilibrium import Equilibrium
+from assoc_hull.analysis.stability.flooding import FloodingPoint
+from assoc_hull.analysis.stability.stability_report import Stability
+from assoc_hull.geometry.integrals.stations import integrate_by_simpson
+from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh, below_water
+
+__all__ = [
+    "DRAUGHT",
+    "DRAUGHT_AFT",
+    "DRAUGHT_FORE",
+    "FRESH",
+    "HEEL",
+    "SALT",
+    "TRIM",
+    "Appendage",
+    "CrossCurves",
+    "Deformation",
+    "Derivatives",
+    "Equilibrium",
+    "FloatingPosition",
+    "FloodingPoint",
+    "HydrostaticTable",
+    "Hydrostatics",
+    "Moves",
+    "PanelMesh",
+    "PointMove",
+    "Position",
+    "Rates",
+    "Stability",
+    "below_water",
+    "integrate_by_simpson",
+    "mesh_flotation",
+]
