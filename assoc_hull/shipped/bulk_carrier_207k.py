@@ -98,6 +98,9 @@ def _quarter(count: int) -> FloatArray:
     return np.asarray(1.0 - np.cos(np.linspace(0.0, np.pi / 2.0, count + 1)[1:]))
 
 
+# Stations.
+
+
 def station(number: float, shared: FloatArray) -> list[LineSource]:
     """Give the pieces of a station.
 
@@ -165,6 +168,8 @@ def _with(z: FloatArray, shared: FloatArray) -> FloatArray:
     return np.concatenate([np.sort(np.concatenate([own, inner])), z[-1:]])
 
 
+# Waterlines.
+
 _NEAR_ENDS = np.array([0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0])
 
 
@@ -203,6 +208,8 @@ def waterline(z: float, shared: FloatArray) -> LineSource:
     course.add(fore, 0.0, z)
     return course.source("waterlines", f"WL {z:g}", tolerance=_EVEN)
 
+
+# Buttocks.
 
 _NEAR_BOTTOM = np.array([0.03, 0.12, 0.25])
 
@@ -256,6 +263,9 @@ def buttock(y: float, shared: FloatArray) -> list[LineSource]:
 def _climb(course: _Course, y: float, z: FloatArray, *, aft: bool) -> None:
     """Append the places of a buttock at heights."""
     course.add([form.reaches(y, height, aft=aft) for height in z.tolist()], y, z)
+
+
+# Boundary curves.
 
 
 def boundary_lines() -> list[LineSource]:
