@@ -33,6 +33,7 @@ __all__ = [
     "NeedsCadError",
     "NoMeetingError",
     "NoMiddleVertexError",
+    "NotSoundError",
     "OpenMeshError",
     "OpenNetError",
     "OutOfRangeError",
@@ -633,6 +634,30 @@ class OpenNetError(AssocHullError, ValueError):
         more = f" and {left} more" if left > 0 else ""
         listed = f": {shown}{more}" if shown else ""
         return f"the lines do not part the hull into cells: {self.what}{listed}; {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class NotSoundError(AssocHullError, ValueError):
+    """A hull that was read from a file is not sound, and nobody said to take it all the same.
+
+    Attributes
+    ----------
+    source : str
+        The file.
+    findings : tuple of str
+        Everything that is wrong, each with its place and number.
+    """
+
+    source: str
+    findings: tuple[str, ...]
+
+    def __str__(self) -> str:
+        count = len(self.findings)
+        return (
+            f"not sound: {'; '.join(self.findings)}, in {self.source}; mend "
+            f"{'it' if count == 1 else f'these {count}'}, or take the hull as it is with "
+            "accept=True (--accept)"
+        )
 
 
 @attrs.define(slots=False, eq=False)

@@ -1,7 +1,8 @@
 """The command line: `main` finds the command, runs it, and turns every failure into one line.
 
 Exit codes: 0 done; 1 findings (check, verify, a refused edit); 2 bad input or usage, with one
-line ``error: what, where, how much, what to do`` on standard error; 130 stopped by the
+line ``error: what, where, how much, what to do`` on standard error; 3 an imported hull is not
+sound; 130 stopped by the
 keyboard; 141 when the reader of the output has gone.
 """
 
@@ -15,10 +16,11 @@ from collections.abc import Sequence
 
 from assoc_hull.cli.commands import make_parser
 from assoc_hull.cli.problems import explain
+from assoc_hull.errors import NotSoundError
 
 __all__ = ["main"]
 
-_BAD, _STOPPED, _NO_READER = 2, 130, 141
+_BAD, _NOT_SOUND, _STOPPED, _NO_READER = 2, 3, 130, 141
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -52,7 +54,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             "stopped by the keyboard; hull files are whole, run the command again", _STOPPED
         )
     except Exception as error:  # a traceback is of no use to a designer
-        return _fail(explain(error), _BAD)
+        return _fail(explain(error), _NOT_SOUND if isinstance(error, NotSoundError) else _BAD)
     return code
 
 

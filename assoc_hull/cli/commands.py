@@ -157,7 +157,8 @@ examples:
   assoc-hull check ship.hull --json
   assoc-hull plot ship.hull -o lines.pdf
 
-exit codes: 0 done; 1 findings (check, verify, an edit refused or not made); 2 bad input or usage
+exit codes: 0 done; 1 findings (check, verify, an edit refused or not made); 2 bad input or usage;
+3 an imported hull is not sound
 """
 
 _COMMANDS = (

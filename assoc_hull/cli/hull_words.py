@@ -16,6 +16,7 @@ from typing import Any
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, LineReport
 from assoc_hull.edit.report import EditReport
 from assoc_hull.hull import Hull
+from assoc_hull.io.importing.import_hull import ImportReport
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.reports import OffsetReport
 from assoc_hull.io.slicing.net import SliceReport
@@ -30,10 +31,10 @@ __all__ = [
     "followers",
     "hull_facts",
     "hull_words",
+    "import_words",
     "largest_gap",
     "line_table",
     "lists",
-    "slice_words",
     "wrap_text",
 ]
 
@@ -179,6 +180,17 @@ def hull_words(hull: Hull, *, names: bool = False) -> str:
     return "\n".join(lines)
 
 
+def import_words(name: str, report: ImportReport) -> str:
+    """Say how a file was read and adopted, and, on the last line, how sound the hull is."""
+    if report.slices is not None:
+        text = _slice_words(name, report.slices)
+    elif report.table is not None:
+        text = adoption_words(report.table, report.notes, report.adoption)
+    else:
+        text = line_table(report.adoption)
+    return f"{text}\n{report.verdict}"
+
+
 def adoption_words(table: OffsetTable, offsets: OffsetReport, adoption: AdoptionReport) -> str:
     """Say how a table was read, how exact it is, and how well the net holds it."""
     worst, own = adoption.worst, adoption.own_points
@@ -194,7 +206,7 @@ def adoption_words(table: OffsetTable, offsets: OffsetReport, adoption: Adoption
     return "\n".join(lines)
 
 
-def slice_words(name: str, report: SliceReport) -> str:
+def _slice_words(name: str, report: SliceReport) -> str:
     """Say how a mesh or digitised lines were read, smoothed and adopted."""
     worst = max(report.smoothing, key=lambda each: each.residual)
     adopted = report.adoption.worst

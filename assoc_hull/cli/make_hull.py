@@ -12,8 +12,10 @@ import json
 from pathlib import Path
 from typing import Any
 
+import attrs
+
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_json, add_replace
-from assoc_hull.cli.hull_words import adoption_words, hull_words, slice_words
+from assoc_hull.cli.hull_words import hull_words, import_words
 from assoc_hull.cli.output import emit, plain, progress, progress_bar, say
 from assoc_hull.cli.problems import UsageError, check_hull_target, check_target, is_apart
 from assoc_hull.errors import BadInputError
@@ -21,6 +23,8 @@ from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import create, examples, read_classical
 from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.io.hull_file.saving import holds_hull
+from assoc_hull.io.importing.import_hull import ImportReport
+from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.reports import Tell
 from assoc_hull.model.tables import DECKS
 
@@ -120,6 +124,12 @@ def _add_import(commands: Commands) -> None:
         help="perpendicular of station 0",
     )  # fmt: skip
     parser.add_argument(
+        "--accept", action="store_true", help="take a hull that is not sound; exit code 0"
+    )
+    parser.add_argument(
+        "--strict", action="store_true", help="refuse a hull under suspicion too; exit code 3"
+    )
+    parser.add_argument(
         "--report", metavar="FILE", type=Path, help="write all assumptions and deviations as JSON"
     )
     parser.add_argument(
@@ -207,36 +217,40 @@ def _places(text: str) -> int | list[float]:
         raise argparse.ArgumentTypeError(f"{text!r} is no number and no list of places") from error
 
 
-_OF_SLICES = ("stations", "waterlines", "buttocks", "scale", "axes", "tolerance", "join")
-
-
 def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
     from assoc_hull.io.classical.read import holds_definition
-    from assoc_hull.io.slicing.read import holds_lines, require_file
+    from assoc_hull.io.importing.import_hull import import_hull
 
+    options = _options(arguments)
     if holds_hull(arguments.file):
-        return _adopt_nothing(arguments)
+        return _adopt_nothing(arguments, options)
     if holds_definition(arguments.file):
+        options.refuse("a definition says all of it", arguments.file)
         return _adopt_definition(arguments)
-    if holds_lines(arguments.file):
-        if arguments.station_zero != "auto":
-            raise BadInputError(
-                "--station-zero is for tables of offsets", f"with {arguments.file}", "leave it out"
-            )
-        return _adopt_slices(arguments, tell)
-    wrong = [name for name in _OF_SLICES if getattr(arguments, name) is not None]
-    if wrong:
-        require_file(arguments.file)
-        raise BadInputError(
-            f"--{wrong[0]} is for meshes, surfaces and digitised lines", f"with {arguments.file}",
-            "leave it out",
-        )  # fmt: skip
-    return _adopt_offsets(arguments)
+    state, report = import_hull(arguments.file, options, tell)
+    hull = Hull(state)
+    hull.adoption = report.adoption
+    return hull, _report_facts(report), import_words(hull.particulars.name, report)
 
 
-def _adopt_nothing(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+def _options(arguments: argparse.Namespace) -> ImportOptions:
+    """Give the options of the command; each has the name that it has in `read`."""
+    named = {each.name: getattr(arguments, each.name) for each in attrs.fields(ImportOptions)}
+    named |= {name: None for name in ("unit", "station_zero") if named[name] == "auto"}
+    return ImportOptions(**named)
+
+
+def _adopt_nothing(
+    arguments: argparse.Namespace, options: ImportOptions
+) -> tuple[Hull, dict[str, Any], str]:
     """Take a hull that was saved; its history comes along where the file has one."""
-    _refuse_all(arguments, ("report", "picture"), "which is a hull already")
+    options.refuse("a hull is read as it is", arguments.file)
+    for name in ("report", "picture"):
+        if getattr(arguments, name) is not None:
+            raise BadInputError(
+                f"--{name} cannot be given", f"with {arguments.file}, which is a hull already",
+                "leave it out",
+            )  # fmt: skip
     if arguments.out.exists() and arguments.out.samefile(arguments.file):
         what = "it would be written over itself"
         raise BadInputError(what, f"at {arguments.out}", "give another name after -o")
@@ -245,19 +259,8 @@ def _adopt_nothing(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any],
     return hull, _SCHEMA | {"source": str(arguments.file)}, f"taken from {arguments.file}"
 
 
-def _refuse_all(arguments: argparse.Namespace, more: tuple[str, ...], why: str) -> None:
-    """Refuse all options that say how numbers of a file are to be taken."""
-    names = (*_OF_SLICES, "length", "breadth", "draught", "deck", *more)
-    given = [name for name in names if getattr(arguments, name) is not None]
-    given += [name for name in ("unit", "station_zero") if getattr(arguments, name) != "auto"]
-    if given:
-        what = f"--{given[0].replace('_', '-')} cannot be given"
-        raise BadInputError(what, f"with {arguments.file}, {why}", "leave it out")
-
-
 def _adopt_definition(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
     """Make the net of a classical definition; the report is the definition's, beside the net."""
-    _refuse_all(arguments, (), "which is a definition")
     definition = read_classical(arguments.file)
     hull = create(definition)
     report = definition.report(hull.state)
@@ -265,43 +268,31 @@ def _adopt_definition(arguments: argparse.Namespace) -> tuple[Hull, dict[str, An
     return hull, facts, str(report)
 
 
-def _adopt_slices(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
-    from assoc_hull.io.slicing.read import read_slices
-
-    names = ("length", "breadth", "draught", "deck", "unit", *_OF_SLICES)
-    given = {name: getattr(arguments, name) for name in names}
-    options = {name: value for name, value in given.items() if value is not None}
-    state, report = read_slices(arguments.file, tell=tell, **options)
-    hull = Hull(state)
-    hull.adoption = report.adoption
-    totals = {
-        "bands": report.bands, "adopted": report.adopted, "inflections": report.inflections
-    }  # fmt: skip
-    facts = _SCHEMA | plain(report) | totals
-    return hull, facts, slice_words(hull.particulars.name, report)
-
-
 _SCHEMA = {"format": "assoc-hull report", "schema": 1}
 """What a report begins with; the number grows when a field changes its meaning or goes."""
 
 
-def _adopt_offsets(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
-    from assoc_hull.io.offsets.complete_table import net_from_table
-    from assoc_hull.io.offsets.read import read_offsets
-
-    names = ("length", "breadth", "draught", "unit", "station_zero")
-    table, offsets = read_offsets(
-        arguments.file, **{name: getattr(arguments, name) for name in names}
-    )
-    state, adoption = net_from_table(table, deck=arguments.deck or DECKS[0])
-    hull = Hull(state)
-    hull.adoption = adoption
+def _report_facts(report: ImportReport) -> dict[str, Any]:
+    """Give the report on an import as plain values."""
+    verdict = {
+        "word": report.verdict.word, "faults": report.verdict.faults,
+        "suspicions": report.verdict.suspicions,
+    }  # fmt: skip
+    if report.slices is not None:
+        slices = report.slices
+        totals = {
+            "bands": slices.bands, "adopted": slices.adopted, "inflections": slices.inflections
+        }  # fmt: skip
+        return _SCHEMA | plain(slices) | totals | {"verdict": verdict}
     rounding = [
         {"z": z, "rounding": amount}
+        for table in (report.table,) if table is not None
         for z, amount in zip(table.z.tolist(), table.rounding.tolist(), strict=True)
-    ]
-    report = _SCHEMA | {"offsets": offsets, "rounding": rounding, "adoption": adoption}
-    return hull, report, adoption_words(table, offsets, adoption)
+    ]  # fmt: skip
+    return _SCHEMA | {
+        "offsets": report.notes, "rounding": rounding, "adoption": report.adoption,
+        "verdict": verdict,
+    }  # fmt: skip
 
 
 def _tell(arguments: argparse.Namespace, hull: Hull, more: dict[str, Any], text: str) -> None:

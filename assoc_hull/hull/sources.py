@@ -10,12 +10,10 @@ Examples
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assoc_hull.arguments import file_path, flag, instance, not_negative
-from assoc_hull.errors import BadInputError
 from assoc_hull.hull.hull import Hull
 
 if TYPE_CHECKING:
@@ -208,6 +206,9 @@ def read(
     tolerance: float | None = None,
     join: float | None = None,
     deck: str | None = None,
+    station_zero: str | None = None,
+    accept: bool = False,
+    strict: bool = False,
 ) -> Hull:
     """Read any supported format, told by content: a hull, offsets, lines, a mesh, surfaces, a text.
 
@@ -227,45 +228,27 @@ def read(
     """
     from assoc_hull.io.classical.read import holds_definition
     from assoc_hull.io.hull_file.saving import holds_hull
-    from assoc_hull.io.offsets.complete_table import net_from_table
-    from assoc_hull.io.offsets.read import read_offsets
-    from assoc_hull.io.slicing.read import holds_lines, read_slices
+    from assoc_hull.io.importing.import_hull import import_hull
+    from assoc_hull.io.importing.options import ImportOptions
 
     file = Path(file_path(path, "in read"))
-    named: dict[str, Any] = {
-        "scale": scale, "stations": stations, "waterlines": waterlines, "buttocks": buttocks,
-        "unit": unit, "axes": axes, "tolerance": tolerance, "join": join,
-    }  # fmt: skip
-    options = {name: value for name, value in named.items() if value is not None}
+    options = ImportOptions(
+        length=length, breadth=breadth, draught=draught, scale=scale, stations=stations,
+        waterlines=waterlines, buttocks=buttocks, unit=unit, axes=axes, tolerance=tolerance,
+        join=join, deck=deck, station_zero=station_zero, accept=accept, strict=strict,
+    )  # fmt: skip
     if holds_hull(file):
-        _refuse_options(options if deck is None else options | {"deck": deck}, file)
+        options.refuse("a hull is read as it is", file)
         hull = open(file)
         hull.detach()
         return hull
     if holds_definition(file):
-        _refuse_options(_given(options, deck, length, breadth, draught), file)
+        options.refuse("a definition says all of it", file)
         return create(read_classical(file))
-    deck = "open" if deck is None else deck
-    sizes: dict[str, Any] = {"length": length, "breadth": breadth, "draught": draught}
-    if holds_lines(file):
-        state, made = read_slices(file, **sizes, deck=deck, **options)
-        hull = Hull(state)
-        hull.adoption = made.adoption
-        return hull
-    _refuse_options(options, file)
-    table, _ = read_offsets(file, **sizes)
-    state, report = net_from_table(table, deck=deck)
+    state, report = import_hull(file, options)
     hull = Hull(state)
-    hull.adoption = report
+    hull.adoption = report.adoption
     return hull
-
-
-def _given(
-    options: Mapping[str, object], deck: str | None, *sizes: float | None
-) -> dict[str, object]:
-    """Name all options that were given."""
-    named = dict(zip(("length", "breadth", "draught"), sizes, strict=True)) | {"deck": deck}
-    return {**options, **{name: value for name, value in named.items() if value is not None}}
 
 
 def read_classical(path: str | os.PathLike[str]) -> ClassicalDefinition:
@@ -293,17 +276,6 @@ def read_classical(path: str | os.PathLike[str]) -> ClassicalDefinition:
     from assoc_hull.io.classical.read import read_definition_file
 
     return read_definition_file(path)
-
-
-def _refuse_options(options: Mapping[str, object], file: Path) -> None:
-    from assoc_hull.io.slicing.read import require_file
-
-    if options:
-        require_file(file)
-        raise BadInputError(
-            f"{', '.join(sorted(options))} cannot be given", f"for {file.name}",
-            "leave it out, or read a mesh, surfaces or digitised lines",
-        )  # fmt: skip
 
 
 def read_surfaces(
