@@ -89,3 +89,15 @@ def test_every_picture_is_shown_and_small() -> None:
     pictures = sorted((ROOT / "docs" / "images").iterdir())
     assert [path.name for path in pictures if path.resolve() not in shown] == []
     assert [path.name for path in pictures if path.stat().st_size > LARGEST_IMAGE] == []
+
+
+def test_the_authors_of_the_ship_hull_representations_are_named_right() -> None:
+    """Where initials stand they are those of K.W. Kim and S. Chang."""
+    files = [*PAGES, *sorted((ROOT / "assoc_hull").rglob("*.py")), *ROOT.glob("tests/**/*.py")]
+    paper = re.compile(r"((?:[A-Z]\.\s?)*)Kim\s+(?:&|and)\s+((?:[A-Z]\.\s?)*)Chang\b")
+    named = {
+        (first.strip(), second.strip())
+        for file in files
+        for first, second in paper.findall(" ".join(file.read_text("utf-8").split()))
+    }
+    assert named == {("", ""), ("K.W.", "S.")}
