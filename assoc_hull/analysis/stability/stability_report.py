@@ -171,16 +171,25 @@ class Stability:
         return tuple(each for each in self.criteria if each.passed is False)
 
     @property
+    def not_evaluated(self) -> tuple[Criterion, ...]:
+        """The criteria of which nothing is known; the weather criterion always is one."""
+        return tuple(each for each in self.criteria if each.passed is None)
+
+    @property
     def columns(self) -> Mapping[str, FloatArray]:
-        """The table: heel, levers, dynamic arm and draughts, (d,) each; nan where there is none."""
-        lift = 0.5 * self.header.length * self.heels.slope
+        """The table: heel, levers, dynamic arm and draughts, (d,) each; nan where there is none.
+
+        Draughts are those on the centre line at the perpendiculars; there is none where the water
+        passes above the deck or below the keel there, as it does on a ship that lies on her side.
+        """
+        aft, fore = _centre_draughts(self.heels, self.curve.case)
         found = {
             "heel_deg": self.heels.heel_deg,
             "kn": self.heels.kn,
             "gz": self.heels.gz,
             "arm": self.curve.arm(self.heels.heel_deg),
-            "draught_aft": self.heels.mean - lift,
-            "draught_fore": self.heels.mean + lift,
+            "draught_aft": aft,
+            "draught_fore": fore,
         }
         for each in found.values():
             freeze(each)
@@ -229,7 +238,11 @@ def _verdict(stability: Stability) -> str:
     failed = ", ".join(f"{each.code} {each.name} ({each.margin:+.4f})" for each in stability.failed)
     if failed:
         return f"FAILED: {failed}"
-    return "not all criteria are evaluated" if stability.passed is None else "passed"
+    left = ", ".join(f"{each.code} {each.name}" for each in stability.not_evaluated)
+    if stability.passed is None:
+        return f"no criterion fails, but not all are evaluated: not {left}"
+    # Never a bare "passed": the code asks for more than what is evaluated here.
+    return f"2.2.1 to 2.2.4 are met; not evaluated: {left}"
 
 
 # --------------------------------------------------------------------------------------
@@ -258,7 +271,7 @@ def stability_notes(
     if case.trim == "fixed":
         notes.append("trim is fixed: levers are those of the plane with the draughts' difference")
     notes.append("the weather criterion (2008 IS Code A 2.3) is not evaluated")
-    return (*notes, *_other_side(at, side), *_missing(at, case, limit))
+    return (*notes, *_other_side(at, side), *_missing(at, case, limit), *_beside(at, case))
 
 
 def _other_side(at: HeeledShip, side: int) -> list[str]:
@@ -282,6 +295,43 @@ def _missing(at: HeeledShip, case: StabilityCase, limit: float | None) -> list[s
         words = ", ".join(f"{each:g}" for each in at.heel_deg[none].tolist())
         notes.append(f"she does not float at {words} deg, or an appendage gets wet just there")
     return notes
+
+
+# --------------------------------------------------------------------------------------
+# Draughts on the centre line. They grow as 1 / cos(heel): of a ship on her side they are the height
+# of a place far above the deck, or below the keel, and no draughts.
+
+
+_ROUNDING = 1e-6
+"""Draughts this near to the deck or the keel (m) are at it."""
+
+
+def _centre_draughts(at: HeeledShip, case: StabilityCase) -> tuple[FloatArray, FloatArray]:
+    """Give draughts at AP and FP (d,), m; nan where the water passes the hull by there."""
+    limits, half = case.afloat.body.limits, 0.5 * case.afloat.length
+    z = np.concatenate([limits.bottom[:, 2], limits.deck[:, 2]])
+    found = []
+    for side in (-half, half):
+        draught = at.mean + side * at.slope
+        # A trim that leaves one end bare even upright has draughts beyond keel or deck there.
+        upright = float(case.mean[0] + side * case.slope[0])
+        least = min(float(z.min()), upright) - _ROUNDING
+        most = max(float(z.max()), upright) + _ROUNDING
+        found.append(np.where((draught >= least) & (draught <= most), draught, np.nan))
+    return found[0], found[1]
+
+
+def _beside(at: HeeledShip, case: StabilityCase) -> list[str]:
+    """Note from which heel on the table has no draughts, though she floats."""
+    aft, fore = _centre_draughts(at, case)
+    # Beyond 89.75 degrees there are none anyway.
+    none = np.abs(at.heel_deg[np.isfinite(at.mean) & (np.isnan(aft) | np.isnan(fore))])
+    if not len(none):
+        return []
+    return [
+        f"from {none.min():g} deg on the water passes the centre line above the deck or below the "
+        "keel at a perpendicular: no draughts there"
+    ]
 
 
 # --------------------------------------------------------------------------------------

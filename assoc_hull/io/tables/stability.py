@@ -81,6 +81,7 @@ def stability_document(found: Stability | CrossCurves) -> dict[str, Any]:
         "columns": {name: _numbers(values) for name, values in found.columns.items()},
         "criteria": [_criterion(each) for each in found.criteria],
         "passed": found.passed,
+        "not_evaluated": [f"{each.code} {each.name}" for each in found.not_evaluated],
         "floodings": [attrs.asdict(each) for each in found.floodings],
         "notes": list(found.notes),
     }

@@ -6,6 +6,7 @@ import attrs
 import numpy as np
 import pytest
 
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, planes_of
 from assoc_hull.analysis.stability.condition import ConditionRequest
 from assoc_hull.analysis.stability.criteria import Criterion
 from assoc_hull.analysis.stability.flooding import FloodingPoint
@@ -62,6 +63,41 @@ def test_a_ship_that_meets_all_criteria_passes() -> None:
     assert (weather.value, weather.passed) == (None, None)
     assert "not evaluated" in str(weather)
     assert any("A 2.3" in note and "not evaluated" in note for note in found.notes)
+
+
+def test_a_report_never_says_passed_in_all() -> None:
+    """What is not evaluated is named beside what is met, and where none fails but not all is."""
+    words = dict(box(5.0).lines())["in all"]
+    assert words == "2.2.1 to 2.2.4 are met; not evaluated: 2.3 severe wind and rolling"
+    found = box(5.0, closed=False, draught=8.0)
+    assert len(found.not_evaluated) == 6
+    words = dict(found.lines())["in all"]
+    assert words.startswith("no criterion fails, but not all are evaluated: not 2.2.1 area under")
+    assert words.endswith("2.3 severe wind and rolling")
+
+
+def test_a_table_has_no_draughts_that_no_mark_can_show() -> None:
+    """On a box of T 8 m and D 12 m the water leaves the centre line by the deck as she heels.
+
+    Levers go on. What stands in the table is on the centre line, within the hull, and gives back
+    the displacement.
+    """
+    found = box(5.0, draught=8.0, most=85.0)
+    aft, fore = found.columns["draught_aft"], found.columns["draught_fore"]
+    np.testing.assert_array_equal(np.isnan(aft), np.isnan(fore))
+    given = np.isfinite(aft)
+    assert given[:6].all()
+    assert not given[-1]
+    assert (aft[given] >= 0.0).all()
+    assert (aft[given] <= 12.0).all()
+    assert np.isfinite(found.gz).all()
+    for heel, draught in zip(found.heel_deg[given].tolist(), aft[given].tolist(), strict=True):
+        planes = planes_of([FloatingPosition(draught, draught, heel)], 100.0)
+        volume = found.curve.case.afloat.measure(planes).volume[0]
+        assert volume == pytest.approx(found.condition.volume, rel=1e-9)
+    note = next(each for each in found.notes if "no draughts there" in each)
+    assert note.startswith(f"from {found.heel_deg[~given][0]:g} deg on")
+    assert not any("no draughts there" in each for each in box(5.0).notes)  # T is D / 2
 
 
 def test_areas_and_levers_are_those_of_a_wall_sided_ship() -> None:
