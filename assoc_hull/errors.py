@@ -116,6 +116,8 @@ class OutOfRangeError(AssocHullError, ValueError):
         Of the three numbers.
     why : str
         What is wrong with the value.
+    remedy : str
+        What else could be done than give one of the range; mostly nothing.
     """
 
     name: str
@@ -125,11 +127,13 @@ class OutOfRangeError(AssocHullError, ValueError):
     least: float
     most: float
     unit: str
+    remedy: str = ""
 
     def __str__(self) -> str:
         size = f"{self.value:.8g} {self.unit}".rstrip()
         what = f"{self.name} of {size} {self.why}".rstrip()
-        return f"{what}, {self.where}; give one {_span(self.least, self.most, self.unit)}"
+        span = f"give one {_span(self.least, self.most, self.unit)}"
+        return f"{what}, {self.where}; {span}" + (f", or {self.remedy}" if self.remedy else "")
 
 
 @attrs.define(slots=False, eq=False)

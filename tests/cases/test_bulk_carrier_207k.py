@@ -155,3 +155,25 @@ def test_every_given_point_is_kept(bulk_carrier: ah.Hull) -> None:
     assert bulk_carrier.adoption.notes == ()
     for line in bulk_carrier.adoption.lines:
         assert line.deviation <= (5e-3 if line.curve.startswith("buttocks") else 2e-3), line
+
+
+def test_the_end_of_the_bossing_is_no_transom(bulk_carrier: ah.Hull) -> None:
+    """Her transom is dry at the design draught, and wet only above its foot; S with it says so.
+
+    The disc at which the bossing ends has 1.651 m2, and counted as a transom at every draught.
+    """
+    edge = bulk_carrier["transom"].curves[0].spline.xyz
+    foot = float(edge[:, 2].min())
+    draughts = [8.0, 18.0, foot, foot + 1.0, foot + 2.0]
+    table = bulk_carrier.hydrostatic_table(draughts)
+    area = table.columns["transom_area"]
+    assert area[:3].tolist() == [0.0, 0.0, 0.0]
+    assert table.errors["transom_area"][:3].tolist() == [0.0, 0.0, 0.0]
+    # Area of a polygon through places on the drawn edge.
+    run = _points(bulk_carrier["transom"].curves[0].spline)
+    for height, found in zip(draughts[3:], area[3:].tolist(), strict=True):
+        z = np.linspace(foot, height, 4001)
+        y = np.interp(z, run[:, 2], run[:, 1])
+        assert found == pytest.approx(2.0 * float(np.trapezoid(y, z)), rel=2e-3)
+    with_it = bulk_carrier.hydrostatics(draught=18.0, transom=True)
+    assert with_it.wetted_surface == bulk_carrier.hydrostatics(draught=18.0).wetted_surface

@@ -255,7 +255,8 @@ def hydrostatic_derivatives(
     position = position_of(header, draught, draughts, heel_deg, draught_to)
     parameters = all_of(wrt, Parameter, "wrt", _WHERE)  # type: ignore[type-abstract]
     table = table_without_doubts(body, [position], header, (1, 1), on_error, estimate=False)
-    plane = planes_of([position], header.length)
+    # With an open deck that is drowned, what is reported is measured up to its edge.
+    plane = planes_of(table.positions, header.length)
     return Derivatives(
         table[0],
         tuple(each.title for each in parameters),

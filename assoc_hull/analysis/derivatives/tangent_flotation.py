@@ -16,7 +16,7 @@ from assoc_hull.analysis.derivatives.curve_tangents import CurveTangents, curve_
 from assoc_hull.analysis.derivatives.parameters import ShapeParameter
 from assoc_hull.analysis.hydrostatics.floating_body import StationAreas
 from assoc_hull.analysis.hydrostatics.flotation import Flotation
-from assoc_hull.analysis.net.curve_net import CurveNet, flat_ends_below, sections_of
+from assoc_hull.analysis.net.curve_net import CurveNet, sections_of, transom_areas_below
 from assoc_hull.analysis.net.moved_layout import move_cells
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
@@ -85,8 +85,8 @@ class TangentFlotation:
         return gone
 
     def transom(self, planes: FloatingPlanes) -> FloatArray:
-        """Give the area of transom and other flat ends below each plane, (d,), m2."""
-        return flat_ends_below(self.net, self.base.closed, planes)
+        """Give the area of transoms below each plane, (d,), m2; no end of a bossing is one."""
+        return transom_areas_below(self.net, self.base.closed, planes)
 
 
 def tangent_flotation(base: Flotation, shapes: Sequence[ShapeParameter]) -> TangentFlotation:

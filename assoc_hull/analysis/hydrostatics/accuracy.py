@@ -20,10 +20,10 @@ from assoc_hull.analysis.net.curve_net import (
     NetSections,
     every_other_line,
     every_other_section,
-    flat_ends_below,
     sections_of,
     station_planes,
     thinned_net,
+    transom_areas_below,
 )
 from assoc_hull.analysis.net.surface_layout import SurfaceLayout, areas_between, lay_out_surface
 from assoc_hull.geometry.curves import FloatArray, PointKind
@@ -130,7 +130,7 @@ class ErrorEstimator:
         sections.
         """
         areas = own.per_station(sections_below(own.curves, planes))
-        ends = flat_ends_below(self.own, self.closed, planes)
+        ends = transom_areas_below(self.own, self.closed, planes)
         still, dry = np.zeros_like(areas), np.zeros_like(ends)
         share = _PART / max(len(self.sections), 1)
         found = [
@@ -149,7 +149,7 @@ class ErrorEstimator:
             IntegralChange(
                 _times(_less(integrate_immersed(self.lines.prepared, planes), known), _PART),
                 _PART * (fewer - areas),
-                _PART * (flat_ends_below(self.lines.net, self.closed, planes) - ends),
+                _PART * (transom_areas_below(self.lines.net, self.closed, planes) - ends),
             )
         )
         return found

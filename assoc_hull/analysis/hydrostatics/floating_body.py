@@ -32,6 +32,7 @@ __all__ = [
     "StationAreas",
     "WaterplaneLimits",
     "deck_edge_heel",
+    "kept_dry",
     "least_freeboard",
     "planes_of",
     "require_afloat",
@@ -130,14 +131,20 @@ class WaterplaneLimits:
     closed : bool
         The deck is closed: it may go under, as long as some of it is dry. An open deck is
         drowned as soon as its edge is.
+    station_x : (n,), m
+        Where the stations are, to say where the edge is lowest; none if they are not known.
+    station_names : tuple of n str
+        Their names.
     """
 
     bottom: FloatArray
     deck: FloatArray
     closed: bool
+    station_x: FloatArray = attrs.field(factory=lambda: np.zeros(0))
+    station_names: tuple[str, ...] = ()
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.bottom, self.deck)
+        freeze(self.bottom, self.deck, self.station_x)
 
     def mean_draughts(self, planes: FloatingPlanes, length: float) -> tuple[FloatArray, FloatArray]:
         """Give the least and the most mean draught (m) at the trim and heel of each plane."""
@@ -145,6 +152,15 @@ class WaterplaneLimits:
         low = _heights(self.bottom, planes, up=-1.0).min(axis=1)
         top = _heights(self.deck, planes, up=1.0 if self.closed else -1.0)
         return low + lift, (top.max(axis=1) if self.closed else top.min(axis=1)) + lift
+
+    def lowest_edge(self, planes: FloatingPlanes, k: int) -> str:
+        """Say where the deck edge is lowest over the k-th plane: x, height, nearest station."""
+        top = _heights(self.deck, planes, up=-1.0)[k]
+        x, y, z = self.deck[int(top.argmin())].tolist()
+        near = ""
+        if len(self.station_names):
+            near = f", near {self.station_names[int(np.abs(self.station_x - x).argmin())]}"
+        return f"z {z:.3f} m at x {x:.2f} m, y {y:.2f} m{near}"
 
 
 def _heights(points: FloatArray, planes: FloatingPlanes, up: float) -> FloatArray:
@@ -192,23 +208,64 @@ def require_afloat(
     >>> require_afloat([FloatingPosition(13.0, 13.0)], limits, 100.0)
     Traceback (most recent call last):
     ...
-    assoc_hull.errors.OutOfRangeError: a mean draught of 13 m drowns the open deck, at T_A 13 m, \
-T_F 13 m, heel 0 deg; give one from 0 to 12 m
+    assoc_hull.errors.OutOfRangeError: a mean draught of 13 m drowns the open deck, whose edge is \
+lowest at z 12.000 m at x 0.00 m, y 10.00 m, at T_A 13 m, T_F 13 m, heel 0 deg; give one from 0 \
+to 12 m, or read or make the hull with deck="closed" (--deck closed) if it has a deck
     """
     planes = planes_of(positions, length)
     least, most = limits.mean_draughts(planes, length)
-    for each, low, high in zip(positions, least.tolist(), most.tolist(), strict=True):
+    for k, (each, low, high) in enumerate(
+        zip(positions, least.tolist(), most.tolist(), strict=True)
+    ):
         value = each.draught_mean
         if low >= high:
             what = f"no draught keeps the deck dry, {each}"
-            raise BadInputError(
-                what, "in hydrostatics", "give less trim or heel, or close the deck"
-            )
-        if not low < value <= high:
-            over = "lies above the deck" if limits.closed else "drowns the open deck"
-            why = "lies below the keel" if value <= low else over
+            raise BadInputError(what, "in hydrostatics", f"give less trim or heel, or {_CLOSE}")
+        if value <= low:
+            why = "lies below the keel"
             raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m")
+        if value > high and limits.closed:
+            why = "lies above the deck"
+            raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m")
+        if value > high:
+            why = f"drowns the open deck, whose edge is lowest at {limits.lowest_edge(planes, k)}"
+            remedy = _CLOSE
+            raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m", remedy)
     return planes
+
+
+_CLOSE = 'read or make the hull with deck="closed" (--deck closed) if it has a deck'
+"""What to do where an open deck is in the way."""
+
+
+def kept_dry(
+    positions: Sequence[FloatingPosition], limits: WaterplaneLimits, length: float
+) -> tuple[list[FloatingPosition], tuple[str, ...]]:
+    """Bring positions that drown an open deck up to its edge, and say which, for `report`.
+
+    Trim and heel stay; what lies below the keel, or at a trim that leaves no draught, is left
+    for `require_afloat` to refuse.
+    """
+    if limits.closed:
+        return list(positions), ()
+    planes = planes_of(positions, length)
+    least, most = limits.mean_draughts(planes, length)
+    found, notes = list[FloatingPosition](), dict[str, None]()
+    for k, each in enumerate(positions):
+        over = each.draught_mean - float(most[k])
+        if over <= 0.0 or not least[k] < most[k]:
+            found.append(each)
+            continue
+        # A rounding of the two draughts must not lift their mean over the edge again.
+        down = over + 1e-12 * max(abs(over), abs(float(most[k])))
+        aft, fore = each.draught_aft - down, each.draught_fore - down
+        found.append(attrs.evolve(each, draught_aft=aft, draught_fore=fore))
+        notes[
+            f"a mean draught of {each.draught_mean:.8g} m drowns the open deck: measured up to "
+            f"{float(most[k]):.8g} m, where its edge is lowest ({limits.lowest_edge(planes, k)}); "
+            f"{_CLOSE}"
+        ] = None
+    return found, tuple(notes)
 
 
 def require_numbers(draughts: object, limits: WaterplaneLimits) -> None:
@@ -412,7 +469,7 @@ class Measurable(Protocol):
         ...
 
     def transom(self, planes: FloatingPlanes) -> FloatArray:
-        """Give the area of transom and other flat ends below each plane, (d,), m2."""
+        """Give the area of transoms below each plane, (d,), m2; no end of a bossing is one."""
         ...
 
 

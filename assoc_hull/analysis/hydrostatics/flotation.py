@@ -33,9 +33,9 @@ from assoc_hull.analysis.hydrostatics.record import HydrostaticHeader
 from assoc_hull.analysis.net.curve_net import (
     CurveNet,
     NetSections,
-    flat_ends_below,
     gather_net,
     sections_of,
+    transom_areas_below,
 )
 from assoc_hull.analysis.net.surface_layout import SurfaceLayout, lay_out_surface
 from assoc_hull.errors import BadInputError
@@ -131,8 +131,8 @@ class Flotation:
     def limits(self) -> WaterplaneLimits:
         """What a waterplane must lie between, and the deck edge."""
         places = sample(self.net.batch, _SAMPLES)[1]
-        deck = self.layout.deck_edge(self.net)
-        return WaterplaneLimits(places, deck, self.closed)
+        deck, found = self.layout.deck_edge(self.net), self.sections
+        return WaterplaneLimits(places, deck, self.closed, found.x.copy(), found.names)
 
     def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Give the integrals below each plane."""
@@ -151,8 +151,8 @@ class Flotation:
         return StationAreas(found.x.copy(), area, found.names), moment
 
     def transom(self, planes: FloatingPlanes) -> FloatArray:
-        """Give the area of transom and other flat ends below each plane, (d,), m2."""
-        return flat_ends_below(self.net, self.closed, planes)
+        """Give the area of transoms below each plane, (d,), m2; no end of a bossing is one."""
+        return transom_areas_below(self.net, self.closed, planes)
 
     def changes(self, planes: FloatingPlanes) -> Sequence[IntegralChange]:
         """Give by how much the integrals may be off; the amounts of several items add up."""

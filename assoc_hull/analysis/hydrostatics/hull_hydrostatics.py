@@ -22,6 +22,7 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
     IntegralChange,
     Measurable,
     StationAreas,
+    kept_dry,
     least_freeboard,
     planes_of,
     require_afloat,
@@ -609,10 +610,13 @@ def table_without_doubts(
     """Compute, unless the hull is doubtful and that is to be refused."""
     choice(on_error, "on_error", ("refuse", "report"), _WHERE)
     flag(estimate, "estimate", _WHERE)
+    told: tuple[str, ...] = ()
+    if on_error == "report":
+        positions, told = kept_dry(positions, body.limits, header.length)
     table = table_of(body, positions, header, shape=shape, estimate=estimate)
     doubts = tuple(body.doubts(planes_of(positions, header.length), estimate))
     if doubts and on_error == "refuse":
         more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
         remedy = "mend the hull, or take the numbers with on_error='report'"
         raise BadInputError(doubts[0] + more, _WHERE, remedy)
-    return attrs.evolve(table, notes=doubts)
+    return attrs.evolve(table, notes=(*told, *doubts))

@@ -50,6 +50,8 @@ __all__ = [
     "segments_of_part",
     "station_planes",
     "thinned_net",
+    "transom_areas_below",
+    "transom_ends",
 ]
 
 ON_PLANE = 1e-6
@@ -270,9 +272,41 @@ def sections_of(net: CurveNet, closed: bool) -> NetSections:
     return NetSections(_curves(SplineBatch.join(parts), closed), chosen, station, x, names)
 
 
+_OUTERMOST = 1e-3
+"""An end across the ship beyond which lines reach no farther than this (m) is the ship's own."""
+
+
+def transom_ends(net: CurveNet) -> IntArray:
+    """Give the curves of transoms: ends across the ship but those of bossings, skegs and nozzles.
+
+    Such an end goes from the centre plane to it, or round, and the hull goes on beyond it.
+    """
+    xyz = real(net.batch.xyz)  # with tangents or without, the same ends are taken
+    aft, fore = float(xyz[:, 0].min()), float(xyz[:, 0].max())
+    found = []
+    for curve in np.flatnonzero(np.isfinite(net.x) & net.end).tolist():
+        x = float(net.x[curve])
+        ends = xyz[[net.batch.start[curve], net.batch.start[curve + 1] - 1]]
+        round_it = bool(np.abs(ends[1] - ends[0]).max() <= ON_CENTRE)
+        central = bool(np.abs(ends[:, 1]).max() <= ON_CENTRE)
+        if min(x - aft, fore - x) <= _OUTERMOST or not (round_it or central):
+            found.append(curve)
+    return np.array(found, np.int64)
+
+
+def transom_areas_below(net: CurveNet, closed: bool, planes: FloatingPlanes) -> FloatArray:
+    """Give the area of transoms, at either end of the ship, (d,), m2, both sides."""
+    return _areas_below(net, transom_ends(net), closed, planes)
+
+
 def flat_ends_below(net: CurveNet, closed: bool, planes: FloatingPlanes) -> FloatArray:
-    """Give the area of transom and other transverse ends, (d,), m2, both sides."""
-    chosen = np.flatnonzero(np.isfinite(net.x) & net.end)
+    """Give the area of all ends across the ship, those of bossings too, (d,), m2, both sides."""
+    return _areas_below(net, np.flatnonzero(np.isfinite(net.x) & net.end), closed, planes)
+
+
+def _areas_below(
+    net: CurveNet, chosen: IntArray, closed: bool, planes: FloatingPlanes
+) -> FloatArray:
     if not len(chosen):
         return np.zeros(len(planes.height))
     parts = [net.batch.part(curve, curve + 1) for curve in chosen.tolist()]

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.net.curve_net import ON_PLANE, CurveNet, CurvePart
+from assoc_hull.analysis.net.curve_net import ON_CENTRE, ON_PLANE, CurveNet, CurvePart
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.numeric.polynomials import horner
 from assoc_hull.geometry.numeric.roots import unit_roots
@@ -25,6 +25,7 @@ __all__ = [
     "StripBoundary",
     "UnboundedCurves",
     "boundary_arcs",
+    "closes_end",
     "strip_boundaries",
 ]
 
@@ -143,6 +144,9 @@ def _x_at(one: SplineBatch, t: FloatArray) -> FloatArray:
 
 _NEAR = 1e-4
 """Ends of curves this near to one another, in lengths of the ship, are one node."""
+
+_STEEP = 0.25
+"""The edge of a transom rises at least by this part of what it spans along or across."""
 
 _KEEL = 2.0
 """A boundary curve that runs this many times more forward than up is keel, not stem."""
@@ -270,16 +274,34 @@ def _joined(
     for i, kind in chosen:
         edge = _Edge(
             arcs[i].part, kind, number(begin[i]), number(finish[i]),
-            _closes(net, arcs[i].part[0]), begin[i], finish[i],
+            closes_end(net, arcs[i].part[0]), begin[i], finish[i],
         )  # fmt: skip
         if edge.begin != edge.finish or not net.end[arcs[i].part[0]]:
             edges.append(edge)
     return edges
 
 
-def _closes(net: CurveNet, curve: int) -> bool:
-    """Tell whether a curve may close an end of the ship: in the centre plane, or transverse."""
-    return bool(net.end[curve] and (net.centre[curve] or np.isfinite(net.x[curve])))
+def closes_end(net: CurveNet, curve: int) -> bool:
+    """Tell whether a curve may close an end of the ship: the profile, or the edge of a transom.
+
+    Others at which the hull ends are deck edges.
+    """
+    if not net.end[curve]:
+        return False
+    return bool(net.centre[curve] or np.isfinite(net.x[curve]) or _rakes(net, curve))
+
+
+def _rakes(net: CurveNet, curve: int) -> bool:
+    """Tell whether a curve is the edge of a raked or rounded transom.
+
+    It goes from the centre plane outward and up, as no deck edge does: at a round stern that one
+    leaves the centre plane nearly level.
+    """
+    xyz = net.batch.xyz[net.batch.start[curve] : net.batch.start[curve + 1]]
+    foot, head = (xyz[0], xyz[-1]) if xyz[0, 2] <= xyz[-1, 2] else (xyz[-1], xyz[0])
+    along, across, up = np.ptp(xyz, axis=0).tolist()
+    outward = bool(abs(foot[1]) <= ON_CENTRE < abs(head[1]))
+    return outward and up > _STEEP * max(along, across) and along < across + up
 
 
 def _pruned(edges: list[_Edge]) -> list[_Edge]:

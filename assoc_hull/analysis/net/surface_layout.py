@@ -26,6 +26,7 @@ from assoc_hull.analysis.net.strip_boundaries import (
     StripBoundary,
     UnboundedCurves,
     boundary_arcs,
+    closes_end,
     strip_boundaries,
 )
 from assoc_hull.errors import BadInputError
@@ -459,12 +460,16 @@ class SurfaceLayout:
         freeze(self.edge, self.cell_start, self.rails, self.cell, self.flat, self.knuckle)
 
     def deck_edge(self, net: CurveNet) -> FloatArray:
-        """Give places along the deck edge, (k, 3), m; the top of the hull if it has none."""
+        """Give places along the deck edge, (k, 3), m; the top of the hull if it has none.
+
+        The profile and the transom bound strips above as well, and are no deck edge; nor is the
+        top of a section that closes on the centre plane below the deck, as that of a bulb does.
+        """
         parts = [
             part
             for frame, edge in zip(self.frames, self.edge.tolist(), strict=True)
             if edge
-            for part in _top(frame)
+            for part in _top(net, frame)
         ]
         if not parts:
             return net.batch.xyz[[int(net.batch.xyz[:, 2].argmax())]]
@@ -534,11 +539,20 @@ def lay_out_surface(net: CurveNet, length: float, closed: bool) -> SurfaceLayout
     return SurfaceLayout(cells, tuple(found), tuple(lost), edge, start, rails, cell, *sides)
 
 
-def _top(frame: StripBoundary) -> list[CurvePart]:
-    """Give the upper side of a strip; the ends of the rails if nothing is drawn there."""
+def _top(net: CurveNet, frame: StripBoundary) -> list[CurvePart]:
+    """Give the deck edge at the upper side of a strip: what is drawn, or the ends of its rails.
+
+    Of rails, one that ends in the centre plane counts as a stem head if it reaches as high as the
+    other; lower, it is the top of a bulb, or the foot of a transom that is not drawn.
+    """
     if frame.deck:
-        return list(frame.deck)
-    return [(rail[-1][0], rail[-1][2], rail[-1][2]) for rail in (frame.aft, frame.fore)]
+        return [part for part in frame.deck if not closes_end(net, part[0])]
+    ends = [(rail[-1][0], rail[-1][2], rail[-1][2]) for rail in (frame.aft, frame.fore)]
+    place = _tops(net, frame)
+    aside = np.abs(place[:, 1]) > ON_CENTRE
+    level = float(place[aside, 2].min())
+    high = (aside | (place[:, 2] >= level)).tolist()
+    return [end for end, keep in zip(ends, high, strict=True) if keep]
 
 
 def _side(net: CurveNet, anchor: StripAnchor, which: NDArray[np.bool_]) -> bool:
@@ -688,7 +702,7 @@ def _is_edge(net: CurveNet, frame: StripBoundary, every: Sequence[StripBoundary]
     bossing that nothing closes.
     """
     if frame.deck:
-        return not all(net.centre[part[0]] for part in frame.deck)
+        return not all(closes_end(net, part[0]) for part in frame.deck)
     place = _tops(net, frame)
     if float(np.abs(place[:, 1]).max()) <= ON_CENTRE:
         return False

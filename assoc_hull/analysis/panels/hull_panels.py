@@ -15,11 +15,13 @@ import numpy as np
 
 from assoc_hull.analysis.hydrostatics.floating_body import (
     FloatingPosition,
+    kept_dry,
     require_afloat,
     require_numbers,
 )
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation, header_of
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import position_of
+from assoc_hull.analysis.net.curve_net import flat_ends_below
 from assoc_hull.analysis.panels.assemble_mesh import (
     DivisionChoices,
     MeshAxes,
@@ -166,6 +168,9 @@ def panels(
     header = header_of(hull, body, _HEADER)
     require_numbers(draughts if draught is None else draught, body.limits)
     position = position_of(header, draught, draughts, heel_deg, "moulded")
+    told: tuple[str, ...] = ()
+    if choice(on_error, "on_error", ("refuse", "report"), _WHERE) == "report":
+        (position,), told = kept_dry([position], body.limits, header.length)
     planes = require_afloat([position], body.limits, header.length)
     _require_sound(body, planes, on_error)
     plane = Waterplane(*(float(each[0]) for each in attrs.astuple(planes)))
@@ -184,12 +189,13 @@ def panels(
     title = f"{header.ship}, T_A {position.draught_aft:g} m, T_F {position.draught_fore:g} m"
     if heel_deg:
         title += f", heel {position.heel_deg:g} deg"
+    if told:
+        title += ", up to the edge of the open deck"
     return PanelMesh(xyz, panel, mirror_y=half, title=title, origin=source)
 
 
 def _require_sound(body: Flotation, planes: FloatingPlanes, on_error: str) -> None:
     """Refuse a hull whose lines do not bound a surface."""
-    choice(on_error, "on_error", ("refuse", "report"), _WHERE)
     doubts = body.doubts(planes, numbers=False)
     if doubts and on_error == "refuse":
         more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
@@ -292,7 +298,9 @@ def _origin(
     volume = float(exact.volume[0])
     moment = np.array([exact.moment_x[0], exact.moment_y[0], exact.moment_z[0]], np.float64)
     centre = axes.of_ship((moment / volume)[None])[0]
-    area = float(exact.shell[0]) + (float(body.transom(planes)[0]) if ends else 0.0)
+    area = float(exact.shell[0]) + (
+        float(flat_ends_below(body.net, body.closed, planes)[0]) if ends else 0.0
+    )
     return PanelOrigin(
         ship, position.draught_aft, position.draught_fore, position.heel_deg, x, volume, area,
         np.asarray(centre),
