@@ -5,6 +5,8 @@ import pytest
 import trimesh
 
 import assoc_hull as ah
+from assoc_hull.analysis.net.curve_net import gather_net
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh
 
 SHIPS = {
@@ -73,3 +75,19 @@ def test_the_deck_of_the_dtc_is_closed_though_its_particulars_say_open(dtc: ah.H
     assert np.ptp(mesh.xyz[deck, 2]) < 1e-3
     hull = np.unique(mesh.triangle[mesh.group == 0])
     assert mesh.xyz[hull, 2].max() == pytest.approx(mesh.xyz[deck, 2].max())
+
+
+@pytest.mark.parametrize("name", ["bulk_carrier", "series60_70"])
+def test_no_vertex_lies_below_the_bottom_nor_beyond_the_side(
+    request: pytest.FixtureRequest, name: str
+) -> None:
+    """A mesh goes no farther down or out than the lines it is made on, to a tenth of 1 mm.
+
+    Where the carrier leaves her flat of bottom at an angle the fitted heights dipped by 34 mm.
+    """
+    hull = request.getfixturevalue(name)
+    mesh, lines = hull.mesh(), sample(gather_net(hull.state).batch, 32)[1]
+    assert mesh.xyz[:, 2].min() >= lines[:, 2].min() - 1e-4
+    assert np.abs(mesh.xyz[:, 1]).max() <= lines[:, 1].max() + 1e-4
+    if name == "bulk_carrier":
+        assert mesh.xyz[:, 2].min() >= -1e-5

@@ -298,9 +298,9 @@ def _origin(
     volume = float(exact.volume[0])
     moment = np.array([exact.moment_x[0], exact.moment_y[0], exact.moment_z[0]], np.float64)
     centre = axes.of_ship((moment / volume)[None])[0]
-    area = float(exact.shell[0]) + (
-        float(flat_ends_below(body.net, body.closed, planes)[0]) if ends else 0.0
-    )
+    # Panels cover the ends of bossings too, which are no transoms.
+    flat = float(flat_ends_below(body.net, body.closed, planes)[0]) if ends else 0.0
+    area = float(exact.shell[0]) + flat
     return PanelOrigin(
         ship, position.draught_aft, position.draught_fore, position.heel_deg, x, volume, area,
         np.asarray(centre),

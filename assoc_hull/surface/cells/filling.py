@@ -32,6 +32,13 @@ _NORMALS = 0.5
 _STEEP = 0.3
 """With a smaller cosine between the normal of a node and the mean no heights are fitted."""
 
+_LEVEL = 1e-7
+"""Of the size of a cell: points so near to a plane lie in it, and so small heights are none."""
+
+_TOUCH, _ALONG = 1e-5, 0.999
+"""Corners within this part of the length of the hull of a flat touch it, where the normal has at
+least this cosine with that of the flat."""
+
 _POWERS = np.array([(i, j) for i in range(4) for j in range(4 - i)])
 
 
@@ -96,7 +103,19 @@ def local_frames(rim: FloatArray, corner: FloatArray, normal: FloatArray) -> Loc
     height[good] = _fitted(
         _seen(origin, axes, rim)[good], _seen(origin, axes, corner)[good], tilted[good]
     )
+    # A cell of a flat is flat, though the hull may leave its border at an angle, and the normal
+    # there be that of both.
+    bent = (np.abs(height[:, 1:]).max(axis=1) > _LEVEL) & good
+    height[np.flatnonzero(bent)[_in_one_plane(away[bent], reach[bent])]] = 0.0
     return LocalFrames(origin, axes, height)
+
+
+def _in_one_plane(away: FloatArray, reach: FloatArray) -> NDArray[np.bool_]:
+    """Tell of which cells all points (c, r, 3), m from their mean, lie in a plane, (c,)."""
+    spread = np.einsum("cri,crj->cij", away, away) / reach[:, None, None] ** 2
+    normal = np.linalg.eigh(spread)[1][..., 0]
+    off: FloatArray = np.abs(np.einsum("cri,ci->cr", away, normal)).max(axis=1)
+    return np.asarray(off <= _LEVEL * reach)
 
 
 def _seen(origin: FloatArray, axes: FloatArray, place: FloatArray) -> FloatArray:
@@ -263,7 +282,40 @@ def _filled(
         point, quads = _four_sided(rim, flat, used)
     else:
         point, quads = _many_sided(rim, flat, used)
-    return frames.restored(point).reshape(-1, 3), quads
+    return _inside(frames.restored(point), *_bounds(start, half, rim)).reshape(-1, 3), quads
+
+
+def _bounds(start: FilledCells, half: IntArray, rim: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Give the least z and the greatest y of cells that touch a flat there, (c,), m; else none.
+
+    Such a cell has two corners or more at one height, the lowest, where the hull is level; or as
+    far out, where it stands upright. Nothing of it lies beyond its edges there.
+    """
+    graph = start.cells.graph
+    node = half_edge_origins(graph)[half]
+    place, normal, edge = graph.place[node], graph.normal[node], start.xyz[rim]
+    near = _TOUCH * float(np.ptp(graph.place[:, 0]))
+    found = []
+    for axis, sign in ((2, -1.0), (1, 1.0)):
+        # Measured outward: the bottom looks down, the side to port.
+        reach = sign * place[..., axis]
+        most = (sign * edge[..., axis]).max(axis=(1, 2))
+        touch = reach >= reach.max(axis=1, keepdims=True) - near
+        touch &= sign * normal[..., axis] >= _ALONG
+        found.append(sign * np.where(touch.sum(axis=1) >= 2, most, np.inf))
+    return found[0], found[1]
+
+
+def _inside(point: FloatArray, floor: FloatArray, wall: FloatArray) -> FloatArray:
+    """Lay points (c, p, 3) that fall through the flat of their cell onto it.
+
+    Where a cell is a part of the flat and a part not, the border goes through it undrawn: what
+    Coons's patch has beyond the plane there is the flat.
+    """
+    found = point.copy()
+    found[..., 2] = np.maximum(point[..., 2], floor[:, None])
+    found[..., 1] = np.minimum(point[..., 1], wall[:, None])
+    return found
 
 
 def _frames(start: FilledCells, half: IntArray, rim: IntArray) -> LocalFrames:
