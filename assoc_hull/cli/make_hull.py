@@ -71,6 +71,15 @@ def _add_example(commands: Commands) -> None:
     add_json(parser)
 
 
+class _Units(tuple[str, ...]):
+    """Words for a unit, of which several may stand with commas."""
+
+    __slots__ = ()
+
+    def __contains__(self, word: object) -> bool:
+        return all(tuple.__contains__(self, each) for each in str(word).split(","))
+
+
 def _add_import(commands: Commands) -> None:
     parser = add_command(
         commands, "import", "make a hull from offsets, a mesh, surfaces or lines", _import,
@@ -99,8 +108,11 @@ def _add_import(commands: Commands) -> None:
         "--deck", choices=DECKS,
         help="closed: a deck lies between the deck edges; open by default",
     )  # fmt: skip
-    units = ("auto", "m", "mm", "cm", "ft", "in", "normalised")
-    parser.add_argument("--unit", choices=units, default="auto", help="of the numbers in the file")
+    units = _Units(("auto", "m", "mm", "cm", "ft", "in", "normalised"))
+    parser.add_argument(
+        "--unit", choices=units, default="auto",
+        help="of the numbers in the file; of a table also mm,m: half-breadths in mm, the rest in m",
+    )  # fmt: skip
     for name, count in (("stations", 41), ("waterlines", 20), ("buttocks", 12)):
         parser.add_argument(
             f"--{name}", type=_places, metavar="N",

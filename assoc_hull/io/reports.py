@@ -68,15 +68,19 @@ class OffsetReport:
         What was changed: order, duplicates, separators.
     suspicions : tuple of Note
         What was read as it stands and looks wrong.
+    faults : tuple of Note
+        What was read as it stands and cannot be right: the hull is not sound.
     """
 
     assumptions: tuple[Note, ...] = ()
     repairs: tuple[Note, ...] = ()
     suspicions: tuple[Note, ...] = ()
+    faults: tuple[Note, ...] = ()
 
     def __str__(self) -> str:
         parts = []
-        for title in ("assumptions", "repairs", "suspicions"):
+        titles = ("assumptions", "repairs", "suspicions", *(("faults",) if self.faults else ()))
+        for title in titles:
             notes: tuple[Note, ...] = getattr(self, title)
             parts.append("\n".join([f"{title} ({len(notes)})", *(f"  {note}" for note in notes)]))
         return "\n".join(parts)
@@ -93,6 +97,7 @@ class Notebook:
     assumptions: list[Note] = attrs.field(factory=list)
     repairs: list[Note] = attrs.field(factory=list)
     suspicions: list[Note] = attrs.field(factory=list)
+    faults: list[Note] = attrs.field(factory=list)
 
     def assume(self, kind: str, where: str, what: str, amount: float | None = None) -> None:
         """Note something taken to be so."""
@@ -106,9 +111,14 @@ class Notebook:
         """Note something that looks wrong and was left as it is."""
         self.suspicions.append(Note(kind, where, what, amount))
 
+    def fault(self, kind: str, where: str, what: str, amount: float | None = None) -> None:
+        """Note something that cannot be right and was left as it is."""
+        self.faults.append(Note(kind, where, what, amount))
+
     def report(self) -> OffsetReport:
         """Give the notes taken so far."""
-        return OffsetReport(tuple(self.assumptions), tuple(self.repairs), tuple(self.suspicions))
+        parts = (self.assumptions, self.repairs, self.suspicions, self.faults)
+        return OffsetReport(*map(tuple, parts))
 
 
 # --------------------------------------------------------------------------------------

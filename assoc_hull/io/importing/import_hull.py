@@ -86,12 +86,16 @@ def _import_lines(
 def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, ImportReport]:
     options.refuse("it is for meshes, surfaces and digitised lines", path, options.CUTS)
     table, notes = read_offsets(path, **options.named(*options.SIZES, "unit", "station_zero"))
+    # A table that cannot be right is refused with all that is wrong in it before it is adopted.
+    faults = tuple(map(_finding, notes.faults))
+    require_sound(Verdict(faults), path.name, accept=options.accept, strict=False)
     state, adoption = net_from_table(table, deck=options.deck or DECKS[0])
     return state, ImportReport(notes, adoption, Verdict(), table=table)
 
 
 def _judge(report: ImportReport) -> Verdict:
-    return Verdict((), tuple(map(_finding, report.notes.suspicions)))
+    notes = report.notes
+    return Verdict(tuple(map(_finding, notes.faults)), tuple(map(_finding, notes.suspicions)))
 
 
 def _finding(note: Note) -> Finding:

@@ -232,7 +232,10 @@ def _outer_blanks(patient: ExaminedTable, i: int, first: int, last: int, book: N
 
 def _beyond(patient: ExaminedTable, book: Notebook) -> None:
     half = patient.breadth / 2.0
-    for i, j in zip(*np.nonzero(patient.y > half * (1.0 + 1e-12)), strict=True):
+    # What is beyond B/2 by more than its rounding is a fault, and told with its cell.
+    within = half + patient.rounding * (1.0 + 1e-6) + 1e-9 * half
+    above = (patient.y > half * (1.0 + 1e-12)) & (patient.y <= within)
+    for i, j in zip(*np.nonzero(above), strict=True):
         value = float(patient.y[i, j])
         what = f"{patient.says(value)} is above B/2 = {half:.6g} m, within rounding"
         book.suspect("above B/2", patient.where(i, j), what, value - half)

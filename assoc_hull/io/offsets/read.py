@@ -14,21 +14,23 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.offsets.doctor import ExaminedTable, examine_offsets
+from assoc_hull.io.offsets.damage import compare_areas, compare_beams, examine_lines
+from assoc_hull.io.offsets.doctor import ExaminedTable, examine_offsets, wild_values
+from assoc_hull.io.offsets.hints import OffsetHints, read_hints
 from assoc_hull.io.offsets.scale import (
-    OffsetHints,
     OffsetScale,
+    PrintedSizes,
     column_scale,
     find_scale,
     given_places,
-    read_hints,
     settle_zero,
     station_places,
 )
 from assoc_hull.io.offsets.sheet import OffsetColumn, OffsetSheet, read_sheet
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.reports import Notebook, OffsetReport
-from assoc_hull.io.tables.table_text import read_text, split_blocks
+from assoc_hull.io.tables.table_blocks import split_blocks
+from assoc_hull.io.tables.table_text import read_text
 from assoc_hull.io.units import check_particular
 
 __all__ = [
@@ -64,23 +66,26 @@ def build_table(
     """
     rounding = _rounding(sheet, hints, scale, book)
     half_breadth = sheet.offsets * scale.y
-    _refuse_wide(sheet, half_breadth, rounding, scale)
+    _refuse_wide(sheet, half_breadth, rounding, scale, book)
     x, length = _places(sheet, scale, hints, station_zero, book)
     order = slice(None) if x[0] < x[-1] else slice(None, None, -1)
     if x[0] > x[-1]:
         what = f"the file runs from forward (station {sheet.labels[0]}) aft; turned round"
         book.repair("station order", "the table", what)
     buttock_y, buttock_height = _buttocks(sheet, extra, scale, book)
-    z = np.array([_height(sheet, column, scale) for column in sheet.columns.waterlines])
-    deck = _column(sheet, "deck height", scale.z, order)
+    z = np.array([_height(sheet, column, scale, hints) for column in sheet.columns.waterlines])
+    top = 3.0 * max(abs(float(z[0])), float(z[-1]))
+    deck = _column(sheet, "deck height", (scale.z, scale.y), top, order, book)
     table = OffsetTable(
         name="",
         x=x[order].copy(),
         z=z,
         half_breadth=half_breadth[order].copy(),
-        keel=_column(sheet, "keel", scale.z, order),
+        keel=_column(sheet, "keel", (scale.z, scale.y), top, order, book),
         deck_height=deck,
-        deck_half_breadth=_column(sheet, "deck half-breadth", scale.y, order),
+        deck_half_breadth=_column(
+            sheet, "deck half-breadth", (scale.y, scale.z), scale.breadth, order, book
+        ),
         buttock_y=buttock_y,
         buttock_height=None if buttock_height is None else buttock_height[order].copy(),
         length=length,
@@ -89,6 +94,7 @@ def build_table(
         depth=_depth(x[order], deck, length),
         rounding=rounding,
         station=sheet.stations[order].copy(),
+        stated=hints.stated(),
     )
     _refuse_size(table, sheet.block.source)
     _examine(table, sheet, scale, order, book)
@@ -109,7 +115,14 @@ def _refuse_size(table: OffsetTable, source: str) -> None:
             )  # fmt: skip
 
 
-def _height(sheet: OffsetSheet, column: OffsetColumn, scale: OffsetScale) -> float:
+def _height(
+    sheet: OffsetSheet, column: OffsetColumn, scale: OffsetScale, hints: OffsetHints
+) -> float:
+    # Waterlines that go by number: whole ones, and halves and quarters at the bottom.
+    columns = sheet.columns.waterlines
+    numbered = all(each.unit is None and (4.0 * each.value).is_integer() for each in columns)
+    if hints.level_spacing and numbered:
+        return column.value * hints.level_spacing
     if column.unit != "t":
         return column.value * column_scale(scale.z, column.unit)
     if scale.draught is None:
@@ -134,23 +147,49 @@ def _rounding(
             "give one number per waterline",
         )
     book.assume("printed digits", "the comments", "rounding of each waterline as they say")
-    return np.array(hints.rounding) * scale.y
+    places = np.argsort([column.index for column in sheet.columns.waterlines])
+    rounding = np.empty(len(places))
+    rounding[places] = hints.rounding
+    return rounding * scale.y
+
+
+_LONE = 0.02
+"""Part of the cells that may be beyond B/2 and count as wrong numbers, not as a wrong unit."""
 
 
 def _refuse_wide(
-    sheet: OffsetSheet, half_breadth: FloatArray, rounding: FloatArray, scale: OffsetScale
+    sheet: OffsetSheet,
+    half_breadth: FloatArray,
+    rounding: FloatArray,
+    scale: OffsetScale,
+    book: Notebook,
 ) -> None:
+    """Refuse half-breadths beyond B/2; a few among many are faults of the table."""
     half = scale.breadth / 2.0
-    wide = half_breadth > half + rounding * (1.0 + 1e-6) + 1e-9 * half
-    for i, j in np.argwhere(wide):
+    wide = np.argwhere(half_breadth > half + rounding * (1.0 + 1e-6) + 1e-9 * half)
+    lone = len(wide) <= max(1.0, _LONE * half_breadth.size)
+    for i, j in wide:
         column = sheet.columns.waterlines[j]
         times = half_breadth[i, j] / half
-        raise BadInputError(
+        what = (
             f"the half-breadth {sheet.offsets[i, j]:g} is {half_breadth[i, j]:.6g} m, {times:.4g} "
-            f"times B/2 = {half:.6g} m",
-            sheet.where(int(i), column),
-            "correct the number, or give breadth= or unit='mm'",
+            f"times B/2 = {half:.6g} m"
         )
+        remedy = "correct the number, or give breadth= or unit='mm'"
+        if not lone:
+            raise BadInputError(what, sheet.where(int(i), column), remedy)
+        near = _neighbours(half_breadth, int(i), int(j))
+        says = f", beside {near / scale.y:.4g} on average" if near else ""
+        amount = float(half_breadth[i, j]) - half
+        book.fault("outlier", sheet.where(int(i), column), f"{what}{says}: {remedy}", amount)
+
+
+def _neighbours(y: FloatArray, i: int, j: int) -> float:
+    """Give the mean of the cells beside one, along station and waterline."""
+    beside = [(i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)]
+    known = [y[a, b] for a, b in beside if 0 <= a < y.shape[0] and 0 <= b < y.shape[1]]
+    known = [value for value in known if np.isfinite(value)]
+    return float(np.mean(known)) if known else 0.0
 
 
 def _places(
@@ -183,12 +222,26 @@ def _zero_of_x(sheet: OffsetSheet, zero: str) -> str:
     return zero if same else {"ap": "fp", "fp": "ap"}[zero]
 
 
-def _column(sheet: OffsetSheet, kind: str, scale: float, order: slice) -> FloatArray | None:
+def _column(
+    sheet: OffsetSheet,
+    kind: str,
+    scales: tuple[float, float],
+    most: float,
+    order: slice,
+    book: Notebook,
+) -> FloatArray | None:
+    """Give a column, m; by its own unit, else by the first of `scales` that keeps below `most`."""
     values = sheet.single(kind)
     if values is None:
         return None
-    unit = sheet.columns.single[kind].unit
-    return np.array(values[order] * column_scale(scale, unit))
+    column = sheet.columns.single[kind]
+    largest = float(np.nanmax(np.abs(values), initial=0.0))
+    fitting = [scale for scale in scales if largest * scale < most]
+    scale = (fitting or scales)[0]
+    if scale != scales[0] and column.unit is None:
+        what = f"in another unit than the rest: up to {largest:g}, read as {largest * scale:.6g} m"
+        book.assume("unit", f"column {column.label!r}", what, largest * scale)
+    return np.array(values[order] * column_scale(scale, column.unit))
 
 
 def _depth(x: FloatArray, deck: FloatArray | None, length: float) -> float | None:
@@ -248,7 +301,7 @@ def _examine(
 ) -> None:
     heights = (str(column.value) for column in sheet.columns.waterlines)
     patient = ExaminedTable(
-        sheet.labels[order],
+        _named(sheet)[order],
         tuple(text.removesuffix(".0") for text in heights),
         table.x,
         table.z,
@@ -262,6 +315,19 @@ def _examine(
         scale.y,
     )
     examine_offsets(patient, book)
+    examine_lines(patient, book)
+    areas, beams = sheet.single("area"), sheet.single("beam")
+    compare_areas(patient, None if areas is None else areas[order], book)
+    compare_beams(patient, None if beams is None else beams[order], book)
+
+
+def _named(sheet: OffsetSheet) -> tuple[str, ...]:
+    """Give the names of the stations, x where a name is blank."""
+    if sheet.x is None:
+        return sheet.labels
+    return tuple(
+        name or f"x = {x:g}" for name, x in zip(sheet.labels, sheet.x.tolist(), strict=True)
+    )
 
 
 # --------------------------------------------------------------------------------------
@@ -287,8 +353,10 @@ def read_offsets(
         A file, or the text itself (a string with a line break).
     length, breadth, draught : float or None
         Lpp, moulded breadth and design draught, m; they override what the comments say.
-    unit : {"auto", "m", "mm", "normalised"}
-        Unit of half-breadths, waterlines and heights; "normalised" is y/(B/2), z/T, x/Lpp.
+    unit : str
+        "m", "mm", "cm", "ft", "in" or "normalised", which is y/(B/2), z/T, x/Lpp; with commas, as
+        "mm,m", of half-breadths, heights and lengths; "auto": as the file says, or as the sizes
+        leave no doubt.
     station_zero : {"auto", "ap", "fp"}
         Perpendicular of station 0, or of x = 0 where the file gives x.
     name : str or None
@@ -318,10 +386,11 @@ def read_offsets(
         blocks += split_blocks(*read_text(buttocks, book), book)[1]
     sheets = [read_sheet(block, book) for block in blocks]
     main, extra = _sort_out(sheets, source)
-    _refuse_negative(main)
-    largest = float(np.nanmax(main.offsets, initial=0.0))
-    broad = float(np.nanpercentile(main.offsets, 95))
-    scale = find_scale(unit, largest, broad, hints, length, breadth, draught, book, source)
+    main = _to_port(main, book)
+    main = _by_beams(main, book)
+    scale = find_scale(unit, _sizes(main), hints, length, breadth, draught, book, source)
+    if main.zero and not hints.station_zero:
+        hints = attrs.evolve(hints, station_zero=main.zero)
     table = build_table(main, extra, scale, hints, station_zero, book)
     default = Path(source).stem if source != "text" else "offsets"
     return attrs.evolve(table, name=default if name is None else name), book.report()
@@ -348,11 +417,103 @@ def _sort_out(sheets: list[OffsetSheet], source: str) -> tuple[OffsetSheet, Offs
     return mains[0], extras[0] if extras else None
 
 
-def _refuse_negative(sheet: OffsetSheet) -> None:
-    for i, j in np.argwhere(sheet.offsets < 0):
+def _to_port(sheet: OffsetSheet, book: Notebook) -> OffsetSheet:
+    """Mirror half-breadths to starboard, which have a minus, to port.
+
+    Raises
+    ------
+    BadInputError
+        Single cells have a minus: a slip, or a wrong number.
+    """
+    y = sheet.offsets
+    minus, plus = y < 0.0, y > 0.0
+    if not minus.any():
+        return sheet
+    if not plus.any():
+        book.repair("port and starboard", "the table", "all half-breadths have a minus: mirrored")
+        return attrs.evolve(sheet, offsets=np.abs(y))
+    rows = minus.any(axis=1) & ~plus.any(axis=1)
+    columns = minus.any(axis=0) & ~plus.any(axis=0)
+    whole = np.logical_or.outer(rows, columns)
+    for i, j in np.argwhere(np.logical_and(minus, np.logical_not(whole))):
         column = sheet.columns.waterlines[j]
         raise BadInputError(
-            f"the half-breadth {sheet.offsets[i, j]:g} is negative",
+            f"the half-breadth {y[i, j]:g} is negative",
             sheet.where(int(i), column),
             "give half-breadths to port, 0 or more; leave the cell empty below the keel",
         )
+    lines = [f"station {sheet.labels[i]}" for i in np.flatnonzero(rows)]
+    lines += [f"waterline {sheet.columns.waterlines[j].label}" for j in np.flatnonzero(columns)]
+    for line in lines:
+        what = "all its half-breadths have a minus, those of other lines have none: mirrored"
+        book.suspect("port and starboard", line, what)
+    return attrs.evolve(sheet, offsets=np.abs(y))
+
+
+def _by_beams(sheet: OffsetSheet, book: Notebook) -> OffsetSheet:
+    """Multiply waterlines that are printed as parts of their own largest value, or check them."""
+    beams = sheet.beams
+    if beams is None or not np.isfinite(beams).all():
+        return sheet
+    largest = np.nanmax(sheet.offsets, axis=0)
+    if np.allclose(largest, 1.0, atol=2.0 * float(sheet.half_unit.max())) and beams.max() <= 1.0:
+        what = "each waterline is printed as parts of its largest value: multiplied by it"
+        book.repair("largest beam", "row MaxBm", what)
+        return attrs.evolve(sheet, offsets=sheet.offsets * beams, half_unit=sheet.half_unit * beams)
+    times = np.median(largest / beams)
+    times = 1.0 if times > 0.75 else 0.5  # a row of half-breadths, or of breadths
+    for j in np.flatnonzero(np.abs(largest - times * beams) > 0.01 * largest.max()):
+        what = f"its largest half-breadth is {largest[j]:g}, the row says {times * beams[j]:g}"
+        where = f"waterline {sheet.columns.waterlines[j].label}"
+        book.suspect("largest beam", where, what, float(largest[j] - times * beams[j]))
+    return sheet
+
+
+def _sizes(sheet: OffsetSheet) -> PrintedSizes:
+    """Give the sizes by which units are told."""
+    waterlines = sheet.columns.waterlines
+    bare = all(column.unit is None for column in waterlines)
+    top = max(abs(waterlines[0].value), abs(waterlines[-1].value)) if bare else np.nan
+    plain = sheet.x is not None and sheet.columns.single["x"].unit is None
+    return PrintedSizes(
+        _borne_out(sheet),
+        float(np.nanpercentile(sheet.offsets, 95)),
+        top,
+        float(np.ptp(sheet.x)) if plain and sheet.x is not None else np.nan,
+        sheet.printed_unit,
+    )
+
+
+_SLIP = 1.5
+"""A number is no slip where another, not beside it, is larger than it over this."""
+
+
+_FAR = 1.05
+"""A wild value nearer than this to what its neighbours say may set B as well as another."""
+
+
+def _borne_out(sheet: OffsetSheet) -> float:
+    """Give the largest half-breadth as printed that is no slip: not 15.2 where all say 1.52."""
+    y = sheet.offsets.copy()
+    for _ in range(3):
+        i, j = np.unravel_index(int(np.nanargmax(y)), y.shape)
+        rest = y.copy()
+        rest[i, j] = np.nan
+        other = float(np.nanmax(rest, initial=0.0))
+        few = min(y.shape) < 4
+        if few or float(y[i, j]) <= _SLIP * other or other == 0.0:
+            break
+        y[i, j] = np.nan
+    return _without_wild(sheet, y)
+
+
+def _without_wild(sheet: OffsetSheet, y: FloatArray) -> float:
+    """Leave a wild value out where it is the largest of all."""
+    order = np.argsort(sheet.place)
+    heights = np.array([column.value for column in sheet.columns.waterlines])
+    wild = wild_values(sheet.place[order], heights, y[order], sheet.half_unit)
+    for k, j, better in wild:
+        i = order[k]
+        if y[i, j] == np.nanmax(y) and better * _FAR < y[i, j]:
+            y[i, j] = np.nan
+    return float(np.nanmax(y, initial=0.0))

@@ -7,134 +7,37 @@ the aft perpendicular, forward positive.
 
 from __future__ import annotations
 
-import re
+import math
+from collections.abc import Callable
 
 import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.offsets.hints import BlockUnits, OffsetHints
 from assoc_hull.io.reports import Notebook
-from assoc_hull.io.units import check_particular
+from assoc_hull.io.units import METRES, check_particular
 
 __all__ = [
-    "OffsetHints",
     "OffsetScale",
+    "PrintedSizes",
     "column_scale",
     "find_scale",
     "given_places",
-    "read_hints",
+    "given_units",
     "settle_zero",
     "station_places",
 ]
 
 # --------------------------------------------------------------------------------------
-# Comments.
+# Particulars.
 
-_NUMBER = r"([0-9]+\.?[0-9]*)"
-_END = r"(FP|AP|fore?ward perpendicular|aft(?:er)? perpendicular)"
-_UNIT = re.compile(
-    r"\bunits?\b[^.;]{0,20}?\b(mm|millimetres?|m|metres?|normali[sz]ed)\b|"
-    r"\bin (mm|millimetres?|m|metres?)\b|(y/\(B/2\)|\bnormali[sz]ed\b)",
-    re.IGNORECASE,
-)
-_ZERO = re.compile(rf"(?<![0-9.])0\s*(?:=|:|is|at|is at)\s*(?:the\s+)?{_END}", re.IGNORECASE)
-_LAST = re.compile(rf"(?<![0-9.])(10|20)\s*(?:=|:|is|at|is at)\s*(?:the\s+)?{_END}", re.IGNORECASE)
-_SPACING = re.compile(r"\b(?:Lpp|LBP|L)\s*/\s*([0-9]{1,3})\b", re.IGNORECASE)
-
-
-@attrs.frozen
-class OffsetHints:
-    """What the comments say; None where they are silent.
-
-    Attributes
-    ----------
-    unit : str or None
-        "m", "mm" or "normalised".
-    station_zero : str or None
-        "ap" or "fp".
-    divisions : int or None
-        Station spacings between the perpendiculars.
-    length, breadth, draught : float or None
-        Particulars, m.
-    length_breadth, breadth_draught : float or None
-        Ratios.
-    rounding : tuple of float
-        Half unit of the last digit per waterline, in the table's unit; empty if not given.
-    """
-
-    unit: str | None = None
-    station_zero: str | None = None
-    divisions: int | None = None
-    length: float | None = None
-    breadth: float | None = None
-    draught: float | None = None
-    length_breadth: float | None = None
-    breadth_draught: float | None = None
-    rounding: tuple[float, ...] = ()
-
-
-def read_hints(comments: tuple[str, ...]) -> OffsetHints:
-    """Read the comments of a table; a statement that occurs twice counts the first time."""
-    text = "\n".join(comments)
-    last, spacing = _LAST.search(text), _SPACING.search(text)
-    divisions = int(last[1]) if last else int(spacing[1]) if spacing else None
-    return OffsetHints(
-        unit=_unit(text),
-        station_zero=_station_zero(text),
-        divisions=divisions or None,
-        length=_particular(text, "Lpp|LBP"),
-        breadth=_particular(text, "B|[Bb]readth"),
-        draught=_particular(text, "T|[Dd]raught|[Dd]esign waterline z"),
-        length_breadth=_particular(text, r"L(?:pp)?\s*/\s*B"),
-        breadth_draught=_particular(text, r"B\s*/\s*T"),
-        rounding=_rounding(text),
-    )
-
-
-def _unit(text: str) -> str | None:
-    found = _UNIT.search(text)
-    if not found:
-        return None
-    word = next(group for group in found.groups() if group).lower()
-    if word.startswith(("y", "n")):
-        return "normalised"
-    return "mm" if word.startswith("mi") or word == "mm" else "m"
-
-
-def _station_zero(text: str) -> str | None:
-    """Give the perpendicular of station 0, which may be said of the last station instead."""
-    zero = _ZERO.search(text)
-    if zero:
-        return "ap" if zero[1].lower().startswith("a") else "fp"
-    last = _LAST.search(text)
-    if last:
-        return "fp" if last[2].lower().startswith("a") else "ap"
-    return None
-
-
-def _particular(text: str, names: str) -> float | None:
-    found = re.search(
-        rf"(?<![\w/.])(?:{names})\s*[=:]\s*{_NUMBER}(?:\s*(mm))?(?![\w/]|\.[0-9])", text
-    )
-    if not found:
-        found = re.search(rf"(?<![\w/.])(?:{names})\s*[=:]\s*{_NUMBER}\s*(mm|m)\b", text)
-    if not found or not 1e-6 < float(found[1]) < 1e7:
-        return None
-    return float(found[1]) * (1e-3 if found[2] == "mm" else 1.0)
-
-
-def _rounding(text: str) -> tuple[float, ...]:
-    found = re.search(r"^rounding\s*:((?:[ \t]+[0-9]*\.?[0-9]+)+)[ \t]*$", text, re.MULTILINE)
-    return tuple(float(word) for word in found[1].split()) if found else ()
-
-
-# --------------------------------------------------------------------------------------
-# Unit and particulars.
-
-_METRES = {"m": 1.0, "mm": 1e-3}
 _WIDEST = 40.0
 """Largest half-breadth (m) of a ship: a larger number is in millimetres."""
+
+_AGREE = 0.02
+"""Ratios told and found that differ by more than this part contradict each other."""
 
 
 @attrs.frozen
@@ -144,7 +47,7 @@ class OffsetScale:
     Attributes
     ----------
     unit : str
-        "m", "mm" or "normalised".
+        Of half-breadths: "m", "mm", "cm", "ft", "in" or "normalised".
     x, y, z : float
         Factor to m of lengths, half-breadths and heights without a unit of their own.
     length, breadth, draught : float or None
@@ -160,10 +63,32 @@ class OffsetScale:
     draught: float | None
 
 
+@attrs.frozen
+class PrintedSizes:
+    """How large the numbers of a table are, as printed; nan where names tell the unit.
+
+    Attributes
+    ----------
+    largest : float
+        Largest half-breadth that its neighbours bear out.
+    broad : float
+        One that only a twentieth exceed: a single wrong number must not decide on the unit.
+    top, span : float
+        Highest waterline; from the first station to the last.
+    unit : str or None
+        Unit of the half-breadths where the cells tell it.
+    """
+
+    largest: float
+    broad: float
+    top: float = math.nan
+    span: float = math.nan
+    unit: str | None = None
+
+
 def find_scale(
     unit: str,
-    largest: float,
-    broad: float,
+    printed: PrintedSizes,
     hints: OffsetHints,
     length: float | None,
     breadth: float | None,
@@ -171,33 +96,56 @@ def find_scale(
     book: Notebook,
     source: str,
 ) -> OffsetScale:
-    """Settle unit and particulars (m).
+    """Settle units and particulars (m).
 
-    `largest` is the largest half-breadth as printed, `broad` one that only a twentieth exceed: a
-    single wrong number must not decide on the unit. `length`, `breadth` and `draught` are the
-    caller's.
+    `unit` is one for all, or up to three with commas: of half-breadths, heights, lengths.
+    `length`, `breadth` and `draught` are the caller's.
 
     Raises
     ------
     BadInputError
-        The unit is unknown or cannot be settled, or a normalised table lacks a particular.
+        A unit is unknown, cannot be settled or contradicts the file, or a normalised table
+        lacks a particular.
     """
     for name, value in (("length", length), ("breadth", breadth), ("draught", draught)):
         check_particular(name, value)
+    given = given_units(unit)
+    told = attrs.evolve(hints.units, y=printed.unit) if printed.unit else hints.units
+    _refuse_other(given, told, source)
     length = _settle("length", length, hints.length, book)
     by_ratio = length / hints.length_breadth if length and hints.length_breadth else None
     breadth = _settle("breadth", breadth, hints.breadth or by_ratio, book)
     by_ratio = breadth / hints.breadth_draught if breadth and hints.breadth_draught else None
     draught = _settle("draught", draught, hints.draught or by_ratio, book)
-    unit = _find_unit(unit, largest, broad, hints, breadth, book, source)
-    if unit == "normalised":
-        return _normalised(length, breadth, draught, source)
-    factor = _METRES[unit]
+    _compare("L/B", hints.length_breadth, length, breadth, book)
+    _compare("B/T", hints.breadth_draught, breadth, draught, book)
+    _tell_units(given, told, book)
+    across = given.y or told.y or likely_unit(printed, breadth, book, source)
+    if across == "normalised":
+        sizes = (length, breadth, draught)
+        return _normalised(given, told, printed, sizes, book, source)
+    factor = METRES[across]
     if breadth is None:
-        breadth = 2.0 * factor * largest
+        breadth = 2.0 * factor * printed.largest
         what = f"taken as twice the largest half-breadth, {breadth:.6g} m"
         book.assume("breadth", "the table", what, breadth)
-    return OffsetScale(unit, factor, factor, factor, length, breadth, draught)
+    up = given.z or told.z or height_unit(across, printed, breadth, draught, book)
+    along = given.x or told.x or length_unit((up, across), printed, breadth, length, book)
+    heights = _parts(up, draught, "draught", source)
+    return OffsetScale(
+        across, _parts(along, length, "length", source), factor, heights, length, breadth, draught
+    )
+
+
+def _parts(unit: str, whole: float | None, name: str, source: str) -> float:
+    """Give the factor to m of one block, which may be normalised by a particular."""
+    if unit != "normalised":
+        return METRES[unit]
+    if whole is None:
+        raise BadInputError(
+            f"a block is normalised and the {name} is not known", source, f"give {name}= in m"
+        )
+    return whole
 
 
 def _settle(name: str, given: float | None, said: float | None, book: Notebook) -> float | None:
@@ -212,35 +160,118 @@ def _settle(name: str, given: float | None, said: float | None, book: Notebook) 
     return given
 
 
-def _find_unit(
-    unit: str,
-    largest: float,
-    broad: float,
-    hints: OffsetHints,
-    breadth: float | None,
-    book: Notebook,
-    source: str,
-) -> str:
-    if unit not in ("auto", "m", "mm", "normalised"):
+def _compare(
+    name: str, told: float | None, one: float | None, other: float | None, book: Notebook
+) -> None:
+    """Note a ratio that the comments tell and the particulars do not have."""
+    if told and one and other and abs(one / other / told - 1.0) > _AGREE:
+        what = f"the comments say {told:.4g}; {one:.6g} m to {other:.6g} m is {one / other:.4g}"
+        book.suspect("contradiction", name, what, one / other)
+
+
+def _normalised(
+    given: BlockUnits, told: BlockUnits, printed: PrintedSizes,
+    sizes: tuple[float | None, float | None, float | None], book: Notebook, source: str,
+) -> OffsetScale:  # fmt: skip
+    length, breadth, draught = sizes
+    named = {"length": length, "breadth": breadth, "draught": draught}
+    missing = [f"{name}=" for name, value in named.items() if value is None]
+    if length is None or breadth is None or draught is None:
         raise BadInputError(
-            f"the unit {unit!r} is unknown", "argument unit", "give 'm', 'mm' or 'normalised'"
+            f"the table is normalised and {' '.join(missing)} is not known",
+            source,
+            f"give {' and '.join(missing)} in m",
         )
-    if unit != "auto":
-        if hints.unit and hints.unit != unit:
-            what = f"{unit!r} was given and the comments say {hints.unit!r}; the first counts"
-            book.suspect("contradiction", "unit", what)
-        return unit
-    if hints.unit:
-        book.assume("unit", "the comments", f"{hints.unit}, as the comments say")
-        return hints.unit
-    likely = _likely_units(largest, broad, breadth)
+    up = given.z or told.z or height_unit("normalised", printed, breadth, draught, book)
+    along = given.x or told.x or "normalised"
+    return OffsetScale(
+        "normalised", _parts(along, length, "length", source), breadth / 2.0,
+        _parts(up, draught, "draught", source), length, breadth, draught,
+    )  # fmt: skip
+
+
+def column_scale(scale: float, unit: str | None) -> float:
+    """Give the factor to m of a column: its own unit where its name says one."""
+    return METRES.get(unit or "", scale)
+
+
+# --------------------------------------------------------------------------------------
+# Units: given, told, or plain from the sizes.
+
+_EVERY = (*METRES, "normalised")
+_HEIGHTS = (0.08, 1.25)  # highest waterline to breadth
+_DRAUGHTS = (0.4, 5.0)  # highest waterline to draught
+_LENGTHS = (1.5, 20.0)  # span of the stations to breadth
+_SPANS = (0.3, 1.4)  # span of the stations to length
+
+
+def given_units(unit: str) -> BlockUnits:
+    """Take ``unit=``: one for all, or with commas those of half-breadths, heights, lengths.
+
+    Raises
+    ------
+    BadInputError
+        A unit is unknown, or there are more than three.
+    """
+    words = [word.strip() for word in unit.split(",")]
+    if words == ["auto"]:
+        return BlockUnits()
+    wrong = [word for word in words if word not in _EVERY]
+    if wrong or len(words) > 3:
+        known = ", ".join(map(repr, _EVERY))
+        raise BadInputError(
+            f"the unit {(wrong or [unit])[0]!r} is unknown",
+            "argument unit",
+            f"give {known}, or 'mm,m' for half-breadths in mm and heights in m",
+        )
+    if len(words) == 1:
+        return BlockUnits(*words * 3)
+    return BlockUnits(words[0], words[1], words[-1])
+
+
+_BLOCKS = {"y": "half-breadths", "z": "heights", "x": "lengths"}
+
+
+def _refuse_other(given: BlockUnits, told: BlockUnits, source: str) -> None:
+    for block, name in _BLOCKS.items():
+        wanted, said = getattr(given, block), getattr(told, block)
+        if wanted and said and wanted != said:
+            raise BadInputError(
+                f"the unit {wanted!r} was given and the file says that {name} are in {said!r}",
+                source,
+                "leave the unit out, or correct what the file says",
+            )
+
+
+def _tell_units(given: BlockUnits, told: BlockUnits, book: Notebook) -> None:
+    said = {name: getattr(told, block) for block, name in _BLOCKS.items()}
+    if given.y or not any(said.values()):
+        return
+    units = set(said.values())
+    each = ", ".join(f"{name} {unit}" for name, unit in said.items() if unit)
+    words = units.pop() if len(units) == 1 else each
+    book.assume("unit", "the comments", f"{words}, as the comments say")
+
+
+def likely_unit(printed: PrintedSizes, breadth: float | None, book: Notebook, source: str) -> str:
+    """Find the unit of half-breadths from their size.
+
+    Raises
+    ------
+    BadInputError
+        None fits, or several do.
+    """
+    largest = printed.largest
+    likely = _likely_units(largest, printed.broad, breadth)
     if len(likely) != 1:
         choice = " or ".join(likely) or "none that fits"
+        full = breadth and 0.95 * breadth < largest < 1.05 * breadth
         raise BadInputError(
             f"the unit cannot be told from the largest half-breadth {largest:g} ({choice})",
             source,
+            "these may be full breadths: give half of each" if full else
             "give unit='m', 'mm' or 'normalised' (and breadth=)",
-        )
+        )  # fmt: skip
     what = f"{likely[0]}, because the largest half-breadth is {largest:g}"
     book.assume("unit", "the table", what, largest)
     return likely[0]
@@ -249,8 +280,13 @@ def _find_unit(
 def _likely_units(largest: float, broad: float, breadth: float | None) -> list[str]:
     """Give the units in which the half-breadths make a ship; as printed, unit not known."""
     if breadth is not None:
-        sizes = {"m": breadth / 2.0, "mm": breadth * 500.0, "normalised": 1.0}
-        return [unit for unit, size in sizes.items() if 0.6 * size < broad < 1.05 * size]
+        half = breadth / 2.0
+        likely = [u for u in ("m", "mm") if 0.6 < broad * METRES[u] / half < 1.05]
+        likely += ["normalised"] if 0.6 < broad < 1.05 else []
+        # Of units a factor of 2 or 3 apart from metres only a close fit is evidence.
+        others = [u for u in METRES if u not in ("m", "mm")]
+        close = [u for u in others if 0.97 < largest * METRES[u] / half < 1.03]
+        return likely or close
     if 0.9 <= largest <= 1.001:
         return ["m", "normalised"]
     if largest <= _WIDEST:
@@ -258,23 +294,55 @@ def _likely_units(largest: float, broad: float, breadth: float | None) -> list[s
     return ["mm"] if largest > 5.0 * _WIDEST else ["m", "mm"]
 
 
-def _normalised(
-    length: float | None, breadth: float | None, draught: float | None, source: str
-) -> OffsetScale:
-    sizes = {"length": length, "breadth": breadth, "draught": draught}
-    missing = [f"{name}=" for name, value in sizes.items() if value is None]
-    if length is None or breadth is None or draught is None:
-        raise BadInputError(
-            f"the table is normalised and {' '.join(missing)} is not known",
-            source,
-            f"give {' and '.join(missing)} in m",
-        )
-    return OffsetScale("normalised", length, breadth / 2.0, draught, length, breadth, draught)
+def height_unit(
+    across: str, printed: PrintedSizes, breadth: float, draught: float | None, book: Notebook
+) -> str:
+    """Find the unit of heights: that of half-breadths unless only another makes a ship."""
+
+    def fits(unit: str) -> bool:
+        metres = METRES.get(unit, draught)
+        if metres is None:
+            return False
+        top = printed.top * metres
+        low, high = _HEIGHTS
+        if draught is None:
+            return low < top / breadth < high
+        low, high = (min(_HEIGHTS[0], _DRAUGHTS[0] * draught / breadth), high)
+        return low < top / breadth < high and _DRAUGHTS[0] < top / draught < _DRAUGHTS[1]
+
+    return _other_unit(across, fits, printed.top, "heights", book)
 
 
-def column_scale(scale: float, unit: str | None) -> float:
-    """Give the factor to m of a column: its own unit where its name says one."""
-    return _METRES.get(unit or "", scale)
+def length_unit(
+    first: tuple[str, ...], printed: PrintedSizes, breadth: float, length: float | None,
+    book: Notebook,
+) -> str:  # fmt: skip
+    """Find the unit of lengths: one of `first` unless only another makes a ship."""
+
+    def fits(unit: str) -> bool:
+        span = printed.span * METRES.get(unit, length or math.nan)
+        low, high = _LENGTHS
+        if length is not None:
+            return _SPANS[0] < span / length < _SPANS[1]
+        return low < span / breadth < high
+
+    plain = first[0] if fits(first[0]) or not fits(first[1]) else first[1]
+    return _other_unit(plain, fits, printed.span, "lengths", book)
+
+
+def _other_unit(
+    plain: str, fits: Callable[[str], bool], size: float, name: str, book: Notebook
+) -> str:
+    """Give the unit that is plain, or the only one of the others that makes a ship."""
+    if math.isnan(size) or fits(plain):
+        return plain
+    likely = [unit for unit in ("m", "mm", "normalised") if fits(unit)]
+    likely = likely[:1] if likely[:1] == ["m"] else likely
+    if len(likely) != 1:
+        return plain
+    what = f"{name} in {likely[0]}, because the largest is {size:g}: in {plain} it makes no ship"
+    book.assume("unit", "the table", what, size)
+    return likely[0]
 
 
 # --------------------------------------------------------------------------------------

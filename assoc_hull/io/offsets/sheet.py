@@ -17,7 +17,15 @@ import numpy as np
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.reports import Notebook
-from assoc_hull.io.tables.table_text import TableBlock, cell_number
+from assoc_hull.io.tables.cell_numbers import (
+    BLANKS,
+    EIGHTH,
+    is_eighths,
+    label_number,
+    number_like,
+)
+from assoc_hull.io.tables.column_names import ColumnName, column_name, station_label
+from assoc_hull.io.tables.table_blocks import TableBlock, cell_number
 
 __all__ = [
     "OffsetColumn",
@@ -28,23 +36,10 @@ __all__ = [
 ]
 
 # --------------------------------------------------------------------------------------
-# Columns. Known names (any case, blanks or underscores, a unit at the end as in ``x_m`` or ``x
-# [mm]``): ``station``; ``x``; ``z_keel`` or ``keel``; ``z_sheer``, ``z_deck`` or ``deck``;
-# ``y_deck`` or ``deck_half_breadth``; ``wl_0.25`` (a waterline) and ``bt_2.0`` (a buttock).
+# Columns, by `assoc_hull.io.tables.column_names.column_name`. A blank corner is the stations'.
 
-_NUMBERED = re.compile(
-    r"(?P<family>wl|waterline|bt|buttock)_?(?P<value>-?([0-9]+\.?[0-9]*|\.[0-9]+)(e-?[0-9]{1,2})?)"
-    r"(_?(?P<unit>mm|m|t))?"
-)
-_UNIT = re.compile(r"(?P<name>.+)_(?P<unit>mm|m)")
-_NAMES = {
-    "station": ("station", "stations", "stn", "sta", "st", "frame", "no"),
-    "x": ("x",),
-    "keel": ("z_keel", "keel", "z_profile", "profile"),
-    "deck height": ("z_sheer", "sheer", "z_deck", "deck", "deck_height"),
-    "deck half-breadth": ("y_deck", "y_sheer", "deck_half_breadth"),
-}
-_KIND = {name: kind for kind, names in _NAMES.items() for name in names}
+_STATIONS = 42
+"""No hull has more stations by number; places under a blank corner that run farther are x."""
 
 
 @attrs.frozen
@@ -58,7 +53,8 @@ class OffsetColumn:
     label : str
         Its name as the file prints it.
     unit : str or None
-        "m" or "mm" where the name says so, "t" for a waterline in draughts.
+        "m", "mm", "cm", "ft" or "in" where the name, the row under it or the cells say so, "t" for
+        a waterline in draughts.
     value : float
         Height of a waterline or y of a buttock, in the file's unit; nan for the others.
     """
@@ -76,9 +72,10 @@ class OffsetColumns:
     Attributes
     ----------
     single : mapping of str to OffsetColumn
-        By kind: "station", "x", "keel", "deck height", "deck half-breadth".
+        By kind: "station", "x", "keel", "deck height", "deck half-breadth", and "beam" and
+        "area", which are no geometry and serve as a check of each station.
     waterlines, buttocks : tuple of OffsetColumn
-        In the file's order, which is upward and outward.
+        Upward and outward, whatever the order of the file.
     """
 
     single: Mapping[str, OffsetColumn]
@@ -93,65 +90,107 @@ def classify_columns(block: TableBlock, book: Notebook) -> OffsetColumns:
     ------
     BadInputError
         No station and no x column, a column that occurs twice, waterlines or buttocks that
-        repeat or decrease.
+        repeat or are in several units.
     """
     single: dict[str, OffsetColumn] = {}
-    families: dict[str, list[OffsetColumn]] = {"wl": [], "bt": []}
+    families: dict[str, list[OffsetColumn]] = {"waterline": [], "buttock": []}
+    left: list[OffsetColumn] = []
     for index, label in enumerate(block.header):
-        name = re.sub(r"[\s_\[\]()=:]+", "_", label.lower()).strip("_.")
-        numbered = _NUMBERED.fullmatch(name)
-        if numbered:
-            column = OffsetColumn(index, label, numbered["unit"], float(numbered["value"]))
-            families["wl" if numbered["family"].startswith("w") else "bt"].append(column)
+        name = column_name(label) if label else None
+        unit = block.units[index] if block.units else None
+        if name is None and index == 0 and _is_corner(block):
+            name = ColumnName(_corner(block, book))
+        if name is None:
+            left.append(OffsetColumn(index, label, unit))
+        elif name.kind in families:
+            column = OffsetColumn(index, label, name.unit or unit, name.value)
+            families[name.kind].append(column)
         else:
-            _put(single, block, name, index, book)
+            _put(single, block, name.kind, OffsetColumn(index, label, name.unit or unit))
     if "station" not in single and "x" not in single:
         raise BadInputError(
             "there is neither a station nor an x column",
             f"{block.source}, header {','.join(block.header)[:60]!r}",
             "name one column 'station' or 'x_m'",
         )
-    for family in families.values():
-        _increasing(family, block)
-    return OffsetColumns(single, tuple(families["wl"]), tuple(families["bt"]))
+    _tell_left(left, families["waterline"], block, book)
+    ordered = [_ascending(family, block, book) for family in families.values()]
+    return OffsetColumns(single, *ordered)
+
+
+def _is_corner(block: TableBlock) -> bool:
+    """Tell whether the first column, without a known name, holds the stations."""
+    label = block.header[0]
+    said = label == "" or "\\" in label or "/" in label
+    return said and not any(
+        (name := column_name(each)) and name.kind in ("station", "x") for each in block.header[1:]
+    )
+
+
+def _corner(block: TableBlock, book: Notebook) -> str:
+    """Say whether the places under a blank corner are numbers of stations, or x."""
+    places = [label_number(row[0]) for row in block.rows]
+    known = np.array([each for each in places if each is not None], np.float64)
+    whole = bool(np.all(known * 4.0 == np.round(known * 4.0)))
+    kind = "station" if not len(known) or (whole and known.max() <= _STATIONS) else "x"
+    what = "the corner says nothing: the first column is read as "
+    book.assume("corner", block.source, what + ("stations" if kind == "station" else "x"))
+    return kind
 
 
 def _put(
-    single: dict[str, OffsetColumn], block: TableBlock, name: str, index: int, book: Notebook
+    single: dict[str, OffsetColumn], block: TableBlock, kind: str, column: OffsetColumn
 ) -> None:
-    label = block.header[index]
-    with_unit = _UNIT.fullmatch(name)
-    unit = None
-    if name not in _KIND and with_unit:
-        name, unit = with_unit["name"], with_unit["unit"]
-    kind = _KIND.get(name)
-    if kind is None:
-        book.assume("column ignored", f"column {label!r}", "it is no offset and was not read")
-    elif kind in single:
+    if kind in single:
         raise BadInputError(
-            f"columns {single[kind].label!r} and {label!r} both hold the {kind}",
+            f"columns {single[kind].label!r} and {column.label!r} both hold the {kind}",
             block.source,
             "leave one of them out",
         )
-    else:
-        single[kind] = OffsetColumn(index, label, unit)
+    single[kind] = column
 
 
-def _increasing(columns: list[OffsetColumn], block: TableBlock) -> None:
-    if len({column.unit for column in columns}) > 1:
+def _tell_left(
+    left: list[OffsetColumn], waterlines: list[OffsetColumn], block: TableBlock, book: Notebook
+) -> None:
+    """Note columns that were not read; numbers between waterlines are a suspicion."""
+    among = [column.index for column in waterlines]
+    for column in left:
+        cells = [row[column.index] for row in block.rows]
+        numbers = sum(number_like(cell) and cell not in BLANKS for cell in cells)
+        if not column.label and not numbers:
+            continue
+        inside = among and min(among) < column.index < max(among) and 2 * numbers > len(cells)
+        name = repr(column.label) if column.label else f"{column.index + 1}, without a name,"
+        if inside:
+            what = "it stands among waterlines and its name says no height: it was not read"
+            book.suspect("column ignored", f"column {name}", what)
+        else:
+            book.assume("column ignored", f"column {name}", "it is no offset and was not read")
+
+
+def _ascending(
+    columns: list[OffsetColumn], block: TableBlock, book: Notebook
+) -> tuple[OffsetColumn, ...]:
+    # The base line lies at 0 in any unit.
+    if len({column.unit for column in columns if column.value != 0.0}) > 1:
         raise BadInputError(
             f"columns {columns[0].label!r} to {columns[-1].label!r} are in several units",
             block.source,
             "give all of them in one unit",
         )
-    for before, after in pairwise(columns):
-        if after.value <= before.value:
-            verb = "repeats" if after.value == before.value else "lies below"
+    found = sorted(columns, key=lambda column: column.value)
+    for before, after in pairwise(found):
+        if after.value == before.value:
             raise BadInputError(
-                f"column {after.label!r} {verb} column {before.label!r}",
+                f"column {after.label!r} repeats column {before.label!r}",
                 block.source,
-                "order the columns upward (waterlines) or outward (buttocks), each once",
+                "give each waterline and each buttock once",
             )
+    if found != columns:
+        what = f"from {columns[0].label!r} to {columns[-1].label!r}; put in order"
+        book.repair("column order", block.source, what)
+    return tuple(found)
 
 
 # --------------------------------------------------------------------------------------
@@ -183,6 +222,12 @@ class OffsetSheet:
         Buttock heights as printed, nan for blanks.
     half_unit : (w,)
         Half of the last printed digit of each waterline.
+    printed_unit : str or None
+        "ft" where half-breadths are printed in feet-inches-eighths.
+    zero : str or None
+        "ap" or "fp" where a row is named so and its number would be 0.
+    beams : (w,) or None
+        What a row such as "MaxBm" says of each waterline.
     """
 
     block: TableBlock
@@ -193,6 +238,9 @@ class OffsetSheet:
     offsets: FloatArray
     heights: FloatArray
     half_unit: FloatArray
+    printed_unit: str | None = None
+    zero: str | None = None
+    beams: FloatArray | None = None
 
     @property
     def place(self) -> FloatArray:
@@ -219,23 +267,82 @@ def read_sheet(block: TableBlock, book: Notebook) -> OffsetSheet:
         with different numbers, the stations are out of order.
     """
     columns = classify_columns(block, book)
+    block, beams = _without_beams(block, columns)
     block = _without_doubles(block, columns, book)
     x = _places(block, columns.single.get("x"))
-    stations = _stations(block, columns.single.get("station"), x is None)
+    stations, zero = _stations(block, columns.single.get("station"), x is None)
     name = columns.single.get("station", columns.single.get("x"))
     labels = tuple(row[name.index] if name else "" for row in block.rows)
+    eighths = _in_eighths(block, columns.waterlines)
+    half = eighths or _half_units(block, columns.waterlines, book)
     sheet = OffsetSheet(
         block,
-        columns,
+        _with_units(block, columns),
         labels,
         stations,
         x,
         _read(block, columns.waterlines),
         _read(block, columns.buttocks),
-        _half_units(block, columns.waterlines, book),
+        np.full(len(columns.waterlines), half) if eighths else np.asarray(half),
+        "ft" if eighths else None,
+        zero,
+        beams,
     )
     _in_order(sheet)
     return sheet
+
+
+def _without_beams(
+    block: TableBlock, columns: OffsetColumns
+) -> tuple[TableBlock, FloatArray | None]:
+    """Take off a row named as the largest beam of each waterline; give its numbers, (w,)."""
+    name = columns.single.get("station") or columns.single["x"]
+    kinds = [column_name(row[name.index]) for row in block.rows]
+    rows = [k for k, kind in enumerate(kinds) if kind is not None and kind.kind == "beam"]
+    if not rows:
+        return block, None
+    beams = _read(block, columns.waterlines)[rows[0]]
+    keep = [k for k in range(len(block.rows)) if k not in rows]
+    kept = attrs.evolve(
+        block,
+        rows=tuple(block.rows[k] for k in keep),
+        lines=tuple(block.lines[k] for k in keep),
+    )
+    return kept, beams
+
+
+def _in_eighths(block: TableBlock, columns: tuple[OffsetColumn, ...]) -> float:
+    """Give half the unit of cells in feet-inches-eighths, ft; 0 where they are decimals.
+
+    Raises
+    ------
+    BadInputError
+        Some are and some are not.
+    """
+    places = [(row, c.index) for row in range(len(block.rows)) for c in columns]
+    found = [block.rows[row][k] for row, k in places if is_eighths(block.rows[row][k])]
+    if not found:
+        return 0.0
+    for row, k in places:
+        cell = block.rows[row][k]
+        if not is_eighths(cell) and cell not in BLANKS and cell_number(block, row, k) != 0.0:
+            raise BadInputError(
+                f"{cell!r} stands among cells in feet-inches-eighths such as {found[0]!r}",
+                block.where(row, k),
+                "write all half-breadths in one form",
+            )
+    finer = any(cell[-1] in "+-" for cell in found)
+    return 0.5 * EIGHTH / (2.0 if finer else 1.0)
+
+
+def _with_units(block: TableBlock, columns: OffsetColumns) -> OffsetColumns:
+    """Put feet on single columns whose cells are in feet-inches-eighths."""
+    single = {
+        kind: attrs.evolve(column, unit="ft")
+        if any(is_eighths(row[column.index]) for row in block.rows) else column
+        for kind, column in columns.single.items()
+    }  # fmt: skip
+    return attrs.evolve(columns, single=single)
 
 
 def _read(block: TableBlock, columns: tuple[OffsetColumn, ...]) -> FloatArray:
@@ -251,14 +358,41 @@ def _places(block: TableBlock, column: OffsetColumn | None) -> FloatArray | None
     return x
 
 
-def _stations(block: TableBlock, column: OffsetColumn | None, needed: bool) -> FloatArray:
+_ENDS = {"ap": "ap", "a.p": "ap", "a.p.": "ap", "fp": "fp", "f.p": "fp", "f.p.": "fp"}
+
+
+def _stations(
+    block: TableBlock, column: OffsetColumn | None, needed: bool
+) -> tuple[FloatArray, str | None]:
+    """Give the numbers of the stations, nan for names, and which end 0 is if a name says so."""
     if column is None:
-        return np.full(len(block.rows), np.nan)
+        return np.full(len(block.rows), np.nan), None
+    names = [row[column.index] for row in block.rows]
+    stations = np.array([_station_number(name) for name in names], np.float64)
+    zero = None
+    for k, beside, next_but_one in ((0, 1, 2), (-1, -2, -3)):
+        end = _ENDS.get(names[k].lower()) if len(names) > 2 else None
+        if end and np.isfinite(stations[[beside, next_but_one]]).all():
+            stations[k] = _end_number(stations[beside], stations[next_but_one])
+            zero = end if stations[k] == 0.0 else zero
     if needed:
-        stations = _read(block, (column,))[:, 0]
+        for row in np.flatnonzero(np.isnan(stations)):
+            cell_number(block, int(row), column.index)
         _refuse_blank(block, column, stations)
-        return stations
-    return np.array([_number_or_nan(row[column.index]) for row in block.rows], np.float64)
+    return stations, zero
+
+
+def _end_number(beside: float, next_but_one: float) -> float:
+    """Give the number of a perpendicular: 0, or the next of 10, 20 and 40."""
+    if beside < next_but_one:
+        return 0.0
+    return min((full for full in (10.0, 20.0, 40.0) if full > beside), default=np.nan)
+
+
+def _station_number(name: str) -> float:
+    """Give the number of a station, with or without a word before it; nan if it has none."""
+    found = label_number(re.sub(r"^[A-Za-z]+\.?[ _]*", "", name) if station_label(name) else name)
+    return np.nan if found is None or abs(found) > 1e7 else found
 
 
 def _number_or_nan(cell: str) -> float:
@@ -289,7 +423,7 @@ def _without_doubles(block: TableBlock, columns: OffsetColumns, book: Notebook) 
             keep.append(k)
             continue
         _refuse_different(block, first, k)
-        what = f"row {block.lines[k]} repeats row {block.lines[first]} and was dropped"
+        what = f"{block.row(k)} repeats {block.row(first)} and was dropped"
         book.repair("repeated station", f"station {row[column.index]}", what, block.lines[k])
     rows, lines = [block.rows[k] for k in keep], [block.lines[k] for k in keep]
     return attrs.evolve(block, rows=tuple(rows), lines=tuple(lines))
@@ -301,7 +435,7 @@ def _refuse_different(block: TableBlock, first: int, second: int) -> None:
         if one != other and not _number_or_nan(one) == _number_or_nan(other):
             raise BadInputError(
                 f"the station occurs twice with different numbers: {other or 'blank'} here and "
-                f"{one or 'blank'} in row {block.lines[first]}",
+                f"{one or 'blank'} in {block.row(first)}",
                 block.where(second, column),
                 "delete one of the two rows",
             )
@@ -317,7 +451,7 @@ def _in_order(sheet: OffsetSheet) -> None:
         raise BadInputError(
             f"station {sheet.labels[k]} at {sheet.place[k]:g} follows station "
             f"{sheet.labels[k - 1]} at {sheet.place[k - 1]:g} against the order of the others",
-            f"{sheet.block.source}, row {sheet.block.lines[k]}",
+            f"{sheet.block.source}, {sheet.block.row(k)}",
             "correct the number, or put the rows in order along the ship",
         )
 

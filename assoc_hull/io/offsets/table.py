@@ -14,6 +14,8 @@ False
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import attrs
 
 from assoc_hull.geometry.curves import FloatArray, freeze
@@ -51,6 +53,9 @@ class OffsetTable:
         Half unit of the last printed digit of each waterline, at full scale.
     station : (s,) or None
         The station numbers as printed; nan where the name is no number.
+    stated : mapping of str to float
+        What the file says of the hull as a whole: "Lpp", "B", "T", "D" (m), "L/B", "B/T", "CB",
+        "CM", "CP", "CW"; those that it says.
     """
 
     name: str
@@ -68,6 +73,7 @@ class OffsetTable:
     depth: float | None
     rounding: FloatArray
     station: FloatArray | None = None
+    stated: Mapping[str, float] = attrs.field(factory=dict)
 
     def __attrs_post_init__(self) -> None:
         arrays = (self.x, self.z, self.half_breadth, self.buttock_y, self.rounding)

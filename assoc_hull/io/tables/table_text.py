@@ -1,8 +1,7 @@
-"""The text of a table from a file: CSV or XLSX in, blocks of cells out.
+"""The text of a table from a file, CSV or XLSX: `read_text`.
 
-`read_text` takes a path or a text and gives text, that of a workbook as comma-separated rows.
-`split_blocks` finds comments (``#``; unit and frame often stand there), separators and header rows;
-a second header row opens a second block. `cell_number` makes a number of a cell, nan of a blank.
+It takes a path or a text and gives text, that of a workbook as comma-separated rows;
+`assoc_hull.io.tables.table_blocks` finds the cells in it.
 """
 
 from __future__ import annotations
@@ -10,64 +9,24 @@ from __future__ import annotations
 import csv
 import datetime
 import io
-import math
 import re
 import warnings
 import zipfile
 from pathlib import Path
 from typing import Any
 
-import attrs
-
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.spreadsheets import openpyxl_module
+from assoc_hull.io.tables.table_blocks import opens_block
 
 __all__ = [
-    "TableBlock",
-    "cell_number",
-    "opens_block",
     "read_text",
-    "split_blocks",
     "text_of_xlsx",
 ]
 
-# --------------------------------------------------------------------------------------
-# Text to blocks of cells.
-
-_NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,3})?")
-_BLANKS = frozenset({"", "-", "--", "\N{EN DASH}", "\N{EM DASH}"})
-_OPENING = re.compile(r"(stations?|stn|sta|st|frame|no|x[ _\[(]*(mm?)?[\])]?)\.?", re.IGNORECASE)
-_LARGEST = 1e7  # of any number in a table, in its unit
 _ARCHIVE = b"PK\x03\x04"
 """What a workbook begins with."""
-
-
-@attrs.frozen
-class TableBlock:
-    """One header row and the rows under it, as text.
-
-    Attributes
-    ----------
-    source : str
-        The file, or "text".
-    header : tuple of str
-        The column names.
-    rows : tuple of tuple of str
-        The cells, stripped; every row is as long as the header.
-    lines : tuple of int
-        The line of the file on which each row ends, from 1.
-    """
-
-    source: str
-    header: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-    lines: tuple[int, ...]
-
-    def where(self, row: int, column: int) -> str:
-        """Say where a cell stands."""
-        station = f" (station {self.rows[row][0]})" if self.rows[row][0] else ""
-        return f"{self.source}, row {self.lines[row]}{station}, column {self.header[column]!r}"
 
 
 def read_text(path_or_text: str | Path, book: Notebook) -> tuple[str, str]:
@@ -110,139 +69,12 @@ def _read_file(path: str | Path, book: Notebook) -> tuple[str, str]:
         return raw.decode("latin-1"), str(path)
 
 
-def split_blocks(
-    text: str, source: str, book: Notebook
-) -> tuple[tuple[str, ...], tuple[TableBlock, ...]]:
-    """Split a text into comments and blocks.
-
-    Raises
-    ------
-    BadInputError
-        Ragged rows, a quotation that is never closed, no header, no rows.
-    """
-    lines = text.lstrip("\N{ZERO WIDTH NO-BREAK SPACE}").splitlines()
-    comments = tuple(line.strip().strip(",;\t")[1:].strip() for line in lines if _comment(line))
-    kept = [(k + 1, line) for k, line in enumerate(lines) if line.strip() and not _comment(line)]
-    rows = _cells(kept, source, book)
-    rows = [(k, row) for k, row in rows if any(row)]
-    if not rows:
-        raise BadInputError("there is no row besides comments", source, "give a table of offsets")
-    starts = [i for i, (_, row) in enumerate(rows) if i == 0 or opens_block(row[0])]
-    ends = [*starts[1:], len(rows)]
-    return comments, tuple(
-        _block(source, rows[a:b], book) for a, b in zip(starts, ends, strict=True)
-    )
-
-
-def opens_block(cell: str) -> bool:
-    """Tell whether a row that begins with this cell is the header of a table."""
-    return _OPENING.fullmatch(cell) is not None
-
-
-def _comment(line: str) -> bool:
-    return line.lstrip(' \t"').startswith("#")
-
-
-def _cells(
-    lines: list[tuple[int, str]], source: str, book: Notebook
-) -> list[tuple[int, tuple[str, ...]]]:
-    """Split rows by the mark that stands most often in the first one."""
-    first = lines[0][1] if lines else ""
-    mark = max("\t;,", key=first.count)
-    try:
-        rows = [(k, _split(line, mark)) for k, line in lines]
-    except csv.Error as error:
-        raise BadInputError(
-            f"a row is no {mark!r}-separated text ({error})", source, "mend the quotation marks"
-        ) from None
-    return rows if mark == "," else _decimal_points(rows, source, book)
-
-
-def _split(line: str, mark: str) -> tuple[str, ...]:
-    return tuple(cell.strip() for cell in next(csv.reader([line], delimiter=mark, strict=True)))
-
-
-def _decimal_points(
-    rows: list[tuple[int, tuple[str, ...]]], source: str, book: Notebook
-) -> list[tuple[int, tuple[str, ...]]]:
-    """Turn decimal commas into points: where cells are parted by another mark, a comma is one."""
-    comma = re.compile(r"(?<=[0-9]),(?=[0-9]+$)")
-    mended = [(k, tuple(comma.sub(".", cell) for cell in row)) for k, row in rows]
-    count = sum(
-        a != b
-        for (_, x), (_, y) in zip(rows, mended, strict=True)
-        for a, b in zip(x, y, strict=True)
-    )
-    if count:
-        book.repair("decimal comma", source, f"{count} cells had a decimal comma", float(count))
-    return mended
-
-
-def _block(source: str, rows: list[tuple[int, tuple[str, ...]]], book: Notebook) -> TableBlock:
-    line, header = rows[0]
-    header = header[: max((k + 1 for k, cell in enumerate(header) if cell), default=0)]
-    if all(number_like(cell) for cell in header):
-        raise BadInputError(
-            "the first row holds numbers only",
-            f"{source}, row {line}",
-            "put a header such as 'station,wl_0,wl_0.25' above it",
-        )
-    body = tuple(_fit(source, k, row, len(header), book) for k, row in rows[1:])
-    return TableBlock(source, header, body, tuple(k for k, _ in rows[1:]))
-
-
-def _fit(
-    source: str, line: int, row: tuple[str, ...], width: int, book: Notebook
-) -> tuple[str, ...]:
-    """Give a row of the width of the header; surplus cells are dropped if blank."""
-    if len(row) > width and not any(row[width:]):
-        surplus = len(row) - width
-        book.repair("surplus cells", f"row {line}", f"{surplus} empty cells dropped", surplus)
-        row = row[:width]
-    if len(row) != width:
-        raise BadInputError(
-            f"the row has {len(row)} cells and the header {width}",
-            f"{source}, row {line} (station {row[0]})",
-            "give every row one cell per column; leave a cell empty where there is no offset",
-        )
-    return row
-
-
-def number_like(cell: str) -> bool:
-    """Say whether a cell is blank or a number."""
-    return cell in _BLANKS or _NUMBER.fullmatch(cell) is not None
-
-
-def cell_number(block: TableBlock, row: int, column: int) -> float:
-    """Give the number in a cell, nan for a blank.
-
-    Raises
-    ------
-    BadInputError
-        The cell holds something else, or a number no ship has.
-    """
-    cell = block.rows[row][column]
-    if cell in _BLANKS:
-        return math.nan
-    if not _NUMBER.fullmatch(cell):
-        raise BadInputError(
-            f"{cell!r} is not a number",
-            block.where(row, column),
-            "write a plain number, or leave the cell empty where there is no offset",
-        )
-    value = float(cell)
-    if abs(value) > _LARGEST:
-        raise BadInputError(
-            f"{cell} is beyond any ship", block.where(row, column), "correct the number"
-        )
-    return value
-
-
 # --------------------------------------------------------------------------------------
 # Workbooks, through openpyxl (extra ``xlsx``): the cells of the CSV.
 
 _MOST_BYTES = 50_000_000
 _MOST_ROWS, _MOST_COLUMNS = 5_000, 1_000
+_HEADS = 4  # the header of a later sheet stands among these rows, titles first
 _TAKE = "give a sheet of offsets, or save it as CSV"
 
 
@@ -278,8 +110,8 @@ def _chosen(sheets: list[tuple[str, list[list[str]]]], source: str, notes: Noteb
     """Lay out the first sheet, and what of the others is a table."""
     found = []
     for k, (title, rows) in enumerate(sheets):
-        head = next((row for row in rows if not row[0].startswith("#")), [""])
-        if k and not opens_block(head[0]):
+        heads = [tuple(row) for row in rows if not row[0].startswith("#")][:_HEADS]
+        if k and not any(map(opens_block, heads)):
             notes.assume("sheet", f"{title!r} of {source}", "it begins as no table and is not read")
         else:
             found.append(_laid_out(rows))

@@ -7,18 +7,18 @@ from numpy.testing import assert_array_equal
 
 from assoc_hull.io.offsets.complete_table import end_contours, flat_of_side
 from assoc_hull.io.offsets.doctor import ExaminedTable, examine_offsets, wild_values
+from assoc_hull.io.offsets.hints import OffsetHints, read_hints
 from assoc_hull.io.offsets.net import lines_of_table, net_of_lines
 from assoc_hull.io.offsets.read import build_table, read_offsets
 from assoc_hull.io.offsets.scale import (
-    OffsetHints,
     OffsetScale,
+    PrintedSizes,
     find_scale,
-    read_hints,
     station_places,
 )
 from assoc_hull.io.offsets.sheet import classify_columns, read_sheet
 from assoc_hull.io.reports import Notebook
-from assoc_hull.io.tables.table_text import TableBlock
+from assoc_hull.io.tables.table_blocks import TableBlock
 from assoc_hull.shipped.series60 import todd_table
 
 
@@ -116,7 +116,7 @@ def test_the_numbers_of_one_block_as_printed_rows_checked() -> None:
 def test_what_the_comments_above_an_offset_table_say_about() -> None:
     """What the comments above an offset table say about units, frame and particulars."""
     hints = read_hints(("y/(B/2) and z/T; station 0 = FP, 20 = AP", "L/B = 7.5, B/T = 2.5"))
-    assert (hints.unit, hints.station_zero, hints.divisions, hints.length_breadth) == (
+    assert (hints.units.y, hints.station_zero, hints.divisions, hints.length_breadth) == (
         "normalised",
         "fp",
         20,
@@ -127,7 +127,14 @@ def test_what_the_comments_above_an_offset_table_say_about() -> None:
 def test_the_unit_of_an_offset_table_and_the_particulars() -> None:
     """The unit of an offset table and the particulars that give its full scale."""
     scale = find_scale(
-        "auto", 16200.0, 16200.0, OffsetHints(), None, 32.4, None, Notebook(), "text"
+        "auto",
+        PrintedSizes(16200.0, 16200.0),
+        OffsetHints(),
+        None,
+        32.4,
+        None,
+        Notebook(),
+        "text",
     )
     assert (scale.unit, scale.y, scale.breadth) == ("mm", 0.001, 32.4)
 

@@ -1,0 +1,221 @@
+"""Damage to whole rows and columns of a table of offsets, named by its place.
+
+A wild value sticks out along its row and its column; a row that was shifted, doubled or exchanged
+sticks out along the ship only, and a column along the height only. Rows are judged by the areas of
+their sections, columns by how they stand to the two beside them. What the file says of each
+station besides its offsets (largest beam, sectional area) is compared.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.offsets.doctor import ExaminedTable, predicted_values
+from assoc_hull.io.reports import Notebook
+
+__all__ = ["compare_areas", "compare_beams", "examine_lines", "section_areas"]
+
+
+def examine_lines(patient: ExaminedTable, book: Notebook) -> None:
+    """Note rows and columns that do not fit those beside them; nothing is changed."""
+    _doubled(patient, book)
+    _misfits(patient, book)
+    _gaps(patient, book)
+    _cut_off(patient, book)
+    _columns(patient, book)
+
+
+def section_areas(patient: ExaminedTable, top: float | None = None) -> FloatArray:
+    """Give the areas of half sections up to a height, (s,), m2, by trapezoids; blanks count 0."""
+    y = np.nan_to_num(patient.y)
+    if top is None or top >= patient.z[-1]:
+        return np.asarray(np.trapezoid(y, patient.z, axis=1))
+    below = patient.z < top
+    z = np.append(patient.z[below], top)
+    at_top = np.array([np.interp(top, patient.z, row) for row in y])
+    return np.asarray(np.trapezoid(np.column_stack([y[:, below], at_top]), z, axis=1))
+
+
+# --------------------------------------------------------------------------------------
+# Rows.
+
+_MISFIT = 0.035
+"""A section this part of the greatest area off its neighbours is told."""
+
+_SHARE = 0.25
+"""So much of what the areas are off may be left when one is put right; of a shoulder more is."""
+
+
+def _doubled(patient: ExaminedTable, book: Notebook) -> None:
+    """Note stations with the same numbers where the hull changes on either side of them."""
+    y, half = np.nan_to_num(patient.y), patient.breadth / 2.0
+    step = np.abs(np.diff(y, axis=0))
+    same = (step <= 0.2 * patient.rounding).all(axis=1) & (y[1:].max(axis=1) > 0.0)
+    change = step.mean(axis=1)
+    for i in np.flatnonzero(same):
+        beside = change[[k for k in (i - 1, i + 1) if 0 <= k < len(change)]]
+        # Parallel middle body repeats a section; a run or an entrance does not.
+        if len(beside) and beside.max() > 0.02 * half:
+            names = f"stations {patient.stations[i]} and {patient.stations[i + 1]}"
+            what = "all their half-breadths are the same, and the hull changes beside them"
+            book.suspect("doubled station", names, what, float(patient.x[i + 1] - patient.x[i]))
+
+
+def _misfits(patient: ExaminedTable, book: Notebook) -> None:
+    """Note stations whose area does not fit those beside them, the worst first."""
+    area = section_areas(patient)
+    largest = float(area.max())
+    if len(area) < 7 or largest <= 0.0:
+        return
+    area = area / largest
+    for _ in range(3):
+        wanted = predicted_values(patient.x, area)
+        off = area - wanted
+        before = _unevenness(patient.x, area)
+        best, left = -1, 1.0
+        for i in np.flatnonzero(np.abs(np.nan_to_num(off)) > _MISFIT):
+            tried = area.copy()
+            tried[i] = wanted[i]
+            part = _unevenness(patient.x, tried) / before
+            if part < left:
+                best, left = int(i), part
+        if best < 0 or left > _SHARE:
+            return
+        what = (
+            f"its section is {100.0 * abs(off[best]):.2g} % of the greatest area too "
+            f"{'full' if off[best] > 0 else 'fine'} for its neighbours: another station's numbers, "
+            "another unit, or another place?"
+        )
+        book.suspect("station misfit", f"station {patient.stations[best]}", what, float(off[best]))
+        area[best] = wanted[best]
+
+
+def _unevenness(x: FloatArray, value: FloatArray) -> float:
+    """Give the sum of squares of what values are off their neighbours, along x."""
+    off = np.nan_to_num(value - predicted_values(x, value))
+    return float(np.sum(off**2)) + 1e-12
+
+
+def _gaps(patient: ExaminedTable, book: Notebook) -> None:
+    """Note a lone interval longer than both beside it: a station that is missing."""
+    step = np.diff(patient.x)
+    for i in range(1, len(step) - 1):
+        beside = max(step[i - 1], step[i + 1])
+        if step[i] > 1.4 * beside:
+            names = f"between stations {patient.stations[i]} and {patient.stations[i + 1]}"
+            what = f"{step[i]:.4g} m apart, those beside them {beside:.4g} m: is one missing?"
+            book.suspect("missing station", names, what, float(step[i]))
+
+
+_END = 0.06
+"""A stem has no larger part of the greatest section below the draught than this."""
+
+_SHORT = 0.01
+"""So large a part of it may be left where a table ends short of a perpendicular."""
+
+
+def _cut_off(patient: ExaminedTable, book: Notebook) -> None:
+    """Note a table that ends in a section short of the perpendicular."""
+    area = section_areas(patient, patient.draught)
+    largest = float(area.max())
+    if len(area) < 5 or largest <= 0.0:
+        return
+    ends = (
+        (0, patient.x[0], patient.x[1] - patient.x[0], "aft"),
+        (-1, patient.length - patient.x[-1], patient.x[-1] - patient.x[-2], "forward"),
+    )
+    for i, short, step, name in ends:
+        part = float(area[i]) / largest
+        reached = short < 0.4 * step
+        blunt = name == "forward" and part > _END and patient.draught is not None
+        if (not reached and part > _SHORT) or blunt:
+            where = f"{name} of station {patient.stations[i]}"
+            what = f"the table ends in a section of {100 * part:.2g} % of the greatest"
+            gap = f", {short:.4g} m from the perpendicular" if not reached else ""
+            book.suspect("missing station", where, f"{what}{gap}: is a station missing?", part)
+
+
+# --------------------------------------------------------------------------------------
+# Columns.
+
+_STANDS_OUT = 0.01
+"""Part of B/2 by which a cell passes both beside it, up and down, to count against a column."""
+
+_MANY = 0.3
+"""Part of the stations at which a column must stand out: bulbs and tumblehome are at fewer."""
+
+
+def _columns(patient: ExaminedTable, book: Notebook) -> None:
+    """Note waterlines that are wider, or narrower, than both beside them at many stations."""
+    y, half = patient.y, patient.breadth / 2.0
+    count = y.shape[1]
+    if count < 3 or y.shape[0] < 5:
+        return
+    for j in range(count):
+        beside = [k for k in (j - 1, j + 1) if 0 <= k < count]
+        over = np.min([y[:, j] - y[:, k] for k in beside], axis=0)
+        under = np.min([y[:, k] - y[:, j] for k in beside], axis=0)
+        known = np.isfinite(over)
+        total = max(int(known.sum()), 1)
+        words = [("wider", over)] if j < count - 1 else []
+        words += [("narrower", under)] if j > 0 else []
+        for word, off in words:
+            limit = _STANDS_OUT * half + 3.0 * patient.rounding[j]
+            # The highest waterline has one beside it only, and some hulls tumble home.
+            limit = limit if j < count - 1 else 6.0 * limit
+            out = known & (off > limit)
+            if out.sum() > max(_MANY * total, 2):
+                _tell_column(patient, j, word, float(np.median(off[out])), int(out.sum()), book)
+
+
+def _tell_column(
+    patient: ExaminedTable, j: int, word: str, off: float, count: int, book: Notebook
+) -> None:
+    names = " and ".join(
+        patient.waterlines[k] for k in (j - 1, j + 1) if 0 <= k < len(patient.waterlines)
+    )
+    what = (
+        f"{word} than {names} at {count} stations, by {off:.3g} m in the median: are columns "
+        "exchanged, or in another unit?"
+    )
+    book.suspect("waterline misfit", f"waterline {patient.waterlines[j]}", what, off)
+
+
+# --------------------------------------------------------------------------------------
+# What the file says of each station.
+
+_AREA = 0.025
+"""Ratios of areas agree within this: those of a table are by other rules than trapezoids."""
+
+
+def compare_areas(patient: ExaminedTable, told: FloatArray | None, book: Notebook) -> None:
+    """Compare a column of sectional areas, or of their ratios, with the sections."""
+    if told is None or not np.isfinite(told).any() or np.nanmax(told) <= 0.0:
+        return
+    area = section_areas(patient, patient.draught)
+    found = area / max(float(area.max()), 1e-300)
+    wanted = told / np.nanmax(told)
+    off = found - wanted
+    book.assume("check", "sectional areas", "a column of them was compared, and is no geometry")
+    for i in np.flatnonzero(np.abs(np.nan_to_num(off)) > _AREA):
+        what = f"its area is {found[i]:.3f} of the greatest, the column says {wanted[i]:.3f}"
+        book.suspect("sectional area", f"station {patient.stations[i]}", what, float(off[i]))
+
+
+def compare_beams(patient: ExaminedTable, told: FloatArray | None, book: Notebook) -> None:
+    """Compare a column of the largest beam of each station, or half of it, with the offsets."""
+    if told is None:
+        return
+    largest = np.nanmax(np.nan_to_num(patient.y), axis=1)
+    known = np.isfinite(told) & (told > 0.0) & (largest > 0.0)
+    if known.sum() < 3:
+        return
+    book.assume("check", "largest beam", "a column of it was compared, and is no geometry")
+    # One factor for all, whatever its unit and whether it is half of the beam.
+    factor = float(np.median(largest[known] / told[known]))
+    off = np.where(known, largest - factor * told, 0.0)
+    for i in np.flatnonzero(np.abs(off) > 0.01 * patient.breadth / 2.0):
+        what = f"its largest half-breadth is {largest[i]:.6g} m, the column says "
+        what += f"{factor * told[i]:.6g} m"
+        book.suspect("largest beam", f"station {patient.stations[i]}", what, float(off[i]))
