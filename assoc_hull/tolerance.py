@@ -9,20 +9,67 @@ Examples
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import attrs
 
 from assoc_hull.arguments import not_negative
 
-__all__ = ["IN_PLANE", "SAME_PLANE", "Tolerances"]
+__all__ = [
+    "FULL_LENGTH", "IN_PLANE", "SAME_PLANE", "Tolerances", "length_factor", "round_at_size",
+    "rounding_unit",
+]  # fmt: skip
+
+FULL_LENGTH = 100.0
+"""Lengths in this package hold for hulls of this length (m) and more; shorter hulls take them in
+proportion, while 5 mm is no better for being 15 mm on a tanker."""
 
 IN_PLANE = 1e-6
 """A place handed in as near as this (m) to the plane of its line is meant to lie in it, and is
-put there: coordinates are written with micrometres at best."""
+put there. Absolute, whatever the hull: coordinates are written with micrometres at best."""
 
 SAME_PLANE = 1e-6
-"""Planes of one family nearer than this (m) are one plane, by the same reason."""
+"""Planes of one family nearer than this (m) are one plane; absolute, by the same reason."""
+
+
+def length_factor(length: float) -> float:
+    """Give what absolute lengths are multiplied by for a hull of a length (m), at most 1.
+
+    The length is that between perpendiculars where it is known, given or found; else that of the
+    extent. Factors of hulls that differ by a power of two do so to the bit.
+
+    Examples
+    --------
+    >>> from assoc_hull.tolerance import length_factor
+    >>> length_factor(320.0), length_factor(25.0)
+    (1.0, 0.25)
+    """
+    return min(1.0, length / FULL_LENGTH)
+
+
+def rounding_unit(factor: float) -> float:
+    """Give the unit (m) of which lengths of a hull are rounded to a digit: a power of two."""
+    return 2.0 ** (math.frexp(factor)[1] - 1) if 0.0 < factor < 1.0 else 1.0
+
+
+def round_at_size(length: float, digits: int, factor: float) -> float:
+    """Round a length (m) to a digit that is as fine as a hull's factor of lengths asks for.
+
+    The digit is of a unit that is a power of two of the metre: decimals that are short stay what
+    they are, and hulls that differ by a power of two are rounded to the same bits.
+
+    Examples
+    --------
+    >>> from assoc_hull.tolerance import round_at_size
+    >>> [round_at_size(each, 3, 1 / 64) for each in (0.3, 0.123456)], round_at_size(0.123456, 3, 1)
+    ([0.3, 0.123453125], 0.123)
+    """
+    unit = rounding_unit(factor)
+    return round(length / unit, digits) * unit
+
+
+_COINCIDENT = 1e-6
 
 
 def _not_negative(value: object) -> float:
@@ -38,11 +85,14 @@ def _least(default: float) -> Any:
 class Tolerances:
     """The tolerances of a hull; part of its definition.
 
+    The defaults are those of hulls of 100 m and more; `of_length` gives those of any hull.
+
     Attributes
     ----------
     coincident : float
         Two defining points of one curve closer than this (m) are an error: a chord so
-        short carries no direction.
+        short carries no direction. It goes with the size of the hull and with nothing else, so
+        that `factor` is read from it.
     consistent : float
         Largest distance (m) of a shared or driven crossing from either of its curves.
     adoption : float
@@ -72,7 +122,7 @@ class Tolerances:
         Largest displacement (m) in one sub-step of a field.
     """
 
-    coincident: float = _least(1e-6)
+    coincident: float = _least(_COINCIDENT)
     consistent: float = _least(1e-9)
     adoption: float = _least(5e-3)
     prune: float = _least(1e-3)
@@ -86,3 +136,31 @@ class Tolerances:
     adopted_spacing: float = _least(0.2)
     field_normal: float = _least(0.15)
     substep: float = _least(0.1)
+
+    @classmethod
+    def of_length(cls, length: float, **given: float) -> Tolerances:
+        """Give the tolerances of a hull of a length (m); those that are `given` stay as they are.
+
+        Examples
+        --------
+        >>> from assoc_hull.tolerance import Tolerances
+        >>> Tolerances.of_length(30.0).adopted_spacing, Tolerances.of_length(300.0) == Tolerances()
+        (0.06, True)
+        """
+        return attrs.evolve(cls().scaled(length_factor(length)), **given)
+
+    def scaled(self, factor: float) -> Tolerances:
+        """Give them with every length times a factor; angles and parts stay."""
+        return attrs.evolve(self, **{name: factor * getattr(self, name) for name in _LENGTHS})
+
+    @property
+    def factor(self) -> float:
+        """What lengths that are fixed in the code are multiplied by for this hull, at most 1."""
+        # Nil is no size: such tolerances were given by hand.
+        return min(1.0, self.coincident / _COINCIDENT) if self.coincident else 1.0
+
+
+_LENGTHS = (
+    "coincident", "consistent", "adoption", "prune", "keep", "gap_floor", "turn_spacing",
+    "adopted_spacing", "substep",
+)  # fmt: skip

@@ -24,7 +24,7 @@ from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.polylines.fitted_circle import fit_circle_in_plane
-from assoc_hull.model.feature_geometry import ROUNDING, places_off
+from assoc_hull.model.feature_geometry import places_off, rounded_gap, rounding_of
 from assoc_hull.model.features import Feature
 from assoc_hull.model.tables import HullState
 
@@ -88,15 +88,19 @@ def carry_features(state: HullState, space: SpaceMap, within: float) -> CarriedF
     found, bent = list[Feature](), set[str]()
     for i, each in enumerate(features):
         mine = slice(start[i], start[i + 1])
-        found.append(_carried(each, (old[mine], new[mine]), image[i], slope[i]))
-        if places_off(found[i], new[mine]).max() > found[i].gap + ROUNDING:
+        found.append(_carried(state, each, (old[mine], new[mine]), image[i], slope[i]))
+        if places_off(found[i], new[mine]).max() > found[i].gap + rounding_of(state):
             bent.add(each.key)
     places = dict(zip(rows, new, strict=True))
     return CarriedFeatures(tuple(found), frozenset(bent), within, places)
 
 
 def _carried(
-    feature: Feature, places: tuple[FloatArray, FloatArray], centre: FloatArray, slope: FloatArray
+    state: HullState,
+    feature: Feature,
+    places: tuple[FloatArray, FloatArray],
+    centre: FloatArray,
+    slope: FloatArray,
 ) -> Feature:
     """Carry one feature; `centre` and `slope` are image and Jacobian at its centre or begin."""
     new = places[1]
@@ -108,20 +112,23 @@ def _carried(
         if feature.offset is not None:
             found["offset"] = float((normal * centre).sum())
         if feature.radius is not None:
-            found["centre"], radius = _circle(feature, new, centre, normal)
+            found["centre"], radius = _circle(state, feature, new, centre, normal)
             found["radius"], grown = radius, radius / feature.radius
     if feature.direction is not None:
         found["direction"] = _unit((slope * np.array(feature.direction)).sum(axis=1))
-    gap = round(feature.gap * grown, 9)
+    gap = rounded_gap(state, feature.gap * grown)
     return attrs.evolve(feature, gap=gap, **found)  # type: ignore[arg-type]
 
 
 def _circle(
-    feature: Feature, xyz: FloatArray, centre: FloatArray, normal: FloatArray
+    state: HullState, feature: Feature, xyz: FloatArray, centre: FloatArray, normal: FloatArray
 ) -> tuple[FloatArray, float]:
     """Give centre and radius of the circle on which the images of points lie, or nearly do."""
-    found = fit_circle_in_plane(xyz, normal, closed=feature.kind == "circle")
-    if found.off <= ROUNDING + feature.gap * found.radius / (feature.radius or found.radius):
+    closed, factor = feature.kind == "circle", state.tolerances.factor
+    found = fit_circle_in_plane(xyz, normal, closed=closed, factor=factor)
+    if found.off <= rounding_of(state) + feature.gap * found.radius / (
+        feature.radius or found.radius
+    ):
         return found.centre, found.radius
     away = xyz - centre
     return centre, float(np.sqrt(dot(away, away)).mean())

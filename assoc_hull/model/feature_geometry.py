@@ -18,11 +18,21 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.model.features import Feature
 from assoc_hull.model.tables import HullState
+from assoc_hull.tolerance import round_at_size
 
-__all__ = ["ROUNDING", "host_curve", "line_numbers", "places_off"]
+__all__ = ["host_curve", "line_numbers", "places_off", "rounded_gap", "rounding_of"]
 
-ROUNDING = 1e-6
-"""Points this near (m) to a feature, its gap aside, lie on it."""
+_ROUNDING = 1e-6
+
+
+def rounding_of(state: HullState) -> float:
+    """Give how near (m) points to a feature, its gap aside, lie on it."""
+    return _ROUNDING * state.tolerances.factor
+
+
+def rounded_gap(state: HullState, gap: float) -> float:
+    """Give a gap in whole nanometres, of a short hull finer: the last bit must not show in it."""
+    return round_at_size(gap, 9, state.tolerances.factor)
 
 
 def places_off(feature: Feature, xyz: FloatArray) -> FloatArray:

@@ -120,6 +120,23 @@ class LineSource:
             flag(dense, "dense", where),
         )  # fmt: skip
 
+    def scaled(self, factor: float, offset: float | None = None) -> LineSource:
+        """Give the line with every length times a factor, in its plane at `offset` (m) exactly.
+
+        Examples
+        --------
+        >>> from assoc_hull.model.line_source import LineSource
+        >>> line = LineSource.make("waterlines", "WL 1", [[0, 0, 1], [5, 2, 1], [9, 0, 1]])
+        >>> line.scaled(0.3, 0.3).points[1].tolist()
+        [1.5, 0.6, 0.3]
+        """
+        points, place = factor * self.points, factor * self.offset
+        if offset is not None and self.normal is not None and 1.0 in self.normal.tolist():
+            # Scaled up and down again a place may have lost its last bit.
+            points[:, self.normal == 1.0], place = offset, offset
+        freeze(points)
+        return attrs.evolve(self, points=points, offset=place, tolerance=factor * self.tolerance)
+
 
 def line_curve_data(sources: Sequence[LineSource]) -> CurveData:
     """Give what a loft of lines through all their own points needs.

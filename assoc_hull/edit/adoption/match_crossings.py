@@ -29,10 +29,12 @@ __all__ = [
 ]
 
 _REACH = 0.1
-"""How far (m) the end of a line may lie from the boundary curve it is meant to end on."""
+"""Times `Tolerances.factor`: how far (m) the end of a line may lie from the boundary curve it is
+meant to end on."""
 
 _TOUCH, _BESIDE = 1e-6, 1e-3
-"""A place this near (m) lies on a boundary; the box of a segment is widened, for rounding."""
+"""Times the same: a place this near (m) lies on a boundary; the box of a segment is widened, for
+rounding."""
 
 
 @attrs.frozen(eq=False)
@@ -172,7 +174,8 @@ class _Boundaries:
     @classmethod
     def of(cls, state: HullState, reference: SplineBatch) -> _Boundaries:
         control = bezier_points(reference)
-        return cls(state, reference, control.min(axis=1) - _BESIDE, control.max(axis=1) + _BESIDE)
+        beside = state.tolerances.factor * _BESIDE
+        return cls(state, reference, control.min(axis=1) - beside, control.max(axis=1) + beside)
 
     def meet(self, boundary: int, line: int) -> PlaneIntersections:
         """Give where a boundary passes the plane of a line: the same for both ends of it."""
@@ -199,19 +202,20 @@ def _nearest(
     Where the boundary runs in the plane there is no passage: then its nearest point.
     """
     state = known.state
+    reach, touch = (state.tolerances.factor * each for each in (_REACH, _TOUCH))
     best: tuple[float, int, float, FloatArray, int] | None = None
     for boundary in boundaries:
         met, own = known.meet(boundary, line), state.line_of(boundary)
         planes = (own, line) if state.lines.planar.data[own] else (line,)
         for i in range(len(met.t)):
             away = float(np.linalg.norm(met.xyz[i] - place))
-            if away < _REACH and (best is None or away < best[0]):
+            if away < reach and (best is None or away < best[0]):
                 xyz = snap_to_coordinate_planes(state, planes, met.xyz[i])
                 best = (away, boundary, float(met.t[i]), xyz, int(met.sign[i]))
-        if (best is not None and best[0] <= _TOUCH) or not known.may_touch(boundary, place):
+        if (best is not None and best[0] <= touch) or not known.may_touch(boundary, place):
             continue
         at, xyz, away_all = closest_points(known.reference, boundary, place[None])
-        if float(away_all[0]) < _TOUCH:
+        if float(away_all[0]) < touch:
             best = (
                 0.0,
                 boundary,
@@ -241,6 +245,7 @@ def _pair_up(state: HullState, reference: SplineBatch, a: int, b: int) -> list[L
     """Match the meetings of two families, plane by plane."""
     on_a, on_b = _meet(state, reference, a, b), _meet(state, reference, b, a)
     found: list[LineIntersection] = []
+    reach = state.tolerances.factor * _REACH
     for line_a, line_b in sorted(set(on_a) & {(first, second) for second, first in on_b}):
         ends = [
             (one, other, *_gap(one, other))
@@ -250,7 +255,7 @@ def _pair_up(state: HullState, reference: SplineBatch, a: int, b: int) -> list[L
         used: set[tuple[str, int, float]] = set()
         for one, other, gap, _ in sorted(ends, key=lambda end: (end[2] + 0.01 * end[3], end[0].at)):
             keys = {("a", one.curve, one.at), ("b", other.curve, other.at)}
-            if gap > _REACH or used & keys:
+            if gap > reach or used & keys:
                 continue
             used |= keys
             lines = (line_a, line_b)

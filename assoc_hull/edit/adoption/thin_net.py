@@ -21,7 +21,6 @@ from assoc_hull.edit.adoption.thinned_deviations import (
     point_amid_interval,
 )
 from assoc_hull.edit.adoption.thinning_state import (
-    SAME_PLACE,
     CurveItem,
     OmittedPoint,
     ReferenceNet,
@@ -367,7 +366,7 @@ def _apart(work: ThinningState, order: list[CurveItem]) -> list[CurveItem]:
     if crossing.all() or not crossing.any():
         return order
     xyz = work.given.xyz[numbers]
-    apart = np.abs(xyz[:, None] - xyz[crossing][None]).max(axis=2).min(axis=1) >= SAME_PLACE
+    apart = np.abs(xyz[:, None] - xyz[crossing][None]).max(axis=2).min(axis=1) >= work.same_place
     return [item for item, kept in zip(order, (crossing | apart).tolist(), strict=True) if kept]
 
 

@@ -13,7 +13,6 @@ import numpy as np
 
 from assoc_hull.edit.adoption.match_crossings import LineIntersection
 from assoc_hull.edit.adoption.thinning_state import (
-    SAME_PLACE,
     CurveItem,
     OmittedPoint,
     ReferenceNet,
@@ -49,7 +48,7 @@ _FOLD = 0.2
 """Chords whose directions have a smaller cosine are taken for a fold."""
 
 _SHORTEST = 0.02
-"""No point is set in an interval shorter than this (m)."""
+"""Times `Tolerances.factor`: no point is set in an interval shorter than this (m)."""
 
 
 def has_room(edges: FloatArray, at: FloatArray, spacing: float) -> BoolArray:
@@ -69,11 +68,13 @@ def has_room(edges: FloatArray, at: FloatArray, spacing: float) -> BoolArray:
     return np.asarray(edges[number] - edges[number - 1] >= spacing)
 
 
-def sharp_turn(known: FloatArray, edges: FloatArray, at: FloatArray, knuckle: BoolArray) -> int:
+def sharp_turn(
+    known: FloatArray, edges: FloatArray, at: FloatArray, knuckle: BoolArray, factor: float = 1.0
+) -> int:
     """Give a given point, at (n,) m, beside a smooth place where the chords fold; -1 if none do.
 
     `known` (k, 3) and `edges` (k,), m, are the defining points and their parameters; those at a
-    `knuckle` (k,) may turn as they like.
+    `knuckle` (k,) may turn as they like. `factor` is that of the tolerances of the hull.
     """
     step = np.diff(known, axis=0)
     step = step / np.maximum(np.linalg.norm(step, axis=1), 1e-12)[:, None]
@@ -82,7 +83,7 @@ def sharp_turn(known: FloatArray, edges: FloatArray, at: FloatArray, knuckle: Bo
         wide = i if edges[i + 1] - edges[i] > edges[i + 2] - edges[i + 1] else i + 1
         low, high = float(edges[wide]), float(edges[wide + 1])
         inside = _inside(at, low, high)
-        if len(inside) and high - low > _SHORTEST:
+        if len(inside) and high - low > factor * _SHORTEST:
             return int(inside[len(inside) // 2])
     return -1
 
@@ -296,7 +297,7 @@ def _beside(work: ThinningState, curve: int, order: list[CurveItem]) -> tuple[In
     """
     known = work.given.xyz[work.numbers(order)]
     step = work.net.sources[curve].points[:, None, :] - known[None, :, :]
-    there = np.flatnonzero(np.abs(step).max(axis=2).min(axis=1) > SAME_PLACE)
+    there = np.flatnonzero(np.abs(step).max(axis=2).min(axis=1) > work.same_place)
     return there, np.sqrt((step * step).sum(axis=2)).min(axis=1)
 
 
@@ -314,4 +315,5 @@ def _sharp(work: ThinningState, curve: int, order: list[CurveItem]) -> int:
     numbers = work.numbers(order)
     kind, _ = work.given.on(np.array(curve), numbers)
     known = work.given.xyz[numbers]
-    return sharp_turn(known, edges, knots_of(work, curve), kind == PointKind.KNUCKLE)
+    corner, factor = kind == PointKind.KNUCKLE, work.net.state.tolerances.factor
+    return sharp_turn(known, edges, knots_of(work, curve), corner, factor)

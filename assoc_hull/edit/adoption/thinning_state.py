@@ -17,7 +17,6 @@ from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState
 
 __all__ = [
-    "SAME_PLACE",
     "CurveItem",
     "OmittedPoint",
     "PointItem",
@@ -84,8 +83,8 @@ class OmittedPoint:
     bends: bool = False
 
 
-SAME_PLACE = 1e-4
-"""Places closer than this (m) are one place of the net."""
+_SAME_PLACE = 1e-4
+"""Times `Tolerances.factor`: places closer than this (m) are one place of the net."""
 
 
 class CurveItem(NamedTuple):
@@ -165,6 +164,11 @@ class ThinningState:
     def __attrs_post_init__(self) -> None:
         self.given = _given(self.net)
         self.fixed_count = len(self.net.contacts) + len(self.net.meetings)
+
+    @property
+    def same_place(self) -> float:
+        """How close (m) places are one place of the net."""
+        return _SAME_PLACE * self.net.state.tolerances.factor
 
     def numbers(self, order: Sequence[CurveItem]) -> IntArray:
         """Give the numbers of items, (k,)."""
@@ -251,6 +255,6 @@ def thinned_at(work: ThinningState, curve: int, point: int) -> int | None:
     place = work.net.sources[curve].points[point]
     for item in work.items[curve]:
         near = is_thinned(work, curve, item)
-        if near and float(np.abs(work.given.xyz[item.number] - place).max()) < SAME_PLACE:
+        if near and float(np.abs(work.given.xyz[item.number] - place).max()) < work.same_place:
             return item.number
     return None

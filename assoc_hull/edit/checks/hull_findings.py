@@ -18,7 +18,7 @@ from assoc_hull.edit.checks.shape_findings import bounded, find_sense, find_shap
 from assoc_hull.edit.checks.table_findings import find_tables
 from assoc_hull.errors import RingError
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.feature_geometry import ROUNDING, line_numbers, places_off
+from assoc_hull.model.feature_geometry import line_numbers, places_off, rounding_of
 from assoc_hull.model.features import Feature
 from assoc_hull.model.gaps import gap_at, watched_on
 from assoc_hull.model.index import driven_levels
@@ -60,7 +60,7 @@ def find_off_features(state: HullState, book: AddressBook) -> Iterator[Finding]:
 def _off(state: HullState, book: AddressBook, feature: Feature) -> Iterator[Finding]:
     off = places_off(feature, state.rows.xyz.data[list(feature.points)])
     worst = int(np.argmax(off))
-    if off[worst] > feature.gap + ROUNDING:
+    if off[worst] > feature.gap + rounding_of(state):
         text = (
             f"lies {1e3 * off[worst]:.3f} mm off the {feature.kind} {feature.name!r}: make the "
             "feature anew, or undo what bent it"

@@ -125,7 +125,8 @@ def rebase_adopted_points(state: HullState, rows: IntArray, journal: Journal) ->
 # crossing or a border holds it just there.
 
 _NEAR = 0.15
-"""An adopted point as near as this (m) is moved instead of setting another beside it."""
+"""Times `Tolerances.factor`: an adopted point as near as this (m) is moved instead of setting
+another beside it."""
 
 
 def mend_gaps(
@@ -162,7 +163,7 @@ def _hold(maker: Maker, curve: int, place: FloatArray) -> int | None:
     defining: IntArray = state.curves.rows.data[curve]
     away = np.sqrt(((state.rows.xyz.data[defining] - place) ** 2).sum(axis=1))
     nearest = int(away.argmin())
-    if away[nearest] >= _NEAR:
+    if away[nearest] >= state.tolerances.factor * _NEAR:
         point = maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0]
         insert_defining_point(maker, curve, int(point))
         return -1

@@ -24,19 +24,28 @@ from assoc_hull.model.roles import Candidates, choose, role_of
 from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = [
-    "ONE_PLACE",
     "CrossingChange",
     "intersection_gap",
     "latent_intersections",
     "make_crossing",
     "make_latent",
+    "one_place",
     "rejoin_crossings",
     "role_by_rule",
     "settle_crossings",
 ]
 
-ONE_PLACE = 2.0
-"""Intersections farther apart than this (m) are not one place, whatever the gap between them."""
+_ONE_PLACE = 2.0
+"""Times `Tolerances.factor`: intersections farther apart than this (m) are not one place,
+whatever the gap between them."""
+
+_SAME = 1e-3
+"""Times the same: points of a curve as near as this (m) along it are one."""
+
+
+def one_place(state: HullState) -> float:
+    """Give the distance (m) beyond which intersections are not one place of the hull."""
+    return _ONE_PLACE * state.tolerances.factor
 
 
 @attrs.frozen
@@ -136,7 +145,7 @@ def make_crossing(
         free = np.flatnonzero((theirs.line == state.line_of(curve)) & (theirs.row < 0))
         for there in free.tolist():
             gap, apart = intersection_gap(state, (curve, spot), (other, there))
-            near = gap <= 2.0 * state.tolerances.adoption and apart <= ONE_PLACE
+            near = gap <= 2.0 * state.tolerances.adoption and apart <= one_place(state)
             near = near and not runs_along_tangency(state, other, there)
             if near and (best is None or gap + 0.01 * apart < best[0]):
                 best, least = (gap + 0.01 * apart, other, there), gap
@@ -242,12 +251,13 @@ def role_by_rule(state: HullState, row: int) -> Role:
 def _may_define(state: HullState, curve: int, partner: int, at: float, row: int = -1) -> bool:
     """Apply the role rule to one crossing; what else defines the curve already stays."""
     knots, rows = state.spline(curve).knot, state.curves.rows.data[curve]
+    least = _SAME * state.tolerances.factor
     if len(knots) == len(rows):
         # a point adopted where the crossing is stands in for it, and goes when it defines
         adopted = state.rows.sort.data[rows] == Sort.ADOPTED
-        stands_in = adopted & (np.abs(knots - at) < 1e-3) & (row >= 0)
+        stands_in = adopted & (np.abs(knots - at) < least) & (row >= 0)
         knots = knots[(rows != row) & ~stands_in]
-    if float(np.abs(knots - at).min()) < 1e-3:
+    if float(np.abs(knots - at).min()) < least:
         return False
     position = int(np.searchsorted(knots, at))
     places = np.insert(knots, position, at)
@@ -314,7 +324,7 @@ def _unclaimed_like(state: HullState, curve: int, spot: int) -> list[int]:
 def _one_place(state: HullState, one: _Intersection, other: _Intersection) -> float | None:
     """Give how far two intersections are from fitting, m; None if they are not one place."""
     gap, apart = intersection_gap(state, one, other)
-    near = gap <= 2.0 * state.tolerances.adoption and apart <= ONE_PLACE
+    near = gap <= 2.0 * state.tolerances.adoption and apart <= one_place(state)
     return gap + 0.01 * apart if near else None
 
 

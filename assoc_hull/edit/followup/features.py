@@ -18,18 +18,18 @@ from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, PointKind
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.polylines.fitted_circle import fit_circle_in_plane
 from assoc_hull.geometry.polylines.flats import fit_plane
-from assoc_hull.model.feature_geometry import ROUNDING, host_curve, places_off
+from assoc_hull.model.feature_geometry import host_curve, places_off, rounded_gap, rounding_of
 from assoc_hull.model.features import FEATURE_LEAST, Feature
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
 
 __all__ = [
-    "LOOSE",
     "circle_side",
     "feature_in_plane",
     "find_features",
     "flat_side",
     "followed_feature",
+    "loose_of",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -53,7 +53,7 @@ def flat_side(state: HullState, edge: IntArray, normal: FloatArray, offset: floa
     """
     rows = np.setdiff1d(state.live("rows"), edge)
     xyz = state.rows.xyz.data
-    inside = rows[np.abs(dot(xyz[rows], normal) - offset) <= ROUNDING]
+    inside = rows[np.abs(dot(xyz[rows], normal) - offset) <= rounding_of(state)]
     along = np.diff(xyz[edge], axis=0)
     middle = xyz[edge[:-1]] + 0.5 * along
     away = xyz[inside][:, None] - middle
@@ -67,8 +67,9 @@ def flat_side(state: HullState, edge: IntArray, normal: FloatArray, offset: floa
 # Finding features, where kinds of points say they are. A free end of a curve proves nothing, for
 # any three points lie on some circle.
 
-LOOSE = 1e-3
-"""Points of a straight run lie this near to it (m), those of an arc within its line's tolerance."""
+_LOOSE = 1e-3
+"""Times `Tolerances.factor`: points of a straight run lie this near to it (m), those of an
+arc within its line's tolerance."""
 
 _ALONG = 0.01
 """The tangent at an end of a straight run is along it within this angle."""
@@ -80,7 +81,12 @@ _LEAST, _TURN = 5, np.radians(10.0)
 """So many points, and this angle between its ends, an arc has at least."""
 
 _CENTRE = 1e-9
-"""A point this near (m) to the centre plane lies in it."""
+"""Times the same: a point this near (m) to the centre plane lies in it."""
+
+
+def loose_of(state: HullState) -> float:
+    """Give how near (m) points of a straight run or a flat lie to it."""
+    return _LOOSE * state.tolerances.factor
 
 
 @attrs.frozen(eq=False)
@@ -127,7 +133,7 @@ def find_features(
         whole = _whole_line(state, line)
         mine: list[Feature] = [] if whole is None else [whole]
         for curve in state.lines.curves.data[line]:
-            allowed = LOOSE if tolerance is None else tolerance[curve]
+            allowed = loose_of(state) if tolerance is None else tolerance[curve]
             mine += _of_curve(state, line, int(curve), allowed)
         found += _told_apart(mine)
     return sorted(found, key=lambda each: each.key)
@@ -165,7 +171,7 @@ def _make(state: HullState, line: int, kind: str, rows: IntArray, **more: object
     made = Feature(key, kind, name, (state.lines.key.data[line],), rows.tolist(), **more)  # type: ignore[arg-type]
     # in whole nanometres: another machine's last bit must not show in it
     off = float(places_off(made, state.rows.xyz.data[rows]).max())
-    return attrs.evolve(made, gap=round(off, 9))
+    return attrs.evolve(made, gap=rounded_gap(state, off))
 
 
 def _whole_line(state: HullState, line: int) -> Feature | None:
@@ -179,8 +185,8 @@ def _whole_line(state: HullState, line: int) -> Feature | None:
         return None
     normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
     if not state.lines.planar.data[line]:
-        normal, offset, worst = fit_plane(state.rows.xyz.data[rows], LOOSE)
-        if worst > LOOSE:
+        normal, offset, worst = fit_plane(state.rows.xyz.data[rows], loose_of(state))
+        if worst > loose_of(state):
             return None
     side = flat_side(state, rows, normal, offset)
     return _make(state, line, "flat", rows, normal=normal, offset=offset, side=side)
@@ -241,33 +247,35 @@ def _straight(state: HullState, piece: _Piece) -> Feature | None:
         if (each * chord).sum() < np.cos(_ALONG) * np.sqrt(square):
             return None
     found = _make(state, piece.line, "straight", piece.rows)
-    return found if found.gap <= LOOSE else None
+    return found if found.gap <= loose_of(state) else None
 
 
 def _round(state: HullState, piece: _Piece, tolerance: float) -> Feature | None:
     """Give an arc between tangent points, or a circle that its mirror image closes."""
     planar = state.lines.planar.data[piece.line]
-    if not (planar and len(piece.xyz) >= _LEAST and all(_tangent(piece))):
+    if not (planar and len(piece.xyz) >= _LEAST and all(_tangent(state, piece))):
         return None
     normal = state.lines.normal.data[piece.line]
-    found = fit_circle_in_plane(piece.xyz, normal)
+    factor, least = state.tolerances.factor, rounding_of(state)
+    found = fit_circle_in_plane(piece.xyz, normal, factor=factor)
     both = all(each is not None for each in piece.tangents)
-    if found.turn < _TURN or found.off > (max(tolerance, ROUNDING) if both else ROUNDING):
+    if found.turn < _TURN or found.off > (max(tolerance, least) if both else least):
         return None
-    ends = np.abs(piece.xyz[[0, -1], 1]) <= _CENTRE
-    closed = bool(ends.all() and abs(found.centre[1]) <= ROUNDING)
+    ends = np.abs(piece.xyz[[0, -1], 1]) <= factor * _CENTRE
+    closed = bool(ends.all() and abs(found.centre[1]) <= least)
     if closed:
-        found = fit_circle_in_plane(piece.xyz, normal, closed=True)
+        found = fit_circle_in_plane(piece.xyz, normal, closed=True, factor=factor)
     return _make(
         state, piece.line, "circle" if closed else "arc", piece.rows, centre=found.centre,
         radius=found.radius, normal=normal, side=circle_side(piece.xyz, found.centre, normal),
     )  # fmt: skip
 
 
-def _tangent(piece: _Piece) -> list[bool]:
+def _tangent(state: HullState, piece: _Piece) -> list[bool]:
     """Tell for both ends whether they are tangent: a tangent point, or an end held upright."""
+    near = state.tolerances.factor * _CENTRE
     return [
-        tangent is not None or (held and abs(float(place[1])) <= _CENTRE)
+        tangent is not None or (held and abs(float(place[1])) <= near)
         for tangent, held, place in zip(piece.tangents, piece.held, piece.xyz[[0, -1]], strict=True)
     ]
 
@@ -319,7 +327,7 @@ def _stands(state: HullState, rows: IntArray, row: int, places: Mapping[int, Flo
     at = np.flatnonzero(rows == row)
     if not len(at) and not state.rows.alive.data[row]:
         away = state.rows.xyz.data[rows] - places.get(row, state.rows.xyz.data[row])
-        at = np.flatnonzero(dot(away, away) <= ROUNDING * ROUNDING)
+        at = np.flatnonzero(dot(away, away) <= rounding_of(state) ** 2)
     return int(at[0]) if len(at) else -1
 
 

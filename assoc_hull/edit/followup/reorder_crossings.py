@@ -29,7 +29,7 @@ from assoc_hull.model.tables import HullState
 __all__ = ["limit_watched", "renew_followers", "widen_limits"]
 
 _MOST = 0.05
-"""No gap wider than this (m) is taken for the fineness of a net."""
+"""Times `Tolerances.factor`: no gap wider than this (m) is taken for the fineness of a net."""
 
 _OPEN = 1e3
 """A gap (m) that no crossing has, until its own has been measured."""
@@ -208,7 +208,7 @@ def widen_limits(work: Work, wide: WideGaps) -> bool:
     state = work.state
     curve = state.rows.curve.data[wide.rows, 1]
     follows = np.array([_follows(state, each) for each in curve.tolist()], np.bool_)
-    chosen = follows & (wide.gap <= _MOST)
+    chosen = follows & (wide.gap <= state.tolerances.factor * _MOST)
     rows, gap = wide.rows[chosen], wide.gap[chosen]
     if len(rows):
         work.journal.put(state.rows.limit, rows, 1.5 * gap)

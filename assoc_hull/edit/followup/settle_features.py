@@ -13,16 +13,16 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.followup.features import (
-    LOOSE,
     feature_in_plane,
     find_features,
     followed_feature,
+    loose_of,
 )
 from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.update_passes import Work
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import address
-from assoc_hull.model.feature_geometry import ROUNDING, line_numbers, places_off
+from assoc_hull.model.feature_geometry import line_numbers, places_off, rounded_gap, rounding_of
 from assoc_hull.model.features import Feature
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.tables import HullState
@@ -139,14 +139,14 @@ def _settle(work: Work, found: _Settling, old: Feature, hand: _Hand, *, whole: b
 def _held(state: HullState, feature: Feature, carried: CarriedFeatures | None) -> Feature | None:
     """Give a feature, None if its points are off it; after a mapping its gap may be wider."""
     off = float(places_off(feature, state.rows.xyz.data[list(feature.points)]).max())
-    if off <= feature.gap + ROUNDING:
+    if off <= feature.gap + rounding_of(state):
         return feature
     if carried is None:
         return None
     if np.isinf(carried.within):
         return feature
     stays = feature.key not in carried.bent and off <= carried.within
-    return attrs.evolve(feature, gap=round(off, 9)) if stays else None
+    return attrs.evolve(feature, gap=rounded_gap(state, off)) if stays else None
 
 
 def _by_hand(state: HullState, feature: Feature, hand: _Hand) -> str:
@@ -187,9 +187,9 @@ def _as_before(
         return new
     again = feature_in_plane(state, attrs.evolve(old, points=new.points), lines[new.lines[0]])
     off = places_off(again, state.rows.xyz.data[list(new.points)]) if again else np.ones(1)
-    if again is None or off.max() > LOOSE:
+    if again is None or off.max() > loose_of(state):
         return attrs.evolve(new, key=old.key)
-    return attrs.evolve(again, gap=round(float(off.max()), 9))
+    return attrs.evolve(again, gap=rounded_gap(state, float(off.max())))
 
 
 def _told(reason: str, names: Sequence[str]) -> list[str]:

@@ -34,13 +34,15 @@ NO_ROOT = -1
 """What stands for the number of a meeting at a touch, which is none."""
 
 _DOUBLE = 0.02
-"""Roots as near as this (m) to a touch are the double root that it stands for."""
+"""Times `Tolerances.factor`: roots as near as this (m) to a touch are the double root that it
+stands for."""
 
 _FLAT = 2e-3
-"""A curve that stays as near as this (m) to a plane from a touch on does not cross it there."""
+"""Times the same: a curve that stays as near as this (m) to a plane from a touch on does not
+cross it there."""
 
 _SAME = 1e-3
-"""Points of a curve as near as this (m) are one."""
+"""Times the same: points of a curve as near as this (m) are one."""
 
 _PROBES = 33
 
@@ -86,11 +88,14 @@ def _other(state: HullState, row: int, curve: int) -> int:
     return int(b if a == curve else a)
 
 
-def without_double_roots(xyz: FloatArray, place: FloatArray | None) -> np.typing.NDArray[np.bool_]:
+def without_double_roots(
+    state: HullState, xyz: FloatArray, place: FloatArray | None
+) -> np.typing.NDArray[np.bool_]:
     """Tell which meetings (k, 3), m, a touch does not stand for, (k,) bool."""
     if place is None:
         return np.ones(len(xyz), bool)
-    return np.asarray(((xyz - place) ** 2).sum(axis=1) > _DOUBLE * _DOUBLE)
+    double = state.tolerances.factor * _DOUBLE
+    return np.asarray(((xyz - place) ** 2).sum(axis=1) > double * double)
 
 
 def clear_at_tangencies(maker: Maker, touches: Sequence[PlaneTangency]) -> None:
@@ -99,9 +104,10 @@ def clear_at_tangencies(maker: Maker, touches: Sequence[PlaneTangency]) -> None:
     A point adopted where one comes to be goes; a crossing with another line reads the curve.
     """
     state = maker.state
+    same = state.tolerances.factor * _SAME
     for each in touches:
         rows: IntArray = state.curves.rows.data[each.curve]
-        near = ((state.rows.xyz.data[rows] - each.xyz) ** 2).sum(axis=1) <= _SAME * _SAME
+        near = ((state.rows.xyz.data[rows] - each.xyz) ** 2).sum(axis=1) <= same * same
         near[[0, -1]] = False
         gone = rows[near & ~is_tangency(state, rows)]
         if not len(gone):
@@ -136,7 +142,7 @@ def runs_along_tangency(state: HullState, curve: int, spot: int) -> bool:
 def parameter_at_tangency(state: HullState, curve: int, place: FloatArray) -> float | None:
     """Give where a curve passes a touch, its parameter (m); None if it does not."""
     at, _, away = closest_points(state.spline(curve), 0, place[None])
-    return float(at[0]) if float(away[0]) <= _FLAT else None
+    return float(at[0]) if float(away[0]) <= state.tolerances.factor * _FLAT else None
 
 
 def stays_near_plane(
@@ -145,4 +151,5 @@ def stays_near_plane(
     """Tell whether a curve hardly leaves a plane between two parameters (m)."""
     t = span[0] + (span[1] - span[0]) * np.linspace(0.0, 1.0, _PROBES)
     places = evaluate(state.spline(curve), np.zeros(_PROBES, np.int64), t)
-    return float(np.abs(places @ plane[0] - plane[1]).max()) <= _FLAT
+    off = float(np.abs(places @ plane[0] - plane[1]).max())
+    return off <= state.tolerances.factor * _FLAT

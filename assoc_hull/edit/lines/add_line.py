@@ -154,7 +154,8 @@ _RING = 4
 """A ring of fewer marks than this makes no curve."""
 
 _SLIDE = 0.1
-"""Room (m) for a crossing whose driver passes the new plane squarely; more if obliquely."""
+"""Times `Tolerances.factor`: room (m) for a crossing whose driver passes the new plane squarely;
+more if obliquely."""
 
 
 def add_line(
@@ -200,7 +201,7 @@ def add_line(
         title = _free_name(state, cut.group, f"{family.prefix} {cut.title}")
     line = edit.maker.line(cut.group, title, (cut.normal, cut.offset), key=cut.key)
     for piece in ordered_pieces(edit, line, marks):
-        make_piece(edit, line, distinct_marks(piece), keep or state.tolerances.keep)
+        make_piece(edit, line, distinct_marks(state, piece), keep or state.tolerances.keep)
     enter_line_plane(edit, line)
     curves, table = np.array(state.lines.curves.data[line], np.int64), state.rows
     on = table.alive.data & np.isin(table.curve.data, curves).any(axis=1)
@@ -415,7 +416,7 @@ def _pick(
     normal = state.lines.normal.data[state.curves.line.data[marks.curve]]
     sine = np.minimum(np.abs((tangent * normal).sum(axis=1)), 1.0)
     theirs = tangents(state, marks.curve, marks.at) * state.lines.normal.data[line]
-    slide = _SLIDE / np.maximum(np.abs(theirs.sum(axis=1)), 0.1)
+    slide = state.tolerances.factor * _SLIDE / np.maximum(np.abs(theirs.sum(axis=1)), 0.1)
     fixed = _held(state, marks.curve, marks.boundary)
     fixed[[0, -1]] = True
     angle = np.degrees(np.arcsin(sine))

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.crossings import ONE_PLACE
+from assoc_hull.edit.followup.crossings import one_place
 from assoc_hull.edit.followup.tangencies import (
     NO_ROOT,
     parameter_at_tangency,
@@ -56,7 +56,7 @@ def with_tangencies(
     normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
     kept = np.ones(len(marks.curve), bool)
     for each in touches:
-        kept &= ~((marks.curve == each.curve) & ~without_double_roots(marks.xyz, each.xyz))
+        kept &= ~((marks.curve == each.curve) & ~without_double_roots(state, marks.xyz, each.xyz))
         kept &= ~_along(state, marks, each, normal, offset)
     found = marks.take(np.flatnonzero(kept))
     ends = [
@@ -250,13 +250,15 @@ def _misses(state: HullState, group: int, normal: FloatArray, position: float) -
     )
 
 
-def distinct_marks(marks: Marks) -> Marks:
+def distinct_marks(state: HullState, marks: Marks) -> Marks:
     """Drop marks that coincide with one that is kept: contacts first, then lower rank."""
     order = np.lexsort((np.arange(len(marks.curve)), -marks.boundary, marks.guide))
     kept: list[int] = []
+    # Nearer marks than this are one: the role rule would take neither.
+    least = state.tolerances.factor * 1e-3
     for item in order.tolist():
         away = np.abs(marks.xyz[kept] - marks.xyz[item]).max(axis=1) if kept else np.array([np.inf])
-        if away.min() > 1e-3:
+        if away.min() > least:
             kept.append(item)
     return marks.take(np.array(sorted(kept), np.int64))
 
@@ -270,7 +272,7 @@ def with_guides(state: HullState, line: int, pieces: list[Marks]) -> list[Marks]
     """Put the places where lines of higher rank pass a new line's plane among its marks.
 
     `pieces` are in order along the line; each guide goes between the marks of the nearest one, or
-    is left out where it lies farther than `ONE_PLACE` from all.
+    is left out where it lies farther than `one_place` from all.
     """
     normal, offset = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
     guides = find_guides(state, int(state.lines.group.data[line]), normal, offset)
@@ -279,7 +281,7 @@ def with_guides(state: HullState, line: int, pieces: list[Marks]) -> list[Marks]
     shapes = SplineBatch.join([loft(CurveData.single(piece.xyz)) for piece in pieces])
     feet = [closest_points(shapes, i, guides.xyz) for i in range(len(pieces))]
     away = np.array([foot[2] for foot in feet])
-    nearest = np.where(away.min(axis=0) <= ONE_PLACE, away.argmin(axis=0), -1)
+    nearest = np.where(away.min(axis=0) <= one_place(state), away.argmin(axis=0), -1)
     found: list[Marks] = []
     for i, piece in enumerate(pieces):
         mine = np.flatnonzero(nearest == i)
@@ -366,7 +368,7 @@ def _paired(
     slope = derivative(spline, np.zeros(len(root), np.int64), met.t[root])
     own = slope / np.sqrt((slope * slope).sum(axis=1))[:, None]
     gap = np.abs((step * crossing_normals(own, theirs)).sum(axis=1))
-    near = (apart <= ONE_PLACE) & (gap <= state.tolerances.adoption)
+    near = (apart <= one_place(state)) & (gap <= state.tolerances.adoption)
     taken: tuple[set[int], set[int]] = set(), set()
     for i in np.flatnonzero(near)[np.argsort(apart[near], kind="stable")].tolist():
         one, other = int(mark[i]), int(root[i])

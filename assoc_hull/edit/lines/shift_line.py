@@ -309,7 +309,7 @@ def recut_line(
     mine = np.array(state.lines.curves.data[line], np.int64)
     every, placed = crossings_and_placed(state, mine)
     parts = ordered_pieces(edit, line, marks)
-    left = stays.on(state, [distinct_marks(part) for part in parts])
+    left = stays.on(state, [distinct_marks(state, part) for part in parts])
     edit.pending.curves |= release_points(edit.maker, stays, left)
     crossings, placed = (np.setdiff1d(rows, left.rows()) for rows in (every, placed))
     edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))
@@ -317,7 +317,9 @@ def recut_line(
     pieces = match_pieces(edit, line, parts, known)
     assign_runs(edit.maker, left, pieces)
     for curve, piece in pieces:
-        make_piece(edit, line, distinct_marks(piece), state.tolerances.keep, curve, known, left)
+        make_piece(
+            edit, line, distinct_marks(state, piece), state.tolerances.keep, curve, known, left
+        )
     restore_roles(edit.maker, left)
     kept = set(known.values())
     edit.maker.remove_rows([row for row in crossings.tolist() if row not in kept])

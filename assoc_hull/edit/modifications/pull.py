@@ -29,7 +29,8 @@ from assoc_hull.model.make_objects import PointSpec
 __all__ = ["pull"]
 
 _NEAR = 0.15
-"""A curve with a point as near as this (m) is given no other to be pulled at."""
+"""Times `Tolerances.factor`: a curve with a point as near as this (m) is given no other to
+be pulled at."""
 
 
 def pull(
@@ -94,7 +95,8 @@ def _hold(edit: Transaction, row: int) -> None:
         place = state.rows.spot.data[row, side].copy()
         rows: IntArray = state.curves.rows.data[curve]
         step = state.rows.xyz.data[rows] - place
-        if not carries or float(np.sqrt((step * step).sum(axis=1)).min()) < _NEAR:
+        near = float(np.sqrt((step * step).sum(axis=1)).min())
+        if not carries or near < state.tolerances.factor * _NEAR:
             continue
         point = int(edit.maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
         insert_defining_point(edit.maker, curve, point)

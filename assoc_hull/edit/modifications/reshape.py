@@ -395,7 +395,7 @@ def _designed(
     apart = np.abs(old.knot[:, None] - design.shape_at[None, :]).min(axis=1)
     free = data.kind == PointKind.SMOOTH
     inner = (old.knot > old.knot[0]) & (old.knot < old.knot[-1])
-    replaced = apart < np.where(free & inner, _CROWDED, 1e-9)
+    replaced = apart < np.where(free & inner, state.tolerances.factor * _CROWDED, 1e-9)
     keep = ~replaced
     order = np.argsort(np.concatenate([old.knot[keep], design.shape_at]), kind="stable")
     given = len(design.shape)
@@ -524,7 +524,7 @@ def _adopted_near(
     step = goals[mine] - point
     away = np.sqrt((step * step).sum(axis=1))
     best = int(away.argmin())
-    return int(mine[best]) if away[best] < _NEAR else None
+    return int(mine[best]) if away[best] < state.tolerances.factor * _NEAR else None
 
 
 def _at_crossing(state: HullState, curve: int, point: FloatArray) -> bool:
@@ -538,7 +538,8 @@ def _at_crossing(state: HullState, curve: int, point: FloatArray) -> bool:
         & (table.curve.data == curve).any(axis=1)
         & (table.sort.data == Sort.CROSSING)
     )
-    near = rows[np.abs(table.xyz.data[rows] - point).max(axis=1) < _NEAR]
+    least = state.tolerances.factor * _NEAR
+    near = rows[np.abs(table.xyz.data[rows] - point).max(axis=1) < least]
     for row in near.tolist():
         pair = table.curve.data[row]
         line = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))

@@ -30,7 +30,8 @@ __all__ = [
 ]
 
 _SAME = 1e-3
-"""An adopted point as near as this (m) stood in for the crossing that now defines."""
+"""Times `Tolerances.factor`: an adopted point as near as this (m) stood in for the
+crossing that now defines."""
 
 
 def set_role(edit: Transaction, row: int, role: str | None) -> None:
@@ -126,7 +127,7 @@ def _drop_stand_in(edit: Transaction, curve: int, row: int) -> None:
     state: HullState = edit.state
     rows: IntArray = state.curves.rows.data[curve]
     step = state.rows.xyz.data[rows] - state.rows.xyz.data[row]
-    near = np.sqrt((step * step).sum(axis=1)) < _SAME
+    near = np.sqrt((step * step).sum(axis=1)) < state.tolerances.factor * _SAME
     gone = rows[near & (state.rows.sort.data[rows] == Sort.ADOPTED)]
     if len(gone):
         edit.maker.define(curve, rows[~np.isin(rows, gone)])

@@ -15,7 +15,7 @@ from itertools import permutations
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.crossings import ONE_PLACE
+from assoc_hull.edit.followup.crossings import one_place
 from assoc_hull.edit.followup.tangencies import (
     NO_ROOT,
     PlaneTangency,
@@ -69,7 +69,7 @@ def aligned_pairs(
     old = np.flatnonzero(meets.line == line)
     new = np.flatnonzero(roots.curve == local)
     touch = work.touches.get((curve, line))
-    new = new[without_double_roots(roots.xyz[new], touch.xyz if touch else None)]
+    new = new[without_double_roots(work.state, roots.xyz[new], touch.xyz if touch else None)]
     carried = work.space.places(meets.xyz[old]) if len(old) else np.zeros((0, 3))
     return old, new, align_plane_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new])
 
@@ -98,7 +98,7 @@ def has_changed_ends(
     if len(pairs) < len(new) or bool((meets.row[old[lost]] >= 0).any()):
         return True
     slip = [work.space.places(meets.xyz[old[[i]]])[0] - roots.xyz[new[j]] for i, j in pairs]
-    far = [float((step * step).sum()) > ONE_PLACE * ONE_PLACE for step in slip]
+    far = [float((step * step).sum()) > one_place(state) ** 2 for step in slip]
     ends = new[[j for (_, j), away in zip(pairs, far, strict=True) if away]]
     return bool(runs_along_plane(work, curve, line, roots.t[ends]).any())
 

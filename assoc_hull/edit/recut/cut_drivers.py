@@ -48,7 +48,7 @@ __all__ = [
 # curve where that meets the other line's plane, with two freedoms, and always defines the line.
 
 _SAME = 1e-3
-"""Two points of a boundary curve as near as this (m) are one."""
+"""Times `Tolerances.factor`: two points of a boundary curve as near as this (m) are one."""
 
 
 def bend_lines(work: TransformationState) -> None:
@@ -99,7 +99,8 @@ def _share(work: TransformationState, row: int) -> None:
     boundary = int(table.curve.data[row, 0])
     rows: IntArray = work.state.curves.rows.data[boundary]
     step = table.xyz.data[rows] - table.xyz.data[row]
-    near = rows[np.sqrt((step * step).sum(axis=1)) < _SAME]
+    least = work.state.tolerances.factor * _SAME
+    near = rows[np.sqrt((step * step).sum(axis=1)) < least]
     for other in near.tolist():
         if table.sort.data[other] != Sort.ADOPTED:
             _refuse(work, work.state.line_of(int(table.curve.data[row, 1])), boundary)
@@ -146,13 +147,14 @@ _ROUNDS = 8
 """Rounds of adding points; each halves the intervals that are too far off."""
 
 _LEAST = 0.1
-"""Least interval (m) that is given a point: at keel and stem parents turn as sharply."""
+"""Times `Tolerances.factor`: least interval (m) that is given a point: at keel and stem
+parents turn as sharply."""
 
 _LEAST_FINE = 0.01
 """The same of a feature, of which it is known how it is to turn."""
 
 _NEAR = 0.15
-"""An adopted point as near as this (m) to a crossing that slid adds nothing."""
+"""Times the same: an adopted point as near as this (m) to a crossing that slid adds nothing."""
 
 
 def cut_drivers(work: TransformationState, index: Index) -> CurveImages:
@@ -394,7 +396,7 @@ def _crowded(state: HullState, work: TransformationState, order: list[int]) -> s
     place = work.value[order]
     step = np.sqrt((np.diff(place, axis=0) ** 2).sum(axis=1))
     found: set[int] = set()
-    for i in np.flatnonzero(step < _NEAR).tolist():
+    for i in np.flatnonzero(step < state.tolerances.factor * _NEAR).tolist():
         for one, other in ((order[i], order[i + 1]), (order[i + 1], order[i])):
             adopted = state.rows.sort.data[one] == Sort.ADOPTED
             if adopted and not state.rows.kind.data[one, 0] and work.slid[other]:
@@ -415,6 +417,7 @@ def hold_to_images(work: TransformationState, image: CurveImages, tolerance: flo
     added = 0
     limit = np.array([work.fine.get(curve, tolerance) for curve in curves])
     least = np.array([_LEAST_FINE if curve in work.fine else _LEAST for curve in curves])
+    least *= work.state.tolerances.factor
     for _ in range(_ROUNDS):
         batch = loft(curve_data_through(work, curves), [str(keys[curve]) for curve in curves])
         at = np.concatenate([np.array(work.made[curve].at) for curve in curves])

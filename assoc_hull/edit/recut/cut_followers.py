@@ -54,7 +54,7 @@ __all__ = [
 # instead. When a mapping carries the drivers, it goes where the crossing goes.
 
 _SAME = 1e-3
-"""A point as near as this (m) to a crossing stands in for it."""
+"""Times `Tolerances.factor`: a point as near as this (m) to a crossing stands in for it."""
 
 
 def settle_stand_ins(work: TransformationState) -> None:
@@ -70,7 +70,7 @@ def settle_stand_ins(work: TransformationState) -> None:
         spot = state.rows.spot.data[crossing, side]
         away = np.sqrt(((state.rows.xyz.data[own][:, None] - spot[None]) ** 2).sum(axis=2))
         near = away.argmin(axis=1)
-        mine = away.min(axis=1) <= _SAME
+        mine = away.min(axis=1) <= state.tolerances.factor * _SAME
         work.value[own[mine]] = work.value[crossing[near[mine]]]
         work.known[own[mine]] = True
 
@@ -160,7 +160,7 @@ def _settle(
 # All followers by rank.
 
 _NEAR = 0.15
-"""No point is added as near as this (m) to another one."""
+"""Times the same: no point is added as near as this (m) to another one."""
 
 _ROUNDS = 6
 """Rounds of adding points to hold a follower; each adds at most one to a segment."""
@@ -275,8 +275,9 @@ def _points(work: TransformationState, curve: int) -> DefiningPoints:
     found = DefiningPoints(base, [work.value[row].copy() for row in base], [])
     for row in [*new, *(each for each in order if each not in set(base))]:
         insert_by_detour(found, row, work.value[row])
+    least = state.tolerances.factor * _NEAR
     for place in _coming(work, curve):
-        insert_by_detour(found, -1, into_curve_plane(work, curve, place), least=_NEAR)
+        insert_by_detour(found, -1, into_curve_plane(work, curve, place), least=least)
     # Not before all stand in order: the sense follows from the neighbours.
     for row in new:
         _direct(work, curve, found, row)
@@ -326,14 +327,14 @@ def _hold(work: TransformationState, curve: int, found: DefiningPoints) -> list[
         wide = wide[np.argsort(-away[wide], kind="stable")]
         first = np.unique(segment[wide], return_index=True)[1]
         added = [
-            insert_by_detour(found, -1, places[i], least=_NEAR)
+            insert_by_detour(found, -1, places[i], least=work.state.tolerances.factor * _NEAR)
             for i in wide[np.sort(first)].tolist()
         ]
         if not any(added):
             break
     share = _share(work, curve, rows, spline, at)
     return [
-        OptionalPoint(-1, place, 2.0 * limit * part)
+        OptionalPoint(-1, place, 2.0 * limit * part, work.state.tolerances.factor * _NEAR)
         for place, part in zip(places, share, strict=True)
     ]
 

@@ -55,7 +55,7 @@ _ROUNDS = 12
 """Rounds of choosing, and trials looked at in each; rounds of tying, too."""
 
 _NEAR = 0.15
-"""No option is taken as near as this (m) to a point of the follower."""
+"""Times `Tolerances.factor`: no option is taken as near as this (m) to a point of the follower."""
 
 _PART = 0.2
 """Nor nearer to an end of the chord that it comes into than this part of it."""
@@ -80,7 +80,7 @@ class OptionalPoint:
     row: int
     place: FloatArray
     limit: float
-    near: float = _NEAR
+    near: float
 
 
 @attrs.frozen(eq=False)
@@ -379,7 +379,10 @@ def tie_to_own_points(
 def free_points(work: TransformationState, own: list[int], ties: list[int]) -> list[OptionalPoint]:
     """Give the points that a follower need not pass, and how far it may pass them off."""
     most = work.state.tolerances.adoption
-    found = [OptionalPoint(row, work.value[row], most + work.doubt.get(row, 0.0)) for row in own]
+    near = work.state.tolerances.factor * _NEAR
+    found = [
+        OptionalPoint(row, work.value[row], most + work.doubt.get(row, 0.0), near) for row in own
+    ]
     return found + [OptionalPoint(row, work.value[row], most, near=0.0) for row in ties]
 
 
@@ -422,7 +425,8 @@ def _taken(
         if not first:
             break
         for i in first:
-            least = _NEAR if sort[left[i]] == Sort.ADOPTED else 0.0
+            near = work.state.tolerances.factor * _NEAR
+            least = near if sort[left[i]] == Sort.ADOPTED else 0.0
             insert_by_detour(found, left[i], work.value[left[i]], least)
         left = [row for i, row in enumerate(left) if i not in set(first)]
         away = np.zeros(len(left))

@@ -20,6 +20,7 @@ from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.numeric.circle_fit import fit_circle
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.plane import plane_axes
+from assoc_hull.tolerance import round_at_size, rounding_unit
 
 __all__ = ["FeatureCircle", "fit_circle_in_plane"]
 
@@ -36,7 +37,7 @@ class FeatureCircle:
     ----------
     centre : (3,), m
     radius : float, m
-        Both rounded to 1e-6 m.
+        Both rounded to 1e-6 m, of a short hull finer.
     off : float, m
         How far the farthest point lies off the circle, before it is rounded.
     turn : float, rad
@@ -53,7 +54,7 @@ class FeatureCircle:
 
 
 def fit_circle_in_plane(
-    xyz: FloatArray, normal: FloatArray, *, closed: bool = False
+    xyz: FloatArray, normal: FloatArray, *, closed: bool = False, factor: float = 1.0
 ) -> FeatureCircle:
     """Fit a circle to points in a plane.
 
@@ -65,6 +66,8 @@ def fit_circle_in_plane(
         Unit normal of their plane.
     closed : bool
         Whether the mirror image closes it: then the centre lies in the centre plane.
+    factor : float
+        Of lengths, of the hull; see `assoc_hull.tolerance.length_factor`.
     """
     axes = plane_axes(normal)
     flat = np.column_stack([dot(xyz, axis) for axis in axes])
@@ -74,7 +77,9 @@ def fit_circle_in_plane(
     turn = np.ptp(np.unwrap(np.arctan2(away[:, 1], away[:, 0])))
     height = float((normal * xyz[0]).sum())
     centre = height * normal + found.centre[0] * axes[0] + found.centre[1] * axes[1]
-    centre = np.round(centre, _DIGITS) + 0.0
+    unit = rounding_unit(factor)
+    centre = np.round(centre / unit, _DIGITS) * unit + 0.0
     if closed:
         centre[1] = 0.0
-    return FeatureCircle(centre, round(found.radius, _DIGITS), float(off.max()), float(turn))
+    radius = round_at_size(found.radius, _DIGITS, factor)
+    return FeatureCircle(centre, radius, float(off.max()), float(turn))

@@ -30,15 +30,13 @@ from assoc_hull.geometry.patches.triangulation import (
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.units import METRES
 
-__all__ = ["FINE", "HullFaces", "facets_at_scale", "hull_size", "model_factor"]
+__all__ = ["FINE", "HullFaces", "facets_at_scale", "hull_size"]
 
 _WELD = 2e-3
-"""Borders at most this far apart (m) are one."""
-
-_SHIP = 50.0
-"""A hull shorter than this (m) is taken for a model: limits are less in proportion."""
+"""Borders at most this far apart (m), of a hull under 100 m less in proportion, are one."""
 
 _LONGEST, _SHORTEST = 600.0, 1.0
+"""Lengths (m) between which a hull may lie. Absolute: others show a wrong unit."""
 
 FINE = 2e-5
 """Triangles lie off their surface by at most this part of the length of the hull."""
@@ -80,18 +78,6 @@ class HullFaces:
         return cls(tuple(surfaces), unit, notes, lambda fine, long: facets_of(surfaces, fine, long))
 
 
-def model_factor(size: float) -> float:
-    """Give what lengths that hold for ships are to be multiplied by: less than 1 for models.
-
-    Examples
-    --------
-    >>> from assoc_hull.io.cad.hull_faces import model_factor
-    >>> model_factor(120.0), model_factor(2.5)
-    (1.0, 0.05)
-    """
-    return min(1.0, size / _SHIP)
-
-
 def hull_size(faces: HullFaces, scale: float, book: Notebook) -> float:
     """Give the longest side of the hull at full scale, m; refuse what is no ship's.
 
@@ -119,9 +105,6 @@ def hull_size(faces: HullFaces, scale: float, book: Notebook) -> float:
         remedy = "are these metres? give unit='m', or the scale of the model"
         raise BadInputError(said, where, remedy)
     book.assume("unit", "the surfaces", f"{faces.unit}: the hull is {size:.6g} m long", size)
-    if size < _SHIP:
-        what = f"all limits of gaps and features are {model_factor(size):.3g} of those of a ship"
-        book.assume("small", "the surfaces", f"{what}, since it is short", size)
     return size
 
 
@@ -133,7 +116,9 @@ def _extent(faces: HullFaces) -> float:
     return float(np.ptp(found, axis=0).max()) if len(found) else 0.0
 
 
-def facets_at_scale(faces: HullFaces, scale: float, size: float, book: Notebook) -> Facets:
+def facets_at_scale(
+    faces: HullFaces, scale: float, size: float, book: Notebook, factor: float = 1.0
+) -> Facets:
     """Give triangles at full scale, each once, sewn, and each part outward.
 
     Parameters
@@ -146,6 +131,8 @@ def facets_at_scale(faces: HullFaces, scale: float, size: float, book: Notebook)
         The longest side of the hull at full scale.
     book : Notebook
         Takes what was there twice.
+    factor : float
+        Of lengths, by the size of the hull.
     """
     deflection = FINE * size
     found = faces.facets(deflection / scale, _LONG * size / scale)
@@ -153,7 +140,7 @@ def facets_at_scale(faces: HullFaces, scale: float, size: float, book: Notebook)
         raise BadInputError("all surfaces are points or lines", "in the file", "export the hull")
     mesh = found.mesh.moved(found.mesh.xyz * scale)
     whole = _once(Facets(mesh, found.surface, found.uv), book)
-    return outward_parts(stitch_facets(whole, max(model_factor(size) * _WELD, 2.0 * deflection)))
+    return outward_parts(stitch_facets(whole, max(factor * _WELD, 2.0 * deflection)))
 
 
 def _once(facets: Facets, book: Notebook) -> Facets:

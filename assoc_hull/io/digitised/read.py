@@ -26,9 +26,18 @@ from assoc_hull.io.lines.mend_lines import (
     report_joins,
 )
 from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawLines, RawPiece, refuse_retraced
-from assoc_hull.io.lines.slices import AXES, GapJoin, Gaps, HullSlices, LinePiece, SliceLine
+from assoc_hull.io.lines.slices import (
+    AXES,
+    GapJoin,
+    Gaps,
+    HullSlices,
+    LinePiece,
+    SliceLine,
+    settled_gaps,
+)
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.table_text import read_text
+from assoc_hull.tolerance import length_factor, round_at_size
 
 __all__ = [
     "read_lines",
@@ -39,6 +48,8 @@ __all__ = [
 # Both sides of a hull: pieces are cut at the centre plane, and one side is kept.
 
 _FLIP = np.array([1.0, -1.0, 1.0])
+
+# Lengths of this module are those of hulls of 100 m and more, and less in proportion for others.
 
 _CENTRE = 1e-3
 """Points this close (m) to the centre plane lie in it."""
@@ -65,21 +76,22 @@ class _Sides:
     cut: bool = False
 
 
-def to_one_side(raw: list[RawPiece], book: Notebook) -> list[RawPiece]:
+def to_one_side(raw: list[RawPiece], book: Notebook, small: float = 1.0) -> list[RawPiece]:
     """Bring all pieces (m) to port, those that lie on both sides once.
 
     Pieces of a line stand together, the lines in the order in which they come first. `book` takes
-    what was cut, left out and mirrored, and lines whose sides differ.
+    what was cut, left out and mirrored, and lines whose sides differ; `small` is the factor of
+    lengths, by the size of the hull.
     """
     lines: dict[str, _Sides] = {}
     for each in raw:
-        _sort(each, lines.setdefault(each.line, _Sides()))
+        _sort(each, lines.setdefault(each.line, _Sides()), small)
     kept: list[RawPiece] = []
     cut: list[str] = []
     images = turned = 0
     for name, sides in lines.items():
-        again, others = _drawn_twice(sides)
-        _report_difference(name, sides.port, again, book)
+        again, others = _drawn_twice(sides, small)
+        _report_difference(name, sides.port, again, book, small)
         cut += [name] if sides.cut else []
         images += 0 if sides.cut else len(again)
         turned += len(others)
@@ -100,23 +112,23 @@ def _report_sides(cut: list[str], images: int, turned: int, book: Notebook) -> N
         book.repair("mirrored", "the lines", what, turned)
 
 
-def _sort(piece: RawPiece, sides: _Sides) -> None:
+def _sort(piece: RawPiece, sides: _Sides, small: float) -> None:
     """Put a piece, or its parts, on the side where it lies."""
     y = piece.points[:, 1]
-    across = min(float(y.max()), -float(y.min())) > _ACROSS
+    across = min(float(y.max()), -float(y.min())) > small * _ACROSS
     sides.cut |= across
-    for points in _cut_at_centre(piece.points) if across else [piece.points]:
-        if points[:, 1].mean() < -1e-6:
+    for points in _cut_at_centre(piece.points, small) if across else [piece.points]:
+        if points[:, 1].mean() < -small * 1e-6:
             turned = points * _FLIP + 0.0
             sides.starboard.append(RawPiece(piece.line, turned, piece.where))
         else:
             sides.port.append(RawPiece(piece.line, points, piece.where))
 
 
-def _cut_at_centre(points: FloatArray) -> list[FloatArray]:
+def _cut_at_centre(points: FloatArray, small: float) -> list[FloatArray]:
     """Cut a piece where it goes from one side to the other."""
     points = points.copy()
-    points[np.abs(points[:, 1]) < _CENTRE, 1] = 0.0
+    points[np.abs(points[:, 1]) < small * _CENTRE, 1] = 0.0
     side = np.sign(points[:, 1])
     off = np.flatnonzero(side)
     found: list[FloatArray] = []
@@ -125,7 +137,7 @@ def _cut_at_centre(points: FloatArray) -> list[FloatArray]:
     for last, first in zip(off[:-1].tolist(), off[1:].tolist(), strict=True):
         if side[last] != side[first]:
             run = np.concatenate([head, points[begin : last + 1]])
-            tail, head = _between(run, points[last + 1 : first], points[first])
+            tail, head = _between(run, points[last + 1 : first], points[first], small * _AGAIN)
             found.append(np.concatenate([run, tail]))
             begin = first
     found.append(np.concatenate([head, points[begin:]]))
@@ -133,17 +145,18 @@ def _cut_at_centre(points: FloatArray) -> list[FloatArray]:
 
 
 def _between(
-    run: FloatArray, centre: FloatArray, after: FloatArray
+    run: FloatArray, centre: FloatArray, after: FloatArray, near: float
 ) -> tuple[FloatArray, FloatArray]:
     """Share the points in the centre plane between the run before and the run after them.
 
-    Where there are none, both get the point where the chord between them passes y = 0.
+    Where there are none, both get the point where the chord between them passes y = 0. A side
+    that begins as `near` (m) to the beginning of the other is drawn again.
     """
     half = len(centre) // 2
     # "Again": the second side is drawn from the beginning of the first, so that the pen jumped
     # and no chord between the runs is a part of the hull.
     again = any(
-        np.linalg.norm(each * _FLIP - run[0]) < _AGAIN for each in (*centre[half:][:1], after)
+        np.linalg.norm(each * _FLIP - run[0]) < near for each in (*centre[half:][:1], after)
     )
     if len(centre) == 1 and again:
         nearer = np.linalg.norm(centre[0] - run[-1]) < np.linalg.norm(centre[0] - after)
@@ -156,7 +169,7 @@ def _between(
     return place[None], place[None]
 
 
-def _drawn_twice(sides: _Sides) -> tuple[list[RawPiece], list[RawPiece]]:
+def _drawn_twice(sides: _Sides, small: float) -> tuple[list[RawPiece], list[RawPiece]]:
     """Give the pieces to starboard that port has too, and the others.
 
     Of a line that was cut at the centre plane the longer side stays.
@@ -167,7 +180,7 @@ def _drawn_twice(sides: _Sides) -> tuple[list[RawPiece], list[RawPiece]]:
         if 2.0 * _length(sides.port) < _length(sides.starboard):
             sides.port, sides.starboard = sides.starboard, sides.port
         return sides.starboard, []
-    again = [_farthest_off(each.points, sides.port) < _IMAGE for each in sides.starboard]
+    again = [_farthest_off(each.points, sides.port) < small * _IMAGE for each in sides.starboard]
     pairs = list(zip(sides.starboard, again, strict=True))
     return [each for each, twice in pairs if twice], [each for each, twice in pairs if not twice]
 
@@ -193,12 +206,12 @@ def _farthest_off(points: FloatArray, pieces: list[RawPiece]) -> float:
 
 
 def _report_difference(
-    name: str, kept: list[RawPiece], dropped: list[RawPiece], book: Notebook
+    name: str, kept: list[RawPiece], dropped: list[RawPiece], book: Notebook, small: float
 ) -> None:
     """Report the sides of a line that differ by more than drawing errors."""
     away = max((_farthest_off(each.points, kept) for each in dropped), default=0.0)
-    if away > _SYMMETRIC:
-        what = f"its sides differ by up to {1e3 * away:.0f} mm; one is left out"
+    if away > small * _SYMMETRIC:
+        what = f"its sides differ by up to {1e3 * away:.3g} mm; one is left out"
         book.suspect("both sides", name, what, away)
 
 
@@ -208,7 +221,7 @@ def _report_difference(
 _UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
 _METRIC = ("m", "cm", "mm")
 _LONGEST, _SHORTEST = 600.0, 1.0
-"""Lengths (m) between which a hull may lie at full scale: others show a wrong unit."""
+"""Lengths (m) between which a hull may lie at full scale. Absolute: others show a wrong unit."""
 
 _OFF_PLANE = 0.02
 """Points scattered less than this (m) about a plane are meant to lie in it."""
@@ -231,7 +244,8 @@ def read_lines(
     *,
     scale: float = 1.0,
     unit: str = "auto",
-    gaps: Gaps | None = None,
+    gaps: Gaps | float | None = None,
+    length: float | None = None,
     name: str | None = None,
 ) -> HullSlices:
     """Read digitised lines in ship axes: x forward, y to port, z up.
@@ -247,9 +261,12 @@ def read_lines(
         Full scale over the scale of the file.
     unit : {"auto", "m", "mm", "cm", "ft", "in"}
         Unit of the file.
-    gaps : Gaps or None
+    gaps : Gaps, float or None
         Loose ends closer than `join` are joined, 60 mm by default; farther ones stay apart,
-        and those up to `refuse` are reported.
+        and those up to `refuse` are reported. A number is the width `join` (m).
+    length : float or None, m
+        Between perpendiculars, where it is known. Of a hull under 100 m all limits are less in
+        proportion.
     name : str or None
         Of the hull; that of the file by default.
 
@@ -272,13 +289,18 @@ def read_lines(
     knuckles = _knuckles(raw, factor)
     for each in raw:
         refuse_retraced(each)
-    raw = to_one_side([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
+    raw = [RawPiece(e.line, e.points * factor, e.where) for e in raw]
+    small = _length_factor(raw, length)
+    raw = to_one_side(raw, book, small)
     every = np.concatenate([each.points for each in raw])
     joins: list[GapJoin] = []
-    limits = gaps or Gaps()
+    limits = settled_gaps(gaps, small, "in read_lines")
     boundaries = [
         SliceLine(
-            "boundary", title, float("nan"), tuple(_chain(title, mine, limits, joins, {}, book))
+            "boundary",
+            title,
+            float("nan"),
+            tuple(_chain(title, mine, limits, joins, {}, book, small)),
         )
         for title, mine in _by_name(raw, boundary=True).items()
     ]
@@ -286,18 +308,26 @@ def read_lines(
         line.name: np.concatenate([each.points for each in line.pieces]) for line in boundaries
     }
     lines = [
-        _line(title, mine, limits, joins, borders, book)
+        _line(title, mine, limits, joins, borders, book, small)
         for title, mine in _by_name(raw, boundary=False).items()
     ]
     _refuse_twins(lines, source)
-    report_joins(joins, book)
+    report_joins(joins, book, small)
     lines.sort(key=lambda each: (_ORDER.index(each.group), each.offset))
     default = Path(source).stem if source != "text" else "lines"
     return HullSlices(
         default if name is None else name, tuple(lines), tuple(boundaries), tuple(joins),
         book.report(), False, every.min(axis=0), every.max(axis=0), gaps=limits,
-        knuckles=knuckles,
+        knuckles=knuckles, factor=small,
     )  # fmt: skip
+
+
+def _length_factor(raw: list[RawPiece], length: float | None) -> float:
+    """Give the factor of lengths of a hull, by what is known of its length, m."""
+    size = np.ptp(np.concatenate([each.points for each in raw]), axis=0)
+    if length is None and size[0] < size.max():
+        return 1.0  # a part of a hull, as a few sections: nothing tells how long it is
+    return length_factor(float(size[0]) if length is None else length)
 
 
 def _knuckles(raw: list[RawPiece], factor: float) -> dict[str, FloatArray]:
@@ -377,6 +407,7 @@ def _chain(
     joins: list[GapJoin],
     borders: dict[str, FloatArray],
     book: Notebook,
+    small: float,
 ) -> list[LinePiece]:
     """Join the pieces of one line where they meet; gaps wider than `join` stay open."""
     if len(raw) > _MOST_PIECES:
@@ -389,7 +420,11 @@ def _chain(
             raise BadInputError(f"{name} has a piece of one point", f"in {each.where}",
                                 "give two or more")  # fmt: skip
         points = put_in_order(name, points, book)
-        pieces.append(LinePiece(points, (_under(points[0], borders), _under(points[-1], borders))))
+        pieces.append(
+            LinePiece(
+                points, (_under(points[0], borders, small), _under(points[-1], borders, small))
+            )
+        )
     pieces, made = join_pieces(name, pieces, Gaps(gaps.join, gaps.join))
     joins += made
     _report_gap(name, pieces, gaps, book)
@@ -404,18 +439,18 @@ def _report_gap(name: str, pieces: list[LinePiece], gaps: Gaps, book: Notebook) 
     gap, (piece, end), _ = near
     x, y, z = pieces[piece].points[-end].tolist()
     what = (
-        f"two pieces end {1e3 * gap:.0f} mm apart at ({x:.4g}, {y:.4g}, {z:.4g}) m and were not "
+        f"two pieces end {1e3 * gap:.3g} mm apart at ({x:.4g}, {y:.4g}, {z:.4g}) m and were not "
         f"joined; if they are one line give join= of {join_width_text(gap)} m or more"
     )
     book.suspect("gap", name, what, gap)
 
 
-def _under(place: FloatArray, borders: dict[str, FloatArray]) -> str:
+def _under(place: FloatArray, borders: dict[str, FloatArray], small: float) -> str:
     """Name the boundary curve on which the end of a line lies: "loose" if on none."""
     for name in ("deck edge", "transom"):
-        if name in borders and _distance(borders[name], place) < _REACH:
+        if name in borders and _distance(borders[name], place) < small * _REACH:
             return name
-    return "profile" if abs(place[1]) < 1e-3 else "loose"
+    return "profile" if abs(place[1]) < small * _CENTRE else "loose"
 
 
 def _distance(border: FloatArray, place: FloatArray) -> float:
@@ -432,20 +467,21 @@ def _line(
     joins: list[GapJoin],
     borders: dict[str, FloatArray],
     book: Notebook,
+    small: float,
 ) -> SliceLine:
     """Make a line of its pieces: its family, its plane, its gaps; from aft or from below."""
     every = np.concatenate([each.points for each in raw])
-    group = _group(name, every, raw[0].where)
+    group = _group(name, every, raw[0].where, small)
     axis = AXES[group]
-    offset = round(float(np.median(every[:, axis])), 9)
+    offset = round_at_size(float(np.median(every[:, axis])), 9, small)
     off = float(np.abs(every[:, axis] - offset).max())
-    if off > _OFF_PLANE:
-        raise _no_plane(name, every, axis, off, raw[0].where)
-    if off > 1e-9:
+    if off > small * _OFF_PLANE:
+        raise _no_plane(name, every, axis, raw[0].where, small)
+    if off > small * 1e-9:
         what = f"points up to {1e3 * off:.3g} mm off {'xyz'[axis]} = {offset:.6g} m put into it"
         book.repair("plane", name, what, off)
     flat = [RawPiece(each.line, _flattened(each.points, axis, offset), each.where) for each in raw]
-    pieces = _chain(name, flat, gaps, joins, borders, book)
+    pieces = _chain(name, flat, gaps, joins, borders, book, small)
     report_crossings(name, pieces, axis, book)
     way = 2 if group == "sections" else 0
     turned = [
@@ -455,13 +491,14 @@ def _line(
     return SliceLine(group, name, offset, tuple(turned))
 
 
-def _no_plane(name: str, every: FloatArray, axis: int, off: float, where: str) -> BadInputError:
+def _no_plane(name: str, every: FloatArray, axis: int, where: str, small: float) -> BadInputError:
     """Say how a line lies: in the plane of another family, or in none."""
     spread = np.ptp(every, axis=0)
     other = int(np.argmin(spread))
     median = float(np.median(every[:, axis]))
+    off = float(np.abs(every[:, axis] - median).max())
     what = f"{name} lies in no plane: {'xyz'[axis]} runs to {off:.3g} m off {median:.6g} m"
-    if other != axis and spread[other] < _OFF_PLANE:
+    if other != axis and spread[other] < small * _OFF_PLANE:
         return BadInputError(
             f"{what}, but {'xyz'[other]} is constant", f"in {where}",
             "the hull lies on its side: give x forward, y to port, z up; or the name is wrong",
@@ -475,13 +512,13 @@ def _flattened(points: FloatArray, axis: int, offset: float) -> FloatArray:
     return out
 
 
-def _group(name: str, points: FloatArray, where: str) -> str:
+def _group(name: str, points: FloatArray, where: str, small: float) -> str:
     """Give the family by the first word of the name, else by the coordinate that is constant."""
     word = name.split()[0].upper() if name.split() else ""
     if word in _GROUPS:
         return _GROUPS[word]
     spread = np.ptp(points, axis=0)
-    flat = [group for group, axis in AXES.items() if spread[axis] < 2.0 * _OFF_PLANE]
+    flat = [group for group, axis in AXES.items() if spread[axis] < 2.0 * small * _OFF_PLANE]
     if len(flat) != 1:
         raise BadInputError(
             f"{name!r} is no section, waterline or buttock by its points", f"in {where}",

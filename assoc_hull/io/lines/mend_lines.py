@@ -28,6 +28,7 @@ __all__ = [
 # Gaps.
 
 SAME_POINT = 1e-6
+"""Points as near as this (m) are one. Absolute: micrometres are the best that files hold."""
 
 
 def join_pieces(
@@ -51,7 +52,7 @@ def join_pieces(
         x, y, z = place.tolist()
         if gap > gaps.join:
             raise BadInputError(
-                f"the pieces do not chain: two ends {1e3 * gap:.0f} mm apart at "
+                f"the pieces do not chain: two ends {1e3 * gap:.3g} mm apart at "
                 f"({x:.4g}, {y:.4g}, {z:.4g}) m", f"in {name}",
                 f"mend the mesh there, or give join= of {join_width_text(gap)} m or more",
             )  # fmt: skip
@@ -61,7 +62,7 @@ def join_pieces(
 
 
 def join_width_text(gap: float) -> str:
-    """Write the width (m) that closes a gap, rounded up to millimetres.
+    """Write the width (m) that closes a gap, rounded up to millimetres; under 10 mm to 2 digits.
 
     Examples
     --------
@@ -69,7 +70,8 @@ def join_width_text(gap: float) -> str:
     >>> join_width_text(0.1201)
     '0.121'
     """
-    return f"{np.ceil(1e3 * gap) / 1e3:.3f}"
+    digits = 3 if gap >= 1e-2 or gap <= 0.0 else 1 - int(np.floor(np.log10(gap)))
+    return f"{np.ceil(10.0**digits * gap) / 10.0**digits:.{digits}f}"
 
 
 def _end(piece: LinePiece, end: int) -> FloatArray:
@@ -122,6 +124,9 @@ def _close(piece: LinePiece) -> LinePiece:
     owner = None if piece.owner is None else np.append(piece.owner, piece.owner[0])[kept]
     return LinePiece(points[kept], closed=True, sine=sine, owner=owner)
 
+
+_WIDE = 5e-3
+"""Joins wider than this (m), of a short hull less in proportion, are counted by themselves."""
 
 # --------------------------------------------------------------------------------------
 # Order.
@@ -198,13 +203,13 @@ def report_crossings(name: str, pieces: list[LinePiece], axis: int, book: Notebo
         book.suspect("self-crossing", name, what, len(places))
 
 
-def report_joins(joins: list[GapJoin], book: Notebook) -> None:
+def report_joins(joins: list[GapJoin], book: Notebook, factor: float = 1.0) -> None:
     """Report how many ends were joined across gaps, and the widest of these, as one repair."""
-    wide = [join for join in joins if join.gap > 5e-3]
+    wide = [join for join in joins if join.gap > factor * _WIDE]
     if joins:
         widest = max(joins, key=lambda each: each.gap)
         what = (
-            f"{len(joins)} joins, {len(wide)} of them over 5 mm, the widest "
+            f"{len(joins)} joins, {len(wide)} of them over {5.0 * factor:.3g} mm, the widest "
             f"{1e3 * widest.gap:.3g} mm in {widest.line}"
         )
         book.repair("join", "the lines", what, widest.gap)

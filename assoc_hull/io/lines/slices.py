@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import attrs
 
-from assoc_hull.arguments import not_negative, shown
+from assoc_hull.arguments import instance, not_negative, shown
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.io.reports import OffsetReport
@@ -20,6 +20,7 @@ __all__ = [
     "HullSlices",
     "LinePiece",
     "SliceLine",
+    "settled_gaps",
 ]
 
 ASSOCIATIONS = (
@@ -116,6 +117,9 @@ class GapJoin:
     gap: float
 
 
+_JOIN, _REFUSE = 0.06, 0.2
+
+
 def _join(value: object) -> float:
     return not_negative(value, "join", "in Gaps")
 
@@ -142,8 +146,14 @@ class Gaps:
         A width that is no number of 0 or more, or `refuse` less than `join`.
     """
 
-    join: float = attrs.field(default=0.06, converter=_join)
-    refuse: float = attrs.field(default=0.2, converter=_refuse)
+    join: float = attrs.field(default=_JOIN, converter=_join)
+    refuse: float = attrs.field(default=_REFUSE, converter=_refuse)
+
+    @classmethod
+    def at_size(cls, factor: float, join: float | None = None) -> Gaps:
+        """Give those of a hull by its factor of lengths, or with a given `join` (m)."""
+        width = factor * _JOIN if join is None else join
+        return cls(width, max(width, factor * _REFUSE))
 
     def __attrs_post_init__(self) -> None:
         if self.refuse < self.join:
@@ -151,6 +161,13 @@ class Gaps:
                 f"refuse is {shown(self.refuse)}, less than join, {shown(self.join)}", "in Gaps",
                 "give a wider gap from which on pieces are left apart",
             )  # fmt: skip
+
+
+def settled_gaps(gaps: object, factor: float, where: str) -> Gaps:
+    """Give what was asked for: `Gaps`, the width (m) of what is joined, or None: by the size."""
+    if gaps is None or isinstance(gaps, float | int):
+        return Gaps.at_size(factor, gaps)
+    return instance(gaps, Gaps, "gaps", where)
 
 
 @attrs.frozen(eq=False)
@@ -182,6 +199,8 @@ class HullSlices:
     waterline : float or None, m
         Height of the plane z = 0 of the file above the base line, if it cuts the hull: designers
         put it at the waterline.
+    factor : float
+        Of lengths, by the size of the hull; see `assoc_hull.tolerance.length_factor`.
     """
 
     name: str
@@ -196,6 +215,7 @@ class HullSlices:
     gaps: Gaps = attrs.field(factory=Gaps)
     knuckles: Mapping[str, FloatArray] = attrs.field(factory=dict)
     waterline: float | None = None
+    factor: float = 1.0
 
     def __attrs_post_init__(self) -> None:
         freeze(self.low, self.high, *self.knuckles.values())

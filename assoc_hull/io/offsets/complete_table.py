@@ -17,7 +17,8 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
 from assoc_hull.io.offsets.net import (
     Completion,
-    net_from_offsets,
+    adopt_completed,
+    at_full_size,
     net_of_lines,
     particulars_of_table,
 )
@@ -539,12 +540,22 @@ def net_from_table(
     """
     ship = particulars_of_table(table, deck)
     try:
-        completion = _completion(table)
+        # Fits of borders know lengths: a short hull passes them at the size these hold for.
+        completion = _completion(at_full_size(table))
     except BadInputError as error:
         state, report = net_of_lines(table, ship, tolerances)
-        note = f"profile, ends and flats are left open: {error.what}"
+        note = f"profile, ends and flats are left open: {_in_its_size(table, error)}"
         return state, attrs.evolve(report, notes=(note, *report.notes))
-    return net_from_offsets(table, completion, ship, tolerances)
+    return adopt_completed(table, completion, ship, tolerances)
+
+
+def _in_its_size(table: OffsetTable, error: BadInputError) -> str:
+    """Say why a table has no completion, with lengths of its own and not of full size."""
+    try:
+        _completion(table)
+    except BadInputError as own:
+        return own.what
+    return error.what
 
 
 def _completion(table: OffsetTable) -> Completion:

@@ -15,6 +15,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.reports import Notebook
+from assoc_hull.tolerance import length_factor
 
 __all__ = [
     "ExaminedTable",
@@ -208,7 +209,8 @@ def _blanks(patient: ExaminedTable, book: Notebook) -> None:
 
 
 def _outer_blanks(patient: ExaminedTable, i: int, first: int, last: int, book: Notebook) -> None:
-    slack = 1e-3
+    # Of a hull of 100 m and more.
+    slack = 1e-3 * length_factor(patient.length)
     if first and patient.keel is None:
         what = f"blanks below waterline {patient.waterlines[first]} read as below the local keel"
         book.assume("blank", f"station {patient.stations[i]}", what, float(patient.z[first]))

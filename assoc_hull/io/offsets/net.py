@@ -23,10 +23,12 @@ from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState, Particulars
-from assoc_hull.tolerance import Tolerances
+from assoc_hull.tolerance import Tolerances, length_factor
 
 __all__ = [
     "Completion",
+    "adopt_completed",
+    "at_full_size",
     "lines_of_table",
     "net_from_offsets",
     "net_of_lines",
@@ -57,6 +59,15 @@ class Completion:
     stem: FloatArray
     bottom: FloatArray | None
     side: FloatArray | None
+
+    def scaled(self, factor: float) -> Completion:
+        """Give the completion with every length times a factor."""
+        ends = (self.bottom, self.side)
+        bottom, side = (None if each is None else factor * each for each in ends)
+        return Completion(
+            factor * self.profile, self.profile_kind, factor * self.stern, factor * self.stem,
+            bottom, side,
+        )  # fmt: skip
 
 
 def particulars_of_table(table: OffsetTable, deck: str = "open") -> Particulars:
@@ -96,15 +107,42 @@ def net_from_offsets(
             f"{len(table.z)} waterlines", f"table {table.name!r}", "give three or more"
         )
     ship = particulars or particulars_of_table(table)
-    flats = _FlatBorder(completion.side, table)
-    sources = _boundaries(table, completion, flats)
-    wet = [i for i in range(len(table.x)) if (table.half_breadth[i, 1:] > 0.0).any()]
-    sources += [_closed_section(table, completion, flats, i) for i in wet]
-    sources += [_closed_waterline(table, completion, flats, j) for j in range(1, len(table.z) - 1)]
-    state, report = adopt(sources, ship, ASSOCIATIONS, tolerances)
+    factor = length_factor(table.length)
+    whole = completion if factor == 1.0 else completion.scaled(1.0 / factor)
+    return adopt_completed(table, whole, ship, tolerances)
+
+
+def adopt_completed(
+    table: OffsetTable, completion: Completion, ship: Particulars, tolerances: Tolerances | None
+) -> tuple[HullState, AdoptionReport]:
+    """Adopt a table with its completion at full size, as of `at_full_size`."""
+    factor, full = length_factor(table.length), at_full_size(table)
+    flats = _FlatBorder(completion.side, full)
+    sources = _boundaries(full, completion, flats)
+    wet = [i for i in range(len(full.x)) if (full.half_breadth[i, 1:] > 0.0).any()]
+    sources += [_closed_section(full, completion, flats, i) for i in wet]
+    sources += [_closed_waterline(full, completion, flats, j) for j in range(1, len(full.z) - 1)]
+    sources = sources if factor == 1.0 else _brought_back(sources, full, table, factor)
+    state, report = adopt(sources, ship, ASSOCIATIONS, tolerances or Tolerances().scaled(factor))
     bare = [i for i in range(len(table.x)) if i not in wet]
     notes = tuple(f"station at x = {table.x[i]:g} m: no breadth, no section made" for i in bare)
     return state, attrs.evolve(report, notes=(*_printed(table), *notes, *report.notes))
+
+
+def at_full_size(table: OffsetTable) -> OffsetTable:
+    """Give a table of a hull under 100 m at the length for which lengths in the code hold."""
+    factor = length_factor(table.length)
+    return table if factor == 1.0 else table.scaled(1.0 / factor)
+
+
+def _brought_back(
+    sources: list[LineSource], full: OffsetTable, table: OffsetTable, factor: float
+) -> list[LineSource]:
+    """Give the lines of a table at full size at its own, each in the very plane that it gives."""
+    stations = dict(zip(full.x.tolist(), table.x.tolist(), strict=True))
+    levels = dict(zip(full.z.tolist(), table.z.tolist(), strict=True))
+    places = {"sections": stations, "waterlines": levels}
+    return [each.scaled(factor, places.get(each.group, {}).get(each.offset)) for each in sources]
 
 
 def _printed(table: OffsetTable) -> list[str]:
@@ -112,8 +150,10 @@ def _printed(table: OffsetTable) -> list[str]:
     ratio = table.z / (table.draught or 1.0)
     unit = "T" if table.draught else "m"
     found: list[str] = []
-    for value in np.unique(np.round(table.rounding, 9)).tolist():
-        mine = ratio[np.abs(table.rounding - value) < 1e-9]
+    digit = 1e-9 * length_factor(table.length)
+    for value in np.unique(np.round(table.rounding / digit)).tolist():
+        mine = ratio[np.abs(table.rounding - value * digit) < digit]
+        value *= digit
         heights = ", ".join(f"{each:.4g}" for each in mine)
         found.append(f"offsets at {heights} {unit} are printed to +-{1e3 * value:.2g} mm")
     return found
@@ -272,9 +312,13 @@ def _deck_flat(flats: _FlatBorder, z: float) -> FloatArray:
 # --------------------------------------------------------------------------------------
 # A table as lines, for hulls that no rule completes.
 
+_TOLERANCE = 1e-3
+"""How far (m) a curve may pass the points of a table, of a short hull less in proportion."""
+
 _SAME = 1e-9
 _LEVEL = 1e-6
-"""The plane of a waterline this close (m) to the base line touches a flat bottom."""
+"""As much less in proportion: the plane of a waterline this close (m) to the base line touches a
+flat bottom."""
 
 
 def net_of_lines(
@@ -289,10 +333,12 @@ def net_of_lines(
     BadInputError
         A table whose lines do not make a net.
     """
+    factor = length_factor(table.length)
     lines = lines_of_table(table)
     groups = {line.group for line in lines}
     links = [each for each in ASSOCIATIONS if {each.a, each.b} <= groups]
-    return adopt(lines, particulars or particulars_of_table(table), links, tolerances)
+    ship = particulars or particulars_of_table(table)
+    return adopt(lines, ship, links, tolerances or Tolerances().scaled(factor))
 
 
 def lines_of_table(table: OffsetTable) -> list[LineSource]:
@@ -302,31 +348,43 @@ def lines_of_table(table: OffsetTable) -> list[LineSource]:
     half-breadth. Heights of buttocks are points of the sections. The deck edge is what the table
     calls so, else its highest waterline.
     """
+    factor = length_factor(table.length)
+    near = factor * _TOLERANCE
     found = [
         LineSource.make(
-            "sections", plane_name("sections", x), points, plane=((1.0, 0.0, 0.0), x)
+            "sections", plane_name("sections", x), points, plane=((1.0, 0.0, 0.0), x),
+            tolerance=near,
         )
         for i, x in enumerate(table.x.tolist()) for points in _open_sections(table, i)
     ]  # fmt: skip
     levels = len(table.z) - (table.deck_height is None)
     found += [
         LineSource.make(
-            "waterlines", plane_name("waterlines", z), points, plane=((0.0, 0.0, 1.0), z)
+            "waterlines", plane_name("waterlines", z), points, plane=((0.0, 0.0, 1.0), z),
+            tolerance=near,
         )
-        for j, z in enumerate(table.z[:levels].tolist()) if z > _LEVEL
+        for j, z in enumerate(table.z[:levels].tolist()) if z > factor * _LEVEL
         for points in _open_waterlines(table, j)
     ]  # fmt: skip
     for points in _deck(table):
-        level = float(points[0, 2]) if np.ptp(points[:, 2]) < _SAME else None
+        level = float(points[0, 2]) if np.ptp(points[:, 2]) < factor * _SAME else None
         plane = None if level is None else ((0.0, 0.0, 1.0), level)
         found.append(
-            LineSource.make("boundary", "deck edge", points, plane=plane, boundary=BoundaryKind.END)
+            LineSource.make(
+                "boundary",
+                "deck edge",
+                points,
+                plane=plane,
+                boundary=BoundaryKind.END,
+                tolerance=near,
+            )
         )
     return found
 
 
 def _open_sections(table: OffsetTable, i: int) -> Iterator[FloatArray]:
     """Give the curves of a station, each (n, 3), m, from the keel to the deck edge if given."""
+    same = length_factor(table.length) * _SAME
     runs: list[FloatArray] = [
         np.column_stack([y, z]) for y, z in _runs(table.half_breadth[i], table.z)
     ]
@@ -338,7 +396,7 @@ def _open_sections(table: OffsetTable, i: int) -> Iterator[FloatArray]:
         runs[0] = np.vstack([[0.0, keel], runs[0]])
     if table.deck_height is not None and table.deck_half_breadth is not None:
         edge = np.array([table.deck_half_breadth[i], table.deck_height[i]])
-        if np.isfinite(edge).all() and edge[1] > runs[-1][-1, 1] + _SAME:
+        if np.isfinite(edge).all() and edge[1] > runs[-1][-1, 1] + same:
             runs[-1] = np.vstack([runs[-1], edge])
     runs[0] = _with_buttocks(runs[0], table, i)
     for run in runs:
@@ -350,13 +408,13 @@ def _with_buttocks(run: FloatArray, table: OffsetTable, i: int) -> FloatArray:
     """Put heights of buttocks among the points of the lowest run, below its largest breadth."""
     if table.buttock_height is None:
         return run
-    heights = table.buttock_height[i]
+    heights, factor = table.buttock_height[i], length_factor(table.length)
     widest = run[int(run[:, 0].argmax())]
-    wanted = (heights < widest[1] - _SAME) & (table.buttock_y < widest[0])
-    wanted &= (heights >= run[0, 1]) & (table.buttock_y > run[0, 0] + _SAME)
+    wanted = (heights < widest[1] - factor * _SAME) & (table.buttock_y < widest[0])
+    wanted &= (heights >= run[0, 1]) & (table.buttock_y > run[0, 0] + factor * _SAME)
     every = np.vstack([run, np.column_stack([table.buttock_y, heights])[wanted]])
     every = every[np.lexsort((every[:, 0], every[:, 1]))]
-    kept = np.append(True, np.linalg.norm(np.diff(every, axis=0), axis=1) > 1e-3)
+    kept = np.append(True, np.linalg.norm(np.diff(every, axis=0), axis=1) > factor * 1e-3)
     return np.asarray(every[kept])
 
 

@@ -75,6 +75,17 @@ class OffsetTable:
     station: FloatArray | None = None
     stated: Mapping[str, float] = attrs.field(factory=dict)
 
+    def scaled(self, factor: float) -> OffsetTable:
+        """Give the table with every length times a factor."""
+        lengths = (
+            "x", "z", "half_breadth", "keel", "deck_height", "deck_half_breadth", "buttock_y",
+            "buttock_height", "length", "breadth", "draught", "depth", "rounding",
+        )  # fmt: skip
+        known = {name: getattr(self, name) for name in lengths}
+        return attrs.evolve(
+            self, **{name: factor * each for name, each in known.items() if each is not None}
+        )
+
     def __attrs_post_init__(self) -> None:
         arrays = (self.x, self.z, self.half_breadth, self.buttock_y, self.rounding)
         maybe = (self.keel, self.deck_height, self.deck_half_breadth, self.buttock_height)

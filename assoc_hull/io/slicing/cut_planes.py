@@ -25,13 +25,15 @@ Places = int | Sequence[float] | FloatArray
 _MOST = 2000
 
 _APART = 1e-3
-"""Places closer than this (m) have one name, which tells mm, and are one line."""
+"""Places closer than this (m), of a hull under 100 m less in proportion, are one line."""
 
 _TOUCH = 1e-6
-"""A plane this close (m) to the end of the hull touches it."""
+"""As much less in proportion: a plane this close (m) to the end of the hull touches it."""
 
 
-def propose_places(low: float, high: float, count: int, *, dense: bool) -> FloatArray:
+def propose_places(
+    low: float, high: float, count: int, *, dense: bool, factor: float = 1.0
+) -> FloatArray:
     """Give places inside an interval, none at its ends.
 
     Parameters
@@ -42,12 +44,19 @@ def propose_places(low: float, high: float, count: int, *, dense: bool) -> Float
         How many.
     dense : bool
         Whether they lie closer at both ends (there 0.4 of the mean spacing), else evenly.
+    factor : float
+        Of lengths, by the size of the hull.
 
     Returns
     -------
     (count,), m
-        Rounded to 10 mm, or to a thousandth of the spacing where that is less.
+        Rounded to 10 mm, of a hull under 100 m less in proportion, or to a thousandth of the
+        spacing where that is less.
     """
+    if factor != 1.0:
+        # As for the ship of 100 m; what scaling left of the last bit must not turn a rounding.
+        first, last = round(low / factor, 9), round(high / factor, 9)
+        return np.asarray(factor * propose_places(first, last, count, dense=dense))
     t = (np.arange(count) + 0.5) / count
     if dense:
         t -= 0.6 * np.sin(2.0 * np.pi * t) / (2.0 * np.pi)
@@ -57,7 +66,9 @@ def propose_places(low: float, high: float, count: int, *, dense: bool) -> Float
     return places
 
 
-def plane_places(what: str, wanted: Places, low: float, high: float, *, dense: bool) -> FloatArray:
+def plane_places(
+    what: str, wanted: Places, low: float, high: float, *, dense: bool, factor: float = 1.0
+) -> FloatArray:
     """Give the places of the planes of a family, ascending.
 
     Parameters
@@ -70,6 +81,8 @@ def plane_places(what: str, wanted: Places, low: float, high: float, *, dense: b
         Extent of the hull across these planes.
     dense : bool
         As for `propose`.
+    factor : float
+        Of lengths, by the size of the hull.
 
     Raises
     ------
@@ -82,10 +95,14 @@ def plane_places(what: str, wanted: Places, low: float, high: float, *, dense: b
     if isinstance(wanted, int | np.integer) and not isinstance(wanted, bool):
         if not 0 <= wanted <= _MOST:
             raise BadInputError(f"{what}={wanted}", "the argument", f"give 0 to {_MOST}")
-        return propose_places(low, high, int(wanted), dense=dense) if wanted else np.zeros(0)
+        return (
+            propose_places(low, high, int(wanted), dense=dense, factor=factor)
+            if wanted
+            else np.zeros(0)
+        )
     places = _given(what, wanted)
-    _refuse_twice(what, places)
-    _refuse_outside(what, places, low, high)
+    _refuse_twice(what, places, factor * _APART)
+    _refuse_outside(what, places, (low, high), factor * _TOUCH)
     return places
 
 
@@ -108,19 +125,22 @@ def _given(what: str, wanted: object) -> FloatArray:
     return places
 
 
-def _refuse_twice(what: str, places: FloatArray) -> None:
-    twice = np.flatnonzero(np.diff(places) < _APART)
+def _refuse_twice(what: str, places: FloatArray, least: float) -> None:
+    twice = np.flatnonzero(np.diff(places) < least)
     if not len(twice):
         return
     first, second = places[twice[0] : twice[0] + 2].tolist()
     said = f"{first:.9g} m twice" if first == second else f"{first:.9g} m and {second:.9g} m"
     raise BadInputError(
-        f"{what} has {said}, less than 1 mm apart", "the argument", "give each place once"
+        f"{what} has {said}, less than {1e3 * least:.3g} mm apart",
+        "the argument",
+        "give each place once",
     )
 
 
-def _refuse_outside(what: str, places: FloatArray, low: float, high: float) -> None:
+def _refuse_outside(what: str, places: FloatArray, ends: tuple[float, float], touch: float) -> None:
     """Refuse a plane that misses the hull, or meets it in its end only."""
+    low, high = ends
     outside = np.maximum(low - places, places - high)
     if not len(places) or outside.max() < 0.0:
         return
@@ -128,5 +148,5 @@ def _refuse_outside(what: str, places: FloatArray, low: float, high: float) -> N
     away = float(outside[worst])
     raise NoMeetingError(
         f"the plane of {what} at {places[worst]:g} m", away,
-        f"give places between {low:.6g} and {high:.6g} m", away < _TOUCH,
+        f"give places between {low:.6g} and {high:.6g} m", away < touch,
     )  # fmt: skip

@@ -34,13 +34,22 @@ from assoc_hull.arguments import instance
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.surfaces.triangles import Triangles, check_mesh
 from assoc_hull.io.lines.mend_lines import join_pieces, report_crossings, report_joins
-from assoc_hull.io.lines.slices import AXES, GapJoin, Gaps, HullSlices, LinePiece, SliceLine
+from assoc_hull.io.lines.slices import (
+    AXES,
+    GapJoin,
+    Gaps,
+    HullSlices,
+    LinePiece,
+    SliceLine,
+    settled_gaps,
+)
 from assoc_hull.io.mesh.frame import place_mesh, scale_mesh
 from assoc_hull.io.mesh.read import read_triangles
 from assoc_hull.io.mesh.repair import facet_depth, mend_mesh
 from assoc_hull.io.mesh.shell import MeshShell, RimKind, cut_shell, make_shell, rim_pieces
 from assoc_hull.io.reports import Notebook, Tell, no_progress
 from assoc_hull.io.slicing.cut_planes import Places, plane_places
+from assoc_hull.tolerance import length_factor
 
 __all__ = [
     "BOTTOM",
@@ -119,7 +128,8 @@ def read_mesh(
     scale: float = 1.0,
     unit: str = "auto",
     axes: str = "auto",
-    gaps: Gaps | None = None,
+    gaps: Gaps | float | None = None,
+    length: float | None = None,
     name: str | None = None,
     tell: Tell = no_progress,
 ) -> HullSlices:
@@ -143,7 +153,8 @@ def read_mesh(
     title = file.name.removesuffix(".gz") if name is None else name
     return slice_mesh(
         mesh, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale, unit=unit,
-        axes=axes, gaps=gaps, name=Path(title).stem if name is None else title, tell=tell,
+        axes=axes, gaps=gaps, length=length, name=Path(title).stem if name is None else title,
+        tell=tell,
     )  # fmt: skip
 
 
@@ -156,7 +167,8 @@ def slice_mesh(
     scale: float = 1.0,
     unit: str = "auto",
     axes: str = "auto",
-    gaps: Gaps | None = None,
+    gaps: Gaps | float | None = None,
+    length: float | None = None,
     name: str = "hull",
     tell: Tell = no_progress,
 ) -> HullSlices:
@@ -175,8 +187,11 @@ def slice_mesh(
         Unit of the file.
     axes : str
         "auto", or which axes of the file point forward, to port and up: ``"+x+y+z"``.
-    gaps : Gaps or None
-        What is joined; by default ends up to 60 mm apart.
+    gaps : Gaps, float or None
+        What is joined; by default ends up to 60 mm apart, of a hull under 100 m less in
+        proportion. A number is the width (m) up to which ends are joined.
+    length : float or None, m
+        Between perpendiculars, where it is known: it tells the size of the hull.
     name : str
         Name of the hull.
     tell : callable
@@ -195,12 +210,13 @@ def slice_mesh(
         A plane that misses the hull.
     """
     check_mesh(instance(mesh, Triangles, "mesh", "in slice_mesh"))
-    limits = Gaps() if gaps is None else instance(gaps, Gaps, "gaps", "in slice_mesh")
     book = Notebook()
     scaled = scale_mesh(mesh, scale, unit, book)
     placed = place_mesh(mend_mesh(scaled, book), axes, book)
     wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
-    return cut_placed(placed, wanted, limits, name, book, tell)
+    factor = length_factor(length or float(np.ptp(placed.xyz[:, 0])))
+    limits = settled_gaps(gaps, factor, "in slice_mesh")
+    return cut_placed(placed, wanted, limits, name, book, tell, factor)
 
 
 def cut_placed(
@@ -210,10 +226,12 @@ def cut_placed(
     name: str,
     book: Notebook,
     tell: Tell = no_progress,
+    factor: float = 1.0,
 ) -> HullSlices:
     """Cut a mesh that lies in ship axes, m, outward; as `slice_mesh`.
 
-    `wanted` gives the planes of each group, as a number or as places (m).
+    `wanted` gives the planes of each group, as a number or as places (m); `factor` is that of
+    lengths, by the size of the hull.
 
     Raises
     ------
@@ -227,24 +245,24 @@ def cut_placed(
     places = [
         (group, place)
         for group, planes in wanted.items()
-        for place in _places(group, planes, low[AXES[group]], high[AXES[group]])
+        for place in _places(group, planes, low[AXES[group]], high[AXES[group]], factor)
     ]
     for i, (group, place) in enumerate(places):
         tell("cutting lines", i, len(places))
         lines.append(_cut(shell, group, place, gaps, joins, book))
-    report_joins(joins, book)
+    report_joins(joins, book, factor)
     report_bottom(lines, float(high[1]), book)
     return HullSlices(
         name, tuple(lines), tuple(_boundaries(shell, gaps, joins, book)), tuple(joins),
         book.report(), True, low, high, facet_depth(shell.mesh), gaps,
+        factor=factor,
     )  # fmt: skip
 
 
-def _places(group: str, wanted: Places, low: float, high: float) -> list[float]:
+def _places(group: str, wanted: Places, low: float, high: float, factor: float) -> list[float]:
     label, dense = ("stations" if group == "sections" else group), group == "sections"
-    return [
-        float(each) for each in plane_places(label, wanted, float(low), float(high), dense=dense)
-    ]
+    found = plane_places(label, wanted, float(low), float(high), dense=dense, factor=factor)
+    return [float(each) for each in found]
 
 
 def _cut(

@@ -18,6 +18,7 @@ from assoc_hull.io.lines.slices import ASSOCIATIONS, GapJoin, Gaps, HullSlices, 
 from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
 from assoc_hull.io.slicing.boundary_curves import BoundaryCurve, draw_borders, loft_source
 from assoc_hull.io.slicing.features import FeatureRules, KnuckleTrace, find_features, with_arcs
+from assoc_hull.io.slicing.full_size import scaled
 from assoc_hull.io.slicing.smooth_lines import (
     SmoothReport,
     join_plans,
@@ -127,7 +128,7 @@ class SliceReport:
 # Smoothing and adoption.
 
 _CRUMB = 0.1
-"""Pieces shorter than this (m) are not adopted."""
+"""Pieces shorter than this (m), of a hull under 100 m less in proportion, are not adopted."""
 
 _NAMES = 5
 """At most this many lines are named in a note."""
@@ -140,22 +141,41 @@ def sources_from_slices(
 
     Gives the sources, their reports, knuckle lines, the tolerance (m) and the boundary curves drawn
     as borders, whose sources come last. `tolerance` is how far an adopted curve may pass its smooth
-    line; None: 3 times the median noise of the pieces, but at least 5 mm, of a mesh 10 mm.
+    line; None: 3 times the median noise of the pieces, but at least 5 mm, of a mesh 10 mm. Of a
+    hull under 100 m these, and the lengths of the rules by default, are less in proportion.
 
     Raises
     ------
     BadInputError
         A tolerance that is no number above 0, or no piece long enough to be adopted.
     """
-    wanted = rules or FeatureRules()
     if tolerance is not None:
         tolerance = _checked(tolerance, slices)
+    factor = slices.factor
+    if factor == 1.0:
+        return _full_size_sources(slices, tolerance, rules or FeatureRules())
+    grown = scaled(slices, 1.0 / factor)
+    limit = None if tolerance is None else tolerance / factor
+    wanted = FeatureRules() if rules is None else rules.scaled(1.0 / factor)
+    sources, reports, knuckles, allowed, borders = _full_size_sources(grown, limit, wanted)
+    offset = {(line.group, line.name): line.offset for line in slices.lines}
+    sources = [each.scaled(factor, offset.get((each.group, each.name))) for each in sources]
+    return (
+        sources, scaled(reports, factor), scaled(knuckles, factor), factor * allowed,
+        scaled(borders, factor),
+    )  # fmt: skip
+
+
+def _full_size_sources(
+    slices: HullSlices, tolerance: float | None, wanted: FeatureRules
+) -> tuple[list[LineSource], list[SmoothReport], list[KnuckleTrace], float, list[BoundaryCurve]]:
+    """Do so for a hull for which lengths in the code hold: of 100 m or more, or grown to it."""
     parts, knuckles = find_features(slices, wanted)
     parts = [part for part in parts if _is_useful(part.piece, facets=slices.facets)]
     if not parts:
         raise BadInputError(
-            f"all pieces of all lines are shorter than {_CRUMB:g} m", f"in {slices.name}",
-            "give lines of two or more points, or another unit or scale",
+            "all pieces of all lines are crumbs: no hand long on a ship of 100 m",
+            f"in {slices.name}", "give lines of two or more points, or another unit or scale",
         )  # fmt: skip
     parts = [with_arcs(part, wanted) for part in parts]
     noise = float(np.median([part.noise for part in parts]))
@@ -207,9 +227,9 @@ def _checked(tolerance: object, slices: HullSlices) -> float:
     return found
 
 
-def _is_useful(piece: LinePiece, *, facets: bool) -> bool:
+def _is_useful(piece: LinePiece, *, facets: bool, factor: float = 1.0) -> bool:
     """Tell pieces from crumbs: those shorter than a hand, and of a mesh those of one facet."""
-    long = float(np.ptp(piece.points, axis=0).max()) > _CRUMB
+    long = float(np.ptp(piece.points, axis=0).max()) > factor * _CRUMB
     return long and len(piece.points) > (2 if facets else 1)
 
 
@@ -219,13 +239,14 @@ def _with_crumbs(slices: HullSlices) -> OffsetReport:
         line.name
         for line in (*slices.lines, *slices.boundaries)
         for piece in line.pieces
-        if not _is_useful(piece, facets=slices.facets)
+        if not _is_useful(piece, facets=slices.facets, factor=slices.factor)
     ]
     if not left:
         return slices.report
     names = list(dict.fromkeys(left))
     told = ", ".join(names[:_NAMES]) + (" and others" if len(names) > _NAMES else "")
-    what = f"{len(left)} pieces shorter than {_CRUMB:g} m or of one facet left out, of {told}"
+    least = slices.factor * _CRUMB
+    what = f"{len(left)} pieces shorter than {least:.3g} m or of one facet left out, of {told}"
     note = Note("crumbs", "the lines", what, len(left))
     return attrs.evolve(slices.report, suspicions=(*slices.report.suspicions, note))
 
@@ -251,9 +272,9 @@ def net_from_slices(
         raise BadInputError(
             f"{len(slices.lines)} line(s)", f"in {slices.name}", "give two or more lines"
         )
-    wanted = rules or FeatureRules()
+    wanted = rules or FeatureRules().scaled(slices.factor)
     tell("finding features and smoothing", 0, 0)
-    sources, smoothing, knuckles, allowed, borders = sources_from_slices(slices, tolerance, wanted)
+    sources, smoothing, knuckles, allowed, borders = sources_from_slices(slices, tolerance, rules)
     size = slices.high - slices.low
     ship = particulars or Particulars(
         slices.name, float(size[0]), 2.0 * float(slices.high[1]), float(size[2]),
@@ -263,7 +284,9 @@ def net_from_slices(
     pairs = sorted(zip(sources, smoothing, strict=True), key=lambda each: source_order(each[0]))
     links = _links({source.group for source in sources})
     tell("adopting", 0, 0)
-    state, adoption = adopt(sources, ship, links, Tolerances(adoption=allowed))
+    state, adoption = adopt(
+        sources, ship, links, attrs.evolve(Tolerances().scaled(slices.factor), adoption=allowed)
+    )
     report = SliceReport(
         _with_crumbs(slices), slices.joins, slices.gaps, wanted, state.tolerances,
         float(np.median([each.noise for each in smoothing])), slices.depth,

@@ -7,14 +7,12 @@ from typing import Any
 
 from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.cad.hull_faces import model_factor
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.digitised.text import is_digitised
-from assoc_hull.io.lines.slices import Gaps, HullSlices
+from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.mesh.read import is_mesh_name
 from assoc_hull.io.reports import Tell, no_progress
 from assoc_hull.io.slicing.cut_planes import Places
-from assoc_hull.io.slicing.features import FeatureRules
 from assoc_hull.io.slicing.mesh_lines import read_mesh, refuse_bottomless
 from assoc_hull.io.slicing.net import SliceReport, net_from_slices
 from assoc_hull.io.slicing.surface_lines import cad_kind, read_surface_lines
@@ -113,20 +111,18 @@ def read_slices(
     ):  # fmt: skip
         check_particular(name, value)
     choice(deck, "deck", DECKS, "in the particulars")
-    gaps = None if join is None else Gaps(join, max(join, Gaps().refuse))
     named: dict[str, Any] = {
         "stations": stations, "waterlines": waterlines, "buttocks": buttocks, "axes": axes
     }  # fmt: skip
     cuts = {name: value for name, value in named.items() if value is not None}
-    rules: FeatureRules | None = None
+    said: dict[str, Any] = {"scale": scale, "unit": unit, "gaps": join, "length": length}
     if is_mesh_name(path):
-        slices = read_mesh(path, scale=scale, unit=unit, gaps=gaps, tell=tell, **cuts)
+        slices = read_mesh(path, tell=tell, **said, **cuts)
     elif cad_kind(path):
-        slices = read_surface_lines(path, scale=scale, unit=unit, gaps=gaps, tell=tell, **cuts)
-        rules = FeatureRules().scaled(model_factor(float((slices.high - slices.low).max())))
+        slices = read_surface_lines(path, tell=tell, **said, **cuts)
     else:
         _refuse_cuts(path, list(cuts))
-        slices = read_lines(path, scale=scale, unit=unit, gaps=gaps)
+        slices = read_lines(path, **said)
     refuse_bottomless(slices)
     size = slices.high - slices.low
     depth = float(size[2])
@@ -138,7 +134,7 @@ def read_slices(
         _draught(slices, depth) if draught is None else draught,
         deck,
     )
-    state, report = net_from_slices(slices, ship, tolerance, rules, tell=tell)
+    state, report = net_from_slices(slices, ship, tolerance, tell=tell)
     return state, report
 
 

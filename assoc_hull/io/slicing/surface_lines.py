@@ -34,17 +34,25 @@ from assoc_hull.geometry.patches.plane_intersection import intersect_plane
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.triangulation import Facets
 from assoc_hull.geometry.surfaces.triangles import check_mesh
-from assoc_hull.io.cad.hull_faces import FINE, HullFaces, facets_at_scale, hull_size, model_factor
+from assoc_hull.io.cad.hull_faces import FINE, HullFaces, facets_at_scale, hull_size
 from assoc_hull.io.iges.curves import holds_surfaces
 from assoc_hull.io.iges.file import UNITS, IgesFile, looks_like_iges
 from assoc_hull.io.iges.surfaces import surfaces_of_iges
-from assoc_hull.io.lines.slices import AXES, Gaps, HullSlices, LinePiece, SliceLine
+from assoc_hull.io.lines.slices import (
+    AXES,
+    Gaps,
+    HullSlices,
+    LinePiece,
+    SliceLine,
+    settled_gaps,
+)
 from assoc_hull.io.mesh.frame import place_mesh
 from assoc_hull.io.mesh.repair import mend_mesh
 from assoc_hull.io.reports import Notebook, Tell, no_progress
 from assoc_hull.io.slicing.cut_planes import Places
 from assoc_hull.io.slicing.mesh_lines import cut_placed
 from assoc_hull.io.units import checked_unit
+from assoc_hull.tolerance import length_factor
 
 __all__ = [
     "AxisChange",
@@ -56,7 +64,8 @@ __all__ = [
 ]
 
 _FAR = 0.02
-"""A point of a surface farther (m) from the triangles is not the one meant."""
+"""A point of a surface farther (m), of a hull under 100 m less in proportion,
+from the triangles is not the one meant."""
 
 _LEAST_SINE = 0.03
 """Where a plane cuts at a smaller angle (sine), a point stays on its triangle."""
@@ -100,11 +109,13 @@ def project_to_surfaces(
     facets: Facets,
     surfaces: Sequence[SplineSurface | None],
     motion: AxisChange,
+    factor: float = 1.0,
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
     """Move points that were cut from triangles onto their surfaces, each in its plane.
 
     Points `xyz` (n, 3) m, with the `axis` (n,) that is constant on their line, its `offset` (n,) m
-    and the triangle `owner` (n,) of each. Gives points (n, 3), the sine of the angle between plane
+    and the triangle `owner` (n,) of each; `factor` is that of lengths, by the size.
+    Gives points (n, 3), the sine of the angle between plane
     and surface (n,), and which lie on a surface now (n,).
     """
     there = motion.back(xyz)
@@ -122,7 +133,8 @@ def project_to_surfaces(
             continue
         found = intersect_plane(surface, uv[rows], column[rows], place[rows], second)
         away = np.sqrt(((found.xyz - there[rows]) ** 2).sum(axis=1))
-        mine = (found.off < 1e-7) & (found.sine > _LEAST_SINE) & (away < _FAR)
+        mine = (found.off < factor * 1e-7) & (found.sine > _LEAST_SINE)
+        mine &= away < factor * _FAR
         good[rows] = mine
         out[rows[mine]] = motion.ahead(found.xyz[mine])
         sine[rows] = found.sine
@@ -157,7 +169,8 @@ def slice_surfaces(
     buttocks: Places = 12,
     scale: float = 1.0,
     axes: str = "auto",
-    gaps: Gaps | None = None,
+    gaps: Gaps | float | None = None,
+    length: float | None = None,
     name: str = "hull",
     tell: Tell = no_progress,
 ) -> HullSlices:
@@ -167,7 +180,7 @@ def slice_surfaces(
     ----------
     faces : HullFaces
         Whole hull or half.
-    stations, waterlines, buttocks, scale, axes, gaps, name, tell
+    stations, waterlines, buttocks, scale, axes, gaps, length, name, tell
         As for `assoc_hull.io.slicing.mesh_lines.slice_mesh`.
 
     Returns
@@ -185,14 +198,18 @@ def slice_surfaces(
     for note in faces.notes:
         book.assume("file", "the surfaces", note)
     size = hull_size(faces, scale, book)
-    facets = facets_at_scale(faces, scale, size, book)
+    factor = length_factor(length or size)
+    if factor < 1.0:
+        what = f"all limits of gaps and features are {factor:.3g} of those of a ship of 100 m"
+        book.assume("small", "the surfaces", f"{what}, since it is short", length or size)
+    facets = facets_at_scale(faces, scale, size, book, factor)
     check_mesh(facets.mesh)
     mended = mend_mesh(facets.mesh, book)
     placed = place_mesh(mended, axes, book, 2.0 * FINE * size)
     motion = AxisChange.between(mended.xyz, placed.xyz)
     wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
-    limits = _gaps(size) if gaps is None else gaps
-    slices = cut_placed(placed, wanted, limits, name, book, tell)
+    limits = settled_gaps(gaps, factor, "in slice_surfaces")
+    slices = cut_placed(placed, wanted, limits, name, book, tell, factor)
     scaled = [_scaled(each, scale) for each in faces.surfaces]
     waterline = _waterline(motion, slices, book)
     return attrs.evolve(
@@ -209,10 +226,6 @@ def _waterline(motion: AxisChange, slices: HullSlices, book: Notebook) -> float 
     what = f"z = 0 of the file is taken for the waterline: draught {height:.6g} m, unless given"
     book.assume("waterline", "the surfaces", what, height)
     return height
-
-
-def _gaps(size: float) -> Gaps:
-    return Gaps(model_factor(size) * Gaps().join, model_factor(size) * Gaps().refuse)
 
 
 def _scaled(surface: SplineSurface | None, scale: float) -> SplineSurface | None:
@@ -236,7 +249,9 @@ def _settled(
     count = [len(piece.points) for _, piece in pieces]
     axis = np.repeat([AXES.get(line.group, 1) for line, _ in pieces], count)
     offset = np.repeat([_place(line) for line, _ in pieces], count)
-    places, sine, good = project_to_surfaces(xyz, axis, offset, owner, facets, surfaces, motion)
+    places, sine, good = project_to_surfaces(
+        xyz, axis, offset, owner, facets, surfaces, motion, slices.factor
+    )
     if not good.all():
         x, y, z = xyz[np.argmin(good)].tolist()
         what = (
@@ -382,7 +397,8 @@ def read_surface_lines(
     scale: float = 1.0,
     unit: str = "auto",
     axes: str = "auto",
-    gaps: Gaps | None = None,
+    gaps: Gaps | float | None = None,
+    length: float | None = None,
     tell: Tell = no_progress,
 ) -> HullSlices:
     """Read surfaces and cut them; arguments as for `assoc_hull.io.slicing.mesh_lines.read_mesh`.
@@ -396,5 +412,5 @@ def read_surface_lines(
     faces = faces_of_file(path, unit)
     return slice_surfaces(
         faces, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale,
-        axes=axes, gaps=gaps, name=path.stem, tell=tell,
+        axes=axes, gaps=gaps, length=length, name=path.stem, tell=tell,
     )  # fmt: skip

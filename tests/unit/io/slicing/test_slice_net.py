@@ -195,8 +195,8 @@ def test_lines_of_two_points_are_adopted() -> None:
 
 
 def test_pieces_too_short_to_be_adopted_are_told() -> None:
-    """A line of 20 mm is left out, and its name stands in the report."""
-    _, report = net_from_slices(read_lines(_wedge("ST 15,15,1,1", "ST 15,15,1.01,1.02")))
+    """A line of 10 mm of a hull of 20 m is left out, and its name stands in the report."""
+    _, report = net_from_slices(read_lines(_wedge("ST 15,15,1,1", "ST 15,15,1.005,1.01")))
     assert "ST 15" not in [line.line for line in report.adoption.lines]
     (note,) = report.slices.suspicions
     assert (note.kind, note.amount) == ("crumbs", 1)
@@ -205,7 +205,7 @@ def test_pieces_too_short_to_be_adopted_are_told() -> None:
 
 def test_nothing_long_enough_to_be_adopted_is_refused() -> None:
     """Crumbs alone make no net: how short they are, and what to give."""
-    text = "line,x,y,z\nST 1,0,1,1\nST 1,0,1.01,1.02\nST 2,10,1,1\nST 2,10,1.01,1.02\n"
+    text = "line,x,y,z\nST 1,0,1,1\nST 1,0,1.005,1.009\nST 2,10,1,1\nST 2,10,1.005,1.009\n"
     with pytest.raises(BadInputError, match=r"shorter than 0\.1 m.*unit or scale"):
         net_from_slices(read_lines(text))
 
