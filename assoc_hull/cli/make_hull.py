@@ -101,9 +101,24 @@ def _add_import(commands: Commands) -> None:
     )
     _add_target(parser)
     for name, what in (
-        ("length", "between perpendiculars"), ("breadth", "moulded"), ("draught", "design"),
+        ("length", "length between perpendiculars"), ("breadth", "moulded breadth"),
+        ("draught", "design draught"), ("depth", "depth to the deck edge amidships"),
+        ("draught-aft", "design draught at the AP, with --draught-fwd"),
+        ("draught-fwd", "design draught at the FP"),
+        ("frame-spacing", "of a table: distance of frames, if its stations are frame numbers"),
     ):  # fmt: skip
-        parser.add_argument(f"--{name}", type=float, metavar="M", help=f"{name}, {what}, m")
+        parser.add_argument(f"--{name}", type=float, metavar="M", help=f"{what}, m")
+    for name, what in (
+        ("ap", "x of the aft perpendicular"), ("fp", "x of the forward perpendicular"),
+        ("base", "height of the base line"), ("waterline", "height of the design waterline"),
+        ("centre", "of a mesh, surfaces: y of the centre plane"),
+    ):  # fmt: skip
+        parser.add_argument(
+            f"--{name}", metavar="X", help=f"{what}, in units of the file, or as 12.5m"
+        )
+    parser.add_argument(
+        "--origin", choices=("ap", "midship", "fp"), help="where x = 0 of the file is"
+    )
     parser.add_argument(
         "--deck", choices=DECKS,
         help="closed: a deck lies between the deck edges; open by default",
@@ -134,6 +149,14 @@ def _add_import(commands: Commands) -> None:
     parser.add_argument(
         "--station-zero", choices=("auto", "ap", "fp"), default="auto",
         help="perpendicular of station 0",
+    )  # fmt: skip
+    parser.add_argument(
+        "--station-spacings", type=int, metavar="N",
+        help="of a table: station spacings between the perpendiculars, 10 or 20 or others",
+    )  # fmt: skip
+    parser.add_argument(
+        "--deck-edge", metavar="LINE",
+        help="of lines: the one that is the deck edge, where bulwarks stand above it",
     )  # fmt: skip
     parser.add_argument(
         "--accept", action="store_true", help="take a hull that is not sound; exit code 0"

@@ -197,6 +197,14 @@ def read(
     length: float | None = None,
     breadth: float | None = None,
     draught: float | None = None,
+    depth: float | None = None,
+    ap: float | str | None = None,
+    fp: float | str | None = None,
+    base: float | str | None = None,
+    waterline: float | str | None = None,
+    origin: str | None = None,
+    draught_aft: float | None = None,
+    draught_fwd: float | None = None,
     scale: float | None = None,
     stations: Places | None = None,
     waterlines: Places | None = None,
@@ -207,24 +215,84 @@ def read(
     join: float | None = None,
     deck: str | None = None,
     station_zero: str | None = None,
+    station_spacings: int | None = None,
+    frame_spacing: float | None = None,
+    centre: float | str | None = None,
+    deck_edge: str | None = None,
     accept: bool = False,
     strict: bool = False,
 ) -> Hull:
     """Read any supported format, told by content: a hull, offsets, lines, a mesh, surfaces, a text.
 
     The hull lives in memory, also one that was saved, with its history; `open` edits the file.
-    A table in normalised form needs its dimensions (m), unless its comments tell them. Meshes
-    (STL, OBJ, PLY, also ``.gz``) and surfaces (IGES, STEP) take `scale`, full scale over model
-    scale, and the other options, as `assoc_hull.io.slicing.read.read_slices` does; digitised lines
-    (CSV, DXF, curves of IGES, BRITFAIR, DELFTship, GHS) all but planes and axes. Texts of
-    definitions (`read_classical`) take no options. Tables of offsets may be CSV or XLSX. No form
-    tells whether there is a deck between the deck edges: `deck` does, "open" (the default) or
-    "closed".
+    Where base line, waterline and perpendiculars are, is found where it is not given, and each
+    value found is a note in ``hull.adoption.notes`` with the evidence for it.
+
+    Parameters
+    ----------
+    path : path
+        A saved hull, a table of offsets (CSV, XLSX), digitised lines (CSV, DXF, curves of IGES,
+        BRITFAIR, DELFTship, GHS), a mesh (STL, OBJ, PLY, also ``.gz``), surfaces (IGES, STEP) or
+        a text of a classical definition (`read_classical`), which takes no options.
+    length, breadth, draught, depth : float or None, m
+        Lpp, moulded breadth, design draught, depth to the deck edge amidships, at full scale.
+        Not given, and not in the file: Lpp is the length and breadth that of the design
+        waterline. A table in normalised form needs the first three.
+    ap, fp : float or str or None
+        x of the perpendiculars in the file: a number in its units, or text with a unit, as
+        ``"12.5 m"``. Not given: the FP is where the stem meets the design waterline, the AP lies
+        Lpp aft of it, or at the aft end of the waterline if nothing tells Lpp.
+    base, waterline : float or str or None
+        Heights of base line and design waterline in the file, likewise. Not given: the base line
+        is z = 0 of the file, or the lowest place of the bottom amidships; z = 0 is the waterline
+        if it cuts the hull; else the draught is half the height of the hull.
+    origin : {"ap", "midship", "fp"} or None
+        Where x = 0 of the file is.
+    draught_aft, draught_fwd : float or None, m
+        Design draughts at AP and FP of a hull that is designed with trim.
+    scale : float or None
+        Full scale over that of the file.
+    stations, waterlines, buttocks : int or sequence of float, m, or None
+        Planes that a mesh or surfaces are cut at, in ship axes: how many, or where.
+    unit : str or None
+        Unit of the numbers in the file: "m", "mm", "cm", "ft", "in"; of a table also "normalised".
+    axes : str or None
+        Axes of the file that point forward, to port and up, as "+x+y+z", of a mesh or surfaces.
+    tolerance, join : float or None, m
+        How far adopted lines may pass theirs; loose ends this close are joined. Not for tables.
+    deck : {"open", "closed"} or None
+        Whether there is a deck between the deck edges, which no form tells; open by default.
+    station_zero : {"ap", "fp"} or None
+        Perpendicular of station 0, of a table.
+    station_spacings : int or None
+        Station spacings between the perpendiculars, of a table: 10, 20 or others.
+    frame_spacing : float or None, m
+        Distance of frames, of a table whose stations are numbers of frames.
+    centre : float or str or None
+        y of the centre plane in the file, of a mesh or surfaces.
+    deck_edge : str or None
+        Name of the line that is the deck edge, of digitised lines with bulwarks above it.
+    accept : bool
+        Take a hull that is not sound; the verdict is kept in its notes.
+    strict : bool
+        Refuse a hull under suspicion too.
+
+    Returns
+    -------
+    Hull
 
     Raises
     ------
     BadInputError
-        The file cannot be read, or is none of these; or an option that its form does not take.
+        The file cannot be read, or is none of these; or an option that its form does not take, or
+        that the hull contradicts.
+    NotSoundError
+        The hull is not sound and was not accepted.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> hull = ah.read("DTC-scaled.stl.gz", scale=59.407, length=355, draught=14.5)  # doctest: +SKIP
     """
     from assoc_hull.io.classical.read import holds_definition
     from assoc_hull.io.hull_file.saving import holds_hull
@@ -233,9 +301,12 @@ def read(
 
     file = Path(file_path(path, "in read"))
     options = ImportOptions(
-        length=length, breadth=breadth, draught=draught, scale=scale, stations=stations,
-        waterlines=waterlines, buttocks=buttocks, unit=unit, axes=axes, tolerance=tolerance,
-        join=join, deck=deck, station_zero=station_zero, accept=accept, strict=strict,
+        length=length, breadth=breadth, draught=draught, depth=depth, ap=ap, fp=fp, base=base,
+        waterline=waterline, origin=origin, draught_aft=draught_aft, draught_fwd=draught_fwd,
+        scale=scale, stations=stations, waterlines=waterlines, buttocks=buttocks, unit=unit,
+        axes=axes, tolerance=tolerance, join=join, deck=deck, station_zero=station_zero,
+        station_spacings=station_spacings, frame_spacing=frame_spacing, centre=centre,
+        deck_edge=deck_edge, accept=accept, strict=strict,
     )  # fmt: skip
     if holds_hull(file):
         options.refuse("a hull is read as it is", file)

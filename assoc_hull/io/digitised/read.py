@@ -35,6 +35,8 @@ from assoc_hull.io.lines.slices import (
     SliceLine,
     settled_gaps,
 )
+from assoc_hull.io.placing.options import FileAxes, FrameOptions
+from assoc_hull.io.placing.placed_lines import place_slices
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.table_text import read_text
 from assoc_hull.tolerance import length_factor, round_at_size
@@ -247,8 +249,9 @@ def read_lines(
     gaps: Gaps | float | None = None,
     length: float | None = None,
     name: str | None = None,
+    frame: FrameOptions | None = None,
 ) -> HullSlices:
-    """Read digitised lines in ship axes: x forward, y to port, z up.
+    """Read digitised lines: x forward, y to port, z up; wherever the file has its origin.
 
     Parameters
     ----------
@@ -269,6 +272,9 @@ def read_lines(
         proportion.
     name : str or None
         Of the hull; that of the file by default.
+    frame : FrameOptions or None
+        Where base line, waterline and perpendiculars are, what is not given being found; None:
+        x and z stay as the file has them.
 
     Returns
     -------
@@ -315,11 +321,12 @@ def read_lines(
     report_joins(joins, book, small)
     lines.sort(key=lambda each: (_ORDER.index(each.group), each.offset))
     default = Path(source).stem if source != "text" else "lines"
-    return HullSlices(
+    slices = HullSlices(
         default if name is None else name, tuple(lines), tuple(boundaries), tuple(joins),
         book.report(), False, every.min(axis=0), every.max(axis=0), gaps=limits,
         knuckles=knuckles, factor=small,
     )  # fmt: skip
+    return slices if frame is None else place_slices(slices, frame, FileAxes(factor=factor), book)
 
 
 def _length_factor(raw: list[RawPiece], length: float | None) -> float:

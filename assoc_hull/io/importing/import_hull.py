@@ -76,9 +76,9 @@ def import_hull(
 def _import_lines(
     path: Path, options: ImportOptions, tell: Tell
 ) -> tuple[HullState, ImportReport]:
-    options.refuse("it is for tables of offsets", path, ("station_zero",))
+    options.refuse("it is for tables of offsets", path, options.TABLES)
     state, slices = read_slices(
-        path, **options.named(*options.SIZES, *options.CUTS, "deck", "unit"), tell=tell
+        path, frame=options.frame, **options.named(*options.CUTS, "deck", "unit"), tell=tell
     )
     return state, ImportReport(slices.slices, slices.adoption, Verdict(), slices=slices)
 

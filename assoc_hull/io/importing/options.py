@@ -15,6 +15,7 @@ from typing import Any, ClassVar
 import attrs
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.io.placing.options import FrameOptions, Place
 from assoc_hull.io.slicing.cut_planes import Places
 from assoc_hull.io.slicing.read import require_file
 
@@ -27,14 +28,27 @@ class ImportOptions:
 
     Attributes
     ----------
-    length, breadth, draught : float or None, m
-        Particulars: between perpendiculars, moulded, design.
+    length, breadth, draught, depth : float or None, m
+        Particulars: between perpendiculars, moulded, design, to the deck edge amidships.
+    draught_aft, draught_fwd : float or None, m
+        Design draughts at AP and FP of a hull with a design trim.
+    ap, fp, base, waterline, origin
+        Where perpendiculars, base line, design waterline and x = 0 of the file are, as for
+        `assoc_hull.io.placing.options.FrameOptions`.
     deck : {"open", "closed"} or None
         Whether a deck lies between the deck edges; open by default.
     unit : str or None
         Of the numbers in the file.
     station_zero : {"ap", "fp"} or None
         Perpendicular of station 0, of a table.
+    station_spacings : int or None
+        Station spacings between the perpendiculars, of a table.
+    frame_spacing : float or None, m
+        Distance of frames, of a table whose stations are frame numbers.
+    centre : float or str or None
+        The centre plane of a hull that is not at y = 0: in units of the file, or with a unit.
+    deck_edge : str or None
+        The line that is the deck edge, of digitised lines where the uppermost is not.
     scale, axes, stations, waterlines, buttocks, tolerance, join
         As for `assoc_hull.io.slicing.read.read_slices`.
     accept : bool
@@ -44,6 +58,7 @@ class ImportOptions:
     """
 
     SIZES: ClassVar[tuple[str, ...]] = ("length", "breadth", "draught")
+    TABLES: ClassVar[tuple[str, ...]] = ("station_zero", "station_spacings", "frame_spacing")
     CUTS: ClassVar[tuple[str, ...]] = (
         "stations", "waterlines", "buttocks", "scale", "axes", "tolerance", "join",
     )  # fmt: skip
@@ -51,9 +66,21 @@ class ImportOptions:
     length: float | None = None
     breadth: float | None = None
     draught: float | None = None
+    depth: float | None = None
+    draught_aft: float | None = None
+    draught_fwd: float | None = None
+    ap: Place | None = None
+    fp: Place | None = None
+    base: Place | None = None
+    waterline: Place | None = None
+    origin: str | None = None
     deck: str | None = None
     unit: str | None = None
     station_zero: str | None = None
+    station_spacings: int | None = None
+    frame_spacing: float | None = None
+    centre: Place | None = None
+    deck_edge: str | None = None
     scale: float | None = None
     axes: str | None = None
     stations: Places | None = None
@@ -68,6 +95,12 @@ class ImportOptions:
         """Give those of some options that were given, by name."""
         every = {name: getattr(self, name) for name in names}
         return {name: value for name, value in every.items() if value is not None}
+
+    @property
+    def frame(self) -> FrameOptions:
+        """What is said of where things are, checked."""
+        names = (each.name for each in attrs.fields(FrameOptions))
+        return FrameOptions(**self.named(*names))
 
     def given(self) -> tuple[str, ...]:
         """Name the options that are not as by default."""

@@ -9,6 +9,7 @@ import attrs
 from assoc_hull.arguments import instance, not_negative, shown
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.reports import OffsetReport
 from assoc_hull.model.tables import Association
 
@@ -196,11 +197,10 @@ class HullSlices:
         What was joined and what would have been refused.
     knuckles : mapping of str to (k, 3), m
         Places of a line that the file marks as knuckles.
-    waterline : float or None, m
-        Height of the plane z = 0 of the file above the base line, if it cuts the hull: designers
-        put it at the waterline.
     factor : float
         Of lengths, by the size of the hull; see `assoc_hull.tolerance.length_factor`.
+    frame : ShipFrame or None
+        Where the ship lay in its file, and its particulars; None where nobody looked.
     """
 
     name: str
@@ -214,8 +214,8 @@ class HullSlices:
     depth: float = 0.0
     gaps: Gaps = attrs.field(factory=Gaps)
     knuckles: Mapping[str, FloatArray] = attrs.field(factory=dict)
-    waterline: float | None = None
     factor: float = 1.0
+    frame: ShipFrame | None = None
 
     def __attrs_post_init__(self) -> None:
         freeze(self.low, self.high, *self.knuckles.values())

@@ -212,7 +212,7 @@ def half_side(mesh: Triangles, axis: int) -> float | None:
 
 
 # --------------------------------------------------------------------------------------
-# Placing: unit, centre plane, up, bow, origin.
+# Placing: unit, centre plane, up, bow; x and z keep the origin of the file.
 
 _LONGEST, _SHORTEST = 600.0, 1.0  # m, of a ship at full scale
 _USUAL = {"L/B": (1.5, 40.0), "L/D": (3.0, 80.0), "B/D": (0.4, 12.0)}
@@ -279,7 +279,7 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0) -
     else:
         moved = _turned(mesh, np.eye(3)[list(find_columns(mesh, book))])
         moved = _upright(_centred(moved, book, doubt), book)
-        placed = _grounded(_bow_forward(moved, book), book)
+        placed = _bow_forward(moved, book)
     _report_proportions(placed, book)
     return placed
 
@@ -415,19 +415,3 @@ def _end_breadth(mesh: Triangles, end: float) -> float:
     high = z > 0.5 * (z.min() + z.max())
     chosen = close & high
     return float(np.abs(mesh.xyz[chosen, 1]).max()) if chosen.any() else 0.0
-
-
-def _grounded(mesh: Triangles, book: Notebook) -> Triangles:
-    """Put the base line at the lowest point and the AP at the aft end where they lie far off."""
-    low, high = mesh.xyz.min(axis=0), mesh.xyz.max(axis=0)
-    size = high - low
-    shift = np.zeros(3)
-    for axis, name, reach in ((0, "x", 0.1), (2, "z", 0.02)):
-        if abs(low[axis]) > reach * size[axis]:
-            shift[axis] = -low[axis]
-            what = f"{name} of the hull began at {low[axis]:.6g} m; moved to 0"
-            book.repair("origin", _WHERE, what, float(low[axis]))
-    if not shift.any():
-        what = f"x = 0 and z = 0 as in the file; x from {low[0]:.6g} m, z from {low[2]:.6g} m"
-        book.assume("origin", _WHERE, what)
-    return mesh.moved(mesh.xyz + shift)

@@ -28,12 +28,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import attrs
 import numpy as np
 
 from assoc_hull.arguments import instance
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.surfaces.triangles import Triangles, check_mesh
 from assoc_hull.io.lines.mend_lines import join_pieces, report_crossings, report_joins
+from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.lines.slices import (
     AXES,
     GapJoin,
@@ -47,6 +49,9 @@ from assoc_hull.io.mesh.frame import place_mesh, scale_mesh
 from assoc_hull.io.mesh.read import read_triangles
 from assoc_hull.io.mesh.repair import facet_depth, mend_mesh
 from assoc_hull.io.mesh.shell import MeshShell, RimKind, cut_shell, make_shell, rim_pieces
+from assoc_hull.io.placing.frame import find_frame
+from assoc_hull.io.placing.options import FileAxes, FrameOptions
+from assoc_hull.io.placing.outline import outline_of_mesh
 from assoc_hull.io.reports import Notebook, Tell, no_progress
 from assoc_hull.io.slicing.cut_planes import Places, plane_places
 from assoc_hull.tolerance import length_factor
@@ -54,6 +59,7 @@ from assoc_hull.tolerance import length_factor
 __all__ = [
     "BOTTOM",
     "cut_placed",
+    "in_ship_axes",
     "read_mesh",
     "refuse_bottomless",
     "report_bottom",
@@ -132,6 +138,7 @@ def read_mesh(
     length: float | None = None,
     name: str | None = None,
     tell: Tell = no_progress,
+    frame: FrameOptions | None = None,
 ) -> HullSlices:
     """Read a triangulated hull and cut it; arguments as for `slice_mesh`.
 
@@ -154,7 +161,7 @@ def read_mesh(
     return slice_mesh(
         mesh, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale, unit=unit,
         axes=axes, gaps=gaps, length=length, name=Path(title).stem if name is None else title,
-        tell=tell,
+        tell=tell, frame=frame,
     )  # fmt: skip
 
 
@@ -171,6 +178,7 @@ def slice_mesh(
     length: float | None = None,
     name: str = "hull",
     tell: Tell = no_progress,
+    frame: FrameOptions | None = None,
 ) -> HullSlices:
     """Cut a mesh into stations, waterlines, buttocks and boundary curves.
 
@@ -196,6 +204,9 @@ def slice_mesh(
         Name of the hull.
     tell : callable
         Hears which line is being cut.
+    frame : FrameOptions or None
+        Where base line, waterline and perpendiculars are, what is not given being found; None:
+        x and z stay as the file has them.
 
     Returns
     -------
@@ -212,11 +223,40 @@ def slice_mesh(
     check_mesh(instance(mesh, Triangles, "mesh", "in slice_mesh"))
     book = Notebook()
     scaled = scale_mesh(mesh, scale, unit, book)
-    placed = place_mesh(mend_mesh(scaled, book), axes, book)
+    mended = mend_mesh(scaled, book)
+    turned = place_mesh(mended, axes, book)
+    factor = float(np.ptp(scaled.xyz, axis=0).max()) / float(np.ptp(mesh.xyz, axis=0).max())
+    placed, found = in_ship_axes(turned, mended, factor, frame, book, "the mesh")
     wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
-    factor = length_factor(length or float(np.ptp(placed.xyz[:, 0])))
-    limits = settled_gaps(gaps, factor, "in slice_mesh")
-    return cut_placed(placed, wanted, limits, name, book, tell, factor)
+    small = length_factor(length or float(np.ptp(placed.xyz[:, 0])))
+    limits = settled_gaps(gaps, small, "in slice_mesh")
+    slices = cut_placed(placed, wanted, limits, name, book, tell, small)
+    return attrs.evolve(slices, frame=found)
+
+
+def in_ship_axes(
+    turned: Triangles,
+    before: Triangles,
+    factor: float,
+    options: FrameOptions | None,
+    book: Notebook,
+    where: str,
+) -> tuple[Triangles, ShipFrame | None]:
+    """Move a mesh (m) with x forward and z up so that x = 0 is the AP and z = 0 the base line.
+
+    `before` is the mesh as it was turned from, which tells the axes of places that are given in
+    the file; a unit of the file is `factor` m. `where` names it in notes. Without options it stays where it is.
+
+    Raises
+    ------
+    BadInputError
+        As for `assoc_hull.io.placing.frame.find_frame`.
+    """
+    if options is None:
+        return turned, None
+    axes = FileAxes.between(float(f"{factor:.12g}"), before.xyz, turned.xyz)
+    frame = find_frame(outline_of_mesh(turned), options, book, where, axes=axes)
+    return turned.moved(frame.moved(turned.xyz)), frame
 
 
 def cut_placed(

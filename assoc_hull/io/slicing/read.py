@@ -5,12 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import attrs
+
 from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.digitised.text import is_digitised
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.mesh.read import is_mesh_name
+from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.reports import Tell, no_progress
 from assoc_hull.io.slicing.cut_planes import Places
 from assoc_hull.io.slicing.mesh_lines import read_mesh, refuse_bottomless
@@ -65,6 +68,7 @@ def read_slices(
     length: float | None = None,
     breadth: float | None = None,
     draught: float | None = None,
+    frame: FrameOptions | None = None,
     deck: str = "open",
     stations: Places | None = None,
     waterlines: Places | None = None,
@@ -84,8 +88,9 @@ def read_slices(
         STL, OBJ, PLY (``.gz``), IGES or STEP, or digitised lines as for
         `assoc_hull.io.digitised.read.read_lines`.
     length, breadth, draught : float or None, m
-        Particulars; by default from the extent of the hull, and the draught half its depth, or of
-        surfaces whose z = 0 cuts the hull down from there.
+        Particulars; what is not given is found, as `assoc_hull.io.placing.frame.find_frame` does.
+    frame : FrameOptions or None
+        What else is said of where base line, waterline and perpendiculars are.
     deck : {"open", "closed"}
         Closed: there is a deck between the deck edges, which no mesh or line tells.
     stations, waterlines, buttocks, scale, unit, axes
@@ -105,11 +110,12 @@ def read_slices(
         As for `read_mesh`, `read_lines` and `net_from_slices`; planes or axes for lines; a mesh
         or surfaces whose bottom is missing.
     """
-    for name, value in (
-        ("length", length), ("breadth", breadth), ("draught", draught), ("tolerance", tolerance),
-        ("join", join),
-    ):  # fmt: skip
+    for name, value in (("tolerance", tolerance), ("join", join)):
         check_particular(name, value)
+    sizes = {"length": length, "breadth": breadth, "draught": draught}
+    places = attrs.evolve(
+        frame or FrameOptions(), **{name: value for name, value in sizes.items() if value is not None}
+    )
     choice(deck, "deck", DECKS, "in the particulars")
     named: dict[str, Any] = {
         "stations": stations, "waterlines": waterlines, "buttocks": buttocks, "axes": axes
@@ -117,26 +123,21 @@ def read_slices(
     cuts = {name: value for name, value in named.items() if value is not None}
     said: dict[str, Any] = {"scale": scale, "unit": unit, "gaps": join, "length": length}
     if is_mesh_name(path):
-        slices = read_mesh(path, tell=tell, **said, **cuts)
+        slices = read_mesh(path, tell=tell, frame=places, **said, **cuts)
     elif cad_kind(path):
-        slices = read_surface_lines(path, tell=tell, **said, **cuts)
+        slices = read_surface_lines(path, tell=tell, frame=places, **said, **cuts)
     else:
         _refuse_cuts(path, list(cuts))
-        slices = read_lines(path, **said)
+        slices = read_lines(path, frame=places, **said)
     refuse_bottomless(slices)
-    size = slices.high - slices.low
-    depth = float(size[2])
-    ship = Particulars(
-        slices.name,
-        float(size[0]) if length is None else length,
-        2.0 * float(slices.high[1]) if breadth is None else breadth,
-        depth,
-        _draught(slices, depth) if draught is None else draught,
-        deck,
-    )
-    state, report = net_from_slices(slices, ship, tolerance, tell=tell)
+    state, report = net_from_slices(slices, _particulars(slices, deck), tolerance, tell=tell)
     return state, report
 
 
-def _draught(slices: HullSlices, depth: float) -> float:
-    return 0.5 * depth if slices.waterline is None else slices.waterline
+def _particulars(slices: HullSlices, deck: str) -> Particulars | None:
+    found = slices.frame
+    if found is None:
+        return None
+    return Particulars(
+        slices.name, found.length, found.breadth, found.depth, found.draught, deck
+    )

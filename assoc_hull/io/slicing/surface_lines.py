@@ -48,10 +48,11 @@ from assoc_hull.io.lines.slices import (
 )
 from assoc_hull.io.mesh.frame import place_mesh
 from assoc_hull.io.mesh.repair import mend_mesh
+from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.reports import Notebook, Tell, no_progress
 from assoc_hull.io.slicing.cut_planes import Places
-from assoc_hull.io.slicing.mesh_lines import cut_placed
-from assoc_hull.io.units import checked_unit
+from assoc_hull.io.slicing.mesh_lines import cut_placed, in_ship_axes
+from assoc_hull.io.units import METRES, checked_unit
 from assoc_hull.tolerance import length_factor
 
 __all__ = [
@@ -173,6 +174,7 @@ def slice_surfaces(
     length: float | None = None,
     name: str = "hull",
     tell: Tell = no_progress,
+    frame: FrameOptions | None = None,
 ) -> HullSlices:
     """Cut surfaces into stations, waterlines, buttocks and boundary curves.
 
@@ -180,7 +182,7 @@ def slice_surfaces(
     ----------
     faces : HullFaces
         Whole hull or half.
-    stations, waterlines, buttocks, scale, axes, gaps, length, name, tell
+    stations, waterlines, buttocks, scale, axes, gaps, length, name, tell, frame
         As for `assoc_hull.io.slicing.mesh_lines.slice_mesh`.
 
     Returns
@@ -205,27 +207,16 @@ def slice_surfaces(
     facets = facets_at_scale(faces, scale, size, book, factor)
     check_mesh(facets.mesh)
     mended = mend_mesh(facets.mesh, book)
-    placed = place_mesh(mended, axes, book, 2.0 * FINE * size)
+    turned = place_mesh(mended, axes, book, 2.0 * FINE * size)
+    metres = scale * METRES.get(faces.unit, 1.0)
+    placed, found = in_ship_axes(turned, mended, metres, frame, book, "the surfaces")
     motion = AxisChange.between(mended.xyz, placed.xyz)
     wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
     limits = settled_gaps(gaps, factor, "in slice_surfaces")
     slices = cut_placed(placed, wanted, limits, name, book, tell, factor)
     scaled = [_scaled(each, scale) for each in faces.surfaces]
-    waterline = _waterline(motion, slices, book)
-    return attrs.evolve(
-        _settled(slices, facets, scaled, motion, book), waterline=waterline, report=book.report()
-    )
-
-
-def _waterline(motion: AxisChange, slices: HullSlices, book: Notebook) -> float | None:
-    """Give the height of z = 0 of the file, if it cuts the hull, above the new base line."""
-    height = float(motion.shift[2])
-    depth = float(slices.high[2] - slices.low[2])
-    if not 0.1 * depth < height < 0.95 * depth:
-        return None
-    what = f"z = 0 of the file is taken for the waterline: draught {height:.6g} m, unless given"
-    book.assume("waterline", "the surfaces", what, height)
-    return height
+    settled = _settled(slices, facets, scaled, motion, book)
+    return attrs.evolve(settled, frame=found, report=book.report())
 
 
 def _scaled(surface: SplineSurface | None, scale: float) -> SplineSurface | None:
@@ -400,6 +391,7 @@ def read_surface_lines(
     gaps: Gaps | float | None = None,
     length: float | None = None,
     tell: Tell = no_progress,
+    frame: FrameOptions | None = None,
 ) -> HullSlices:
     """Read surfaces and cut them; arguments as for `assoc_hull.io.slicing.mesh_lines.read_mesh`.
 
@@ -412,5 +404,5 @@ def read_surface_lines(
     faces = faces_of_file(path, unit)
     return slice_surfaces(
         faces, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale,
-        axes=axes, gaps=gaps, length=length, name=path.stem, tell=tell,
+        axes=axes, gaps=gaps, length=length, name=path.stem, tell=tell, frame=frame,
     )  # fmt: skip

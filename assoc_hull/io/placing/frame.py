@@ -1,0 +1,494 @@
+"""Base line, perpendiculars and particulars of a hull: as given, as stated in the file, or found.
+
+One rule for all readers; each value that was not given is told with its evidence. x = 0 of the
+file counts as a perpendicular or as midship if it lies within half a per cent of Lpp of where the
+rule finds it, z = 0 as the base line within a thousandth: so much do printed lengths, the plating
+and the choice of draught shift the stem, and a hull that is in ship axes already keeps its bits.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.io.lines.ship_frame import ShipFrame, StatedPlaces
+from assoc_hull.io.placing.keel import Keel, measure_keel
+from assoc_hull.io.placing.options import FileAxes, FrameOptions, same_place
+from assoc_hull.io.placing.outline import HullOutline, Level
+from assoc_hull.io.placing.stem import find_stem
+from assoc_hull.io.reports import Notebook
+
+__all__ = ["find_frame"]
+
+_LEVEL = 1e-3
+"""Heights this part of Lpp apart are one: z = 0 is the base line, what is lower hangs below it."""
+
+_SIDES = 1e-3
+"""Breadth or depth this part less than that of all of the hull is that of all of the hull."""
+
+_WET, _DRY = 0.1, 0.95
+"""z = 0 of the file between these parts of the depth is taken for the waterline."""
+
+_FAR = 0.25
+"""A perpendicular this part of the length beyond the hull is a mistake."""
+
+_ROUNDS = 3
+"""Stretch of the keel, base line and draught follow from one another: so often."""
+
+_UNITS_HINT = "in units of the file, or with a unit, as '12.5 m'"
+
+
+@attrs.define
+class _Heights:
+    """Base line and design waterline, m in coordinates of the file, with the evidence of each."""
+
+    base: float
+    base_from: tuple[str, str]
+    draught: float
+    draught_from: tuple[str, str]
+    keel: Keel
+    level: Level
+
+    @property
+    def waterline(self) -> float:
+        return self.base + self.draught
+
+
+@attrs.define
+class _Ends:
+    """Perpendiculars, m in coordinates of the file, with the evidence of each."""
+
+    ap: float
+    ap_from: tuple[str, str]
+    fp: float
+    fp_from: tuple[str, str]
+    length: float | None
+    suspicion: str | None = None
+
+
+def find_frame(
+    outline: HullOutline,
+    options: FrameOptions,
+    book: Notebook,
+    where: str,
+    *,
+    axes: FileAxes | None = None,
+    stated: StatedPlaces | None = None,
+) -> ShipFrame:
+    """Find where a hull lies in its file.
+
+    Parameters
+    ----------
+    outline : HullOutline
+        The hull, m, forward, to port and upward positive, with the origin of the file.
+    options : FrameOptions
+        What the caller says.
+    book : Notebook
+        Takes an assumption for each value found, and suspicions.
+    where : str
+        What was read, for notes and messages: "the mesh".
+    axes : FileAxes or None
+        How places that were given become m; None: they are.
+    stated : StatedPlaces or None
+        What the file says of itself.
+
+    Raises
+    ------
+    BadInputError
+        A place or particular that the hull does not reach, or that contradicts another.
+    """
+    asked = options.in_metres(axes or FileAxes())
+    said = stated or StatedPlaces()
+    heights = _heights(outline, asked, said, where)
+    trim = (asked.draught_aft or 0.0) - (asked.draught_fwd or 0.0)
+    stem = _stem(outline, heights, trim, book, where)
+    ends = _ends(outline, heights, stem, asked, said, where)
+    length = ends.fp - ends.ap if ends.length is None else ends.length
+    _tell_heights(outline, heights, length, book, where)
+    _tell_ends(ends, stem, length, book, where)
+    breadth = _breadth(outline, heights, asked, said, book, where)
+    depth = _depth(outline, heights, ends, asked, said, book, where)
+    if trim:
+        what = f"{trim:.6g} m by the stern; the draught amidships is {heights.draught:.6g} m"
+        book.assume("design trim", where, f"{what}, the hull stays in its own axes", trim)
+    frame = ShipFrame(
+        ap=ends.ap, fp=ends.fp, base=heights.base, draught=heights.draught, breadth=breadth[0],
+        depth=depth[0], trim=trim, rake=-heights.keel.rise * length, stem=stem,
+        given_length=ends.length,
+        origins={
+            "base": heights.base_from[0], "draught": heights.draught_from[0],
+            "ap": ends.ap_from[0], "fp": ends.fp_from[0], "breadth": breadth[1],
+            "depth": depth[1],
+        },
+    )  # fmt: skip
+    _tell_shift(frame, outline, book, where)
+    return frame
+
+
+# --------------------------------------------------------------------------------------
+# Heights: base line and design waterline.
+
+
+def _heights(
+    outline: HullOutline, asked: FrameOptions, said: StatedPlaces, where: str
+) -> _Heights:
+    low, high = float(outline.low[2]), float(outline.high[2])
+    level = _level(outline, 0.5 * (low + high))
+    _check_heights(asked, low, high, where)
+    for _ in range(_ROUNDS):
+        keel = measure_keel(outline, level.aft, level.fore)
+        length = asked.length or said.length or level.fore - level.aft
+        base, base_from = _base(keel, length, asked, said)
+        draught, draught_from = _draught(base, low, high, asked, said)
+        _check_draught(base, draught, draught_from, high, where)
+        level = _level(outline, base + draught)
+    return _Heights(base, base_from, draught, draught_from, keel, level)
+
+
+def _level(outline: HullOutline, z: float) -> Level:
+    """Measure a waterline; that of the whole extent where the hull has none at this height."""
+    x = outline.xyz[:, 0]
+    half = float(np.abs(outline.xyz[:, 1]).max())
+    return outline.level(z) or Level(float(x.min()), float(x.max()), half)
+
+
+def _base(
+    keel: Keel, length: float, asked: FrameOptions, said: StatedPlaces
+) -> tuple[float, tuple[str, str]]:
+    """Give the height of the base line in the file, whence it is known, and the evidence."""
+    given, waterline, draught = asked.metres("base"), asked.metres("waterline"), _mean(asked)
+    if given is not None:
+        return given, ("given", f"at z = {given:.6g} m of the file, as given")
+    if waterline is not None and draught is not None:
+        base = waterline - draught
+        return base, ("given", f"at z = {base:.6g} m, the draught below the waterline, as given")
+    if said.base is not None:
+        return said.base, ("stated", f"at z = {said.base:.6g} m, as the file says")
+    stretch = "the bottom on the centre line between .3 and .7 of the waterline"
+    if abs(keel.low) <= _LEVEL * length:
+        off = f"within {1e3 * abs(keel.low):.3g} mm of it" if keel.low else "there"
+        return 0.0, ("found", f"z = 0 of the file, since {stretch} lies {off}")
+    what = f"at z = {keel.low:.6g} m of the file, the lowest place of {stretch}"
+    return keel.low, ("found", f"{what}, at x = {keel.at:.6g} m")
+
+
+def _mean(asked: FrameOptions) -> float | None:
+    if asked.draught is not None or asked.draught_aft is None or asked.draught_fwd is None:
+        return asked.draught
+    return 0.5 * (asked.draught_aft + asked.draught_fwd)
+
+
+def _draught(
+    base: float, low: float, high: float, asked: FrameOptions, said: StatedPlaces
+) -> tuple[float, tuple[str, str]]:
+    """Give the draught (m), whence it is known, and the evidence."""
+    given, waterline = _mean(asked), asked.metres("waterline")
+    if given is not None:
+        return given, ("given", f"{given:.6g} m, as given")
+    if waterline is not None:
+        draught = waterline - base
+        what = f"{draught:.6g} m, up to the waterline given at z = {waterline:.6g} m of the file"
+        return draught, ("given", what)
+    if said.draught is not None:
+        return said.draught, ("stated", f"{said.draught:.6g} m, as the file says")
+    depth = high - base
+    if base < 0.0 and _WET * depth < -base <= _DRY * depth + (high <= 0.0) * depth:
+        what = f"{-base:.6g} m: z = 0 of the file cuts the hull and is taken for the waterline"
+        return -base, ("found", f"{what}; if it is not, give draught= or waterline=")
+    what = f"{0.5 * depth:.6g} m, half the height of the hull, because nothing tells it"
+    return 0.5 * depth, ("assumed", f"{what}; give draught= or waterline=")
+
+
+def _check_heights(asked: FrameOptions, low: float, high: float, where: str) -> None:
+    """Refuse a base line or a waterline that the hull does not reach."""
+    reach = f"the hull runs from z = {low:.6g} to {high:.6g} m of the file at full scale"
+    slack = _FAR * (high - low)
+    for name, least, most in (("base", low - slack, high), ("waterline", low, high)):
+        value = asked.metres(name)
+        if value is not None and not least <= value <= most + _LEVEL * (high - low):
+            raise BadInputError(
+                f"{name} is z = {value:.6g} m, and {reach}", f"in {where}",
+                f"give {name} {_UNITS_HINT}",
+            )  # fmt: skip
+
+
+def _check_draught(
+    base: float, draught: float, source: tuple[str, str], high: float, where: str
+) -> None:
+    """Refuse a waterline over the top of the hull, or at the base line."""
+    top = high - base
+    if not draught > 0.0:
+        raise BadInputError(
+            f"the waterline lies {-draught:.6g} m below the base line", f"in {where}",
+            f"give base and waterline {_UNITS_HINT}",
+        )  # fmt: skip
+    if source[0] == "given" and draught > (1.0 + _SIDES) * top:
+        raise BadInputError(
+            f"the design waterline, {draught:.6g} m above the base line, lies over the top of the "
+            f"hull, {top:.6g} m above it", f"in {where}",
+            "give draught= in m at full scale, and check unit=, scale= and base=",
+        )  # fmt: skip
+
+
+def _tell_heights(
+    outline: HullOutline, heights: _Heights, length: float, book: Notebook, where: str
+) -> None:
+    keel, base = heights.keel, heights.base
+    if heights.base_from[0] != "given":
+        book.assume("base line", where, heights.base_from[1], base)
+    elif abs(keel.low - base) > _LEVEL * length:
+        what = f"{heights.base_from[1]}; the bottom amidships lies at z = {keel.low:.6g} m"
+        book.suspect("base line", where, f"{what}, {abs(keel.low - base):.4g} m off: check it",
+                     keel.low - base)  # fmt: skip
+    if keel.rise:
+        rake = abs(keel.rise) * length
+        end = "aft" if keel.rise > 0.0 else "forward"
+        what = f"the keel is raked, over Lpp {rake:.4g} m deeper {end}; the base line is level"
+        book.assume("raked keel", where, f"{what}, through its lowest place amidships", rake)
+    if heights.draught_from[0] != "given":
+        book.assume("draught", where, heights.draught_from[1], heights.draught)
+    _tell_below(outline, heights, length, book, where)
+
+
+def _tell_below(
+    outline: HullOutline, heights: _Heights, length: float, book: Notebook, where: str
+) -> None:
+    """Tell what hangs below the base line: it was not taken for the bottom."""
+    row = int(outline.xyz[:, 2].argmin())
+    deep = heights.base - float(outline.xyz[row, 2])
+    if deep <= _LEVEL * length:
+        return
+    x, level = float(outline.xyz[row, 0]), heights.level
+    part = (x - level.aft) / max(level.fore - level.aft, 1e-300)
+    raked = abs(heights.keel.rise) * length > 0.5 * deep
+    kind = "a dome or bulb" if part > 0.7 else "a skeg or bossing" if part < 0.3 else "a fin"
+    name = "the raked keel" if raked else kind
+    what = f"{name} reaches {deep:.4g} m below the base line, at x = {x:.6g} m of the file"
+    book.assume("below the base line", where, what, deep)
+
+
+# --------------------------------------------------------------------------------------
+# Ends: the perpendiculars.
+
+
+def _stem(
+    outline: HullOutline, heights: _Heights, trim: float, book: Notebook, where: str
+) -> float:
+    """Give x where the stem meets the design waterline, which may be inclined."""
+    z = heights.waterline - 0.5 * trim
+    found = find_stem(outline, z, heights.level)
+    if found.doubt is not None:
+        book.suspect("stem", where, found.doubt, found.x)
+    elif found.note is not None:
+        book.assume("stem", where, found.note, found.x)
+    return found.x
+
+
+def _ends(
+    outline: HullOutline,
+    heights: _Heights,
+    stem: float,
+    asked: FrameOptions,
+    said: StatedPlaces,
+    where: str,
+) -> _Ends:
+    """Find both perpendiculars: as given, as stated, by the stem and Lpp, by the waterline."""
+    length, length_from = _length(asked, said)
+    ap, fp = asked.metres("ap"), asked.metres("fp")
+    _check_reach(outline, {"ap": ap, "fp": fp}, where)
+    if asked.origin is not None:
+        ap, fp = _by_origin(asked.origin, length, stem)
+    why = "as given" if asked.origin is None else f"x = 0 of the file is {asked.origin}, as given"
+    if ap is not None and fp is not None:
+        _check_length(ap, fp, length, where)
+        return _Ends(ap, ("given", why), fp, ("given", why), length)
+    if ap is not None:
+        return _from_ap(ap, why, stem, length)
+    fp_from = ("given", why) if fp is not None else ("found", f"the stem meets the waterline at "
+               f"z = {heights.waterline:.6g} m there")  # fmt: skip
+    if fp is None and said.fp is not None:
+        fp, fp_from = said.fp, ("stated", "as the file says")
+    fixed = fp is not None
+    fp = stem if fp is None else fp
+    if length is not None:
+        found = _from_fp(fp, fp_from, length, length_from)
+        return found if fixed else _snapped(found, length)
+    if said.ap is not None or said.rudder is not None:
+        axis = said.ap if said.ap is not None else said.rudder
+        name = "as the file says" if said.ap is not None else "the rudder axis that the file tells"
+        return _Ends(float(axis or 0.0), ("stated", name), fp, fp_from, None)
+    return _by_waterline(outline, heights, fp, fp_from)
+
+
+def _length(asked: FrameOptions, said: StatedPlaces) -> tuple[float | None, str]:
+    if asked.length is not None:
+        return asked.length, "given"
+    return said.length, "stated in the file"
+
+
+def _check_reach(outline: HullOutline, places: dict[str, float | None], where: str) -> None:
+    """Refuse a perpendicular far beyond the hull."""
+    low, high = float(outline.low[0]), float(outline.high[0])
+    slack = _FAR * (high - low)
+    for name, x in places.items():
+        if x is not None and not low - slack <= x <= high + slack:
+            raise BadInputError(
+                f"{name} is x = {x:.6g} m, and the hull runs from x = {low:.6g} to {high:.6g} m "
+                "of the file at full scale, forward positive", f"in {where}",
+                f"give {name} {_UNITS_HINT}",
+            )  # fmt: skip
+    ap, fp = places["ap"], places["fp"]
+    if ap is not None and fp is not None and not ap < fp:
+        raise BadInputError(
+            f"ap is x = {ap:.6g} m and fp x = {fp:.6g} m, forward positive", f"in {where}",
+            "exchange them, or give axes= if the bow is at the other end",
+        )  # fmt: skip
+
+
+def _by_origin(
+    origin: str, length: float | None, stem: float
+) -> tuple[float | None, float | None]:
+    """Give the perpendiculars that follow from where x = 0 is: one, or both."""
+    if origin == "ap":
+        return 0.0, None
+    if origin == "fp":
+        return None, 0.0
+    half = stem if length is None else 0.5 * length
+    return -half, half
+
+
+def _check_length(ap: float, fp: float, length: float | None, where: str) -> None:
+    if length is not None and not same_place(fp - ap, length, length):
+        raise BadInputError(
+            f"length is {length:.6g} m and from ap to fp are {fp - ap:.6g} m", f"in {where}",
+            f"leave one out, or give ap and fp {_UNITS_HINT}",
+        )  # fmt: skip
+
+
+def _from_ap(ap: float, why: str, stem: float, length: float | None) -> _Ends:
+    """Go forward from a given AP: by Lpp, else to the stem."""
+    if length is None:
+        return _Ends(ap, ("given", why), stem, ("found", "the stem meets the waterline there"),
+                     None)  # fmt: skip
+    return _Ends(ap, ("given", why), ap + length, ("given", "Lpp forward of the AP"), length)
+
+
+def _from_fp(fp: float, fp_from: tuple[str, str], length: float, length_from: str) -> _Ends:
+    what = f"Lpp = {length:.6g} m, {length_from}, aft of the FP"
+    return _Ends(fp - length, ("found", what), fp, fp_from, length)
+
+
+def _snapped(ends: _Ends, length: float) -> _Ends:
+    """Let x = 0 of the file be a perpendicular or midship where it lies beside it."""
+    middle = 0.5 * (ends.ap + ends.fp)
+    for name, x in (("AP", ends.ap), ("FP", ends.fp), ("midship", middle)):
+        if same_place(x, 0.0, length):
+            what = f"x = 0 of the file is {name}, which stem and Lpp put {x:.4g} m from there"
+            ap = {"AP": 0.0, "FP": -length, "midship": -0.5 * length}[name]
+            return attrs.evolve(
+                ends, ap=ap, fp=ap + length, ap_from=("found", what), fp_from=("found", what)
+            )
+    return ends
+
+
+def _by_waterline(
+    outline: HullOutline, heights: _Heights, fp: float, fp_from: tuple[str, str]
+) -> _Ends:
+    """Take the aft end of the design waterline for the AP, and say what hangs on it."""
+    aft = heights.level.aft
+    ap = 0.0 if same_place(aft, 0.0, fp - aft) else aft
+    what = "nothing tells Lpp: the AP is the aft end of the design waterline"
+    hint = ""
+    if ap != 0.0 and outline.low[0] < 0.0 < outline.high[0]:
+        hint = f"; if x = 0 of the file, {-aft:.4g} m forward of it, is the AP give origin='ap'"
+        hint = hint if 0.0 < -aft < 0.25 * outline.size else ""
+    doubt = (
+        f"the AP is taken at the aft end of the design waterline, x = {aft:.6g} m of the file, and "
+        f"Lpp = LWL = {fp - ap:.6g} m: LCB in % of Lpp and station numbers hang on it{hint}; give "
+        "length= or ap="
+    )
+    return _Ends(ap, ("assumed", what), fp, fp_from, None, doubt)
+
+
+def _tell_ends(ends: _Ends, stem: float, length: float, book: Notebook, where: str) -> None:
+    if ends.fp_from[0] != "given":
+        what = f"at x = {ends.fp:.6g} m of the file: {ends.fp_from[1]}"
+        book.assume("forward perpendicular", where, what, ends.fp)
+    if ends.ap_from[0] != "given":
+        what = f"at x = {ends.ap:.6g} m of the file: {ends.ap_from[1]}"
+        book.assume("aft perpendicular", where, what, ends.ap)
+    if ends.suspicion is not None:
+        book.suspect("aft perpendicular", where, ends.suspicion, ends.ap)
+    if ends.length is None:
+        name = "LWL" if ends.ap_from[0] == "assumed" else "the distance of the perpendiculars"
+        book.assume("length", where, f"Lpp = {name} = {length:.6g} m", length)
+    if not same_place(ends.fp, stem, 2.0 * length):
+        what = (
+            f"the FP lies at x = {ends.fp:.6g} m of the file, and the stem meets the design "
+            f"waterline at {stem:.6g} m, {abs(ends.fp - stem):.4g} m off: check length=, draught= "
+            "and where x = 0 is"
+        )
+        book.suspect("forward perpendicular", where, what, ends.fp - stem)
+
+
+# --------------------------------------------------------------------------------------
+# Breadth, depth, and what is moved.
+
+
+def _breadth(
+    outline: HullOutline, heights: _Heights, asked: FrameOptions, said: StatedPlaces,
+    book: Notebook, where: str,
+) -> tuple[float, str]:  # fmt: skip
+    """Give the breadth (m) and whence it is known."""
+    if asked.breadth is not None:
+        return asked.breadth, "given"
+    if said.breadth is not None:
+        book.assume("breadth", where, f"{said.breadth:.6g} m, as the file says", said.breadth)
+        return said.breadth, "stated"
+    widest = 2.0 * float(np.abs(outline.xyz[:, 1]).max())
+    found = 2.0 * heights.level.half_breadth
+    breadth = widest if found <= 0.0 or found > (1.0 - _SIDES) * widest else found
+    what = f"{breadth:.6g} m, the greatest of the design waterline"
+    book.assume("breadth", where, what, breadth)
+    return breadth, "found"
+
+
+def _depth(
+    outline: HullOutline, heights: _Heights, ends: _Ends, asked: FrameOptions, said: StatedPlaces,
+    book: Notebook, where: str,
+) -> tuple[float, str]:  # fmt: skip
+    """Give the depth (m) and whence it is known."""
+    if asked.depth is not None:
+        _check_depth(asked.depth, float(outline.high[2]) - heights.base, where)
+        return asked.depth, "given"
+    if said.depth is not None:
+        book.assume("depth", where, f"{said.depth:.6g} m, as the file says", said.depth)
+        return said.depth, "stated"
+    top = float(outline.high[2]) - heights.base
+    edge = outline.deck_height(0.5 * (ends.ap + ends.fp)) - heights.base
+    depth = top if edge <= 0.0 or edge > (1.0 - _SIDES) * top else edge
+    book.assume("depth", where, f"{depth:.6g} m, the height of the deck edge amidships", depth)
+    return depth, "found"
+
+
+def _check_depth(depth: float, top: float, where: str) -> None:
+    if depth > 1.25 * top:
+        raise BadInputError(
+            f"depth is {depth:.6g} m, and the hull reaches {top:.6g} m above its base line",
+            f"in {where}", "give depth= in m at full scale, and check unit= and scale=",
+        )  # fmt: skip
+
+
+def _tell_shift(frame: ShipFrame, outline: HullOutline, book: Notebook, where: str) -> None:
+    """Tell what is moved, or that all stays where it is in the file."""
+    x, z = frame.shift
+    low = outline.low
+    if not frame.moves:
+        what = f"x = 0 and z = 0 as in the file; x from {low[0]:.6g} m, z from {low[2]:.6g} m"
+        book.assume("origin", where, what)
+        return
+    parts: list[Any] = [f"{name} by {by:.6g} m" for name, by in (("x", x), ("z", z)) if by]
+    book.repair("origin", where, f"moved: {' and '.join(parts)}", x or z)

@@ -1,0 +1,233 @@
+"""Outline of a hull that is not placed yet: what tells where base line and perpendiculars are.
+
+A hull is known here by straight edges in space (of triangles, or along lines), by the segments of
+its contour in the centre plane, and by its deck edge. All is in m, x forward, y across the ship and
+z up, with the origin of the file.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.surfaces.triangles import Triangles, boundary_edges
+from assoc_hull.io.lines.slices import HullSlices, SliceLine
+
+__all__ = ["HullOutline", "Level", "outline_of_mesh", "outline_of_sections", "outline_of_slices"]
+
+_BESIDE = 1e-6
+"""The contour is cut this part of the size of the hull beside y = 0, where triangles lie."""
+
+_OPEN = 1e-4
+"""An open edge this part of the size near y = 0 belongs to the contour of half a hull."""
+
+_SAME = 1e-4
+"""Crossings of the contour this part of the size apart are one."""
+
+_SIDE = 0.9
+"""Points amidships this part of the greatest half-breadth off and more are on the side."""
+
+
+@attrs.frozen
+class Level:
+    """A hull at one height: where its waterline ends, and how broad it is there; m."""
+
+    aft: float
+    fore: float
+    half_breadth: float
+
+
+@attrs.frozen(eq=False)
+class HullOutline:
+    """Edges of a hull and its contour in the centre plane.
+
+    Attributes
+    ----------
+    xyz : (n, 3), m
+        Places.
+    edge : (m, 2) int
+        Straight edges between them.
+    centre : (k, 2, 2), m
+        Segments of the centre-line contour, (x, z) at both ends, in no order.
+    deck : (d, 2) or None, m
+        Deck edge as (x, z), from aft, where it is known.
+    stations : (s,) or None, m
+        Where sections stand, of a hull that is known by lines.
+    """
+
+    xyz: FloatArray
+    edge: IntArray
+    centre: FloatArray
+    deck: FloatArray | None = None
+    stations: FloatArray | None = None
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.xyz, self.edge, self.centre)
+
+    @property
+    def low(self) -> FloatArray:
+        """Least coordinates, (3,), m."""
+        return np.asarray(self.xyz.min(axis=0))
+
+    @property
+    def high(self) -> FloatArray:
+        """Greatest coordinates, (3,), m."""
+        return np.asarray(self.xyz.max(axis=0))
+
+    @property
+    def size(self) -> float:
+        """Length over all, m."""
+        return float(np.ptp(self.xyz[:, 0]))
+
+    def cut(self, axis: int, value: float) -> FloatArray:
+        """Give the places where edges pass a plane across an axis, (k, 3); edges in it count."""
+        a, b = self.xyz[self.edge[:, 0]], self.xyz[self.edge[:, 1]]
+        first, last = a[:, axis] - value, b[:, axis] - value
+        through = first * last <= 0.0
+        a, b, first, last = a[through], b[through], first[through], last[through]
+        level = first == last
+        part = first / np.where(level, 1.0, first - last)
+        places = a + np.where(level, 0.0, part)[:, None] * (b - a)
+        # A place at the end of an edge is that of its vertex, to the bit.
+        places[last == 0.0] = b[last == 0.0]
+        return np.concatenate([places, b[level]])
+
+    def level(self, z: float) -> Level | None:
+        """Measure the hull at a height; None where it has no waterline there."""
+        places = self.cut(2, z)
+        contour = self.contour(z)
+        x = np.concatenate([places[:, 0], contour])
+        if not len(x):
+            return None
+        half = float(np.abs(places[:, 1]).max(initial=0.0))
+        return Level(float(x.min()), float(x.max()), half)
+
+    def contour(self, z: float) -> FloatArray:
+        """Give x of the centre-line contour at a height, (k,), ascending, each once."""
+        first, last = self.centre[:, 0], self.centre[:, 1]
+        low, high = first[:, 1] - z, last[:, 1] - z
+        through = low * high <= 0.0
+        first, last, low, high = first[through], last[through], low[through], high[through]
+        level = low == high
+        part = np.where(level, 0.0, low / np.where(level, 1.0, low - high))
+        x = first[:, 0] + part * (last[:, 0] - first[:, 0])
+        x = np.sort(np.concatenate([x, last[level, 0]]))
+        apart = np.diff(x, prepend=-np.inf) > _SAME * self.size
+        return np.asarray(x[apart])
+
+    def bottom(self, x: FloatArray) -> FloatArray:
+        """Give the lowest height of the contour at each x, (k,); nan where there is none."""
+        found = np.full(len(x), np.nan)
+        first, last = self.centre[:, 0], self.centre[:, 1]
+        swap = (first[:, 0] > last[:, 0])[:, None]
+        first, last = np.where(swap, last, first), np.where(swap, first, last)
+        long = np.maximum(last[:, 0] - first[:, 0], 1e-300)
+        for i, place in enumerate(x.tolist()):
+            on = (first[:, 0] <= place) & (place <= last[:, 0])
+            if on.any():
+                part = (place - first[on, 0]) / long[on]
+                z = first[on, 1] + np.clip(part, 0.0, 1.0) * (last[on, 1] - first[on, 1])
+                found[i] = z.min()
+        return found
+
+    def deck_height(self, x: float) -> float:
+        """Give the height of the deck edge at x: as drawn, else the top of the side there."""
+        if self.deck is not None and self.deck[0, 0] <= x <= self.deck[-1, 0]:
+            return float(np.interp(x, self.deck[:, 0], self.deck[:, 1]))
+        if self.stations is not None and len(self.stations):
+            x = float(self.stations[int(np.abs(self.stations - x).argmin())])
+        places = self.cut(0, x)
+        if not len(places):
+            return float(self.xyz[:, 2].max())
+        half = np.abs(places[:, 1])
+        return float(places[half >= _SIDE * half.max(), 2].max())
+
+
+# --------------------------------------------------------------------------------------
+# From what readers have.
+
+
+def outline_of_mesh(mesh: Triangles) -> HullOutline:
+    """Outline a mesh (m) whose centre plane is y = 0, whole or half."""
+    xyz, face = mesh.xyz, mesh.face
+    size = float(np.ptp(xyz[:, 0]))
+    rim = boundary_edges(mesh)
+    near = (np.abs(xyz[rim][:, :, 1]) <= _OPEN * size).all(axis=1)
+    centre = [_cut_beside(mesh, _BESIDE * size), xyz[rim[near]][:, :, [0, 2]]]
+    return HullOutline(xyz, mesh.edges() if len(face) else rim, np.concatenate(centre))
+
+
+def _cut_beside(mesh: Triangles, y: float) -> FloatArray:
+    """Cut triangles just beside the centre plane; segments (k, 2, 2) of x and z."""
+    above = mesh.xyz[:, 1] >= y
+    side = above[mesh.face]
+    face = mesh.face[side.any(axis=1) & ~side.all(axis=1)]
+    if not len(face):
+        return np.zeros((0, 2, 2))
+    side = above[face]
+    lone = np.argmax(side != (side.sum(axis=1) > 1)[:, None], axis=1)
+    a, b, c = (mesh.xyz[face[np.arange(len(face)), (lone + i) % 3]] for i in range(3))
+    ends = []
+    for other in (b, c):
+        part = (a[:, 1] - y) / (a[:, 1] - other[:, 1])
+        ends.append((a + part[:, None] * (other - a))[:, [0, 2]])
+    return np.stack(ends, axis=1)
+
+
+def outline_of_slices(slices: HullSlices) -> HullOutline:
+    """Outline digitised lines; without a profile, the ends of other lines tell the contour."""
+    pieces = [piece for line in (*slices.lines, *slices.boundaries) for piece in line.pieces]
+    xyz, edge = _joined([piece.points for piece in pieces])
+    profile, deck = slices.boundary("profile"), slices.boundary("deck edge")
+    centre = _segments(profile) if profile is not None else _contour_of_ends(slices)
+    stations = np.array([line.offset for line in slices.group("sections")])
+    edges = None if deck is None else np.concatenate([p.points[:, [0, 2]] for p in deck.pieces])
+    if edges is not None:
+        edges = edges[np.argsort(edges[:, 0], kind="stable")]
+    return HullOutline(xyz, edge, centre, edges, stations)
+
+
+def outline_of_sections(
+    sections: list[FloatArray], contour: list[FloatArray], deck: FloatArray | None
+) -> HullOutline:
+    """Outline sections (n, 3), m, with polylines (x, z) of the contour and the deck edge if any."""
+    xyz, edge = _joined(sections)
+    stations = np.array([section[0, 0] for section in sections])
+    return HullOutline(xyz, edge, _chained(contour), deck, stations)
+
+
+def _joined(polylines: list[FloatArray]) -> tuple[FloatArray, IntArray]:
+    """Put polylines together: places, and the edges along each."""
+    count = [len(each) for each in polylines]
+    start = np.cumsum([0, *count[:-1]])
+    first = [np.arange(at, at + n - 1) for at, n in zip(start.tolist(), count, strict=True)]
+    edge = np.concatenate(first) if first else np.zeros(0, np.int64)
+    return np.concatenate(polylines), np.stack([edge, edge + 1], axis=1)
+
+
+def _chained(polylines: list[FloatArray]) -> FloatArray:
+    """Give the segments (k, 2, 2) of polylines (n, 2)."""
+    parts = [np.stack([each[:-1], each[1:]], axis=1) for each in polylines if len(each) > 1]
+    return np.concatenate(parts) if parts else np.zeros((0, 2, 2))
+
+
+def _segments(line: SliceLine) -> FloatArray:
+    return _chained([piece.points[:, [0, 2]] for piece in line.pieces])
+
+
+def _contour_of_ends(slices: HullSlices) -> FloatArray:
+    """Make a contour of the lowest points of sections and of the ends of waterlines."""
+    feet = [
+        min((piece.points[:, [0, 2]] for piece in line.pieces), key=lambda p: float(p[:, 1].min()))
+        for line in slices.group("sections")
+    ]
+    keel = [points[int(points[:, 1].argmin())] for points in feet]
+    half = float(slices.high[1])
+    ends: list[list[FloatArray]] = [[], []]
+    for line in slices.group("waterlines"):
+        every = np.concatenate([piece.points for piece in line.pieces])
+        for kept, row in zip(ends, (every[:, 0].argmin(), every[:, 0].argmax()), strict=True):
+            if every[row, 1] <= 0.02 * half:
+                kept.append(every[int(row)][[0, 2]])
+    return _chained([np.array(each) for each in (keel, *ends) if len(each) > 1])

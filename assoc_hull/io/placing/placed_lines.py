@@ -1,0 +1,94 @@
+"""Digitised lines put into ship axes: the frame is found, then all is shifted once."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.io.lines.raw_lines import plane_name
+from assoc_hull.io.lines.ship_frame import ShipFrame, StatedPlaces
+from assoc_hull.io.lines.slices import AXES, HullSlices, SliceLine
+from assoc_hull.io.placing.frame import find_frame
+from assoc_hull.io.placing.options import FileAxes, FrameOptions
+from assoc_hull.io.placing.outline import outline_of_slices
+from assoc_hull.io.reports import Notebook
+
+__all__ = ["place_slices", "shift_slices"]
+
+_WHERE = "the lines"
+
+
+def place_slices(
+    slices: HullSlices,
+    options: FrameOptions,
+    axes: FileAxes,
+    book: Notebook,
+    stated: StatedPlaces | None = None,
+) -> HullSlices:
+    """Give lines in ship axes, with their frame; `book` holds what was told before.
+
+    Raises
+    ------
+    BadInputError
+        As for `assoc_hull.io.placing.frame.find_frame`.
+    """
+    outline = outline_of_slices(slices)
+    frame = find_frame(outline, options, book, _WHERE, axes=axes, stated=stated)
+    moved = shift_slices(slices, frame, book) if frame.moves else slices
+    return attrs.evolve(moved, frame=frame, report=book.report())
+
+
+def shift_slices(slices: HullSlices, frame: ShipFrame, book: Notebook) -> HullSlices:
+    """Move all lines of a hull; those named after their plane are named after the new one."""
+    by = np.array([frame.shift[0], 0.0, frame.shift[1]])
+    lines = tuple(_shifted(line, frame) for line in slices.lines)
+    _tell_names(slices.lines, lines, book)
+    joins = tuple(
+        attrs.evolve(join, place=tuple((np.array(join.place) + by).tolist()))
+        for join in slices.joins
+    )
+    names = {old.name: new.name for old, new in zip(slices.lines, lines, strict=True)}
+    return attrs.evolve(
+        slices, lines=lines, joins=joins, low=slices.low + by, high=slices.high + by,
+        boundaries=tuple(_shifted(line, frame) for line in slices.boundaries),
+        knuckles={names.get(name, name): xyz + by for name, xyz in slices.knuckles.items()},
+    )  # fmt: skip
+
+
+def _shifted(line: SliceLine, frame: ShipFrame) -> SliceLine:
+    pieces = tuple(
+        attrs.evolve(piece, points=frame.moved(piece.points)) for piece in line.pieces
+    )
+    if line.group == "boundary":
+        return attrs.evolve(line, pieces=pieces)
+    by = (frame.shift[0], 0.0, frame.shift[1])[AXES[line.group]]
+    offset = round(line.offset + by, 9)
+    name = plane_name(line.group, offset) if _by_place(line) else line.name
+    flat = []
+    for piece in pieces:
+        points = piece.points.copy()
+        points[:, AXES[line.group]] = offset  # the plane and its points stay one to the bit
+        flat.append(attrs.evolve(piece, points=points))
+    return attrs.evolve(line, offset=offset, name=name, pieces=tuple(flat))
+
+
+def _by_place(line: SliceLine) -> bool:
+    """Tell whether a line goes by the number of its place."""
+    return line.name == plane_name(line.group, line.offset)
+
+
+def _tell_names(
+    before: tuple[SliceLine, ...], after: tuple[SliceLine, ...], book: Notebook
+) -> None:
+    """Say which names changed with the places, and which stay though the lines moved."""
+    new = [(a.name, b.name) for a, b in zip(before, after, strict=True) if a.name != b.name]
+    if new:
+        what = f"{len(new)} lines that go by their place are named after it: {new[0][0]} is now "
+        book.repair("names", _WHERE, f"{what}{new[0][1]}", len(new))
+    kept = [
+        b.name for a, b in zip(before, after, strict=True)
+        if a.name == b.name and a.offset != b.offset and any(c.isdigit() for c in a.name)
+    ]  # fmt: skip
+    if kept:
+        what = f"{len(kept)} lines keep their names as {kept[0]}, though they were moved"
+        book.assume("names", _WHERE, what, len(kept))
