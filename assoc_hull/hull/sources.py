@@ -292,7 +292,14 @@ def read(
     Examples
     --------
     >>> import assoc_hull as ah
-    >>> hull = ah.read("DTC-scaled.stl.gz", scale=59.407, length=355, draught=14.5)  # doctest: +SKIP
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = ah.examples.wigley().export(f"{folder}/lines.csv").path
+    ...     hull = ah.read(path, origin="midship", fp="50 m")
+    Traceback (most recent call last):
+        ...
+    assoc_hull.errors.BadInputError: origin was given with ap or fp, as an argument; give \
+either: both say where x = 0 is
     """
     from assoc_hull.io.classical.read import holds_definition
     from assoc_hull.io.hull_file.saving import holds_hull

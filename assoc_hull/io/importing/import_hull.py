@@ -7,18 +7,25 @@ a classical definition, does not come through here.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import attrs
 
+from assoc_hull.arguments import positive
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
+from assoc_hull.errors import BadInputError
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.verdict import Finding, Verdict, require_sound
+from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.offsets.complete_table import net_from_table
+from assoc_hull.io.offsets.place_table import place_table, scale_table, table_particulars
 from assoc_hull.io.offsets.read import read_offsets
 from assoc_hull.io.offsets.table import OffsetTable
+from assoc_hull.io.placing.options import FileAxes, FrameOptions
 from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
 from assoc_hull.io.slicing.net import SliceReport
 from assoc_hull.io.slicing.read import holds_lines, read_slices
+from assoc_hull.io.units import METRES
 from assoc_hull.model.tables import DECKS, HullState
 
 __all__ = ["ImportReport", "import_hull"]
@@ -73,9 +80,7 @@ def import_hull(
     return state, attrs.evolve(report, verdict=verdict, adoption=adoption)
 
 
-def _import_lines(
-    path: Path, options: ImportOptions, tell: Tell
-) -> tuple[HullState, ImportReport]:
+def _import_lines(path: Path, options: ImportOptions, tell: Tell) -> tuple[HullState, ImportReport]:
     options.refuse("it is for tables of offsets", path, options.TABLES)
     state, slices = read_slices(
         path, frame=options.frame, **options.named(*options.CUTS, "deck", "unit"), tell=tell
@@ -84,13 +89,49 @@ def _import_lines(
 
 
 def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, ImportReport]:
-    options.refuse("it is for meshes, surfaces and digitised lines", path, options.CUTS)
-    table, notes = read_offsets(path, **options.named(*options.SIZES, "unit", "station_zero"))
+    options.refuse("it is for meshes, surfaces and digitised lines", path, options.ONLY_CUTS)
+    table, notes, frame = _placed_table(path, options)
     # A table that cannot be right is refused with all that is wrong in it before it is adopted.
     faults = tuple(map(_finding, notes.faults))
     require_sound(Verdict(faults), path.name, accept=options.accept, strict=False)
-    state, adoption = net_from_table(table, deck=options.deck or DECKS[0])
+    deck = options.deck or DECKS[0]
+    ship = table_particulars(table, frame, deck)
+    state, adoption = net_from_table(table, deck=deck, particulars=ship)
     return state, ImportReport(notes, adoption, Verdict(), table=table)
+
+
+def _placed_table(
+    path: Path, options: ImportOptions
+) -> tuple[OffsetTable, OffsetReport, ShipFrame]:
+    """Read a table at the scale of the file, bring it to full scale and into ship axes."""
+    scale = positive(options.scale or 1.0, "scale", "as an argument")
+    zero, frame = _table_origin(options)
+    named: dict[str, Any] = {name: getattr(frame, name) for name in options.SIZES}
+    named["frame_spacing"] = options.frame_spacing
+    sizes = {name: value / scale for name, value in named.items() if value is not None}
+    more = options.named("unit", "station_spacings") | (
+        {} if zero is None else {"station_zero": zero}
+    )
+    table, notes = read_offsets(path, **sizes, **more)
+    if scale != 1.0:
+        table = scale_table(table, scale)
+    unit = options.unit or next((n.what for n in notes.assumptions if n.kind == "unit"), "m")
+    factor = scale * METRES.get(unit.split(",")[0], 1.0)
+    turned = "bow at negative x" in notes.kinds("repairs")
+    axes = FileAxes(factor=factor, x_sign=-1.0 if turned else 1.0)
+    return place_table(table, notes, frame, axes)
+
+
+def _table_origin(options: ImportOptions) -> tuple[str | None, FrameOptions]:
+    """Give where station 0 or x = 0 of a table is, for its reader, and what is left to be found."""
+    frame, zero = options.frame, options.station_zero
+    if frame.origin not in ("ap", "fp"):
+        return zero, frame
+    if zero is not None and zero != frame.origin:
+        raise BadInputError(
+            f"station_zero is {zero!r} and origin {frame.origin!r}", "as arguments", "give one"
+        )
+    return frame.origin, attrs.evolve(frame, origin=None)
 
 
 def _judge(report: ImportReport) -> Verdict:
@@ -106,5 +147,3 @@ def _told(notes: OffsetReport) -> tuple[str, ...]:
     """Give what was assumed and suspected, as lines of text."""
     assumed = (f"assumed: {note}" for note in notes.assumptions)
     return (*assumed, *(f"suspicion: {note}" for note in notes.suspicions))
-
-

@@ -62,6 +62,9 @@ class ImportOptions:
     CUTS: ClassVar[tuple[str, ...]] = (
         "stations", "waterlines", "buttocks", "scale", "axes", "tolerance", "join",
     )  # fmt: skip
+    ONLY_CUTS: ClassVar[tuple[str, ...]] = (
+        "stations", "waterlines", "buttocks", "axes", "tolerance", "join", "centre", "deck_edge",
+    )  # fmt: skip
 
     length: float | None = None
     breadth: float | None = None

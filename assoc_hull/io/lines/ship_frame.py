@@ -32,6 +32,8 @@ class StatedPlaces:
         Height of the base line.
     ap, fp, rudder : float or None
         Where the perpendiculars and the rudder axis stand.
+    evidence : mapping of str to str
+        Why a value is so, by name; "as the file says" where it is silent. Empty: that is told.
     """
 
     length: float | None = None
@@ -42,6 +44,11 @@ class StatedPlaces:
     ap: float | None = None
     fp: float | None = None
     rudder: float | None = None
+    evidence: Mapping[str, str] = attrs.field(factory=dict)
+
+    def why(self, name: str) -> str:
+        """Tell why a value is so."""
+        return self.evidence.get(name, "as the file says")
 
 
 @attrs.frozen(kw_only=True)

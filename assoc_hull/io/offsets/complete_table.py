@@ -23,7 +23,7 @@ from assoc_hull.io.offsets.net import (
     particulars_of_table,
 )
 from assoc_hull.io.offsets.table import OffsetTable
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -513,7 +513,11 @@ def _bends(xz: FloatArray) -> FloatArray:
 
 
 def net_from_table(
-    table: OffsetTable, tolerances: Tolerances | None = None, *, deck: str = "open"
+    table: OffsetTable,
+    tolerances: Tolerances | None = None,
+    *,
+    deck: str = "open",
+    particulars: Particulars | None = None,
 ) -> tuple[HullState, AdoptionReport]:
     """Adopt a table of offsets; profile, ends and flats as for the Series 60 example.
 
@@ -528,6 +532,8 @@ def net_from_table(
         Defaults if None.
     deck : {"open", "closed"}
         Closed: there is a deck between the deck edges; a table does not tell.
+    particulars : Particulars or None
+        None: those that the table tells, with this deck.
 
     Returns
     -------
@@ -538,7 +544,7 @@ def net_from_table(
     BadInputError
         A table that holds too little for a net, or another word for the deck.
     """
-    ship = particulars_of_table(table, deck)
+    ship = particulars or particulars_of_table(table, deck)
     try:
         # Fits of borders know lengths: a short hull passes them at the size these hold for.
         completion = _completion(at_full_size(table))

@@ -62,6 +62,8 @@ class OffsetHints:
         Height (m) from one numbered waterline to the next, where "WL 2" is the second.
     rounding : tuple of float
         Half unit of the last digit per waterline, in the table's unit; empty if not given.
+    frame_spacing : float or None
+        Distance of frames, m, where stations are numbers of frames.
     """
 
     units: BlockUnits = BlockUnits()
@@ -76,6 +78,7 @@ class OffsetHints:
     coefficients: Mapping[str, float] = attrs.field(factory=dict)
     level_spacing: float | None = None
     rounding: tuple[float, ...] = ()
+    frame_spacing: float | None = None
 
     def stated(self) -> Mapping[str, float]:
         """Give all numbers that the comments tell of the hull, by their usual names."""

@@ -23,6 +23,7 @@ from assoc_hull.io.offsets.scale import (
     column_scale,
     find_scale,
     given_places,
+    given_spacing,
     settle_zero,
     station_places,
 )
@@ -342,6 +343,8 @@ def read_offsets(
     draught: float | None = None,
     unit: str = "auto",
     station_zero: str = "auto",
+    station_spacings: int | None = None,
+    frame_spacing: float | None = None,
     name: str | None = None,
     buttocks: str | Path | None = None,
 ) -> tuple[OffsetTable, OffsetReport]:
@@ -359,6 +362,10 @@ def read_offsets(
         leave no doubt.
     station_zero : {"auto", "ap", "fp"}
         Perpendicular of station 0, or of x = 0 where the file gives x.
+    station_spacings : int or None
+        Station spacings between the perpendiculars, which the comments may tell too.
+    frame_spacing : float or None, m
+        The stations are numbers of frames, this far apart.
     name : str or None
         Name of the table; by default the name of the file without its ending.
     buttocks : str, Path or None
@@ -381,7 +388,7 @@ def read_offsets(
     book = Notebook()
     text, source = read_text(path_or_text, book)
     comments, blocks = split_blocks(text, source, book)
-    hints = read_hints(comments)
+    hints = given_spacing(read_hints(comments), station_spacings, frame_spacing, book)
     if buttocks is not None:
         blocks += split_blocks(*read_text(buttocks, book), book)[1]
     sheets = [read_sheet(block, book) for block in blocks]

@@ -13,6 +13,7 @@ from collections.abc import Callable
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import integer, positive
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.offsets.hints import BlockUnits, OffsetHints
@@ -25,6 +26,7 @@ __all__ = [
     "column_scale",
     "find_scale",
     "given_places",
+    "given_spacing",
     "given_units",
     "settle_zero",
     "station_places",
@@ -349,6 +351,33 @@ def _other_unit(
 # Stations: order, origin and sense of x.
 
 
+def given_spacing(
+    hints: OffsetHints, spacings: int | None, frame_spacing: float | None, book: Notebook
+) -> OffsetHints:
+    """Let what the caller says of stations or frames count before the comments.
+
+    Raises
+    ------
+    BadInputError
+        Both are given, or a number that none of them can be.
+    """
+    if spacings is None and frame_spacing is None:
+        return hints
+    if spacings is not None and frame_spacing is not None:
+        raise BadInputError(
+            "station_spacings and frame_spacing are given", "as arguments",
+            "give one: stations are numbered by parts of Lpp, or by frames",
+        )  # fmt: skip
+    if frame_spacing is not None:
+        distance = positive(frame_spacing, "frame_spacing", "as an argument")
+        return attrs.evolve(hints, frame_spacing=distance)
+    count = integer(spacings, "station_spacings", "as an argument", least=2, most=1000)
+    if hints.divisions and hints.divisions != count:
+        what = f"{count} were given and the comments say {hints.divisions}; the first counts"
+        book.suspect("contradiction", "station numbers", what)
+    return attrs.evolve(hints, divisions=count)
+
+
 def settle_zero(station_zero: str, hints: OffsetHints, book: Notebook) -> str | None:
     """Give the perpendicular of station 0, "ap" or "fp"; None when nothing says it.
 
@@ -387,11 +416,13 @@ def station_places(
     BadInputError
         The end of station 0, the length or the number of spacings cannot be known.
     """
+    if hints.frame_spacing is not None and zero != "fp":
+        return stations * hints.frame_spacing
     if length is None:
         raise BadInputError(
             "the stations are numbers and the length is not known",
             source,
-            "give length= (Lpp in m), or a column x_m",
+            "give length= (Lpp in m), frame_spacing= if they are frames, or a column x_m",
         )
     if zero is None:
         raise BadInputError(
@@ -399,6 +430,8 @@ def station_places(
             source,
             "give station_zero='ap' or 'fp', or a comment '# station 0 = FP'",
         )
+    if hints.frame_spacing is not None:
+        return length - stations * hints.frame_spacing
     x = stations * (length / _divisions(stations, hints, book, source))
     return x if zero == "ap" else length - x
 
@@ -433,16 +466,18 @@ def given_places(
     ------
     BadInputError
         Most of the ship lies at negative x and nothing says where x = 0 is, or x = 0 is
-        amidships, or x counts from the FP and the length is not known.
+        amidships and not where it is said to be.
     """
     low, high = float(x.min()), float(x.max())
     span = high - low
     if min(-low, high) > 0.25 * span:
-        raise BadInputError(
-            f"x runs from {low:g} to {high:g} m, so x = 0 is amidships",
-            source,
-            "add half the length to the column, so that x = 0 is the aft perpendicular",
-        )
+        if zero is not None:
+            raise BadInputError(
+                f"x runs from {low:g} to {high:g} m, so x = 0 is amidships and not the {zero}",
+                source, "leave station_zero out, or give origin='midship'",
+            )  # fmt: skip
+        book.assume("frame", "column x", f"x = 0 is amidships: x runs from {low:g} to {high:g} m")
+        return x
     negative = -low > 0.5 * span
     if zero is None and negative:
         raise BadInputError(

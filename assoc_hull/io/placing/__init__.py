@@ -1,1 +1,1 @@
-"""Where a hull lies in its file: base line, perpendiculars and design waterline, one rule for all."""
+"""Where a hull lies in its file: base line, perpendiculars, design waterline; one rule for all."""

@@ -132,9 +132,7 @@ def find_frame(
 # Heights: base line and design waterline.
 
 
-def _heights(
-    outline: HullOutline, asked: FrameOptions, said: StatedPlaces, where: str
-) -> _Heights:
+def _heights(outline: HullOutline, asked: FrameOptions, said: StatedPlaces, where: str) -> _Heights:
     low, high = float(outline.low[2]), float(outline.high[2])
     level = _level(outline, 0.5 * (low + high))
     _check_heights(asked, low, high, where)
@@ -166,7 +164,7 @@ def _base(
         base = waterline - draught
         return base, ("given", f"at z = {base:.6g} m, the draught below the waterline, as given")
     if said.base is not None:
-        return said.base, ("stated", f"at z = {said.base:.6g} m, as the file says")
+        return said.base, ("stated", f"at z = {said.base:.6g} m, {said.why('base')}")
     stretch = "the bottom on the centre line between .3 and .7 of the waterline"
     if abs(keel.low) <= _LEVEL * length:
         off = f"within {1e3 * abs(keel.low):.3g} mm of it" if keel.low else "there"
@@ -193,7 +191,8 @@ def _draught(
         what = f"{draught:.6g} m, up to the waterline given at z = {waterline:.6g} m of the file"
         return draught, ("given", what)
     if said.draught is not None:
-        return said.draught, ("stated", f"{said.draught:.6g} m, as the file says")
+        why = said.why("draught")
+        return said.draught, ("stated", why and f"{said.draught:.6g} m, {why}")
     depth = high - base
     if base < 0.0 and _WET * depth < -base <= _DRY * depth + (high <= 0.0) * depth:
         what = f"{-base:.6g} m: z = 0 of the file cuts the hull and is taken for the waterline"
@@ -248,7 +247,7 @@ def _tell_heights(
         end = "aft" if keel.rise > 0.0 else "forward"
         what = f"the keel is raked, over Lpp {rake:.4g} m deeper {end}; the base line is level"
         book.assume("raked keel", where, f"{what}, through its lowest place amidships", rake)
-    if heights.draught_from[0] != "given":
+    if heights.draught_from[0] != "given" and heights.draught_from[1]:
         book.assume("draught", where, heights.draught_from[1], heights.draught)
     _tell_below(outline, heights, length, book, where)
 
@@ -310,15 +309,17 @@ def _ends(
     fp_from = ("given", why) if fp is not None else ("found", f"the stem meets the waterline at "
                f"z = {heights.waterline:.6g} m there")  # fmt: skip
     if fp is None and said.fp is not None:
-        fp, fp_from = said.fp, ("stated", "as the file says")
+        fp, fp_from = said.fp, ("stated", said.why("fp"))
     fixed = fp is not None
     fp = stem if fp is None else fp
+    if said.ap is not None and fp_from[0] == "stated":
+        return _Ends(said.ap, ("stated", said.why("ap")), fp, fp_from, length)
     if length is not None:
         found = _from_fp(fp, fp_from, length, length_from)
         return found if fixed else _snapped(found, length)
     if said.ap is not None or said.rudder is not None:
         axis = said.ap if said.ap is not None else said.rudder
-        name = "as the file says" if said.ap is not None else "the rudder axis that the file tells"
+        name = said.why("ap") if said.ap is not None else "the rudder axis that the file tells"
         return _Ends(float(axis or 0.0), ("stated", name), fp, fp_from, None)
     return _by_waterline(outline, heights, fp, fp_from)
 
@@ -348,9 +349,7 @@ def _check_reach(outline: HullOutline, places: dict[str, float | None], where: s
         )  # fmt: skip
 
 
-def _by_origin(
-    origin: str, length: float | None, stem: float
-) -> tuple[float | None, float | None]:
+def _by_origin(origin: str, length: float | None, stem: float) -> tuple[float | None, float | None]:
     """Give the perpendiculars that follow from where x = 0 is: one, or both."""
     if origin == "ap":
         return 0.0, None
@@ -425,7 +424,7 @@ def _tell_ends(ends: _Ends, stem: float, length: float, book: Notebook, where: s
     if ends.length is None:
         name = "LWL" if ends.ap_from[0] == "assumed" else "the distance of the perpendiculars"
         book.assume("length", where, f"Lpp = {name} = {length:.6g} m", length)
-    if not same_place(ends.fp, stem, 2.0 * length):
+    if ends.fp_from[0] != "stated" and not same_place(ends.fp, stem, 2.0 * length):
         what = (
             f"the FP lies at x = {ends.fp:.6g} m of the file, and the stem meets the design "
             f"waterline at {stem:.6g} m, {abs(ends.fp - stem):.4g} m off: check length=, draught= "
@@ -446,7 +445,7 @@ def _breadth(
     if asked.breadth is not None:
         return asked.breadth, "given"
     if said.breadth is not None:
-        book.assume("breadth", where, f"{said.breadth:.6g} m, as the file says", said.breadth)
+        _tell_stated("breadth", said.breadth, said, book, where)
         return said.breadth, "stated"
     widest = 2.0 * float(np.abs(outline.xyz[:, 1]).max())
     found = 2.0 * heights.level.half_breadth
@@ -465,13 +464,20 @@ def _depth(
         _check_depth(asked.depth, float(outline.high[2]) - heights.base, where)
         return asked.depth, "given"
     if said.depth is not None:
-        book.assume("depth", where, f"{said.depth:.6g} m, as the file says", said.depth)
+        _tell_stated("depth", said.depth, said, book, where)
         return said.depth, "stated"
     top = float(outline.high[2]) - heights.base
     edge = outline.deck_height(0.5 * (ends.ap + ends.fp)) - heights.base
     depth = top if edge <= 0.0 or edge > (1.0 - _SIDES) * top else edge
     book.assume("depth", where, f"{depth:.6g} m, the height of the deck edge amidships", depth)
     return depth, "found"
+
+
+def _tell_stated(
+    name: str, value: float, said: StatedPlaces, book: Notebook, where: str
+) -> None:
+    if said.why(name):
+        book.assume(name, where, f"{value:.6g} m, {said.why(name)}", value)
 
 
 def _check_depth(depth: float, top: float, where: str) -> None:

@@ -56,9 +56,7 @@ def shift_slices(slices: HullSlices, frame: ShipFrame, book: Notebook) -> HullSl
 
 
 def _shifted(line: SliceLine, frame: ShipFrame) -> SliceLine:
-    pieces = tuple(
-        attrs.evolve(piece, points=frame.moved(piece.points)) for piece in line.pieces
-    )
+    pieces = tuple(attrs.evolve(piece, points=frame.moved(piece.points)) for piece in line.pieces)
     if line.group == "boundary":
         return attrs.evolve(line, pieces=pieces)
     by = (frame.shift[0], 0.0, frame.shift[1])[AXES[line.group]]

@@ -245,7 +245,8 @@ def in_ship_axes(
     """Move a mesh (m) with x forward and z up so that x = 0 is the AP and z = 0 the base line.
 
     `before` is the mesh as it was turned from, which tells the axes of places that are given in
-    the file; a unit of the file is `factor` m. `where` names it in notes. Without options it stays where it is.
+    the file; a unit of the file is `factor` m. `where` names it in notes. Without options it stays
+    where it is.
 
     Raises
     ------

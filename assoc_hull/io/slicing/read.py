@@ -114,7 +114,8 @@ def read_slices(
         check_particular(name, value)
     sizes = {"length": length, "breadth": breadth, "draught": draught}
     places = attrs.evolve(
-        frame or FrameOptions(), **{name: value for name, value in sizes.items() if value is not None}
+        frame or FrameOptions(),
+        **{name: value for name, value in sizes.items() if value is not None},
     )
     choice(deck, "deck", DECKS, "in the particulars")
     named: dict[str, Any] = {
@@ -138,6 +139,4 @@ def _particulars(slices: HullSlices, deck: str) -> Particulars | None:
     found = slices.frame
     if found is None:
         return None
-    return Particulars(
-        slices.name, found.length, found.breadth, found.depth, found.draught, deck
-    )
+    return Particulars(slices.name, found.length, found.breadth, found.depth, found.draught, deck)

@@ -12,6 +12,7 @@ from assoc_hull.errors import BadInputError, MissingExtraError, NoMeetingError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.io.lines.slices import HullSlices
+from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.slicing.mesh_lines import read_mesh, slice_mesh
 from tests import meshes
 
@@ -115,7 +116,7 @@ HALF_OR_WHOLE = pytest.mark.parametrize(
 @HALF_OR_WHOLE
 def test_a_mesh_in_order_is_left_as_it_is(hull: Callable[[], Triangles]) -> None:
     """Nothing is mended or suspected; what was assumed is told."""
-    report = slice_mesh(hull(), **CUTS).report
+    report = slice_mesh(hull(), **CUTS, frame=FrameOptions(length=100.0)).report
     assert report.kinds("repairs") == report.kinds("suspicions") == ()
     assert {"unit", "axes", "bow", "origin", "half or whole"} <= set(report.kinds("assumptions"))
 
@@ -126,7 +127,7 @@ def test_a_mesh_that_is_out_of_order_is_mended_and_reported(
     spoil: Callable[[Triangles], Triangles], kinds: list[str], hull: Callable[[], Triangles]
 ) -> None:
     """Whatever was done to the mesh is undone and named, and the lines are the hull's."""
-    slices = slice_mesh(spoil(hull()), **CUTS)
+    slices = slice_mesh(spoil(hull()), **CUTS, frame=FrameOptions(length=100.0))
     assert set(kinds) <= set(slices.report.kinds("repairs"))
     assert slices.report.kinds("suspicions") == ()
     check_wigley(slices)

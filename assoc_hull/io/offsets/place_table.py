@@ -1,0 +1,143 @@
+"""A table of offsets in ship axes: where its base line and perpendiculars are, and its particulars.
+
+Stations that go by number stand between the perpendiculars, and waterlines are heights above the
+base line: such a table stays as it is. What a column x or a column of keel heights leaves open is
+found as for any other form, and all is shifted once.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.lines.ship_frame import ShipFrame, StatedPlaces
+from assoc_hull.io.offsets.complete_table import stem_contour, stern_contour
+from assoc_hull.io.offsets.table import OffsetTable
+from assoc_hull.io.placing.frame import find_frame
+from assoc_hull.io.placing.options import FileAxes, FrameOptions
+from assoc_hull.io.placing.outline import HullOutline, outline_of_sections
+from assoc_hull.io.reports import Note, Notebook, OffsetReport
+from assoc_hull.model.tables import Particulars
+
+__all__ = ["place_table", "scale_table", "table_particulars"]
+
+_WHERE = "the table"
+
+_ORIGIN, _LENGTH, _BREADTH = ("frame", "column x"), ("length", _WHERE), ("breadth", _WHERE)
+"""Notes by which a reader tells what it could only suppose: here it is found, and told anew."""
+
+
+def place_table(
+    table: OffsetTable, notes: OffsetReport, options: FrameOptions, axes: FileAxes
+) -> tuple[OffsetTable, OffsetReport, ShipFrame]:
+    """Put a table (m) into ship axes; `axes` tells how places in the file become m.
+
+    Raises
+    ------
+    BadInputError
+        As for `assoc_hull.io.placing.frame.find_frame`.
+    """
+    supposed = {(note.kind, note.where) for note in notes.assumptions}
+    book = Notebook(list(_kept(notes.assumptions)), list(notes.repairs), list(notes.suspicions))
+    outline = outline_of_table(table)
+    frame = find_frame(
+        outline, options, book, _WHERE, axes=axes,
+        stated=_stated(table, options, supposed),
+    )  # fmt: skip
+    return _shifted(table, frame), book.report(), frame
+
+
+def _kept(notes: tuple[Note, ...]) -> tuple[Note, ...]:
+    again = (_ORIGIN, _LENGTH, _BREADTH)
+    return tuple(note for note in notes if (note.kind, note.where) not in again)
+
+
+def _stated(
+    table: OffsetTable, options: FrameOptions, supposed: set[tuple[str, str]]
+) -> StatedPlaces:
+    """Give what the table says of itself."""
+    found: dict[str, Any] = {}
+    evidence = dict.fromkeys(("length", "breadth", "draught"), "")  # told when it was read
+    evidence["base"] = "heights in a table are above it"
+    if _ORIGIN not in supposed and options.ap is options.fp is None:
+        found |= {"ap": 0.0, "fp": table.length}
+        evidence |= {name: "by the stations of the table" for name in ("ap", "fp")}
+    if _LENGTH not in supposed:
+        found["length"] = table.length
+    if _BREADTH not in supposed:
+        found["breadth"] = table.breadth
+    found["depth"] = table.depth
+    if table.depth is None:
+        found["depth"] = float(table.z[-1])
+        evidence["depth"] = "the highest waterline, because nothing tells it; give depth="
+    found["draught"] = table.draught
+    if table.draught is None:
+        found["draught"] = float(table.z[-1])
+        evidence["draught"] = "the highest waterline, because nothing tells it; give draught="
+    if table.keel is None and table.z[0] >= 0.0:
+        found["base"] = 0.0
+    return StatedPlaces(**found, evidence=evidence)
+
+
+def outline_of_table(table: OffsetTable) -> HullOutline:
+    """Outline a table by its stations, its keel if it has one, and the ends of its waterlines."""
+    sections = [
+        np.column_stack([np.full(known.sum(), x), y[known], table.z[known]])
+        for x, y in zip(table.x.tolist(), table.half_breadth, strict=True)
+        for known in (np.isfinite(y),) if known.any()
+    ]  # fmt: skip
+    contour = [np.column_stack([end, table.z])[np.isfinite(end)] for end in _end_places(table)]
+    if table.keel is not None:
+        known = np.isfinite(table.keel)
+        contour.append(np.column_stack([table.x, table.keel])[known])
+    else:
+        contour.append(np.array([section[0, [0, 2]] for section in sections]))
+    deck = None
+    if table.deck_height is not None and np.isfinite(table.deck_height).sum() > 1:
+        known = np.isfinite(table.deck_height)
+        deck = np.column_stack([table.x, table.deck_height])[known]
+    return outline_of_sections(sections, contour, deck)
+
+
+def _end_places(table: OffsetTable) -> list[FloatArray]:
+    """Give where each waterline ends, forward and, where the table tells, aft."""
+    found = [stem_contour(table)]
+    try:
+        found.append(stern_contour(table))
+    except BadInputError:  # the run of the table tells no stern: its stations do
+        return found
+    return found
+
+
+def _shifted(table: OffsetTable, frame: ShipFrame) -> OffsetTable:
+    """Move a table, and let it have the particulars by which its lines are named."""
+    sizes = {"length": frame.length, "draught": frame.draught, "depth": frame.depth}
+    if frame.origins["draught"] == "stated" and table.draught is None:
+        sizes.pop("draught")
+    if not frame.moves:
+        return attrs.evolve(table, **sizes)
+    x, z = frame.shift
+    heights = ("keel", "deck_height", "buttock_height")
+    moved = {name: getattr(table, name) + z for name in heights if getattr(table, name) is not None}
+    return attrs.evolve(table, x=table.x + x, z=table.z + z, **moved, **sizes)
+
+
+def table_particulars(table: OffsetTable, frame: ShipFrame, deck: str) -> Particulars:
+    """Give the particulars of a placed table."""
+    return Particulars(table.name, frame.length, frame.breadth, frame.depth, frame.draught, deck)
+
+
+def scale_table(table: OffsetTable, scale: float) -> OffsetTable:
+    """Give a table at full scale."""
+    names = (
+        "x", "z", "half_breadth", "keel", "deck_height", "deck_half_breadth", "buttock_y",
+        "buttock_height", "length", "breadth", "draught", "depth", "rounding",
+    )  # fmt: skip
+    values = {name: getattr(table, name) for name in names}
+    return attrs.evolve(
+        table, **{name: value * scale for name, value in values.items() if value is not None}
+    )
