@@ -181,6 +181,7 @@ def add_hydrostatics(commands: Commands) -> None:
         assoc-hull hydrostatics ship.hull --table 4:18:1 --trims -1 0 1 -o table.xlsx
         assoc-hull hydrostatics ship.hull --table 4:18:1 --water fresh --plot curves.pdf
         assoc-hull hydrostatics ship.hull --weight 150000 --lcg 148 --kg 11
+        assoc-hull hydrostatics demihull.hull --draught 2.1 --demihulls 2 --separation 8.4
         assoc-hull hydrostatics ship.hull --appendage "rudder,38,2.5,0,7,120" --transom""",
     )  # fmt: skip
     add_hull(parser)
@@ -207,6 +208,13 @@ def _add_terms(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--kg", type=float, metavar="Z", help="centre of gravity above base, m")
     parser.add_argument(
         "--transom", action="store_true", help="count the immersed transom as wetted surface"
+    )
+    parser.add_argument(
+        "--demihulls", type=int, choices=(1, 2), default=1,
+        help="2: tell the numbers of a ship of two such demihulls",
+    )  # fmt: skip
+    parser.add_argument(
+        "--separation", type=float, metavar="M", help="between the centre planes of two, m"
     )
     parser.add_argument(
         "--keel-thickness", type=float, default=0.0, metavar="M",
@@ -253,8 +261,12 @@ def _deck_edge(hull: Hull, table: HydrostaticTable) -> float | None:
 
     if len(table) != 1:
         return None
+    header = table.header
     try:
-        return deck_edge_angle(hull, table.positions[0], table.header.appendages)
+        return deck_edge_angle(
+            hull, table.positions[0], header.appendages,
+            demihulls=header.demihulls, separation=header.separation,
+        )  # fmt: skip
     except OutOfRangeError:
         return math.nan
 
@@ -272,6 +284,22 @@ def _check_targets(arguments: argparse.Namespace) -> None:
         if getattr(arguments, name) is not None and getattr(arguments, needed) is None:
             what = f"--{name} is given without --{needed}"
             raise BadInputError(what, "in the call", "give both, or neither")
+    _check_demihulls(arguments)
+
+
+def _check_demihulls(arguments: argparse.Namespace) -> None:
+    """Refuse what is not there for two demihulls: drawings are of one, weights are even."""
+    if arguments.demihulls == 1:
+        return
+    if arguments.plot is not None and (arguments.plot_of or "curves") != "curves":
+        what = f"--plot-of {arguments.plot_of} is given with --demihulls 2"
+        raise BadInputError(what, "in the call", "draw it of one demihull")
+    if arguments.plot is not None and arguments.table is None:
+        what = "--plot is given with --demihulls 2 and one position"
+        raise BadInputError(what, "in the call", "give --table, or draw one demihull")
+    if arguments.weight is not None and (arguments.heel or arguments.appendage):
+        what = "--weight is given with --demihulls 2 and a heel or an appendage"
+        raise BadInputError(what, "in the call", "give draughts, or leave these out")
 
 
 def _table(hull: Hull, arguments: argparse.Namespace) -> HydrostaticTable:
@@ -286,6 +314,7 @@ def _table(hull: Hull, arguments: argparse.Namespace) -> HydrostaticTable:
         on_error=arguments.on_error, appendages=appendages,
         keel_thickness=arguments.keel_thickness,
         draught_to="moulded" if moulded else arguments.draught_to,
+        demihulls=arguments.demihulls, separation=arguments.separation,
         estimate=not arguments.no_estimate, date=datetime.date.today().isoformat(),
     )  # fmt: skip
 
@@ -300,8 +329,10 @@ def _draughts(
         from assoc_hull.analysis.hydrostatics.draughts_from_weight import immersion
 
         found = immersion(
-            hull, arguments.weight, lcg=arguments.lcg, kg=arguments.kg, heel_deg=arguments.heel,
-            rho=rho, shell_factor=arguments.shell_factor, appendages=appendages,
+            # Upright, each demihull carries its share as if it were alone.
+            hull, arguments.weight / arguments.demihulls, lcg=arguments.lcg, kg=arguments.kg,
+            heel_deg=arguments.heel, rho=rho, shell_factor=arguments.shell_factor,
+            appendages=appendages,
         )  # fmt: skip
         return [found.draught_mean], (found.trim_by_stern,), True
     if arguments.draughts is not None:

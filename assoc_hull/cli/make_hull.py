@@ -111,7 +111,7 @@ def _add_import(commands: Commands) -> None:
     for name, what in (
         ("ap", "x of the aft perpendicular"), ("fp", "x of the forward perpendicular"),
         ("base", "height of the base line"), ("waterline", "height of the design waterline"),
-        ("centre", "of a mesh, surfaces: y of the centre plane"),
+        ("centre", "y of the centre plane, of one of two hulls too"),
     ):  # fmt: skip
         parser.add_argument(
             f"--{name}", metavar="X", help=f"{what}, in units of the file, or as 12.5m"

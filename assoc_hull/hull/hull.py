@@ -411,6 +411,8 @@ class Hull:
         keel_thickness: float = 0.0,
         draught_to: DraughtTo = "moulded",
         estimate: bool = True,
+        demihulls: int = 1,
+        separation: float | None = None,
     ) -> Hydrostatics:
         """Compute the hydrostatics of a hull at one floating position.
 
@@ -444,6 +446,14 @@ class Hull:
             Estimate how far each value may be off by the integration of these lines. Without,
             numbers are not compared with those of other routes either: only the lines can make it
             doubtful.
+        demihulls : 1 or 2
+            2: the numbers of a ship of two demihulls, each of them this hull: volume, displacement,
+            wetted surface, waterplane and sections are those of both; I_T, BM_T and KM_T have the
+            transfer term of each about the ship's centre plane, from which y is measured.
+            Coefficients are on the breadths of both together, so that they are a demihull's;
+            `bwl` is over all. Appendages are given for the ship.
+        separation : float or None, m
+            Between the centre planes of two demihulls.
 
         Returns
         -------
@@ -480,6 +490,8 @@ class Hull:
             keel_thickness=keel_thickness,
             draught_to=draught_to,
             estimate=estimate,
+            demihulls=demihulls,
+            separation=separation,
         )
 
     def hydrostatic_table(
@@ -497,6 +509,8 @@ class Hull:
         keel_thickness: float = 0.0,
         draught_to: DraughtTo = "moulded",
         estimate: bool = True,
+        demihulls: int = 1,
+        separation: float | None = None,
         date: str | None = None,
     ) -> HydrostaticTable:
         """Compute a table of hydrostatics over draughts and trims, all in one go.
@@ -509,7 +523,7 @@ class Hull:
             T_A - T_F: + by the stern, rising.
         heel_deg, rho, shell_factor, kg, transom, on_error, appendages, keel_thickness
             As for `hydrostatics`.
-        draught_to, estimate
+        draught_to, estimate, demihulls, separation
             As for `hydrostatics`.
         date : str or None
             For the head of the table.
@@ -542,6 +556,8 @@ class Hull:
             keel_thickness=keel_thickness,
             draught_to=draught_to,
             estimate=estimate,
+            demihulls=demihulls,
+            separation=separation,
             date=date,
         )
 

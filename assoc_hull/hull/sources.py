@@ -235,7 +235,8 @@ def read(
         BRITFAIR, DELFTship, GHS), a mesh (STL, OBJ, PLY, also ``.gz``), surfaces (IGES, STEP) or
         a text of a classical definition (`read_classical`), which takes no options.
     length, breadth, draught, depth : float or None, m
-        Lpp, moulded breadth, design draught, depth to the deck edge amidships, at full scale.
+        Lpp, moulded breadth, design draught, depth to the deck edge amidships, at full scale; of
+        one of several hulls that to the bridge deck, which is cut off there.
         Not given, and not in the file: Lpp is the length and breadth that of the design
         waterline. A table in normalised form needs the first three.
     ap, fp : float or str or None
@@ -269,7 +270,8 @@ def read(
     frame_spacing : float or None, m
         Distance of frames, of a table whose stations are numbers of frames.
     centre : float or str or None
-        y of the centre plane in the file, of a mesh or surfaces.
+        y of the centre plane in the file; where several hulls stand side by side, of the one that
+        is to be read.
     deck_edge : str or None
         Name of the line that is the deck edge, of digitised lines with bulwarks above it.
     accept : bool

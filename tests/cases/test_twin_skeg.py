@@ -13,6 +13,8 @@ from assoc_hull.analysis.form.parameter import FormValue
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.section_areas import between_stations, section_areas
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.io.lines.several_hulls import HullChoice, find_hulls, water_levels
+from assoc_hull.io.mesh.one_hull import mesh_sections
 from tests import twin_skeg as ship
 
 STATION = ship.LENGTH / 20.0
@@ -197,3 +199,11 @@ def test_hydrostatics_take_her(draughts: tuple[float, float]) -> None:
     """No line is doubtful, and the number is good, where pieces are immersed apart, too."""
     found = ship.twin_skeg_ship().hydrostatics(draughts=draughts)
     assert found.notes == ()
+
+
+@pytest.mark.parametrize("draught", [None, 18.0, 5.0])
+def test_her_mesh_is_that_of_one_hull(draught: float | None) -> None:
+    """Contours part abaft x = 54 m of 300, at every draught: she is no catamaran."""
+    mesh = ship.twin_skeg_ship().mesh().triangles
+    levels = water_levels(0.0, ship.DEPTH, HullChoice(draught=draught))
+    assert find_hulls(mesh_sections(mesh), levels, oriented=True).count == 1

@@ -15,6 +15,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.hydrostatics.bracketed_roots import bracketed_newton
+from assoc_hull.analysis.hydrostatics.demihulls import checked_separation, ship_of
 from assoc_hull.analysis.hydrostatics.floating_body import (
     Appendage,
     FloatingBody,
@@ -307,13 +308,20 @@ def freeboard(hull: HasState, position: FloatingPosition) -> Freeboard:
 
 
 def deck_edge_angle(
-    hull: HasState, position: FloatingPosition, appendages: Iterable[Appendage] = ()
+    hull: HasState,
+    position: FloatingPosition,
+    appendages: Iterable[Appendage] = (),
+    *,
+    demihulls: int = 1,
+    separation: float | None = None,
 ) -> float | None:
     """Give the heel (degrees) at which the deck edge goes under, at this displacement and trim.
 
-    The arguments and what is raised are those of `Hull.deck_edge_angle`.
+    The arguments and what is raised are those of `Hull.deck_edge_angle`; `demihulls` and
+    `separation` (m) those of `Hull.hydrostatics`.
     """
-    body, length = body_of(hull), hull.state.particulars.length
+    ship, length = hull.state.particulars, hull.state.particulars.length
+    body = ship_of(body_of(hull), checked_separation(demihulls, separation, ship.breadth))
     given = instance(position, FloatingPosition, "position", _WHERE)
     carriers = tuple(all_of(appendages, Appendage, "appendages", _WHERE))
     upright = FloatingPosition(given.draught_aft, given.draught_fore)

@@ -15,6 +15,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.analysis.hydrostatics.demihulls import checked_separation, ship_of
 from assoc_hull.analysis.hydrostatics.floating_body import (
     Appendage,
     FloatingBody,
@@ -45,7 +46,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 from assoc_hull.geometry.numeric.dual import is_plain, real
-from assoc_hull.model.tables import HasState
+from assoc_hull.model.tables import HasState, state_of
 
 __all__ = [
     "CountingRule",
@@ -251,6 +252,8 @@ class RecordSetting:
         Displacement over that of the moulded volume.
     kg : float or None, m
         Centre of gravity above the base line.
+    separation : float, m
+        Of the centre planes of two demihulls, which coefficients have the breadths of; 0: one hull.
     """
 
     length: float
@@ -258,6 +261,7 @@ class RecordSetting:
     rho: float
     shell_factor: float
     kg: float | None
+    separation: float = 0.0
 
 
 def values_of(sums: HydrostaticIntegrals, planes: FloatingPlanes, setting: RecordSetting) -> Values:
@@ -365,6 +369,10 @@ def _extent(sums: HydrostaticIntegrals) -> Values:
 
 def _coefficients(found: Values, setting: RecordSetting) -> Values:
     length, breadth, volume = setting.length, setting.breadth, found["volume"]
+    bwl = found["bwl"]
+    if setting.separation:
+        # The gap between demihulls is no breadth of theirs.
+        breadth, bwl = 2.0 * breadth, 2.0 * (bwl - setting.separation)
     frame = breadth * found["draught_mean"]
     cb, cw = volume / (length * frame), found["waterplane_area"] / (length * breadth)
     return {
@@ -374,7 +382,7 @@ def _coefficients(found: Values, setting: RecordSetting) -> Values:
         "cp": volume / (found["a_max"] * length),
         "cvp": cb / cw,
         "cw": cw,
-        "cb_lwl": volume / (found["lwl"] * found["bwl"] * found["draught_mean"]),
+        "cb_lwl": volume / (found["lwl"] * bwl * found["draught_mean"]),
         "cp_lwl": volume / (found["a_max"] * found["lwl"]),
     }
 
@@ -470,8 +478,9 @@ def values_at(body: Measurable, planes: FloatingPlanes, header: HydrostaticHeade
 
 def _terms(header: HydrostaticHeader) -> tuple[RecordSetting, CountingRule]:
     setting = RecordSetting(
-        header.length, header.breadth, header.rho, header.shell_factor, header.kg
-    )
+        header.length, header.breadth, header.rho, header.shell_factor, header.kg,
+        header.separation or 0.0,
+    )  # fmt: skip
     return setting, CountingRule(0.5 * header.length, header.transom)
 
 
@@ -515,6 +524,8 @@ def hydrostatics(
     keel_thickness: float = 0.0,
     draught_to: DraughtTo = "moulded",
     estimate: bool = True,
+    demihulls: int = 1,
+    separation: float | None = None,
 ) -> Hydrostatics:
     """Compute the hydrostatics of a hull at one floating position.
 
@@ -524,7 +535,7 @@ def hydrostatics(
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
         "appendages": appendages, "keel_thickness": keel_thickness, "fingerprint": "",
     }  # fmt: skip
-    body = body_of(hull)
+    body = _ship(hull, demihulls, separation, terms)
     header = header_of(hull, body, terms)
     require_numbers(draughts if draught is None else draught, body.limits)
     position = position_of(header, draught, draughts, heel_deg, draught_to)
@@ -546,6 +557,8 @@ def hydrostatic_table(
     keel_thickness: float = 0.0,
     draught_to: DraughtTo = "moulded",
     estimate: bool = True,
+    demihulls: int = 1,
+    separation: float | None = None,
     date: str | None = None,
 ) -> HydrostaticTable:
     """Compute a table of hydrostatics over draughts and trims, all in one go.
@@ -557,7 +570,7 @@ def hydrostatic_table(
         "appendages": appendages, "keel_thickness": keel_thickness, "date": date,
     }  # fmt: skip
     slopes = rising_numbers(trims, "trims", _WHERE).tolist()
-    body = body_of(hull)
+    body = _ship(hull, demihulls, separation, terms)
     header = header_of(hull, body, terms)
     require_numbers(draughts, body.limits)
     levels = rising_numbers(draughts, "draughts", _WHERE).tolist()
@@ -569,6 +582,15 @@ def hydrostatic_table(
     ]
     shape = (len(levels), len(slopes))
     return table_without_doubts(body, positions, header, shape, on_error, estimate=estimate)
+
+
+def _ship(
+    hull: HasState, demihulls: int, separation: float | None, terms: dict[str, object]
+) -> FloatingBody:
+    """Give what floats: the hull, or two of it; `terms` of the header tell of two."""
+    apart = checked_separation(demihulls, separation, state_of(hull).particulars.breadth)
+    terms |= {"demihulls": demihulls, "separation": apart or None}
+    return ship_of(body_of(hull), apart)
 
 
 def _keel(header: HydrostaticHeader, draught_to: str) -> float:

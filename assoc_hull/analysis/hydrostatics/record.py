@@ -320,6 +320,10 @@ class HydrostaticHeader:
         Of the hull.
     date : str or None
         As the caller gives it.
+    demihulls : int
+        2 where the numbers are those of a ship of two demihulls, each of them this hull.
+    separation : float or None, m
+        Between their centre planes.
     """
 
     ship: str
@@ -340,6 +344,8 @@ class HydrostaticHeader:
     date: str | None = attrs.field(
         default=None, validator=attrs.validators.optional(checked(text, _WHERE))
     )
+    demihulls: int = 1
+    separation: float | None = None
 
     @property
     def water(self) -> str:
@@ -359,6 +365,13 @@ class HydrostaticHeader:
         """Give the head as pairs of a title and words."""
         yield "ship", self.ship
         yield "Lpp, B, T", f"{self.length:.3f} m, {self.breadth:.3f} m, {self.draught:.3f} m"
+        if self.separation is not None:
+            yield (
+                "ship",
+                f"of two demihulls, centre planes {self.separation:g} m apart: volumes, areas and "
+                "moments are the ship's, y from her centre plane; B is that of a demihull, and "
+                "coefficients are on twice it",
+            )
         yield "datum", self.datum
         yield "water", self.water
         yield "shell factor", f"{self.shell_factor:g}"

@@ -16,6 +16,7 @@ from assoc_hull.arguments import file_path, positive, shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polylines.operations import cumulative_lengths, drop_repeats
+from assoc_hull.io.digitised.one_hull import take_one_hull
 from assoc_hull.io.digitised.text import parse_lines
 from assoc_hull.io.lines.mend_lines import (
     join_pieces,
@@ -26,6 +27,7 @@ from assoc_hull.io.lines.mend_lines import (
     report_joins,
 )
 from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawLines, RawPiece, refuse_retraced
+from assoc_hull.io.lines.several_hulls import HullChoice
 from assoc_hull.io.lines.slices import (
     AXES,
     GapJoin,
@@ -250,6 +252,7 @@ def read_lines(
     length: float | None = None,
     name: str | None = None,
     frame: FrameOptions | None = None,
+    choice: HullChoice | None = None,
 ) -> HullSlices:
     """Read digitised lines: x forward, y to port, z up; wherever the file has its origin.
 
@@ -275,6 +278,8 @@ def read_lines(
     frame : FrameOptions or None
         Where base line, waterline and perpendiculars are, what is not given being found; None:
         x and z stay as the file has them.
+    choice : HullChoice or None
+        Which of several hulls side by side; by default there is one.
 
     Returns
     -------
@@ -283,7 +288,7 @@ def read_lines(
     Raises
     ------
     BadInputError
-        A text that holds no lines, a line in no plane, or one name in two planes.
+        A text that holds no lines, a line in no plane, one name in two planes, or several hulls.
     """
     if not isinstance(path_or_text, str):
         file_path(path_or_text, "in read_lines")
@@ -292,10 +297,11 @@ def read_lines(
     found = parse_lines(text, source, book)
     raw = found.pieces
     factor = _factor(raw, scale, _unit(found, unit, book, source), book, source)
-    knuckles = _knuckles(raw, factor)
     for each in raw:
         refuse_retraced(each)
-    raw = [RawPiece(e.line, e.points * factor, e.where) for e in raw]
+    raw = [RawPiece(e.line, e.points * factor, e.where, e.knuckles * factor) for e in raw]
+    raw = take_one_hull(raw, choice or HullChoice(), factor, book)
+    knuckles = _knuckles(raw)
     small = _length_factor(raw, length)
     raw = to_one_side(raw, book, small)
     every = np.concatenate([each.points for each in raw])
@@ -337,12 +343,12 @@ def _length_factor(raw: list[RawPiece], length: float | None) -> float:
     return length_factor(float(size[0]) if length is None else length)
 
 
-def _knuckles(raw: list[RawPiece], factor: float) -> dict[str, FloatArray]:
+def _knuckles(raw: list[RawPiece]) -> dict[str, FloatArray]:
     """Give the points marked as knuckles by line, (k, 3), m, to port."""
     found: dict[str, list[FloatArray]] = {}
     for each in raw:
         if len(each.knuckles):
-            places = each.knuckles * factor
+            places = each.knuckles.copy()
             places[:, 1] = np.abs(places[:, 1])
             found.setdefault(each.line, []).append(places)
     return {name: np.concatenate(places) for name, places in found.items()}

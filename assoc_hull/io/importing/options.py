@@ -46,7 +46,8 @@ class ImportOptions:
     frame_spacing : float or None, m
         Distance of frames, of a table whose stations are frame numbers.
     centre : float or str or None
-        The centre plane of a hull that is not at y = 0: in units of the file, or with a unit.
+        The centre plane of a hull that is not at y = 0, or of one of several hulls: in units of
+        the file, or with a unit.
     deck_edge : str or None
         The line that is the deck edge, of digitised lines where the uppermost is not.
     scale, axes, stations, waterlines, buttocks, tolerance, join
@@ -60,7 +61,7 @@ class ImportOptions:
     SIZES: ClassVar[tuple[str, ...]] = ("length", "breadth", "draught")
     TABLES: ClassVar[tuple[str, ...]] = ("station_zero", "station_spacings", "frame_spacing")
     CUTS: ClassVar[tuple[str, ...]] = (
-        "stations", "waterlines", "buttocks", "scale", "axes", "tolerance", "join",
+        "stations", "waterlines", "buttocks", "scale", "axes", "tolerance", "join", "centre",
     )  # fmt: skip
     ONLY_CUTS: ClassVar[tuple[str, ...]] = (
         "stations", "waterlines", "buttocks", "axes", "tolerance", "join", "centre", "deck_edge",

@@ -18,7 +18,7 @@ from assoc_hull.geometry.surfaces.triangles import (
 )
 from assoc_hull.io.reports import Notebook
 
-__all__ = ["boundary_edges", "check_mesh", "facet_depth", "mend_mesh"]
+__all__ = ["boundary_edges", "check_mesh", "facet_depth", "mend_mesh", "tell_parts"]
 
 _WHERE = "the mesh"
 _ROUNDING = 1e-6
@@ -49,7 +49,7 @@ def mend_mesh(mesh: Triangles, book: Notebook) -> Triangles:
     _refuse_branches(mesh, book)
     mesh = _wind(mesh, book)
     _tell_open(mesh, book)
-    _tell_parts(mesh, book)
+    tell_parts(mesh, book)
     return mesh
 
 
@@ -179,7 +179,7 @@ def _tell_open(mesh: Triangles, book: Notebook) -> None:
         book.assume("open", _WHERE, what, len(rim))
 
 
-def _tell_parts(mesh: Triangles, book: Notebook) -> None:
+def tell_parts(mesh: Triangles, book: Notebook) -> None:
     """Tell of large parts that touch nowhere: appendages, a second hull, patches not sewn."""
     label = part_labels(mesh)
     area = np.bincount(label, np.linalg.norm(mesh.area_vectors(), axis=1))

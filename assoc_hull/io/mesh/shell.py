@@ -20,6 +20,7 @@ from assoc_hull.io.reports import Notebook
 __all__ = [
     "MeshShell",
     "RimKind",
+    "cut_faces",
     "cut_shell",
     "make_shell",
     "rim_pieces",
@@ -216,7 +217,7 @@ def _half(mesh: Triangles) -> Triangles:
         # No cap on the centre plane, but corners of the hull whose three corners lie in it.
         whole |= flat
     across = (side > 0).any(axis=1) & (side < 0).any(axis=1)
-    cut, extra, parent = _cut_faces(xyz, mesh.face[across])
+    cut, extra, parent = cut_faces(xyz, mesh.face[across])
     face = np.concatenate([mesh.face[whole], cut])
     origin = mesh.origin
     if origin is not None:
@@ -227,7 +228,7 @@ def _half(mesh: Triangles) -> Triangles:
     return Triangles(np.concatenate([xyz, extra])[used], number.reshape(-1, 3), origin)
 
 
-def _cut_faces(xyz: FloatArray, face: IntArray) -> tuple[IntArray, FloatArray, IntArray]:
+def cut_faces(xyz: FloatArray, face: IntArray) -> tuple[IntArray, FloatArray, IntArray]:
     """Give the parts at y >= 0 of triangles across the plane, the vertices they need, and whose."""
     keep = xyz[:, 1] >= 0.0
     lone = np.argmax(keep[face] != (keep[face].sum(axis=1) > 1)[:, None], axis=1)

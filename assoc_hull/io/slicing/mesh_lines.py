@@ -35,6 +35,7 @@ from assoc_hull.arguments import instance
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.surfaces.triangles import Triangles, check_mesh
 from assoc_hull.io.lines.mend_lines import join_pieces, report_crossings, report_joins
+from assoc_hull.io.lines.several_hulls import HullChoice
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.lines.slices import (
     AXES,
@@ -46,6 +47,7 @@ from assoc_hull.io.lines.slices import (
     settled_gaps,
 )
 from assoc_hull.io.mesh.frame import place_mesh, scale_mesh
+from assoc_hull.io.mesh.one_hull import place_one_hull
 from assoc_hull.io.mesh.read import read_triangles
 from assoc_hull.io.mesh.repair import facet_depth, mend_mesh
 from assoc_hull.io.mesh.shell import MeshShell, RimKind, cut_shell, make_shell, rim_pieces
@@ -139,6 +141,7 @@ def read_mesh(
     name: str | None = None,
     tell: Tell = no_progress,
     frame: FrameOptions | None = None,
+    choice: HullChoice | None = None,
 ) -> HullSlices:
     """Read a triangulated hull and cut it; arguments as for `slice_mesh`.
 
@@ -161,7 +164,7 @@ def read_mesh(
     return slice_mesh(
         mesh, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale, unit=unit,
         axes=axes, gaps=gaps, length=length, name=Path(title).stem if name is None else title,
-        tell=tell, frame=frame,
+        tell=tell, frame=frame, choice=choice,
     )  # fmt: skip
 
 
@@ -179,6 +182,7 @@ def slice_mesh(
     name: str = "hull",
     tell: Tell = no_progress,
     frame: FrameOptions | None = None,
+    choice: HullChoice | None = None,
 ) -> HullSlices:
     """Cut a mesh into stations, waterlines, buttocks and boundary curves.
 
@@ -207,6 +211,8 @@ def slice_mesh(
     frame : FrameOptions or None
         Where base line, waterline and perpendiculars are, what is not given being found; None:
         x and z stay as the file has them.
+    choice : HullChoice or None
+        Which of several hulls side by side; by default there is one.
 
     Returns
     -------
@@ -216,16 +222,18 @@ def slice_mesh(
     Raises
     ------
     BadInputError
-        A mesh that is no hull, or pieces that do not chain.
+        A mesh that is no hull or of several, or pieces that do not chain.
     NoMeetingError
         A plane that misses the hull.
     """
     check_mesh(instance(mesh, Triangles, "mesh", "in slice_mesh"))
     book = Notebook()
     scaled = scale_mesh(mesh, scale, unit, book)
-    mended = mend_mesh(scaled, book)
-    turned = place_mesh(mended, axes, book)
     factor = float(np.ptp(scaled.xyz, axis=0).max()) / float(np.ptp(mesh.xyz, axis=0).max())
+    mended, turned = place_one_hull(
+        mend_mesh(scaled, book), lambda each, notes: place_mesh(each, axes, notes),
+        choice or HullChoice(), float(f"{factor:.12g}"), book, turned=axes != "auto",
+    )  # fmt: skip
     placed, found = in_ship_axes(turned, mended, factor, frame, book, "the mesh")
     wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
     small = length_factor(length or float(np.ptp(placed.xyz[:, 0])))

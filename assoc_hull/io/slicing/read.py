@@ -11,6 +11,7 @@ from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.digitised.text import is_digitised
+from assoc_hull.io.lines.several_hulls import HullChoice
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.mesh.read import is_mesh_name
 from assoc_hull.io.placing.options import FrameOptions
@@ -69,6 +70,7 @@ def read_slices(
     breadth: float | None = None,
     draught: float | None = None,
     frame: FrameOptions | None = None,
+    centre: float | str | None = None,
     deck: str = "open",
     stations: Places | None = None,
     waterlines: Places | None = None,
@@ -91,6 +93,9 @@ def read_slices(
         Particulars; what is not given is found, as `assoc_hull.io.placing.frame.find_frame` does.
     frame : FrameOptions or None
         What else is said of where base line, waterline and perpendiculars are.
+    centre : float or str or None
+        Which of several hulls side by side: its centre plane in the file, in the unit of the
+        file or with a unit, as "4.2 m".
     deck : {"open", "closed"}
         Closed: there is a deck between the deck edges, which no mesh or line tells.
     stations, waterlines, buttocks, scale, unit, axes
@@ -123,13 +128,14 @@ def read_slices(
     }  # fmt: skip
     cuts = {name: value for name, value in named.items() if value is not None}
     said: dict[str, Any] = {"scale": scale, "unit": unit, "gaps": join, "length": length}
+    said |= {"frame": places, "choice": HullChoice(centre, places.depth, places.draught)}
     if is_mesh_name(path):
-        slices = read_mesh(path, tell=tell, frame=places, **said, **cuts)
+        slices = read_mesh(path, tell=tell, **said, **cuts)
     elif cad_kind(path):
-        slices = read_surface_lines(path, tell=tell, frame=places, **said, **cuts)
+        slices = read_surface_lines(path, tell=tell, **said, **cuts)
     else:
         _refuse_cuts(path, list(cuts))
-        slices = read_lines(path, frame=places, **said)
+        slices = read_lines(path, **said)
     refuse_bottomless(slices)
     state, report = net_from_slices(slices, _particulars(slices, deck), tolerance, tell=tell)
     return state, report

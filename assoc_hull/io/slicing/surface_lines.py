@@ -38,6 +38,7 @@ from assoc_hull.io.cad.hull_faces import FINE, HullFaces, facets_at_scale, hull_
 from assoc_hull.io.iges.curves import holds_surfaces
 from assoc_hull.io.iges.file import UNITS, IgesFile, looks_like_iges
 from assoc_hull.io.iges.surfaces import surfaces_of_iges
+from assoc_hull.io.lines.several_hulls import HullChoice
 from assoc_hull.io.lines.slices import (
     AXES,
     Gaps,
@@ -46,7 +47,9 @@ from assoc_hull.io.lines.slices import (
     SliceLine,
     settled_gaps,
 )
+from assoc_hull.io.mesh.axis_change import AxisChange
 from assoc_hull.io.mesh.frame import place_mesh
+from assoc_hull.io.mesh.one_hull import place_one_hull
 from assoc_hull.io.mesh.repair import mend_mesh
 from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.reports import Notebook, Tell, no_progress
@@ -70,36 +73,6 @@ from the triangles is not the one meant."""
 
 _LEAST_SINE = 0.03
 """Where a plane cuts at a smaller angle (sine), a point stays on its triangle."""
-
-
-@attrs.frozen(eq=False)
-class AxisChange:
-    """From the file to the ship: ``xyz @ turn + shift``; `turn` exchanges and mirrors axes."""
-
-    turn: FloatArray
-    shift: FloatArray
-
-    @classmethod
-    def between(cls, before: FloatArray, after: FloatArray) -> AxisChange:
-        """Find the change that took vertices (n, 3), m, from one place to another."""
-        middle = before.mean(axis=0)
-        # Turns are by right angles, so that entries are -1, 0 or 1 but for rounding.
-        turn = np.rint(np.linalg.lstsq(before - middle, after - after.mean(axis=0))[0])
-        return cls(turn + 0.0, np.median(after - before @ turn, axis=0))
-
-    def back(self, xyz: FloatArray) -> FloatArray:
-        """Give points in ship axes, (n, 3), m, in axes of the file."""
-        return np.asarray((xyz - self.shift) @ self.turn.T)
-
-    def ahead(self, xyz: FloatArray) -> FloatArray:
-        """Give points in axes of the file, (n, 3), m, in ship axes."""
-        return np.asarray(xyz @ self.turn + self.shift)
-
-    def plane(self, axis: IntArray, offset: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Give axis and offset (m) in the file of planes across axes of the ship."""
-        column = np.abs(self.turn).argmax(axis=0)
-        sign = self.turn[column, np.arange(3)]
-        return column[axis], (offset - self.shift[axis]) * sign[axis]
 
 
 def project_to_surfaces(
@@ -175,6 +148,7 @@ def slice_surfaces(
     name: str = "hull",
     tell: Tell = no_progress,
     frame: FrameOptions | None = None,
+    choice: HullChoice | None = None,
 ) -> HullSlices:
     """Cut surfaces into stations, waterlines, buttocks and boundary curves.
 
@@ -182,7 +156,7 @@ def slice_surfaces(
     ----------
     faces : HullFaces
         Whole hull or half.
-    stations, waterlines, buttocks, scale, axes, gaps, length, name, tell, frame
+    stations, waterlines, buttocks, scale, axes, gaps, length, name, tell, frame, choice
         As for `assoc_hull.io.slicing.mesh_lines.slice_mesh`.
 
     Returns
@@ -207,8 +181,11 @@ def slice_surfaces(
     facets = facets_at_scale(faces, scale, size, book, factor)
     check_mesh(facets.mesh)
     mended = mend_mesh(facets.mesh, book)
-    turned = place_mesh(mended, axes, book, 2.0 * FINE * size)
     metres = scale * METRES.get(faces.unit, 1.0)
+    mended, turned = place_one_hull(
+        mended, lambda each, notes: place_mesh(each, axes, notes, 2.0 * FINE * size),
+        choice or HullChoice(), metres, book, turned=axes != "auto",
+    )  # fmt: skip
     placed, found = in_ship_axes(turned, mended, metres, frame, book, "the surfaces")
     motion = AxisChange.between(mended.xyz, placed.xyz)
     wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
@@ -392,6 +369,7 @@ def read_surface_lines(
     length: float | None = None,
     tell: Tell = no_progress,
     frame: FrameOptions | None = None,
+    choice: HullChoice | None = None,
 ) -> HullSlices:
     """Read surfaces and cut them; arguments as for `assoc_hull.io.slicing.mesh_lines.read_mesh`.
 
@@ -405,4 +383,5 @@ def read_surface_lines(
     return slice_surfaces(
         faces, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale,
         axes=axes, gaps=gaps, length=length, name=path.stem, tell=tell, frame=frame,
+        choice=choice,
     )  # fmt: skip

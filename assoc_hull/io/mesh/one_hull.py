@@ -1,0 +1,260 @@
+"""One hull of a mesh that may hold several side by side: counted, refused or taken out.
+
+The mesh is placed in ship axes first, as if it were one hull, and cut into sections, which tell how
+many there are. The one that is meant is cut out of the mesh as the file has it, and placed anew; of
+a mesh of one hull nothing is changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.surfaces.triangles import Triangles
+from assoc_hull.io.lines.several_hulls import (
+    FoundHulls,
+    HullChoice,
+    Section,
+    find_hulls,
+    refuse_asymmetric,
+    refuse_several,
+    water_levels,
+)
+from assoc_hull.io.mesh.axis_change import AxisChange
+from assoc_hull.io.mesh.frame import half_side, mirror_error
+from assoc_hull.io.mesh.repair import facet_depth, tell_parts
+from assoc_hull.io.mesh.shell import cut_faces
+from assoc_hull.io.reports import Notebook
+
+__all__ = ["mesh_sections", "place_one_hull"]
+
+_WHERE = "the mesh"
+
+_SECTIONS = 60
+"""Sections between the ends that tell how many hulls there are."""
+
+_ROUNDING = 1e-4
+"""Halves that differ by this part of the length differ by the rounding of their files."""
+
+Place = Callable[[Triangles, Notebook], Triangles]
+
+
+def place_one_hull(
+    mesh: Triangles,
+    place: Place,
+    choice: HullChoice,
+    factor: float,
+    book: Notebook,
+    *,
+    turned: bool = False,
+) -> tuple[Triangles, Triangles]:
+    """Give the mesh of one hull in axes of the file, m, and placed in ship axes.
+
+    `place` does the latter; `factor` is m at full scale over the unit of the file; `turned` says
+    that its axes were given and not found.
+
+    Raises
+    ------
+    BadInputError
+        Several hulls and none is chosen; a chosen one that is not symmetric about its centre
+        plane, or from which the bridge deck is not cut off.
+    """
+    notes = Notebook()
+    placed = place(mesh, notes)
+    motion = AxisChange.between(mesh.xyz, placed.xyz)
+    if turned:
+        _refuse_on_side(mesh, motion)
+    sections = mesh_sections(placed)
+    low, high = float(placed.xyz[:, 2].min()), float(placed.xyz[:, 2].max())
+    found = find_hulls(sections, water_levels(low, high, choice), oriented=True)
+    centre = choice.place(factor)
+    if centre is None:
+        refuse_several(found, f"{_in_file(motion, found.centre, factor):.7g}", low, f"in {_WHERE}")
+        for mine, theirs in zip(attrs.astuple(book, recurse=False),
+                                attrs.astuple(notes, recurse=False), strict=True):  # fmt: skip
+            mine += theirs
+        return mesh, placed
+    picked = _picked(mesh, placed, motion, sections, found, centre, factor, choice, book)
+    return picked, place(picked, book)
+
+
+def mesh_sections(mesh: Triangles) -> list[Section]:
+    """Cut a mesh in ship axes into sections of straight pieces, not chained.
+
+    Each runs with the outside to its right where y points to the right and z up.
+    """
+    x = mesh.xyz[:, 0]
+    edges = np.linspace(float(x.min()), float(x.max()), _SECTIONS + 1)
+    corner = x[mesh.face]
+    low, high = corner.min(axis=1), corner.max(axis=1)
+    outward = mesh.area_vectors()
+    found: list[Section] = []
+    for at in (0.5 * (edges[1:] + edges[:-1])).tolist():
+        rows = np.flatnonzero((low < at) & (high >= at))
+        face = mesh.face[rows]
+        above = x[face] >= at
+        lone = np.argmax(above != (above.sum(axis=1) > 1)[:, None], axis=1)
+        a, b, c = (face[np.arange(len(face)), (lone + i) % 3] for i in range(3))
+        ends = []
+        for other in (b, c):
+            share = ((at - x[a]) / (x[other] - x[a]))[:, None]
+            ends.append(mesh.xyz[a, 1:] + share * (mesh.xyz[other, 1:] - mesh.xyz[a, 1:]))
+        if len(face):
+            part = np.stack(ends, axis=1)
+            (y, z), normal = (part[:, 1] - part[:, 0]).T, outward[rows]
+            back = normal[:, 1] * z - normal[:, 2] * y < 0.0
+            part[back] = part[back, ::-1]
+            found.append((at, part))
+    return found
+
+
+def _axis_in_file(motion: AxisChange) -> tuple[int, float, float]:
+    """Give column, sign and shift: y of the ship is sign * column of the file + shift, m."""
+    column = int(np.abs(motion.turn[:, 1]).argmax())
+    return column, float(motion.turn[column, 1]), float(motion.shift[1])
+
+
+def _in_file(motion: AxisChange, y: float, factor: float) -> float:
+    """Give where y of the ship (m) lies in the file, in its unit."""
+    _, sign, shift = _axis_in_file(motion)
+    return sign * (y - shift) / factor + 0.0
+
+
+def _picked(
+    mesh: Triangles,
+    placed: Triangles,
+    motion: AxisChange,
+    sections: list[Section],
+    found: FoundHulls,
+    centre: float,
+    factor: float,
+    choice: HullChoice,
+    book: Notebook,
+) -> Triangles:
+    """Cut the hull at a centre plane (m, in the file) out of a mesh."""
+    _, sign, shift = _axis_in_file(motion)
+    middle = sign * centre + shift
+    low = float(placed.xyz[:, 2].min())
+    limits = found.limits(middle)
+    top = _top(found, low, choice, book)
+    part = _clipped(mesh, placed, motion, 2, top, -1.0)
+    for bound, side in zip(limits, (1.0, -1.0), strict=True):
+        _refuse_bridge(part, bound, low, top)
+        part = _clipped(*part, motion, 1, bound, side)
+    picked, there = part
+    if not len(picked.face):
+        raise BadInputError(
+            f"there is no hull at centre={centre / factor:.7g}", f"in {_WHERE}",
+            f"give the centre plane of one, as {_in_file(motion, found.centre, factor):.7g}",
+        )  # fmt: skip
+    half = half_side(there, 1)
+    if half is None:
+        size = float(np.ptp(mesh.xyz, axis=0).max())
+        noise = max(2.0 * facet_depth(there), _ROUNDING * size)
+        scale = (sign / factor, -sign * shift / factor)
+        mine = [(x, _within(cut, limits)) for x, cut in sections]
+        mine = [(x, cut) for x, cut in mine if len(cut)]
+        refuse_asymmetric(mine, middle, top, noise, scale, f"in {_WHERE}")
+    elif abs(half - middle) > _ROUNDING * float(np.ptp(mesh.xyz, axis=0).max()):
+        raise BadInputError(
+            f"half a hull is cut at {_in_file(motion, half, factor):.7g}, not at its centre="
+            f"{centre / factor:.7g}", f"in {_WHERE}", "leave centre out, or give that place",
+        )  # fmt: skip
+    if found.count > 1:
+        what = f"of {found.count} hulls side by side that at {centre / factor:.7g} is read"
+        book.assume("one hull", _WHERE, what, centre)
+        # What was told of parts that touch nowhere held for all hulls together.
+        book.suspicions[:] = [note for note in book.suspicions if note.kind != "parts"]
+        tell_parts(picked, book)
+    return picked
+
+
+def _top(found: FoundHulls, low: float, choice: HullChoice, book: Notebook) -> float:
+    """Give the height at which the hull ends, m: below a bridge deck."""
+    depth = choice.depth
+    if found.bridge is None:
+        return np.inf
+    if depth is None:
+        depth = found.bridge - low
+        what = f"the bridge deck begins {depth:.4g} m high; the hull is taken to end there"
+        book.assume("depth", _WHERE, f"{what}, unless depth= is given", depth)
+    what = f"what lies higher than {depth:.4g} m is cut off"
+    book.repair("bridge deck", _WHERE, what, depth)
+    return low + depth
+
+
+def _refuse_bridge(part: tuple[Triangles, Triangles], bound: float, low: float, top: float) -> None:
+    """Refuse a bridge deck that hangs lower than where it is cut off."""
+    _, there = part
+    y = there.corners[:, :, 1]
+    across = (y.min(axis=1) < bound) & (y.max(axis=1) > bound)
+    if not across.any():
+        return
+    height = float(there.corners[across][:, :, 2].min()) - low
+    remedy = f"give depth={height:.4g} or less"
+    if height < 0.2 * (top - low):
+        remedy = "this is one hull with a long tunnel, or centre= is that of the ship"
+    raise BadInputError(
+        f"the bridge deck hangs down to {height:.4g} m, and depth is {top - low:.4g} m",
+        f"in {_WHERE}", remedy,
+    )  # fmt: skip
+
+
+def _within(part: FloatArray, limits: tuple[float, float]) -> FloatArray:
+    middle = part[..., 0].mean(axis=1)
+    return np.asarray(part[(middle > limits[0]) & (middle < limits[1])])
+
+
+def _clipped(
+    mesh: Triangles, placed: Triangles, motion: AxisChange, axis: int, bound: float, side: float
+) -> tuple[Triangles, Triangles]:
+    """Keep what lies on one side of a plane of the ship, as in the file and placed.
+
+    Vertices that stay keep their bits; those of the cut are carried back.
+    """
+    if not np.isfinite(bound):
+        return mesh, placed
+    off = side * (placed.xyz[:, axis] - bound)
+    off[np.abs(off) < 1e-9 * float(np.ptp(placed.xyz, axis=0).max())] = 0.0
+    sign = np.sign(off)[placed.face]
+    whole = (sign >= 0).all(axis=1) & (sign > 0).any(axis=1)
+    across = (sign > 0).any(axis=1) & (sign < 0).any(axis=1)
+    # `cut_faces` cuts at y = 0: the distance from the plane stands there.
+    others = [each for each in range(3) if each != axis]
+    turned = np.column_stack([placed.xyz[:, others[0]], off, placed.xyz[:, others[1]]])
+    cut, extra, parent = cut_faces(turned, placed.face[across])
+    new = np.empty_like(extra)
+    new[:, others[0]], new[:, others[1]], new[:, axis] = extra[:, 0], extra[:, 2], bound
+    face = np.concatenate([placed.face[whole], cut])
+    origin = placed.origin
+    if origin is not None:
+        origin = np.concatenate([origin[whole], origin[across][parent]])
+    used, number = np.unique(face, return_inverse=True)
+    number = number.reshape(-1, 3)
+    in_file = np.concatenate([mesh.xyz, motion.back(new)])[used]
+    # Where axes are mirrored, triangles run the other way round in the file.
+    run = number if np.linalg.det(motion.turn) > 0.0 else number[:, ::-1].copy()
+    there = Triangles(np.concatenate([placed.xyz, new])[used], number.copy(), origin)
+    return Triangles(in_file, run, origin), there
+
+
+def _refuse_on_side(mesh: Triangles, motion: AxisChange) -> None:
+    """Refuse a hull that lies on its side as its axes were given."""
+    across, up = (int(np.abs(motion.turn[:, axis]).argmax()) for axis in (1, 2))
+    size = np.ptp(mesh.xyz, axis=0)
+    side = half_side(mesh, across)
+    middle = 0.5 * float(mesh.xyz[:, up].min() + mesh.xyz[:, up].max())
+    # Half of a hull that is alike above and below mirrors in its height, too.
+    half = side is not None and not (abs(side) > 1e-3 * size.max() > abs(middle))
+    off = {axis: mirror_error(mesh, axis) * size.max() / size[axis] for axis in (across, up)}
+    if half or off[across] <= 0.02 or off[up] > 0.02:
+        return
+    letters = "xyz"[up], "xyz"[across]
+    raise BadInputError(
+        f"the hull lies on its side: it mirrors along {letters[0]}, not along {letters[1]}",
+        f"in {_WHERE}", "leave axes= out, or exchange the two",
+    )  # fmt: skip
