@@ -8,7 +8,7 @@ right options, and with one wrong option among the right ones. A `Cell` says wha
 comparison with the hull that the file was cut from.
 
 Places are compared by landmarks, not by coordinates: the ends of the hull (or of its sections,
-where a form holds no more), and its lowest point. So a hull whose origin lies elsewhere is not
+where a form holds no more), and its highest point. So a hull whose origin lies elsewhere is not
 wrong for that, but one that floats at another place on the hull is.
 """
 
@@ -30,7 +30,7 @@ from typing import Any
 import attrs
 import numpy as np
 import openpyxl
-from scipy.interpolate import CubicSpline, PchipInterpolator
+from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 import assoc_hull as ah
@@ -80,8 +80,8 @@ class Truth:
         True particulars; x = 0 at the true AP.
     ends : (float, float), m
         Aftmost and foremost x of what the file holds.
-    lowest : float, m
-        Lowest z of what the file holds: below 0 where there is a dome.
+    top : float, m
+        Highest z of what the file holds; nan where the file does not tell it.
     published : str
         Values printed by others, to be shown beside.
     """
@@ -91,7 +91,7 @@ class Truth:
     breadth: float
     draught: float
     ends: tuple[float, float]
-    lowest: float = 0.0
+    top: float
     published: str = ""
 
 
@@ -152,24 +152,30 @@ def _below(corner: FloatArray, level: float) -> FloatArray:
 def truth_of_hull(hull: ah.Hull, *, sections: bool = False) -> Truth:
     """Give the truth of a hull; `sections` where the file holds nothing else of it."""
     ship = hull.particulars
-    aft, fore, lowest = extent(hull, sections=sections)
+    aft, fore, top = extent(hull, sections=sections)
     return Truth(
-        partial(_of_hull, hull), ship.length, ship.breadth, ship.draught, (aft, fore), lowest
+        partial(_of_hull, hull), ship.length, ship.breadth, ship.draught, (aft, fore), top
     )
 
 
 def extent(hull: ah.Hull, *, sections: bool = False) -> tuple[float, float, float]:
-    """Give aftmost and foremost x and lowest z of all lines, or of sections and transom alone."""
-    groups = ("boundary", "sections") if sections else _FAMILIES
+    """Give aftmost and foremost x and highest z of all lines, or of those in planes across alone.
+
+    The highest place is a point of the deck edge; the bottom is lower than its points where
+    splines swing below it.
+    """
     points = [
         piece.points
-        for line in lines_as_points(hull.state, groups)
+        for line in lines_as_points(hull.state, _FAMILIES)
         for piece in line.pieces
-        if not sections or line.group == "sections" or line.name == "transom"
+        if not sections or np.ptp(piece.points[:, 0]) < _ACROSS
     ]
     every = np.concatenate(points)
-    return float(every[:, 0].min()), float(every[:, 0].max()), float(every[:, 2].min())
+    return float(every[:, 0].min()), float(every[:, 0].max()), float(every[:, 2].max())
 
+
+_ACROSS = 1e-6
+"""A line that keeps its x to this (m) is a section, or a transom that a file has as one."""
 
 _FAMILIES = ("boundary", "sections", "waterlines", "buttocks")
 
@@ -182,7 +188,7 @@ def truth_of_mesh(
     sides = 1.0 if low[1] < -0.1 * high[1] else 2.0
     return Truth(
         Shell(mesh, sides).at, length, breadth, draught, (float(low[0]), float(high[0])),
-        float(low[2]), published,
+        float(high[2]), published,
     )  # fmt: skip
 
 
@@ -292,9 +298,12 @@ def _compare(
     """Measure how far a hull is off, and say what is wrong of it."""
     truth, ship = case.truth(), hull.particulars
     found = hull.hydrostatics(draught=ship.draught)
-    aft, fore, lowest = extent(hull, sections=case.sections)
+    aft, fore, top = extent(hull, sections=case.sections)
     # The draught that was given is meant from the true base line; a found one is a plane in space.
-    plane = truth.draught if "draught" in options else ship.draught + truth.lowest - lowest
+    lift = 0.0 if np.isnan(truth.top) else truth.top - top
+    plane = truth.draught if "draught" in options else ship.draught + lift
+    if np.isnan(truth.top) and abs(plane / truth.draught - 1.0) < FRAME_OFF:
+        plane = truth.draught  # a base line at the lowest point found, and the same waterline
     real = truth.at(plane)
     place = found.lcb - aft + truth.ends[0]
     off = (
@@ -702,53 +711,25 @@ def sysser_table() -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     return body[:, 0], body[:, 1], z, body[:, 3:]
 
 
-def _section_spline(keel: float, z: FloatArray, y: FloatArray) -> FloatArray:
-    """Points close together on the cubic spline by chords through the offsets of a section."""
-    known = np.isfinite(y) & (z > keel + 1e-9)
-    points = np.column_stack([np.append(0.0, y[known]), np.append(keel, z[known])])
-    run = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)))
-    return np.asarray(CubicSpline(run, points)(np.linspace(0.0, run[-1], 801)))
-
-
 @cache
 def sysser_truth() -> Truth:
-    """Splines through the offsets: of sections by chords, along the ship of what they enclose."""
+    """Splines through the offsets: of sections by chords, then along the ship, triangulated."""
     x, keel, z, y = sysser_table()
-    sections = [
-        _section_spline(a, z, b) if np.isfinite(b).sum() > 1 else None
-        for a, b in zip(keel, y, strict=True)
-    ]
-
-    def at(draught: float) -> Floating:
-        rows = [(0.0, 0.0) if each is None else _below_of(each, draught) for each in sections]
-        area, girth = np.array(rows).T
-        wet = np.flatnonzero(area > 0.0)
-        # The ends of the waterline, where the keel line passes the draught.
-        ends = CubicSpline(x, keel - draught).roots(extrapolate=False)
-        places = np.concatenate([[ends.min()], x[wet], [ends.max()]])
-        areas = CubicSpline(places, np.concatenate([[0.0], area[wet], [0.0]]))
-        fine = np.linspace(places[0], places[-1], 4001)
-        volume = 2.0 * float(areas.integrate(places[0], places[-1]))
-        lcb = 2.0 * float(np.trapezoid(areas(fine) * fine, fine)) / volume
-        girths = PchipInterpolator(places, np.concatenate([[0.0], girth[wet], [0.0]]))(fine)
-        return Floating(volume, lcb, 2.0 * float(np.trapezoid(girths, fine)))
-
-    return Truth(
-        at, 10.0, 2.0 * float(np.nanmax(y)), 0.794, (float(x.min()), float(x.max())), 0.0,
-        "V 9.1830 m3, S 25.099 m2, LCB -.229 m of mid-LWL",
-    )  # fmt: skip
-
-
-def _below_of(section: FloatArray, draught: float) -> tuple[float, float]:
-    """Half area and half girth of a section below a draught."""
-    if section[0, 1] >= draught:
-        return 0.0, 0.0
-    last = int(np.argmax(section[:, 1] > draught))
-    part = (draught - section[last - 1, 1]) / (section[last, 1] - section[last - 1, 1])
-    end = section[last - 1] + part * (section[last] - section[last - 1])
-    wet = np.concatenate([section[:last], [end]])
-    girth = float(np.linalg.norm(np.diff(wet, axis=0), axis=1).sum())
-    return float(np.trapezoid(wet[:, 0], wet[:, 1])), girth
+    rows = []
+    for low, half in zip(keel, y, strict=True):
+        known = np.isfinite(half) & (z > low + 1e-9)
+        points = np.column_stack([np.append(0.0, half[known]), np.append(low, z[known])])
+        run = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)))
+        rows.append(CubicSpline(run, points)(np.linspace(0.0, run[-1], 401)))
+    fine = np.linspace(x[0], x[-1], 1601)
+    skin = CubicSpline(x, np.array(rows), axis=0)(fine)
+    skin[:, 0, 0] = 0.0
+    along = np.broadcast_to(fine[:, None], skin.shape[:2])
+    mesh = grid_triangles(np.dstack([along, skin[..., 0], skin[..., 1]]))
+    published = "V 9.1830 m3, S 25.099 m2, LCB -.229 m of mid-LWL"
+    found = truth_of_mesh(mesh, 10.0, 2.0 * float(np.nanmax(y)), 0.794, published)
+    # Its highest half-breadths lie below the sheer, of which the table has the height only.
+    return attrs.evolve(found, top=float("nan"))
 
 
 def write_yacht(folder: Path) -> Path:
