@@ -153,9 +153,7 @@ def truth_of_hull(hull: ah.Hull, *, sections: bool = False) -> Truth:
     """Give the truth of a hull; `sections` where the file holds nothing else of it."""
     ship = hull.particulars
     aft, fore, top = extent(hull, sections=sections)
-    return Truth(
-        partial(_of_hull, hull), ship.length, ship.breadth, ship.draught, (aft, fore), top
-    )
+    return Truth(partial(_of_hull, hull), ship.length, ship.breadth, ship.draught, (aft, fore), top)
 
 
 def extent(hull: ah.Hull, *, sections: bool = False) -> tuple[float, float, float]:
@@ -260,6 +258,8 @@ class Foreign:
     wrong: tuple[Wrong, ...] = ()
     sections: bool = False
     """Whether the file holds sections only (a transom among them): places go by these."""
+    sound: bool = True
+    """Whether the file holds a hull at all; what does not is to be refused."""
 
 
 def suspicions_of(hull: ah.Hull) -> tuple[str, ...]:
@@ -746,38 +746,42 @@ def write_yacht(folder: Path) -> Path:
     return path
 
 
+def tanker() -> ah.Hull:
+    """The plain ship at twice her size: 240 m."""
+    return scaled("plain_ship", 2.0, 2.0, 2.0)
+
+
+def _table_rows(hull: ah.Hull, folder: Path) -> list[list[str]]:
+    """The block of half-breadths of an exported table, without its words."""
+    path = folder / "table.csv"
+    hull.export(path)
+    rows = [row.split(",") for row in path.read_text().splitlines() if not row.startswith("#")]
+    path.unlink()
+    end = next((i for i, row in enumerate(rows) if i and row[0] == "station"), len(rows))
+    return [row for row in rows[:end] if any(row)]
+
+
 def write_tanker(folder: Path) -> Path:
-    """The carrier's table as yards print it: half-breadths in mm, heights in m."""
-    path = folder / "tanker.csv"
-    shipped("bulk_carrier_207k").export(path)
-    rows = [row for row in path.read_text().splitlines() if not row.startswith("#")]
-    end = next((i for i, row in enumerate(rows) if i and row.startswith("station")), len(rows))
-    rows = [row for row in rows[:end] if row.strip(", ")]
-    head = rows[0].split(",")
-    breadths = [i for i, cell in enumerate(head) if cell.startswith("wl_")]
-    body = [row.split(",") for row in rows[1:]]
+    """A table as yards print it: half-breadths in mm, heights in m."""
+    head, *body = _table_rows(tanker(), folder)
+    breadths = [i for i, cell in enumerate(head) if cell.startswith("wl_") or cell == "y_deck"]
     for row in body:
         for i in breadths:
             row[i] = f"{1e3 * float(row[i]):.0f}" if row[i] else ""
+    path = folder / "tanker.csv"
     path.write_text("\n".join(",".join(row) for row in [head, *body]) + "\n")
     return path
 
 
 def write_workbook(folder: Path) -> Path:
-    """The carrier's table in a workbook as others make it: no words, x = 0 at the FP."""
+    """A table in a workbook as others make it: no words, x = 0 at the FP."""
     book = openpyxl.Workbook()
-    text = folder / "carrier.csv"
-    shipped("bulk_carrier_180m").export(text)
-    rows = [row.split(",") for row in text.read_text().splitlines() if not row.startswith("#")]
-    text.unlink()
-    end = next((i for i, row in enumerate(rows) if i and row[0] == "station"), len(rows))
-    rows = [row[1:] for row in rows[:end] if any(row)]
-    for row in rows:
-        cells = [float(each) if _is_number(each) else each or None for each in row]
+    for row in _table_rows(shipped("plain_ship"), folder):
+        cells = [float(each) if _is_number(each) else each or None for each in row[1:]]
         if isinstance(cells[0], float):
-            cells[0] = round(cells[0] - 180.0, 6)
+            cells[0] = round(cells[0] - 120.0, 6)
         book.active.append(cells)
-    path = folder / "carrier.xlsx"
+    path = folder / "cargo.xlsx"
     book.save(path)
     return path
 
@@ -925,7 +929,7 @@ CORPUS: tuple[Foreign, ...] = (
         _export("carrier.igs", _shift("bulk_carrier_207k", 5.0, 0.0, 0.0), "iges-lines", "mm"),
         _ship("bulk_carrier_207k"), {"length": 300.0, "draught": 18.0, "deck": "closed"},
         (_w(_UNIT, unit="m"), _w(_UNIT, scale=0.5), _w(_LENGTH, length=200.0),
-         _w(_DRAUGHT, draught=180.0), _w(_BREADTH, breadth=40.0)),
+         _w(_DRAUGHT, draught=180.0), _w(_BREADTH, breadth=40.0), _w(_ORIGIN, ap=30.0)),
     ),
     Foreign(
         "carrier_midship", "180 m carrier: DXF splines in mm, x = 0 midship, z = 0 at the "
@@ -933,13 +937,13 @@ CORPUS: tuple[Foreign, ...] = (
         _export("carrier.dxf", _shift("bulk_carrier_180m", -90.0, 0.0, -10.5), "dxf", "mm"),
         _ship("bulk_carrier_180m"), {"length": 180.0, "draught": 10.5},
         (_w(_UNIT, unit="m"), _w(_UNIT, unit="in"), _w(_LENGTH, length=120.0),
-         _w(_DRAUGHT, draught=7.5)),
+         _w(_DRAUGHT, draught=7.5), _w(_ORIGIN, origin="fp"), _w(_BASE, base=-7.0)),
     ),
     Foreign(
-        "carrier_fp", "180 m carrier: XLSX table, x = 0 at the FP, going aft negative",
-        write_workbook, _ship("bulk_carrier_180m", sections=True),
-        {"length": 180.0, "draught": 10.5, "station_zero": "fp"},
-        (_w(_UNIT, unit="mm"), _w(_LENGTH, length=120.0), _w(_DRAUGHT, draught=105.0),
+        "cargo_fp", "Cargo ship of 120 m: XLSX table, x = 0 at the FP and negative abaft",
+        write_workbook, _ship("plain_ship", sections=True),
+        {"length": 120.0, "draught": 7.2, "station_zero": "fp"},
+        (_w(_UNIT, unit="mm"), _w(_LENGTH, length=80.0), _w(_DRAUGHT, draught=72.0),
          _w(_ZERO, station_zero="ap")),
         sections=True,
     ),
@@ -957,7 +961,8 @@ CORPUS: tuple[Foreign, ...] = (
     Foreign(
         "frigate", "Frigate: STL, whole; dome 1.8 m below base; x aft from FP, z = 0 at the "
         "waterline", write_frigate, frigate_truth, {"length": 117.0, "draught": 4.4},
-        (_w(_UNIT, unit="ft"), _w(_LENGTH, length=70.0), _w(_DRAUGHT, draught=6.2)),
+        (_w(_UNIT, unit="ft"), _w(_LENGTH, length=70.0), _w(_DRAUGHT, draught=6.2),
+         _w(_BASE, base=-6.2)),
     ),
     Foreign(
         "chine_boat", "Planing boat of 12 m, hard chine: IGES surfaces in mm, port half",
@@ -972,8 +977,9 @@ CORPUS: tuple[Foreign, ...] = (
     ),
     Foreign(
         "yacht", "Sysser 1: the same table, z = 0 at the waterline", write_yacht, sysser_truth,
-        {"length": 10.0, "draught": 0.794},
-        (_w(_UNIT, unit="mm"), _w(_DRAUGHT, draught=1.3), _w(_LENGTH, length=16.0)),
+        {"length": 10.0, "draught": 0.794, "base": -0.794},
+        (_w(_UNIT, unit="mm"), _w(_DRAUGHT, draught=1.3), _w(_LENGTH, length=16.0),
+         _w(_BASE, base=-0.4)),
     ),
     Foreign(
         "half_stl", "Series 60, CB .70: STL of the port half", write_half,
@@ -986,12 +992,16 @@ CORPUS: tuple[Foreign, ...] = (
         (_w(_UNIT, unit="ft"), _w(_LENGTH, length=15.0), _w(_DRAUGHT, draught=14.4)),
     ),
     Foreign(
-        "tanker_mm", "207k carrier: table, half-breadths in mm, heights in m", write_tanker,
-        _ship("bulk_carrier_207k", sections=True),
-        {"unit": "mm,m", "length": 300.0, "draught": 18.0, "deck": "closed"},
-        (_w(_UNIT, unit="mm"), _w(_UNIT, unit="m"), _w(_LENGTH, length=200.0),
-         _w(_DRAUGHT, draught=0.018)),
+        "tanker_mm", "Tanker of 240 m: table, half-breadths in mm, heights in m", write_tanker,
+        _made(tanker, True), {"unit": "mm,m", "length": 240.0, "draught": 14.4},
+        (_w(_UNIT, unit="mm"), _w(_UNIT, unit="m"), _w(_LENGTH, length=160.0),
+         _w(_DRAUGHT, draught=0.0144)),
         sections=True,
+    ),
+    Foreign(
+        "carrier_table", "207k carrier: her table, which cannot say what lies abaft bulb and "
+        "bossing", _export("carrier.csv", partial(shipped, "bulk_carrier_207k")),
+        _ship("bulk_carrier_207k", sections=True), {"deck": "closed"}, sections=True, sound=False,
     ),
     Foreign(
         "model_25", "180 m carrier: her surface at 1/25, IGES, m", write_model,
