@@ -13,10 +13,14 @@ from assoc_hull.arguments import choice, flag, instance, numbers, places, positi
 from assoc_hull.errors import BadInputError, TooFewPointsError
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, freeze
 from assoc_hull.geometry.plane import as_plane
-from assoc_hull.model.kinds import FAMILIES, BoundaryKind
+from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Sort
 from assoc_hull.model.tables import Ends
 
-__all__ = ["LineSource", "line_curve_data"]
+__all__ = ["LineSource", "Origin", "line_curve_data"]
+
+Origin = tuple[str, str] | Sort
+"""What a defining point was in the net that it comes from: a crossing with a line, by group and
+name, or a placed or adopted point."""
 
 
 @attrs.frozen(eq=False)
@@ -52,6 +56,9 @@ class LineSource:
     dense : bool
         Whether the points draw the line closely, so that any of them may be adopted: then
         points are adopted in the middle of an interval, none in one without room.
+    origin : tuple of Origin, or None
+        Per point, what it was in the net that the line was written from. The points then define
+        the curve, all of them and no others.
     """
 
     group: str
@@ -67,6 +74,7 @@ class LineSource:
     placed: bool
     tolerance: float | FloatArray
     dense: bool = False
+    origin: tuple[Origin, ...] | None = None
 
     @classmethod
     def make(
@@ -84,6 +92,7 @@ class LineSource:
         placed: bool = False,
         tolerance: float | FloatArray = 1e-3,
         dense: bool = False,
+        origin: Sequence[Origin] | None = None,
     ) -> Self:
         """Check and complete what is given; arguments as the attributes of the class.
 
@@ -113,11 +122,13 @@ class LineSource:
         if boundary is not None:
             boundary = BoundaryKind(instance(boundary, int, "boundary", where))
         freeze(xyz, kinds, given)
+        if origin is not None:
+            _one_each(np.empty(len(origin)), (len(xyz),), "origins", where)
         return cls(
             group, name, xyz, chosen.name, normal, offset, boundary, kinds, given,
             Ends() if ends is None else instance(ends, Ends, "ends", where),
             flag(placed, "placed", where), _tolerance(tolerance, len(xyz), where),
-            flag(dense, "dense", where),
+            flag(dense, "dense", where), None if origin is None else tuple(origin),
         )  # fmt: skip
 
     def scaled(self, factor: float, offset: float | None = None) -> LineSource:

@@ -15,6 +15,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import all_of, instance
+from assoc_hull.edit.adoption.defined_net import are_defined, defined_net, write_kinds
 from assoc_hull.edit.adoption.match_crossings import (
     Contact,
     LineIntersection,
@@ -238,14 +239,28 @@ def adopt(
     _make_lines(maker, ordered, associations)
     reference = loft(line_curve_data(ordered), list(state.curves.key.data))
     net = ReferenceNet(state, tuple(ordered), reference, *_matches(state, ordered, reference))
-    thinned = thin_net(net)
-    notes = _write(maker, net, thinned)
+    if are_defined(ordered):
+        net, notes = _write_defined(maker, net)
+        thinned, allowed = None, [state.tolerances.adoption] * len(ordered)
+    else:
+        thinned, allowed = thin_net(net), [float(np.max(each.tolerance)) for each in ordered]
+        notes = _write(maker, net, thinned)
     notes += _loft(maker)
     link_adopted_points(state, state.live("curves"), journal)
     set_limits(state, journal)
-    maker.features(find_features(state, [float(np.max(each.tolerance)) for each in ordered]))
+    maker.features(find_features(state, allowed))
     lines = report_lines(net)
     return state, AdoptionReport(lines, (*notes, *_over_notes(net, thinned, lines)))
+
+
+def _write_defined(maker: Maker, net: ReferenceNet) -> tuple[ReferenceNet, list[str]]:
+    """Write a net whose lines know their defining points; gives it with its crossings."""
+    found, outcome, lost = defined_net(net)
+    notes = _write(maker, found, outcome)
+    write_kinds(maker, found)
+    if lost:
+        notes.append(f"{lost} points were crossings and are adopted points now: none lies there")
+    return found, notes
 
 
 def match_lines(
@@ -348,9 +363,11 @@ def _left_note(net: ReferenceNet, left: OmittedPoint) -> str:
     )
 
 
-def _over_notes(net: ReferenceNet, thinned: ThinnedNet, lines: Sequence[LineReport]) -> list[str]:
+def _over_notes(
+    net: ReferenceNet, thinned: ThinnedNet | None, lines: Sequence[LineReport]
+) -> list[str]:
     """Name the densely drawn lines that are passed too far off and have no note for a point."""
-    noted = {each.curve for each in thinned.left}
+    noted = set() if thinned is None else {each.curve for each in thinned.left}
     return [
         f"{line.line} is passed by {line.tolerance_used:.2f} times what is allowed at some place: "
         "no point could be adopted there, another stands too close"

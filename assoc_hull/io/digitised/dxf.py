@@ -23,6 +23,7 @@ from assoc_hull.io.dxf.entities import (
     RawSpline,
     drawing_entities,
     drawing_unit,
+    spline_of,
 )
 from assoc_hull.io.dxf.read_lines_plan import names_of, plan_curves
 from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawLines, read_number
@@ -155,23 +156,9 @@ def _shape(
 ) -> FloatArray | RawSpline | None:
     """Give what an entity draws, None if it is no line."""
     if entity.kind == "SPLINE":
-        return _spline(entity) if entity.number(73) else None
+        return spline_of(entity) if entity.number(73) else None
     points = _points(entity, entities, at)
     return np.array(points) if len(points) > 1 else None
-
-
-def _spline(entity: DrawingEntity) -> RawSpline:
-    columns = [entity.numbers(code) for code in (10, 20, 30)]
-    weights = entity.numbers(41)
-    columns += [weights] if weights else []
-    if any(len(column) != len(columns[0]) for column in columns):
-        sizes = ", ".join(str(len(column)) for column in columns)
-        raise BadInputError(
-            f"a spline has {sizes} coordinates of control points", entity.where,
-            "save the drawing again as ASCII DXF",
-        )  # fmt: skip
-    control, degree = np.array(columns).T, int(entity.number(71))
-    return RawSpline(degree, np.array(entity.numbers(40)), control, entity.where)
 
 
 def _points(entity: DrawingEntity, entities: list[DrawingEntity], at: int) -> list[list[float]]:

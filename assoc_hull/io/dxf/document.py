@@ -15,11 +15,28 @@ from typing import Any
 import attrs
 
 from assoc_hull.errors import MissingExtraError
+from assoc_hull.io.lines.own_lines import MARK, pieces_of
 
-__all__ = ["DXF_UNITS", "NAMES", "DxfLayer", "DxfUnit", "drawing_text", "layer_name", "tag_entity"]
+__all__ = [
+    "DXF_UNITS",
+    "IN_SPACE",
+    "NAMES",
+    "DxfLayer",
+    "DxfUnit",
+    "add_record",
+    "drawing_text",
+    "layer_name",
+    "tag_entity",
+]
 
-NAMES = "ASSOC_HULL"
+NAMES = MARK
 """Application name of the extended data that hold the name of the line."""
+
+IN_SPACE = "in space"
+"""Stands behind name and family of a line that is drawn where it lies; then its number."""
+
+_WORD = 240
+"""Letters of a word: records have no longer ones than 255."""
 
 
 @attrs.frozen
@@ -125,6 +142,12 @@ def layer_name(name: str) -> str:
     ('deck_ upper', 'lines')
     """
     return "".join("_" if each in _FORBIDDEN else each for each in name) or "lines"
+
+
+def add_record(drawing: Any, text: str) -> None:
+    """Add a text of the whole drawing, as a record (XRECORD) of its dictionary."""
+    record = drawing.rootdict.add_xrecord(NAMES)
+    record.reset([(1, word) for word in (NAMES, *pieces_of(text, _WORD))])
 
 
 def tag_entity(entity: Any, *words: str) -> None:

@@ -28,6 +28,7 @@ __all__ = [
     "RawSpline",
     "drawing_entities",
     "drawing_unit",
+    "spline_of",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -137,6 +138,27 @@ _STEEPEST = 15
 
 _STRAIGHT = float(np.cos(np.deg2rad(0.5)))
 """Directions that differ by more make a knuckle where the spline allows one."""
+
+
+def spline_of(entity: DrawingEntity) -> RawSpline:
+    """Give the B-spline of an entity that has control points.
+
+    Raises
+    ------
+    BadInputError
+        Its numbers make none.
+    """
+    columns = [entity.numbers(code) for code in (10, 20, 30)]
+    weights = entity.numbers(41)
+    columns += [weights] if weights else []
+    if any(len(column) != len(columns[0]) for column in columns):
+        sizes = ", ".join(str(len(column)) for column in columns)
+        raise BadInputError(
+            f"a spline has {sizes} coordinates of control points", entity.where,
+            "save the drawing again as ASCII DXF",
+        )  # fmt: skip
+    control, degree = np.array(columns).T, int(entity.number(71))
+    return RawSpline(degree, np.array(entity.numbers(40)), control, entity.where)
 
 
 @attrs.frozen(eq=False)

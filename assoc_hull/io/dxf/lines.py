@@ -22,8 +22,15 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.control_polygon import ControlPolygon, control_polygon
-from assoc_hull.io.dxf.document import drawing_text, layer_name, tag_entity
+from assoc_hull.io.dxf.document import (
+    IN_SPACE,
+    add_record,
+    drawing_text,
+    layer_name,
+    tag_entity,
+)
 from assoc_hull.io.lines.line_points import lines_as_points, splines_of
+from assoc_hull.io.lines.own_lines import BETWEEN, curve_texts, hull_text, tell_losses
 from assoc_hull.io.reports import ExportBook
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import FAMILIES
@@ -46,6 +53,8 @@ class SplineLine:
         Of its plane; nan for a curve in space.
     curves : tuple of ControlPolygon
         Its curves.
+    texts : tuple of str
+        What is told of each, so that it comes back as it was.
     """
 
     group: str
@@ -54,6 +63,7 @@ class SplineLine:
     normal: FloatArray
     offset: float
     curves: tuple[ControlPolygon, ...]
+    texts: tuple[str, ...]
 
     @property
     def axis(self) -> int | None:
@@ -90,6 +100,7 @@ def _line(state: HullState, book: AddressBook, line: int) -> SplineLine:
         table.normal.data[line].copy() if planar else np.full(3, np.nan),
         float(table.offset.data[line]) if planar else float("nan"),
         tuple(control_polygon(each) for each in splines_of(state, line)),
+        tuple(curve_texts(state, line)),
     )
 
 
@@ -124,11 +135,15 @@ def _splines(state: HullState, book: ExportBook) -> str:
     curves = [(line, curve) for line in lines for curve in line.curves]
     book.lines, book.curves = len(lines), len(curves)
     book.points = sum(len(curve.points) for _, curve in curves)
+    tell_losses(state, book)
 
     def draw(space: Any) -> None:
-        for line, curve in curves:
-            points = curve.points * book.scale
-            add_spline(space, curve.knots, points, layer_name(line.group), line)
+        for number, (line, curve) in enumerate(curves):
+            points, layer = curve.points * book.scale, layer_name(line.group)
+            add_spline(space, curve.knots, points, layer, line, IN_SPACE, str(number))
+        # Not with the entities: their extended data have room for 16 kB in all.
+        texts = [text for line in lines for text in line.texts]
+        add_record(space.doc, BETWEEN.join([hull_text(state), *texts]))
 
     return drawing_text((layer_name(line.group) for line in lines), draw, book.unit)
 

@@ -33,6 +33,7 @@ from assoc_hull.io.export.sections import sections_to_export
 from assoc_hull.io.hull_json import readable_text
 from assoc_hull.io.iges.lines import iges_of_lines
 from assoc_hull.io.lines.line_points import lines_as_points
+from assoc_hull.io.lines.own_lines import tell_losses
 from assoc_hull.io.reports import ExportBook, ExportReport
 from assoc_hull.io.write_file import form_by_ending, write_whole
 from assoc_hull.model.tables import HullState
@@ -134,6 +135,7 @@ def _dxf_plan(state: HullState, book: ExportBook) -> bytes:
 def _iges_lines(state: HullState, book: ExportBook) -> bytes:
     text, report = iges_of_lines(state, unit=book.unit)
     book.lines, book.curves, book.points = report.lines, report.curves, report.points
+    tell_losses(state, book)
     return text.encode()
 
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections import Counter
 
+import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
@@ -25,6 +26,7 @@ from assoc_hull.geometry.patches.knots import checked_knots
 from assoc_hull.geometry.patches.spline_curve import SplineCurve
 from assoc_hull.io.iges.entities import (
     name_property,
+    property_pointers,
     readable_name,
     scale_note,
     spline_curve,
@@ -33,8 +35,9 @@ from assoc_hull.io.iges.entities import (
 )
 from assoc_hull.io.iges.file import DirectoryEntry, IgesFile, IgesRecord
 from assoc_hull.io.iges.surface_entities import KINDS, SILENT
+from assoc_hull.io.lines.own_lines import IMAGE, MARK, OwnLines, TextedCurve, own_lines
 
-__all__ = ["curves_of_iges", "holds_surfaces"]
+__all__ = ["curves_of_iges", "holds_surfaces", "own_iges_lines"]
 
 Found = tuple[list[SplineCurve], str, tuple[str, ...]]
 
@@ -102,6 +105,51 @@ def curves_of_iges(text: str, source: str, unit: str | None = None) -> Found:
         raise BadInputError(what, f"in {source}", f"export lines as splines. {told}".strip())
     curves = [_curve(file, each, chains, metres) for each in shown]
     return curves, name, (*notes, *scale_note(file), *left)
+
+
+def own_iges_lines(text: str, source: str) -> OwnLines | None:
+    """Give the lines of a file of ours with what it tells of them; None if it is none of ours.
+
+    Raises
+    ------
+    BadInputError
+        The file is damaged, or tells no unit.
+    """
+    if f"{len(MARK)}H{MARK}" not in text:
+        return None
+    file = IgesFile.of_text(text, source)
+    unit, metres, _ = unit_of(file, None)
+    own = {
+        each.number: _text_of(file, each.number)
+        for each in file.entries.values() if (each.kind, each.form) == (406, 27)
+    }  # fmt: skip
+    hull = [own[number] for number in own if not file.entries[number].dependent and own[number]]
+    if len(hull) != 1:
+        return OwnLines(fault=f"it has {len(hull)} texts of a hull") if hull else None
+    chains = _chains(file)
+    curves, others = list[TextedCurve](), list[str]()
+    for entry in file.entries.values():
+        if not _is_curve(file, entry, chains):
+            continue
+        record = file.record(entry.number)
+        pointers = property_pointers(file, record, _shape(record, entry)[5])
+        told = next((own[each] for each in pointers if own.get(each)), "")
+        if told == IMAGE:
+            continue
+        if told and entry.kind == 126 and not entry.transformation:
+            curves.append(TextedCurve(told, _curve(file, entry, chains, metres)))
+        else:
+            others.append(f"D{entry.number}")
+    return attrs.evolve(own_lines(hull[0], curves, others), unit=unit)
+
+
+def _text_of(file: IgesFile, number: int) -> str:
+    """Give the text of generic data of ours, empty if they are of another."""
+    record = file.record(number)
+    if record.text(2) != MARK:
+        return ""
+    count = record.count(3, "the number of values", len(record))
+    return "".join(record.text(5 + 2 * i) for i in range(count))
 
 
 def _chains(file: IgesFile) -> dict[int, DirectoryEntry]:

@@ -26,6 +26,7 @@ __all__ = [
     "IgesSurface",
     "Transformation",
     "name_property",
+    "property_pointers",
     "readable_name",
     "scale_note",
     "spline_curve",
@@ -71,6 +72,17 @@ def readable_name(name: str) -> str:
     return "".join(letter for letter in name if letter.isprintable()).strip()
 
 
+def property_pointers(file: IgesFile, record: IgesRecord, after: int) -> tuple[int, ...]:
+    """Give the numbers of the properties of an entity; as `name_property`."""
+    if len(record) <= after + 1:
+        return ()
+    groups = record.count(after, "the number of groups", len(file.entries))
+    if len(record) <= after + 1 + groups:
+        return ()
+    count = record.count(after + 1 + groups, "the number of properties", len(file.entries))
+    return record.pointers(after + 2 + groups, count, "the properties")
+
+
 def name_property(file: IgesFile, record: IgesRecord, after: int) -> str:
     """Give the name that a property, entity 406 of form 15, gives an entity; empty if none.
 
@@ -81,13 +93,7 @@ def name_property(file: IgesFile, record: IgesRecord, after: int) -> str:
     BadInputError
         The pointers are damaged.
     """
-    if len(record) <= after + 1:
-        return ""
-    groups = record.count(after, "the number of groups", len(file.entries))
-    if len(record) <= after + 1 + groups:
-        return ""
-    count = record.count(after + 1 + groups, "the number of properties", len(file.entries))
-    for each in record.pointers(after + 2 + groups, count, "the properties"):
+    for each in property_pointers(file, record, after):
         entry = file.entries.get(each)
         if entry is not None and (entry.kind, entry.form) == (406, 15):
             return file.record(each).text(2)

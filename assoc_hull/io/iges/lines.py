@@ -34,6 +34,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.control_polygon import control_polygon
 from assoc_hull.io.iges.write import IgesLayout, real_values
 from assoc_hull.io.lines.line_points import splines_of
+from assoc_hull.io.lines.own_lines import IMAGE, curve_texts, hull_text
 from assoc_hull.io.lines.raw_lines import BOUNDARIES, OTHER_FAMILIES
 from assoc_hull.io.units import METRES
 from assoc_hull.io.write_file import write_whole
@@ -126,16 +127,25 @@ def iges_of_lines(
     lines = list(_lines(state, wanted))
     for family, line in lines:
         name, level = _name(state, family, line), FAMILIES.index(family) + 1
-        for spline in splines_of(state, line):
+        for spline, told in zip(splines_of(state, line), curve_texts(state, line), strict=True):
             curve = control_polygon(spline)
-            for net in _sides(curve.points, alone):
-                layout.add_named(126, curve_values(curve.knots, net * factor), name, level)
+            for net, words in zip(_sides(curve.points, alone), (told, IMAGE), strict=False):
+                values = curve_values(curve.knots, net * factor)
+                layout.add_named(126, values, name, level, words)
                 curves, points = curves + 1, points + len(net)
                 size = max(size, float(np.abs(net).max()) * factor)
     if not lines:
         raise BadInputError("there are no lines of these families", _WHERE, "give others")
-    text = layout.text(_TITLE, unit, size)
+    layout.add_text(hull_text(state))
+    text = layout.text(_TITLE, unit, size, _particulars(state))
     return text, LinesReport("", unit, alone, len(lines), curves, points, len(text))
+
+
+def _particulars(state: HullState) -> list[str]:
+    """Give name and particulars for people who look into the file."""
+    ship = state.particulars
+    sizes = f"Lpp {ship.length:.6g} m, B {ship.breadth:.6g} m, D {ship.depth:.6g} m"
+    return [ship.name, f"{sizes}, T {ship.draught:.6g} m, deck {ship.deck}"]
 
 
 def _lines(state: HullState, families: Sequence[str]) -> Iterator[tuple[str, int]]:

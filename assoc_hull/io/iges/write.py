@@ -18,6 +18,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.iges.file import UNITS
+from assoc_hull.io.lines.own_lines import MARK, pieces_of
 from assoc_hull.io.units import METRES, checked_unit
 
 __all__ = [
@@ -35,6 +36,8 @@ _DATE = "20000101.000000"
 _FLAGS = {name: flag for flag, (name, _) in UNITS.items()}
 _NAMES = {"m": "M", "mm": "MM", "cm": "CM", "ft": "FT", "in": "IN"}
 _VISIBLE, _PROPERTY = "00000000", "00010300"
+_STRING, _WORD = "3", 50
+"""The type of a text among generic data; letters of a word, which no line breaks."""
 
 
 @attrs.define
@@ -44,17 +47,30 @@ class IgesLayout:
     directory: list[str] = attrs.field(factory=list)
     parameters: list[str] = attrs.field(factory=list)
 
-    def add_named(self, kind: int, values: Sequence[str], name: str, level: int = 0) -> None:
+    def add_named(
+        self, kind: int, values: Sequence[str], name: str, level: int = 0, text: str = ""
+    ) -> None:
         """Add an entity and its name, as a property (406, form 15) and as a label of eight letters.
 
         `values` leave out the type and pointers to properties; `level` is the layer, 0: none. What
-        is not ASCII in a name is written as ``?``.
+        is not ASCII in a name is written as ``?``. A `text` of ours follows as another property.
         """
         label = _ascii(name)
-        # Two lines of the directory are its own: the property is the next entity.
-        pointer = str(len(self.directory) + 3)
-        self._add(kind, 0, [*values, "0", "1", pointer], label[:8], _VISIBLE, level)
+        # Two lines of the directory are its own: properties are the next entities.
+        first = len(self.directory) + 3
+        pointers = [str(first), str(first + 2)] if text else [str(first)]
+        ours = [*values, "0", str(len(pointers)), *pointers]
+        self._add(kind, 0, ours, label[:8], _VISIBLE, level)
         self._add(406, 15, ["1", _hollerith(label)], "", _PROPERTY, 0)
+        if text:
+            self.add_text(text, _PROPERTY)
+
+    def add_text(self, text: str, status: str = _VISIBLE) -> None:
+        """Add a text of ours as generic data, a property (406, form 27) of words of 50 letters."""
+        words = [_hollerith(each) for each in pieces_of(text, _WORD)]
+        values = [each for word in words for each in (_STRING, word)]
+        head = [str(len(values) + 2), _hollerith(MARK), str(len(words))]
+        self._add(406, 27, [*head, *values], "", status, 0)
 
     def _add(
         self, kind: int, form: int, values: Sequence[str], label: str, status: str, level: int
@@ -66,11 +82,14 @@ class IgesLayout:
         shape = f"{kind:8d}{0:8d}{0:8d}{len(lines):8d}{form:8d}{'':16}{label:>8}{0:8d}"
         self.directory += [start, shape]
 
-    def text(self, title: str, unit: str, size: float) -> str:
-        """Give the text, lines of 80 columns; `size` is the greatest coordinate, in `unit`."""
+    def text(self, title: str, unit: str, size: float, more: Sequence[str] = ()) -> str:
+        """Give the text, lines of 80 columns; `size` is the greatest coordinate, in `unit`.
+
+        The file begins with a title and `more` lines for people.
+        """
         sections = {
-            "S": [f"{title:72}"], "G": _packed(_globals(unit, size), 72), "D": self.directory,
-            "P": self.parameters,
+            "S": [f"{_ascii(line, 72):72}" for line in (title, *more)],
+            "G": _packed(_globals(unit, size), 72), "D": self.directory, "P": self.parameters,
         }  # fmt: skip
         lines = [
             f"{line}{letter}{number:7d}"
@@ -111,9 +130,9 @@ def _hollerith(text: str) -> str:
     return f"{len(text)}H{text}" if text else ""
 
 
-def _ascii(text: str) -> str:
+def _ascii(text: str, most: int = 60) -> str:
     """Give a name in the letters that the format knows, and short enough for a line."""
-    return text.encode("ascii", "replace").decode()[:60]
+    return text.encode("ascii", "replace").decode()[:most]
 
 
 def _packed(values: Iterable[str], width: int) -> list[str]:

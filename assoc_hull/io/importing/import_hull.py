@@ -15,6 +15,7 @@ from assoc_hull.arguments import positive
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.importing.options import ImportOptions
+from assoc_hull.io.importing.own_files import read_own_file
 from assoc_hull.io.importing.verdict import Finding, Verdict, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.offsets.complete_table import net_from_table
@@ -69,10 +70,15 @@ def import_hull(
         The hull is not sound and was not accepted, or is under suspicion and `strict`.
     """
     wanted = options or ImportOptions()
-    if holds_lines(path):
+    own = read_own_file(path, wanted)
+    if own is not None and own.state is not None and own.adoption is not None:
+        state, report = own.state, ImportReport(own.notes, own.adoption, Verdict())
+    elif holds_lines(path):
         state, report = _import_lines(path, wanted, tell)
     else:
         state, report = _import_table(path, wanted)
+    if own is not None and own.state is None:
+        report = attrs.evolve(report, notes=own.added_to(report.notes))
     verdict = _judge(report)
     require_sound(verdict, path.name, accept=wanted.accept, strict=wanted.strict)
     notes = (*_told(report.notes), f"verdict: {verdict}", *report.adoption.notes)

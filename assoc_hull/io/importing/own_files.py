@@ -1,0 +1,93 @@
+"""Files of lines that this package wrote: the hull comes back as it was, its points included."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import attrs
+
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
+from assoc_hull.errors import AssocHullError
+from assoc_hull.graph.journal import Journal
+from assoc_hull.io.dxf.own_drawing import own_dxf_lines
+from assoc_hull.io.iges.curves import own_iges_lines
+from assoc_hull.io.iges.file import looks_like_iges
+from assoc_hull.io.importing.options import ImportOptions
+from assoc_hull.io.lines.own_lines import OwnLines
+from assoc_hull.io.reports import Note, OffsetReport
+from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.tables import HullState
+
+__all__ = ["OwnHull", "read_own_file"]
+
+_MOST_BYTES = 200_000_000
+_TAKEN = ("length", "breadth", "draught", "deck", "accept", "strict")
+"""Options that change no place of a line."""
+
+
+@attrs.frozen(eq=False)
+class OwnHull:
+    """A hull from a file of ours; without a hull, `why` tells that it is read as any other."""
+
+    state: HullState | None
+    adoption: AdoptionReport | None
+    why: str = ""
+
+    @property
+    def notes(self) -> OffsetReport:
+        """Tell that nothing had to be assumed."""
+        what = "lines that assoc-hull wrote: points, kinds and particulars are taken as they stand"
+        return OffsetReport((Note("own file", "the file", what),))
+
+    def added_to(self, notes: OffsetReport) -> OffsetReport:
+        """Add to the notes on a file why it is not read as ours."""
+        what = f"assoc-hull wrote it; {self.why}: its curves are read as digitised lines"
+        note = Note("own file", "the file", what)
+        return attrs.evolve(notes, assumptions=(note, *notes.assumptions))
+
+
+def read_own_file(path: Path, options: ImportOptions) -> OwnHull | None:
+    """Give the hull of a file of ours, which is told by a mark in it; None if it has none."""
+    lines = _lines(path)
+    if lines is None:
+        return None
+    taken = (*_TAKEN, *(["unit"] if options.unit == lines.unit else []))
+    other = [name for name in options.given() if name not in taken]
+    if other:
+        return OwnHull(None, None, f"{', '.join(other)} was given")
+    if lines.fault:
+        return OwnHull(None, None, f"another program has changed it: {lines.fault}")
+    return _adopted(lines, options)
+
+
+def _lines(path: Path) -> OwnLines | None:
+    """Read the lines of a file of ours, None if it is none, or damaged: then its reader says so."""
+    if not path.is_file() or path.stat().st_size > _MOST_BYTES:
+        return None
+    text = path.read_bytes().decode("utf-8", "replace")
+    reader = own_iges_lines if looks_like_iges(text) else own_dxf_lines
+    try:
+        return reader(text, path.name)
+    except AssocHullError:
+        return None
+
+
+def _adopted(lines: OwnLines, options: ImportOptions) -> OwnHull:
+    """Make the net again, and look whether any curve has moved."""
+    assert lines.particulars is not None
+    ship = attrs.evolve(lines.particulars, **options.named("length", "breadth", "draught", "deck"))
+    try:
+        state, report = adopt(lines.sources, ship, lines.associations, lines.tolerances)
+    except AssocHullError as error:
+        return OwnHull(None, None, f"no net could be made of its lines as they are: {error}")
+    return OwnHull(state, attrs.evolve(report, notes=(*report.notes, *_features(state, lines))))
+
+
+def _features(state: HullState, lines: OwnLines) -> list[str]:
+    """Keep the features that the hull had, of those that its points show; tell which are gone."""
+    wanted = set(lines.features)
+    Maker(state, Journal()).features(
+        each for each in state.features if (each.kind, each.name) in wanted
+    )
+    gone = sorted(wanted - {(each.kind, each.name) for each in state.features})
+    return [f"the feature {name!r} ({kind}) was not found again" for kind, name in gone]
