@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import attrs
@@ -13,15 +14,19 @@ from assoc_hull.io.dxf.own_drawing import own_dxf_lines
 from assoc_hull.io.iges.curves import own_iges_lines
 from assoc_hull.io.iges.file import looks_like_iges
 from assoc_hull.io.importing.options import ImportOptions
-from assoc_hull.io.lines.own_lines import OwnLines
+from assoc_hull.io.lines.own_lines import MARK, OwnLines
 from assoc_hull.io.reports import Note, OffsetReport
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import HullState, Particulars
 
 __all__ = ["OwnHull", "read_own_file"]
 
 _MOST_BYTES = 200_000_000
-_TAKEN = ("length", "breadth", "draught", "deck", "accept", "strict")
+_OFF = 1e-3
+"""A particular that is given, and is off that of the file by more than this part, is suspicious."""
+
+_SIZES = ("length", "breadth", "depth", "draught")
+_TAKEN = (*_SIZES, "deck", "accept", "strict")
 """Options that change no place of a line."""
 
 
@@ -32,12 +37,13 @@ class OwnHull:
     state: HullState | None
     adoption: AdoptionReport | None
     why: str = ""
+    suspicions: tuple[Note, ...] = ()
 
     @property
     def notes(self) -> OffsetReport:
         """Tell that nothing had to be assumed."""
         what = "lines that assoc-hull wrote: points, kinds and particulars are taken as they stand"
-        return OffsetReport((Note("own file", "the file", what),))
+        return OffsetReport((Note("own file", "the file", what),), (), self.suspicions)
 
     def added_to(self, notes: OffsetReport) -> OffsetReport:
         """Add to the notes on a file why it is not read as ours."""
@@ -64,7 +70,10 @@ def _lines(path: Path) -> OwnLines | None:
     """Read the lines of a file of ours, None if it is none, or damaged: then its reader says so."""
     if not path.is_file() or path.stat().st_size > _MOST_BYTES:
         return None
-    text = path.read_bytes().decode("utf-8", "replace")
+    data = path.read_bytes()
+    if MARK.encode() not in data:
+        return None
+    text = data.decode("utf-8", "replace")
     reader = own_iges_lines if looks_like_iges(text) else own_dxf_lines
     try:
         return reader(text, path.name)
@@ -75,12 +84,23 @@ def _lines(path: Path) -> OwnLines | None:
 def _adopted(lines: OwnLines, options: ImportOptions) -> OwnHull:
     """Make the net again, and look whether any curve has moved."""
     assert lines.particulars is not None
-    ship = attrs.evolve(lines.particulars, **options.named("length", "breadth", "draught", "deck"))
+    ship = attrs.evolve(lines.particulars, **options.named(*_SIZES, "deck"))
     try:
         state, report = adopt(lines.sources, ship, lines.associations, lines.tolerances)
     except AssocHullError as error:
         return OwnHull(None, None, f"no net could be made of its lines as they are: {error}")
-    return OwnHull(state, attrs.evolve(report, notes=(*report.notes, *_features(state, lines))))
+    adoption = attrs.evolve(report, notes=(*report.notes, *_features(state, lines)))
+    return OwnHull(state, adoption, suspicions=tuple(_contradictions(lines.particulars, ship)))
+
+
+def _contradictions(told: Particulars, taken: Particulars) -> Iterator[Note]:
+    """Tell of particulars that were given and are not those of the file."""
+    for name in _SIZES:
+        said, given = float(getattr(told, name)), float(getattr(taken, name))
+        if abs(given - said) > _OFF * said:
+            yield Note(
+                name, "the options", f"{given:g} m, as given; the file says {said:g} m", given
+            )
 
 
 def _features(state: HullState, lines: OwnLines) -> list[str]:
