@@ -35,6 +35,7 @@ from assoc_hull.io.iges.lines import iges_of_lines
 from assoc_hull.io.lines.line_points import lines_as_points
 from assoc_hull.io.lines.own_lines import tell_losses
 from assoc_hull.io.reports import ExportBook, ExportReport
+from assoc_hull.io.rhino.write import rhino_file
 from assoc_hull.io.write_file import form_by_ending, write_whole
 from assoc_hull.model.tables import HullState
 
@@ -160,6 +161,9 @@ FORMS: Mapping[str, ExportForm] = MappingProxyType(
         ),
         "dxf-plan": ExportForm(
             "lines plan in three views, DXF", (), _dxf_plan, _EXACT, units=_UNITS, on_paper=True
+        ),
+        "3dm": ExportForm(
+            "lines, surface and closed mesh for Rhino", (".3dm",), rhino_file, _EXACT, units=_UNITS
         ),
         "iges-lines": ExportForm(
             "all lines in their places as splines, IGES 126", (), _iges_lines, _EXACT, units=_UNITS

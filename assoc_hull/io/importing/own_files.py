@@ -16,6 +16,7 @@ from assoc_hull.io.iges.file import looks_like_iges
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.lines.own_lines import MARK, OwnLines
 from assoc_hull.io.reports import Note, OffsetReport
+from assoc_hull.io.rhino.read import is_rhino, own_rhino_lines
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.tables import HullState, Particulars
 
@@ -70,6 +71,8 @@ def _lines(path: Path) -> OwnLines | None:
     """Read the lines of a file of ours, None if it is none, or damaged: then its reader says so."""
     if not path.is_file() or path.stat().st_size > _MOST_BYTES:
         return None
+    if is_rhino(path):
+        return own_rhino_lines(path)
     data = path.read_bytes()
     if MARK.encode() not in data:
         return None

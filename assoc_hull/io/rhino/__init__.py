@@ -1,0 +1,1 @@
+"""Files of Rhino, .3dm, written and read by rhino3dm."""
