@@ -13,11 +13,13 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from assoc_hull.arguments import choice, positive
+from assoc_hull.errors import BadInputError
 
 __all__ = [
     "METRES",
     "check_particular",
     "checked_unit",
+    "refuse_other_unit",
     "unit_note",
 ]
 
@@ -49,6 +51,24 @@ def checked_unit(unit: object, where: str) -> str:
         Anything else.
     """
     return choice(unit, "unit", tuple(METRES), where)
+
+
+def refuse_other_unit(source: str, told: str | None, unit: str | None) -> None:
+    """Refuse a unit that was asked for against the one that a file declares.
+
+    Raises
+    ------
+    BadInputError
+        They differ.
+    """
+    if told is None or unit is None or told == unit:
+        return
+    times = METRES[unit] / METRES[told]
+    raise BadInputError(
+        f"the unit {unit!r} was given and the file says that its unit is {told!r}",
+        f"in {source}",
+        f"leave the unit out; if the file is wrong, correct it there or give scale={times:.6g}",
+    )
 
 
 def unit_note(source: str, told: str | None, unit: str) -> tuple[str, ...]:

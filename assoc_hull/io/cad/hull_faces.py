@@ -99,10 +99,11 @@ def hull_size(faces: HullFaces, scale: float, book: Notebook) -> float:
     said = f"the surfaces are {size:.4g} m long in {faces.unit}, the unit of the file"
     where = f"at scale {scale:g}"
     if not size <= _LONGEST:
-        known = ", ".join(METRES)
-        raise BadInputError(said, where, f"are these millimetres? give unit ({known}), or scale")
+        remedy = f"are these millimetres? give scale={METRES['mm'] / METRES[faces.unit]:g}"
+        raise BadInputError(said, where, f"{remedy}, or the scale that they have")
     if size < _SHORTEST:
-        remedy = "are these metres? give unit='m', or the scale of the model"
+        times = METRES["m"] / METRES[faces.unit]
+        remedy = f"are these metres? give scale={times:g}, or the scale of the model"
         raise BadInputError(said, where, remedy)
     book.assume("unit", "the surfaces", f"{faces.unit}: the hull is {size:.6g} m long", size)
     return size

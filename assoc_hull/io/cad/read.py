@@ -24,7 +24,7 @@ from assoc_hull.geometry.patches.triangulation import Facets, joined_facets
 from assoc_hull.io.cad.faces import faces_in, spline_of
 from assoc_hull.io.cad.hull_faces import HullFaces
 from assoc_hull.io.cad.kernel import MILLIMETRES, quiet_kernel
-from assoc_hull.io.units import METRES, unit_note
+from assoc_hull.io.units import METRES, refuse_other_unit
 
 __all__ = [
     "read_faces",
@@ -132,12 +132,12 @@ _TURN = 0.35
 def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> HullFaces:
     """Read the faces of a file ("step", "iges") as surfaces, m.
 
-    `told` is the unit that the file declares, `unit` one that is given and counts first.
+    `told` is the unit that the file declares, `unit` one that is given; they may not differ.
 
     Raises
     ------
     BadInputError
-        OpenCASCADE reads no face, or the file tells no unit.
+        OpenCASCADE reads no face, or the file tells no unit, or another than is given.
     MissingExtraError
         OpenCASCADE is not installed.
     """
@@ -149,6 +149,7 @@ def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> Hul
                 "there is no surface", f"in {path.name}", "export the surfaces of the hull"
             )
         surfaces = [_surface(face, f"face {i}") for i, face in enumerate(faces, 1)]
+    refuse_other_unit(path.name, told, unit)
     used = unit or told
     if used is None:
         what = "the file tells no unit of length that is known"
@@ -156,7 +157,7 @@ def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> Hul
     factor = METRES[used] / METRES[told] if told else 1.0
     if factor != 1.0:
         surfaces = [each and attrs.evolve(each, net=each.net * factor) for each in surfaces]
-    notes = (*unit_note(path.name, told, used), *_unheld(surfaces, path.name))
+    notes = _unheld(surfaces, path.name)
 
     def facets(deflection: float, longest: float) -> Facets:
         with quiet_kernel():

@@ -41,6 +41,7 @@ from assoc_hull.io.placing.options import FileAxes, FrameOptions
 from assoc_hull.io.placing.placed_lines import place_slices
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.table_text import read_text
+from assoc_hull.io.units import refuse_other_unit
 from assoc_hull.tolerance import length_factor, round_at_size
 
 __all__ = [
@@ -361,8 +362,12 @@ def _unit(found: RawLines, unit: str, book: Notebook, source: str) -> str:
     if unit != "auto" and found.told:
         raise BadInputError(f"the unit {shown(unit)} was given and the form has {found.unit}",
                             f"at {source}", "leave the unit out")  # fmt: skip
+    if unit != "auto" and found.unit in _METRIC:
+        refuse_other_unit(source, found.unit, unit)
     if unit != "auto":
-        book.assume("unit", "the lines", f"{unit}, as given; the header says {found.unit}")
+        # Drawings that say feet or inches do so by default more often than not.
+        what = f"{unit}, as given; the header says {found.unit}: right is one of the two"
+        book.suspect("unit", "the lines", what)
         return unit
     if not found.told and found.unit not in _METRIC:
         what = f"the header says {found.unit}, as it does by default: the unit goes by the size"

@@ -55,7 +55,7 @@ from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.reports import Notebook, Tell, no_progress
 from assoc_hull.io.slicing.cut_planes import Places
 from assoc_hull.io.slicing.mesh_lines import cut_placed, in_ship_axes
-from assoc_hull.io.units import METRES, checked_unit
+from assoc_hull.io.units import METRES, checked_unit, refuse_other_unit
 from assoc_hull.tolerance import length_factor
 
 __all__ = [
@@ -311,7 +311,8 @@ def faces_of_file(path: Path, unit: str = "auto") -> HullFaces:
     Raises
     ------
     BadInputError
-        A file that is damaged or too large, tells no unit, or holds no surface.
+        A file that is damaged or too large, tells no unit or another than is given, or holds no
+        surface.
     MissingExtraError
         It needs OpenCASCADE, which is not installed.
     """
@@ -326,6 +327,9 @@ def faces_of_file(path: Path, unit: str = "auto") -> HullFaces:
         require_sound_step(text, path.name)
         return read_faces(path, "step", step_unit(text), given)
     try:
+        file = IgesFile.of_text(text, path.name)
+        told = UNITS[file.unit][0] if file.metres is not None else None
+        refuse_other_unit(path.name, told, given)
         surfaces, used, notes = surfaces_of_iges(text, path.name, given)
     except NeedsCadError as error:
         return _through_cad(path, text, given, error)

@@ -163,13 +163,14 @@ def test_one_unit_taken_for_another_is_refused(tmp_path: Path, factor: float, me
 
 
 def test_the_unit_of_the_file_is_used_and_told(tmp_path: Path) -> None:
-    """In millimetres, it is the same hull; another unit can be asked for, and is told."""
+    """In millimetres, it is the same hull; another unit is refused, and a scale mends the file."""
     path = written(tmp_path / "ship.igs", [wigley()], "mm")
     assert "mm: the hull is 100 m long" in str(read_surface_lines(path, **CUTS).report)
     wrong = cad_hulls.moved([wigley()], lambda net: net * 1e3)
-    slices = read_surface_lines(written(tmp_path / "w.igs", wrong, "m"), unit="mm", **CUTS)
-    check_wigley(slices)
-    assert "its unit is m; it is read in mm, as asked" in str(slices.report)
+    path = written(tmp_path / "w.igs", wrong, "m")
+    with pytest.raises(BadInputError, match=r"says that its unit is 'm'.*scale=0\.001"):
+        read_surface_lines(path, unit="mm", **CUTS)
+    check_wigley(read_surface_lines(path, scale=0.001, **CUTS))
 
 
 @pytest.mark.parametrize("form", ["igs", "stl"])
