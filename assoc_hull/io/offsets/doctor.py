@@ -32,6 +32,9 @@ __all__ = [
 _SCORE = 5.0
 """A value is wild from this score: off its neighbours, over what is usual there."""
 
+_AT_ENDS = 7.0
+"""So many times the score is asked for where blanks or zeros are near."""
+
 _MOST = 12
 _NOISE = 3e-4
 """Offsets count as rounded to no less than this part of the largest."""
@@ -87,7 +90,8 @@ def wild_values(
         agree = along_x * along_z > 0
         off = np.where(agree, np.minimum(np.abs(along_x), np.abs(along_z)), 0.0)
         off[~np.isfinite(along_x * along_z)] = np.nan
-        i, j, score = _worst(off, noise)
+        off[tuple(np.array([each[:2] for each in found], int).reshape(-1, 2).T)] = 0.0
+        i, j, score = _worst(off, noise, y)
         if score < _SCORE:
             break
         better = float(y[i, j] - min(along_x[i, j], along_z[i, j], key=abs))
@@ -96,14 +100,17 @@ def wild_values(
     return tuple(found)
 
 
-def _worst(off: FloatArray, noise: FloatArray) -> tuple[int, int, float]:
+def _worst(off: FloatArray, noise: FloatArray, y: FloatArray) -> tuple[int, int, float]:
     best = (0, 0, 0.0)
     for i, j in zip(*np.nonzero(np.nan_to_num(off) > 3.0 * noise), strict=True):
-        near = off[max(i - 2, 0) : i + 3, max(j - 2, 0) : j + 3].copy()
-        near[min(i, 2), min(j, 2)] = np.nan
+        window = (slice(max(i - 2, 0), i + 3), slice(max(j - 2, 0), j + 3))
+        near, beside = off[window].copy(), y[window].copy()
+        near[min(i, 2), min(j, 2)] = beside[min(i, 2), min(j, 2)] = np.nan
         known = near[np.isfinite(near)]
         usual = float(np.percentile(known, 80)) if len(known) else 0.0
         score = float(off[i, j] / (3.0 * noise[j] + usual))
+        # Where a hull begins or ends lines turn as they do nowhere else.
+        score /= _AT_ENDS if np.count_nonzero(np.nan_to_num(beside)) < beside.size - 1 else 1.0
         best = max(best, (int(i), int(j), score), key=lambda item: item[2])
     return best
 
@@ -203,9 +210,20 @@ def _blanks(patient: ExaminedTable, book: Notebook) -> None:
             book.suspect("blank", f"station {patient.stations[i]}", "the station has no offset")
             continue
         _outer_blanks(patient, i, int(known[0]), int(known[-1]), book)
-        for j in range(int(known[0]), int(known[-1])):
-            if np.isnan(row[j]):
-                book.suspect("blank", patient.where(i, j), "blank between numbers")
+        inner = np.arange(int(known[0]), int(known[-1]))
+        blank = inner[np.isnan(row[inner])]
+        ended = [j for j in blank if _ended(patient.y[:, j], i)]
+        if ended:
+            what = f"{len(ended)} blanks between numbers, and none farther out: the hull ended"
+            book.assume("blank", f"station {patient.stations[i]}", what, float(len(ended)))
+        for j in blank:
+            if j not in ended:
+                book.suspect("blank", patient.where(i, int(j)), "blank between numbers")
+
+
+def _ended(line: FloatArray, i: int) -> bool:
+    """Tell whether a waterline has no half-breadth from a station on to one of its ends."""
+    return not (np.nan_to_num(line[:i]).any() and np.nan_to_num(line[i:]).any())
 
 
 def _outer_blanks(patient: ExaminedTable, i: int, first: int, last: int, book: Notebook) -> None:
