@@ -13,11 +13,21 @@ import math
 from typing import Any
 
 import attrs
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.arguments import not_negative
 
+FloatArray = NDArray[np.float64]
+
 __all__ = [
-    "FULL_LENGTH", "IN_PLANE", "SAME_PLANE", "Tolerances", "length_factor", "round_at_size",
+    "FULL_LENGTH",
+    "IN_PLANE",
+    "SAME_PLANE",
+    "Tolerances",
+    "at_full_length",
+    "length_factor",
+    "round_at_size",
     "rounding_unit",
 ]  # fmt: skip
 
@@ -67,6 +77,25 @@ def round_at_size(length: float, digits: int, factor: float) -> float:
     """
     unit = rounding_unit(factor)
     return round(length / unit, digits) * unit
+
+
+def at_full_length(values: ArrayLike, factor: float) -> FloatArray:
+    """Give lengths (m) of a hull with a factor of lengths as they are of the hull of 100 m.
+
+    What was a decimal there (down to 1e-9 m) before a file was scaled is that again, to the last
+    bit: no rounding of places may turn on what scaling has left. Powers of two leave nothing.
+
+    Examples
+    --------
+    >>> from assoc_hull.tolerance import at_full_length
+    >>> at_full_length([4.7 / 7.0, 1.5], 1.0 / 7.0).tolist(), 4.7 / 7.0 / (1.0 / 7.0)
+    ([4.7, 10.5], 4.700000000000001)
+    """
+    grown = np.asarray(values, np.float64) / factor
+    if math.frexp(factor)[0] == 0.5:
+        return grown
+    decimal = np.round(grown, 9)
+    return np.where(np.abs(decimal - grown) <= 8.0 * np.spacing(np.abs(grown)), decimal, grown)
 
 
 _COINCIDENT = 1e-6

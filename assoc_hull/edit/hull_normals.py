@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 _SHORT = 1e-6
-"""Ends nearer than this (m) along a curve's course do not tell its direction."""
+"""Times `Tolerances.factor`: ends nearer than this (m) along a curve's course do not tell its direction."""
 
 
 def turn_outward(state: HullState, normal: FloatArray, tangent: FloatArray) -> FloatArray:
@@ -82,7 +82,9 @@ def _course(state: HullState) -> FloatArray:
             continue
         across = abs(normal[line, 0]) > 0.5
         run = float(xyz[-1, 2] - xyz[0, 2]) if across else float(xyz[-1, 0] - xyz[0, 0])
-        if abs(run) < _SHORT:  # a closed curve: the sense in which it goes round decides
+        if (
+            abs(run) < state.tolerances.factor * _SHORT
+        ):  # a closed curve: the sense in which it goes round decides
             run = _turn(xyz, normal[line]) * (1.0 if across else -1.0)
         found[curve] = np.copysign(1.0, -run if across else run)
     return found

@@ -342,7 +342,7 @@ class Edit:
         shift: ArrayLike | None = None,
         planes: Literal["stay", "follow"] = "stay",
         jacobian: Jacobian | None = None,
-        tolerance: float = 2e-3,
+        tolerance: float | None = None,
     ) -> None:
         """Carry driving groups or lines by a mapping of space; all other lines follow.
 
@@ -361,8 +361,9 @@ class Edit:
             mapping sends their planes to such.
         jacobian : callable or None
             Gives d mapping_i / d x_j as (n, 3, 3); central differences over 1 mm if None.
-        tolerance : float, m
-            How far a driver may leave its exact image; adopted points hold it.
+        tolerance : float or None, m
+            How far a driver may leave its exact image; adopted points hold it. None: 2 mm, of a
+            hull under 100 m less in proportion.
 
         Raises
         ------
@@ -390,5 +391,5 @@ class Edit:
         follow = choice(planes, "planes", ("stay", "follow"), "in transform") == "follow"
         _transform.transform(
             self._transaction, space, self._given.driving(drivers), follow=follow,
-            tolerance=positive(tolerance, "tolerance", "in transform"),
+            tolerance=None if tolerance is None else positive(tolerance, "tolerance", "in transform"),
         )  # fmt: skip

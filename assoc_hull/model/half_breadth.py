@@ -16,7 +16,7 @@ __all__ = ["half_breadth"]
 
 _X, _Z = np.eye(3)[0], np.eye(3)[2]
 _APART = 1e-3
-"""Marks of a cut nearer in x than this (m) count as one."""
+"""Times `Tolerances.factor`: marks of a cut nearer in x than this (m) count as one."""
 
 
 @attrs.frozen(eq=False)
@@ -88,11 +88,12 @@ def _meet(
 
 
 def _cut(state: HullState, x: float, z: float) -> float:
-    marks = _marks(state, z)
+    apart = state.tolerances.factor * _APART
+    marks = _marks(state, z, apart)
     low, high = (
         (marks.xyz[0, 0], marks.xyz[-1, 0]) if len(marks.xyz) > 1 else (np.inf, -np.inf)
     )  # fmt: skip
-    if not low <= x <= high or _between_pieces(marks, x):
+    if not low <= x <= high or _between_pieces(marks, x, apart):
         away = max(low - x, x - high, 0.0)
         raise NoMeetingError(f"the hull at x = {x:g}, z = {z:g} m", float(away), _ASK)
     met = intersect_planes(loft(_data(marks)), _X, np.array([x])).xyz
@@ -103,7 +104,7 @@ def _cut(state: HullState, x: float, z: float) -> float:
 _ASK = "ask for a place between the ends of the hull and below the deck"
 
 
-def _marks(state: HullState, z: float) -> _Marks:
+def _marks(state: HullState, z: float, apart: float) -> _Marks:
     """Cut sections and boundary curves at a height; one mark at each x, boundaries first."""
     curves = state.live("curves")
     wanted = [name in ("sections", "boundary") for name in _families(state, curves)]
@@ -112,7 +113,7 @@ def _marks(state: HullState, z: float) -> _Marks:
     order = np.lexsort((-xyz[:, 1], xyz[:, 0]))
     kept: list[int] = []
     for item in order.tolist():
-        if kept and xyz[item, 0] - xyz[kept[-1], 0] < _APART:
+        if kept and xyz[item, 0] - xyz[kept[-1], 0] < apart:
             if xyz[item, 1] > xyz[kept[-1], 1] or kind[item] > kind[kept[-1]]:
                 kept[-1] = item
             continue
@@ -120,11 +121,11 @@ def _marks(state: HullState, z: float) -> _Marks:
     return _Marks(xyz[kept], kind[kept])
 
 
-def _between_pieces(marks: _Marks, x: float) -> bool:
+def _between_pieces(marks: _Marks, x: float, apart: float) -> bool:
     """Tell whether a place lies between the end of one piece and the beginning of the next."""
     after = int(np.clip(np.searchsorted(marks.xyz[:, 0], x), 1, len(marks.xyz) - 1))
     pair = slice(after - 1, after + 1)
-    ends = (marks.boundary[pair] == BoundaryKind.END) & (marks.xyz[pair, 1] <= _APART)
+    ends = (marks.boundary[pair] == BoundaryKind.END) & (marks.xyz[pair, 1] <= apart)
     return bool(ends.all())
 
 

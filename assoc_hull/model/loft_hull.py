@@ -22,7 +22,7 @@ from assoc_hull.model.tables import CurveIntersections, HullState, curve_node, r
 __all__ = ["attach_curves", "loft_all", "set_limits"]
 
 _LOOK = 2.0
-"""How far (m) a meeting may lie from where its crossing was when it is looked for."""
+"""Times `Tolerances.factor`: how far (m) a meeting may lie from where its crossing was when it is looked for."""
 
 
 def loft_all(state: HullState, journal: Journal) -> IntArray:
@@ -122,9 +122,9 @@ def _match(
         for spot in spots.tolist()
         for row in rows
     )
-    left = set(rows)
+    left, look = set(rows), state.tolerances.factor * _LOOK
     for distance, _, spot, row in pairs:
-        if row in left and out[spot] < 0 and distance <= _LOOK:
+        if row in left and out[spot] < 0 and distance <= look:
             out[spot] = row
             left.discard(row)
     return [row for row in sorted(left) if not _defines(state, row, curve)]

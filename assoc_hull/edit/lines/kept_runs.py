@@ -33,7 +33,7 @@ __all__ = [
 ]
 
 _END = 1e-6
-"""A place as near as this (m) to an end of a run, along the line, is in it."""
+"""Times `Tolerances.factor`: a place as near as this (m) to an end of a run, along the line, is in it."""
 
 
 @attrs.frozen(eq=False)
@@ -88,7 +88,8 @@ class KeptRuns:
         found = np.full(len(marks.curve), -1)
         for number, run in enumerate(self.runs):
             at, _, away = closest_points(state.spline(run.curve), 0, marks.xyz)
-            inside = (at >= run.span[0] - _END) & (at <= run.span[1] + _END)
+            slack = state.tolerances.factor * _END
+            inside = (at >= run.span[0] - slack) & (at <= run.span[1] + slack)
             found[inside & (away <= state.tolerances.adoption)] = number
         for number in range(len(self.runs)):
             mine = np.flatnonzero(found == number)

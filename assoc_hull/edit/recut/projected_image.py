@@ -24,7 +24,7 @@ _SAMPLES = 4
 """Places a segment through which the image is made."""
 
 _APART = 0.05
-"""Of places nearer than this (m) along the image one is enough."""
+"""Times `Tolerances.factor`: of places nearer than this (m) along the image one is enough."""
 
 _FAR = 4.0
 """A foot farther along than so many slips from where it should be lies on another branch."""
@@ -49,6 +49,8 @@ class ProjectedImage:
         Where distances are known, by the parameter of the image, and these: to the left of it.
     ends : (float, float), m
         How far its two ends slide along it, + onward.
+    apart : float, m
+        Of places nearer than this along the image one is enough.
     """
 
     spline: SplineBatch
@@ -57,6 +59,7 @@ class ProjectedImage:
     knot: FloatArray
     across: FloatArray
     ends: tuple[float, float]
+    apart: float
 
     def at(self, t: FloatArray) -> FloatArray:
         """Give where places of the curve come to, (k, 3), m, by the parameter before."""
@@ -85,10 +88,10 @@ class ProjectedImage:
         last = float(self.spline.knot[-1])
         first, final = float(self.knot[0]), float(self.knot[-1])
         found = there.copy()
-        inner = self.knot[(self.knot > max(self.ends[0], 0.0) + _APART)]
+        inner = self.knot[(self.knot > max(self.ends[0], 0.0) + self.apart)]
         if len(inner):
             first = float(inner[0])
-        inner = self.knot[self.knot < last + min(self.ends[1], 0.0) - _APART]
+        inner = self.knot[self.knot < last + min(self.ends[1], 0.0) - self.apart]
         if len(inner):
             final = float(inner[-1])
         near = (there < first) & (first > 0.0)
@@ -101,6 +104,7 @@ class ProjectedImage:
 def projected_image(work: TransformationState, curve: int) -> ProjectedImage | None:
     """Lay the image of a follower into its plane; None where the hull is known nowhere there."""
     state, line = work.state, work.state.line_of(curve)
+    apart = state.tolerances.factor * _APART
     normal, offset = work.planes.normal[line], float(work.planes.offset[line])
     t, before = _dense(state.spline(curve))
     image = work.space.places(before)
@@ -113,7 +117,7 @@ def projected_image(work: TransformationState, curve: int) -> ProjectedImage | N
     step = work.value[rows] - foot
     beyond = _along(spline, there, step)
     slip = np.sqrt(((work.value[rows] - work.space.places(_places(work, curve, at))) ** 2).sum(1))
-    good = np.abs(there - np.interp(at, t, spline.knot)) <= _FAR * slip + _APART
+    good = np.abs(there - np.interp(at, t, spline.knot)) <= _FAR * slip + apart
     left = _left(spline, normal, there)
     across = (step * left).sum(axis=1) - gaps_across(work, curve, rows, left)
     there = there + np.where((there <= 0.0) | (there >= spline.knot[-1]), beyond, 0.0)
@@ -121,9 +125,9 @@ def projected_image(work: TransformationState, curve: int) -> ProjectedImage | N
     order = order[np.argsort(there[order], kind="stable")]
     if not len(order):
         return None
-    order = order[np.concatenate([[True], np.diff(there[order]) > _APART])]
+    order = order[np.concatenate([[True], np.diff(there[order]) > apart])]
     ends = _ends(work, curve, spline)
-    return ProjectedImage(spline, t, normal, there[order], across[order], ends)
+    return ProjectedImage(spline, t, normal, there[order], across[order], ends, apart)
 
 
 def _ends(work: TransformationState, curve: int, spline: SplineBatch) -> tuple[float, float]:

@@ -65,7 +65,7 @@ def transform(
     *,
     follow: bool = False,
     levels: Mapping[int, float] | None = None,
-    tolerance: float = _TOLERANCE,
+    tolerance: float | None = None,
     reshape: PlaceFeaturePoints | None = None,
     particulars: Particulars | None = None,
     keep_features: bool = False,
@@ -86,8 +86,9 @@ def transform(
         Whether the planes of followers move where the mapping sends them to parallel ones.
     levels : mapping of int to float, m, or None
         Offsets that planes of followers get, by line.
-    tolerance : float, m
-        How far a driver may leave its exact image; at least 0.1 mm.
+    tolerance : float or None, m
+        How far a driver may leave its exact image; at least 0.1 mm, and 2 mm if None, both of a
+        hull under 100 m less in proportion.
     reshape : callable or None
         Is given the transformation when all points have been carried; what it settles there
         takes the place of their images.
@@ -110,10 +111,12 @@ def transform(
     BadInputError
         A finer tolerance, no driver, a mapping that cannot be used, or lines that cannot follow it.
     """
-    if tolerance < _FINEST:
+    least = edit.state.tolerances.factor * _FINEST
+    tolerance = edit.state.tolerances.factor * _TOLERANCE if tolerance is None else tolerance
+    if tolerance < least:
         raise BadInputError(
             f"tolerance is {tolerance:g} m", "in transform",
-            f"give at least {_FINEST:g} m: finer, and points crowd without end",
+            f"give at least {least:g} m: finer, and points crowd without end",
         )  # fmt: skip
     state = edit.state
     driver = driving_lines(state, drivers)

@@ -35,6 +35,10 @@ __all__ = [
 _HOLD = 1e5
 """Weight of what is given at an end, against the data."""
 
+_STIFFEST = 12.0
+"""Logarithm of the largest penalty over that which weighs as the data do: of a stiffer curve the
+equations are so ill-conditioned that rounding moves it by millimetres."""
+
 
 class PenalisedFit:
     """The fits of one curve on given knots.
@@ -146,7 +150,7 @@ class PenalisedFit:
                 low = middle
             else:
                 high = middle
-        return float(np.exp(low))
+        return float(np.exp(min(low, np.log(self.scale()) + _STIFFEST)))
 
     def rows(self, at: FloatArray) -> Any:
         """Give the sparse matrix from control points to places at lengths within the ends."""

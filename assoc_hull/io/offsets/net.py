@@ -132,7 +132,7 @@ def adopt_completed(
 def at_full_size(table: OffsetTable) -> OffsetTable:
     """Give a table of a hull under 100 m at the length for which lengths in the code hold."""
     factor = length_factor(table.length)
-    return table if factor == 1.0 else table.scaled(1.0 / factor)
+    return table if factor == 1.0 else table.at_full_length(factor)
 
 
 def _brought_back(

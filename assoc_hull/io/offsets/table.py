@@ -15,10 +15,12 @@ False
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import attrs
 
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.tolerance import at_full_length
 
 __all__ = ["OffsetTable"]
 
@@ -75,16 +77,18 @@ class OffsetTable:
     station: FloatArray | None = None
     stated: Mapping[str, float] = attrs.field(factory=dict)
 
-    def scaled(self, factor: float) -> OffsetTable:
-        """Give the table with every length times a factor."""
+    def at_full_length(self, factor: float) -> OffsetTable:
+        """Give the table of a hull with a factor of lengths as that of the hull of 100 m."""
         lengths = (
             "x", "z", "half_breadth", "keel", "deck_height", "deck_half_breadth", "buttock_y",
             "buttock_height", "length", "breadth", "draught", "depth", "rounding",
         )  # fmt: skip
         known = {name: getattr(self, name) for name in lengths}
-        return attrs.evolve(
-            self, **{name: factor * each for name, each in known.items() if each is not None}
-        )
+        grown: dict[str, Any] = {
+            name: at_full_length(each, factor) for name, each in known.items() if each is not None
+        }
+        numbers = {name: float(each) for name, each in grown.items() if not each.ndim}
+        return attrs.evolve(self, **(grown | numbers))
 
     def __attrs_post_init__(self) -> None:
         arrays = (self.x, self.z, self.half_breadth, self.buttock_y, self.rounding)

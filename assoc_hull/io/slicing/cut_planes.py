@@ -16,6 +16,7 @@ import numpy as np
 from assoc_hull.arguments import shown
 from assoc_hull.errors import BadInputError, NoMeetingError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.tolerance import at_full_length
 
 __all__ = ["Places", "plane_places", "propose_places"]
 
@@ -55,7 +56,7 @@ def propose_places(
     """
     if factor != 1.0:
         # As for the ship of 100 m; what scaling left of the last bit must not turn a rounding.
-        first, last = round(low / factor, 9), round(high / factor, 9)
+        first, last = at_full_length([low, high], factor).tolist()
         return np.asarray(factor * propose_places(first, last, count, dense=dense))
     t = (np.arange(count) + 0.5) / count
     if dense:

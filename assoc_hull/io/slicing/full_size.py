@@ -25,8 +25,9 @@ from assoc_hull.io.lines.slices import GapJoin, Gaps, HullSlices, LinePiece, Sli
 from assoc_hull.io.slicing.boundary_curves import BoundaryCurve
 from assoc_hull.io.slicing.features import KnuckleTrace
 from assoc_hull.io.slicing.smooth_lines import SmoothReport
+from assoc_hull.tolerance import at_full_length
 
-__all__ = ["scaled"]
+__all__ = ["grown_slices", "scaled"]
 
 _LENGTHS: dict[type, tuple[str, ...]] = {
     GapJoin: ("place", "gap"),
@@ -53,6 +54,27 @@ def scaled(value: Value, factor: float) -> Value:
     """Give a value with every length in it times a factor."""
     found: Any = _scaled(value, factor)
     return found  # type: ignore[no-any-return]
+
+
+def grown_slices(slices: HullSlices) -> HullSlices:
+    """Give slices of a short hull at full size; decimals of digitised points stay decimals."""
+    factor = slices.factor
+    found = scaled(slices, 1.0 / factor)
+    if slices.facets:
+        return found
+    pairs = [(getattr(found, name), getattr(slices, name)) for name in ("lines", "boundaries")]
+    grown = [
+        tuple(_settled(new, old, factor) for new, old in zip(*pair, strict=True)) for pair in pairs
+    ]
+    return attrs.evolve(found, lines=grown[0], boundaries=grown[1])
+
+
+def _settled(new: SliceLine, old: SliceLine, factor: float) -> SliceLine:
+    pieces = tuple(
+        attrs.evolve(each, points=at_full_length(given.points, factor))
+        for each, given in zip(new.pieces, old.pieces, strict=True)
+    )
+    return attrs.evolve(new, offset=float(at_full_length(old.offset, factor)), pieces=pieces)
 
 
 def _scaled(value: Any, factor: float) -> Any:

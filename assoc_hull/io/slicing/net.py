@@ -18,7 +18,7 @@ from assoc_hull.io.lines.slices import ASSOCIATIONS, GapJoin, Gaps, HullSlices, 
 from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
 from assoc_hull.io.slicing.boundary_curves import BoundaryCurve, draw_borders, loft_source
 from assoc_hull.io.slicing.features import FeatureRules, KnuckleTrace, find_features, with_arcs
-from assoc_hull.io.slicing.full_size import scaled
+from assoc_hull.io.slicing.full_size import grown_slices, scaled
 from assoc_hull.io.slicing.smooth_lines import (
     SmoothReport,
     join_plans,
@@ -154,7 +154,7 @@ def sources_from_slices(
     factor = slices.factor
     if factor == 1.0:
         return _full_size_sources(slices, tolerance, rules or FeatureRules())
-    grown = scaled(slices, 1.0 / factor)
+    grown = grown_slices(slices)
     limit = None if tolerance is None else tolerance / factor
     wanted = FeatureRules() if rules is None else rules.scaled(1.0 / factor)
     sources, reports, knuckles, allowed, borders = _full_size_sources(grown, limit, wanted)
