@@ -6,14 +6,16 @@ a classical definition, does not come through here.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
 import attrs
 
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
 from assoc_hull.arguments import positive
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
 from assoc_hull.io.importing.verdict import Finding, Verdict, require_sound
@@ -48,6 +50,8 @@ class ImportReport:
         How lines were cut and smoothed; None for a table of offsets.
     table : OffsetTable or None
         The table, in ship axes; None for other forms.
+    frame : ShipFrame or None
+        Where the ship lay in its file: perpendiculars, base line, design waterline.
     """
 
     notes: OffsetReport
@@ -55,6 +59,7 @@ class ImportReport:
     verdict: Verdict
     slices: SliceReport | None = None
     table: OffsetTable | None = None
+    frame: ShipFrame | None = None
 
 
 def import_hull(
@@ -81,7 +86,8 @@ def import_hull(
         report = attrs.evolve(report, notes=own.added_to(report.notes))
     verdict = _judge(report)
     require_sound(verdict, path.name, accept=wanted.accept, strict=wanted.strict)
-    notes = (*_told(report.notes), f"verdict: {verdict}", *report.adoption.notes)
+    told = (*_told(report.notes), *_place_of_lcb(state, report.frame))
+    notes = (*told, f"verdict: {verdict}", *report.adoption.notes)
     adoption = attrs.evolve(report.adoption, notes=notes)
     return state, attrs.evolve(report, verdict=verdict, adoption=adoption)
 
@@ -91,7 +97,9 @@ def _import_lines(path: Path, options: ImportOptions, tell: Tell) -> tuple[HullS
     state, slices = read_slices(
         path, frame=options.frame, **options.named(*options.CUTS, "deck", "unit"), tell=tell
     )
-    return state, ImportReport(slices.slices, slices.adoption, Verdict(), slices=slices)
+    return state, ImportReport(
+        slices.slices, slices.adoption, Verdict(), slices=slices, frame=slices.frame
+    )
 
 
 def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, ImportReport]:
@@ -103,7 +111,7 @@ def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, Import
     deck = options.deck or DECKS[0]
     ship = table_particulars(table, frame, deck)
     state, adoption = net_from_table(table, deck=deck, particulars=ship)
-    return state, ImportReport(notes, adoption, Verdict(), table=table)
+    return state, ImportReport(notes, adoption, Verdict(), table=table, frame=frame)
 
 
 def _placed_table(
@@ -147,6 +155,31 @@ def _judge(report: ImportReport) -> Verdict:
 
 def _finding(note: Note) -> Finding:
     return Finding(note.kind, note.where, note.what, note.amount)
+
+
+@attrs.frozen(eq=False)
+class _Adopted:
+    """A hull, for what measures hulls."""
+
+    state: HullState
+
+
+def _place_of_lcb(state: HullState, frame: ShipFrame | None) -> tuple[str, ...]:
+    """Tell LCB by its place where nobody knows the perpendiculars: a percentage hangs on them."""
+    if frame is None or frame.stem is None or frame.origins["ap"] != "assumed":
+        return ()
+    try:
+        found = hydrostatics(_Adopted(state), on_error="report", estimate=False)
+    except AssocHullError as error:
+        return (f"LCB is not known, since no hydrostatics can be made: {error}",)
+    away = frame.stem - frame.ap - found.lcb
+    if not math.isfinite(away):
+        return ()
+    part = 100.0 * (found.lcb / frame.length - 0.5)
+    return (
+        f"LCB at the draught of {frame.draught:.6g} m lies {away:.6g} m aft of the place where the "
+        f"stem meets the waterline; {part:+.3g} % from amidships if Lpp is {frame.length:.6g} m",
+    )
 
 
 def _told(notes: OffsetReport) -> tuple[str, ...]:

@@ -46,7 +46,7 @@ def place_table(
     outline = outline_of_table(table)
     frame = find_frame(
         outline, options, book, _WHERE, axes=axes,
-        stated=_stated(table, options, supposed),
+        stated=_stated(table, options, supposed, from_fp="frame" in notes.kinds("repairs")),
     )  # fmt: skip
     return _shifted(table, frame), book.report(), frame
 
@@ -57,14 +57,16 @@ def _kept(notes: tuple[Note, ...]) -> tuple[Note, ...]:
 
 
 def _stated(
-    table: OffsetTable, options: FrameOptions, supposed: set[tuple[str, str]]
+    table: OffsetTable, options: FrameOptions, supposed: set[tuple[str, str]], *, from_fp: bool
 ) -> StatedPlaces:
-    """Give what the table says of itself."""
+    """Give what the table says of itself; `from_fp`: its x was counted from there."""
     found: dict[str, Any] = {}
     evidence = dict.fromkeys(("length", "breadth", "draught"), "")  # told when it was read
     evidence["base"] = "heights in a table are above it"
     if _ORIGIN not in supposed and options.ap is options.fp is None:
         found |= {"ap": 0.0, "fp": table.length}
+        if _LENGTH in supposed:  # one end is known; where the other is, the hull tells
+            found.pop("ap" if from_fp else "fp")
         evidence |= {name: "by the stations of the table" for name in ("ap", "fp")}
     if _LENGTH not in supposed:
         found["length"] = table.length
@@ -115,14 +117,16 @@ def _end_places(table: OffsetTable) -> list[FloatArray]:
 
 def _shifted(table: OffsetTable, frame: ShipFrame) -> OffsetTable:
     """Move a table, and let it have the particulars by which its lines are named."""
-    sizes = {"length": frame.length, "draught": frame.draught, "depth": frame.depth}
+    sizes: dict[str, Any] = {"length": frame.length, "draught": frame.draught, "depth": frame.depth}
     if frame.origins["draught"] == "stated" and table.draught is None:
         sizes.pop("draught")
     if not frame.moves:
         return attrs.evolve(table, **sizes)
     x, z = frame.shift
     heights = ("keel", "deck_height", "buttock_height")
-    moved = {name: getattr(table, name) + z for name in heights if getattr(table, name) is not None}
+    moved: dict[str, Any] = {
+        name: getattr(table, name) + z for name in heights if getattr(table, name) is not None
+    }
     return attrs.evolve(table, x=table.x + x, z=table.z + z, **moved, **sizes)
 
 

@@ -385,7 +385,8 @@ def _snapped(ends: _Ends, length: float) -> _Ends:
     middle = 0.5 * (ends.ap + ends.fp)
     for name, x in (("AP", ends.ap), ("FP", ends.fp), ("midship", middle)):
         if same_place(x, 0.0, length):
-            what = f"x = 0 of the file is {name}, which stem and Lpp put {x:.4g} m from there"
+            near = f"{abs(x):.4g} m" if abs(x) > 1e-6 * length else "nothing"
+            what = f"x = 0 of the file is {name}, which stem and Lpp put {near} from it"
             ap = {"AP": 0.0, "FP": -length, "midship": -0.5 * length}[name]
             return attrs.evolve(
                 ends, ap=ap, fp=ap + length, ap_from=("found", what), fp_from=("found", what)
@@ -473,9 +474,7 @@ def _depth(
     return depth, "found"
 
 
-def _tell_stated(
-    name: str, value: float, said: StatedPlaces, book: Notebook, where: str
-) -> None:
+def _tell_stated(name: str, value: float, said: StatedPlaces, book: Notebook, where: str) -> None:
     if said.why(name):
         book.assume(name, where, f"{value:.6g} m, {said.why(name)}", value)
 

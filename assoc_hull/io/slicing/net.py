@@ -14,6 +14,7 @@ from assoc_hull.arguments import positive
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt, source_order
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.lines.slices import ASSOCIATIONS, GapJoin, Gaps, HullSlices, LinePiece
 from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
 from assoc_hull.io.slicing.boundary_curves import BoundaryCurve, draw_borders, loft_source
@@ -72,6 +73,8 @@ class SliceReport:
         Boundary curves drawn from knuckles and from the ends of straight runs.
     adoption : AdoptionReport
         Per curve: deviations from the smooth lines, points, inflections.
+    frame : ShipFrame or None
+        Where the ship lay in its file; None where nobody looked.
     """
 
     slices: OffsetReport
@@ -85,6 +88,7 @@ class SliceReport:
     knuckles: tuple[KnuckleTrace, ...]
     borders: tuple[BoundaryCurve, ...]
     adoption: AdoptionReport
+    frame: ShipFrame | None = None
 
     @property
     def tolerance(self) -> float:
@@ -291,6 +295,7 @@ def net_from_slices(
         _with_crumbs(slices), slices.joins, slices.gaps, wanted, state.tolerances,
         float(np.median([each.noise for each in smoothing])), slices.depth,
         tuple(each for _, each in pairs), tuple(knuckles), tuple(borders), adoption,
+        slices.frame,
     )  # fmt: skip
     return state, report
 

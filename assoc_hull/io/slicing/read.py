@@ -117,7 +117,7 @@ def read_slices(
     """
     for name, value in (("tolerance", tolerance), ("join", join)):
         check_particular(name, value)
-    sizes = {"length": length, "breadth": breadth, "draught": draught}
+    sizes: dict[str, Any] = {"length": length, "breadth": breadth, "draught": draught}
     places = attrs.evolve(
         frame or FrameOptions(),
         **{name: value for name, value in sizes.items() if value is not None},
