@@ -106,9 +106,10 @@ def find_frame(
     trim = (asked.draught_aft or 0.0) - (asked.draught_fwd or 0.0)
     stem = _stem(outline, heights, trim, book, where)
     ends = _ends(outline, heights, stem, asked, said, where)
+    _check_ends(outline, ends, where)
     length = ends.fp - ends.ap if ends.length is None else ends.length
     _tell_heights(outline, heights, length, book, where)
-    _tell_ends(ends, stem, length, book, where)
+    _tell_ends(outline, ends, stem, length, book, where)
     breadth = _breadth(outline, heights, asked, said, book, where)
     depth = _depth(outline, heights, ends, asked, said, book, where)
     if trim:
@@ -279,10 +280,10 @@ def _stem(
     """Give x where the stem meets the design waterline, which may be inclined."""
     z = heights.waterline - 0.5 * trim
     found = find_stem(outline, z, heights.level)
-    if found.doubt is not None:
+    if found.doubt is not None and heights.draught_from[0] != "assumed":
         book.suspect("stem", where, found.doubt, found.x)
-    elif found.note is not None:
-        book.assume("stem", where, found.note, found.x)
+    elif found.note or found.doubt:
+        book.assume("stem", where, found.note or found.doubt or "", found.x)
     return found.x
 
 
@@ -346,6 +347,19 @@ def _check_reach(outline: HullOutline, places: dict[str, float | None], where: s
         raise BadInputError(
             f"ap is x = {ap:.6g} m and fp x = {fp:.6g} m, forward positive", f"in {where}",
             "exchange them, or give axes= if the bow is at the other end",
+        )  # fmt: skip
+
+
+def _check_ends(outline: HullOutline, ends: _Ends, where: str) -> None:
+    """Refuse perpendiculars between which the hull does not lie."""
+    low, high = float(outline.low[0]), float(outline.high[0])
+    common = min(ends.fp, high) - max(ends.ap, low)
+    if common < 0.5 * (high - low) or common < 0.5 * (ends.fp - ends.ap):
+        raise BadInputError(
+            f"the perpendiculars would stand at x = {ends.ap:.6g} and {ends.fp:.6g} m of the file, "
+            f"and the hull runs from {low:.6g} to {high:.6g} m at full scale", f"in {where}",
+            "give length= in m at full scale, ap= and fp= as they are in the file, and origin= and "
+            "scale= as they are",
         )  # fmt: skip
 
 
@@ -413,7 +427,9 @@ def _by_waterline(
     return _Ends(ap, ("assumed", what), fp, fp_from, None, doubt)
 
 
-def _tell_ends(ends: _Ends, stem: float, length: float, book: Notebook, where: str) -> None:
+def _tell_ends(
+    outline: HullOutline, ends: _Ends, stem: float, length: float, book: Notebook, where: str
+) -> None:
     if ends.fp_from[0] != "given":
         what = f"at x = {ends.fp:.6g} m of the file: {ends.fp_from[1]}"
         book.assume("forward perpendicular", where, what, ends.fp)
@@ -425,6 +441,10 @@ def _tell_ends(ends: _Ends, stem: float, length: float, book: Notebook, where: s
     if ends.length is None:
         name = "LWL" if ends.ap_from[0] == "assumed" else "the distance of the perpendiculars"
         book.assume("length", where, f"Lpp = {name} = {length:.6g} m", length)
+    out = float(outline.low[0]) - ends.ap
+    if ends.length is not None and out > 0.01 * length:
+        what = f"the AP lies {out:.4g} m aft of the hull, which Lpp = {length:.6g} m does not fit"
+        book.suspect("aft perpendicular", where, f"{what}: check length=", out)
     if ends.fp_from[0] != "stated" and not same_place(ends.fp, stem, 2.0 * length):
         what = (
             f"the FP lies at x = {ends.fp:.6g} m of the file, and the stem meets the design "
