@@ -16,6 +16,7 @@ from assoc_hull.arguments import file_path, positive, shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polylines.operations import cumulative_lengths, drop_repeats
+from assoc_hull.io.digitised.bulwarks import below_deck
 from assoc_hull.io.digitised.one_hull import take_one_hull
 from assoc_hull.io.digitised.text import parse_lines
 from assoc_hull.io.lines.mend_lines import (
@@ -37,6 +38,7 @@ from assoc_hull.io.lines.slices import (
     SliceLine,
     settled_gaps,
 )
+from assoc_hull.io.mesh.frame import axes_rows
 from assoc_hull.io.placing.options import FileAxes, FrameOptions
 from assoc_hull.io.placing.placed_lines import place_slices
 from assoc_hull.io.reports import Notebook
@@ -254,6 +256,8 @@ def read_lines(
     name: str | None = None,
     frame: FrameOptions | None = None,
     choice: HullChoice | None = None,
+    axes: str | None = None,
+    deck_edge: str | None = None,
 ) -> HullSlices:
     """Read digitised lines: x forward, y to port, z up; wherever the file has its origin.
 
@@ -281,6 +285,10 @@ def read_lines(
         x and z stay as the file has them.
     choice : HullChoice or None
         Which of several hulls side by side; by default there is one.
+    axes : str or None
+        Axes of the file that point forward, to port and up: ``"-x-y+z"``; as they are by default.
+    deck_edge : str or None
+        The line that is the deck edge; what stands above it is cut off.
 
     Returns
     -------
@@ -296,12 +304,15 @@ def read_lines(
     book = Notebook()
     text, source = read_text(path_or_text, book)
     found = parse_lines(text, source, book)
-    raw = found.pieces
+    turn = np.eye(3) if axes is None or axes == "auto" else axes_rows(axes)
+    raw = found.pieces if axes is None else [_turned(each, turn) for each in found.pieces]
     factor = _factor(raw, scale, _unit(found, unit, book, source), book, source)
     for each in raw:
         refuse_retraced(each)
     raw = [RawPiece(e.line, e.points * factor, e.where, e.knuckles * factor) for e in raw]
     raw = take_one_hull(raw, choice or HullChoice(), factor, book)
+    if deck_edge is not None:
+        raw = below_deck(raw, deck_edge, book)
     knuckles = _knuckles(raw)
     small = _length_factor(raw, length)
     raw = to_one_side(raw, book, small)
@@ -333,7 +344,19 @@ def read_lines(
         book.report(), False, every.min(axis=0), every.max(axis=0), gaps=limits,
         knuckles=knuckles, factor=small,
     )  # fmt: skip
-    return slices if frame is None else place_slices(slices, frame, FileAxes(factor=factor), book)
+    if frame is None:
+        return slices
+    signs = {"x_sign": float(turn[0].sum()), "z_sign": float(turn[2].sum())}
+    return place_slices(slices, frame, FileAxes(factor=factor, **signs), book)
+
+
+def _turned(piece: RawPiece, turn: FloatArray) -> RawPiece:
+    """Give a piece in axes of the ship, of which each is one of the file or its opposite."""
+    points, knuckles = (
+        np.stack([(xyz * row).sum(axis=1) for row in turn], axis=1) + 0.0
+        for xyz in (piece.points, piece.knuckles)
+    )
+    return attrs.evolve(piece, points=points, knuckles=knuckles)
 
 
 def _length_factor(raw: list[RawPiece], length: float | None) -> float:

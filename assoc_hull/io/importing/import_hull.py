@@ -94,9 +94,8 @@ def import_hull(
 
 def _import_lines(path: Path, options: ImportOptions, tell: Tell) -> tuple[HullState, ImportReport]:
     options.refuse("it is for tables of offsets", path, options.TABLES)
-    state, slices = read_slices(
-        path, frame=options.frame, **options.named(*options.CUTS, "deck", "unit"), tell=tell
-    )
+    named = options.named(*options.CUTS, "deck", "unit", "deck_edge")
+    state, slices = read_slices(path, frame=options.frame, **named, tell=tell)
     return state, ImportReport(
         slices.slices, slices.adoption, Verdict(), slices=slices, frame=slices.frame
     )

@@ -17,6 +17,7 @@ from assoc_hull.geometry.surfaces.triangles import Triangles, boundary_edges
 from assoc_hull.io.reports import Notebook
 
 __all__ = [
+    "axes_rows",
     "find_columns",
     "half_side",
     "mirror_error",
@@ -275,7 +276,7 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0) -
         Unknown axes, or a mesh whose axes cannot be found.
     """
     if word(axes, "axes", "as an argument") != "auto":
-        placed = _centred(_turned(mesh, _parse(axes)), book, doubt)
+        placed = _centred(_turned(mesh, axes_rows(axes)), book, doubt)
     else:
         moved = _turned(mesh, np.eye(3)[list(find_columns(mesh, book))])
         moved = _upright(_centred(moved, book, doubt), book)
@@ -284,7 +285,14 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0) -
     return placed
 
 
-def _parse(axes: str) -> FloatArray:
+def axes_rows(axes: str) -> FloatArray:
+    """Give the rows (3, 3) by which points of the file become x forward, y to port and z up.
+
+    Raises
+    ------
+    BadInputError
+        Anything but three axes, each with a sign.
+    """
     text = axes.replace(" ", "").replace(",", "").lower()
     parts = [text[i : i + 2] for i in range(0, len(text), 2)]
     good = len(text) == 6 and all(p[0] in "+-" and p[1] in "xyz" for p in parts)

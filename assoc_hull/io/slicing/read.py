@@ -54,12 +54,21 @@ def require_file(path: Path) -> None:
 
 
 def _refuse_cuts(path: Path, names: list[str]) -> None:
-    """Digitised lines stand where they were drawn: they are not cut, nor turned."""
+    """Digitised lines stand where they were drawn: they are not cut."""
     if names:
         require_file(path)
         raise BadInputError(
             f"{', '.join(names)} cannot be given for digitised lines", f"in {path.name}",
             "leave it out, or read a mesh",
+        )  # fmt: skip
+
+
+def _refuse_deck_edge(path: Path, name: str | None) -> None:
+    """Lines that are cut here have no names in the file."""
+    if name is not None:
+        raise BadInputError(
+            "deck_edge cannot be given", f"for {path.name}",
+            "leave it out, no line has a name there; give depth=, or a mesh cut off at the deck",
         )  # fmt: skip
 
 
@@ -80,6 +89,7 @@ def read_slices(
     axes: str | None = None,
     tolerance: float | None = None,
     join: float | None = None,
+    deck_edge: str | None = None,
     tell: Tell = no_progress,
 ) -> tuple[HullState, SliceReport]:
     """Read a mesh, surfaces or digitised lines and adopt them.
@@ -100,12 +110,14 @@ def read_slices(
         Closed: there is a deck between the deck edges, which no mesh or line tells.
     stations, waterlines, buttocks, scale, unit, axes
         As for `assoc_hull.io.slicing.mesh_lines.slice_mesh`, whose defaults hold for None;
-        digitised lines take scale and unit only.
+        digitised lines take scale, unit and axes only.
     tolerance : float or None, m
         How far an adopted curve may pass its smooth line; by default 3 times the median noise
         of the pieces, but at least 5 mm, of a mesh 10 mm.
     join : float or None, m
         Loose ends of pieces this close are joined; by default 60 mm.
+    deck_edge : str or None
+        The line that is the deck edge, of digitised lines.
     tell : callable
         Hears what is being done, and how far.
 
@@ -124,18 +136,22 @@ def read_slices(
     )
     choice(deck, "deck", DECKS, "in the particulars")
     named: dict[str, Any] = {
-        "stations": stations, "waterlines": waterlines, "buttocks": buttocks, "axes": axes
+        "stations": stations, "waterlines": waterlines, "buttocks": buttocks
     }  # fmt: skip
     cuts = {name: value for name, value in named.items() if value is not None}
-    said: dict[str, Any] = {"scale": scale, "unit": unit, "gaps": join, "length": length}
-    said |= {"frame": places, "choice": HullChoice(centre, places.depth, places.draught)}
-    if is_mesh_name(path):
-        slices = read_mesh(path, tell=tell, **said, **cuts)
-    elif cad_kind(path):
-        slices = read_surface_lines(path, tell=tell, **said, **cuts)
+    common: dict[str, Any] = {
+        "scale": scale, "unit": unit, "gaps": join, "length": places.length, "frame": places,
+        "choice": HullChoice(centre, places.depth, places.draught),
+    }  # fmt: skip
+    if axes is not None:
+        common["axes"] = axes
+    if is_mesh_name(path) or cad_kind(path):
+        _refuse_deck_edge(path, deck_edge)
+        read = read_mesh if is_mesh_name(path) else read_surface_lines
+        slices = read(path, tell=tell, **common, **cuts)
     else:
         _refuse_cuts(path, list(cuts))
-        slices = read_lines(path, **said)
+        slices = read_lines(path, deck_edge=deck_edge, **common)
     refuse_bottomless(slices)
     state, report = net_from_slices(slices, _particulars(slices, deck), tolerance, tell=tell)
     return state, report
