@@ -21,7 +21,7 @@ from assoc_hull.io.importing.own_files import read_own_file
 from assoc_hull.io.importing.verdict import Finding, Verdict, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.offsets.complete_table import net_from_table
-from assoc_hull.io.offsets.place_table import place_table, scale_table, table_particulars
+from assoc_hull.io.offsets.place_table import place_table, table_particulars
 from assoc_hull.io.offsets.read import read_offsets
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.placing.options import FileAxes, FrameOptions
@@ -127,7 +127,7 @@ def _placed_table(
     )
     table, notes = read_offsets(path, **sizes, **more)
     if scale != 1.0:
-        table = scale_table(table, scale)
+        table = table.scaled(scale)
     unit = options.unit or next((n.what for n in notes.assumptions if n.kind == "unit"), "m")
     factor = scale * METRES.get(unit.split(",")[0], 1.0)
     turned = "bow at negative x" in notes.kinds("repairs")

@@ -23,7 +23,7 @@ from assoc_hull.io.placing.outline import HullOutline, outline_of_sections
 from assoc_hull.io.reports import Note, Notebook, OffsetReport
 from assoc_hull.model.tables import Particulars
 
-__all__ = ["place_table", "scale_table", "table_particulars"]
+__all__ = ["place_table", "table_particulars"]
 
 _WHERE = "the table"
 
@@ -133,15 +133,3 @@ def _shifted(table: OffsetTable, frame: ShipFrame) -> OffsetTable:
 def table_particulars(table: OffsetTable, frame: ShipFrame, deck: str) -> Particulars:
     """Give the particulars of a placed table."""
     return Particulars(table.name, frame.length, frame.breadth, frame.depth, frame.draught, deck)
-
-
-def scale_table(table: OffsetTable, scale: float) -> OffsetTable:
-    """Give a table at full scale."""
-    names = (
-        "x", "z", "half_breadth", "keel", "deck_height", "deck_half_breadth", "buttock_y",
-        "buttock_height", "length", "breadth", "draught", "depth", "rounding",
-    )  # fmt: skip
-    values = {name: getattr(table, name) for name in names}
-    return attrs.evolve(
-        table, **{name: value * scale for name, value in values.items() if value is not None}
-    )

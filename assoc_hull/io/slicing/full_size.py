@@ -35,7 +35,7 @@ _LENGTHS: dict[type, tuple[str, ...]] = {
     LinePiece: ("points",),
     SliceLine: ("offset", "pieces"),
     HullSlices: (
-        "lines", "boundaries", "joins", "low", "high", "depth", "gaps", "knuckles", "waterline",
+        "lines", "boundaries", "joins", "low", "high", "depth", "gaps", "knuckles",
     ),
     Onset: ("at", "place", "radius", "uncertainty"),
     CircularArc: (
