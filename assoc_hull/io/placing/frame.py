@@ -117,7 +117,7 @@ def find_frame(
         book.assume("design trim", where, f"{what}, the hull stays in its own axes", trim)
     frame = ShipFrame(
         ap=ends.ap, fp=ends.fp, base=heights.base, draught=heights.draught, breadth=breadth[0],
-        depth=depth[0], trim=trim, rake=-heights.keel.rise * length, stem=stem,
+        depth=depth[0], trim=trim, rake=heights.keel.rise * length, stem=stem,
         given_length=ends.length,
         origins={
             "base": heights.base_from[0], "draught": heights.draught_from[0],

@@ -21,6 +21,9 @@ _SAMPLES = 81
 _FIN = 0.1
 """What hangs by more than this part of the depth below a bottom on both sides of it is a fin."""
 
+_STEEP = 0.15
+"""The ends of a fin rise by more than this; no bottom amidships does."""
+
 _RAKE = 2e-3
 """A keel that rises by less than this part of Lpp is level."""
 
@@ -60,7 +63,7 @@ def measure_keel(outline: HullOutline, aft: float, fore: float) -> Keel:
         return _without_contour(outline, first, last)
     x, z = x[known], z[known]
     depth = float(np.ptp(outline.xyz[:, 2]))
-    fin = _fins(z, depth)
+    fin = _fins(x, z, depth)
     deepest = float(z.min())
     hull_x, hull_z = _vertices(outline, first, last)
     if fin.any():
@@ -91,14 +94,23 @@ def _vertices(outline: HullOutline, first: float, last: float) -> tuple[FloatArr
     return lowest[:1], lowest[1:]
 
 
-def _fins(z: FloatArray, depth: float) -> NDArray[np.bool_]:
+def _fins(x: FloatArray, z: FloatArray, depth: float) -> NDArray[np.bool_]:
     """Mark samples that hang below the bottom before and behind them: of a fin, or a drop keel."""
     ahead = np.maximum.accumulate(z[::-1])[::-1]
     behind = np.maximum.accumulate(z)
     fin = z < np.minimum(ahead, behind) - _FIN * depth
-    # A fin fills less than half of the stretch and drops at once; a deep belly does not.
-    steep = np.abs(np.diff(z)).max(initial=0.0) > 0.5 * _FIN * depth
-    return fin if steep and fin.mean() < 0.5 else np.zeros(len(z), np.bool_)
+    if not fin.any():
+        return fin
+    # Its ends go up to the bottom as long as they are steep: the bottom itself is not.
+    steep = np.abs(np.diff(z)) > _STEEP * np.diff(x)
+    last = len(z) - 1
+    for i in range(1, last + 1):
+        fin[i] |= fin[i - 1] and steep[i - 1]
+    for i in range(last - 1, -1, -1):
+        fin[i] |= fin[i + 1] and steep[i]
+    dropped = float(np.abs(np.diff(z)).max()) > 0.5 * _FIN * depth
+    # A deep belly fills the stretch and drops nowhere at once.
+    return fin if dropped and fin.mean() < 0.5 else np.zeros(len(z), np.bool_)
 
 
 def _rise(x: FloatArray, z: FloatArray, length: float) -> float:

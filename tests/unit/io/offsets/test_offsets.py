@@ -226,8 +226,11 @@ def test_x_from_the_forward_perpendicular_and_at_negative_x() -> None:
         assert set(report.kinds("repairs")) & {"frame", "bow at negative x"}
     with pytest.raises(BadInputError, match="which end x = 0 is"):
         read(head + rows.format(-40, -20, 0), length=40.0, breadth=8.0)
-    with pytest.raises(BadInputError, match="amidships"):
-        read(head + rows.format(-20, 0, 20), length=40.0, breadth=8.0)
+    table, report = read(head + rows.format(-20, 0, 20), length=40.0, breadth=8.0)
+    assert table.x.tolist() == [-20, 0, 20]
+    assert any("amidships" in note.what for note in report.assumptions)
+    with pytest.raises(BadInputError, match="amidships and not the ap"):
+        read(head + rows.format(-20, 0, 20), length=40.0, breadth=8.0, station_zero="ap")
 
 
 def test_a_repeated_row_is_dropped_and_a_different_one_refused() -> None:
