@@ -14,10 +14,11 @@ False
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import attrs
+import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.tolerance import at_full_length
@@ -79,13 +80,20 @@ class OffsetTable:
 
     def at_full_length(self, factor: float) -> OffsetTable:
         """Give the table of a hull with a factor of lengths as that of the hull of 100 m."""
+        return self._with_lengths(lambda each: at_full_length(each, factor))
+
+    def scaled(self, factor: float) -> OffsetTable:
+        """Give the table with every length times a factor."""
+        return self._with_lengths(lambda each: np.asarray(each) * factor)
+
+    def _with_lengths(self, change: Callable[[Any], FloatArray]) -> OffsetTable:
         lengths = (
             "x", "z", "half_breadth", "keel", "deck_height", "deck_half_breadth", "buttock_y",
             "buttock_height", "length", "breadth", "draught", "depth", "rounding",
         )  # fmt: skip
         known = {name: getattr(self, name) for name in lengths}
         grown: dict[str, Any] = {
-            name: at_full_length(each, factor) for name, each in known.items() if each is not None
+            name: change(each) for name, each in known.items() if each is not None
         }
         numbers = {name: float(each) for name, each in grown.items() if not each.ndim}
         return attrs.evolve(self, **(grown | numbers))
