@@ -63,10 +63,10 @@ def test_options_of_another_form_are_refused(
 def test_options_of_meshes_are_refused_for_lines(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Digitised lines are not cut or turned: planes and axes are refused by name."""
+    """Digitised lines are not cut: planes are refused by name."""
     lines = tmp_path / "lines.csv"
     lines.write_text("line,x,y,z\nST 1,0,0,0\nST 1,0,2,2\nST 2,9,0,0\nST 2,9,2,2\n")
-    with pytest.raises(BadInputError, match="stations, axes cannot be given for digitised lines"):
+    with pytest.raises(BadInputError, match="stations cannot be given for digitised lines"):
         ah.read(lines, stations=3, axes="rubbish")
     assert main(["import", str(lines), "-o", str(tmp_path / "o.hull.json"), "--buttocks", "2"]) == 2
     assert "buttocks cannot be given" in capsys.readouterr().err
