@@ -16,6 +16,7 @@ import os
 import reprlib
 from collections.abc import Callable, Collection, Iterable
 from enum import Enum
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import attrs
@@ -41,6 +42,7 @@ __all__ = [
     "places",
     "plain",
     "positive",
+    "regular_file",
     "shown",
     "shown_name",
     "text",
@@ -330,6 +332,22 @@ def file_path(value: object, where: str = _CALL) -> str:
     if not isinstance(found, str) or not found or "\0" in found:
         raise BadInputError(f"the path is {shown(value)}", where, "give the name of a file")
     return found
+
+
+def regular_file(path: Path) -> Path:
+    """Take a file that is to be read: opening a pipe waits for ever, a device has no end.
+
+    That there is none, or a folder, is left to whoever opens it.
+
+    Raises
+    ------
+    BadInputError
+        A pipe, a device or a socket.
+    """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        remedy = "give the name of a regular file; what comes through a pipe, save it first"
+        raise BadInputError("this is a pipe or a device, no regular file", f"at {path}", remedy)
+    return path
 
 
 def no_member(kind: type[Enum], value: object) -> BadInputError:

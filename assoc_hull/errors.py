@@ -650,18 +650,33 @@ class NotSoundError(AssocHullError, ValueError):
         The file.
     findings : tuple of str
         Everything that is wrong, each with its place and number.
+    suspected : bool
+        The hull is only under suspicion, and was to be refused for that.
     """
 
     source: str
     findings: tuple[str, ...]
+    suspected: bool = False
+
+    @property
+    def summary(self) -> str:
+        """How many findings there are, where, and what to do; the findings stand elsewhere."""
+        word = "suspicion" if self.suspected else "fault"
+        count = f"{len(self.findings)} {word}{'' if len(self.findings) == 1 else 's'}"
+        return f"{self._verdict()}: {count}, in {self.source}; {self._remedy()}"
 
     def __str__(self) -> str:
-        count = len(self.findings)
-        return (
-            f"not sound: {'; '.join(self.findings)}, in {self.source}; mend "
-            f"{'it' if count == 1 else f'these {count}'}, or take the hull as it is with "
-            "accept=True (--accept)"
-        )
+        found = "; ".join(self.findings)
+        return f"{self._verdict()}: {found}, in {self.source}; {self._remedy()}"
+
+    def _verdict(self) -> str:
+        return "sound with suspicions, and strict" if self.suspected else "not sound"
+
+    def _remedy(self) -> str:
+        mend = "mend it" if len(self.findings) == 1 else f"mend these {len(self.findings)}"
+        if self.suspected:
+            return f"{mend}, or leave out strict"
+        return f"{mend}, or take the hull as it is with accept=True (--accept)"
 
 
 @attrs.define(slots=False, eq=False)

@@ -2,8 +2,8 @@
 
 Exit codes: 0 done; 1 findings (check, verify, a refused edit); 2 bad input or usage, with one
 line ``error: what, where, how much, what to do`` on standard error; 3 an imported hull is not
-sound; 130 stopped by the
-keyboard; 141 when the reader of the output has gone.
+sound, with all findings on standard output and one line of error; 130 stopped by the keyboard; 141
+when the reader of the output has gone.
 """
 
 from __future__ import annotations
@@ -53,8 +53,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _fail(
             "stopped by the keyboard; hull files are whole, run the command again", _STOPPED
         )
+    except NotSoundError as error:
+        return _fail(error.summary, _NOT_SOUND)  # the findings stand on standard output
     except Exception as error:  # a traceback is of no use to a designer
-        return _fail(explain(error), _NOT_SOUND if isinstance(error, NotSoundError) else _BAD)
+        return _fail(explain(error), _BAD)
     return code
 
 

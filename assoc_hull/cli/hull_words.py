@@ -13,6 +13,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import zip_longest
 from typing import Any
 
+import attrs
+
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, LineReport
 from assoc_hull.edit.report import EditReport
 from assoc_hull.hull import Hull
@@ -181,39 +183,71 @@ def hull_words(hull: Hull, *, names: bool = False) -> str:
 
 
 def import_words(name: str, report: ImportReport) -> str:
-    """Say how a file was read and adopted, and, on the last line, how sound the hull is."""
+    """Say how a file was read and adopted, and all that was found; the verdict stands apart."""
     if report.slices is not None:
-        text = _slice_words(name, report.slices)
-    elif report.table is not None:
-        text = adoption_words(report.table, report.notes, report.adoption)
+        lines = _slice_words(name, report, report.slices)
     else:
-        text = line_table(report.adoption)
-    return f"{text}\n{report.verdict}"
+        lines = _table_words(name, report)
+    return "\n".join(lines)
+
+
+def _read_words(report: ImportReport) -> Iterator[str]:
+    """Name what was assumed, mended and found, each under its heading."""
+    notes, verdict = report.notes, report.verdict
+    parts: dict[str, Sequence[object]] = {
+        "assumptions": notes.assumptions, "repairs": notes.repairs,
+        "suspicions": verdict.suspicions,
+    }  # fmt: skip
+    if verdict.faults:
+        parts["faults"] = verdict.faults
+    for title, found in parts.items():
+        yield f"  {title} ({len(found)})"
+        yield from (f"    {each}" for each in found)
+
+
+def _table_words(name: str, report: ImportReport) -> list[str]:
+    """Say how a table was read, how exact it is, and how well the net holds it."""
+    adoption = attrs.evolve(report.adoption, notes=report.own_notes)
+    read = list(_read_words(report))
+    if report.table is None:
+        return [line_table(adoption), name, *read, *_adopted_words(adoption)]
+    return _words_of_table(report.table, read, adoption)
 
 
 def adoption_words(table: OffsetTable, offsets: OffsetReport, adoption: AdoptionReport) -> str:
     """Say how a table was read, how exact it is, and how well the net holds it."""
-    worst, own = adoption.worst, adoption.own_points
-    lines = [
+    read = [f"  {line}" for line in str(offsets).splitlines()]
+    return "\n".join(_words_of_table(table, read, adoption))
+
+
+def _words_of_table(table: OffsetTable, read: list[str], adoption: AdoptionReport) -> list[str]:
+    return [
         line_table(adoption),
         f"{table.name}: {len(table.x)} stations, {len(table.z)} waterlines",
-        *(f"  {line}" for line in str(offsets).splitlines()),
+        *read,
         *_rounding(table),
-        f"adopted {len(adoption.lines)} curves, {own} points of theirs that no crossing holds; "
-        f"they pass within {1e3 * worst.deviation:.3f} mm of every given point ({worst.line})",
-        *(f"  {note}" for note in adoption.notes),
+        *_adopted_words(adoption),
     ]
-    return "\n".join(lines)
 
 
-def _slice_words(name: str, report: SliceReport) -> str:
+def _adopted_words(adoption: AdoptionReport) -> Iterator[str]:
+    worst = adoption.worst
+    yield (
+        f"adopted {len(adoption.lines)} curves, {adoption.own_points} points of theirs that no "
+        f"crossing holds; they pass within {1e3 * worst.deviation:.3f} mm of every given point "
+        f"({worst.line})"
+    )
+    yield from (f"  {note}" for note in adoption.notes)
+
+
+def _slice_words(name: str, whole: ImportReport, report: SliceReport) -> list[str]:
     """Say how a mesh or digitised lines were read, smoothed and adopted."""
     worst = max(report.smoothing, key=lambda each: each.residual)
     adopted = report.adoption.worst
-    lines = [
+    return [
         line_table(report.adoption, report.smoothing),
         name,
-        *(f"  {line}" for line in str(report.slices).splitlines()),
+        *_read_words(whole),
         *_joins(report),
         f"noise {1e3 * report.noise:.2g} mm; smoothed by at most {1e3 * worst.residual:.2g} mm "
         f"({worst.line}); {len(report.knuckles)} knuckle lines",
@@ -226,9 +260,8 @@ def _slice_words(name: str, report: SliceReport) -> str:
         f"{report.adopted} points of theirs that no crossing holds; the farthest smooth point is "
         f"{1e3 * adopted.deviation:.3g} mm off ({adopted.line}); {report.inflections[0]} "
         f"inflections, {report.inflections[1]} more in the net",
-        *(f"  {note}" for note in (*report.suspicions, *report.adoption.notes)),
+        *(f"  {note}" for note in whole.own_notes),
     ]
-    return "\n".join(lines)
 
 
 def _joins(report: SliceReport) -> Iterator[str]:

@@ -17,14 +17,21 @@ import attrs
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_json, add_replace
 from assoc_hull.cli.hull_words import hull_words, import_words
 from assoc_hull.cli.output import emit, plain, progress, progress_bar, say
-from assoc_hull.cli.problems import UsageError, check_hull_target, check_target, is_apart
-from assoc_hull.errors import BadInputError
+from assoc_hull.cli.problems import (
+    FILE_ENDING,
+    UsageError,
+    check_hull_target,
+    check_target,
+    is_apart,
+)
+from assoc_hull.errors import BadInputError, NotSoundError
 from assoc_hull.hull import Hull
-from assoc_hull.hull.sources import create, examples, read_classical
+from assoc_hull.hull.sources import create, examples, imported_hull, read_classical
 from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.io.hull_file.saving import holds_hull
 from assoc_hull.io.importing.import_hull import ImportReport
 from assoc_hull.io.importing.options import ImportOptions
+from assoc_hull.io.importing.verdict import Verdict, refused_findings, require_sound
 from assoc_hull.io.reports import Tell
 from assoc_hull.model.tables import DECKS
 
@@ -219,15 +226,51 @@ def _import(arguments: argparse.Namespace) -> int:
         check_target(arguments.picture, PICTURE_ENDINGS)
         _require_plot()
     with progress_bar(f"importing {arguments.file.name}", hidden=arguments.json) as tell:
-        hull, report, text = _adopt(arguments, tell)
+        hull, report, text, verdict = _adopt(arguments, tell)
         if arguments.picture is not None:
             tell("drawing", 0, 0)
             _draw(hull, arguments.picture)
-    hull.save(arguments.out, replace=arguments.replace)
+    # Of a hull that is refused too: the report is what one needs to mend the file.
     if arguments.report is not None:
         write_whole(arguments.report, (json.dumps(plain(report), indent=1) + "\n").encode())
-    _tell(arguments, hull, {"report": report}, text + "\n")
+    if verdict is not None:
+        _require_taken(arguments, verdict, report, text)
+    hull.save(arguments.out, replace=arguments.replace)
+    last = "" if verdict is None else f"\n{_kept(arguments.out, verdict)}verdict: {verdict}"
+    _tell(arguments, hull, {"report": report}, text + "\n", last)
     return 0
+
+
+def _require_taken(
+    arguments: argparse.Namespace, verdict: Verdict, report: dict[str, Any], text: str
+) -> None:
+    """Refuse a hull that is not sound, after all that was found is told."""
+    choice = {"accept": arguments.accept, "strict": arguments.strict}
+    if refused_findings(verdict, **choice):
+        facts = {"hull": None, "fingerprint": None, "report": report}
+        emit(arguments, facts, f"{text}\nnot written: {arguments.out}\nverdict: {verdict}")
+    require_sound(verdict, arguments.file.name, **choice)
+
+
+def _tell_findings(arguments: argparse.Namespace, error: NotSoundError) -> None:
+    """Tell what is wrong with a file of which nothing could be made; into the report as well."""
+    from assoc_hull.io.write_file import write_whole
+
+    verdict = {"word": "not sound", "findings": error.findings}
+    report = _SCHEMA | {"verdict": verdict}
+    if arguments.report is not None:
+        write_whole(arguments.report, (json.dumps(plain(report), indent=1) + "\n").encode())
+    rows = [f"faults ({len(error.findings)})", *(f"  {each}" for each in error.findings)]
+    rows += [f"not written: {arguments.out}", f"verdict: not sound ({len(error.findings)} faults)"]
+    facts = {"hull": None, "fingerprint": None, "report": report}
+    emit(arguments, facts, "\n".join(rows))
+
+
+def _kept(out: Path, verdict: Verdict) -> str:
+    """Say where the verdict on a hull that was accepted is not kept."""
+    if verdict.faults and not out.name.endswith(FILE_ENDING):
+        return f"the verdict is not kept in {out.name}: that form has no history; keep --report\n"
+    return ""
 
 
 def _require_plot() -> None:
@@ -252,20 +295,29 @@ def _places(text: str) -> int | list[float]:
         raise argparse.ArgumentTypeError(f"{text!r} is no number and no list of places") from error
 
 
-def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
+def _adopt(
+    arguments: argparse.Namespace, tell: Tell
+) -> tuple[Hull, dict[str, Any], str, Verdict | None]:
+    """Give the hull, its report, that in words, and the verdict on it if it was imported."""
     from assoc_hull.io.classical.read import holds_definition
     from assoc_hull.io.importing.import_hull import import_hull
 
     options = _options(arguments)
     if holds_hull(arguments.file):
-        return _adopt_nothing(arguments, options)
+        return *_adopt_nothing(arguments, options), None
     if holds_definition(arguments.file):
         options.refuse("a definition says all of it", arguments.file)
-        return _adopt_definition(arguments)
-    state, report = import_hull(arguments.file, options, tell)
-    hull = Hull(state)
-    hull.adoption = report.adoption
-    return hull, _report_facts(report), import_words(hull.particulars.name, report)
+        return *_adopt_definition(arguments), None
+    # Taken here whatever it is worth, so that all that was found can be told; refused by `_import`.
+    every = attrs.evolve(options, accept=True, strict=False)
+    try:
+        state, report = import_hull(arguments.file, every, tell)
+    except NotSoundError as error:  # of which no hull can be made at all
+        _tell_findings(arguments, error)
+        raise
+    hull = imported_hull(state, report)
+    words = import_words(hull.particulars.name, report)
+    return hull, _report_facts(report), words, report.verdict
 
 
 def _options(arguments: argparse.Namespace) -> ImportOptions:
@@ -310,7 +362,7 @@ _SCHEMA = {"format": "assoc-hull report", "schema": 1}
 def _report_facts(report: ImportReport) -> dict[str, Any]:
     """Give the report on an import as plain values."""
     verdict = {
-        "word": report.verdict.word, "faults": report.verdict.faults,
+        "word": report.verdict.word, "text": str(report.verdict), "faults": report.verdict.faults,
         "suspicions": report.verdict.suspicions,
     }  # fmt: skip
     if report.slices is not None:
@@ -318,7 +370,8 @@ def _report_facts(report: ImportReport) -> dict[str, Any]:
         totals = {
             "bands": slices.bands, "adopted": slices.adopted, "inflections": slices.inflections
         }  # fmt: skip
-        return _SCHEMA | plain(slices) | totals | {"verdict": verdict}
+        facts: dict[str, Any] = _SCHEMA | plain(slices) | totals | {"verdict": verdict}
+        return facts
     rounding = [
         {"z": z, "rounding": amount}
         for table in (report.table,) if table is not None
@@ -330,9 +383,11 @@ def _report_facts(report: ImportReport) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _tell(arguments: argparse.Namespace, hull: Hull, more: dict[str, Any], text: str) -> None:
+def _tell(
+    arguments: argparse.Namespace, hull: Hull, more: dict[str, Any], text: str, last: str = ""
+) -> None:
     facts = {"hull": arguments.out, "fingerprint": hull.fingerprint, **more}
-    emit(arguments, facts, f"{text}{hull_words(hull)}\nwritten: {arguments.out}")
+    emit(arguments, facts, f"{text}{hull_words(hull)}\nwritten: {arguments.out}{last}")
 
 
 # --------------------------------------------------------------------------------------

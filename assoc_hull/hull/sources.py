@@ -20,12 +20,15 @@ if TYPE_CHECKING:
     from assoc_hull.creation.classical.classical_net import ClassicalDefinition
     from assoc_hull.creation.design import Design
     from assoc_hull.geometry.patches.spline_surface import SplineSurface
+    from assoc_hull.io.importing.import_hull import ImportReport
     from assoc_hull.io.slicing.cut_planes import Places
+    from assoc_hull.model.tables import HullState
 
 __all__ = [
     "Examples",
     "create",
     "examples",
+    "imported_hull",
     "open",
     "read",
     "read_classical",
@@ -289,7 +292,8 @@ def read(
         The file cannot be read, or is none of these; or an option that its form does not take, or
         that the hull contradicts.
     NotSoundError
-        The hull is not sound and was not accepted.
+        What was read is no sound hull, with all that was found, unless `accept`, which keeps the
+        verdict in ``hull.adoption.notes`` and as a checkpoint; or under suspicion, and `strict`.
 
     Examples
     --------
@@ -325,9 +329,20 @@ either: both say where x = 0 is
     if holds_definition(file):
         options.refuse("a definition says all of it", file)
         return create(read_classical(file))
-    state, report = import_hull(file, options)
+    return imported_hull(*import_hull(file, options))
+
+
+def imported_hull(state: HullState, report: ImportReport) -> Hull:
+    """Make a hull of what was imported; one that is not sound, but accepted, keeps the verdict.
+
+    A checkpoint is the place for it: its name is saved with the history, and read by all who open
+    the hull.
+    """
     hull = Hull(state)
     hull.adoption = report.adoption
+    if report.verdict.faults:
+        told = "; ".join(map(str, report.verdict.faults))
+        hull.checkpoint(f"as imported, {report.verdict}: {told}")
     return hull
 
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
-from assoc_hull.arguments import once, shown
+from assoc_hull.arguments import once, regular_file, shown
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.io.tables.json_schema import DIALECT, FINGERPRINT, dumps_schema
 from assoc_hull.io.write_file import write_whole
@@ -174,7 +174,7 @@ def _text(path: Path) -> str:
     if path.is_dir():
         raise BadInputError("this is a folder", f"at {path}", "give the name of a .hull.json file")
     try:
-        return path.read_bytes().decode("utf-8")
+        return regular_file(path).read_bytes().decode("utf-8")
     except UnicodeDecodeError as error:
         raise BadInputError(
             f"byte {error.start} is no UTF-8 text", f"in {path}", "give a .hull.json file"

@@ -38,6 +38,8 @@ def is_hull_file(path: Path) -> bool:
     """Tell whether a file begins as a database does."""
     if is_open_here(path):
         return True
+    if not path.is_file():  # opening a pipe waits for ever
+        return False
     with contextlib.suppress(OSError), path.open("rb") as file:
         return file.read(len(MAGIC)) == MAGIC
     return False

@@ -101,17 +101,17 @@ def _said(code: int, out: str, err: str) -> str:
     """What is wrong with what a command said."""
     if any(each in err for each in MASKS):
         return err.strip()[-600:]
-    if code not in (0, 1, 2):
+    if code not in (0, 1, 2, 3):
         return f"exit code {code}: {err[:200]}"
     if code == 0 and err:
         return f"it was done, and yet said: {err[:200]}"
-    if code == 1 and not out:
+    if code in (1, 3) and not out:
         return f"no findings were told: {err[:200]}"
     if code == 2 and out:
         return f"it told facts and failed: {out[:200]}"
-    if code == 2 and not (err.startswith("error: ") and err.count("\n") == 1):
+    if code in (2, 3) and not (err.startswith("error: ") and err.count("\n") == 1):
         return f"no single line of error: {err[:200]!r}"
-    if code == 2 and len(err) > LONGEST:
+    if code in (2, 3) and len(err) > LONGEST:
         return f"a message of {len(err)} letters: {err[:200]}"
     return ""
 

@@ -184,4 +184,4 @@ def test_a_saved_hull_has_one_already(tmp_path: Path, capsys: pytest.CaptureFixt
     with pytest.raises(ah.errors.BadInputError, match="deck cannot be given"):
         ah.read(path, deck="open")
     assert main(["import", str(path), "-o", str(tmp_path / "o.hull"), "--deck", "open"]) == 2
-    assert "--deck cannot be given" in capsys.readouterr().err
+    assert "deck cannot be given" in capsys.readouterr().err

@@ -54,6 +54,11 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ["V - E + F = 0", "WL 4 x ST 10 at (1, 2, 3) m", "and 1 more", "mend it"],
     ),
     (
+        errors.NotSoundError("a.csv", ("gap: ST 3: 70 mm", "fold: WL 2: it folds")),
+        ValueError,
+        ["not sound", "gap: ST 3: 70 mm", "fold: WL 2", "in a.csv", "mend these 2", "--accept"],
+    ),
+    (
         errors.OpenMeshError("the volume", 12, (1.5, 2.25, 3.125), "close it"),
         RuntimeError,
         ["the volume", "12 open edges", "(1.500, 2.250, 3.125)", "close it"],

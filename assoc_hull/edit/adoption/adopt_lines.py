@@ -41,6 +41,7 @@ from assoc_hull.model.tables import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
+    "OVER",
     "AdoptionReport",
     "LineReport",
     "adopt",
@@ -191,7 +192,7 @@ def _sorts(state: HullState, rows: IntArray) -> tuple[int, int, int]:
 # --------------------------------------------------------------------------------------
 # Adoption.
 
-_OVER = 1.05
+OVER = 1.05
 """Between its points a curve may pass its line by this part more than at them."""
 
 
@@ -372,7 +373,7 @@ def _over_notes(
         f"{line.line} is passed by {line.tolerance_used:.2f} times what is allowed at some place: "
         "no point could be adopted there, another stands too close"
         for number, line in enumerate(lines)
-        if line.tolerance_used > _OVER and net.sources[number].dense and number not in noted
+        if line.tolerance_used > OVER and net.sources[number].dense and number not in noted
     ]
 
 

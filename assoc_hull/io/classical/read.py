@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TypeGuard
 
-from assoc_hull.arguments import file_path, word
+from assoc_hull.arguments import file_path, regular_file, word
 from assoc_hull.creation.classical.classical_net import ClassicalDefinition
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.classical.cards import Cards, kind_of, read_cards
@@ -96,7 +96,7 @@ def read_definition_file(path: str | os.PathLike[str]) -> ClassicalDefinition:
     try:
         if file.is_file() and file.stat().st_size > _MOST:
             raise BadInputError("the file is too large", f"at {file}", "give a text of cards")
-        raw = file.read_bytes()
+        raw = regular_file(file).read_bytes()
     except OSError as error:
         what = f"the file cannot be read ({error.strerror})"
         raise BadInputError(what, f"at {file}", "check the path") from None

@@ -24,6 +24,7 @@ from urllib.parse import quote
 
 import numpy as np
 
+from assoc_hull.arguments import regular_file
 from assoc_hull.errors import BadInputError, DamagedFileError, FileBusyError, HullFileError
 from assoc_hull.io.open_databases import MAGIC, HullFileConnection, is_open_here, log_file
 
@@ -352,7 +353,7 @@ def _require_readable(path: Path) -> None:
     if path.is_dir():
         raise BadInputError("this is a folder", f"at {path}", "give the name of a hull file")
     try:
-        with path.open("rb") as file:
+        with regular_file(path).open("rb") as file:
             head = file.read(100)
         size = path.stat().st_size
     except OSError as error:

@@ -340,6 +340,8 @@ def holds_hull(path: Path) -> bool:
 
 def _is_text(path: Path) -> bool:
     """Tell whether a file begins as the canonical text does."""
+    if not path.is_file():
+        return False
     with contextlib.suppress(OSError), path.open("rb") as file:
         return file.read(200).lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{"
     return False

@@ -13,9 +13,11 @@ from typing import Any
 import attrs
 
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
-from assoc_hull.arguments import positive
+from assoc_hull.arguments import positive, regular_file
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
-from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.edit.adoption.latent_crossings import make_latent_crossings
+from assoc_hull.errors import AssocHullError, BadInputError, NotSoundError
+from assoc_hull.io.importing.judge import finding_of, judge, verdict_notes
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
 from assoc_hull.io.importing.verdict import Finding, Verdict, require_sound
@@ -25,7 +27,7 @@ from assoc_hull.io.offsets.place_table import place_table, table_particulars
 from assoc_hull.io.offsets.read import read_offsets
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.placing.options import FileAxes, FrameOptions
-from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
+from assoc_hull.io.reports import OffsetReport, Tell, no_progress
 from assoc_hull.io.slicing.net import SliceReport
 from assoc_hull.io.slicing.read import holds_lines, read_slices
 from assoc_hull.io.units import METRES
@@ -52,6 +54,8 @@ class ImportReport:
         The table, in ship axes; None for other forms.
     frame : ShipFrame or None
         Where the ship lay in its file: perpendiculars, base line, design waterline.
+    own_notes : tuple of str
+        The notes that adoption itself made.
     """
 
     notes: OffsetReport
@@ -60,6 +64,7 @@ class ImportReport:
     slices: SliceReport | None = None
     table: OffsetTable | None = None
     frame: ShipFrame | None = None
+    own_notes: tuple[str, ...] = ()
 
 
 def import_hull(
@@ -74,6 +79,7 @@ def import_hull(
     NotSoundError
         The hull is not sound and was not accepted, or is under suspicion and `strict`.
     """
+    regular_file(path)
     wanted = options or ImportOptions()
     own = read_own_file(path, wanted)
     if own is not None and own.state is not None and own.adoption is not None:
@@ -84,12 +90,17 @@ def import_hull(
         state, report = _import_table(path, wanted)
     if own is not None and own.state is None:
         report = attrs.evolve(report, notes=own.added_to(report.notes))
-    verdict = _judge(report)
+    tell("checking", 0, 0)
+    restored = own is not None and own.state is not None
+    made = () if restored else make_latent_crossings(state)
+    table = report.table is not None
+    verdict = judge(state, path, report.notes, report.adoption, report.slices, table=table)
     require_sound(verdict, path.name, accept=wanted.accept, strict=wanted.strict)
-    told = (*_told(report.notes), *_place_of_lcb(state, report.frame))
-    notes = (*told, f"verdict: {verdict}", *report.adoption.notes)
+    mine = (*report.adoption.notes, *(f"{key}: made, since both lines end there" for key in made))
+    lcb = _place_of_lcb(state, report.frame)
+    notes = (*verdict_notes(report.notes, verdict), *lcb, *mine)
     adoption = attrs.evolve(report.adoption, notes=notes)
-    return state, attrs.evolve(report, verdict=verdict, adoption=adoption)
+    return state, attrs.evolve(report, verdict=verdict, adoption=adoption, own_notes=(*lcb, *mine))
 
 
 def _import_lines(path: Path, options: ImportOptions, tell: Tell) -> tuple[HullState, ImportReport]:
@@ -104,12 +115,16 @@ def _import_lines(path: Path, options: ImportOptions, tell: Tell) -> tuple[HullS
 def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, ImportReport]:
     options.refuse("it is for meshes, surfaces and digitised lines", path, options.ONLY_CUTS)
     table, notes, frame = _placed_table(path, options)
-    # A table that cannot be right is refused with all that is wrong in it before it is adopted.
-    faults = tuple(map(_finding, notes.faults))
-    require_sound(Verdict(faults), path.name, accept=options.accept, strict=False)
     deck = options.deck or DECKS[0]
     ship = table_particulars(table, frame, deck)
-    state, adoption = net_from_table(table, deck=deck, particulars=ship)
+    try:
+        state, adoption = net_from_table(table, deck=deck, particulars=ship)
+    except AssocHullError as error:
+        if not notes.faults:
+            raise
+        # No hull can be made of numbers that are not right: all that is wrong is told.
+        found = *map(finding_of, notes.faults), Finding("not adopted", "the table", str(error))
+        raise NotSoundError(path.name, tuple(map(str, found))) from error
     return state, ImportReport(notes, adoption, Verdict(), table=table, frame=frame)
 
 
@@ -147,15 +162,6 @@ def _table_origin(options: ImportOptions) -> tuple[str | None, FrameOptions]:
     return frame.origin, attrs.evolve(frame, origin=None)
 
 
-def _judge(report: ImportReport) -> Verdict:
-    notes = report.notes
-    return Verdict(tuple(map(_finding, notes.faults)), tuple(map(_finding, notes.suspicions)))
-
-
-def _finding(note: Note) -> Finding:
-    return Finding(note.kind, note.where, note.what, note.amount)
-
-
 @attrs.frozen(eq=False)
 class _Adopted:
     """A hull, for what measures hulls."""
@@ -179,9 +185,3 @@ def _place_of_lcb(state: HullState, frame: ShipFrame | None) -> tuple[str, ...]:
         f"LCB at the draught of {frame.draught:.6g} m lies {away:.6g} m aft of the place where the "
         f"stem meets the waterline; {part:+.3g} % from amidships if Lpp is {frame.length:.6g} m",
     )
-
-
-def _told(notes: OffsetReport) -> tuple[str, ...]:
-    """Give what was assumed and suspected, as lines of text."""
-    assumed = (f"assumed: {note}" for note in notes.assumptions)
-    return (*assumed, *(f"suspicion: {note}" for note in notes.suspicions))

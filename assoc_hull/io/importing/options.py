@@ -95,6 +95,13 @@ class ImportOptions:
     accept: bool = False
     strict: bool = False
 
+    def __attrs_post_init__(self) -> None:
+        if self.accept and self.strict:
+            raise BadInputError(
+                "accept takes what is not sound, and strict refuses what is suspected",
+                "in the import", "give one of them",
+            )  # fmt: skip
+
     def named(self, *names: str) -> dict[str, Any]:
         """Give those of some options that were given, by name."""
         every = {name: getattr(self, name) for name in names}

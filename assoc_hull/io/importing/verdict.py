@@ -16,7 +16,7 @@ import attrs
 
 from assoc_hull.errors import NotSoundError
 
-__all__ = ["Finding", "Verdict", "require_sound"]
+__all__ = ["Finding", "Findings", "Verdict", "refused_findings", "require_sound"]
 
 
 @attrs.frozen
@@ -67,10 +67,42 @@ class Verdict:
         return "sound with suspicions" if self.suspicions else "sound"
 
     def __str__(self) -> str:
-        counts = [f"{len(self.faults)} faults"] if self.faults else []
-        counts += [f"{len(self.suspicions)}"] if self.suspicions and not self.faults else []
-        counts += [f"{len(self.suspicions)} suspicions"] if self.suspicions and self.faults else []
-        return f"{self.word} ({', '.join(counts)})" if counts else self.word
+        if not self.faults:
+            return f"{self.word} ({len(self.suspicions)})" if self.suspicions else self.word
+        counts = [_count(self.faults, "fault")]
+        counts += [_count(self.suspicions, "suspicion")] if self.suspicions else []
+        return f"{self.word} ({', '.join(counts)})"
+
+
+def _count(found: tuple[Finding, ...], word: str) -> str:
+    return f"{len(found)} {word}{'' if len(found) == 1 else 's'}"
+
+
+@attrs.define
+class Findings:
+    """Collects what several looks at one hull find; `verdict` gives it frozen."""
+
+    faults: list[Finding] = attrs.field(factory=list)
+    suspicions: list[Finding] = attrs.field(factory=list)
+
+    def fault(self, kind: str, where: str, what: str, amount: float | None = None) -> None:
+        """Note what makes the hull not sound."""
+        self.faults.append(Finding(kind, where, what, amount))
+
+    def suspect(self, kind: str, where: str, what: str, amount: float | None = None) -> None:
+        """Note what looks wrong and need not be."""
+        self.suspicions.append(Finding(kind, where, what, amount))
+
+    def verdict(self) -> Verdict:
+        """Give the verdict; what two looks found in the same words counts once."""
+        return Verdict(tuple(dict.fromkeys(self.faults)), tuple(dict.fromkeys(self.suspicions)))
+
+
+def refused_findings(verdict: Verdict, *, accept: bool, strict: bool) -> tuple[Finding, ...]:
+    """Give what a hull is refused for; nothing where it is taken."""
+    if accept:
+        return ()
+    return verdict.faults or (verdict.suspicions if strict else ())
 
 
 def require_sound(verdict: Verdict, source: str, *, accept: bool, strict: bool) -> None:
@@ -81,6 +113,6 @@ def require_sound(verdict: Verdict, source: str, *, accept: bool, strict: bool) 
     NotSoundError
         There are faults and they are not accepted; or suspicions, and `strict`.
     """
-    refused = verdict.faults + (verdict.suspicions if strict else ())
-    if refused and not accept:
-        raise NotSoundError(source, tuple(map(str, refused)))
+    refused = refused_findings(verdict, accept=accept, strict=strict)
+    if refused:
+        raise NotSoundError(source, tuple(map(str, refused)), suspected=not verdict.faults)

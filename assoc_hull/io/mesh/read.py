@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from assoc_hull.arguments import regular_file
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles, merge_vertices
 
@@ -115,7 +116,7 @@ def _unpack(path: Path) -> bytes:
             "the form is unknown", f"at {path}", f"give one of {', '.join(MESH_ENDINGS)} (.gz)"
         )
     try:
-        data = path.read_bytes()
+        data = regular_file(path).read_bytes()
         packed = gzip.GzipFile(fileobj=io.BytesIO(data)) if data[:2] == b"\x1f\x8b" else None
         text = packed.read(_MOST_BYTES + 1) if packed else data
     except (OSError, EOFError) as error:

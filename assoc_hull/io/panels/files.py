@@ -25,7 +25,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from assoc_hull.arguments import choice, file_path, instance
+from assoc_hull.arguments import choice, file_path, instance, regular_file
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
 from assoc_hull.io.panels.formats import (
@@ -135,7 +135,7 @@ def read_panels(path: str | os.PathLike[str]) -> PanelMesh:
 
 def _unpacked(path: Path) -> bytes:
     try:
-        with path.open("rb") as file:
+        with regular_file(path).open("rb") as file:
             data = file.read(_MOST_BYTES + 1)
         if data[:2] == b"\x1f\x8b":
             data = gzip.GzipFile(fileobj=io.BytesIO(data)).read(_MOST_BYTES + 1)

@@ -109,6 +109,7 @@ def find_frame(
     _check_ends(outline, ends, where)
     length = ends.fp - ends.ap if ends.length is None else ends.length
     _tell_heights(outline, heights, length, book, where)
+    _tell_waterline(outline, heights, said, book, where)
     _tell_ends(outline, ends, stem, length, book, where)
     breadth = _breadth(outline, heights, asked, said, book, where)
     depth = _depth(outline, heights, ends, asked, said, book, where)
@@ -251,6 +252,23 @@ def _tell_heights(
     if heights.draught_from[0] != "given" and heights.draught_from[1]:
         book.assume("draught", where, heights.draught_from[1], heights.draught)
     _tell_below(outline, heights, length, book, where)
+
+
+_SHOWN = 0.01
+"""A draught this part of the depth off the waterline that the file shows is doubtful."""
+
+
+def _tell_waterline(
+    outline: HullOutline, heights: _Heights, said: StatedPlaces, book: Notebook, where: str
+) -> None:
+    """Suspect a draught that was given and is not up to the waterline that the file shows."""
+    low, high = (float(end) for end in (outline.xyz[:, 2].min(), outline.xyz[:, 2].max()))
+    shown, (origin, why) = _draught(heights.base, low, high, FrameOptions(), said)
+    off = heights.draught - shown
+    known = heights.draught_from[0] == "given" and origin != "assumed"
+    if known and abs(off) > _SHOWN * (high - heights.base):
+        what = f"{heights.draught:.6g} m was given, and the file shows {why}"
+        book.suspect("draught", where, f"{what}; {abs(off):.4g} m off", off)
 
 
 def _tell_below(

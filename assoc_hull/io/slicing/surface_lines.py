@@ -28,6 +28,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.arguments import regular_file
 from assoc_hull.errors import BadInputError, MissingExtraError, NeedsCadError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.plane_intersection import intersect_plane
@@ -291,7 +292,7 @@ def cad_kind(path: Path) -> str | None:
     IGES without surfaces is something else: its curves are digitised lines.
     """
     try:
-        with path.open("rb") as file:
+        with regular_file(path).open("rb") as file:
             head = file.read(_HEAD).decode("latin-1")
             if looks_like_iges(head):
                 text = head + file.read(_MOST_BYTES).decode("latin-1")
@@ -349,7 +350,7 @@ def _through_cad(path: Path, text: str, unit: str | None, why: NeedsCadError) ->
 
 def _text(path: Path) -> str:
     try:
-        with path.open("rb") as file:
+        with regular_file(path).open("rb") as file:
             data = file.read(_MOST_BYTES + 1)
     except OSError as error:
         what = f"the file cannot be read ({error.strerror or error})"

@@ -24,7 +24,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Self
 
-from assoc_hull.arguments import file_path
+from assoc_hull.arguments import file_path, regular_file
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.iges.file import looks_like_iges
@@ -103,7 +103,7 @@ def _text_of(path: Path) -> str:
         what = "this is a hull, and no file of surfaces"
         raise BadInputError(what, where, "open it as a hull, and fit its surface")
     try:
-        with path.open("rb") as file:
+        with regular_file(path).open("rb") as file:
             data = file.read(_MOST_BYTES + 1)
     except OSError as error:
         reason = error.strerror or str(error)

@@ -15,6 +15,7 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
+from assoc_hull.arguments import regular_file
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.spreadsheets import openpyxl_module
@@ -54,7 +55,7 @@ def _read_file(path: str | Path, book: Notebook) -> tuple[str, str]:
     if not str(path).strip():
         raise BadInputError("the name is empty", "path_or_text", "give a file or a text")
     try:
-        raw = Path(path).read_bytes()
+        raw = regular_file(Path(path)).read_bytes()
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise BadInputError(

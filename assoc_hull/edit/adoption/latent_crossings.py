@@ -1,0 +1,48 @@
+"""Crossings that adoption left open: lines that meet where both were to end on a third.
+
+Where a boundary line runs in the plane of a section (a vertical stem at a station), the section
+cannot end on it by their intersection. Its end becomes an adopted point; another line that ends at
+the same place then meets it, and has no crossing with it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.edit.followup.crossings import latent_intersections, make_crossing
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.tables import HullState
+
+__all__ = ["make_latent_crossings"]
+
+
+def make_latent_crossings(state: HullState) -> tuple[str, ...]:
+    """Make the crossings of lines that meet and have none; gives their keys, sorted.
+
+    The role is what the role rule gives there; the curves stay as they are, since a point of
+    their own holds each of them there.
+    """
+    maker, born = Maker(state, Journal()), list[str]()
+    keys = state.curves.key.data
+    latent = latent_intersections(state, state.live("curves"))
+    for curve, spot in sorted(latent, key=lambda each: (str(keys[each[0]]), each[1])):
+        if _meets_at_once(state, curve, spot):
+            row = make_crossing(maker, curve, spot, set(), watch=True)
+            born += [] if row is None else [str(state.rows.key.data[row])]
+    return tuple(sorted(born))
+
+
+def _meets_at_once(state: HullState, curve: int, spot: int) -> bool:
+    """Tell whether a curve of the other line passes the same place; `check` asks the same."""
+    meets = state.curves.meets.data[curve]
+    if meets.row[spot] >= 0:
+        return False
+    line, place = state.line_of(curve), meets.xyz[spot]
+    for other in state.lines.curves.data[int(meets.line[spot])]:
+        theirs = state.curves.meets.data[other]
+        free = (theirs.line == line) & (theirs.row < 0)
+        away = np.abs(theirs.xyz[free] - place).max(axis=1, initial=0.0)
+        if len(away) and away.min() <= state.tolerances.coincident:
+            return True
+    return False

@@ -1,0 +1,62 @@
+"""All looks at an imported hull, and the verdict: the reader's notes, particulars, lines, net."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
+from assoc_hull.io.importing.proportions import examine_particulars
+from assoc_hull.io.importing.soundness import examine_net
+from assoc_hull.io.importing.stated import stated_in
+from assoc_hull.io.importing.verdict import Finding, Findings, Verdict
+from assoc_hull.io.reports import Note, OffsetReport
+from assoc_hull.io.slicing.net import SliceReport
+from assoc_hull.model.tables import HullState
+
+__all__ = ["finding_of", "judge", "verdict_notes"]
+
+_COMPARED = ("L/B", "B/T")
+"""What the reader of tables compares itself, with the numbers as printed."""
+
+_WILD = 0.3
+"""A half-breadth off its neighbours by more, in half-breadths of the ship, is no half-breadth: of
+sound ships a knuckle or the edge of a transom stands off by .13 at most."""
+
+
+def judge(
+    state: HullState, path: Path, notes: OffsetReport, adoption: AdoptionReport,
+    slices: SliceReport | None, *, table: bool,
+) -> Verdict:  # fmt: skip
+    """Look at all of a hull that was read from a file; `table`: from a table of offsets."""
+    found = Findings([*map(finding_of, notes.faults)])
+    for note in notes.suspicions:
+        _take_up(note, state, found)
+    for doubt in () if slices is None else slices.suspicions:
+        kind, _, what = doubt.partition(": ")
+        found.suspect(kind, "the lines", what, state.tolerances.adoption)
+    stated = stated_in(path)
+    if table:
+        stated = {name: said for name, said in stated.items() if name not in _COMPARED}
+    examine_particulars(state, found, stated)
+    examine_net(state, adoption, found)
+    return found.verdict()
+
+
+def _take_up(note: Note, state: HullState, found: Findings) -> None:
+    """Take what the reader suspects; an offset of another size than its neighbours is a fault."""
+    half = 0.5 * state.particulars.breadth
+    wild = note.kind == "outlier" and note.amount is not None and abs(note.amount) > _WILD * half
+    (found.faults if wild else found.suspicions).append(finding_of(note))
+
+
+def finding_of(note: Note) -> Finding:
+    """Give a note as a finding."""
+    return Finding(note.kind, note.where, note.what, note.amount)
+
+
+def verdict_notes(notes: OffsetReport, verdict: Verdict) -> tuple[str, ...]:
+    """Give what was assumed and found, and the verdict, as lines of text."""
+    assumed = (f"assumed: {note}" for note in notes.assumptions)
+    faults = (f"fault: {each}" for each in verdict.faults)
+    suspected = (f"suspicion: {each}" for each in verdict.suspicions)
+    return (*assumed, *faults, *suspected, f"verdict: {verdict}")

@@ -1,0 +1,221 @@
+"""Whether particulars, extents and coefficients of an imported hull can be those of a ship.
+
+What no ship can have is a fault, what few ships have a suspicion. Coefficients are measured of the
+finished net at its draught, so that a wrong unit, scale, frame or draught shows here if it shows
+nowhere else; they are compared with what the file itself says.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
+from assoc_hull.analysis.hydrostatics.record import Hydrostatics
+from assoc_hull.edit.document import Document
+from assoc_hull.errors import OutOfRangeError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.importing.soundness import look, sampled_places
+from assoc_hull.io.importing.verdict import Findings
+from assoc_hull.model.tables import HullState
+
+__all__ = ["examine_particulars"]
+
+_RATIOS = {
+    "L/B": (2.0, 15.0), "B/T": (1.2, 12.0), "B/D": (0.8, 12.0),
+}  # fmt: skip
+"""Between these lie nearly all ships, from pontoons to racing shells' neighbours."""
+
+_USUAL = {"cb": (0.25, 0.95), "cm": (0.3, math.inf)}
+_COEFFICIENTS = ("cb", "cm", "cx", "cp", "cw")
+_ONE = 1.0 + 1e-3
+"""A coefficient may exceed 1 by what numbers are rounded to: a box has 1."""
+
+_EXTENT = (0.75, 1.05)
+"""Lpp as a part of the length over all."""
+
+_BREADTH, _DRAUGHT, _LCB = 0.02, 0.01, 10.0
+_STATED = {"L/B": 0.01, "B/T": 0.01, "V": 0.02}
+_STATED_COEFFICIENT = 0.03
+_STATED_LCB = 1.0
+"""How far (per cent of Lpp) LCB may lie off what the file says."""
+
+_DESIGN = re.compile(r"(?:[DLC]\.?\s?W\.?\s?L\.?|(?:design|load) ?water ?line)", re.IGNORECASE)
+_SYMBOL = {"cb": "CB", "cm": "CM", "cx": "CX", "cp": "CP", "cw": "CW"}
+_CHECK = "check length, breadth, draught and the unit"
+
+
+@attrs.frozen
+class _Measured:
+    """A hull as found: extents (m) and, if it floats, hydrostatics at its draught."""
+
+    low: FloatArray
+    high: FloatArray
+    record: Hydrostatics | None
+
+
+def examine_particulars(
+    state: HullState,
+    found: Findings,
+    stated: Mapping[str, tuple[float, float]] | None = None,
+) -> None:
+    """Look at the particulars of a hull, and at its coefficients.
+
+    `stated` is what the file says, as `assoc_hull.io.importing.stated.read_stated` gives it.
+    """
+    measured: list[_Measured] = []
+    look(lambda: measured.append(_measure(state, found)), "the hull", found)
+    for hull in measured:
+        for each in (
+            lambda hull=hull: _examine_sizes(state, hull, found),
+            lambda: _examine_draught(state, found),
+            lambda hull=hull: _examine_coefficients(hull, found),
+            lambda hull=hull: _examine_stated(state, hull, stated or {}, found),
+        ):
+            look(each, "the particulars", found)
+
+
+def _measure(state: HullState, found: Findings) -> _Measured:
+    places = sampled_places(state)[0]
+    low, high = places.min(axis=0), places.max(axis=0)
+    records: list[Hydrostatics | None] = []
+    look(lambda: records.append(_floating(state, found)), "hydrostatics", found)
+    return _Measured(low, high, records[0] if records else None)
+
+
+def _floating(state: HullState, found: Findings) -> Hydrostatics | None:
+    """Give hydrostatics at the draught; what they would be refused for is a fault."""
+    try:
+        record = hydrostatics(Document(state), on_error="report")
+    except OutOfRangeError as error:
+        found.fault("draught", "the particulars", str(error), error.value)
+        return None
+    drowned = record.draught_mean < state.particulars.draught
+    for doubt in record.notes[:1] if drowned else ():
+        found.fault("draught", "the particulars", doubt, state.particulars.draught)
+    for doubt in record.notes[1:] if drowned else record.notes:
+        what = f"{doubt}: hydrostatics cannot be relied on; mend the line, or draw what is missing"
+        found.fault("open net", "the net", what)
+    return record
+
+
+# --------------------------------------------------------------------------------------
+# Particulars against one another and against the extents.
+
+
+def _examine_sizes(state: HullState, hull: _Measured, found: Findings) -> None:
+    ship, size = state.particulars, hull.high - hull.low
+    where = "the particulars"
+    for name, value in {
+        "L/B": ship.length / ship.breadth, "B/T": ship.breadth / ship.draught,
+        "B/D": ship.breadth / ship.depth,
+    }.items():  # fmt: skip
+        low, high = _RATIOS[name]
+        if not low <= value <= high:
+            what = f"{name} is {value:.4g}, outside {low:g} to {high:g}: {_CHECK}"
+            found.suspect("proportions", where, what, value)
+    if ship.deck == "closed" and ship.draught > ship.depth * (1.0 + 1e-9):
+        what = (
+            f"the draught {ship.draught:.4g} m is above the depth {ship.depth:.4g} m of a decked "
+            "hull: give draught= or depth="
+        )
+        found.fault("draught", where, what, ship.draught - ship.depth)
+    part = ship.length / float(size[0])
+    if not _EXTENT[0] <= part <= _EXTENT[1]:
+        what = (
+            f"the length {ship.length:.4g} m is {part:.3f} of the {size[0]:.4g} m from end to end, "
+            f"outside {_EXTENT[0]:g} to {_EXTENT[1]:g}: give length=, or check unit and scale"
+        )
+        found.suspect("length", where, what, part)
+    if ship.depth > 1.01 * max(float(hull.high[2]), 0.0):
+        what = (
+            f"the depth {ship.depth:.4g} m reaches above the hull, which ends at "
+            f"{hull.high[2]:.4g} m: give depth=, or check the base line"
+        )
+        found.suspect("depth", where, what, ship.depth - float(hull.high[2]))
+    _examine_breadth(state, hull, found)
+
+
+def _examine_breadth(state: HullState, hull: _Measured, found: Findings) -> None:
+    """Refuse a breadth that is neither of the waterline nor of the hull, nor between the two."""
+    most = 2.0 * float(hull.high[1])
+    least = most if hull.record is None else min(most, hull.record.bwl)
+    given = state.particulars.breadth
+    if not (1.0 - _BREADTH) * least <= given <= (1.0 + _BREADTH) * most:
+        same = abs(most - least) < 1e-3 * most
+        lines = f"{most:.4g} m" if same else f"{least:.4g} m at the waterline, {most:.4g} m at most"
+        what = (
+            f"the breadth is given as {given:.4g} m and the lines are {lines}: give breadth=, or "
+            "check unit and scale"
+        )
+        found.fault("breadth", "the particulars", what, given - most)
+
+
+def _examine_draught(state: HullState, found: Findings) -> None:
+    """Compare the draught with the line that is called the design waterline."""
+    ship = state.particulars
+    for line in state.live("lines").tolist():
+        name, height = str(state.lines.name.data[line]), float(state.lines.offset.data[line])
+        level = state.lines.planar.data[line] and state.lines.normal.data[line][2] == 1.0
+        off = ship.draught - height
+        if level and _DESIGN.fullmatch(name.strip()) and abs(off) > _DRAUGHT * ship.depth:
+            what = (
+                f"the draught is {ship.draught:.4g} m, and the line {name!r} lies {height:.4g} m "
+                f"above the base line: give draught={height:.4f} if that is the design waterline"
+            )
+            found.suspect("draught", "the particulars", what, off)
+
+
+# --------------------------------------------------------------------------------------
+# Coefficients at the draught.
+
+
+def _examine_coefficients(hull: _Measured, found: Findings) -> None:
+    if hull.record is None:
+        return
+    record = hull.record
+    where = f"the hull at draught {record.draught_mean:.4g} m"
+    for name in _COEFFICIENTS:
+        value, symbol = float(getattr(record, name)), _SYMBOL[name]
+        low, high = _USUAL.get(name, (0.0, math.inf))
+        if not 0.0 < value <= _ONE:
+            what = f"{symbol} is {value:.4g}, and no hull has one outside 0 to 1: {_CHECK}"
+            found.fault("coefficient", where, what, value)
+        elif not low <= value <= high:
+            span = f"above {high:g}" if value > high else f"below {low:g}"
+            what = f"{symbol} is {value:.4g}, {span} as of few ships: {_CHECK}"
+            found.suspect("coefficient", where, what, value)
+    if not abs(record.lcb_percent) <= _LCB:
+        what = (
+            f"LCB lies {record.lcb_percent:+.2f} % of Lpp from midship, more than {_LCB:g} %: "
+            "check where x = 0 and the perpendiculars are"
+        )
+        found.suspect("LCB", where, what, record.lcb_percent)
+
+
+def _examine_stated(
+    state: HullState, hull: _Measured, stated: Mapping[str, tuple[float, float]], found: Findings
+) -> None:
+    ship = state.particulars
+    broad = 2.0 * float(hull.high[1])
+    own = {"L/B": ship.length / broad, "B/T": broad / ship.draught}
+    if hull.record is not None:
+        own |= {symbol: float(getattr(hull.record, name)) for name, symbol in _SYMBOL.items()}
+        own |= {"LCB": hull.record.lcb_percent, "V": hull.record.volume}
+    for name, (value, rounding) in stated.items():
+        if name not in own or not np.isfinite(own[name]):
+            continue
+        allowed = rounding + (
+            _STATED_LCB if name == "LCB" else _STATED.get(name, _STATED_COEFFICIENT) * abs(value)
+        )
+        if abs(own[name] - value) > allowed:
+            unit = {"LCB": " % of Lpp", "V": " m3"}.get(name, "")
+            what = (
+                f"the file says {name} {value:g}{unit}, and the hull has {own[name]:.4g}{unit}: "
+                f"{'check where x = 0 is and which way x runs' if name == 'LCB' else _CHECK}"
+            )
+            found.suspect("stated", "the comments", what, own[name] - value)

@@ -1,0 +1,183 @@
+"""What makes an adopted net not sound: lines off their sources, gaps, open ends, findings of check.
+
+Each look notes what it finds in a `Findings`. A line that passes its source by more than it may is
+a suspicion that tells place and amount; by far more, or most lines of a hull, are faults. What
+cannot be computed is a fault as well, never a traceback.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from assoc_hull.edit.adoption.adopt_lines import OVER, AdoptionReport, LineReport
+from assoc_hull.edit.checks.hull_findings import check
+from assoc_hull.errors import AssocHullError
+from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.io.importing.verdict import Finding, Findings
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.gaps import gap_at, watched_on
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.tables import HullState
+
+__all__ = ["STUMBLES", "examine_net", "look", "sampled_places"]
+
+STUMBLES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+"""What numerics raise over a hull that is none; errors of this package are among them."""
+
+_FAR = 10.0
+"""A line that passes its source by more times its tolerance is another line: good imports have
+their farthest point at 2.6 to 5.9 times, bad ones at 10.7 to 900 times."""
+
+_MOST = 0.5
+"""Of good imports up to a third of the lines are beyond their tolerance, of bad ones over half."""
+
+_SAMPLES = 8
+"""Places on each segment at which a curve is looked at."""
+
+
+def examine_net(state: HullState, adoption: AdoptionReport, found: Findings) -> None:
+    """Look at all lines of a hull, and at how they hang together."""
+    for each in (
+        lambda: _examine_lines(state, adoption.lines, found),
+        lambda: _examine_borders(state, adoption.lines, found),
+        lambda: _examine_gaps(state, found),
+        lambda: _examine_centre(state, found),
+        lambda: _examine_checks(state, found),
+    ):
+        look(each, "the net", found)
+
+
+def look(examine: Callable[[], None], where: str, found: Findings) -> None:
+    """Run one look; that it cannot be finished is a fault."""
+    try:
+        with np.errstate(all="ignore"):
+            examine()
+    except AssocHullError as error:
+        found.fault("not computed", where, str(error))
+    except STUMBLES as error:
+        reason = f"{type(error).__name__}: {error}"
+        what = f"its numbers cannot be computed ({reason}): check unit, scale and frame of the file"
+        found.fault("not computed", where, what)
+
+
+def sampled_places(state: HullState) -> tuple[FloatArray, list[tuple[int, FloatArray]]]:
+    """Give places on all curves, (n, 3), m, and those of each curve by its number."""
+    curves = state.live("curves").tolist()
+    batch = SplineBatch.join([state.spline(curve) for curve in curves])
+    start, xyz = sample(batch, _SAMPLES)
+    parts = zip(curves, start[:-1].tolist(), start[1:].tolist(), strict=True)
+    return xyz, [(curve, xyz[a:b]) for curve, a, b in parts]
+
+
+def _at(place: FloatArray | tuple[float, float, float]) -> str:
+    x, y, z = (float(each) for each in place)
+    return f"({x:.3f}, {y:.3f}, {z:.3f}) m"
+
+
+# --------------------------------------------------------------------------------------
+# Lines against their sources.
+
+
+def _is_beyond(line: LineReport) -> bool:
+    # Between its points a curve may pass its line by so much more, by the rule of adoption.
+    return not line.tolerance_used <= OVER
+
+
+def _passes(line: LineReport) -> str:
+    return (
+        f"{line.line} by {1e3 * line.deviation:.1f} mm at {_at(line.place)}, "
+        f"{line.tolerance_used:.1f} times what is allowed"
+    )
+
+
+def _examine_lines(state: HullState, lines: tuple[LineReport, ...], found: Findings) -> None:
+    far = [each for each in lines if not each.tolerance_used <= _FAR]
+    for line in far:
+        what = (
+            f"passes its source {1e3 * line.deviation:.1f} mm off, {line.tolerance_used:.1f} times "
+            "what is allowed at some place: it is not the line of the file; check unit, scale and "
+            "axes, or mend the line there"
+        )
+        found.fault("off its source", f"{line.line} at {_at(line.place)}", what, line.deviation)
+    beyond = sorted(filter(_is_beyond, lines), key=lambda each: -each.tolerance_used)
+    if len(beyond) > _MOST * len(lines):
+        middle = lines and float(np.median([each.tolerance_used for each in lines]))
+        what = (
+            "are farther off their sources than is allowed "
+            f"({1e3 * state.tolerances.adoption:.3g} mm across the hull), half of them by "
+            f"{middle:.1f} times or more, the farthest {_passes(beyond[0])}: check unit and scale, "
+            "or give a coarser tolerance where the file is no better"
+        )
+        where = f"{len(beyond)} of {len(lines)} lines"
+        found.fault("off their sources", where, what, beyond[0].deviation)
+        return
+    rest = [line for line in beyond if line not in far]
+    if rest:
+        what = f"pass their sources by more than is allowed: {'; '.join(map(_passes, rest))}"
+        where = f"{len(rest)} of {len(lines)} lines"
+        found.suspect("off their sources", where, what, rest[0].deviation)
+
+
+def _examine_borders(state: HullState, lines: tuple[LineReport, ...], found: Findings) -> None:
+    """Borders of flats have an allowance of their own, since all lines end in them tangent."""
+    number = {key: i for i, key in enumerate(state.curves.key.data)}
+    for line in filter(_is_beyond, lines):
+        boundary = int(state.lines.boundary.data[state.line_of(number[line.curve])])
+        if boundary == BoundaryKind.FLAT and line.tolerance_used <= _FAR:
+            what = (
+                f"the border passes its marks {1e3 * line.deviation:.1f} mm off, "
+                f"{line.tolerance_used:.1f} times its own allowance: give more lines that cross "
+                "it, or draw the border as a line of the file"
+            )
+            where = f"{line.line} at {_at(line.place)}"
+            found.fault("border of a flat", where, what, line.deviation)
+
+
+# --------------------------------------------------------------------------------------
+# The net by itself.
+
+
+def _examine_gaps(state: HullState, found: Findings) -> None:
+    """Watched crossings that gape: their limits grow with the gaps found at adoption."""
+    rows = watched_on(state, state.live("curves"))
+    rows = rows[np.isfinite(state.rows.parameter.data[rows]).all(axis=1)]
+    if not len(rows):
+        return
+    gap, limit = gap_at(state, rows), _FAR * state.tolerances.adoption
+    book = AddressBook(state)
+    for i in np.flatnonzero(~(gap <= limit)).tolist():
+        what = (
+            f"its lines pass each other {1e3 * gap[i]:.1f} mm apart, where {1e3 * limit:.3g} mm is "
+            "the limit: one of the two is wrong; mend it, or leave it out"
+        )
+        where = f"{book.address(int(rows[i]))} at {_at(state.rows.xyz.data[rows[i]])}"
+        found.fault("gap", where, what, float(gap[i]))
+
+
+def _examine_centre(state: HullState, found: Findings) -> None:
+    """Lines of the port side that run through the centre plane."""
+    book, allowed = AddressBook(state), state.tolerances.adoption
+    for curve, places in sampled_places(state)[1]:
+        deepest = int(np.argmin(places[:, 1]))
+        over = -float(places[deepest, 1])
+        if over > allowed:
+            what = (
+                f"runs {1e3 * over:.1f} mm through the centre plane, where {1e3 * allowed:.3g} mm "
+                "is allowed: end it on the centre line, or give the place of the centre plane"
+            )
+            where = f"{book.curve_name(curve)} at {_at(places[deepest])}"
+            found.fault("centre plane", where, what, over)
+
+
+def _examine_checks(state: HullState, found: Findings) -> None:
+    found.faults.extend(_checked(state))
+
+
+def _checked(state: HullState) -> Iterator[Finding]:
+    """Give the findings of `check`, each with its place."""
+    for each in check(state):
+        place = "" if each.place is None else f" at {_at(each.place)}"
+        yield Finding(each.kind, f"{each.object}{place}", each.message, each.amount)

@@ -1,0 +1,299 @@
+"""The verdict on an import: what makes a hull not sound, what is suspected, and what is refused."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import attrs
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
+from assoc_hull.errors import BadInputError, NotSoundError
+from assoc_hull.io.importing import proportions
+from assoc_hull.io.importing.import_hull import import_hull
+from assoc_hull.io.importing.options import ImportOptions
+from assoc_hull.io.importing.soundness import examine_net
+from assoc_hull.io.importing.verdict import Finding, Findings, Verdict
+from assoc_hull.model.tables import HullState
+from assoc_hull.shipped.series60 import series60_adopted
+from assoc_hull.shipped.wigley import wigley_half_breadth
+
+L, B, T, D = 100.0, 10.0, 6.25, 9.0
+
+
+def wigley_table(change: Callable[[list[list[str]]], None] | None = None, said: str = "") -> str:
+    """A table of a Wigley hull with walls above the water, in m; cells may be changed."""
+    x, z = np.linspace(0.0, L, 21), np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, T, 7.5, D])
+    y = wigley_half_breadth(x[:, None], np.minimum(z, T)[None], L, B, T)
+    rows = [["x_m", *(f"wl_{each:g}" for each in z)]]
+    rows += [[f"{a:g}", *(f"{b:.4f}" for b in row)] for a, row in zip(x, y, strict=True)]
+    if change is not None:
+        change(rows)
+    return "\n".join([f"# station 0 = AP, unit m{said}", *map(",".join, rows)]) + "\n"
+
+
+def read(text: str, folder: Path, **options: object) -> tuple[HullState, Verdict]:
+    """Read a table whatever it is worth, and give the verdict."""
+    path = folder / "ship.csv"
+    path.write_text(text)
+    given = {"length": L, "draught": T, "accept": True, **options}
+    state, report = import_hull(path, ImportOptions(**given))  # type: ignore[arg-type]
+    return state, report.verdict
+
+
+def test_a_sound_table_is_sound(tmp_path: Path) -> None:
+    """Nothing is found, and the notes end with assumptions and the verdict before those made."""
+    path = tmp_path / "ship.csv"
+    path.write_text(wigley_table())
+    hull = ah.read(path, length=L, draught=T, strict=True)
+    assert hull.adoption is not None
+    assert "verdict: sound" in hull.adoption.notes
+    assert hull.labels == {}
+
+
+@pytest.mark.parametrize(
+    ("options", "said", "kind", "words"),
+    [
+        ({"draught": 12.0}, "", "draught", "drowns the open deck"),
+        ({"draught": 12.0, "deck": "closed"}, "", "draught", "above the depth 9 m of a decked"),
+        ({"breadth": 10.5}, "", "breadth", "given as 10.5 m and the lines are 10 m"),
+        ({"length": 40.0}, "", "coefficient", "CB is 1.094"),
+    ],
+    ids=["draught above an open deck", "draught above a deck", "breadth", "half the length"],
+)
+def test_what_no_ship_can_have_is_a_fault(
+    options: dict[str, object], said: str, kind: str, words: str, tmp_path: Path
+) -> None:
+    """Each is named with its number, and refused with what to do."""
+    found = read(wigley_table(said=said), tmp_path, **options)[1]
+    assert any(each.kind == kind and words in each.what for each in found.faults), found
+    options.pop("accept", None)
+    with pytest.raises(NotSoundError) as refused:
+        ah.read(tmp_path / "ship.csv", **{"length": L, "draught": T, **options})  # type: ignore[arg-type]
+    assert refused.value.findings == tuple(map(str, found.faults))
+
+
+@pytest.mark.parametrize(
+    ("options", "said", "kind", "words"),
+    [
+        ({"length": 130.0}, "", "length", "1.300 of the 100 m from end to end"),
+        ({"draught": 0.7}, "", "proportions", "B/T is 14.29"),
+        ({}, ", CB = 0.70", "stated", "the file says CB 0.7, and the hull has 0.4378"),
+        ({}, ", V = 2300 m3", "stated", "the file says V 2300 m3, and the hull has 2736"),
+        ({}, ", LCB = -2.5 %", "stated", "the file says LCB -2.5 % of Lpp"),
+    ],
+    ids=["Lpp", "B/T", "CB", "volume", "LCB"],
+)
+def test_what_few_ships_have_is_a_suspicion(
+    options: dict[str, object], said: str, kind: str, words: str, tmp_path: Path
+) -> None:
+    """The hull is taken, the number named; strict refuses it."""
+    verdict = read(wigley_table(said=said), tmp_path, **options)[1]
+    assert verdict.faults == ()
+    assert any(each.kind == kind and words in each.what for each in verdict.suspicions), verdict
+    with pytest.raises(NotSoundError, match=r"suspicions, and strict: .*leave out strict"):
+        ah.read(tmp_path / "ship.csv", **{"length": L, "draught": T, **options}, strict=True)  # type: ignore[arg-type]
+
+
+def test_what_a_file_says_and_has_is_no_suspicion(tmp_path: Path) -> None:
+    """True figures in comments, with decimal commas too, raise nothing."""
+    said = ", L/B = 10, B/T = 1,6, CB 0,444, CM = .667, CP=0.667, CW = 0.667, LCB 0.0 %, V 2770 m3"
+    assert read(wigley_table(said=said), tmp_path)[1].word == "sound"
+
+
+def test_a_slipped_decimal_point_is_a_fault_that_names_the_cell(tmp_path: Path) -> None:
+    """15.2 typed for 1.52 makes no ship 30 m broad."""
+
+    def slip(rows: list[list[str]]) -> None:
+        rows[4][3] = f"{10.0 * float(rows[4][3]):.3f}"
+
+    verdict = read(wigley_table(slip), tmp_path)[1]
+    told = [each for each in verdict.faults if each.kind == "outlier"]
+    assert told, verdict
+    for each in told:
+        assert "station 15" in each.where
+        assert each.where.removesuffix("'").endswith("2")
+
+
+def test_all_faults_are_told_in_one_run(tmp_path: Path) -> None:
+    """A wrong breadth and a wrong draught come together, each with its remedy."""
+    with pytest.raises(NotSoundError) as refused:
+        read(wigley_table(), tmp_path, breadth=10.5, draught=12.0, accept=False)
+    kinds = [each.partition(":")[0] for each in refused.value.findings]
+    assert {"breadth", "draught"} <= set(kinds)
+    assert "these 2" in str(refused.value)
+
+
+def test_an_accepted_hull_keeps_the_verdict(tmp_path: Path) -> None:
+    """In the notes of its adoption, and as a checkpoint that is saved with it."""
+    path = tmp_path / "ship.csv"
+    path.write_text(wigley_table())
+    hull = ah.read(path, length=L, draught=T, breadth=10.5, accept=True)
+    assert hull.adoption is not None
+    assert "verdict: not sound (1 fault)" in hull.adoption.notes
+    hull.save(tmp_path / "ship.hull")
+    hull.close()
+    (label,) = ah.open(tmp_path / "ship.hull").labels
+    assert label.startswith("as imported, not sound (1 fault): breadth: ")
+
+
+def test_accept_and_strict_exclude_one_another() -> None:
+    """One takes what the other refuses."""
+    with pytest.raises(BadInputError, match="give one of them"):
+        ImportOptions(accept=True, strict=True)
+
+
+# --------------------------------------------------------------------------------------
+# Lines and net.
+
+
+@pytest.fixture(scope="module")
+def series60() -> tuple[HullState, AdoptionReport]:
+    """Series 60, CB 0.60, with borders of its flats."""
+    return series60_adopted(0.60)
+
+
+def judged(net: tuple[HullState, AdoptionReport], used: dict[str, float]) -> Verdict:
+    """Give the verdict on a net some of whose lines are said to use so much of what is allowed."""
+    state, report = net
+    lines = tuple(
+        attrs.evolve(each, tolerance_used=used.get(each.line, used.get("", 0.5)))
+        for each in report.lines
+    )
+    found = Findings()
+    examine_net(state, attrs.evolve(report, lines=lines), found)
+    return found.verdict()
+
+
+def test_a_net_within_its_tolerances_is_sound(series60: tuple[HullState, AdoptionReport]) -> None:
+    """Half of what is allowed is no finding, nor is what adoption allows between points."""
+    assert judged(series60, {}) == Verdict()
+    assert judged(series60, {"": 1.05}) == Verdict()
+
+
+@pytest.mark.parametrize(
+    ("used", "faults", "suspicions"),
+    [
+        ({"ST 4": 10.5}, ["off its source"], []),
+        ({"ST 4": 9.5, "WL 0.5": 1.2}, [], ["off their sources"]),
+        ({"": 1.2}, ["off their sources", "border of a flat", "border of a flat"], []),
+        ({"flat of side": 1.2}, ["border of a flat"], ["off their sources"]),
+        ({"ST 4": float("nan")}, ["off its source"], []),
+    ],
+    ids=["far off", "off", "most lines", "border", "no number"],
+)
+def test_lines_off_their_sources(
+    used: dict[str, float], faults: list[str], suspicions: list[str],
+    series60: tuple[HullState, AdoptionReport],
+) -> None:  # fmt: skip
+    """Over 10 times the tolerance, or most lines, are faults; less is a suspicion with its place."""
+    verdict = judged(series60, used)
+    assert [each.kind for each in verdict.faults] == faults
+    assert [each.kind for each in verdict.suspicions] == suspicions
+    for each in verdict.suspicions:
+        assert " mm at (" in each.what
+        assert f"of {len(series60[1].lines)} lines" in each.where
+
+
+def sections(change: Callable[[np.ndarray], None] | None = None) -> str:
+    """Digitised sections and two waterlines of a Wigley hull, as CSV."""
+    x, z = np.linspace(5.0, 95.0, 13), np.linspace(0.0, D, 19)
+    y = wigley_half_breadth(x[:, None], np.minimum(z, T)[None], L, B, T)
+    if change is not None:
+        change(y)
+    rows = [
+        f"ST {i},{a:g},{b:.6f},{c:g}"
+        for i, a in enumerate(x) for b, c in zip(y[i], z, strict=True)
+    ]  # fmt: skip
+    return "\n".join(["line,x,y,z", *rows]) + "\n"
+
+
+def test_a_line_through_the_centre_plane_is_a_fault(tmp_path: Path) -> None:
+    """A section that begins 80 mm beyond it is named, with its place and how far it runs."""
+
+    def lower(y: np.ndarray) -> None:
+        y[6, 0] = -0.08
+
+    verdict = read(sections(lower), tmp_path)[1]
+    (fault,) = (each for each in verdict.faults if each.kind == "centre plane")
+    assert fault.where.startswith("ST 6 at (50.000, -0.08")
+    assert "80.0 mm through the centre plane" in fault.what
+    assert read(sections(), tmp_path)[1].faults == ()
+
+
+def test_lines_that_pass_one_another_are_a_fault(tmp_path: Path) -> None:
+    """A waterline 200 mm outside of the sections it should cross gapes, at every one of them."""
+    x = np.linspace(5.0, 95.0, 31)
+    y = wigley_half_breadth(x, np.full(31, 3.0), L, B, T) + 0.2
+    line = "".join(f"WL 3,{a:g},{b:.6f},3\n" for a, b in zip(x, y, strict=True))
+    verdict = read(sections() + line, tmp_path)[1]
+    told = [each for each in verdict.faults if each.kind in ("gap", "off its source")]
+    assert told, verdict
+    assert all(" m" in each.where for each in told)
+
+
+def test_what_cannot_be_computed_is_a_fault(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An error within a look is told, and the others go on."""
+
+    def fails(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("float division by zero")
+
+    monkeypatch.setattr(proportions, "hydrostatics", fails)
+    verdict = read(wigley_table(), tmp_path, breadth=10.5)[1]
+    assert [each.kind for each in verdict.faults] == ["not computed", "breadth"]
+    assert "ZeroDivisionError" in verdict.faults[0].what
+
+
+def test_a_vertical_stem_at_a_station_is_no_finding(tmp_path: Path) -> None:
+    """Series 60 .70 and fuller: section, waterline and stem end in one point of the stem."""
+    folder = os.environ.get("ASSOC_HULL_DATA", "")
+    path = Path(folder) / "series60" / "s60_cb070_offsets.csv"
+    if not path.exists():
+        pytest.skip("the data folder is missing")
+    heads, *rows = path.read_text().splitlines()[1:]
+    for power in (1.0, 1.3, 2.2):  # CB .70 to .81
+        fuller = [row.split(",") for row in rows]
+        for row in fuller:
+            row[1:9] = [f"{1.0 - (1.0 - float(y)) ** power:.4f}" for y in row[1:9]]
+        head = "# y/(B/2), z/T; station 0=FP, 20=AP; L/B=7.0, B/T=2.5"
+        text = "\n".join([head, *(",".join(row[:9]) for row in [heads.split(","), *fuller])])
+        state, verdict = read(text + "\n", tmp_path, length=121.92, draught=None)
+        assert verdict.faults == ()
+        assert ah.Hull(state).check() == ()
+        assert ah.Hull(state).verify() == ()
+
+
+# --------------------------------------------------------------------------------------
+# Files that are none.
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no pipes with names")
+@pytest.mark.parametrize("name", ["ship.csv", "ship.stl", "ship.igs", "ship.hull", "ship.hull.json"])
+def test_a_pipe_is_refused(name: str, tmp_path: Path) -> None:
+    """Nothing waits for what will never come."""
+    pipe = tmp_path / name
+    os.mkfifo(pipe)
+    for reader in (ah.read, ah.open, ah.creation.read_classical):
+        with pytest.raises(BadInputError, match=r"pipe|regular file"):
+            reader(pipe)
+
+
+# --------------------------------------------------------------------------------------
+# Words.
+
+
+@pytest.mark.parametrize(
+    ("faults", "suspicions", "words"),
+    [
+        (0, 0, "sound"), (0, 2, "sound with suspicions (2)"), (1, 0, "not sound (1 fault)"),
+        (2, 1, "not sound (2 faults, 1 suspicion)"),
+    ],
+)  # fmt: skip
+def test_a_verdict_in_words(faults: int, suspicions: int, words: str) -> None:
+    """It begins with one of three words, and counts what was found."""
+    found = Finding("gap", "ST 1", "70 mm")
+    assert str(Verdict((found,) * faults, (found,) * suspicions)) == words
