@@ -94,7 +94,9 @@ def import_hull(
     restored = own is not None and own.state is not None
     made = () if restored else make_latent_crossings(state)
     table = report.table is not None
-    verdict = judge(state, path, report.notes, report.adoption, report.slices, table=table)
+    verdict = judge(
+        state, path, report.notes, report.adoption, report.slices, report.frame, table=table
+    )
     require_sound(verdict, path.name, accept=wanted.accept, strict=wanted.strict)
     mine = (*report.adoption.notes, *(f"{key}: made, since both lines end there" for key in made))
     lcb = _place_of_lcb(state, report.frame)

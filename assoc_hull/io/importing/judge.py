@@ -9,6 +9,7 @@ from assoc_hull.io.importing.proportions import examine_particulars
 from assoc_hull.io.importing.soundness import examine_net
 from assoc_hull.io.importing.stated import stated_in
 from assoc_hull.io.importing.verdict import Finding, Findings, Verdict
+from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.reports import Note, OffsetReport
 from assoc_hull.io.slicing.net import SliceReport
 from assoc_hull.model.tables import HullState
@@ -25,7 +26,7 @@ sound ships a knuckle or the edge of a transom stands off by .13 at most."""
 
 def judge(
     state: HullState, path: Path, notes: OffsetReport, adoption: AdoptionReport,
-    slices: SliceReport | None, *, table: bool,
+    slices: SliceReport | None, frame: ShipFrame | None, *, table: bool,
 ) -> Verdict:  # fmt: skip
     """Look at all of a hull that was read from a file; `table`: from a table of offsets."""
     found = Findings([*map(finding_of, notes.faults)])
@@ -37,7 +38,8 @@ def judge(
     stated = stated_in(path)
     if table:
         stated = {name: said for name, said in stated.items() if name not in _COMPARED}
-    examine_particulars(state, found, stated)
+    known = frame is not None and frame.origins.get("breadth") in ("given", "stated")
+    examine_particulars(state, found, stated, broad=known)
     examine_net(state, adoption, found)
     return found.verdict()
 

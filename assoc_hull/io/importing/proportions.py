@@ -62,16 +62,20 @@ def examine_particulars(
     state: HullState,
     found: Findings,
     stated: Mapping[str, tuple[float, float]] | None = None,
+    *,
+    broad: bool = True,
 ) -> None:
     """Look at the particulars of a hull, and at its coefficients.
 
-    `stated` is what the file says, as `assoc_hull.io.importing.stated.read_stated` gives it.
+    `stated` is what the file says, as `assoc_hull.io.importing.stated.read_stated` gives it;
+    `broad`: the breadth was given or stated, not found.
     """
     measured: list[_Measured] = []
     look(lambda: measured.append(_measure(state, found)), "the hull", found)
     for hull in measured:
         for each in (
             lambda hull=hull: _examine_sizes(state, hull, found),
+            lambda hull=hull: _examine_breadth(state, hull, found) if broad else None,
             lambda: _examine_draught(state, found),
             lambda hull=hull: _examine_coefficients(hull, found),
             lambda hull=hull: _examine_stated(state, hull, stated or {}, found),
@@ -137,7 +141,6 @@ def _examine_sizes(state: HullState, hull: _Measured, found: Findings) -> None:
             f"{hull.high[2]:.4g} m: give depth=, or check the base line"
         )
         found.suspect("depth", where, what, ship.depth - float(hull.high[2]))
-    _examine_breadth(state, hull, found)
 
 
 def _examine_breadth(state: HullState, hull: _Measured, found: Findings) -> None:

@@ -34,6 +34,9 @@ their farthest point at 2.6 to 5.9 times, bad ones at 10.7 to 900 times."""
 _MOST = 0.5
 """Of good imports up to a third of the lines are beyond their tolerance, of bad ones over half."""
 
+_REACH = 0.25
+"""Lines that miss one another by less, in breadths of the ship, were to cross."""
+
 _SAMPLES = 8
 """Places on each segment at which a curve is looked at."""
 
@@ -44,6 +47,7 @@ def examine_net(state: HullState, adoption: AdoptionReport, found: Findings) -> 
         lambda: _examine_lines(state, adoption.lines, found),
         lambda: _examine_borders(state, adoption.lines, found),
         lambda: _examine_gaps(state, found),
+        lambda: _examine_misses(state, found),
         lambda: _examine_centre(state, found),
         lambda: _examine_checks(state, found),
     ):
@@ -155,6 +159,39 @@ def _examine_gaps(state: HullState, found: Findings) -> None:
         )
         where = f"{book.address(int(rows[i]))} at {_at(state.rows.xyz.data[rows[i]])}"
         found.fault("gap", where, what, float(gap[i]))
+
+
+def _examine_misses(state: HullState, found: Findings) -> None:
+    """Lines that pass each other farther apart than a crossing could be: they have none."""
+    book, seen = AddressBook(state), set[tuple[int, int]]()
+    latent = _latent_places(state)
+    for (curve, line), places in sorted(latent.items()):
+        for other in state.lines.curves.data[line]:
+            back = latent.get((other, state.line_of(curve)))
+            pair = (min(curve, other), max(curve, other))
+            if back is None or pair in seen:
+                continue
+            seen.add(pair)
+            away = np.sqrt(((places[:, None] - back[None]) ** 2).sum(axis=2))
+            i, j = (int(each) for each in np.unravel_index(away.argmin(), away.shape))
+            if state.tolerances.coincident < away[i, j] < _REACH * state.particulars.breadth:
+                what = (
+                    f"they pass each other {1e3 * away[i, j]:.1f} mm apart, too far to cross: one "
+                    "of the two is wrong; mend it, or leave it out"
+                )
+                where = f"{book.curve_name(pair[0])} x {book.curve_name(pair[1])}"
+                found.fault("gap", f"{where} at {_at(places[i])}", what, float(away[i, j]))
+
+
+def _latent_places(state: HullState) -> dict[tuple[int, int], FloatArray]:
+    """Give, by curve and line, the places (k, 3), m, where curves meet planes and cross nothing."""
+    found: dict[tuple[int, int], FloatArray] = {}
+    for curve in state.live("curves").tolist():
+        meets = state.curves.meets.data[curve]
+        free = (meets.row < 0) & np.isfinite(meets.xyz).all(axis=1)
+        for line in np.unique(meets.line[free]).tolist():
+            found[curve, line] = meets.xyz[free & (meets.line == line)]
+    return found
 
 
 def _examine_centre(state: HullState, found: Findings) -> None:

@@ -40,8 +40,8 @@ def test_a_hull_that_is_not_sound_is_refused(
 ) -> None:
     """All findings on standard output, one line of error, exit code 3, a report and no hull."""
     report = table.parent / "report.json"
-    more = ["--draught", "12", "--breadth", "10.5", "--report", str(report)]
-    assert main(asked(table, *more)) == 3
+    more = ["--draught", "6.25", "--depth", "5", "--deck", "closed", "--breadth", "10.5"]
+    assert main(asked(table, *more, "--report", str(report))) == 3
     said = capsys.readouterr()
     assert said.err.count("\n") == 1
     assert said.err.startswith("error: not sound: 2 faults, in ship.csv; mend these 2, or take")
@@ -61,10 +61,10 @@ def test_json_holds_the_verdict(table: Path, capsys: pytest.CaptureFixture[str])
     assert main(asked(table, "--draught", "6.25", "--json")) == 0
     facts = json.loads(capsys.readouterr().out)
     assert facts["report"]["verdict"]["word"] == "sound"
-    assert main(asked(table, "--draught", "12", "--json", out="other.hull")) == 3
+    assert main(asked(table, "--breadth", "10.5", "--json", out="other.hull")) == 3
     facts = json.loads(capsys.readouterr().out)
     assert facts["hull"] is None
-    assert facts["report"]["verdict"]["faults"][0]["kind"] == "draught"
+    assert facts["report"]["verdict"]["faults"][0]["kind"] == "breadth"
 
 
 @pytest.mark.parametrize("out", ["ship.hull", "ship.hull.json"])
@@ -84,7 +84,7 @@ def test_accept_takes_it_and_keeps_the_verdict(
 
 def test_strict_refuses_suspicions(table: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """With exit code 3, and by name; without it the hull is taken and they are told."""
-    asked_for = asked(table, "--draught", "0.7")
+    asked_for = asked(table, "--draught", "0.7", "--breadth", "10")
     assert main([*asked_for, "--strict"]) == 3
     said = capsys.readouterr()
     assert said.err.startswith("error: sound with suspicions, and strict: ")
