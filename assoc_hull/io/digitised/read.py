@@ -18,6 +18,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polylines.operations import cumulative_lengths, drop_repeats
 from assoc_hull.io.digitised.bulwarks import below_deck
 from assoc_hull.io.digitised.one_hull import take_one_hull
+from assoc_hull.io.digitised.rhino import rhino_lines
 from assoc_hull.io.digitised.text import parse_lines
 from assoc_hull.io.lines.mend_lines import (
     join_pieces,
@@ -42,6 +43,7 @@ from assoc_hull.io.mesh.frame import axes_rows
 from assoc_hull.io.placing.options import FileAxes, FrameOptions
 from assoc_hull.io.placing.placed_lines import place_slices
 from assoc_hull.io.reports import Notebook
+from assoc_hull.io.rhino.read import is_rhino
 from assoc_hull.io.tables.table_text import read_text
 from assoc_hull.io.units import refuse_other_unit
 from assoc_hull.tolerance import length_factor, round_at_size
@@ -302,8 +304,7 @@ def read_lines(
     if not isinstance(path_or_text, str):
         file_path(path_or_text, "in read_lines")
     book = Notebook()
-    text, source = read_text(path_or_text, book)
-    found = parse_lines(text, source, book)
+    found, source = _parsed(path_or_text, book)
     turn = np.eye(3) if axes is None or axes == "auto" else axes_rows(axes)
     raw = found.pieces if axes is None else [_turned(each, turn) for each in found.pieces]
     factor = _factor(raw, scale, _unit(found, unit, book, source), book, source)
@@ -357,6 +358,14 @@ def _turned(piece: RawPiece, turn: FloatArray) -> RawPiece:
         for xyz in (piece.points, piece.knuckles)
     )
     return attrs.evolve(piece, points=points, knuckles=knuckles)
+
+
+def _parsed(path_or_text: str | Path, book: Notebook) -> tuple[RawLines, str]:
+    """Give the lines of a file or text, and its name."""
+    if isinstance(path_or_text, Path) and is_rhino(path_or_text):
+        return rhino_lines(path_or_text, book), path_or_text.name
+    text, source = read_text(path_or_text, book)
+    return parse_lines(text, source, book), source
 
 
 def _length_factor(raw: list[RawPiece], length: float | None) -> float:

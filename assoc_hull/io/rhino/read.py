@@ -224,8 +224,8 @@ class _Reader:
         xyz, weights = _places(points.reshape(-1, 4), where)
         shape = (rows, columns)
         return SplineSurface(
-            xyz.reshape(*shape, 3), knots[0], knots[1], nurbs.Degree(0), nurbs.Degree(1),
-            weights=None if weights is None else weights.reshape(shape), name=name,
+            name, (nurbs.Degree(0), nurbs.Degree(1)), knots[0], knots[1], xyz.reshape(*shape, 3),
+            None if weights is None else weights.reshape(shape),
         )  # fmt: skip
 
 

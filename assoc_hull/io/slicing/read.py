@@ -16,6 +16,7 @@ from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.mesh.read import is_mesh_name
 from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.reports import Tell, no_progress
+from assoc_hull.io.rhino.read import is_rhino
 from assoc_hull.io.slicing.cut_planes import Places
 from assoc_hull.io.slicing.mesh_lines import read_mesh, refuse_bottomless
 from assoc_hull.io.slicing.net import SliceReport, net_from_slices
@@ -35,7 +36,7 @@ def holds_lines(path: Path) -> bool:
         return True
     if not path.is_file():
         return False
-    if cad_kind(path):
+    if is_rhino(path) or cad_kind(path):
         return True
     head = path.read_bytes()[:_HEAD]
     return b"\0" not in head and is_digitised(head.decode("utf-8", "replace"))

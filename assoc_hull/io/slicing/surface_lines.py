@@ -36,6 +36,7 @@ from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.triangulation import Facets
 from assoc_hull.geometry.surfaces.triangles import check_mesh
 from assoc_hull.io.cad.hull_faces import FINE, HullFaces, facets_at_scale, hull_size
+from assoc_hull.io.digitised.rhino import rhino_shows, tell_left_out
 from assoc_hull.io.iges.curves import holds_surfaces
 from assoc_hull.io.iges.file import UNITS, IgesFile, looks_like_iges
 from assoc_hull.io.iges.surfaces import surfaces_of_iges
@@ -54,6 +55,7 @@ from assoc_hull.io.mesh.one_hull import place_one_hull
 from assoc_hull.io.mesh.repair import mend_mesh
 from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.reports import Notebook, Tell, no_progress
+from assoc_hull.io.rhino.read import is_rhino, read_rhino
 from assoc_hull.io.slicing.cut_planes import Places
 from assoc_hull.io.slicing.mesh_lines import cut_placed, in_ship_axes
 from assoc_hull.io.units import METRES, checked_unit, refuse_other_unit
@@ -287,10 +289,12 @@ _WHERE = "as an argument"
 
 
 def cad_kind(path: Path) -> str | None:
-    """Tell by its content what a file of CAD is: "iges", "step", or None for anything else.
+    """Tell by its content what a file of CAD is: "iges", "step", "3dm", or None for anything else.
 
-    IGES without surfaces is something else: its curves are digitised lines.
+    IGES or 3DM without surfaces is something else: its curves are digitised lines.
     """
+    if is_rhino(path):
+        return "3dm" if rhino_shows(read_rhino(path), path.name) == "surfaces" else None
     try:
         with regular_file(path).open("rb") as file:
             head = file.read(_HEAD).decode("latin-1")
@@ -319,6 +323,8 @@ def faces_of_file(path: Path, unit: str = "auto") -> HullFaces:
     """
     given = None if unit == "auto" else checked_unit(unit, _WHERE)
     kind = cad_kind(path)
+    if kind == "3dm":
+        return _faces_of_rhino(path, given)
     text = _text(path)
     if kind == "step":
         from assoc_hull.io.cad.kernel import require_opencascade
@@ -335,6 +341,26 @@ def faces_of_file(path: Path, unit: str = "auto") -> HullFaces:
     except NeedsCadError as error:
         return _through_cad(path, text, given, error)
     return HullFaces.of(surfaces, used, notes)
+
+
+def _faces_of_rhino(path: Path, unit: str | None) -> HullFaces:
+    """Give the surfaces that a file of Rhino shows."""
+    model = read_rhino(path)
+    if model.trimmed:
+        what = f"{len(model.trimmed)} faces are trimmed, as {model.trimmed[0]!r}"
+        remedy = "rhino3dm does not tell trims: export the hull as STEP, or hide what is none of it"
+        raise BadInputError(what, f"in {path.name}", remedy)
+    refuse_other_unit(path.name, model.unit, unit)
+    if unit is None and model.unit is None:
+        raise BadInputError("it tells no unit of length that can be used", f"in {path.name}",
+                            f"give unit: {', '.join(METRES)}")  # fmt: skip
+    used = unit or str(model.unit)
+    book = Notebook()
+    tell_left_out(model, book, curves=len(model.curves))
+    notes = tuple(map(str, book.assumptions))
+    metres = METRES[used]
+    scaled = [attrs.evolve(each, net=each.net * metres) for _, each in model.surfaces]
+    return HullFaces.of(scaled, used, notes)
 
 
 def _through_cad(path: Path, text: str, unit: str | None, why: NeedsCadError) -> HullFaces:
