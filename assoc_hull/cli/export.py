@@ -20,7 +20,6 @@ from assoc_hull.io.reports import ExportReport
 from assoc_hull.io.write_file import form_by_ending
 
 if TYPE_CHECKING:
-    from assoc_hull.hull import Hull
     from assoc_hull.io.cad.write import CadReport
     from assoc_hull.io.mesh.closed_mesh import MeshFile
 
@@ -31,7 +30,6 @@ __all__ = [
     "check_arcs",
     "check_form",
     "export_arcs",
-    "export_surface",
     "export_words",
     "file_words",
     "mesh_words",
@@ -95,7 +93,7 @@ def check_form(arguments: argparse.Namespace, form: str, *, mesh_or_surface: boo
         "--half is for surfaces and meshes": arguments.half and not mesh_or_surface,
         "--points is for meshes": arguments.points is not None and form not in _MESHES,
         "--unit is for drawings, surfaces and meshes": arguments.unit is not None
-        and not (drawn or mesh_or_surface or form == "iges-lines"),
+        and not (drawn or mesh_or_surface or form in ("iges-lines", "3dm")),
     }  # fmt: skip
     _refuse(told, str(arguments.out), "leave it out")
     chosen = "dxf-plan" if arguments.views == "2d" else form
@@ -175,37 +173,6 @@ def arc_words(arcs: ArcLines) -> str:
 # What `export` does and says of surfaces and meshes.
 
 
-def export_surface(arguments: argparse.Namespace, form: str) -> int:
-    """Write patches for CAD programs, or the closed mesh, and say what was written."""
-    from assoc_hull.io.mesh.closed_mesh import MESH_FORMS
-
-    hull = open_hull(arguments.hull)
-    write = _mesh if form in MESH_FORMS else _patches
-    report = write(arguments, hull, form)
-    emit(arguments, {"export": report}, file_words(report))
-    return 0
-
-
-def _mesh(arguments: argparse.Namespace, hull: Hull, form: str) -> MeshFile:
-    """Write the mesh: it needs no surface, which takes longer."""
-    from assoc_hull.io.mesh.closed_mesh import write_mesh
-    from assoc_hull.surface.cells.closed_mesh import closed_mesh
-
-    with progress(f"writing {arguments.out}"):
-        points = 4 if arguments.points is None else arguments.points
-        mesh = closed_mesh(hull, half=arguments.half, points=points)
-        name = hull.particulars.name or "hull"
-        return write_mesh(mesh, arguments.out, form, unit=arguments.unit, name=name)
-
-
-def _patches(arguments: argparse.Namespace, hull: Hull, form: str) -> CadReport | MeshFile:
-
-    with progress("fitting the surface"):
-        found = hull.surface()
-    with progress(f"writing {arguments.out}"):
-        return found.write(arguments.out, form, unit=arguments.unit, half=arguments.half)
-
-
 def file_words(report: CadReport | MeshFile) -> str:
     """Say what was written of a surface."""
     from assoc_hull.io.mesh.closed_mesh import MeshFile
@@ -254,7 +221,7 @@ def cad_words(report: CadReport) -> str:
 _LINES = {
     "hull": ".hull.json", "csv": ".csv", "xlsx": ".xlsx", "britfair": ".bri", "delftship": ".txt",
     "delftship-offsets": "", "gf": ".gf", "dxf": ".dxf", "dxf-polylines": "", "dxf-plan": "",
-    "iges-lines": "",
+    "3dm": ".3dm", "iges-lines": "",
 }  # fmt: skip
 """Forms of lines, with their endings; the writers tell the same, and are loaded when needed."""
 
@@ -279,6 +246,7 @@ def add_export(commands: Commands) -> None:
         assoc-hull export ship.hull -o ship.bri
         assoc-hull export ship.hull -o ship.gf --json
         assoc-hull export ship.hull -o ship.txt --format delftship-offsets
+        assoc-hull export ship.hull -o ship.3dm
         assoc-hull export ship.hull -o ship.step
         assoc-hull export ship.hull -o ship.igs --unit m --half
         assoc-hull export ship.hull -o ship.stl --unit mm
@@ -290,7 +258,7 @@ def add_export(commands: Commands) -> None:
     parser.add_argument(
         "-o", "--out", type=Path, required=True, metavar="FILE",
         help="lines: .csv, .xlsx, .bri, .gf, .txt (delftship), .dxf or .hull.json; surfaces: "
-        ".step or .igs; a closed mesh: .stl, .obj, .ply or .glb",
+        ".step or .igs; a closed mesh: .stl, .obj, .ply or .glb; all of them: .3dm",
     )  # fmt: skip
     parser.add_argument(
         "--format", choices=_FORMS, help="where the ending of the name does not tell it"
@@ -350,14 +318,14 @@ def _export(arguments: argparse.Namespace) -> int:
     form = form_by_ending(arguments.out, arguments.format, _FORMS, _ENDINGS, "in export")
     form = check_form(arguments, form, mesh_or_surface=form in _SURFACES)
     check_other_target(arguments.out, arguments.hull)
-    if form in _SURFACES:
-        return export_surface(arguments, form)
-    from assoc_hull.io.export.write import export_hull
-
     hull = open_hull(arguments.hull)
     with progress(f"writing {arguments.out}"):
-        report = export_hull(hull.state, arguments.out, form, arguments.unit, scale=arguments.scale)
-    emit(arguments, {"export": report}, export_words(report))
+        report = hull.export(
+            arguments.out, form, arguments.unit, scale=arguments.scale, half=arguments.half,
+            points=arguments.points,
+        )  # fmt: skip
+    words = export_words if isinstance(report, ExportReport) else file_words
+    emit(arguments, {"export": report}, words(report))
     return 0
 
 

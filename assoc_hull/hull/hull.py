@@ -86,7 +86,6 @@ if TYPE_CHECKING:
         Variation,
     )
     from assoc_hull.io.hull_file.saving import Saved
-    from assoc_hull.io.reports import ExportReport
     from assoc_hull.model.definition.verify import Difference
     from assoc_hull.model.form_definition import FormDefinition
     from assoc_hull.model.objects import FeatureHandle
@@ -2056,13 +2055,47 @@ class Hull:
         return save_hull(self.document, path, replace=flag(replace, "replace", "in save"))
 
     def export(
-        self, path: str | os.PathLike[str], form: str | None = None, unit: str | None = None
-    ) -> ExportReport:
-        """Write offsets or lines for other programs."""
-        from assoc_hull.io.export.write import export_hull
+        self,
+        path: str | os.PathLike[str],
+        form: str | None = None,
+        unit: str | None = None,
+        *,
+        scale: float | None = None,
+        half: bool = False,
+        points: int | None = None,
+    ) -> Any:
+        """Write offsets, lines, the surface or the closed mesh for other programs.
+
+        Parameters
+        ----------
+        path : path
+            The file; what was there is replaced by the whole of it, or stays.
+        form : str or None
+            Where the ending of the name does not tell it; `docs/exchange.md` lists them.
+        unit : {"m", "mm"} or None
+            Of drawings, Rhino files and meshes, m if None, and of surfaces, mm if None.
+        scale : float or None
+            Of a lines plan: denominator of the scale at which it is to be printed.
+        half : bool
+            Of surfaces and meshes: the port half only.
+        points : int or None
+            Of a mesh: into how many parts each piece of a line between two crossings is cut.
+
+        Returns
+        -------
+        ExportReport, CadReport or MeshFile
+            What was written; of lines also what the form cannot hold.
+
+        Raises
+        ------
+        BadInputError, MissingExtraError, OpenNetError, OpenMeshError
+            A form, unit or option that is not known or does not go with it, a file that cannot be
+            written, an extra that is not installed, a mesh that does not close.
+        """
+        from assoc_hull.hull.exports import export_file
 
         self.document.require_ended("export")
-        return export_hull(self.state, path, form, unit)
+        return export_file(self, path, form, unit, scale=scale, half=half, points=points)
 
     def refresh(self) -> None:
         """Take over what another process has committed to the hull file since."""

@@ -1,0 +1,58 @@
+"""Files of a hull in any form: its lines, its surface, its closed mesh. `Hull.export` comes here.
+
+The command `assoc-hull export` calls the same, so that both write the same file.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from assoc_hull.arguments import flag
+from assoc_hull.errors import BadInputError
+from assoc_hull.hull.results import surface_of_hull
+from assoc_hull.io.cad.write import CadReport
+from assoc_hull.io.export.write import ENDINGS, FORMS, export_hull
+from assoc_hull.io.mesh.closed_mesh import MESH_FORMS, MeshFile, write_mesh
+from assoc_hull.io.reports import ExportReport
+from assoc_hull.io.surfaces.hull_surface import SURFACE_ENDINGS, SURFACE_FORMS
+from assoc_hull.io.write_file import form_by_ending
+from assoc_hull.surface.cells.closed_mesh import closed_mesh
+
+if TYPE_CHECKING:
+    from assoc_hull.hull.hull import Hull
+
+__all__ = ["export_file"]
+
+_POINTS = 4
+
+
+def export_file(
+    hull: Hull,
+    path: str | os.PathLike[str],
+    form: str | None = None,
+    unit: str | None = None,
+    *,
+    scale: float | None = None,
+    half: bool = False,
+    points: int | None = None,
+) -> ExportReport | CadReport | MeshFile:
+    """Write a hull in a form of lines, surfaces or meshes; arguments as of `Hull.export`."""
+    forms, endings = (*FORMS, *SURFACE_FORMS), {**ENDINGS, **SURFACE_ENDINGS}
+    chosen = form_by_ending(path, form, forms, endings, "in export")
+    alone = flag(half, "half", "in export")
+    _refuse("points", "meshes", given=points is not None and chosen not in MESH_FORMS)
+    if chosen in FORMS:
+        _refuse("half", "surfaces and meshes", given=alone)
+        return export_hull(hull.state, path, chosen, unit, scale=scale)
+    _refuse("scale", "a lines plan", given=scale is not None)
+    if chosen in MESH_FORMS:
+        # The mesh comes from the lines: it needs no surface, which takes longer.
+        mesh = closed_mesh(hull, half=alone, points=_POINTS if points is None else points)
+        return write_mesh(mesh, path, chosen, unit=unit, name=hull.particulars.name or "hull")
+    return surface_of_hull(hull).write(path, chosen, unit=unit, half=alone)
+
+
+def _refuse(name: str, what: str, *, given: bool) -> None:
+    if given:
+        raise BadInputError(f"{name} is for {what}", "in export", "leave it out")
