@@ -25,6 +25,9 @@ _OPEN = 1e-4
 _SAME = 1e-4
 """Crossings of the contour this part of the size apart are one."""
 
+_END = 0.2
+"""Pieces of sections over a bulb are looked for in this part of the length from either end."""
+
 _SIDE = 0.9
 """Points amidships this part of the greatest half-breadth off and more are on the side."""
 
@@ -217,17 +220,32 @@ def _segments(line: SliceLine) -> FloatArray:
 
 
 def _contour_of_ends(slices: HullSlices) -> FloatArray:
-    """Make a contour of the lowest points of sections and of the ends of waterlines."""
+    """Make a contour of the lowest points of sections and of the ends of waterlines.
+
+    Where a section comes in pieces the keel goes by the lowest, stem and stern over a bulb by the
+    highest.
+    """
     feet = [
-        min((piece.points[:, [0, 2]] for piece in line.pieces), key=lambda p: float(p[:, 1].min()))
+        sorted((_foot(piece.points) for piece in line.pieces), key=lambda at: float(at[1]))
         for line in slices.group("sections")
     ]
-    keel = [points[int(points[:, 1].argmin())] for points in feet]
+    low, high = slices.low[0], slices.high[0]
+    ends = [
+        [each[-1] for each in feet if lower <= (each[0][0] - low) / (high - low) <= upper]
+        for lower, upper in ((0.0, _END), (1.0 - _END, 1.0))
+    ]
     half = float(slices.high[1])
-    ends: list[list[FloatArray]] = [[], []]
+    tips: list[list[FloatArray]] = [[], []]
     for line in slices.group("waterlines"):
         every = np.concatenate([piece.points for piece in line.pieces])
-        for kept, row in zip(ends, (every[:, 0].argmin(), every[:, 0].argmax()), strict=True):
+        for kept, row in zip(tips, (every[:, 0].argmin(), every[:, 0].argmax()), strict=True):
             if every[row, 1] <= 0.02 * half:
                 kept.append(every[int(row)][[0, 2]])
-    return _chained([np.array(each) for each in (keel, *ends) if len(each) > 1])
+    keel = [each[0] for each in feet if _END <= (each[0][0] - low) / (high - low) <= 1.0 - _END]
+    lines = (keel, *(tips if all(len(each) > 1 for each in tips) else ends))
+    return _chained([np.array(each) for each in lines if len(each) > 1])
+
+
+def _foot(points: FloatArray) -> FloatArray:
+    """Give x and z of the lowest point."""
+    return np.asarray(points[int(points[:, 2].argmin())][[0, 2]])
