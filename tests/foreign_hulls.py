@@ -258,6 +258,8 @@ class Foreign:
     wrong: tuple[Wrong, ...] = ()
     sections: bool = False
     """Whether the file holds sections only (a transom among them): places go by these."""
+    cuts: Options = attrs.field(factory=dict)
+    """Fewer planes of a mesh or of surfaces, for imports that are to fail anyway."""
     sound: bool = True
     """Whether the file holds a hull at all; what does not is to be refused."""
 
@@ -375,7 +377,7 @@ def row_of(case: Foreign, folder: Path, *, wrong: bool = True) -> Row:
     defaults = try_options(case, path, {})
     right = try_options(case, path, case.right) if case.right else defaults
     others = tuple(
-        (each, try_options(case, path, {**case.right, **each.options}, each.names))
+        (each, try_options(case, path, {**case.right, **case.cuts, **each.options}, each.names))
         for each in (case.wrong if wrong else ())
     )
     remedy = follow(case, path, defaults.text) if defaults.word == "refused" else None
@@ -880,6 +882,9 @@ _ORIGIN = r"origin|\bap\b|\bfp\b|perpendicular"
 _BASE = r"base"
 
 
+_FEW: Options = {"stations": 15, "waterlines": 8, "buttocks": 4}
+
+
 def _w(names: str, **options: Any) -> Wrong:
     return Wrong(options, names)
 
@@ -904,18 +909,21 @@ CORPUS: tuple[Foreign, ...] = (
         {"scale": 59.407, "length": 355.0, "draught": 14.5},
         (_w(_UNIT, scale=100.0), _w(_UNIT, scale=1.0), _w(_UNIT, unit="ft"),
          _w(_LENGTH, length=255.0), _w(_DRAUGHT, draught=145.0)),
+        cuts=_FEW,
     ),
     Foreign(
         "dtc_full", "DTC: the same at full scale", _scaled_dtc, dtc_truth,
         {"length": 355.0, "draught": 14.5},
         (_w(_UNIT, scale=59.407), _w(_UNIT, unit="ft"), _w(_LENGTH, length=455.0),
          _w(_DRAUGHT, draught=1.45)),
+        cuts=_FEW,
     ),
     Foreign(
         "wigley", "Wigley: WaveBEM's half surface, IGES, L = 2.5 m, z = 0 at the waterline",
         _copy("wigley", "wavebem_wigley.iges"), wigley_truth, {"length": 2.5, "draught": 0.15625},
         (_w(_UNIT, unit="mm"), _w(_UNIT, scale=40.0), _w(_LENGTH, length=3.5),
          _w(_DRAUGHT, draught=0.12), _w(_BREADTH, breadth=0.5)),
+        cuts=_FEW,
     ),
     Foreign(
         "sysser1", "Sysser 1: yacht, CSV, m, blanks below a rising keel, x = 0 at the stern",
@@ -957,23 +965,27 @@ CORPUS: tuple[Foreign, ...] = (
         "container_step", "225 m container ship: STEP of her surface", write_step,
         _ship("container_ship_225m"), {"length": 225.0, "draught": 10.8},
         (_w(_UNIT, unit="m"), _w(_LENGTH, length=325.0)),
+        cuts=_FEW,
     ),
     Foreign(
         "frigate", "Frigate: STL, whole; dome 1.8 m below base; x aft from FP, z = 0 at the "
         "waterline", write_frigate, frigate_truth, {"length": 117.0, "draught": 4.4},
         (_w(_UNIT, unit="ft"), _w(_LENGTH, length=70.0), _w(_DRAUGHT, draught=6.2),
          _w(_BASE, base=-6.2)),
+        cuts=_FEW,
     ),
     Foreign(
         "chine_boat", "Planing boat of 12 m, hard chine: IGES surfaces in mm, port half",
         write_boat, boat_truth, {"length": round(boat_length(), 4), "draught": 0.62},
         (_w(_UNIT, unit="m"), _w(_LENGTH, length=7.0), _w(_DRAUGHT, draught=6.2)),
+        cuts=_FEW,
     ),
     Foreign(
         "catamaran", "Catamaran: two Wigley demihulls of 40 m, 12 m apart, in one STL",
         write_catamaran, _ship("wigley", 40.0, 3.0, 2.0),
         {"centre": 6.0, "length": 40.0, "draught": 2.0},
         (_w(r"centre|symmetric", centre=5.0), _w(_LENGTH, length=80.0)),
+        cuts=_FEW,
     ),
     Foreign(
         "yacht", "Sysser 1: the same table, z = 0 at the waterline", write_yacht, sysser_truth,
@@ -985,6 +997,7 @@ CORPUS: tuple[Foreign, ...] = (
         "half_stl", "Series 60, CB .70: STL of the port half", write_half,
         _ship("series60", 0.70), {"length": 121.92, "draught": 6.967},
         (_w(_UNIT, unit="ft"), _w(_LENGTH, length=90.0), _w(_DRAUGHT, draught=69.67)),
+        cuts=_FEW,
     ),
     Foreign(
         "workboat", "Workboat of 24 m: digitised lines, 170 mm of the keel missing",
@@ -1007,6 +1020,7 @@ CORPUS: tuple[Foreign, ...] = (
         "model_25", "180 m carrier: her surface at 1/25, IGES, m", write_model,
         _ship("bulk_carrier_180m"), {"scale": 25.0, "length": 180.0, "draught": 10.5},
         (_w(_UNIT, scale=2.5), _w(_UNIT, scale=1.0), _w(_UNIT, unit="mm")),
+        cuts=_FEW,
     ),
     Foreign(
         "tug", "Tug of 30 m: DELFTship sections", _export("tug.txt", tug, "delftship"),
