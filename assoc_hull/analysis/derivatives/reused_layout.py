@@ -173,7 +173,7 @@ def _frames(
         aft, fore, keel, deck = (
             tuple(_between(part[0], *next(ends)) for part in side) for side in _sides(each)
         )
-        found.append(StripBoundary(aft, fore, keel, deck, each.slab, each.plane))
+        found.append(attrs.evolve(each, aft=aft, fore=fore, keel=keel, deck=deck))
     return tuple(found)
 
 

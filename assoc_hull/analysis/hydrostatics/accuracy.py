@@ -329,7 +329,8 @@ def open_sections(net: CurveNet, sections: NetSections, planes: FloatingPlanes) 
     x, y, z = point.T
     level = planes.height[:, None] + planes.tan_trim[:, None] * x
     level = level + np.abs(planes.tan_heel)[:, None] * np.abs(y)
-    wet = (z < level).any(axis=0)
+    # A transom closes those that begin on its edge.
+    wet = (z < level).any(axis=0) & ~net.ends_on_transom[sections.curve]
     return [
         f"{net.name[int(sections.curve[i])]} is open: it ends {y[i]:.3f} m off the centre plane, "
         f"at z {z[i]:.3f} m"

@@ -28,6 +28,7 @@ from assoc_hull.geometry.curves import (
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.sections import sections_below
 from assoc_hull.geometry.numeric.dual import real
+from assoc_hull.geometry.splines.distance import closest_points_each
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.paths import Bit
 from assoc_hull.geometry.splines.segments import power_coefficients
@@ -59,14 +60,23 @@ ON_PLANE = 1e-6
 
 
 def station_planes(net: CurveNet) -> FloatArray:
-    """Give where sections stand, ascending, m."""
-    every = np.sort(net.x[np.isfinite(net.x) & ~net.end])
+    """Give where sections stand between which the surface is laid, ascending, m."""
+    every = np.sort(net.x[np.isfinite(net.x) & ~net.end & ~net.ends_on_transom])
     found: FloatArray = every[np.diff(every, prepend=-np.inf) > ON_PLANE]
     return found
 
 
 # --------------------------------------------------------------------------------------
 # Curves and crossings from the tables.
+
+ON_CENTRE = 1e-4
+"""A curve that ends this near to the centre plane (m) ends on it."""
+
+_STEEP = 0.25
+"""The edge of a transom rises at least by this part of what it spans along or across."""
+
+_ON_EDGE = 1e-2
+"""A section that ends this near to the edge of a transom (m) ends on it."""
 
 CurvePart = tuple[int, float, float]
 """A curve of the net and the chord parameters (m) between which it is walked, in that sense."""
@@ -134,6 +144,39 @@ class CurveNet:
         """The chord parameters of the knots of each curve, m."""
         knot, start = self.batch.knot.tolist(), self.batch.start.tolist()
         return tuple(knot[a:b] for a, b in itertools.pairwise(start))
+
+    @cached_property
+    def transom(self) -> NDArray[np.bool_]:
+        """Edges of raked or rounded transoms, (m,): no deck edge leaves the centre so steeply.
+
+        Those of upright transoms stand in planes across the ship; `x` tells these.
+        """
+        found = np.zeros(self.batch.count, bool)
+        for curve in np.flatnonzero(self.end & ~self.centre & ~np.isfinite(self.x)).tolist():
+            xyz = real(self.batch.xyz[self.batch.start[curve] : self.batch.start[curve + 1]])
+            foot, head = (xyz[0], xyz[-1]) if xyz[0, 2] <= xyz[-1, 2] else (xyz[-1], xyz[0])
+            along, across, up = np.ptp(xyz, axis=0).tolist()
+            outward = bool(abs(foot[1]) <= ON_CENTRE < abs(head[1]))
+            found[curve] = outward and up > _STEEP * max(along, across) and along < across + up
+        return found
+
+    @cached_property
+    def ends_on_transom(self) -> NDArray[np.bool_]:
+        """Sections that begin or end on the edge of a raked transom, (m,).
+
+        They are parts of a section; the surface runs past them, to the transom itself.
+        """
+        found = np.zeros(self.batch.count, bool)
+        edges = np.flatnonzero(self.transom)
+        own = np.flatnonzero(np.isfinite(self.x) & ~self.end)
+        for edge in edges.tolist():
+            for at in (self.batch.start[own], self.batch.start[own + 1] - 1):
+                place = self.batch.xyz[at]
+                away = closest_points_each(self.batch, np.full(len(own), edge), place)[2]
+                found[own] |= (away <= _ON_EDGE) & (np.abs(place[:, 1]) > ON_CENTRE)
+        # Something has to bound the surface.
+        enough = len(np.unique(self.x[own][~found[own]])) >= 2
+        return found if enough else np.zeros(self.batch.count, bool)
 
     def length(self, curve: int) -> float:
         """Give the chord length of a curve, m."""
@@ -224,9 +267,6 @@ def _snapped(knot: list[float], t: float) -> float:
 # --------------------------------------------------------------------------------------
 # Sections as drawn.
 
-ON_CENTRE = 1e-4
-"""A curve that ends this near to the centre plane (m) ends on it."""
-
 
 @attrs.frozen(eq=False)
 class NetSections:
@@ -295,8 +335,16 @@ def transom_ends(net: CurveNet) -> IntArray:
 
 
 def transom_areas_below(net: CurveNet, closed: bool, planes: FloatingPlanes) -> FloatArray:
-    """Give the area of transoms, at either end of the ship, (d,), m2, both sides."""
-    return _areas_below(net, transom_ends(net), closed, planes)
+    """Give the area of transoms, at either end of the ship, (d,), m2, both sides.
+
+    A raked one is measured in its own plane; of a rounded one, its projection across the ship.
+    """
+    total = _areas_below(net, transom_ends(net), closed, planes)
+    for curve in np.flatnonzero(net.transom).tolist():
+        upright = abs(float(net.normal[curve, 0]))
+        raked = _areas_below(net, np.array([curve]), closed, planes)
+        total = total + (raked / upright if upright > 0.0 else raked)
+    return total
 
 
 def flat_ends_below(net: CurveNet, closed: bool, planes: FloatingPlanes) -> FloatArray:

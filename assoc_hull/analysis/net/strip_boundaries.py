@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.net.curve_net import ON_CENTRE, ON_PLANE, CurveNet, CurvePart
+from assoc_hull.analysis.net.curve_net import ON_PLANE, CurveNet, CurvePart
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.numeric.polynomials import horner
 from assoc_hull.geometry.numeric.roots import unit_roots
@@ -61,14 +61,19 @@ class BoundaryArc:
 def boundary_arcs(net: CurveNet, x: FloatArray) -> list[BoundaryArc]:
     """Cut all boundary curves at which the hull ends at the planes x (p,), m; add the sections.
 
-    A section that a transom or another end covers is left out: there the hull ends.
+    A section that a transom or another end covers is left out: there the hull ends. So is one that
+    begins or ends on a raked transom.
     """
     found: list[BoundaryArc] = []
     ends = _covering(net)
     for curve in range(net.batch.count):
         if net.end[curve]:
             found += _cut(net, curve, x)
-        elif np.isfinite(net.x[curve]) and not _covered(net, curve, ends):
+        elif (
+            np.isfinite(net.x[curve])
+            and not net.ends_on_transom[curve]
+            and not _covered(net, curve, ends)
+        ):
             found.append(
                 BoundaryArc((curve, 0.0, net.length(curve)), -1, _nearest(x, net.x[curve]))
             )
@@ -145,9 +150,6 @@ def _x_at(one: SplineBatch, t: FloatArray) -> FloatArray:
 _NEAR = 1e-4
 """Ends of curves this near to one another, in lengths of the ship, are one node."""
 
-_STEEP = 0.25
-"""The edge of a transom rises at least by this part of what it spans along or across."""
-
 _KEEL = 2.0
 """A boundary curve that runs this many times more forward than up is keel, not stem."""
 
@@ -166,6 +168,8 @@ class StripBoundary:
         The slab.
     plane : bool
         Both rails lie wholly in planes across the ship.
+    across : bool
+        Both rails are sections or transoms, though these may rake.
     """
 
     aft: tuple[CurvePart, ...]
@@ -174,6 +178,7 @@ class StripBoundary:
     deck: tuple[CurvePart, ...]
     slab: int
     plane: bool
+    across: bool = False
 
 
 @attrs.frozen
@@ -286,22 +291,8 @@ def closes_end(net: CurveNet, curve: int) -> bool:
 
     Others at which the hull ends are deck edges.
     """
-    if not net.end[curve]:
-        return False
-    return bool(net.centre[curve] or np.isfinite(net.x[curve]) or _rakes(net, curve))
-
-
-def _rakes(net: CurveNet, curve: int) -> bool:
-    """Tell whether a curve is the edge of a raked or rounded transom.
-
-    It goes from the centre plane outward and up, as no deck edge does: at a round stern that one
-    leaves the centre plane nearly level.
-    """
-    xyz = net.batch.xyz[net.batch.start[curve] : net.batch.start[curve + 1]]
-    foot, head = (xyz[0], xyz[-1]) if xyz[0, 2] <= xyz[-1, 2] else (xyz[-1], xyz[0])
-    along, across, up = np.ptp(xyz, axis=0).tolist()
-    outward = bool(abs(foot[1]) <= ON_CENTRE < abs(head[1]))
-    return outward and up > _STEEP * max(along, across) and along < across + up
+    closes = net.centre[curve] or np.isfinite(net.x[curve]) or net.transom[curve]
+    return bool(net.end[curve] and closes)
 
 
 def _pruned(edges: list[_Edge]) -> list[_Edge]:
@@ -517,7 +508,10 @@ def _upward(
     if swept < 0.0:
         aft, fore, keel, deck = _turned(aft), _turned(fore), deck, keel
     plane = all(_stands(net, edge) for edge in aft + fore)
-    return StripBoundary(_parts(aft), _parts(fore), _parts(keel), _parts(deck), slab, plane)
+    across = all(edge.kind != "E" or bool(net.transom[edge.part[0]]) for edge in aft + fore)
+    return StripBoundary(
+        _parts(aft), _parts(fore), _parts(keel), _parts(deck), slab, plane, plane or across
+    )
 
 
 def _parts(run: list[_Edge]) -> tuple[CurvePart, ...]:

@@ -127,12 +127,13 @@ class LineSpans:
 
 def line_spans(net: CurveNet) -> LineSpans:
     """Cut all lines along the ship at sections and ends."""
-    rail = net.end | np.isfinite(net.x)
+    passed = net.ends_on_transom
+    rail = (net.end | np.isfinite(net.x)) & ~passed
     found: list[tuple[CurvePart, CurvePlace, CurvePlace, int]] = []
     marks: dict[int, list[tuple[float, int, float]]] = {}
     for both, place in zip(net.meets.tolist(), net.place.tolist(), strict=True):
         for own, other in ((0, 1), (1, 0)):
-            if rail[both[other]] and not rail[both[own]]:
+            if rail[both[other]] and not (rail[both[own]] or passed[both[own]]):
                 marks.setdefault(both[own], []).append((place[own], both[other], place[other]))
     for curve in sorted(marks):
         order = sorted(marks[curve])
@@ -232,7 +233,9 @@ def _found(frame: StripBoundary, every: LineSpans) -> list[tuple[int, StripAncho
         for a in aft.curves
         for f in fore.curves
         for i in every.of.get((min(a, f), max(a, f)), ())
-        if every.steady[i] or not frame.plane
+        # A line that sets off almost athwartships, as over the bottom of a flat run, would skew
+        # the surface between sections and transoms.
+        if every.steady[i] or not frame.across
     ):
         part, begin, finish, rank = every.span[i]
         course = every.course[i]

@@ -1,0 +1,91 @@
+"""The wetted surface against triangulations that share nothing with it.
+
+Formulas are triangulated as they are; of ships that are nets, the closed mesh on their lines, with
+16 points to an edge, which has cells of its own and none of the strips of hydrostatics.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from tests.raked_stern import DEPTH, FOOT, half_breadth, keel, raked_ship, shell
+from tests.shell_area import triangles_below
+
+SHIPS = {
+    "wigley": ah.examples.wigley,
+    "series60_70": None,
+    "bulk_carrier": None,
+    "container ship": ah.examples.container_ship_225m,
+    "plain ship": ah.examples.plain_ship,
+}
+"""How each is made; None: it is a fixture."""
+
+NEAR = 3e-3
+"""So near (a part) S has to come to a triangulation; and within its own estimate."""
+
+
+def _of_mesh(hull: ah.Hull, draught: float, points: int = 16) -> float:
+    """Shell of the closed mesh below a draught, m2."""
+    mesh = hull.mesh(points=points)
+    return triangles_below(mesh.xyz[mesh.triangle[mesh.group == 0]], draught)
+
+
+@pytest.mark.parametrize("name", SHIPS)
+def test_s_of_shipped_hulls_is_that_of_a_fine_mesh(
+    request: pytest.FixtureRequest, name: str
+) -> None:
+    """Within 0.3 %, and within the estimate."""
+    make = SHIPS[name]
+    hull = request.getfixturevalue(name) if make is None else make()
+    found = hull.hydrostatics()
+    truth = _of_mesh(hull, hull.particulars.draught)
+    stated = found.error["wetted_surface"]
+    assert stated is not None
+    assert abs(found.wetted_surface - truth) < NEAR * truth
+    assert abs(found.wetted_surface - truth) <= stated
+
+
+@pytest.mark.parametrize(
+    ("rake", "across"),
+    [(0.05, None), (0.3, -1.0), (-0.4, 1.0), (1.0, None)],
+    ids=["hardly raked", "aft, with a station across", "forward, with one", "far aft"],
+)
+def test_s_of_a_flat_run_before_a_raked_transom_is_that_of_the_formula(
+    rake: float, across: float | None
+) -> None:
+    """Within 0.03 %: neither transom nor deck count, nor does the run fold.
+
+    The edge of the transom was taken for a deck edge: the last strip was up to 1.6 % too large, and
+    what closes it at deck level was counted as wetted surface.
+    """
+    hull = raked_ship(rake, across=across)
+    for draught in (5.2, 8.0):
+        found, truth = hull.hydrostatics(draught=draught), shell(rake, draught)
+        assert found.wetted_surface == pytest.approx(truth, rel=3e-4)
+        assert abs(found.wetted_surface - truth) <= (found.error["wetted_surface"] or 0.0)
+    with_it = hull.hydrostatics(draught=8.0, transom=True)
+    assert with_it.wetted_surface == pytest.approx(
+        found.wetted_surface + found.transom_area, rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("rake", [0.3, -0.4])
+def test_a_raked_transom_is_measured_in_its_own_plane(rake: float) -> None:
+    """Twice the integral of y along its slope, from its foot to the water."""
+    found = raked_ship(rake).hydrostatics(draught=8.0)
+    z = np.linspace(3.0, 8.0, 20001)
+    x = -rake * (z - FOOT)
+    y = np.where(z > keel(x), half_breadth(x, np.maximum(z, keel(x))), 0.0)
+    truth = 2.0 * float(np.trapezoid(y, z)) * float(np.hypot(1.0, rake))
+    assert found.transom_area == pytest.approx(truth, rel=1e-4)
+
+
+def test_the_deck_that_limits_a_draught_is_no_transom() -> None:
+    """An open deck is wet at its edge, 12 m up, not where the transom has its foot, at 5 m."""
+    hull = raked_ship(-0.4, across=1.0, deck="open")
+    assert hull.hydrostatics(draught=11.0).volume > 0.0
+    with pytest.raises(ah.errors.OutOfRangeError) as refused:
+        hull.hydrostatics(draught=12.5)
+    assert refused.value.most == pytest.approx(DEPTH)
