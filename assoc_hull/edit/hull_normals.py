@@ -31,7 +31,8 @@ __all__ = [
 ]
 
 _SHORT = 1e-6
-"""Times `Tolerances.factor`: ends nearer than this (m) along a curve's course do not tell its direction."""
+"""Times `Tolerances.factor`: ends nearer than this (m) along a curve's course do not tell its
+direction."""
 
 
 def turn_outward(state: HullState, normal: FloatArray, tangent: FloatArray) -> FloatArray:

@@ -391,5 +391,7 @@ class Edit:
         follow = choice(planes, "planes", ("stay", "follow"), "in transform") == "follow"
         _transform.transform(
             self._transaction, space, self._given.driving(drivers), follow=follow,
-            tolerance=None if tolerance is None else positive(tolerance, "tolerance", "in transform"),
+            tolerance=(
+                None if tolerance is None else positive(tolerance, "tolerance", "in transform")
+            ),
         )  # fmt: skip

@@ -22,7 +22,8 @@ from assoc_hull.model.tables import CurveIntersections, HullState, curve_node, r
 __all__ = ["attach_curves", "loft_all", "set_limits"]
 
 _LOOK = 2.0
-"""Times `Tolerances.factor`: how far (m) a meeting may lie from where its crossing was when it is looked for."""
+"""Times `Tolerances.factor`: how far (m) a meeting may lie from where its crossing was when it is
+looked for."""
 
 
 def loft_all(state: HullState, journal: Journal) -> IntArray:

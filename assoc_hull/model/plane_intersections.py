@@ -148,13 +148,14 @@ def cut_curves(
         if partners:
             mine = np.flatnonzero(groups == group)
             batch = SplineBatch.join([splines[i] for i in mine.tolist()])
-            pieces += [_cut(mine, batch, planes) for planes in partners]
+            factor = state.tolerances.factor
+            pieces += [_cut(mine, batch, planes, factor) for planes in partners]
     return _merge(state, lines, tuple(pieces), known)
 
 
-def _cut(mine: IntArray, batch: SplineBatch, planes: PlaneSet) -> _Piece:
+def _cut(mine: IntArray, batch: SplineBatch, planes: PlaneSet, factor: float) -> _Piece:
     """Meet one set of planes."""
-    met = intersect_planes(batch, planes.normal, planes.offsets)
+    met = intersect_planes(batch, planes.normal, planes.offsets, factor)
     segment = met.segment - batch.start.take(met.curve)
     return _Piece(met, mine.take(met.curve), segment, planes)
 

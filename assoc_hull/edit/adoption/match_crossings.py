@@ -184,7 +184,9 @@ class _Boundaries:
             lines = self.state.lines
             offset = np.array([float(lines.offset.data[line])])
             curve = self.reference.curve(boundary)
-            self._met[key] = intersect_planes(curve, lines.normal.data[line], offset)
+            self._met[key] = intersect_planes(
+                curve, lines.normal.data[line], offset, self.state.tolerances.factor
+            )
         return self._met[key]
 
     def may_touch(self, boundary: int, place: FloatArray) -> bool:
@@ -302,7 +304,8 @@ def _meet(
     batch = SplineBatch.join([reference.curve(curve) for curve in curves.tolist()])
     for normal in sorted({tuple(row) for row in state.lines.normal.data[lines].tolist()}):
         chosen = lines[(state.lines.normal.data[lines] == normal).all(axis=1)]
-        met = intersect_planes(batch, np.array(normal), state.lines.offset.data[chosen].copy())
+        offsets, factor = state.lines.offset.data[chosen].copy(), state.tolerances.factor
+        met = intersect_planes(batch, np.array(normal), offsets, factor)
         for root in _roots(batch, curves, met, np.array(normal)):
             line = int(chosen[root[0]])
             found[state.line_of(root[1].curve), line].append(root[1])

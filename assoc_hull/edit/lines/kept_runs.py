@@ -33,7 +33,8 @@ __all__ = [
 ]
 
 _END = 1e-6
-"""Times `Tolerances.factor`: a place as near as this (m) to an end of a run, along the line, is in it."""
+"""Times `Tolerances.factor`: a place as near as this (m) to an end of a run, along the line, is
+in it."""
 
 
 @attrs.frozen(eq=False)

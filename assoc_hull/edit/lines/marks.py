@@ -215,7 +215,7 @@ def _meet(
     if not len(curves):
         return _no_marks()
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
-    met = intersect_planes(batch, normal, np.array([position]))
+    met = intersect_planes(batch, normal, np.array([position]), state.tolerances.factor)
     owner = curves[met.curve]
     lines = state.curves.line.data[owner]
     root = np.arange(len(owner)) - np.searchsorted(met.curve, met.curve)
@@ -352,7 +352,7 @@ def _unmet(state: HullState, marks: Marks, spline: SplineBatch) -> BoolArray:
     for normal in sorted({tuple(row) for row in state.lines.normal.data[lines[planar]].tolist()}):
         mine = np.flatnonzero(planar & (state.lines.normal.data[lines] == normal).all(axis=1))
         offsets, plane = np.unique(state.lines.offset.data[lines[mine]], return_inverse=True)
-        met = intersect_planes(spline, np.array(normal), offsets)
+        met = intersect_planes(spline, np.array(normal), offsets, state.tolerances.factor)
         unmet[mine[_paired(state, marks.take(mine), plane, spline, met)]] = False
     return unmet
 

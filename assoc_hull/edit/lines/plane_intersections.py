@@ -109,7 +109,7 @@ def _add_meets(edit: Transaction, curves: IntArray, line: int) -> None:
         return
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
     plane = state.lines.normal.data[line].copy(), state.lines.offset.data[[line]].copy()
-    met = intersect_planes(batch, *plane)
+    met = intersect_planes(batch, *plane, state.tolerances.factor)
     for local, curve in enumerate(curves.tolist()):
         mine = met.curve == local
         if not mine.any():

@@ -75,6 +75,7 @@ def bracketed_roots(
     at_lower: FloatArray,
     at_upper: FloatArray,
     start: FloatArray | None = None,
+    factor: float = 1.0,
 ) -> FloatArray:
     """Find the one root of each cubic (4, k) in a bracket in which it changes sign once.
 
@@ -84,7 +85,7 @@ def bracketed_roots(
 
     Every cubic takes the same fixed steps; the few whose residual is not yet at rounding level, or
     that left their bracket, start again with bisection as a safeguard. Either way a root depends on
-    its own cubic only.
+    its own cubic only. `factor`, at most 1, is what lengths of a short hull are multiplied by.
 
     Examples
     --------
@@ -93,7 +94,7 @@ def bracketed_roots(
     array([0.5])
     """
     origin, first, second, third = cubic
-    limit = FLOOR + RELATIVE * (np.abs(at_lower) + np.abs(at_upper))
+    limit = factor * FLOOR + RELATIVE * (np.abs(at_lower) + np.abs(at_upper))
     if start is None:
         root = lower + (upper - lower) * (at_lower / (at_lower - at_upper))
     else:

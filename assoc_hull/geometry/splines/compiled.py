@@ -91,7 +91,9 @@ def loft_compiled(data: CurveData) -> SplineBatch | None:
     return SplineBatch(data.start, knot, block[:3].T, block[3:6].T, block[6:].T)
 
 
-def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneRoots:
+def meet(
+    batch: SplineBatch, normal: FloatArray, offsets: FloatArray, factor: float = 1.0
+) -> PlaneRoots:
     """Find the meetings of curves with planes.
 
     Parameters
@@ -102,6 +104,8 @@ def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneRo
         Unit normal of the planes.
     offsets : (p,), m
         Their offsets, ascending.
+    factor : float
+        Of lengths, by the size of the hull.
 
     Returns
     -------
@@ -123,7 +127,7 @@ def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneRo
         places, numbers, owner, plane, cubics = meet_curves(
             start, knot, *vectors, _plain(normal), axis, offsets, CONTACT, scratch
         )
-    roots = find_roots(cubics, STEPS, FLOOR, RELATIVE, MOST_TRIALS)
+    roots = find_roots(cubics, STEPS, factor * FLOOR, RELATIVE, MOST_TRIALS)
     told, sign, t, points, near = place_meetings(
         start, knot, *vectors, places, numbers, offsets, owner, plane, roots, CONTACT
     )

@@ -101,7 +101,7 @@ class PlaneIntersections:
 
 
 def intersect_planes(
-    batch: SplineBatch, normal: FloatArray, offsets: FloatArray
+    batch: SplineBatch, normal: FloatArray, offsets: FloatArray, factor: float = 1.0
 ) -> PlaneIntersections:
     """Find all intersections of every curve with every plane ``normal . P = offset``.
 
@@ -113,6 +113,8 @@ def intersect_planes(
         Unit normal of all planes.
     offsets : (p,), m
         Offsets of the planes, ascending.
+    factor : float
+        Of lengths, by the size of the hull: how near a root is found to its plane.
 
     Returns
     -------
@@ -142,7 +144,7 @@ def intersect_planes(
     normal, offsets = checked_planes(normal, offsets)
     kernels = compiled()
     find = _find if kernels is None else kernels.meet
-    found = find(batch, normal, offsets)
+    found = find(batch, normal, offsets, factor)
     axis = _coordinate_axis(normal)
     if axis is not None:
         np.multiply(offsets.take(found.plane), normal[axis], out=found.points[axis])
@@ -152,13 +154,13 @@ def intersect_planes(
     )
 
 
-def _find(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> PlaneRoots:
+def _find(batch: SplineBatch, normal: FloatArray, offsets: FloatArray, factor: float) -> PlaneRoots:
     """Find all intersections with numpy."""
     course = heights_over_plane(batch, normal)
     parts = find_monotone_parts(batch, course, offsets)
     owner, plane = _expand(batch, parts, len(offsets))
     segment = parts.segment.take(owner)
-    fraction = _fractions(course, parts, owner, offsets.take(plane))
+    fraction = _fractions(course, parts, owner, offsets.take(plane), factor)
     t = _parameters(batch, segment, fraction)
     curve = slots_of(batch.start).curve.take(segment)
     falls = parts.below_end < parts.below_begin
@@ -199,7 +201,11 @@ def _expand(batch: SplineBatch, parts: MonotoneParts, planes: int) -> tuple[IntA
 
 
 def _fractions(
-    course: PlaneHeights, parts: MonotoneParts, owner: IntArray, offset: FloatArray
+    course: PlaneHeights,
+    parts: MonotoneParts,
+    owner: IntArray,
+    offset: FloatArray,
+    factor: float,
 ) -> FloatArray:
     """Find where in its segment each intersection lies."""
     falling = (parts.below_end < parts.below_begin).take(owner)
@@ -213,7 +219,7 @@ def _fractions(
     at_lower[(at_lower < 0.0) & falling] = 0.0
     at_upper[(at_upper < 0.0) & ~falling] = 0.0
     lower, upper = parts.lower.take(owner), parts.upper.take(owner)
-    return bracketed_roots(cubic, lower, upper, at_lower, at_upper)
+    return bracketed_roots(cubic, lower, upper, at_lower, at_upper, factor=factor)
 
 
 def _tangential(
