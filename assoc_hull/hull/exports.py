@@ -6,7 +6,6 @@ The command `assoc-hull export` calls the same, so that both write the same file
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
 
 from assoc_hull.arguments import flag
 from assoc_hull.errors import BadInputError
@@ -17,10 +16,8 @@ from assoc_hull.io.mesh.closed_mesh import MESH_FORMS, MeshFile, write_mesh
 from assoc_hull.io.reports import ExportReport
 from assoc_hull.io.surfaces.hull_surface import SURFACE_ENDINGS, SURFACE_FORMS
 from assoc_hull.io.write_file import form_by_ending
+from assoc_hull.model.tables import HasState
 from assoc_hull.surface.cells.closed_mesh import closed_mesh
-
-if TYPE_CHECKING:
-    from assoc_hull.hull.hull import Hull
 
 __all__ = ["export_file"]
 
@@ -28,7 +25,7 @@ _POINTS = 4
 
 
 def export_file(
-    hull: Hull,
+    hull: HasState,
     path: str | os.PathLike[str],
     form: str | None = None,
     unit: str | None = None,
@@ -49,7 +46,7 @@ def export_file(
     if chosen in MESH_FORMS:
         # The mesh comes from the lines: it needs no surface, which takes longer.
         mesh = closed_mesh(hull, half=alone, points=_POINTS if points is None else points)
-        return write_mesh(mesh, path, chosen, unit=unit, name=hull.particulars.name or "hull")
+        return write_mesh(mesh, path, chosen, unit=unit, name=hull.state.particulars.name or "hull")
     return surface_of_hull(hull).write(path, chosen, unit=unit, half=alone)
 
 

@@ -104,4 +104,4 @@ class ShipFrame:
         """Give places of the file (n, 3), m, in ship axes: the same bits where nothing moves."""
         if not self.moves:
             return xyz
-        return xyz + np.array([self.shift[0], 0.0, self.shift[1]])
+        return np.asarray(xyz + np.array([self.shift[0], 0.0, self.shift[1]]))
