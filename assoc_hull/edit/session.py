@@ -376,7 +376,8 @@ class Edit:
         Notes
         -----
         It is an edit of its own: nothing else may stand in the same ``with`` block. The
-        particulars stay as they are.
+        particulars stay as they are, and so do the names of lines: a pure shift says in
+        ``edit.report`` how many lines that go by a number it moved.
 
         Examples
         --------

@@ -31,7 +31,7 @@ from assoc_hull.edit.recut.cut_drivers import (
     hold_to_images,
 )
 from assoc_hull.edit.recut.cut_followers import cut_followers, cut_kept, settle_stand_ins
-from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.edit.space_map import Affine, SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.kinds import Role, Sort
@@ -143,11 +143,39 @@ def transform(
     _watch(edit, work)
     added = hold_to_images(work, image, tolerance)
     drop_bent_planes(edit, work)
+    kept = _numbers_kept(state, space, planes)
     move_planes(edit.maker, planes)  # first, so that lines that come back find their new ones
     take_out_lines(edit, work, may_go=lines_may_go)
     _publish(edit, work, turned)
     _tell(edit, work, added, size)
+    edit.pending.notes += kept
     return added
+
+
+def _numbers_kept(state: HullState, space: SpaceMap, planes: TransformedPlanes) -> list[str]:
+    """Say which lines keep a number as their name though a shift moved their planes.
+
+    A shift mostly changes the frame, and numbers of stations hang on it; the designer renames.
+    """
+    call = space.call
+    if not isinstance(call, Affine) or not (call.scale == 1.0).all() or not call.shift.any():
+        return []
+    table = state.lines
+    lines = [
+        line
+        for line in state.live("lines").tolist()
+        if table.planar.data[line]
+        and planes.offset[line] != table.offset.data[line]
+        and any(letter.isdigit() for letter in str(table.name.data[line]))
+    ]
+    if not lines:
+        return []
+    first = lines[0]
+    away, name = float(planes.offset[first]), str(table.name.data[first])
+    return [
+        f"{len(lines)} lines that go by a number keep their names though the shift moved them: "
+        f"the plane of {name} is at {away:.6g} m now; edit.rename gives another name"
+    ]
 
 
 def driving_lines(state: HullState, drivers: Sequence[int]) -> np.typing.NDArray[np.bool_]:
