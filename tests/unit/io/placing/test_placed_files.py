@@ -99,7 +99,7 @@ def test_a_named_line_is_the_deck_edge_and_bulwarks_are_cut() -> None:
     ]
     rows = "".join(f"main deck,{x:.9g},{y:.9g},{z:.9g}\n" for x, y, z in deck)
     with pytest.raises(
-        ah.errors.BadInputError, match="no line is called 'weather deck'; give one of"
+        ah.errors.BadInputError, match="no line is called 'weather deck'.*give one of"
     ):
         read_lines(text + rows, deck_edge="weather deck")
     text = "".join(row + "\n" for row in text.splitlines() if not row.startswith("bulwark"))
