@@ -21,6 +21,7 @@ def examine_lines(patient: ExaminedTable, book: Notebook) -> None:
     """Note rows and columns that do not fit those beside them; nothing is changed."""
     _doubled(patient, book)
     _misfits(patient, book)
+    _steps(patient, book)
     _gaps(patient, book)
     _cut_off(patient, book)
     _columns(patient, book)
@@ -53,6 +54,10 @@ def _doubled(patient: ExaminedTable, book: Notebook) -> None:
     step = np.abs(np.diff(y, axis=0))
     same = (step <= 0.2 * patient.rounding).all(axis=1) & (y[1:].max(axis=1) > 0.0)
     change = step.mean(axis=1)
+    empty = (patient.y == 0.0).all(axis=1)
+    for i in np.flatnonzero(empty[1:] & empty[:-1]):
+        names = f"stations {patient.stations[i]} and {patient.stations[i + 1]}"
+        book.suspect("doubled station", names, "both have nothing but zeros: one end too many")
     for i in np.flatnonzero(same):
         beside = change[[k for k in (i - 1, i + 1) if 0 <= k < len(change)]]
         # Parallel middle body repeats a section; a run or an entrance does not.
@@ -64,20 +69,18 @@ def _doubled(patient: ExaminedTable, book: Notebook) -> None:
 
 def _misfits(patient: ExaminedTable, book: Notebook) -> None:
     """Note stations whose area does not fit those beside them, the worst first."""
-    area = section_areas(patient)
-    largest = float(area.max())
-    if len(area) < 7 or largest <= 0.0:
+    x, area, first = _along_hull(patient)
+    if len(area) < 7:
         return
-    area = area / largest
     for _ in range(3):
-        wanted = predicted_values(patient.x, area)
+        wanted = predicted_values(x, area)
         off = area - wanted
-        before = _unevenness(patient.x, area)
+        before = _unevenness(x, area)
         best, left = -1, 1.0
         for i in np.flatnonzero(np.abs(np.nan_to_num(off)) > _MISFIT):
             tried = area.copy()
             tried[i] = wanted[i]
-            part = _unevenness(patient.x, tried) / before
+            part = _unevenness(x, tried) / before
             if part < left:
                 best, left = int(i), part
         if best < 0 or left > _SHARE:
@@ -87,8 +90,47 @@ def _misfits(patient: ExaminedTable, book: Notebook) -> None:
             f"{'full' if off[best] > 0 else 'fine'} for its neighbours: another station's numbers, "
             "another unit, or another place?"
         )
-        book.suspect("station misfit", f"station {patient.stations[best]}", what, float(off[best]))
+        where = f"station {patient.stations[first + best]}"
+        book.suspect("station misfit", where, what, float(off[best]))
         area[best] = wanted[best]
+
+
+def _along_hull(patient: ExaminedTable) -> tuple[FloatArray, FloatArray, int]:
+    """Give x and areas over the greatest, with one nil at either end, and the first station."""
+    area = section_areas(patient)
+    wet = np.flatnonzero(area > 0.0)
+    if not len(wet):
+        return patient.x[:0], area[:0], 0
+    first, last = max(int(wet[0]) - 1, 0), min(int(wet[-1]) + 2, len(area))
+    return patient.x[first:last], area[first:last] / float(area.max()), first
+
+
+_STEP = 0.012
+"""Part of the greatest area that a section is off its neighbours where a step is looked for."""
+
+
+def _steps(patient: ExaminedTable, book: Notebook) -> None:
+    """Note an interval across which the areas fit if it is wider: rows that were moved up."""
+    x, area, first = _along_hull(patient)
+    best = _moved_from(x, area, _STEP) if len(area) > 8 else -1
+    if best >= 0:
+        best += first
+        names = f"between stations {patient.stations[best]} and {patient.stations[best + 1]}"
+        what = "the sections change as over twice the distance: is a row missing, others moved up?"
+        book.suspect("shifted stations", names, what, float(patient.x[best + 1] - patient.x[best]))
+
+
+def _moved_from(x: FloatArray, value: FloatArray, least: float) -> int:
+    """Give the interval across which values fit if it is twice as wide; -1 if there is none."""
+    off = np.abs(np.nan_to_num(value - predicted_values(x, value)))
+    before = _unevenness(x, value)
+    best, left = -1, _SHARE
+    for i in np.flatnonzero(np.minimum(off[:-1], off[1:]) > least):
+        moved = np.where(np.arange(len(x)) > i, x + (x[i + 1] - x[i]), x)
+        part = _unevenness(moved, value) / before
+        if part < left:
+            best, left = int(i), part
+    return best
 
 
 def _unevenness(x: FloatArray, value: FloatArray) -> float:
@@ -145,6 +187,9 @@ _STANDS_OUT = 0.01
 _MANY = 0.3
 """Part of the stations at which a column must stand out: bulbs and tumblehome are at fewer."""
 
+_FAR_OUT, _RUN = 2.0, 4
+"""Or so many stations in a row, by so many times as much."""
+
 
 def _columns(patient: ExaminedTable, book: Notebook) -> None:
     """Note waterlines that are wider, or narrower, than both beside them at many stations."""
@@ -158,15 +203,27 @@ def _columns(patient: ExaminedTable, book: Notebook) -> None:
         under = np.min([y[:, k] - y[:, j] for k in beside], axis=0)
         known = np.isfinite(over)
         total = max(int(known.sum()), 1)
-        words = [("wider", over)] if j < count - 1 else []
+        words = [("wider", over)] if j < count - 1 else [("wider", _many_times(y, j))]
         words += [("narrower", under)] if j > 0 else []
         for word, off in words:
             limit = _STANDS_OUT * half + 3.0 * patient.rounding[j]
             # The highest waterline has one beside it only, and some hulls tumble home.
             limit = limit if j < count - 1 else 6.0 * limit
             out = known & (off > limit)
-            if out.sum() > max(_MANY * total, 2):
+            if out.sum() > max(_MANY * total, 2) or _runs(known & (off > _FAR_OUT * limit)):
                 _tell_column(patient, j, word, float(np.median(off[out])), int(out.sum()), book)
+
+
+def _many_times(y: FloatArray, j: int) -> FloatArray:
+    """Give what a waterline is wider than three times the one below it; nan where that is nil."""
+    below = np.where(y[:, j - 1] > 0.0, y[:, j - 1], np.nan)
+    return np.asarray(y[:, j] - 3.0 * below)
+
+
+def _runs(out: FloatArray) -> bool:
+    """Tell whether so many stations in a row stand out."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], out.astype(int), [0]])))
+    return bool((np.diff(edges)[::2] >= _RUN).any())
 
 
 def _tell_column(

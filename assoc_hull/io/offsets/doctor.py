@@ -29,7 +29,7 @@ __all__ = [
 # Wild and lone values. The worst wild value is set to its released value and the search repeated,
 # so that one wrong number is reported once.
 
-_SCORE = 5.0
+_SCORE = 5.5
 """A value is wild from this score: off its neighbours, over what is usual there."""
 
 _AT_ENDS = 7.0
@@ -212,13 +212,19 @@ def _blanks(patient: ExaminedTable, book: Notebook) -> None:
         _outer_blanks(patient, i, int(known[0]), int(known[-1]), book)
         inner = np.arange(int(known[0]), int(known[-1]))
         blank = inner[np.isnan(row[inner])]
-        ended = [j for j in blank if _ended(patient.y[:, j], i)]
+        ended = [j for j in blank if _ended(patient.y[:, j], i) and not _among_zeros(row, int(j))]
         if ended:
             what = f"{len(ended)} blanks between numbers, and none farther out: the hull ended"
             book.assume("blank", f"station {patient.stations[i]}", what, float(len(ended)))
         for j in blank:
             if j not in ended:
                 book.suspect("blank", patient.where(i, int(j)), "blank between numbers")
+
+
+def _among_zeros(row: FloatArray, j: int) -> bool:
+    """Tell whether the numbers next to a blank, below and above, are zeros."""
+    known = np.flatnonzero(np.isfinite(row))
+    return bool(row[known[known < j][-1]] == 0.0 and row[known[known > j][0]] == 0.0)
 
 
 def _ended(line: FloatArray, i: int) -> bool:
@@ -278,16 +284,16 @@ def _per_waterline(patient: ExaminedTable, book: Notebook) -> None:
 def _sizes(patient: ExaminedTable, book: Notebook) -> None:
     spread = float(patient.x[-1] - patient.x[0]) / patient.length
     ratios = [
-        ("length to breadth", patient.length / patient.breadth, 1.5, 20.0),
-        ("height of the table to breadth", float(patient.z[-1]) / patient.breadth, 0.02, 3.0),
+        ("length to breadth", patient.length / patient.breadth, 2.0, 20.0),
+        ("height of the table to breadth", float(patient.z[-1]) / patient.breadth, 0.03, 1.25),
         ("span of the stations to length", spread, 0.3, 1.3),
     ]
     if patient.draught:
         ratios.append(("breadth to draught", patient.breadth / patient.draught, 0.8, 20.0))
-        ratios.append(("height to draught", float(patient.z[-1]) / patient.draught, 0.3, 10.0))
+        ratios.append(("height to draught", float(patient.z[-1]) / patient.draught, 0.98, 10.0))
     for name, ratio, low, high in ratios:
         if not low <= ratio <= high:
-            what = f"{name} is {ratio:.4g}, outside {low:g} to {high:g}: metres or mm?"
+            what = f"{name} is {ratio:.4g}, outside {low:g} to {high:g}: is it the right unit?"
             book.suspect("unit", "the table", what, ratio)
 
 

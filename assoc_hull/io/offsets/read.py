@@ -395,6 +395,7 @@ def read_offsets(
     main, extra = _sort_out(sheets, source)
     main = _to_port(main, book)
     main = _by_beams(main, book)
+    hints = _with_header(main, hints)
     scale = find_scale(unit, _sizes(main), hints, length, breadth, draught, book, source)
     if main.zero and not hints.station_zero:
         hints = attrs.evolve(hints, station_zero=main.zero)
@@ -474,6 +475,15 @@ def _by_beams(sheet: OffsetSheet, book: Notebook) -> OffsetSheet:
         where = f"waterline {sheet.columns.waterlines[j].label}"
         book.suspect("largest beam", where, what, float(largest[j] - times * beams[j]))
     return sheet
+
+
+def _with_header(sheet: OffsetSheet, hints: OffsetHints) -> OffsetHints:
+    """Take the unit of heights from the columns of keel and deck where waterlines tell none."""
+    heights = [sheet.columns.single.get(kind) for kind in ("keel", "deck height")]
+    units = {column.unit for column in heights if column is not None and column.unit}
+    if hints.units.z or len(units) != 1:
+        return hints
+    return attrs.evolve(hints, units=attrs.evolve(hints.units, z=units.pop()))
 
 
 def _sizes(sheet: OffsetSheet) -> PrintedSizes:

@@ -274,6 +274,7 @@ def _block(source: str, rows: list[Row], mark: str, book: Notebook) -> TableBloc
             "put a header such as 'station,wl_0,wl_0.25' above it",
         )
     header = _with_corner(header, rows, source, book)
+    _suspect_shift(header, rows, source, book)
     units: tuple[str | None, ...] = ()
     body = rows[1:]
     if body and _is_units(body[0][1]):
@@ -300,6 +301,16 @@ def _with_corner(
         book.repair("missing corner", f"row {rows[0][0]} of {source}", what)
         return ("", *header)
     return header
+
+
+def _suspect_shift(header: tuple[str, ...], rows: list[Row], source: str, book: Notebook) -> None:
+    """Note a header that is a cell shorter than all rows: its names may stand a column off."""
+    first = column_name(header[0]) if header else None
+    widths = {len(row) for _, row in rows[1:]}
+    if first and first.kind != "station" and widths == {len(rows[0][1]) + 1} == {len(header) + 1}:
+        what = f"every row has a cell more than the header, which begins with {header[0]!r}"
+        where = f"row {rows[0][0]} of {source}"
+        book.suspect("missing corner", where, f"{what}: is the name of the first column lost?")
 
 
 def _is_units(row: tuple[str, ...]) -> bool:
