@@ -6,6 +6,8 @@ Formulas are triangulated as they are; of ships that are nets, the closed mesh o
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 
@@ -15,12 +17,22 @@ from tests.shell_area import triangles_below
 
 SHIPS = {
     "wigley": ah.examples.wigley,
-    "series60_70": None,
     "bulk_carrier": None,
     "container ship": ah.examples.container_ship_225m,
-    "plain ship": ah.examples.plain_ship,
 }
 """How each is made; None: it is a fixture."""
+
+if os.environ.get("ASSOC_HULL_LONG"):
+    SHIPS |= {
+        "series60_70": None,
+        "series60_60": None,
+        "plain ship": ah.examples.plain_ship,
+        "bulk carrier 180 m": ah.examples.bulk_carrier_180m,
+        "seaking ship": ah.examples.seaking_ship,
+        "sfolds ship": ah.examples.sfolds_ship,
+        "prelikon ship": ah.examples.prelikon_ship,
+        "dtc": None,
+    }
 
 NEAR = 3e-3
 """So near (a part) S has to come to a triangulation; and within its own estimate."""

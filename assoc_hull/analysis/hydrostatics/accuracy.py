@@ -64,6 +64,12 @@ difference itself is large. Source: L.F. Richardson, J.A. Gaunt, "The deferred a
 limit", Phil. Trans. A 226 (1927).
 """
 
+_SURFACE = {"shell": 2.0, "girth": 2.0, "wet_deck": 2.0}
+"""By how much more is stated of surfaces: what strips have too much and too little of slope takes
+itself away in the sum, so that the difference to the net with half the lines shows less of it.
+Measured against triangulations of 5 ships that are shipped and of formulas, the error is up to 1.8
+times what is stated of volumes."""
+
 _LEVELS, _LEAST = 48, 12
 """Waterplanes of the vertical route, and those of a stretch between two corners at least."""
 
@@ -139,7 +145,7 @@ class ErrorEstimator:
         ]
         found += [
             IntegralChange(
-                _times(_less(integrate_immersed(each.prepared, planes), known), share), still, dry
+                _stated(_less(integrate_immersed(each.prepared, planes), known), share), still, dry
             )
             for each in self.sections
         ]
@@ -147,7 +153,7 @@ class ErrorEstimator:
         fewer = coarse.per_station(sections_below(coarse.curves, planes))
         found.append(
             IntegralChange(
-                _times(_less(integrate_immersed(self.lines.prepared, planes), known), _PART),
+                _stated(_less(integrate_immersed(self.lines.prepared, planes), known), _PART),
                 _PART * (fewer - areas),
                 _PART * (transom_areas_below(self.lines.net, self.closed, planes) - ends),
             )
@@ -249,10 +255,11 @@ def _less(one: ImmersedIntegrals, other: ImmersedIntegrals) -> ImmersedIntegrals
     return ImmersedIntegrals(**pairs)
 
 
-def _times(one: ImmersedIntegrals, factor: float) -> ImmersedIntegrals:
+def _stated(one: ImmersedIntegrals, factor: float) -> ImmersedIntegrals:
+    """Give the part of a difference that is stated: of surfaces more than of volumes."""
     return ImmersedIntegrals(
         **{
-            field.name: factor * getattr(one, field.name)
+            field.name: factor * _SURFACE.get(field.name, 1.0) * getattr(one, field.name)
             for field in attrs.fields(ImmersedIntegrals)
         }
     )
