@@ -342,13 +342,14 @@ def net_of_lines(
 
 
 def lines_of_table(table: OffsetTable) -> list[LineSource]:
-    """Give sections, waterlines and the deck edge of a table.
+    """Give sections, waterlines, the deck edge and, through heights of the keel, the profile.
 
     A blank between two numbers ends a curve; of zeros in a row those count that lie next to a
     half-breadth. Heights of buttocks are points of the sections. The deck edge is what the table
     calls so, else its highest waterline.
     """
     factor = length_factor(table.length)
+    profile = _keel_profile(table)
     near = factor * _TOLERANCE
     found = [
         LineSource.make(
@@ -364,8 +365,10 @@ def lines_of_table(table: OffsetTable) -> list[LineSource]:
             tolerance=near,
         )
         for j, z in enumerate(table.z[:levels].tolist()) if z > factor * _LEVEL
-        for points in _open_waterlines(table, j)
+        for points in _open_waterlines(table, j, profile)
     ]  # fmt: skip
+    if profile is not None:
+        found.append(profile)
     for points in _deck(table):
         level = float(points[0, 2]) if np.ptp(points[:, 2]) < factor * _SAME else None
         plane = None if level is None else ((0.0, 0.0, 1.0), level)
@@ -418,11 +421,55 @@ def _with_buttocks(run: FloatArray, table: OffsetTable, i: int) -> FloatArray:
     return np.asarray(every[kept])
 
 
-def _open_waterlines(table: OffsetTable, j: int) -> Iterator[FloatArray]:
-    """Give the curves of a waterline, each (n, 3), from aft."""
+def _open_waterlines(
+    table: OffsetTable, j: int, profile: LineSource | None = None
+) -> Iterator[FloatArray]:
+    """Give the curves of a waterline, each (n, 3), from aft; they run out on the profile if any."""
+    z = float(table.z[j])
+    ends = np.zeros(0) if profile is None else _crossings(profile, z)
     for y, x in _runs(table.half_breadth[:, j], table.x):
-        if len(x) > 1:
-            yield np.column_stack([x, y, np.full(len(x), table.z[j])])
+        points = np.column_stack([x, y, np.full(len(x), z)])
+        first, last = np.searchsorted(table.x, x[[0, -1]]).tolist()
+        # Blank at the next station: there the keel is higher, and the line ends between the two.
+        low = table.x[first - 1] if first else x[0]
+        high = table.x[last + 1] if last + 1 < len(table.x) else x[-1]
+        aft = ends[(ends > low) & (ends < x[0])] if y[0] > 0.0 else ends[:0]
+        fore = ends[(ends > x[-1]) & (ends < high)] if y[-1] > 0.0 else ends[:0]
+        if len(aft):
+            points = np.vstack([[aft[-1], 0.0, z], points])
+        if len(fore):
+            points = np.vstack([points, [fore[0], 0.0, z]])
+        if len(points) > 1:
+            yield points
+
+
+def _crossings(profile: LineSource, z: float) -> FloatArray:
+    """Give where the profile passes a level, (k,) m, ascending."""
+    spline = loft(CurveData.single(profile.points, profile.kind.tolist()))
+    return np.sort(intersect_planes(spline, np.eye(3)[2], np.array([z])).xyz[:, 0])
+
+
+_TURN = 20.0
+"""A keel that turns by more degrees at a station has a knuckle there, as at a skeg or a cut-up: a
+smooth curve through heights so far apart would swing."""
+
+
+def _keel_profile(table: OffsetTable) -> LineSource | None:
+    """Give the profile through the heights of the keel; the end stations close it."""
+    if table.keel is None:
+        return None
+    known = np.isfinite(table.keel)
+    if known.sum() < 3:
+        return None
+    x, z = table.x[known], table.keel[known]
+    turn = np.abs(np.diff(np.degrees(np.arctan2(np.diff(z), np.diff(x)))))
+    kind = np.full(len(x), int(PointKind.SMOOTH))
+    kind[1:-1][turn > _TURN] = int(PointKind.KNUCKLE)
+    return LineSource.make(
+        "boundary", "profile", np.column_stack([x, np.zeros(len(x)), z]),
+        plane=((0.0, 1.0, 0.0), 0.0), boundary=BoundaryKind.END, kind=kind.tolist(),
+        tolerance=length_factor(table.length) * _TOLERANCE,
+    )  # fmt: skip
 
 
 def _deck(table: OffsetTable) -> Iterator[FloatArray]:
