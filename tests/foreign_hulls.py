@@ -28,6 +28,7 @@ from pathlib import Path
 from typing import Any
 
 import attrs
+import ezdxf
 import numpy as np
 import openpyxl
 from scipy.interpolate import CubicSpline
@@ -40,6 +41,7 @@ from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles, merge_vertices
 from assoc_hull.io.iges.write import iges_text
 from assoc_hull.io.lines.line_points import lines_as_points
+from assoc_hull.io.lines.own_lines import MARK
 from assoc_hull.io.mesh.read import read_triangles
 from assoc_hull.io.surfaces.surface_file import read_surface_file
 from assoc_hull.model.tables import copy_state
@@ -667,9 +669,29 @@ def _export(
     def write_it(folder: Path) -> Path:
         path = folder / name
         make().export(path, form, unit)
-        return path
+        return as_of_others(path) if path.suffix in (".dxf", ".igs") else path
 
     return write_it
+
+
+def as_of_others(path: Path) -> Path:
+    """Make a drawing of ours one of another program: a layer a line in DXF, no texts of ours."""
+    if path.suffix == ".igs":
+        # As long as the mark, so that counts of letters and lines hold.
+        path.write_text(path.read_text().replace(MARK, "OTHER_CADS"))
+        return path
+    drawing = ezdxf.readfile(path)
+    for entity in drawing.modelspace():
+        name = str(entity.get_xdata(MARK)[0].value)
+        entity.discard_xdata(MARK)
+        if name not in drawing.layers:
+            drawing.layers.add(name)
+        entity.dxf.layer = name
+    drawing.header.custom_vars.clear()
+    drawing.saveas(path)
+    text = path.read_text()
+    path.write_text(text.replace(MARK, "OTHER_CADS"))
+    return path
 
 
 def _copy(*parts: str) -> Callable[[Path], Path]:
