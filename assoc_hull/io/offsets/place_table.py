@@ -72,14 +72,17 @@ def _stated(
         found["length"] = table.length
     if _BREADTH not in supposed:
         found["breadth"] = table.breadth
-    found["depth"] = table.depth
-    if table.depth is None:
-        found["depth"] = float(table.z[-1])
+    top = float(table.z[-1])
+    if "D" in table.stated:
+        found["depth"] = table.stated["D"]
+    elif table.deck_height is None:
+        found["depth"] = top - min(0.0, float(table.z[0]))
         evidence["depth"] = "the highest waterline, because nothing tells it; give depth="
-    found["draught"] = table.draught
-    if table.draught is None:
-        found["draught"] = float(table.z[-1])
+    if table.draught is None and table.z[0] >= 0.0:
+        found["draught"] = top
         evidence["draught"] = "the highest waterline, because nothing tells it; give draught="
+    elif options.draught is None:
+        found["draught"] = table.draught
     if table.keel is None and table.z[0] >= 0.0:
         found["base"] = 0.0
     return StatedPlaces(**found, evidence=evidence)
@@ -92,17 +95,32 @@ def outline_of_table(table: OffsetTable) -> HullOutline:
         for x, y in zip(table.x.tolist(), table.half_breadth, strict=True)
         for known in (np.isfinite(y),) if known.any()
     ]  # fmt: skip
-    contour = [np.column_stack([end, table.z])[np.isfinite(end)] for end in _end_places(table)]
-    if table.keel is not None:
-        known = np.isfinite(table.keel)
-        contour.append(np.column_stack([table.x, table.keel])[known])
-    else:
+    if table.keel is None:
+        contour = [np.column_stack([end, table.z]) for end in _end_places(table)]
         contour.append(np.array([section[0, [0, 2]] for section in sections]))
+    else:
+        contour = [_keel_and_ends(table, table.keel)]
+    contour = [each[np.isfinite(each).all(axis=1)] for each in contour]
     deck = None
     if table.deck_height is not None and np.isfinite(table.deck_height).sum() > 1:
         known = np.isfinite(table.deck_height)
         deck = np.column_stack([table.x, table.deck_height])[known]
-    return outline_of_sections(sections, contour, deck)
+    return outline_of_sections(sections, contour, deck, bare=table.keel is None)
+
+
+def _keel_and_ends(table: OffsetTable, keel: FloatArray) -> FloatArray:
+    """Give the keel, carried on by the ends of waterlines where these are higher."""
+    known = np.isfinite(keel)
+    middle = np.column_stack([table.x[known], keel[known]])
+    ends = _end_places(table)
+    parts = [middle]
+    if len(middle):
+        rows = table.z > middle[-1, 1]
+        parts.append(np.column_stack([ends[0], table.z])[rows])
+    if len(middle) and len(ends) > 1:
+        rows = table.z > middle[0, 1]
+        parts.insert(0, np.column_stack([ends[1], table.z])[rows][::-1])
+    return np.concatenate(parts)
 
 
 def _end_places(table: OffsetTable) -> list[FloatArray]:

@@ -335,7 +335,7 @@ def _ends(
         return _Ends(said.ap, ("stated", said.why("ap")), fp, fp_from, length)
     if length is not None:
         found = _from_fp(fp, fp_from, length, length_from)
-        return found if fixed else _snapped(found, length)
+        return found if fixed else _snapped(found, length, outline.doubt)
     if said.ap is not None or said.rudder is not None:
         axis = said.ap if said.ap is not None else said.rudder
         name = said.why("ap") if said.ap is not None else "the rudder axis that the file tells"
@@ -412,11 +412,14 @@ def _from_fp(fp: float, fp_from: tuple[str, str], length: float, length_from: st
     return _Ends(fp - length, ("found", what), fp, fp_from, length)
 
 
-def _snapped(ends: _Ends, length: float) -> _Ends:
-    """Let x = 0 of the file be a perpendicular or midship where it lies beside it."""
+def _snapped(ends: _Ends, length: float, doubt: float) -> _Ends:
+    """Let x = 0 of the file be a perpendicular or midship where it lies beside it.
+
+    `doubt` (m) is how far the stem may be off, by which all hang on Lpp.
+    """
     middle = 0.5 * (ends.ap + ends.fp)
     for name, x in (("AP", ends.ap), ("FP", ends.fp), ("midship", middle)):
-        if same_place(x, 0.0, length):
+        if same_place(x, 0.0, length) or abs(x) <= doubt:
             near = f"{abs(x):.4g} m" if abs(x) > 1e-6 * length else "nothing"
             what = f"x = 0 of the file is {name}, which stem and Lpp put {near} from it"
             ap = {"AP": 0.0, "FP": -length, "midship": -0.5 * length}[name]

@@ -14,7 +14,14 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.surfaces.triangles import Triangles, boundary_edges
 from assoc_hull.io.lines.slices import HullSlices, SliceLine
 
-__all__ = ["HullOutline", "Level", "outline_of_mesh", "outline_of_sections", "outline_of_slices"]
+__all__ = [
+    "HullOutline",
+    "Level",
+    "outline_of_mesh",
+    "outline_of_sections",
+    "outline_of_slices",
+    "station_doubt",
+]
 
 _BESIDE = 1e-6
 """The contour is cut this part of the size of the hull beside y = 0, where triangles lie."""
@@ -57,6 +64,8 @@ class HullOutline:
         Deck edge as (x, z), from aft, where it is known.
     stations : (s,) or None, m
         Where sections stand, of a hull that is known by lines.
+    doubt : float, m
+        How far the stem may be off where sections alone tell it.
     """
 
     xyz: FloatArray
@@ -64,6 +73,7 @@ class HullOutline:
     centre: FloatArray
     deck: FloatArray | None = None
     stations: FloatArray | None = None
+    doubt: float = 0.0
 
     def __attrs_post_init__(self) -> None:
         freeze(self.xyz, self.edge, self.centre)
@@ -188,16 +198,34 @@ def outline_of_slices(slices: HullSlices) -> HullOutline:
     edges = None if deck is None else np.concatenate([p.points[:, [0, 2]] for p in deck.pieces])
     if edges is not None:
         edges = edges[np.argsort(edges[:, 0], kind="stable")]
-    return HullOutline(xyz, edge, centre, edges, stations)
+    bare = profile is None and not slices.group("waterlines")
+    return HullOutline(xyz, edge, centre, edges, stations, station_doubt(stations) if bare else 0.0)
+
+
+def station_doubt(stations: FloatArray) -> float:
+    """Give half of the widest spacing of stations in the fore part: m."""
+    if len(stations) < 2:
+        return 0.0
+    fore = np.sort(stations)
+    fore = fore[fore >= fore[-1] - _END * float(np.ptp(fore))]
+    return 0.5 * float(np.diff(fore).max(initial=0.0))
 
 
 def outline_of_sections(
-    sections: list[FloatArray], contour: list[FloatArray], deck: FloatArray | None
+    sections: list[FloatArray],
+    contour: list[FloatArray],
+    deck: FloatArray | None,
+    *,
+    bare: bool,
 ) -> HullOutline:
-    """Outline sections (n, 3), m, with polylines (x, z) of the contour and the deck edge if any."""
+    """Outline sections (n, 3), m, with polylines (x, z) of the contour and the deck edge if any.
+
+    `bare`: the ends of the contour were guessed from the sections.
+    """
     xyz, edge = _joined(sections)
     stations = np.array([section[0, 0] for section in sections])
-    return HullOutline(xyz, edge, _chained(contour), deck, stations)
+    doubt = station_doubt(stations) if bare else 0.0
+    return HullOutline(xyz, edge, _chained(contour), deck, stations, doubt)
 
 
 def _joined(polylines: list[FloatArray]) -> tuple[FloatArray, IntArray]:
