@@ -135,7 +135,8 @@ def _files(
     if left:
         return f"{command[0]}: it left {', '.join(sorted(left))} behind"
     for name in wanted & found:
-        if code:
+        # Of a hull that is refused the report is written all the same, to mend the file by.
+        if code and not (code == 3 and name != TARGET):
             return f"{command[0]}: it failed and left {name}"
         try:
             _whole(folder / name)

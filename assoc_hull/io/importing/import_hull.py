@@ -20,6 +20,7 @@ from assoc_hull.errors import AssocHullError, BadInputError, NotSoundError
 from assoc_hull.io.importing.judge import finding_of, judge, verdict_notes
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
+from assoc_hull.io.importing.soundness import open_net_note
 from assoc_hull.io.importing.verdict import Finding, Verdict, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.offsets.complete_table import net_from_table
@@ -99,7 +100,7 @@ def import_hull(
     )
     require_sound(verdict, path.name, accept=wanted.accept, strict=wanted.strict)
     mine = (*report.adoption.notes, *(f"{key}: made, since both lines end there" for key in made))
-    lcb = _place_of_lcb(state, report.frame)
+    lcb = (*_place_of_lcb(state, report.frame), *open_net_note(state))
     notes = (*verdict_notes(report.notes, verdict), *lcb, *mine)
     adoption = attrs.evolve(report.adoption, notes=notes)
     return state, attrs.evolve(report, verdict=verdict, adoption=adoption, own_notes=(*lcb, *mine))

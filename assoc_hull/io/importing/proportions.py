@@ -14,6 +14,8 @@ from collections.abc import Mapping
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, planes_of
+from assoc_hull.analysis.hydrostatics.flotation import body_of
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
 from assoc_hull.analysis.hydrostatics.record import Hydrostatics
 from assoc_hull.edit.document import Document
@@ -92,18 +94,29 @@ def _measure(state: HullState, found: Findings) -> _Measured:
 
 
 def _floating(state: HullState, found: Findings) -> Hydrostatics | None:
-    """Give hydrostatics at the draught; what they would be refused for is a fault."""
+    """Give hydrostatics at the draught; what they would be refused for is found.
+
+    Lines that bound no hull are faults; numbers that disagree are suspicions, since lines that are
+    few and far apart make them disagree too.
+    """
+    hull, ship = Document(state), state.particulars
     try:
-        record = hydrostatics(Document(state), on_error="report")
+        record = hydrostatics(hull, on_error="report")
     except OutOfRangeError as error:
         found.fault("draught", "the particulars", str(error), error.value)
         return None
-    drowned = record.draught_mean < state.particulars.draught
-    for doubt in record.notes[:1] if drowned else ():
-        found.fault("draught", "the particulars", doubt, state.particulars.draught)
-    for doubt in record.notes[1:] if drowned else record.notes:
-        what = f"{doubt}: hydrostatics cannot be relied on; mend the line, or draw what is missing"
-        found.fault("open net", "the net", what)
+    drowned = record.draught_mean < ship.draught
+    position = FloatingPosition(record.draught_mean, record.draught_mean)
+    lines = body_of(hull).doubts(planes_of([position], ship.length), False)
+    for number, doubt in enumerate(record.notes):
+        if number == 0 and drowned:
+            found.fault("draught", "the particulars", doubt, ship.draught)
+        elif doubt in lines:
+            what = f"{doubt}: hydrostatics are refused; mend the line, or draw what is missing"
+            found.fault("open net", "the net", what)
+        else:
+            what = f"{doubt}: check these numbers; hydrostatics need on_error='report'"
+            found.suspect("doubtful numbers", "the net", what)
     return record
 
 

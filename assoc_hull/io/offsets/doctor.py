@@ -261,10 +261,10 @@ def _beyond(patient: ExaminedTable, book: Notebook) -> None:
     # What is beyond B/2 by more than its rounding is a fault, and told with its cell.
     within = half + patient.rounding * (1.0 + 1e-6) + 1e-9 * half
     above = (patient.y > half * (1.0 + 1e-12)) & (patient.y <= within)
-    for i, j in zip(*np.nonzero(above), strict=True):
-        value = float(patient.y[i, j])
-        what = f"{patient.says(value)} is above B/2 = {half:.6g} m, within rounding"
-        book.suspect("above B/2", patient.where(i, j), what, value - half)
+    if above.any():
+        most = float(patient.y[above].max()) - half
+        what = f"{int(above.sum())} are above B/2 = {half:.6g} m by up to {most:.3g} m, as rounded"
+        book.assume("above B/2", "half-breadths", what, most)
     largest = float(np.nanmax(patient.y, initial=0.0))
     if largest < 0.9 * half:
         what = f"the largest half-breadth {largest:.6g} m is far below B/2 = {half:.6g} m"

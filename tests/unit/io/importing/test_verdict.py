@@ -159,8 +159,9 @@ def series60() -> tuple[HullState, AdoptionReport]:
 def judged(net: tuple[HullState, AdoptionReport], used: dict[str, float]) -> Verdict:
     """Give the verdict on a net some of whose lines are said to use so much of what is allowed."""
     state, report = net
+    allowed = state.tolerances.adoption
     lines = tuple(
-        attrs.evolve(each, tolerance_used=used.get(each.line, used.get("", 0.5)))
+        attrs.evolve(each, tolerance=allowed, tolerance_used=used.get(each.line, used.get("", 0.5)))
         for each in report.lines
     )
     found = Findings()

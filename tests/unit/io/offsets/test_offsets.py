@@ -348,7 +348,7 @@ def test_above_half_the_breadth_within_rounding_is_suspected() -> None:
     offsets = np.minimum(fair_offsets(), 15.99)
     offsets[10, 8] = 15.99
     report = read(csv_text(offsets, digits=2), breadth=31.975)[1]
-    assert "above B/2" in report.kinds()
+    assert "above B/2" in report.kinds("assumptions")
     with pytest.raises(BadInputError, match=r"station 9\), column 'wl_10'; .*breadth="):
         read(csv_text(offsets, digits=2), breadth=31.9)
 
