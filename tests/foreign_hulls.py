@@ -770,9 +770,25 @@ def write_yacht(folder: Path) -> Path:
     return path
 
 
+@cache
+def with_post(scale: float) -> ah.Hull:
+    """The plain ship with stations drawn on both sides of her post, as a table needs them."""
+    hull = ah.Hull(copy_state(shipped("plain_ship").state))
+    with hull.edit("stations") as edit:
+        for x in (3.6, 4.0, 4.4, 5.0):
+            edit.add_line("sections", x)
+    hull = moved(hull, (scale, scale, scale))
+    ship = hull.particulars
+    hull.state.settings.particulars.data[0] = attrs.evolve(
+        ship, length=scale * ship.length, breadth=scale * ship.breadth, depth=scale * ship.depth,
+        draught=scale * ship.draught,
+    )  # fmt: skip
+    return hull
+
+
 def tanker() -> ah.Hull:
     """The plain ship at twice her size: 240 m."""
-    return scaled("plain_ship", 2.0, 2.0, 2.0)
+    return with_post(2.0)
 
 
 def _table_rows(hull: ah.Hull, folder: Path) -> list[list[str]]:
@@ -781,8 +797,10 @@ def _table_rows(hull: ah.Hull, folder: Path) -> list[list[str]]:
     hull.export(path)
     rows = [row.split(",") for row in path.read_text().splitlines() if not row.startswith("#")]
     path.unlink()
-    end = next((i for i, row in enumerate(rows) if i and row[0] == "station"), len(rows))
-    return [row for row in rows[:end] if any(row)]
+    end = next((i for i, row in enumerate(rows) if i and row[0] == rows[0][0]), len(rows))
+    # Stations beside the post have no number: places tell where they are.
+    first = int("station" in rows[0])
+    return [row[first:] for row in rows[:end] if any(row)]
 
 
 def write_tanker(folder: Path) -> Path:
@@ -800,8 +818,8 @@ def write_tanker(folder: Path) -> Path:
 def write_workbook(folder: Path) -> Path:
     """A table in a workbook as others make it: no words, x = 0 at the FP."""
     book = openpyxl.Workbook()
-    for row in _table_rows(shipped("plain_ship"), folder):
-        cells = [float(each) if _is_number(each) else each or None for each in row[1:]]
+    for row in _table_rows(with_post(1.0), folder):
+        cells = [float(each) if _is_number(each) else each or None for each in row]
         if isinstance(cells[0], float):
             cells[0] = round(cells[0] - 120.0, 6)
         book.active.append(cells)
@@ -971,7 +989,7 @@ CORPUS: tuple[Foreign, ...] = (
     ),
     Foreign(
         "cargo_fp", "Cargo ship of 120 m: XLSX table, x = 0 at the FP and negative abaft",
-        write_workbook, _ship("plain_ship", sections=True),
+        write_workbook, _made(partial(with_post, 1.0), True),
         {"length": 120.0, "draught": 7.2, "station_zero": "fp"},
         (_w(_UNIT, unit="mm"), _w(_LENGTH, length=80.0), _w(_DRAUGHT, draught=72.0),
          _w(_ZERO, station_zero="ap")),

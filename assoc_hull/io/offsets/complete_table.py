@@ -522,7 +522,8 @@ def net_from_table(
     """Adopt a table of offsets; profile, ends and flats as for the Series 60 example.
 
     A table that these rules do not fit, as of a rising keel, a bulb or a bottom without a flat,
-    is adopted as it stands: its lines, and no profile. The first note tells why.
+    is adopted as it stands: its lines, and a profile only where it has heights of the keel. The
+    first note tells why.
 
     Parameters
     ----------
@@ -550,7 +551,8 @@ def net_from_table(
         completion = _completion(at_full_size(table))
     except BadInputError as error:
         state, report = net_of_lines(table, ship, tolerances)
-        note = f"profile, ends and flats are left open: {_in_its_size(table, error)}"
+        left = "profile, ends and flats" if table.keel is None else "ends and flats"
+        note = f"{left} are left open: {_in_its_size(table, error)}"
         return state, attrs.evolve(report, notes=(note, *report.notes))
     return adopt_completed(table, completion, ship, tolerances)
 

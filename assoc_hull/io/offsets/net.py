@@ -352,21 +352,17 @@ def lines_of_table(table: OffsetTable) -> list[LineSource]:
     profile = _keel_profile(table)
     near = factor * _TOLERANCE
     found = [
-        LineSource.make(
-            "sections", plane_name("sections", x), points, plane=((1.0, 0.0, 0.0), x),
-            tolerance=near,
-        )
-        for i, x in enumerate(table.x.tolist()) for points in _open_sections(table, i)
-    ]  # fmt: skip
+        _straightened(table, "sections", points, x, near)
+        for i, x in enumerate(table.x.tolist())
+        for points in _open_sections(table, i)
+    ]
     levels = len(table.z) - (table.deck_height is None)
     found += [
-        LineSource.make(
-            "waterlines", plane_name("waterlines", z), points, plane=((0.0, 0.0, 1.0), z),
-            tolerance=near,
-        )
-        for j, z in enumerate(table.z[:levels].tolist()) if z > factor * _LEVEL
+        _straightened(table, "waterlines", points, z, near, j)
+        for j, z in enumerate(table.z[:levels].tolist())
+        if z > factor * _LEVEL
         for points in _open_waterlines(table, j, profile)
-    ]  # fmt: skip
+    ]
     if profile is not None:
         found.append(profile)
     for points in _deck(table):
@@ -383,6 +379,37 @@ def lines_of_table(table: OffsetTable) -> list[LineSource]:
             )
         )
     return found
+
+
+def _straightened(
+    table: OffsetTable, group: str, points: FloatArray, place: float, near: float, j: int = -1
+) -> LineSource:
+    """Make a section or waterline that runs straight on the flats, and leaves them tangent.
+
+    It is on a flat of side where neighbouring offsets are the greatest, to a unit of their
+    rounding; on a flat of bottom up to an offset at the height of the keel.
+    """
+    axis, along = (0, 2) if group == "sections" else (2, 0)
+    unit = 2.0 * float(table.rounding.max() if j < 0 else table.rounding[j]) * (1.0 + 1e-6)
+    y = points[:, 1]
+    on = y >= y.max() - unit
+    beside = np.zeros(len(y), np.bool_)
+    beside[1:] |= on[:-1]
+    beside[:-1] |= on[1:]
+    # Between others of the run nothing is to be said: points in a row are straight as they are.
+    edge = np.ones(len(y), np.bool_)
+    edge[1:-1] = ~(on[:-2] & on[2:])
+    tangent = on & beside & edge
+    direction = np.where(tangent[:, None], np.eye(3)[along], 0.0)
+    same = length_factor(table.length) * _SAME
+    if group == "sections" and y[0] == 0.0 and y[1] > 0.0 and abs(np.diff(points[:2, 2])[0]) < same:
+        tangent[1], direction[1] = True, (0.0, 1.0, 0.0)
+    tangent[[0, -1]], direction[[0, -1]] = False, 0.0
+    kind = np.where(tangent, int(PointKind.TANGENT), int(PointKind.SMOOTH))
+    return LineSource.make(
+        group, plane_name(group, place), points, plane=(tuple(np.eye(3)[axis].tolist()), place),
+        kind=kind.tolist(), direction=direction, tolerance=near,
+    )  # fmt: skip
 
 
 def _open_sections(table: OffsetTable, i: int) -> Iterator[FloatArray]:
