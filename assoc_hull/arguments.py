@@ -345,8 +345,9 @@ def regular_file(path: Path) -> Path:
         A pipe, a device or a socket.
     """
     if path.exists() and not (path.is_file() or path.is_dir()):
+        kind = "a pipe" if path.is_fifo() else "a socket" if path.is_socket() else "a device"
         remedy = "give the name of a regular file; what comes through a pipe, save it first"
-        raise BadInputError("this is a pipe or a device, no regular file", f"at {path}", remedy)
+        raise BadInputError(f"this is {kind} and no regular file", f"at {path}", remedy)
     return path
 
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import attrs
 
+from assoc_hull.arguments import regular_file
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_json, add_replace
 from assoc_hull.cli.hull_words import hull_words, import_words
 from assoc_hull.cli.output import emit, plain, progress, progress_bar, say
@@ -303,6 +304,7 @@ def _adopt(
     from assoc_hull.io.importing.import_hull import import_hull
 
     options = _options(arguments)
+    regular_file(arguments.file)
     if holds_hull(arguments.file):
         return *_adopt_nothing(arguments, options), None
     if holds_definition(arguments.file):

@@ -13,7 +13,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from assoc_hull.arguments import file_path, flag, instance, not_negative
+from assoc_hull.arguments import file_path, flag, instance, not_negative, regular_file
 from assoc_hull.hull.hull import Hull
 
 if TYPE_CHECKING:
@@ -186,7 +186,7 @@ def open(path: str | os.PathLike[str], *, wait: float = 0.0, damaged: bool = Fal
     from assoc_hull.io.hull_file.saving import open_document
 
     if not (isinstance(path, str) and path.lstrip()[:1] == "{"):
-        file_path(path, "in open")
+        regular_file(Path(file_path(path, "in open")))
     return Hull(
         open_document(
             path, not_negative(wait, "wait", "in open"), damaged=flag(damaged, "damaged", "in open")
@@ -312,7 +312,7 @@ either: both say where x = 0 is
     from assoc_hull.io.importing.import_hull import import_hull
     from assoc_hull.io.importing.options import ImportOptions
 
-    file = Path(file_path(path, "in read"))
+    file = regular_file(Path(file_path(path, "in read")))
     options = ImportOptions(
         length=length, breadth=breadth, draught=draught, depth=depth, ap=ap, fp=fp, base=base,
         waterline=waterline, origin=origin, draught_aft=draught_aft, draught_fwd=draught_fwd,

@@ -27,23 +27,28 @@ from assoc_hull.io.open_databases import is_hull_file
 __all__ = ["form_by_ending", "mode_for", "require_no_hull_file", "take_place", "write_whole"]
 
 
-def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
+def write_whole(path: str | os.PathLike[str], data: bytes, *, follow: bool = False) -> None:
     """Write a file; what was there is replaced by all of it, or stays.
 
     Parameters
     ----------
     path : path
-        The file; its folder must exist. A link is followed. What is no file, such as
-        ``/dev/stdout`` or a pipe, is written to and not replaced.
+        The file; its folder must exist. A link is followed within its folder. What is no file, such
+        as ``/dev/stdout`` or a pipe, is written to and not replaced.
     data : bytes
         The content.
+    follow : bool
+        Follow a link out of its folder too.
 
     Raises
     ------
     BadInputError
-        The file cannot be written, or is a hull file, or has the name of one.
+        The file cannot be written, or is a hull file, or has the name of one; or a link leads out
+        of its folder.
     """
     target = Path(os.path.realpath(path))
+    if not follow:
+        _refuse_link(path, target)
     if target.is_dir():
         raise BadInputError("this is a folder", f"at {target}", "give the name of a file")
     require_no_hull_file(target)
@@ -57,6 +62,21 @@ def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
         raise BadInputError(
             f"the file cannot be written ({reason})", f"at {target}", "give another place"
         ) from error
+
+
+_STANDARD = ("/dev/stdout", "/dev/stderr", "/dev/fd/", "/proc/")
+
+
+def _refuse_link(path: str | os.PathLike[str], target: Path) -> None:
+    """Refuse a link that leads out of the folder that was asked for."""
+    given = os.path.abspath(path)
+    # Standard output is such a link, of the system's own.
+    if not os.path.islink(given) or given.startswith(_STANDARD):
+        return
+    folder = Path(os.path.realpath(os.path.dirname(given)))
+    if not target.is_relative_to(folder):
+        what = f"this is a link out of its folder, to {target}"
+        raise BadInputError(what, f"at {path}", "give that place itself, or another name")
 
 
 def require_no_hull_file(path: Path) -> None:

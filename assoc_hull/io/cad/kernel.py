@@ -19,12 +19,20 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from importlib.util import find_spec
 from types import MappingProxyType
 from typing import Any
 
 from assoc_hull.errors import MissingExtraError
 
-__all__ = ["MILLIMETRES", "ascii_words", "quiet_kernel", "require_opencascade"]
+__all__ = [
+    "MILLIMETRES",
+    "ascii_words",
+    "quiet_kernel",
+    "require_installed",
+    "require_opencascade",
+    "warm_up",
+]
 
 MILLIMETRES = 1000.0
 """Lengths of OpenCASCADE in one of the kernel."""
@@ -51,6 +59,18 @@ def require_opencascade() -> None:
     found = str(getattr(OCP, "__version__", "without a version"))
     if not f"{found}.".startswith(f"{_VERSION}."):
         raise MissingExtraError(f"{_LIBRARY} {_VERSION} (this is {found})", "cad")
+
+
+def require_installed() -> None:
+    """See that OpenCASCADE is there, without loading it; its version is looked at by who does.
+
+    Raises
+    ------
+    MissingExtraError
+        It is not installed.
+    """
+    if find_spec("OCP") is None:
+        raise MissingExtraError(f"{_LIBRARY} {_VERSION}", "cad")
 
 
 @contextmanager
@@ -92,6 +112,12 @@ def quiet_kernel(settings: Mapping[str, str] = _ALWAYS) -> Iterator[None]:
                 Interface_Static.SetCVal_s(name, value)
             for each in printers:
                 messenger.AddPrinter(each)
+
+
+def warm_up() -> None:
+    """Load OpenCASCADE and make its settings, which takes a second."""
+    with quiet_kernel():
+        pass
 
 
 def ascii_words(text: str) -> Any:

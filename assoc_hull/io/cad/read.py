@@ -17,16 +17,19 @@ from typing import Any
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import regular_file
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.triangulation import Facets, joined_facets
 from assoc_hull.io.cad.faces import faces_in, spline_of
 from assoc_hull.io.cad.hull_faces import HullFaces
-from assoc_hull.io.cad.kernel import MILLIMETRES, quiet_kernel
+from assoc_hull.io.cad.kernel import MILLIMETRES, quiet_kernel, require_installed
+from assoc_hull.io.child_process import ChildSession, limits_for
 from assoc_hull.io.units import METRES, refuse_other_unit
 
 __all__ = [
+    "CadFaces",
     "read_faces",
     "read_shape",
     "require_sound_step",
@@ -132,23 +135,27 @@ _TURN = 0.35
 def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> HullFaces:
     """Read the faces of a file ("step", "iges") as surfaces, m.
 
-    `told` is the unit that the file declares, `unit` one that is given; they may not differ.
+    `told` is the unit that the file declares, `unit` one that is given; they may not differ. The
+    library works in a process of its own, with limits of memory and time.
 
     Raises
     ------
     BadInputError
-        OpenCASCADE reads no face, or the file tells no unit, or another than is given.
+        OpenCASCADE reads no face, breaks down or takes more than the limits, or the file tells no
+        unit, or another than is given.
     MissingExtraError
         OpenCASCADE is not installed.
     """
-    with quiet_kernel():
-        shape = _splines(read_shape(path, kind))
-        faces = faces_in(shape)
-        if not faces:
-            raise BadInputError(
-                "there is no surface", f"in {path.name}", "export the surfaces of the hull"
-            )
-        surfaces = [_surface(face, f"face {i}") for i, face in enumerate(faces, 1)]
+    regular_file(path)
+    require_installed()
+    session = ChildSession(
+        f"{__name__}:CadFaces", (str(path), kind), limits_for(path), f"at {path}",
+        (__name__, f"{quiet_kernel.__module__}:warm_up"),
+    )  # fmt: skip
+    raw = session.call("surfaces")
+    surfaces = [
+        None if each is None else SplineSurface(f"face {i}", *each) for i, each in enumerate(raw, 1)
+    ]
     refuse_other_unit(path.name, told, unit)
     used = unit or told
     if used is None:
@@ -160,10 +167,42 @@ def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> Hul
     notes = _unheld(surfaces, path.name)
 
     def facets(deflection: float, longest: float) -> Facets:
-        with quiet_kernel():
-            return _meshed(shape, faces, deflection, factor)
+        # The session lives as long as this function does.
+        return joined_facets(session.call("facets", deflection, factor))
 
     return HullFaces(tuple(surfaces), used, notes, facets)
+
+
+class CadFaces:
+    """The faces of a file, where OpenCASCADE is: made in a child."""
+
+    def __init__(self, name: str, kind: str) -> None:
+        path = Path(name)
+        with quiet_kernel():
+            self.shape = _splines(read_shape(path, kind))
+            self.faces = faces_in(self.shape)
+            if not self.faces:
+                raise BadInputError(
+                    "there is no surface", f"in {path.name}", "export the surfaces of the hull"
+                )
+
+    def surfaces(self) -> list[tuple[Any, ...] | None]:
+        """Give what makes a `SplineSurface` of each face, but its name; None of what is none."""
+        with quiet_kernel():
+            found = [_surface(face, f"face {i}") for i, face in enumerate(self.faces, 1)]
+        return [
+            None
+            if each is None
+            else (each.degrees, each.knots_u, each.knots_v, each.net, each.weights)
+            for each in found
+        ]
+
+    def facets(
+        self, deflection: float, factor: float
+    ) -> list[tuple[FloatArray, IntArray, FloatArray]]:
+        """Give vertices (m), triangles and parameters of each face; factor as for `_meshed`."""
+        with quiet_kernel():
+            return _meshed(self.shape, self.faces, deflection, factor)
 
 
 def read_shape(path: Path, kind: str) -> Any:
@@ -220,7 +259,9 @@ def _surface(face: Any, name: str) -> SplineSurface | None:
         return None
 
 
-def _meshed(shape: Any, faces: Sequence[Any], deflection: float, factor: float) -> Facets:
+def _meshed(
+    shape: Any, faces: Sequence[Any], deflection: float, factor: float
+) -> list[tuple[FloatArray, IntArray, FloatArray]]:
     """Give the triangles of all faces; `factor` is m of the ship over m of OpenCASCADE."""
     from OCP.BRepMesh import BRepMesh_IncrementalMesh
     from OCP.BRepTools import BRepTools
@@ -228,7 +269,7 @@ def _meshed(shape: Any, faces: Sequence[Any], deflection: float, factor: float) 
     BRepTools.Clean_s(shape)
     BRepMesh_IncrementalMesh(shape, deflection / factor * MILLIMETRES, False, _TURN, False)
     parts = [_triangles(face) for face in faces]
-    return joined_facets([(xyz * (factor / MILLIMETRES), tri, uv) for xyz, tri, uv in parts])
+    return [(xyz * (factor / MILLIMETRES), tri, uv) for xyz, tri, uv in parts]
 
 
 def _triangles(face: Any) -> tuple[FloatArray, IntArray, FloatArray]:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-import gzip
 import io
 import logging
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 
 from assoc_hull.arguments import regular_file
 from assoc_hull.errors import BadInputError, MissingExtraError
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles, merge_vertices
+from assoc_hull.io.child_process import limits_for, run_in_child
+from assoc_hull.io.read_file import too_large, unpacked
 
 __all__ = [
     "MESH_ENDINGS",
@@ -19,14 +22,13 @@ __all__ = [
     "grid_triangles",
     "is_mesh_name",
     "merge_vertices",
+    "parse_triangles",
     "read_triangles",
 ]
 
 MESH_ENDINGS = (".stl", ".obj", ".ply")
-_MOST_BYTES = 2_000_000_000
-
-# Without a handler, what trimesh logs of a file it cannot read would go to standard error.
-logging.getLogger("trimesh").addHandler(logging.NullHandler())
+_MOST_BYTES = 500_000_000
+_FIRST_BYTES, _DENSE = 50_000_000, 60
 
 
 def is_mesh_name(path: Path) -> bool:
@@ -50,23 +52,50 @@ def _ending(path: Path) -> str:
 def read_triangles(path: Path) -> Triangles:
     """Read the triangles of a file as they stand; equal vertices are one.
 
+    trimesh reads it in a process of its own, with limits of memory and time.
+
     Raises
     ------
     BadInputError
-        The file cannot be read, is no mesh, holds no triangle or numbers that are not finite.
+        The file cannot be read, is no mesh, holds no triangle or numbers that are not finite, or
+        takes more than the limits.
     MissingExtraError
         trimesh is not installed.
     """
-    try:
-        import trimesh
-    except ImportError as error:
-        raise MissingExtraError("trimesh", "mesh") from error
+    regular_file(path)
+    if find_spec("trimesh") is None:
+        raise MissingExtraError("trimesh", "mesh")
+    xyz, face = run_in_child(
+        f"{__name__}:parse_triangles",
+        (str(path),),
+        limits_for(path),
+        f"at {path}",
+        (__name__, "trimesh"),
+    )
+    return merge_vertices(xyz, face)
+
+
+def parse_triangles(name: str) -> tuple[FloatArray, IntArray]:
+    """Give vertices (n, 3) and triangles (m, 3) of a file; called in a child.
+
+    Raises
+    ------
+    BadInputError
+        As for `read_triangles`.
+    """
+    import trimesh
+
+    # Without a handler, what trimesh logs of a file it cannot read would go to standard error.
+    logging.getLogger("trimesh").addHandler(logging.NullHandler())
+    path = Path(name)
     ending = _ending(path).removeprefix(".")
     data = _recoded(_unpack(path), ending)
     try:
         loaded = trimesh.load(io.BytesIO(data), file_type=ending, process=False, force="mesh")
         xyz = np.array(getattr(loaded, "vertices", np.zeros((0, 3))), np.float64)
         face = np.array(getattr(loaded, "faces", ()), np.int64).reshape(-1, 3)
+    except MemoryError:
+        raise
     except Exception as error:  # trimesh raises whatever its parsers meet
         raise BadInputError(
             f"no triangles could be read ({type(error).__name__})", f"at {path}",
@@ -76,7 +105,7 @@ def read_triangles(path: Path) -> Triangles:
         raise _no_triangles(path, data, ending)
     if not np.isfinite(xyz).all() or face.min() < 0 or face.max() >= len(xyz):
         raise BadInputError("a vertex is missing or not finite", f"at {path}", "export it again")
-    return merge_vertices(xyz, face)
+    return xyz, face
 
 
 def _recoded(data: bytes, ending: str) -> bytes:
@@ -111,18 +140,17 @@ def _no_triangles(path: Path, data: bytes, ending: str) -> BadInputError:
 
 
 def _unpack(path: Path) -> bytes:
+    where = f"at {path}"
     if _ending(path) not in MESH_ENDINGS:
         raise BadInputError(
-            "the form is unknown", f"at {path}", f"give one of {', '.join(MESH_ENDINGS)} (.gz)"
+            "the form is unknown", where, f"give one of {', '.join(MESH_ENDINGS)} (.gz)"
         )
     try:
         data = regular_file(path).read_bytes()
-        packed = gzip.GzipFile(fileobj=io.BytesIO(data)) if data[:2] == b"\x1f\x8b" else None
-        text = packed.read(_MOST_BYTES + 1) if packed else data
-    except (OSError, EOFError) as error:
-        raise BadInputError(
-            f"the file cannot be read ({error})", f"at {path}", "check name and file"
-        ) from error
-    if len(text) > _MOST_BYTES:
-        raise BadInputError("the mesh is larger than 2 GB", f"at {path}", "thin it first")
-    return text
+    except OSError as error:
+        what = f"the file cannot be read ({error})"
+        raise BadInputError(what, where, "check name and file") from error
+    if len(data) > _MOST_BYTES:
+        raise too_large(_MOST_BYTES, where)
+    # No mesh packs as densely as this: places differ from one another.
+    return unpacked(data, min(_MOST_BYTES, _FIRST_BYTES + _DENSE * len(data)), where)

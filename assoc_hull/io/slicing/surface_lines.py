@@ -293,6 +293,8 @@ def cad_kind(path: Path) -> str | None:
 
     IGES or 3DM without surfaces is something else: its curves are digitised lines.
     """
+    if not path.is_file():
+        return None
     if is_rhino(path):
         return "3dm" if rhino_shows(read_rhino(path), path.name) == "surfaces" else None
     try:
@@ -327,10 +329,10 @@ def faces_of_file(path: Path, unit: str = "auto") -> HullFaces:
         return _faces_of_rhino(path, given)
     text = _text(path)
     if kind == "step":
-        from assoc_hull.io.cad.kernel import require_opencascade
+        from assoc_hull.io.cad.kernel import require_installed
         from assoc_hull.io.cad.read import read_faces, require_sound_step, step_unit
 
-        require_opencascade()
+        require_installed()
         require_sound_step(text, path.name)
         return read_faces(path, "step", step_unit(text), given)
     try:

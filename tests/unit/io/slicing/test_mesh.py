@@ -1,6 +1,5 @@
 """Cutting a triangulated hull into lines: what is found, mended and refused."""
 
-import builtins
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ from assoc_hull.errors import BadInputError, MissingExtraError, NoMeetingError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.io.lines.slices import HullSlices
+from assoc_hull.io.mesh import read as mesh_read
 from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.slicing.mesh_lines import read_mesh, slice_mesh
 from tests import meshes
@@ -352,15 +352,8 @@ def test_without_trimesh_the_extra_is_named(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """Where trimesh is missing the error says which extra to install."""
-    real = builtins.__import__
-
-    def without(name: str, *rest: Any, **more: Any) -> Any:
-        if name.startswith("trimesh"):
-            raise ImportError(name)
-        return real(name, *rest, **more)
-
     path = meshes.write(meshes.wigley_half(5, 5), tmp_path / "h.stl")
-    monkeypatch.setattr(builtins, "__import__", without)
+    monkeypatch.setattr(mesh_read, "find_spec", lambda name: None)
     with pytest.raises(MissingExtraError, match=r"assoc-hull\[mesh\]"):
         read_mesh(path)
 
