@@ -219,7 +219,7 @@ _ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _KEPT = 2
 """Servers that wait for the next session."""
 
-_PATIENCE, _GRACE = 5.0, 60.0
+_PATIENCE, _GRACE = 5.0, 120.0
 """So many times its processor time, and so many seconds more, may a call last by the clock."""
 
 

@@ -14,11 +14,13 @@ from typing import Any
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import regular_file
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.knots import checked_knots
 from assoc_hull.geometry.patches.spline_curve import SplineCurve
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.io.child_process import limits_for, run_in_child
 from assoc_hull.io.lines.own_lines import IMAGE, MARK, OwnLines, TextedCurve, own_lines
 from assoc_hull.io.rhino.write import rhino_module
 from assoc_hull.io.units import METRES
@@ -30,6 +32,7 @@ __all__ = [
     "is_rhino",
     "own_rhino_lines",
     "read_rhino",
+    "rhino_values",
 ]
 
 _HEAD = b"3D Geometry File Format"
@@ -92,6 +95,8 @@ class RhinoModel:
 
 def is_rhino(path: Path) -> bool:
     """Tell by its beginning whether a file is one of Rhino."""
+    if not path.is_file():  # opening a pipe waits for ever
+        return False
     try:
         with path.open("rb") as file:
             return file.read(len(_HEAD)) == _HEAD
@@ -100,15 +105,30 @@ def is_rhino(path: Path) -> bool:
 
 
 def read_rhino(path: Path) -> RhinoModel:
-    """Read a file of Rhino.
+    """Read a file of Rhino; rhino3dm works in a process of its own, with limits.
 
     Raises
     ------
     BadInputError
-        It is too large, or damaged.
+        It is too large, damaged, or takes more than the limits of memory and time.
     MissingExtraError
         rhino3dm is not installed.
     """
+    unit, curves, surfaces, meshes, left, trimmed, text = run_in_child(
+        f"{__name__}:rhino_values", (str(regular_file(path)),), limits_for(path), f"at {path}",
+        (__name__, "rhino3dm"),
+    )  # fmt: skip
+    return RhinoModel(
+        unit,
+        tuple(RhinoCurve(layer, SplineCurve(*each), own) for layer, each, own in curves),
+        tuple((layer, SplineSurface(*each)) for layer, each in surfaces),
+        tuple(RhinoMesh(*each) for each in meshes), left, trimmed, text,
+    )  # fmt: skip
+
+
+def rhino_values(name: str) -> tuple[Any, ...]:
+    """Give what makes a `RhinoModel`, as plain values; called in a child."""
+    path = Path(name)
     rhino = rhino_module()
     size = path.stat().st_size
     if size > _MOST_BYTES:
@@ -117,7 +137,18 @@ def read_rhino(path: Path) -> RhinoModel:
     model = rhino.File3dm.Read(str(path))
     if model is None:
         raise BadInputError("rhino3dm cannot read it", f"in {path.name}", "save it again in Rhino")
-    return _Reader(rhino, model, path.name).model_values()
+    found = _Reader(rhino, model, path.name).model_values()
+    return (
+        found.unit,
+        [(each.layer, _plain(each.spline), each.text) for each in found.curves],
+        [(layer, _plain(each)) for layer, each in found.surfaces],
+        [_plain(each) for each in found.meshes],
+        found.left, found.trimmed, found.text,
+    )  # fmt: skip
+
+
+def _plain(value: Any) -> tuple[Any, ...]:
+    return tuple(getattr(value, each.name) for each in attrs.fields(type(value)))
 
 
 def own_rhino_lines(path: Path) -> OwnLines | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import gzip
 import os
 import pickle
@@ -24,6 +25,7 @@ from assoc_hull.hull.sources import read_classical
 from assoc_hull.io import child_process
 from assoc_hull.io.child_process import ChildSession, Limits, limits_for, run_in_child
 from assoc_hull.io.mesh.read import read_triangles
+from assoc_hull.io.rhino.read import read_rhino
 from assoc_hull.io.write_file import write_whole
 from tests import meshes
 from tests.unit.test_errors import SAMPLES
@@ -171,6 +173,25 @@ def test_a_small_file_that_unpacks_to_much_is_refused(tmp_path: Path) -> None:
         ah.read(path)
     good = meshes.write(meshes.wigley_half(), tmp_path / "hull.stl.gz")
     assert len(read_triangles(good).face) == len(meshes.wigley_half().face)
+
+
+def test_a_damaged_file_of_rhino_is_an_error_of_the_family(tmp_path: Path) -> None:
+    """Bytes of it changed here and there: rhino3dm may end its child, and nothing else."""
+    pytest.importorskip("rhino3dm")
+    path = tmp_path / "a.3dm"
+    ah.examples.wigley().export(path)
+    whole, draw = path.read_bytes(), np.random.default_rng(3)
+    for _ in range(4):
+        data = np.frombuffer(whole, np.uint8).copy()
+        data[draw.integers(32, len(data), 400)] = draw.integers(0, 256, 400)
+        path.write_bytes(data.tobytes())
+        with contextlib.suppress(AssocHullError):
+            read_rhino(path)
+    path.write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(BadInputError, match=r"a\.3dm"):
+        read_rhino(path)
+    path.write_bytes(whole)
+    assert len(read_rhino(path).curves) > 30
 
 
 @pytest.mark.parametrize("ending", [".step", ".stl", ".csv", ".hull", ".hull.json", ""])
