@@ -21,7 +21,7 @@ from assoc_hull.hull import Hull
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
 
-FORMS = {"dxf": ".dxf", "iges-lines": ".igs"}
+FORMS = {"dxf": ".dxf", "iges-lines": ".igs", "3dm": ".3dm"}
 SHIPS = (
     "wigley", "series60", "bulk_carrier_207k", "bulk_carrier_180m", "container_ship_225m",
     "plain_ship", "seaking_ship", "sfolds_ship", "prelikon_ship",

@@ -16,7 +16,7 @@ from assoc_hull.io.mesh.closed_mesh import MESH_FORMS, MeshFile, write_mesh
 from assoc_hull.io.reports import ExportReport
 from assoc_hull.io.surfaces.hull_surface import SURFACE_ENDINGS, SURFACE_FORMS
 from assoc_hull.io.write_file import form_by_ending
-from assoc_hull.model.tables import HasState
+from assoc_hull.model.tables import HasState, state_of
 from assoc_hull.surface.cells.closed_mesh import closed_mesh
 
 __all__ = ["export_file"]
@@ -37,16 +37,16 @@ def export_file(
     """Write a hull in a form of lines, surfaces or meshes; arguments as of `Hull.export`."""
     forms, endings = (*FORMS, *SURFACE_FORMS), {**ENDINGS, **SURFACE_ENDINGS}
     chosen = form_by_ending(path, form, forms, endings, "in export")
-    alone = flag(half, "half", "in export")
+    alone, state = flag(half, "half", "in export"), state_of(hull, "in export")
     _refuse("points", "meshes", given=points is not None and chosen not in MESH_FORMS)
     if chosen in FORMS:
         _refuse("half", "surfaces and meshes", given=alone)
-        return export_hull(hull.state, path, chosen, unit, scale=scale)
+        return export_hull(state, path, chosen, unit, scale=scale)
     _refuse("scale", "a lines plan", given=scale is not None)
     if chosen in MESH_FORMS:
         # The mesh comes from the lines: it needs no surface, which takes longer.
         mesh = closed_mesh(hull, half=alone, points=_POINTS if points is None else points)
-        return write_mesh(mesh, path, chosen, unit=unit, name=hull.state.particulars.name or "hull")
+        return write_mesh(mesh, path, chosen, unit=unit, name=state.particulars.name or "hull")
     return surface_of_hull(hull).write(path, chosen, unit=unit, half=alone)
 
 

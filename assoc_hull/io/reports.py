@@ -85,6 +85,11 @@ class OffsetReport:
             parts.append("\n".join([f"{title} ({len(notes)})", *(f"  {note}" for note in notes)]))
         return "\n".join(parts)
 
+    def then(self, other: OffsetReport) -> OffsetReport:
+        """Give these notes and those of a later step."""
+        parts = ("assumptions", "repairs", "suspicions", "faults")
+        return OffsetReport(*(getattr(self, each) + getattr(other, each) for each in parts))
+
     def kinds(self, part: str = "suspicions") -> tuple[str, ...]:
         """Give the kinds of the notes of one part, sorted, each once."""
         return tuple(sorted({note.kind for note in getattr(self, part)}))

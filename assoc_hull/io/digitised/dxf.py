@@ -29,7 +29,7 @@ from assoc_hull.io.dxf.read_lines_plan import names_of, plan_curves
 from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawLines, read_number
 from assoc_hull.io.reports import Notebook
 
-__all__ = ["parse_dxf"]
+__all__ = ["drawn_curves", "parse_dxf"]
 
 _AXES = {10: 0, 20: 1, 30: 2}
 _CURVED = ("ARC", "CIRCLE", "ELLIPSE", "HELIX", "MLINE", "INSERT")
@@ -71,11 +71,7 @@ def parse_dxf(text: str, source: str, book: Notebook) -> RawLines:
         A group code or a coordinate that is none, or a spline that is none.
     """
     entities = drawing_entities(text, source)
-    drawn = [
-        (each, RawCurve("", each.where, shape))
-        for i, each in enumerate(entities)
-        if (shape := _shape(each, entities, i)) is not None
-    ]
+    drawn = drawn_curves(entities)
     _tell_oddities(entities, book)
     found = [
         attrs.evolve(curve, line=name)
@@ -85,6 +81,15 @@ def parse_dxf(text: str, source: str, book: Notebook) -> RawLines:
     _tell_left_out([names_of(entity) for entity, _ in drawn], book)
     chord = _CHORD * _size(found)
     return RawLines([each.piece(chord) for each in found], drawing_unit(entities), told=False)
+
+
+def drawn_curves(entities: list[DrawingEntity]) -> list[tuple[DrawingEntity, RawCurve]]:
+    """Give what entities draw as lines; raises as `parse_dxf`."""
+    return [
+        (each, RawCurve("", each.where, shape))
+        for i, each in enumerate(entities)
+        if (shape := _shape(each, entities, i)) is not None
+    ]
 
 
 def _tell_left_out(named: list[tuple[str, str]], book: Notebook) -> None:

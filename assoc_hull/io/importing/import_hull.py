@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import attrs
@@ -17,6 +18,7 @@ from assoc_hull.arguments import positive, regular_file
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.edit.adoption.latent_crossings import make_latent_crossings
 from assoc_hull.errors import AssocHullError, BadInputError, NotSoundError
+from assoc_hull.io.digitised.body_plan import BodyPlanRules, is_body_plan, read_body_plan
 from assoc_hull.io.importing.judge import finding_of, judge, verdict_notes
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
@@ -107,12 +109,39 @@ def import_hull(
 
 
 def _import_lines(path: Path, options: ImportOptions, tell: Tell) -> tuple[HullState, ImportReport]:
+    if is_body_plan(path):
+        return _import_body_plan(path, options, tell)
     options.refuse("it is for tables of offsets", path, options.TABLES)
     named = options.named(*options.CUTS, "deck", "unit", "deck_edge")
     state, slices = read_slices(path, frame=options.frame, **named, tell=tell)
     return state, ImportReport(
         slices.slices, slices.adoption, Verdict(), slices=slices, frame=slices.frame
     )
+
+
+def _import_body_plan(
+    path: Path, options: ImportOptions, tell: Tell
+) -> tuple[HullState, ImportReport]:
+    """Read the sections of a flat drawing, and adopt them as digitised lines."""
+    plan = read_body_plan(path, BodyPlanRules(
+        options.scale or 1.0, options.unit, options.length, options.station_spacings,
+        options.frame_spacing, options.station_zero,
+    ))  # fmt: skip
+    # Stations are counted from AP, whatever a frame would find of sections alone.
+    frame = options.frame
+    if options.ap is None and options.length is not None:
+        frame = attrs.evolve(frame, ap="0 m")
+    wanted = attrs.evolve(options, unit=plan.unit)
+    named = wanted.named(*options.CUTS, "deck", "unit", "deck_edge")
+    with TemporaryDirectory() as folder:
+        lines = Path(folder) / f"{path.stem}.csv"
+        lines.write_text(plan.text, encoding="utf-8")
+        state, slices = read_slices(lines, frame=frame, **named, tell=tell)
+    notes = plan.notes.then(slices.slices)
+    return state, ImportReport(
+        notes, slices.adoption, Verdict(), slices=attrs.evolve(slices, slices=notes),
+        frame=slices.frame,
+    )  # fmt: skip
 
 
 def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, ImportReport]:

@@ -1,0 +1,352 @@
+"""A body plan in a flat DXF drawing: sections of both halves, by the labels beside them.
+
+The after body is drawn to one side of the centre line and the fore body to the other, at one scale.
+Each section begins on the centre line or ends beside its label; where stations stand comes from
+their numbers, the length and how many spacings it has. Grid lines and whatever has no label are
+left out, and told by layer.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from pathlib import Path
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.digitised.dxf import drawn_curves
+from assoc_hull.io.dxf.entities import DrawingEntity, drawing_entities, drawing_unit
+from assoc_hull.io.dxf.read_lines_plan import names_of
+from assoc_hull.io.lines.raw_lines import plane_name
+from assoc_hull.io.reports import Notebook, OffsetReport
+from assoc_hull.io.units import METRES, checked_unit, refuse_other_unit
+
+__all__ = ["BodyPlan", "BodyPlanRules", "is_body_plan", "read_body_plan"]
+
+_LEAST = 4
+"""A flat drawing of fewer curves is no body plan."""
+
+_HEAD, _MOST_BYTES = 2000, 50_000_000
+_CHORD = 1e-5
+"""Points of a spline are this close, as a part of the drawing's size."""
+
+_STRAIGHT, _NEAR, _REACH = 1e-3, 5e-3, 0.12
+"""Parts of the size: of a straight line, of the centre line, and how far a label may lie."""
+
+_TWINS = 0.025
+"""Sections that end this near one another, in parts of the size, may have each other's label."""
+
+_NUMBER = re.compile(
+    r"(?:ST(?:ATION)?|SEC(?:TION)?|FR(?:AME)?|NO|#)?[\s.:#]*"
+    r"(?P<whole>-?\d+(?:[.,]\d+)?)?\s*(?P<part>½|¼|¾|[123]/[24])?",
+    re.IGNORECASE,
+)
+_PARTS = {"½": 0.5, "¼": 0.25, "¾": 0.75, "1/2": 0.5, "1/4": 0.25, "3/4": 0.75, "2/4": 0.5}
+_COMMON = (10, 20)
+"""Into how many spacings a length is parted as a rule."""
+
+
+@attrs.frozen
+class BodyPlanRules:
+    """What is said of a body plan, where the drawing does not tell it.
+
+    Attributes
+    ----------
+    scale : float
+        Full scale over that of the drawing.
+    unit : str or None
+        Of the drawing.
+    length : float or None, m
+        Between perpendiculars.
+    spacings : int or None
+        Of stations, between the perpendiculars.
+    spacing : float or None, m
+        Of stations, in place of the two.
+    zero : {"ap", "fp"} or None
+        Where station 0 is.
+    """
+
+    scale: float = 1.0
+    unit: str | None = None
+    length: float | None = None
+    spacings: int | None = None
+    spacing: float | None = None
+    zero: str | None = None
+
+
+@attrs.frozen
+class BodyPlan:
+    """The sections as digitised lines in text, in `unit` and at the scale of the drawing."""
+
+    text: str
+    unit: str
+    notes: OffsetReport
+
+
+def is_body_plan(path: Path) -> bool:
+    """Tell whether a file is a drawing all of whose curves lie in its plane, and none of ours."""
+    if not path.is_file() or path.stat().st_size > _MOST_BYTES:
+        return False
+    data = path.read_bytes()
+    if not re.search(rb"^\s*0\s*\r?\n\s*SECTION\s*$", data[:_HEAD], re.MULTILINE):
+        return False
+    try:
+        entities = drawing_entities(data.decode("utf-8", "replace"), path.name)
+        drawn = drawn_curves(entities)
+        flat = all(not np.ptp(each.corners[:, 2]) and not each.corners[0, 2] for _, each in drawn)
+    except BadInputError:
+        return False
+    ours = any(names_of(entity)[1] for entity, _ in drawn)
+    return len(drawn) >= _LEAST and flat and not ours
+
+
+@attrs.frozen(eq=False)
+class _Curve:
+    """A curve of the drawing, (n, 2), and its layer."""
+
+    xy: FloatArray
+    layer: str
+
+
+@attrs.frozen
+class _Label:
+    """A number in the drawing: a station, or 'AP' or 'FP'."""
+
+    word: str
+    place: tuple[float, float]
+
+
+def read_body_plan(path: Path, rules: BodyPlanRules) -> BodyPlan:
+    """Read the sections of a body plan.
+
+    Raises
+    ------
+    BadInputError
+        It tells no unit, no label is beside a section, or nothing tells where stations stand.
+    """
+    book, where = Notebook(), f"in {path.name}"
+    entities = drawing_entities(path.read_bytes().decode("utf-8", "replace"), path.name)
+    unit = _unit(drawing_unit(entities), rules.unit, path.name)
+    drawn = drawn_curves(entities)
+    size = float(max(np.ptp(each.corners[:, :2], axis=0).max() for _, each in drawn))
+    every = [
+        _Curve(curve.piece(_CHORD * size).points[:, :2], entity.word(8)) for entity, curve in drawn
+    ]
+    curves = [each for each in every if not _is_straight(each, size)]
+    if not curves:
+        raise BadInputError("all curves of the flat drawing are straight", where,
+                            "give a drawing of sections, or lines in space")  # fmt: skip
+    grid = Counter(each.layer for each in every if _is_straight(each, size))
+    for layer, count in grid.items():
+        book.assume("left out", f"the layer {layer!r}", f"{count} straight lines: a grid", count)
+    centre = _centre(curves, size, book)
+    pairs, rest = _labelled(curves, _labels(entities), size)
+    if not pairs:
+        raise BadInputError("no section of the body plan has a number beside it", where,
+                            "put the number of its station at the end of each section")  # fmt: skip
+    pairs = _in_order(pairs, centre, size, book)
+    for layer, count in Counter(each.layer for each in rest).items():
+        what = f"{count} curves without the number of a station: left out"
+        book.suspect("curve", f"the layer {layer!r}", what, count)
+    _tell_texts(entities, book)
+    places = _places([label.word for _, label in pairs], pairs, centre, rules, book, where)
+    factor = rules.scale * METRES[unit]
+    rows = ["line,x,y,z,piece"]
+    done: dict[float, str] = {}
+    for number, ((curve, label), x) in enumerate(zip(pairs, places, strict=True)):
+        side = "right" if curve.xy[:, 0].mean() > centre else "left"
+        if done.setdefault(x, side) != side:
+            book.repair("both sides", f"station {label.word}", "drawn on both sides: one is kept")
+            continue
+        name = plane_name("sections", x)
+        rows += [
+            f"{name},{x / factor!r},{abs(a - centre)!r},{b!r},{number}"
+            for a, b in _upward(curve.xy).tolist()
+        ]
+    return BodyPlan("\n".join(rows) + "\n", unit, book.report())
+
+
+def _unit(told: str | None, given: str | None, source: str) -> str:
+    unit = None if given is None else checked_unit(given, "as an argument")
+    refuse_other_unit(source, told, unit)
+    found = unit or told
+    if found is None:
+        what = "a body plan tells no unit"
+        raise BadInputError(what, f"in {source}", f"give unit: {', '.join(METRES)}")
+    return found
+
+
+def _is_straight(curve: _Curve, size: float) -> bool:
+    """Tell lines of the grid, and frames, from sections."""
+    first, last = curve.xy[0], curve.xy[-1]
+    along = last - first
+    length = float(np.hypot(*along))
+    if length <= _STRAIGHT * size:
+        return True  # closed: a frame, a circle around a label
+    off = np.abs(along[0] * (curve.xy - first)[:, 1] - along[1] * (curve.xy - first)[:, 0]) / length
+    return bool(off.max() <= _STRAIGHT * size)
+
+
+def _centre(curves: list[_Curve], size: float, book: Notebook) -> float:
+    """Find the centre line: most sections begin on it."""
+    low = np.array([each.xy[np.argmin(each.xy[:, 1]), 0] for each in curves])
+    near = np.abs(low[:, None] - low) <= _NEAR * size
+    best = int(near.sum(axis=1).argmax())
+    centre = float(np.median(low[near[best]]))
+    what = f"at {centre:.6g} of the drawing, where {int(near[best].sum())} sections begin"
+    book.assume("centre line", "the body plan", what, centre)
+    return centre
+
+
+def _labels(entities: list[DrawingEntity]) -> list[_Label]:
+    """Give the texts that are numbers of stations."""
+    found = []
+    for each in entities:
+        if each.kind in ("TEXT", "MTEXT"):
+            word = re.sub(r"\\[A-Za-z][^;]*;|[{}]", "", each.word(1)).strip()
+            if word.upper() in ("AP", "FP") or (word and _value(word) is not None):
+                code = 11 if each.kind == "TEXT" and each.numbers(11) else 10
+                x, y, _ = each.place(code)
+                found.append(_Label(word.upper(), (x, y)))
+    return found
+
+
+def _value(word: str) -> float | None:
+    """Give the number that a label means."""
+    match = _NUMBER.fullmatch(word)
+    if match is None or not (match["whole"] or match["part"]):
+        return None
+    whole = float((match["whole"] or "0").replace(",", "."))
+    part = _PARTS.get(match["part"] or "", 0.0)
+    return whole - part if whole < 0.0 else whole + part
+
+
+def _labelled(
+    curves: list[_Curve], labels: list[_Label], size: float
+) -> tuple[list[tuple[_Curve, _Label]], list[_Curve]]:
+    """Give each section the label that lies nearest to one of its ends; the pairs that fit best."""
+    pairs = sorted(
+        (float(np.hypot(*(curve.xy[end] - np.array(label.place)))), i, j)
+        for i, curve in enumerate(curves) for j, label in enumerate(labels) for end in (0, -1)
+    )  # fmt: skip
+    mine: dict[int, int] = {}
+    for away, i, j in pairs:
+        if away <= _REACH * size and i not in mine and j not in mine.values():
+            mine[i] = j
+    rest = [curve for i, curve in enumerate(curves) if i not in mine]
+    return [(curves[i], labels[j]) for i, j in sorted(mine.items())], rest
+
+
+def _in_order(
+    pairs: list[tuple[_Curve, _Label]], centre: float, size: float, book: Notebook
+) -> list[tuple[_Curve, _Label]]:
+    """Share out labels of sections that end at one place: fuller sections lie nearer amidships."""
+    out = list(pairs)
+    left = np.array([curve.xy[:, 0].mean() < centre for curve, _ in pairs])
+    numbers = np.array([_value(label.word) or 0.0 for _, label in pairs])
+    area = np.array([_area(curve.xy, centre) for curve, _ in pairs])
+    ends = np.array([_upward(curve.xy)[-1] for curve, _ in pairs])
+    for side in (left, ~left):
+        mine = np.flatnonzero(side)
+        rising = float(((area - area[side].mean()) * (numbers - numbers[side].mean()))[side].sum())
+        for group in _together(ends[mine], _TWINS * size):
+            rows = mine[group]
+            if len(rows) < 2:
+                continue
+            curves = rows[np.argsort(area[rows], kind="stable")]
+            labels = rows[np.argsort(np.sign(rising) * numbers[rows], kind="stable")]
+            for i, j in zip(curves.tolist(), labels.tolist(), strict=True):
+                out[i] = (pairs[i][0], pairs[j][1])
+            words = ", ".join(sorted((pairs[j][1].word for j in rows.tolist()), key=_sorting))
+            what = "they end at one place; fuller ones are taken to lie nearer amidships"
+            book.assume("labels", f"the sections {words}", what, len(rows))
+    return out
+
+
+def _sorting(word: str) -> tuple[float, str]:
+    return _value(word) or 0.0, word
+
+
+def _area(xy: FloatArray, centre: float) -> float:
+    up = _upward(xy)
+    return float(np.trapezoid(np.abs(up[:, 0] - centre), up[:, 1]))
+
+
+def _together(places: FloatArray, near: float) -> list[list[int]]:
+    """Give places, (n, 2), in groups whose neighbours along x lie near one another."""
+    order = np.argsort(places[:, 0], kind="stable").tolist()
+    groups: list[list[int]] = []
+    for each in order:
+        if groups and np.abs(places[each] - places[groups[-1][-1]]).max() <= near:
+            groups[-1].append(each)
+        else:
+            groups.append([each])
+    return groups
+
+
+def _places(
+    words: list[str], pairs: list[tuple[_Curve, _Label]], centre: float, rules: BodyPlanRules,
+    book: Notebook, where: str,
+) -> list[float]:  # fmt: skip
+    """Give x of the stations from AP, m."""
+    numbers = np.array([np.nan if w in ("AP", "FP") else _value(w) for w in words], np.float64)
+    left = np.array([curve.xy[:, 0].mean() < centre for curve, _ in pairs])
+    zero = rules.zero or _zero(numbers, left, book)
+    spacing, last = rules.spacing, None
+    if spacing is None:
+        if rules.length is None:
+            raise BadInputError("nothing tells how far apart the stations of the body plan are",
+                                where, "give length=, or frame_spacing=")  # fmt: skip
+        last = rules.spacings or _spacings(numbers, book, where)
+        spacing = rules.length / last
+    x = numbers * spacing
+    if zero == "fp":
+        length = rules.length or float(np.nanmax(x))
+        x = length - x
+    ends = {"AP": 0.0, "FP": rules.length if rules.length is not None else np.nan}
+    x = np.where(np.isnan(x), [ends.get(w, np.nan) for w in words], x)
+    if np.isnan(x).any():
+        raise BadInputError(
+            "a section is labelled FP and no length is known", where, "give length="
+        )
+    return [round(float(each), 9) + 0.0 for each in x]
+
+
+def _zero(numbers: FloatArray, left: np.typing.NDArray[np.bool_], book: Notebook) -> str:
+    """Tell where station 0 is: the after body is drawn to the left, as a rule."""
+    one, other = numbers[left], numbers[~left]
+    aft_low = not len(one) or not len(other) or np.nanmean(one) <= np.nanmean(other)
+    zero = "ap" if aft_low else "fp"
+    what = f"at the {zero.upper()}, since the after body is taken to be drawn to the left"
+    book.assume("station zero", "the body plan", what)
+    return zero
+
+
+def _spacings(numbers: FloatArray, book: Notebook, where: str) -> int:
+    most = float(np.nanmax(numbers))
+    found = next((each for each in _COMMON if each - 1.0 <= most <= each + 0.5), None)
+    if found is None:
+        what = f"the highest station of the body plan is {most:g}"
+        raise BadInputError(what, where, "give station_spacings=, or frame_spacing=")
+    what = f"{found} between the perpendiculars, by the highest label, {most:g}"
+    book.assume("station numbers", "the body plan", what, found)
+    return found
+
+
+def _upward(xy: FloatArray) -> FloatArray:
+    return xy if xy[-1, 1] >= xy[0, 1] else xy[::-1]
+
+
+def _tell_texts(entities: list[DrawingEntity], book: Notebook) -> None:
+    """Tell, by layer, texts that are no stations, and entities that are not read."""
+    known = ("TEXT", "MTEXT", "SPLINE", "LINE", "POLYLINE", "LWPOLYLINE")
+    odd = Counter(
+        (each.word(8), each.kind) for each in entities
+        if each.kind in ("ARC", "CIRCLE", "ELLIPSE", "INSERT", "HATCH", "DIMENSION", "POINT")
+        and each.kind not in known
+    )  # fmt: skip
+    for (layer, kind), count in odd.items():
+        book.assume("left out", f"the layer {layer!r}", f"{count} of {kind}", count)
