@@ -28,7 +28,6 @@ __all__ = [
     "at_full_length",
     "length_factor",
     "round_at_size",
-    "rounding_unit",
 ]  # fmt: skip
 
 FULL_LENGTH = 100.0
@@ -58,27 +57,6 @@ def length_factor(length: float) -> float:
     return min(1.0, length / FULL_LENGTH)
 
 
-def rounding_unit(factor: float) -> float:
-    """Give the unit (m) of which lengths of a hull are rounded to a digit: a power of two."""
-    return 2.0 ** (math.frexp(factor)[1] - 1) if 0.0 < factor < 1.0 else 1.0
-
-
-def round_at_size(length: float, digits: int, factor: float) -> float:
-    """Round a length (m) to a digit that is as fine as a hull's factor of lengths asks for.
-
-    The digit is of a unit that is a power of two of the metre: decimals that are short stay what
-    they are, and hulls that differ by a power of two are rounded to the same bits.
-
-    Examples
-    --------
-    >>> from assoc_hull.tolerance import round_at_size
-    >>> [round_at_size(each, 3, 1 / 64) for each in (0.3, 0.123456)], round_at_size(0.123456, 3, 1)
-    ([0.3, 0.123453125], 0.123)
-    """
-    unit = rounding_unit(factor)
-    return round(length / unit, digits) * unit
-
-
 def at_full_length(values: ArrayLike, factor: float) -> FloatArray:
     """Give lengths (m) of a hull with a factor of lengths as they are of the hull of 100 m.
 
@@ -96,6 +74,22 @@ def at_full_length(values: ArrayLike, factor: float) -> FloatArray:
         return grown
     decimal = np.round(grown, 9)
     return np.where(np.abs(decimal - grown) <= 8.0 * np.spacing(np.abs(grown)), decimal, grown)
+
+
+def round_at_size(length: float, digits: int, factor: float) -> float:
+    """Round a length (m) to a digit as fine as a hull's factor of lengths asks for.
+
+    The digit is that of the hull of 100 m; what is a short decimal there stays what it is here.
+
+    Examples
+    --------
+    >>> from assoc_hull.tolerance import round_at_size
+    >>> [round_at_size(0.123456, 3, each) for each in (1.0, 0.125)], round_at_size(0.3, 3, 0.04)
+    ([0.123, 0.1235], 0.3)
+    """
+    found = factor * round(float(at_full_length(length, factor)), digits)
+    exact = math.frexp(factor)[0] == 0.5
+    return length if not exact and abs(found - length) <= 8.0 * math.ulp(length) else found
 
 
 _COINCIDENT = 1e-6

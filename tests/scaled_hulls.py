@@ -129,15 +129,14 @@ def yacht_mesh() -> Triangles:
 
 def surfaces() -> ScaledHull:
     """The Wigley hull as one surface, as IGES in the unit metre."""
-    net = np.array([
-        [[x, y, z] for z, y in zip((0.0, 3.125, 6.25), heights, strict=True)]
-        for x, heights in ((0.0, (0.0, 0.0, 0.0)), (50.0, (0.0, 10.0, 10.0)), (100.0, (0.0, 0.0, 0.0)))
-    ])  # fmt: skip
+    z, breadth = np.array([0.0, 3.125, 6.25]), np.array([0.0, 10.0, 10.0])
+    rows = ((0.0, 0.0), (50.0, 1.0), (LENGTH, 0.0))
+    net = np.array([np.column_stack([np.full(3, x), part * breadth, z]) for x, part in rows])
 
     def write(path: Path, factor: float) -> None:
         write_surfaces([SplineSurface.bezier(factor * net, "hull")], path)
 
-    return ScaledHull(".igs", write, 6.25, 10.0, {"stations": 9, "waterlines": 5, "buttocks": 2})
+    return ScaledHull(".igs", write, 6.25, 10.0, {"stations": 9, "waterlines": 4, "buttocks": 2})
 
 
 @cache

@@ -334,7 +334,9 @@ def _check(work: Work) -> tuple[str, ...]:
     batch = splines_of(work.state, clean)
     findings = find_unbounded(work.state, clean, batch)
     findings += find_folds(work.state, clean, batch, work.network.before)
-    findings += find_turned(work.state, clean) + find_beyond(work.state, clean, batch)
+    findings += find_turned(work.state, clean) + find_beyond(
+        work.state, clean, batch, work.network.before
+    )
     findings += tuple(unreached(work.state, work.pending.fields, work.pending.values.keys()))
     findings += find_endless(work.state, work.ends)
     if work.pending.structural:

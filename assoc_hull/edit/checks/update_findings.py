@@ -37,7 +37,7 @@ __all__ = [
 ]
 
 _CENTRE = 1e-6
-"""How far (m) a point may lie beyond the centre plane by rounding."""
+"""Times `Tolerances.factor`: how far (m) a point may lie beyond the centre plane by rounding."""
 
 
 @attrs.frozen(eq=False)
@@ -123,12 +123,26 @@ def find_unbounded(
     )
 
 
-def find_beyond(state: HullState, curves: IntArray, batch: SplineBatch | None) -> tuple[str, ...]:
-    """Say which curves have points beyond the centre plane: only y >= 0 is stored."""
+def find_beyond(
+    state: HullState,
+    curves: IntArray,
+    batch: SplineBatch | None,
+    before: dict[int, SplineBatch],
+) -> tuple[str, ...]:
+    """Say which curves have points beyond the centre plane, farther than they had before the edit.
+
+    Only y >= 0 is stored; but a hull that was taken in with such points may be edited.
+    """
     if batch is None:
         return ()
+    least = state.tolerances.factor * _CENTRE
     lowest = np.minimum.reduceat(batch.xyz[:, 1], batch.start[:-1])
-    beyond = np.flatnonzero(lowest < -_CENTRE)
+    beyond = [
+        local
+        for local in np.flatnonzero(lowest < -least).tolist()
+        if (old := before.get(int(curves[local]))) is None
+        or lowest[local] < float(old.xyz[:, 1].min()) - least
+    ]
     return tuple(
         f"{curve_title(state, curve)} passes the centre plane by {-low:.3g} m: "
         "make the move smaller"

@@ -20,7 +20,7 @@ from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.numeric.circle_fit import fit_circle
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.plane import plane_axes
-from assoc_hull.tolerance import round_at_size, rounding_unit
+from assoc_hull.tolerance import round_at_size
 
 __all__ = ["FeatureCircle", "fit_circle_in_plane"]
 
@@ -77,8 +77,7 @@ def fit_circle_in_plane(
     turn = np.ptp(np.unwrap(np.arctan2(away[:, 1], away[:, 0])))
     height = float((normal * xyz[0]).sum())
     centre = height * normal + found.centre[0] * axes[0] + found.centre[1] * axes[1]
-    unit = rounding_unit(factor)
-    centre = np.round(centre / unit, _DIGITS) * unit + 0.0
+    centre = factor * np.round(centre / factor, _DIGITS) + 0.0
     if closed:
         centre[1] = 0.0
     radius = round_at_size(found.radius, _DIGITS, factor)

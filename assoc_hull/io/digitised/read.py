@@ -20,6 +20,7 @@ from assoc_hull.io.digitised.bulwarks import below_deck
 from assoc_hull.io.digitised.one_hull import take_one_hull
 from assoc_hull.io.digitised.rhino import rhino_lines
 from assoc_hull.io.digitised.text import parse_lines
+from assoc_hull.io.lines.boundary_holes import polyline_distance, report_holes, with_met_ends
 from assoc_hull.io.lines.mend_lines import (
     join_pieces,
     join_width_text,
@@ -106,7 +107,53 @@ def to_one_side(raw: list[RawPiece], book: Notebook, small: float = 1.0) -> list
         turned += len(others)
         kept += [*sides.port, *others]
     _report_sides(cut, images, turned, book)
-    return kept
+    return to_port_of_centre(kept, book, small)
+
+
+def to_port_of_centre(pieces: list[RawPiece], book: Notebook, small: float) -> list[RawPiece]:
+    """Cut pieces where they pass the centre plane by less than makes them lie on both sides.
+
+    The profile lies in it. Only y >= 0 is a part of the hull, and no edit of a hull would be taken
+    that has other points.
+    """
+    found, past = [], dict[str, float]()
+    for each in pieces:
+        off = np.abs(each.points[:, 1]) if each.line.lower() == "profile" else -each.points[:, 1]
+        most = float(off.max())
+        if not 0.0 < most <= small * _ACROSS:
+            found.append(each)
+            continue
+        past[each.line] = max(most, past.get(each.line, 0.0))
+        found.append(attrs.evolve(each, points=_cut_ends(each)))
+    if past:
+        worst = max(past, key=lambda name: past[name])
+        what = f"{len(past)} lines pass y = 0, by up to {1e3 * past[worst]:.3g} mm ({worst})"
+        book.repair("centre plane", "the lines", f"{what}: cut there", past[worst])
+    return found
+
+
+def _cut_ends(piece: RawPiece) -> FloatArray:
+    """Give the points of a piece that are not beyond the centre plane, its ends brought into it."""
+    points = piece.points.copy()
+    inside = np.flatnonzero(points[:, 1] > 0.0)
+    if piece.line.lower() == "profile" or not len(inside):
+        points[:, 1] = 0.0
+        return points
+    first, last = int(inside[0]), int(inside[-1])
+    kept = points[first : last + 1]
+    kept[:, 1] = np.maximum(kept[:, 1], 0.0)
+    head = _through_centre(points[first - 1], points[first]) if first else kept[:0]
+    tail = _through_centre(points[last + 1], points[last]) if last + 1 < len(points) else kept[:0]
+    return np.concatenate([head, kept, tail])
+
+
+def _through_centre(beyond: FloatArray, inside: FloatArray) -> FloatArray:
+    """Give the place, (1, 3), where a chord passes the centre plane."""
+    part = inside[1] / (inside[1] - beyond[1])
+    place = inside + part * (beyond - inside)
+    place[1] = 0.0
+    found: FloatArray = place[None]
+    return found
 
 
 def _report_sides(cut: list[str], images: int, turned: int, book: Notebook) -> None:
@@ -320,14 +367,15 @@ def read_lines(
     every = np.concatenate([each.points for each in raw])
     joins: list[GapJoin] = []
     limits = settled_gaps(gaps, small, "in read_lines")
+    rims = _by_name(raw, boundary=True)
     boundaries = [
         SliceLine(
             "boundary",
             title,
             float("nan"),
-            tuple(_chain(title, mine, limits, joins, {}, book, small)),
+            tuple(_boundary(title, rims, limits, joins, book, small)),
         )
-        for title, mine in _by_name(raw, boundary=True).items()
+        for title in rims
     ]
     borders = {
         line.name: np.concatenate([each.points for each in line.pieces]) for line in boundaries
@@ -460,6 +508,41 @@ def _chain(
     small: float,
 ) -> list[LinePiece]:
     """Join the pieces of one line where they meet; gaps wider than `join` stay open."""
+    pieces = _pieces(name, raw, book)
+    pieces = [
+        attrs.evolve(
+            each,
+            ends=(
+                _under(each.points[0], borders, small), _under(each.points[-1], borders, small),
+            ),
+        )
+        for each in pieces
+    ]  # fmt: skip
+    pieces, made = join_pieces(name, pieces, Gaps(gaps.join, gaps.join))
+    joins += made
+    _report_gap(name, pieces, gaps, book)
+    return pieces
+
+
+def _boundary(
+    name: str,
+    rims: dict[str, list[RawPiece]],
+    gaps: Gaps,
+    joins: list[GapJoin],
+    book: Notebook,
+    small: float,
+) -> list[LinePiece]:
+    """Join the pieces of a boundary curve; a hole that stays is reported: no net of it closes."""
+    others = [(other, each.points) for other in rims if other != name for each in rims[other]]
+    pieces = with_met_ends(_pieces(name, rims[name], book), others, small * _REACH)
+    pieces, made = join_pieces(name, pieces, Gaps(gaps.join, gaps.join))
+    joins += made
+    report_holes(name, pieces, book)
+    return pieces
+
+
+def _pieces(name: str, raw: list[RawPiece], book: Notebook) -> list[LinePiece]:
+    """Give the pieces of one line with their points in order."""
     if len(raw) > _MOST_PIECES:
         raise BadInputError(f"{name} comes in {len(raw)} pieces, more than {_MOST_PIECES}",
                             f"in {raw[0].where}", "join them where they were drawn")  # fmt: skip
@@ -469,15 +552,7 @@ def _chain(
         if len(points) < 2:
             raise BadInputError(f"{name} has a piece of one point", f"in {each.where}",
                                 "give two or more")  # fmt: skip
-        points = put_in_order(name, points, book)
-        pieces.append(
-            LinePiece(
-                points, (_under(points[0], borders, small), _under(points[-1], borders, small))
-            )
-        )
-    pieces, made = join_pieces(name, pieces, Gaps(gaps.join, gaps.join))
-    joins += made
-    _report_gap(name, pieces, gaps, book)
+        pieces.append(LinePiece(put_in_order(name, points, book)))
     return pieces
 
 
@@ -498,16 +573,9 @@ def _report_gap(name: str, pieces: list[LinePiece], gaps: Gaps, book: Notebook) 
 def _under(place: FloatArray, borders: dict[str, FloatArray], small: float) -> str:
     """Name the boundary curve on which the end of a line lies: "loose" if on none."""
     for name in ("deck edge", "transom"):
-        if name in borders and _distance(borders[name], place) < small * _REACH:
+        if name in borders and polyline_distance(borders[name], place) < small * _REACH:
             return name
     return "profile" if abs(place[1]) < small * _CENTRE else "loose"
-
-
-def _distance(border: FloatArray, place: FloatArray) -> float:
-    start, step = border[:-1], np.diff(border, axis=0)
-    part = ((place - start) * step).sum(axis=1) / np.maximum((step * step).sum(axis=1), 1e-12)
-    foot = start + np.clip(part, 0.0, 1.0)[:, None] * step
-    return float(np.linalg.norm(foot - place, axis=1).min())
 
 
 def _line(

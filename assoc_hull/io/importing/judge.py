@@ -9,6 +9,7 @@ from assoc_hull.io.importing.proportions import examine_particulars
 from assoc_hull.io.importing.soundness import examine_net
 from assoc_hull.io.importing.stated import stated_in
 from assoc_hull.io.importing.verdict import Finding, Findings, Verdict
+from assoc_hull.io.lines.boundary_holes import HOLE
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.reports import Note, OffsetReport
 from assoc_hull.io.slicing.net import SliceReport
@@ -48,7 +49,9 @@ def _take_up(note: Note, state: HullState, found: Findings) -> None:
     """Take what the reader suspects; an offset of another size than its neighbours is a fault."""
     half = 0.5 * state.particulars.breadth
     wild = note.kind == "outlier" and note.amount is not None and abs(note.amount) > _WILD * half
-    (found.faults if wild else found.suspicions).append(finding_of(note))
+    # Of an open profile neither surface nor closed mesh can be made, and volumes leak there.
+    broken = wild or note.kind == HOLE
+    (found.faults if broken else found.suspicions).append(finding_of(note))
 
 
 def finding_of(note: Note) -> Finding:

@@ -284,7 +284,7 @@ def make_source(plan: PiecePlan, tolerance: float) -> tuple[LineSource, SmoothRe
     """Draw a piece as a line that can be adopted within `tolerance` (m) of the smooth curve."""
     part = plan.part
     drawn = [stretch.draw() for stretch in plan.stretches]
-    xy, kind, direction = _chain(plan, drawn)
+    xy, kind, direction = _to_port(part, *_chain(plan, drawn))
     way = np.zeros((len(xy), 3))
     way[:, piece_columns(part)] = direction
     line, sine = (
@@ -310,6 +310,25 @@ def make_source(plan: PiecePlan, tolerance: float) -> tuple[LineSource, SmoothRe
         part.arcs,
     )  # fmt: skip
     return source, report
+
+
+_BEYOND = 1e-6
+"""Points of a smooth line farther (m) beyond the centre plane than rounding takes them are none."""
+
+
+def _to_port(
+    part: PieceFeatures,
+    xy: FloatArray,
+    kind: np.typing.NDArray[np.int8],
+    direction: FloatArray,
+) -> tuple[FloatArray, np.typing.NDArray[np.int8], FloatArray]:
+    """Leave out smooth points beyond the centre plane: a line along it is smoothed across it."""
+    columns = piece_columns(part)
+    if part.line.group == "boundary" or 1 not in columns:
+        return xy, kind, direction
+    kept = (xy[:, columns.index(1)] >= -_BEYOND) | (kind != PointKind.SMOOTH)
+    kept[[0, -1]] = True
+    return xy[kept], kind[kept], direction[kept]
 
 
 def _chain(
