@@ -47,7 +47,7 @@ def half_breadth(x: FloatArray, z: FloatArray) -> FloatArray:
 
 
 def shell(rake: float, draught: float, count: int = 500) -> float:
-    """Area (m2) of both sides below a draught, from transom to stem, by half a million triangles."""
+    """Area (m2) of both sides below a draught, transom to stem, by half a million triangles."""
     along = np.linspace(0.0, 1.0, count + 1)[:, None]
     up = np.linspace(0.0, 1.0, count + 1) ** 2.5
     x = along * LENGTH + 0.0 * up

@@ -26,6 +26,9 @@ from assoc_hull.geometry.polylines.operations import cumulative_lengths
 
 __all__ = ["border_bends", "fit_border", "order_places"]
 
+_VAGUE = 0.25
+"""A place whose doubt is more than this part of its distance says little of a direction."""
+
 
 def order_places(places: FloatArray, doubt: FloatArray, first: Sequence[int]) -> list[int]:
     """Put places of one border in order along it.
@@ -86,13 +89,30 @@ def border_bends(places: FloatArray, doubt: FloatArray, least_deg: float) -> lis
     """
     if len(places) < 3:
         return []
-    step = np.diff(places, axis=0)
-    length = np.sqrt((step * step).sum(axis=1))
-    unit = step / length[:, None]
-    turn = np.arccos(np.clip((unit[1:] * unit[:-1]).sum(axis=1), -1.0, 1.0))
-    shorter = np.minimum(length[1:], length[:-1])
-    unsure = 2.0 * (doubt[1:-1] + np.maximum(doubt[2:], doubt[:-2])) / shorter
-    return [int(i) + 1 for i in np.flatnonzero(turn > np.deg2rad(least_deg) + unsure)]
+    found = []
+    for i in range(1, len(places) - 1):
+        before, after = _neighbour(places, doubt, i, -1), _neighbour(places, doubt, i, 1)
+        steps = np.stack([places[i] - places[before], places[after] - places[i]])
+        length = np.sqrt((steps * steps).sum(axis=1))
+        cosine = float((steps[0] @ steps[1]) / (length[0] * length[1]))
+        turn = float(np.arccos(np.clip(cosine, -1.0, 1.0)))
+        unsure = 2.0 * float(doubt[i] + max(doubt[before], doubt[after])) / float(length.min())
+        if turn > np.deg2rad(least_deg) + unsure:
+            found.append(i)
+    return found
+
+
+def _neighbour(places: FloatArray, doubt: FloatArray, i: int, way: int) -> int:
+    """Give the place next to another that tells in which direction the border runs there.
+
+    One that may lie anywhere beside it is passed over for the next, if that is surer.
+    """
+    near, far = i + way, i + 2 * way
+    if not 0 <= far < len(places):
+        return near
+    step = float(np.sqrt(((places[near] - places[i]) ** 2).sum()))
+    vague = doubt[near] > _VAGUE * step and doubt[far] < doubt[near]
+    return far if vague else near
 
 
 def fit_border(places: FloatArray, doubt: FloatArray, corners: Sequence[int] = ()) -> FloatArray:
@@ -101,7 +121,8 @@ def fit_border(places: FloatArray, doubt: FloatArray, corners: Sequence[int] = (
     Parameters
     ----------
     places : (n, d), m
-        In order; both ends and the corners are kept.
+        In order; the corners are kept, and so is an end, unless its doubt is a good part of its
+        distance from the next place.
     doubt : (n,), m
         How far the curve may pass 49 of 50 of them, and half of how far any, if that can be had.
     corners : sequence of int
@@ -111,7 +132,26 @@ def fit_border(places: FloatArray, doubt: FloatArray, corners: Sequence[int] = (
     for low, high in pairwise([0, *corners, len(places) - 1]):
         if high - low > 2:
             out[low : high + 1] = _fit(places[low : high + 1], doubt[low : high + 1])
+    for end, way in ((0, 1), (len(places) - 1, -1)):
+        if len(places) > 3 and end + way not in corners:
+            out[end] = _led_on(out[[end + 2 * way, end + way]], places[end], float(doubt[end]))
     return out
+
+
+def _led_on(course: FloatArray, place: FloatArray, doubt: float) -> FloatArray:
+    """Give the end of a border, beyond the two places before it: its mark, unless that is vague.
+
+    A vague one must not bend the border: it is moved to where that goes straight on, or as near to
+    there as its doubt allows.
+    """
+    before, last = course
+    if doubt <= _VAGUE * float(np.sqrt(((place - last) ** 2).sum())):
+        return place
+    ahead = (last - before) / float(np.sqrt(((last - before) ** 2).sum()))
+    straight = last + ahead * max(float((place - last) @ ahead), 0.0)
+    off = straight - place
+    size = float(np.sqrt(off @ off))
+    return np.asarray(place + off * min(1.0, doubt / max(size, 1e-300)))
 
 
 def _fit(places: FloatArray, doubt: FloatArray) -> FloatArray:

@@ -78,3 +78,23 @@ def test_a_border_turns_where_it_surely_does() -> None:
     assert border_bends(places, np.full(5, 1.0), 40.0) == []
     drawn = fit_border(places, np.full(5, 0.01), [2])
     assert np.abs(drawn - places).max() < 0.01
+
+
+def test_a_vague_last_place_makes_no_hook() -> None:
+    """It may lie 1.5 m off; the border goes straight on up there, and turns where it surely does.
+
+    The marks are those of the flat of side of a container ship at her bow.
+    """
+    places = np.array(
+        [[259.0, 22.95], [271.7, 24.65], [283.2, 26.35], [290.12, 28.05], [290.49, 29.75],
+         [290.53, 31.45], [289.15, 33.15]]
+    )  # fmt: skip
+    doubt = np.array([0.06, 0.3, 0.36, 0.01, 0.72, 0.03, 1.48])
+    corners = border_bends(places, doubt, 40.0)
+    assert corners == [3]
+    drawn = fit_border(places, doubt, corners)
+    np.testing.assert_array_equal(drawn[3], places[3])
+    assert np.ptp(drawn[3:, 0]) < 0.7
+    assert (np.sqrt(((drawn - places) ** 2).sum(axis=1)) <= doubt + 1e-9)[[0, 3, 6]].all()
+    sure = fit_border(places, np.full(7, 0.01), corners)
+    np.testing.assert_array_equal(sure[-1], places[-1])
