@@ -18,6 +18,7 @@ from assoc_hull.analysis.derivatives.curve_tangents import defining_rows
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart, gather_net
 from assoc_hull.analysis.net.moved_layout import move_cells
+from assoc_hull.analysis.net.open_ends import with_ends
 from assoc_hull.analysis.net.strip_boundaries import StripBoundary
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
@@ -139,7 +140,8 @@ def _put(base: Flotation, state: HullState, net: CurveNet, points: FloatArray) -
     cells = move_cells(base.layout, base.net, net.batch, points)
     frames = _frames(base.layout.frames, base.net.batch, net.batch)
     layout = attrs.evolve(base.layout, cells=cells, frames=frames)
-    return Flotation(state, net, layout, CoonsStrips.on(cells, net.batch), base.kinds)
+    strips = with_ends(CoonsStrips.on(cells, net.batch), net, base.closed, base.ends)
+    return Flotation(state, net, layout, strips, base.kinds, base.ends)
 
 
 def _net(net: CurveNet, batch: SplineBatch) -> CurveNet:

@@ -37,9 +37,10 @@ from assoc_hull.analysis.net.curve_net import (
     sections_of,
     transom_areas_below,
 )
+from assoc_hull.analysis.net.open_ends import OpenEnd, open_ends, with_ends
 from assoc_hull.analysis.net.surface_layout import SurfaceLayout, lay_out_surface
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
+from assoc_hull.geometry.curves import FloatArray, PointKind, Strips, freeze
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
@@ -86,10 +87,12 @@ class Flotation:
         The lines.
     layout : SurfaceLayout
         How the surface is put together.
-    strips : CoonsStrips
-        The surface.
+    strips : Strips
+        The surface, with what closes its open ends.
     kinds : (n,) int8
         The `PointKind` of each defining point of the net.
+    ends : tuple of OpenEnd
+        Ends that no line closes.
     kept : dict
         What others measured of it, to go when a line changes.
     """
@@ -97,8 +100,9 @@ class Flotation:
     state: HullState
     net: CurveNet
     layout: SurfaceLayout
-    strips: CoonsStrips
+    strips: Strips
     kinds: NDArray[np.int8]
+    ends: tuple[OpenEnd, ...] = ()
     kept: dict[object, Any] = attrs.field(factory=dict, init=False, repr=False)
     _route: dict[bytes, ImmersedIntegrals] = attrs.field(factory=dict, init=False, repr=False)
 
@@ -120,7 +124,12 @@ class Flotation:
     @cached_property
     def spread(self) -> ErrorEstimator:
         """What estimates how far numbers may be off."""
-        return error_estimator(self.state, self.net, self.strips, self.closed)
+        return error_estimator(self.state, self.net, self.strips, self.closed, self.ends)
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What is taken of the hull that no line shows."""
+        return tuple(str(each) for each in self.ends)
 
     @property
     def closed(self) -> bool:
@@ -239,7 +248,9 @@ def flotation(state: HullState) -> Flotation:
             "no surface between the sections", "in hydrostatics", "draw profile and deck edge"
         )
     kinds = curve_data(state, net.curve).kind
-    found = Flotation(state, net, layout, CoonsStrips.on(layout.cells, net.batch), kinds)
+    ends, closed = open_ends(net, layout, ship.length), ship.deck == "closed"
+    strips = with_ends(CoonsStrips.on(layout.cells, net.batch), net, closed, ends)
+    found = Flotation(state, net, layout, strips, kinds, ends)
     state.kept[_KEPT] = stamp, found
     return found
 

@@ -32,7 +32,7 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
     rising_numbers,
     with_appendages,
 )
-from assoc_hull.analysis.hydrostatics.flotation import body_of, header_of
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, body_of, header_of
 from assoc_hull.analysis.hydrostatics.record import (
     FIELDS,
     SALT,
@@ -641,4 +641,5 @@ def table_without_doubts(
         more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
         remedy = "mend the hull, or take the numbers with on_error='report'"
         raise BadInputError(doubts[0] + more, _WHERE, remedy)
-    return attrs.evolve(table, notes=(*told, *doubts))
+    assumed = body.assumed if isinstance(body, Flotation) else ()
+    return attrs.evolve(table, notes=(*told, *assumed, *doubts))
