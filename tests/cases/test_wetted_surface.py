@@ -101,3 +101,19 @@ def test_the_deck_that_limits_a_draught_is_no_transom() -> None:
     with pytest.raises(ah.errors.OutOfRangeError) as refused:
         hull.hydrostatics(draught=12.5)
     assert refused.value.most == pytest.approx(DEPTH)
+
+
+def test_an_open_deck_is_named_where_it_limits_and_report_measures_up_to_it() -> None:
+    """The message names the lowest place of the edge and its station, and what to do works."""
+    hull = raked_ship(0.3, deck="open")
+    with pytest.raises(ah.errors.OutOfRangeError, match=r'z 12\.000 m at x .*near ST .*deck="clos'):
+        hull.hydrostatics(draught=13.0)
+    told = hull.hydrostatics(draught=13.0, on_error="report")
+    assert told.draught_mean == pytest.approx(DEPTH)
+    assert "drowns the open deck: measured up to 12 m" in told.notes[0]
+    assert told.volume == pytest.approx(hull.hydrostatics(draught=DEPTH).volume, rel=1e-9)
+    table = hull.hydrostatic_table([6.0, 13.0], [0.0, 0.5], on_error="report")
+    assert table.columns["draught_mean"].tolist() == pytest.approx(
+        [6.0, 6.0, 12.0, 11.75], abs=0.02
+    )
+    assert raked_ship(0.3, deck="closed").hydrostatics(draught=11.9).notes == ()
