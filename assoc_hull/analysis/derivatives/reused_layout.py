@@ -20,7 +20,7 @@ from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart, gather_net
 from assoc_hull.analysis.net.moved_layout import move_cells
 from assoc_hull.analysis.net.open_ends import with_ends
 from assoc_hull.analysis.net.strip_boundaries import StripBoundary
-from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch, Strips
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.segments import locate_parameters, segment_start
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
@@ -140,7 +140,8 @@ def _put(base: Flotation, state: HullState, net: CurveNet, points: FloatArray) -
     cells = move_cells(base.layout, base.net, net.batch, points)
     frames = _frames(base.layout.frames, base.net.batch, net.batch)
     layout = attrs.evolve(base.layout, cells=cells, frames=frames)
-    strips = with_ends(CoonsStrips.on(cells, net.batch), net, base.closed, base.ends)
+    strips: Strips = CoonsStrips.on(cells, net.batch)
+    strips = with_ends(strips, net, base.closed, base.ends) if base.ends else strips
     return Flotation(state, net, layout, strips, base.kinds, base.ends)
 
 

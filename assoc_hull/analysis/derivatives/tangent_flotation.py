@@ -19,7 +19,7 @@ from assoc_hull.analysis.hydrostatics.flotation import Flotation
 from assoc_hull.analysis.net.curve_net import CurveNet, sections_of, transom_areas_below
 from assoc_hull.analysis.net.moved_layout import move_cells
 from assoc_hull.analysis.net.open_ends import with_ends
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, SplineBatch, Strips
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
@@ -63,9 +63,9 @@ class TangentFlotation:
     def prepared(self) -> PreparedStrips:
         """The surface with its integrals."""
         cells = move_cells(self.base.layout, self.base.net, self.batch, self.points)
-        strips = with_ends(
-            CoonsStrips.on(cells, self.batch), self.net, self.base.closed, self.base.ends
-        )
+        strips: Strips = CoonsStrips.on(cells, self.batch)
+        if self.base.ends:
+            strips = with_ends(strips, self.net, self.base.closed, self.base.ends)
         return prepare_strips(strips, plain=None if is_plain(self.batch.xyz) else self.base.strips)
 
     def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:

@@ -25,8 +25,13 @@ from assoc_hull.analysis.net.curve_net import (
     thinned_net,
     transom_areas_below,
 )
-from assoc_hull.analysis.net.open_ends import OpenEnd, StripsWithEnds, with_ends
-from assoc_hull.analysis.net.surface_layout import SurfaceLayout, areas_between, lay_out_surface
+from assoc_hull.analysis.net.open_ends import StripsWithEnds, with_ends
+from assoc_hull.analysis.net.surface_layout import (
+    OpenEnd,
+    SurfaceLayout,
+    areas_between,
+    lay_out_surface,
+)
 from assoc_hull.geometry.curves import FloatArray, PointKind, Strips
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
@@ -187,7 +192,8 @@ def error_estimator(
     def coarse(without: NDArray[np.bool_]) -> CoarseHull:
         fewer = thinned_net(state, net, without)
         layout = lay_out_surface(fewer, state.particulars.length, closed)
-        surface = with_ends(CoonsStrips.on(layout.cells, fewer.batch), fewer, closed, ends)
+        surface: Strips = CoonsStrips.on(layout.cells, fewer.batch)
+        surface = with_ends(surface, fewer, closed, ends) if ends else surface
         return CoarseHull(fewer, layout, prepare_strips(surface))
 
     return ErrorEstimator(

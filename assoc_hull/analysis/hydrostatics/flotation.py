@@ -37,8 +37,13 @@ from assoc_hull.analysis.net.curve_net import (
     sections_of,
     transom_areas_below,
 )
-from assoc_hull.analysis.net.open_ends import OpenEnd, open_ends, with_ends
-from assoc_hull.analysis.net.surface_layout import SurfaceLayout, lay_out_surface
+from assoc_hull.analysis.net.open_ends import with_ends
+from assoc_hull.analysis.net.surface_layout import (
+    OpenEnd,
+    SurfaceLayout,
+    lay_out_surface,
+    open_ends,
+)
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, PointKind, Strips, freeze
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
@@ -249,7 +254,8 @@ def flotation(state: HullState) -> Flotation:
         )
     kinds = curve_data(state, net.curve).kind
     ends, closed = open_ends(net, layout, ship.length), ship.deck == "closed"
-    strips = with_ends(CoonsStrips.on(layout.cells, net.batch), net, closed, ends)
+    strips: Strips = CoonsStrips.on(layout.cells, net.batch)
+    strips = with_ends(strips, net, closed, ends) if ends else strips
     found = Flotation(state, net, layout, strips, kinds, ends)
     state.kept[_KEPT] = stamp, found
     return found

@@ -13,67 +13,14 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.net.curve_net import ON_PLANE, CurveNet, sections_of
-from assoc_hull.analysis.net.surface_layout import SurfaceLayout
+from assoc_hull.analysis.net.curve_net import CurveNet, sections_of
+from assoc_hull.analysis.net.surface_layout import OpenEnd
 from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, Strips
 from assoc_hull.geometry.numeric.generic_sums import common_zeros
 
-__all__ = ["OpenEnd", "StripsWithEnds", "open_ends", "with_ends"]
-
-_LEAST = 1e-4
-"""Parts of the length: where the extent goes on by less, the section is the end."""
+__all__ = ["StripsWithEnds", "with_ends"]
 
 _ORDER = 4
-
-
-@attrs.frozen
-class OpenEnd:
-    """An end that no line closes.
-
-    Attributes
-    ----------
-    fore : bool
-        It is the forward one.
-    name : str
-        The section beyond which nothing is drawn.
-    x, end : float, m
-        Where it stands, and where the hull is taken to end.
-    source : str
-        Whence that is known.
-    """
-
-    fore: bool
-    name: str
-    x: float
-    end: float
-    source: str
-
-    def __str__(self) -> str:
-        return (
-            f"no line closes the hull beyond {self.name} (x {self.x:.2f} m): closed by straight "
-            f"lines to x {self.end:.2f} m, {self.source}; what that adds is in the errors, too"
-        )
-
-
-def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[OpenEnd, ...]:
-    """Find the ends that no line closes; `length` between perpendiculars, m."""
-    found = sections_of(net, closed=False)
-    slabs = {frame.slab for frame in layout.frames}
-    every = net.batch.xyz[:, 0]
-    ends = []
-    for fore in (False, True):
-        at = len(found.x) - 1 if fore else 0
-        x, drawn = float(found.x[at]), float(every.max() if fore else every.min())
-        sign = 1.0 if fore else -1.0
-        by_lines = sign * drawn > sign * (length if fore else 0.0)
-        end = drawn if by_lines else (length if fore else 0.0)
-        covered = net.end & np.isfinite(net.x) & (sign * net.x >= sign * x - ON_PLANE)
-        closed = (len(found.x) if fore else 0) in slabs or covered.any()
-        if closed or sign * (end - x) <= _LEAST * length:
-            continue
-        source = "where its lines end" if by_lines else "the perpendicular"
-        ends.append(OpenEnd(fore, found.names[at], x, end, source))
-    return tuple(ends)
 
 
 @attrs.frozen(eq=False)

@@ -17,8 +17,10 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.curve_net import (
     ON_CENTRE,
+    ON_PLANE,
     CurveNet,
     CurvePart,
+    sections_of,
     segments_of_part,
     station_planes,
 )
@@ -42,12 +44,14 @@ from assoc_hull.geometry.surfaces.coons import CoonsCells
 
 __all__ = [
     "LineSpans",
+    "OpenEnd",
     "StripAnchor",
     "SurfaceLayout",
     "areas_between",
     "blend_cubics",
     "lay_out_surface",
     "line_spans",
+    "open_ends",
     "parallel_slabs",
     "strip_anchors",
     "strip_extents",
@@ -756,3 +760,60 @@ def strip_extents(strips: Strips, strip: IntArray) -> FloatArray:
     curves = strips.curves(np.repeat(strip, 2), np.tile([0.0, 1.0], len(strip)))
     found: FloatArray = curves.point[curves.start[:-1], 0, 0].reshape(-1, 2)
     return found
+
+
+# --------------------------------------------------------------------------------------
+# Ends that no line closes: a hull given by sections alone has neither profile nor transom.
+
+_LEAST_END = 1e-4
+"""Parts of the length: where the extent goes on by less, the section is the end."""
+
+
+@attrs.frozen
+class OpenEnd:
+    """An end that no line closes.
+
+    Attributes
+    ----------
+    fore : bool
+        It is the forward one.
+    name : str
+        The section beyond which nothing is drawn.
+    x, end : float, m
+        Where it stands, and where the hull is taken to end.
+    source : str
+        Whence that is known.
+    """
+
+    fore: bool
+    name: str
+    x: float
+    end: float
+    source: str
+
+    def __str__(self) -> str:
+        return (
+            f"no line closes the hull beyond {self.name} (x {self.x:.2f} m): closed by straight "
+            f"lines to x {self.end:.2f} m, {self.source}; what that adds is in the errors, too"
+        )
+
+
+def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[OpenEnd, ...]:
+    """Find the ends that no line closes; `length` between perpendiculars, m."""
+    found = sections_of(net, closed=False)
+    slabs = {frame.slab for frame in layout.frames}
+    every = net.batch.xyz[:, 0]
+    ends = []
+    for fore in (False, True):
+        at = len(found.x) - 1 if fore else 0
+        x, drawn = float(found.x[at]), float(every.max() if fore else every.min())
+        sign = 1.0 if fore else -1.0
+        by_lines = sign * drawn > sign * (length if fore else 0.0)
+        end = drawn if by_lines else (length if fore else 0.0)
+        covered = net.end & np.isfinite(net.x) & (sign * net.x >= sign * x - ON_PLANE)
+        closed = (len(found.x) if fore else 0) in slabs or covered.any()
+        if closed or sign * (end - x) <= _LEAST_END * length:
+            continue
+        source = "where its lines end" if by_lines else "the perpendicular"
+        ends.append(OpenEnd(fore, found.names[at], x, end, source))
+    return tuple(ends)
