@@ -28,7 +28,7 @@ from pathlib import Path
 from typing import Any
 
 import attrs
-import ezdxf
+import ezdxf.filemanagement
 import numpy as np
 import openpyxl
 from scipy.interpolate import CubicSpline
@@ -680,7 +680,7 @@ def as_of_others(path: Path) -> Path:
         # As long as the mark, so that counts of letters and lines hold.
         path.write_text(path.read_text().replace(MARK, "OTHER_CADS"))
         return path
-    drawing = ezdxf.readfile(path)
+    drawing = ezdxf.filemanagement.readfile(path)
     for entity in drawing.modelspace():
         name = str(entity.get_xdata(MARK)[0].value)
         entity.discard_xdata(MARK)

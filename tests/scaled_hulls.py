@@ -7,6 +7,7 @@ scale or in another unit holds the same decimals times a number, with all digits
 from collections.abc import Callable, Iterable
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import attrs
 import numpy as np
@@ -49,7 +50,7 @@ class ScaledHull:
     write: Callable[[Path, float], None]
     draught: float
     breadth: float
-    cuts: dict[str, int] = attrs.field(factory=dict)
+    cuts: dict[str, Any] = attrs.field(factory=dict)
 
     def read(
         self, folder: Path, scale: float = 1.0, unit: str = "m"

@@ -105,7 +105,8 @@ def _add_import(commands: Commands) -> None:
         metavar="FILE",
         type=Path,
         help="CSV, TSV, XLSX, STL, OBJ, PLY, IGES, STEP, Rhino (.3dm), DXF, BRITFAIR (.bri), "
-        "DELFTship (.txt), GHS (.gf), a text of a classical definition, or a saved hull (.hull, .hull.json)",
+        "DELFTship (.txt), GHS (.gf), a text of a classical definition, or a saved hull (.hull, "
+        ".hull.json)",
     )
     _add_target(parser)
     for name, what in (

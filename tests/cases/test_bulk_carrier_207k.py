@@ -162,7 +162,7 @@ def test_the_end_of_the_bossing_is_no_transom(bulk_carrier: ah.Hull) -> None:
 
     The disc at which the bossing ends has 1.651 m2, and counted as a transom at every draught.
     """
-    edge = bulk_carrier["transom"].curves[0].spline.xyz
+    edge = bulk_carrier.lines["transom"].curves[0].spline.xyz
     foot = float(edge[:, 2].min())
     draughts = [8.0, 18.0, foot, foot + 1.0, foot + 2.0]
     table = bulk_carrier.hydrostatic_table(draughts)
@@ -170,7 +170,7 @@ def test_the_end_of_the_bossing_is_no_transom(bulk_carrier: ah.Hull) -> None:
     assert area[:3].tolist() == [0.0, 0.0, 0.0]
     assert table.errors["transom_area"][:3].tolist() == [0.0, 0.0, 0.0]
     # Area of a polygon through places on the drawn edge.
-    run = _points(bulk_carrier["transom"].curves[0].spline)
+    run = _points(bulk_carrier.lines["transom"].curves[0].spline)
     for height, found in zip(draughts[3:], area[3:].tolist(), strict=True):
         z = np.linspace(foot, height, 4001)
         y = np.interp(z, run[:, 2], run[:, 1])

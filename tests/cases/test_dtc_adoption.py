@@ -94,7 +94,7 @@ def test_bilge_arcs_amidships_are_features_that_tell_their_gap(dtc: ah.Hull) -> 
 
 def test_the_flat_of_side_ends_at_the_bow_without_a_hook(dtc: ah.Hull) -> None:
     """From its last corner upward it stays within 0.7 m; a vague mark drew it back by 2.1 m."""
-    xyz = dtc["flat of side"].curves[0].spline.xyz
+    xyz = dtc.lines["flat of side"].curves[0].spline.xyz
     above = xyz[xyz[:, 2] > 28.0]
     assert len(above) >= 3
     assert np.ptp(above[above[:, 0] > 280.0, 0]) < 0.7

@@ -46,7 +46,7 @@ def check(name: str, scales: list[tuple[float, str]], folder: Path) -> None:
         found = places(small, scale)
         assert len(found) == len(base), (scale, unit)
         assert told.adoption.own_points == report.adoption.own_points
-        assert cKDTree(found).query(base)[0].max() <= 1e-6 * LENGTH, (scale, unit)
+        assert np.max(cKDTree(found).query(base)[0]) <= 1e-6 * LENGTH, (scale, unit)
         assert str(told.verdict) == str(report.verdict)
         assert coefficients(small) == pytest.approx(wanted, abs=1e-6)
 

@@ -261,7 +261,7 @@ def open_net_note(state: HullState) -> tuple[str, ...]:
 
 
 def _examine_cells(state: HullState, found: Findings) -> None:
-    """A net that has profile and deck edge, and yet a hole; of lines alone nobody expects cells."""
+    """Find the hole in a net with profile and deck edge; of lines alone nobody expects cells."""
     why = open_cells(state) if _is_enclosed(state) else ""
     if why:
         what = f"surface and closed mesh cannot be made: {why}"

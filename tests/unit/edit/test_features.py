@@ -22,7 +22,7 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.definition.records import definition, published
 from assoc_hull.model.definition.restore import from_definition
-from assoc_hull.model.feature_geometry import ROUNDING, host_curve, line_numbers, places_off
+from assoc_hull.model.feature_geometry import host_curve, line_numbers, places_off, rounding_of
 from assoc_hull.model.kinds import BoundaryKind, Sort
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.make_objects import Maker, PointSpec
@@ -56,7 +56,7 @@ def all_on(hull: ah.Hull) -> bool:
     """Whether all owned points lie on their features, and in order on one line."""
     xyz = hull.state.rows.xyz.data
     return all(
-        places_off(each, xyz[list(each.points)]).max() <= each.gap + ROUNDING
+        places_off(each, xyz[list(each.points)]).max() <= each.gap + rounding_of(hull.state)
         for each in hull.state.features
     )
 
@@ -97,7 +97,7 @@ def test_the_carrier_has_the_features_it_was_drawn_with(bulk_carrier: ah.Hull) -
     assert dict(bottom.parameters) == {"normal": (0.0, 0.0, 1.0), "offset": 0.0}
     assert (side.side, bottom.side) == (-1, -1)
     assert {"BTK 6 straight", "WL 5 straight", "ST 10 straight 2"} <= set(found)
-    assert max(each.gap for each in found.values()) < ROUNDING
+    assert max(each.gap for each in found.values()) < 1e-6
     assert all_on(bulk_carrier)
 
 

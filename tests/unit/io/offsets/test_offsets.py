@@ -47,7 +47,7 @@ def csv_text(
     return "\n".join([comment, header, *rows]) + "\n"
 
 
-def read(text: str | Path, **given_values: float | str) -> tuple[OffsetTable, OffsetReport]:
+def read(text: str | Path, **given_values: float | str | None) -> tuple[OffsetTable, OffsetReport]:
     """Read with the particulars of the fair hull, unless told otherwise."""
     values: dict[str, object] = {"length": LENGTH, "breadth": BREADTH, "draught": DRAUGHT}
     values |= given_values

@@ -150,7 +150,8 @@ def test_without_lpp_the_ap_is_the_end_of_the_waterline_and_a_suspicion() -> Non
     assert "LCB in % of Lpp and station numbers hang on it" in what
     assert "origin='ap'" in what
     cured, book = find(ship(), draught=DRAUGHT, origin="ap")
-    assert (cured.ap, cured.length) == (0.0, pytest.approx(LPP))
+    assert cured.ap == 0.0
+    assert cured.length == pytest.approx(LPP)
     assert not book.suspicions
 
 
@@ -199,7 +200,7 @@ def test_places_that_are_given_are_taken(said: dict[str, Any], ap: float, base: 
     frame, book = find(moved(ship(), 7.0, 3.0), **known)
     assert frame.ap == pytest.approx(ap, abs=0.01)
     assert frame.fp == pytest.approx(107.0, abs=0.01)
-    assert (frame.base, frame.draught) == (pytest.approx(base), pytest.approx(DRAUGHT))
+    assert (frame.base, frame.draught) == pytest.approx((base, DRAUGHT))
     assert not book.suspicions
 
 
@@ -210,14 +211,15 @@ def test_numbers_are_in_units_of_the_file_and_texts_in_metres() -> None:
         frame, _ = find(
             moved(ship(), 7.0, 3.0), axes=axes, fp=fp, waterline=waterline, length=LPP, base="3m"
         )
-        assert (frame.ap, frame.fp) == (pytest.approx(7.0), pytest.approx(107.0))
+        assert (frame.ap, frame.fp) == pytest.approx((7.0, 107.0))
         assert frame.draught == pytest.approx(6.0)
 
 
 @pytest.mark.parametrize(("origin", "x"), [("ap", 0.0), ("midship", -50.0), ("fp", -100.0)])
 def test_the_origin_of_x_may_be_said(origin: str, x: float) -> None:
     """At AP, midship or FP; with Lpp or, but at the FP, without it."""
-    for said in ({"length": LPP}, {}):
+    known: tuple[dict[str, Any], ...] = ({"length": LPP}, {})
+    for said in known:
         frame, book = find(moved(ship(), x, 0.0), draught=DRAUGHT, origin=origin, **said)
         if said or origin != "fp":
             assert frame.ap == pytest.approx(x, abs=0.01)

@@ -61,7 +61,8 @@ def test_lines_with_another_origin_are_the_same_lines_moved() -> None:
     assert not here.frame.moves
     assert (there.frame.ap, there.frame.base, there.frame.draught) == (-50.0, -T, T)
     for one, other in zip(here.lines, there.lines, strict=True):
-        assert (one.name, one.offset) == (other.name, pytest.approx(other.offset))
+        assert one.name == other.name
+        assert one.offset == pytest.approx(other.offset)
         for a, b in zip(one.pieces, other.pieces, strict=True):
             np.testing.assert_allclose(a.points, b.points, atol=1e-6)
     assert "names" in there.report.kinds("repairs")
@@ -99,7 +100,7 @@ def test_a_named_line_is_the_deck_edge_and_bulwarks_are_cut() -> None:
     ]
     rows = "".join(f"main deck,{x:.9g},{y:.9g},{z:.9g}\n" for x, y, z in deck)
     with pytest.raises(
-        ah.errors.BadInputError, match="no line is called 'weather deck'.*give one of"
+        ah.errors.BadInputError, match=r"no line is called 'weather deck'.*give one of"
     ):
         read_lines(text + rows, deck_edge="weather deck")
     text = "".join(row + "\n" for row in text.splitlines() if not row.startswith("bulwark"))
@@ -177,7 +178,7 @@ def test_what_was_found_is_told_in_python_as_on_the_command_line(
     assert "LCB at the draught of 6.25 m lies 5" in notes
     assert "aft of the place where the stem meets the waterline" in notes
     ship = hull.particulars
-    assert (ship.length, ship.draught, ship.depth) == (L, T, pytest.approx(2 * T))
+    assert (ship.length, ship.draught, ship.depth) == pytest.approx((L, T, 2 * T))
     again = ah.read(path, length=L, waterline="0 m", origin="midship")
     assert again.adoption is not None
     assert "suspicion" not in "\n".join(again.adoption.notes)
@@ -193,9 +194,10 @@ def test_options_that_a_form_does_not_take_are_refused(tmp_path: Path) -> None:
     """The deck edge of a table, frames of lines: said, not ignored."""
     path = tmp_path / "lines.csv"
     path.write_text(lines(0.0, 0.0))
-    for name, value in (("station_spacings", 20), ("frame_spacing", 0.7)):
+    wrong: dict[str, Any] = {"station_spacings": 20, "frame_spacing": 0.7}
+    for name, value in wrong.items():
         with pytest.raises(ah.errors.BadInputError, match=f"{name} cannot be given"):
-            ah.read(path, **{name: value})
+            ah.read(path, **dict([(name, value)]))
     path.write_text(table(0.0, 0.0))
     with pytest.raises(ah.errors.BadInputError, match="deck_edge cannot be given"):
         ah.read(path, deck_edge="main deck", length=L)

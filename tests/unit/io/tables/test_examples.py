@@ -12,7 +12,8 @@ from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.form_parameters import catalogue_json
 from assoc_hull.io.tables.hull_plates import hull_plates_csv
 from assoc_hull.io.tables.spreadsheets import openpyxl_module, workbook_bytes
-from assoc_hull.io.tables.table_text import split_blocks, text_of_xlsx
+from assoc_hull.io.tables.table_blocks import split_blocks
+from assoc_hull.io.tables.table_text import text_of_xlsx
 from assoc_hull.surface.plating.hull_plates import hull_plates
 from assoc_hull.surface.plating.hull_seams import HullSeams
 
