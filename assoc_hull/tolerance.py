@@ -87,9 +87,13 @@ def round_at_size(length: float, digits: int, factor: float) -> float:
     >>> [round_at_size(0.123456, 3, each) for each in (1.0, 0.125)], round_at_size(0.3, 3, 0.04)
     ([0.123, 0.1235], 0.3)
     """
-    found = factor * round(float(at_full_length(length, factor)), digits)
-    exact = math.frexp(factor)[0] == 0.5
-    return length if not exact and abs(found - length) <= 8.0 * math.ulp(length) else found
+    full = float(at_full_length(length, factor))
+    part, power = math.frexp(factor)
+    if part != 0.5 and round(full, digits) == full:
+        return length
+    # Of a unit that is a power of two short decimals of a metre stay what they are too.
+    unit = 2.0 ** (power - 1)
+    return round(length / unit, digits) * unit
 
 
 _COINCIDENT = 1e-6

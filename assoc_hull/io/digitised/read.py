@@ -419,7 +419,7 @@ def _parsed(path_or_text: str | Path, book: Notebook) -> tuple[RawLines, str]:
 def _length_factor(raw: list[RawPiece], length: float | None) -> float:
     """Give the factor of lengths of a hull, by what is known of its length, m."""
     size = np.ptp(np.concatenate([each.points for each in raw]), axis=0)
-    if length is None and size[0] < size.max():
+    if length is None and not 0.0 < size[0] == size.max():
         return 1.0  # a part of a hull, as a few sections: nothing tells how long it is
     return length_factor(float(size[0]) if length is None else length)
 

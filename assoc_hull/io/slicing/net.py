@@ -178,7 +178,7 @@ def _full_size_sources(
     parts = [part for part in parts if _is_useful(part.piece, facets=slices.facets)]
     if not parts:
         raise BadInputError(
-            "all pieces of all lines are crumbs: no hand long on a ship of 100 m",
+            f"all pieces of all lines are shorter than {slices.factor * _CRUMB:.3g} m",
             f"in {slices.name}", "give lines of two or more points, or another unit or scale",
         )  # fmt: skip
     parts = [with_arcs(part, wanted) for part in parts]

@@ -40,7 +40,7 @@ def test_gaps_that_are_none_are_refused(widths: tuple[Any, Any], words: str) -> 
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ({"gaps": 0.06}, "give a Gaps"),
+        ({"gaps": "0.06"}, "give a Gaps"),
         ({"scale": "big"}, "scale is 'big'"),
         ({"scale": True}, "scale is True"),
         ({"unit": 3}, "unit is 3"),

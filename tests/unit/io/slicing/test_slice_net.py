@@ -206,7 +206,7 @@ def test_pieces_too_short_to_be_adopted_are_told() -> None:
 def test_nothing_long_enough_to_be_adopted_is_refused() -> None:
     """Crumbs alone make no net: how short they are, and what to give."""
     text = "line,x,y,z\nST 1,0,1,1\nST 1,0,1.005,1.009\nST 2,10,1,1\nST 2,10,1.005,1.009\n"
-    with pytest.raises(BadInputError, match=r"shorter than 0\.1 m.*unit or scale"):
+    with pytest.raises(BadInputError, match=r"shorter than 0\.01 m.*unit or scale"):
         net_from_slices(read_lines(text))
 
 

@@ -218,7 +218,7 @@ def test_a_model_is_read_as_finely_as_a_ship() -> None:
     slices = slice_surfaces(
         HullFaces.of(model, "m"), stations=[0.625, 1.25], waterlines=[0.05], buttocks=0
     )
-    assert slices.gaps.join == pytest.approx(0.003)
+    assert slices.gaps.join == pytest.approx(0.0015)
     for line in slices.lines:
         x, y, z = 40.0 * line.pieces[0].points.T
         assert np.abs(y - meshes.wigley_y(x, z)).max() < 1e-9
