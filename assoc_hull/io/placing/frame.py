@@ -196,7 +196,9 @@ def _draught(
         why = said.why("draught")
         return said.draught, ("stated", why and f"{said.draught:.6g} m, {why}")
     depth = high - base
-    if base < 0.0 and _WET * depth < -base <= _DRY * depth + (high <= 0.0) * depth:
+    # A hull drawn up to its waterline only ends there; a deck near z = 0 is no waterline.
+    ends = abs(high) <= _LEVEL * depth
+    if base < 0.0 and (_WET * depth < -base <= _DRY * depth or ends):
         what = f"{-base:.6g} m: z = 0 of the file cuts the hull and is taken for the waterline"
         return -base, ("found", f"{what}; if it is not, give draught= or waterline=")
     what = f"{0.5 * depth:.6g} m, half the height of the hull, because nothing tells it"

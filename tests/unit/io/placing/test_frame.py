@@ -103,7 +103,7 @@ def test_perpendiculars_follow_the_hull_wherever_the_file_has_its_origin(
     assert frame.fp - frame.ap == pytest.approx(LPP, abs=1e-9)
     assert frame.base == pytest.approx(z, abs=1e-3 * LPP)
     # z = 0 may cut the hull somewhere else than at the draught: that is asked about.
-    assert suspected(book) <= ({"draught"} if -DEPTH < z < 0.0 else set())
+    assert suspected(book) <= ({"draught"} if -1.001 * DEPTH < z < 0.0 else set())
 
 
 def test_the_base_line_is_the_bottom_amidships_and_no_dome_or_skeg() -> None:
@@ -135,6 +135,9 @@ def test_z_0_is_the_waterline_only_where_it_cuts_the_hull_above_the_base_line() 
     assert (frame.base, frame.draught) == (-DRAUGHT, DRAUGHT)
     assert "taken for the waterline" in told(book, "draught")
     assert frame.origins["draught"] == "found"
+    for z in (-DEPTH - 0.5, 1.0 - DEPTH / 10, -DEPTH + 0.2):
+        frame, book = find(moved(ship(), 0.0, z), length=LPP)
+        assert frame.draught == pytest.approx(0.5 * DEPTH)
     frame, book = find(ship(), length=LPP)
     assert frame.draught == 0.5 * DEPTH
     assert "nothing tells it" in told(book, "draught")
