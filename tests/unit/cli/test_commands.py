@@ -74,7 +74,8 @@ def test_a_table_is_imported_with_its_report(tmp_path: Path, facts: Json) -> Non
     given = ["--length", 60, "--breadth", 8, "--draught", 4, "--unit", "m", "--station-zero", "ap"]
     found = facts("import", table, "-o", out, *given, "--report", report)
     assert json.loads(report.read_text("utf-8")) == found["report"]
-    assert list(found["report"]) == ["format", "schema", "offsets", "rounding", "adoption"]
+    parts = ["format", "schema", "offsets", "rounding", "adoption", "verdict"]
+    assert list(found["report"]) == parts
     assert (found["report"]["format"], found["report"]["schema"]) == ("assoc-hull report", 1)
     assert found["report"]["rounding"][0] == {"z": 0.0, "rounding": pytest.approx(0.05)}
     first = found["report"]["adoption"]["lines"][0]
