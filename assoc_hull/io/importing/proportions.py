@@ -107,14 +107,15 @@ def _floating(state: HullState, found: Findings) -> Hydrostatics | None:
         return None
     drowned = record.draught_mean < ship.draught
     position = FloatingPosition(record.draught_mean, record.draught_mean)
-    lines = body_of(hull).doubts(planes_of([position], ship.length), False)
+    planes = planes_of([position], ship.length)
+    lines, every = (body_of(hull).doubts(planes, numbers) for numbers in (False, True))
     for number, doubt in enumerate(record.notes):
         if number == 0 and drowned:
             found.fault("draught", "the particulars", doubt, ship.draught)
         elif doubt in lines:
             what = f"{doubt}: hydrostatics are refused; mend the line, or draw what is missing"
             found.fault("open net", "the net", what)
-        else:
+        elif doubt in every:  # other notes tell how the hull was taken, and refuse nothing
             what = f"{doubt}: check these numbers; hydrostatics need on_error='report'"
             found.suspect("doubtful numbers", "the net", what)
     return record
