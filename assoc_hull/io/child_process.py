@@ -273,6 +273,19 @@ def _give_back(server: _Server) -> None:
     server.end()
 
 
+def _forget() -> None:
+    """Leave the servers to the process that made them, in one that was forked from it."""
+    global _LOCK
+    _LOCK = threading.Lock()
+    for server in _WAITING:
+        server.process.returncode = 0  # none of ours: it is not waited for here
+    _WAITING.clear()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_forget)
+
+
 @atexit.register
 def _end_all() -> None:
     while _WAITING:

@@ -38,9 +38,11 @@ _BESIDE = 0.02
 
 
 def take_one_hull(
-    raw: list[RawPiece], choice: HullChoice, factor: float, book: Notebook
+    raw: list[RawPiece], choice: HullChoice, factor: float, book: Notebook, sign: float = 1.0
 ) -> list[RawPiece]:
-    """Give the pieces (m) of one hull about y = 0; `factor` is m over the unit of the file.
+    """Give the pieces (m) of one hull about y = 0.
+
+    `factor` is m over the unit of the file, `sign` -1 where its y points to starboard.
 
     Raises
     ------
@@ -52,11 +54,12 @@ def take_one_hull(
     every = np.concatenate([each.points for each in raw])
     low, high = float(every[:, 2].min()), float(every[:, 2].max())
     found = find_hulls(sections, water_levels(low, high, choice))
-    centre = choice.place(factor)
-    if centre is None:
-        refuse_several(found, f"{found.centre / factor:.7g}", low, _WHERE)
-        _refuse_beside(sections, found, factor)
+    given, unit = choice.place(factor), sign / factor
+    if given is None:
+        refuse_several(found, f"{unit * found.centre:.7g}", low, _WHERE)
+        _refuse_beside(sections, found, unit)
         return raw
+    centre = sign * given
     limits, top = found.limits(centre), np.inf
     if found.bridge is not None:
         top = _top(found.bridge, low, choice, book)
@@ -64,17 +67,17 @@ def take_one_hull(
     mine = [(x, part) for x, part in mine if len(part)]
     if not mine:
         raise BadInputError(
-            f"there is no hull at centre={centre / factor:.7g}", _WHERE,
-            f"give the centre plane of one, as {found.centre / factor:.7g}",
+            f"there is no hull at centre={unit * centre:.7g}", _WHERE,
+            f"give the centre plane of one, as {unit * found.centre:.7g}",
         )  # fmt: skip
     across = np.concatenate([part[..., 0].ravel() for _, part in mine]) - centre
     # Half a demihull has no mirror image to be compared with.
     if min(across.max(), -across.min()) > 0.1 * np.ptp(across):
         size = float(np.ptp(every[:, 0]))
         noise = max(_NOISE * min(1.0, size / 100.0), 0.5 * _sag(mine))
-        refuse_asymmetric(mine, centre, top, noise, (1.0 / factor, 0.0), _WHERE)
+        refuse_asymmetric(mine, centre, top, noise, (unit, 0.0), _WHERE)
     if found.count > 1:
-        what = f"of {found.count} hulls side by side that at {centre / factor:.7g} is read"
+        what = f"of {found.count} hulls side by side that at {unit * centre:.7g} is read"
         book.assume("one hull", "the lines", what, centre)
     return [part for each in raw for part in _moved(each, (limits[0], limits[1], top), centre)]
 
@@ -110,7 +113,7 @@ def _sag(sections: list[Section]) -> float:
     return float(np.percentile(every, 95)) if len(every) else 0.0
 
 
-def _refuse_beside(sections: list[Section], found: FoundHulls, factor: float) -> None:
+def _refuse_beside(sections: list[Section], found: FoundHulls, unit: float) -> None:
     """Refuse half a hull whose centre plane is not y = 0: all its sections begin at one other y."""
     if found.count > 1 or len(sections) < 3:
         return
@@ -120,7 +123,7 @@ def _refuse_beside(sections: list[Section], found: FoundHulls, factor: float) ->
     if abs(middle) > _BESIDE * breadth and np.abs(begin - middle).max() < 1e-3 * breadth:
         raise BadInputError(
             f"all {len(sections)} sections begin {middle:.4g} m off the centre plane",
-            _WHERE, f"of half a hull that lies there give centre={middle / factor:.7g}",
+            _WHERE, f"of half a hull that lies there give centre={unit * middle:.7g}",
         )  # fmt: skip
 
 

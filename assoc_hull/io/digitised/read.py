@@ -358,7 +358,7 @@ def read_lines(
     for each in raw:
         refuse_retraced(each)
     raw = [RawPiece(e.line, e.points * factor, e.where, e.knuckles * factor) for e in raw]
-    raw = take_one_hull(raw, choice or HullChoice(), factor, book)
+    raw = take_one_hull(raw, choice or HullChoice(), factor, book, float(turn[1].sum()))
     if deck_edge is not None:
         raw = below_deck(raw, deck_edge, book)
     knuckles = _knuckles(raw)

@@ -58,6 +58,16 @@ def test_a_centre_in_the_unit_of_the_file_is_taken_so() -> None:
     check_wigley(read_lines(text, choice=HullChoice(8000.0)))
 
 
+def test_a_centre_is_taken_along_the_axes_of_the_file() -> None:
+    """With y to starboard the hull at y = 8 is the one at -8 m of the ship, in any unit."""
+    text = several_hulls.digitised(PLACES, 8.0, deck=False)
+    for centre in (8.0, "8 m", -8.0):
+        lines = read_lines(text, axes="+x-y+z", choice=HullChoice(centre))
+        check_wigley(lines)
+    with pytest.raises(BadInputError, match=r"give centre=8$"):
+        read_lines(text, axes="+x-y+z", choice=HullChoice(7.0))
+
+
 def test_half_a_demihull_beside_the_centre_plane_is_told_and_read() -> None:
     """Its sections all begin at y = 8 m: the remedy names that."""
     text = several_hulls.digitised(PLACES, 8.0, deck=False, half=True)
