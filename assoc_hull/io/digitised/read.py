@@ -537,7 +537,7 @@ def _boundary(
     pieces = with_met_ends(_pieces(name, rims[name], book), others, small * _REACH)
     pieces, made = join_pieces(name, pieces, Gaps(gaps.join, gaps.join))
     joins += made
-    report_holes(name, pieces, book)
+    report_holes(name, pieces, book, small)
     return pieces
 
 

@@ -67,8 +67,18 @@ def _under(
     )
 
 
-def report_holes(name: str, pieces: Sequence[LinePiece], book: Notebook) -> None:
-    """Report ends of pieces that face one another across a hole, the narrowest first."""
+_WIDEST = 1.0
+"""Of a hull of 100 m and more, of others less in proportion: ends farther apart (m) than this may end
+on a part that the file does not hold, as the end of a bossing."""
+
+
+def report_holes(
+    name: str, pieces: Sequence[LinePiece], book: Notebook, factor: float = 1.0
+) -> None:
+    """Report ends of pieces that face one another across a hole, the narrowest first.
+
+    `factor` is that of lengths, by the size of the hull.
+    """
     free = [
         (number, piece.points[-end])
         for number, piece in enumerate(pieces)
@@ -84,7 +94,7 @@ def report_holes(name: str, pieces: Sequence[LinePiece], book: Notebook) -> None
     used, holes = set[int](), 0
     for gap, i, j in pairs:
         # So many holes part so many pieces: the ends that are left are those of the whole curve.
-        if used & {i, j} or holes == len(pieces) - 1:
+        if used & {i, j} or holes == len(pieces) - 1 or gap > factor * _WIDEST:
             continue
         used |= {i, j}
         holes += 1
