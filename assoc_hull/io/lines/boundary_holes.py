@@ -68,7 +68,7 @@ def _under(
 
 
 _WIDEST = 1.0
-"""Of a hull of 100 m and more, of others less in proportion: ends farther apart (m) than this may end
+"""Of a hull of 100 m, of shorter ones less in proportion: ends farther apart (m) than this may end
 on a part that the file does not hold, as the end of a bossing."""
 
 
