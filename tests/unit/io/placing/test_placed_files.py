@@ -181,7 +181,7 @@ def test_what_was_found_is_told_in_python_as_on_the_command_line(
     assert (ship.length, ship.draught, ship.depth) == pytest.approx((L, T, 2 * T))
     again = ah.read(path, length=L, waterline="0 m", origin="midship")
     assert again.adoption is not None
-    assert "suspicion" not in "\n".join(again.adoption.notes)
+    assert "suspicion: aft perpendicular" not in "\n".join(again.adoption.notes)
     assert main(["import", str(path), "-o", str(tmp_path / "o.hull"), "--length", "100",
                  "--waterline", "0m", "--origin", "midship"]) == 0  # fmt: skip
     out = capsys.readouterr().out
