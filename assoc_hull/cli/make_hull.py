@@ -104,11 +104,16 @@ def _add_import(commands: Commands) -> None:
         "file",
         metavar="FILE",
         type=Path,
+        nargs="?",
         help="CSV, TSV, XLSX, STL, OBJ, PLY, IGES, STEP, Rhino (.3dm), DXF, BRITFAIR (.bri), "
         "DELFTship (.txt), GHS (.gf), a text of a classical definition, or a saved hull (.hull, "
         ".hull.json)",
     )
-    _add_target(parser)
+    _add_target(parser, required=False)
+    parser.add_argument(
+        "--template", metavar="TABLE.csv", type=Path,
+        help="write a table of offsets to fill in, with comments; it imports as it stands",
+    )  # fmt: skip
     for name, what in (
         ("length", "length between perpendiculars"), ("breadth", "moulded breadth"),
         ("draught", "design draught"), ("depth", "depth to the deck edge amidships"),
@@ -183,9 +188,9 @@ def _add_import(commands: Commands) -> None:
     add_json(parser)
 
 
-def _add_target(parser: argparse.ArgumentParser) -> None:
+def _add_target(parser: argparse.ArgumentParser, *, required: bool = True) -> None:
     parser.add_argument(
-        "-o", "--out", metavar="HULL", type=Path, required=True,
+        "-o", "--out", metavar="HULL", type=Path, required=required,
         help="the hull to write: .hull keeps the history, .hull.json is text",
     )  # fmt: skip
     add_replace(parser)
@@ -218,6 +223,11 @@ def _example_surfaces(arguments: argparse.Namespace) -> int:
 def _import(arguments: argparse.Namespace) -> int:
     from assoc_hull.io.write_file import write_whole
 
+    if arguments.template is not None:
+        return _write_template(arguments)
+    if arguments.file is None or arguments.out is None:
+        missing = "FILE" if arguments.file is None else "-o HULL"
+        raise UsageError(f"{missing} is missing, in import; see: assoc-hull import --help")
     check_hull_target(arguments.out, replace=arguments.replace)
     if arguments.report is not None:
         check_target(arguments.report, (".json",))
@@ -273,6 +283,28 @@ def _kept(out: Path, verdict: Verdict) -> str:
     if verdict.faults and not out.name.endswith(FILE_ENDING):
         return f"the verdict is not kept in {out.name}: that form has no history; keep --report\n"
     return ""
+
+
+def _write_template(arguments: argparse.Namespace) -> int:
+    """Write a table of offsets to fill in."""
+    from importlib.resources import files
+
+    from assoc_hull.io.write_file import write_whole
+
+    if arguments.file is not None or arguments.out is not None:
+        raise UsageError("--template stands alone, in import; leave FILE and -o out")
+    check_target(arguments.template, (".csv",))
+    if arguments.template.exists() and not arguments.replace:
+        what = "there is a file already"
+        raise BadInputError(what, f"at {arguments.template}", "give another name, or --replace")
+    text = (files("assoc_hull.shipped") / "data" / "offset_template.csv").read_bytes()
+    write_whole(arguments.template, text)
+    words = f"written: {arguments.template}; fill it in, then: assoc-hull import "
+    emit(
+        arguments, {"saved": [str(arguments.template)]},
+        f"{words}{arguments.template} -o ship.hull",
+    )  # fmt: skip
+    return 0
 
 
 def _require_plot() -> None:

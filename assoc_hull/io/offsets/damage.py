@@ -41,8 +41,8 @@ def section_areas(patient: ExaminedTable, top: float | None = None) -> FloatArra
 # --------------------------------------------------------------------------------------
 # Rows.
 
-_MISFIT = 0.035
-"""A section this part of the greatest area off its neighbours is told."""
+_MISFIT, _USUAL = 0.035, 20.0
+"""A section this part of the greatest area off its neighbours is told; more of fewer stations."""
 
 _SHARE = 0.25
 """So much of what the areas are off may be left when one is put right; of a shoulder more is."""
@@ -53,15 +53,17 @@ def _doubled(patient: ExaminedTable, book: Notebook) -> None:
     y, half = np.nan_to_num(patient.y), patient.breadth / 2.0
     step = np.abs(np.diff(y, axis=0))
     same = (step <= 0.2 * patient.rounding).all(axis=1) & (y[1:].max(axis=1) > 0.0)
-    change = step.mean(axis=1)
+    change, area = step.mean(axis=1), section_areas(patient)
     empty = (patient.y == 0.0).all(axis=1)
     for i in np.flatnonzero(empty[1:] & empty[:-1]):
         names = f"stations {patient.stations[i]} and {patient.stations[i + 1]}"
         book.suspect("doubled station", names, "both have nothing but zeros: one end too many")
     for i in np.flatnonzero(same):
-        beside = change[[k for k in (i - 1, i + 1) if 0 <= k < len(change)]]
+        if not 0 < i < len(area) - 2:
+            continue
+        grows, shrinks = area[i] - area[i - 1], area[i + 2] - area[i + 1]
         # Parallel middle body repeats a section; a run or an entrance does not.
-        if len(beside) and beside.max() > 0.02 * half:
+        if grows * shrinks > 0.0 and max(change[i - 1], change[i + 1]) > 0.02 * half:
             names = f"stations {patient.stations[i]} and {patient.stations[i + 1]}"
             what = "all their half-breadths are the same, and the hull changes beside them"
             book.suspect("doubled station", names, what, float(patient.x[i + 1] - patient.x[i]))
@@ -72,12 +74,13 @@ def _misfits(patient: ExaminedTable, book: Notebook) -> None:
     x, area, first = _along_hull(patient)
     if len(area) < 7:
         return
+    limit = _MISFIT * max(1.0, _USUAL / len(area)) ** 1.5
     for _ in range(3):
         wanted = predicted_values(x, area)
         off = area - wanted
         before = _unevenness(x, area)
         best, left = -1, 1.0
-        for i in np.flatnonzero(np.abs(np.nan_to_num(off)) > _MISFIT):
+        for i in np.flatnonzero(np.abs(np.nan_to_num(off)) > limit):
             tried = area.copy()
             tried[i] = wanted[i]
             part = _unevenness(x, tried) / before

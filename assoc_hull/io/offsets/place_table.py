@@ -42,7 +42,8 @@ def place_table(
         As for `assoc_hull.io.placing.frame.find_frame`.
     """
     supposed = {(note.kind, note.where) for note in notes.assumptions}
-    book = Notebook(list(_kept(notes.assumptions)), list(notes.repairs), list(notes.suspicions))
+    parts = (notes.repairs, notes.suspicions, notes.faults)
+    book = Notebook(list(_kept(notes.assumptions)), *map(list, parts))
     outline = outline_of_table(table)
     frame = find_frame(
         outline, options, book, _WHERE, axes=axes,

@@ -296,3 +296,17 @@ def test_combs_are_plotted(hull: Path, tmp_path: Path) -> None:
     path = tmp_path / "combs.svg"
     assert main(["plot", str(hull), "-o", str(path), "--combs", "WL 2.5", "ST 7"]) == 0
     assert "WL 2.5" in path.read_text("utf-8")
+
+
+def test_a_template_imports_as_it_stands(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Written once, read without a suspicion; it stands alone and writes over nothing."""
+    table, hull = tmp_path / "table.csv", tmp_path / "ship.hull"
+    assert main(["import", "--template", str(table)]) == 0
+    assert main(["import", str(table), "-o", str(hull)]) == 0
+    assert "suspicions (0)" in capsys.readouterr().out
+    assert ah.open(hull).hydrostatics().volume == pytest.approx(10360.0, rel=0.01)
+    again, both = ["--template", str(table)], ["--template", "b.csv", str(table)]
+    for words in (again, both, ["-o", "a.hull"]):
+        assert main(["import", *words]) == 2

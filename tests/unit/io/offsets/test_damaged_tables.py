@@ -104,5 +104,5 @@ def test_a_slip_of_the_decimal_point_is_a_fault_of_the_hull(tmp_path: Path) -> N
     table, report = read_offsets(path)
     assert table.breadth == pytest.approx(3.264)
     assert [note.kind for note in report.faults] == ["outlier"]
-    with pytest.raises(ah.AssocHullError, match=r"station 4\), column '0\.6'.*15\.2"):
+    with pytest.raises(ah.AssocHullError, match=r"station 4\), column '0\.6'.*15\.2 m"):
         ah.read(path)

@@ -343,7 +343,7 @@ def test_a_missing_flat_of_bottom_is_suspected(fill: float) -> None:
     assert "flat bottom missing" in read(csv_text(offsets))[1].kinds()
 
 
-def test_above_half_the_breadth_within_rounding_is_suspected() -> None:
+def test_above_half_the_breadth_within_rounding_is_told() -> None:
     """Half a printed digit above B/2 passes with a note; more is refused."""
     offsets = np.minimum(fair_offsets(), 15.99)
     offsets[10, 8] = 15.99
