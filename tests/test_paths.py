@@ -5,10 +5,10 @@ import pytest
 from benchmarks.house import TRIPS, entered
 
 MOST = {
-    "a moved point": 52,
-    "a pull": 55,
-    "hydrostatics": 29,
-    "a variation of the breadth": 110,
+    "a moved point": 53,
+    "a pull": 56,
+    "hydrostatics": 30,
+    "a variation of the breadth": 111,
 }
 """Modules entered, at most. A change that raises a number says why in its commit."""
 

@@ -911,7 +911,12 @@ class Hull:
         return freeboard(self, position)
 
     def deck_edge_angle(
-        self, position: FloatingPosition, appendages: Iterable[Appendage] = ()
+        self,
+        position: FloatingPosition,
+        appendages: Iterable[Appendage] = (),
+        *,
+        demihulls: int = 1,
+        separation: float | None = None,
     ) -> float | None:
         """Give the heel (degrees) at which the deck edge goes under, at this displacement and trim.
 
@@ -921,6 +926,11 @@ class Hull:
             Where it floats upright, moulded.
         appendages : iterable of Appendage
             That carry as well.
+        demihulls : {1, 2}
+            2: of the ship of two such hulls side by side, `separation` (m) between their centre
+            planes; see `hydrostatics`.
+        separation : float or None, m
+            Needed with two demihulls.
 
         Raises
         ------
@@ -929,7 +939,9 @@ class Hull:
         """
         from assoc_hull.analysis.hydrostatics.draughts_from_weight import deck_edge_angle
 
-        return deck_edge_angle(self, position, appendages)
+        return deck_edge_angle(
+            self, position, appendages, demihulls=demihulls, separation=separation
+        )
 
     def bonjean(self, levels: int = 41) -> Bonjean:
         """Give the Bonjean curves of a hull, from the keel to the deck edge.

@@ -110,7 +110,8 @@ HULL: dict[str, Given] = {
     "go": {"name": "nowhere"},
     "diff": {"before": "nowhere", "after": None},
     "replay": {"other": None, "skip": False},
-    "export": {"path": "no-such-folder/a.dxf", "form": None, "unit": None},
+    "export": {"path": "no-such-folder/a.dxf", "form": None, "unit": None,
+               "scale": None, "half": False, "points": None},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
     "move": {"point": POINT, "x": None, "y": 3.0, "z": None},
@@ -449,14 +450,15 @@ OPTIONS: Given = {
     "draught_to": "moulded",
 }
 ONE: Given = {"draught": None, "draughts": None}
+TWO: Given = {"demihulls": 2, "separation": 30.0}
 FLOATING: dict[str, Given] = {
-    "hydrostatics": {**ONE, **OPTIONS, "estimate": False},
+    "hydrostatics": {**ONE, **OPTIONS, **TWO, "estimate": False},
     "hydrostatic_table": {
-        "draughts": [2.0, 4.0], "trims": (0.0,), **OPTIONS, "estimate": False, "date": None,
+        "draughts": [2.0, 4.0], "trims": (0.0,), **OPTIONS, **TWO, "estimate": False, "date": None,
     },
     "hydrostatic_derivatives": {"wrt": [DRAUGHT], **ONE, **OPTIONS},
     "freeboard": {"position": FloatingPosition(4.0, 4.0)},
-    "deck_edge_angle": {"position": FloatingPosition(4.0, 4.0), "appendages": ()},
+    "deck_edge_angle": {"position": FloatingPosition(4.0, 4.0), "appendages": (), **TWO},
     "bonjean": {"levels": 5},
     "section_points": {"x": 40.0, "points": 5, **ONE},
     "fairness": {"lines": ["WL 2.5"], "allowed": 0},

@@ -33,7 +33,7 @@ from assoc_hull.arguments import all_of, instance, number, plain, shown
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
-from assoc_hull.model.tables import HasState
+from assoc_hull.model.tables import HasState, state_of
 
 __all__ = [
     "STEEPEST",
@@ -320,7 +320,8 @@ def deck_edge_angle(
     The arguments and what is raised are those of `Hull.deck_edge_angle`; `demihulls` and
     `separation` (m) those of `Hull.hydrostatics`.
     """
-    ship, length = hull.state.particulars, hull.state.particulars.length
+    ship = state_of(hull, _WHERE).particulars
+    length = ship.length
     body = ship_of(body_of(hull), checked_separation(demihulls, separation, ship.breadth))
     given = instance(position, FloatingPosition, "position", _WHERE)
     carriers = tuple(all_of(appendages, Appendage, "appendages", _WHERE))

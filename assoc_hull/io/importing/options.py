@@ -116,7 +116,7 @@ class ImportOptions:
     def given(self) -> tuple[str, ...]:
         """Name the options that are not as by default."""
         fields = attrs.fields(ImportOptions)
-        return tuple(each.name for each in fields if getattr(self, each.name) != each.default)
+        return tuple(each.name for each in fields if getattr(self, each.name) is not each.default)
 
     def refuse(self, why: str, path: Path, names: tuple[str, ...] | None = None) -> None:
         """Refuse options that a form does not take; None: any at all.

@@ -74,4 +74,5 @@ def test_import_takes_no_options_with_a_definition(
     """The text says all."""
     assert main(["import", str(text), "-o", str(tmp_path / "a.hull"), *option]) == 2
     said = capsys.readouterr().err
-    assert f"{option[0]} cannot be given, with {text}, which is a definition" in said
+    name = option[0].removeprefix("--").replace("-", "_")
+    assert f"{name} cannot be given, for {text.name}; leave it out: a definition says all" in said
