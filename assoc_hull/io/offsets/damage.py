@@ -59,11 +59,13 @@ def _doubled(patient: ExaminedTable, book: Notebook) -> None:
         names = f"stations {patient.stations[i]} and {patient.stations[i + 1]}"
         book.suspect("doubled station", names, "both have nothing but zeros: one end too many")
     for i in np.flatnonzero(same):
-        if not 0 < i < len(area) - 2:
-            continue
-        grows, shrinks = area[i] - area[i - 1], area[i + 2] - area[i + 1]
-        # Parallel middle body repeats a section; a run or an entrance does not.
-        if grows * shrinks > 0.0 and max(change[i - 1], change[i + 1]) > 0.02 * half:
+        # Parallel middle body repeats a section; a run or an entrance does not, nor a fine end.
+        if 0 < i < len(area) - 2:
+            within = (area[i] - area[i - 1]) * (area[i + 2] - area[i + 1]) > 0.0
+        else:
+            within = area[i] < 0.5 * area.max()
+        beside = [change[k] for k in (i - 1, i + 1) if 0 <= k < len(change)]
+        if within and max(beside, default=0.0) > 0.02 * half:
             names = f"stations {patient.stations[i]} and {patient.stations[i + 1]}"
             what = "all their half-breadths are the same, and the hull changes beside them"
             book.suspect("doubled station", names, what, float(patient.x[i + 1] - patient.x[i]))
