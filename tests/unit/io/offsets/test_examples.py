@@ -152,6 +152,7 @@ def test_a_table_of_offsets_as_lines_what_it_says() -> None:
     text = "# unit: m\nx_m,z_keel,wl_1,wl_2\n0,1,0,2\n5,0.5,3,4\n9,0.5,3,5\n14,,0,2\n"
     table, _ = read_offsets(text)
     lines = lines_of_table(table)
-    assert [line.name for line in lines] == ["ST 0", "ST 5", "ST 9", "ST 14", "WL 1", "deck edge"]
+    names = ["ST 0", "ST 5", "ST 9", "ST 14", "WL 1", "profile", "deck edge"]
+    assert [line.name for line in lines] == names
     assert lines[1].points.tolist() == [[5.0, 0.0, 0.5], [5.0, 3.0, 1.0], [5.0, 4.0, 2.0]]
-    assert len(net_of_lines(table)[1].lines) == 6
+    assert len(net_of_lines(table)[1].lines) == 7
