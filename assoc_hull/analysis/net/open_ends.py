@@ -93,7 +93,7 @@ def with_ends(strips: Strips, net: CurveNet, closed: bool, ends: tuple[OpenEnd, 
     found = sections_of(net, closed)
     pieces, span = list[IsoCurves](), list[tuple[float, float, bool]]()
     for end in ends:
-        own = found.station == (len(found.x) - 1 if end.fore else 0)
+        own = found.station == int(np.abs(found.x - end.x).argmin())
         for k in np.flatnonzero(own).tolist():
             tiles = slice(int(found.curves.start[k]), int(found.curves.start[k + 1]))
             point, deck = found.curves.point[tiles], found.curves.deck[tiles]

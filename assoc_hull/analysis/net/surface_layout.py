@@ -801,17 +801,20 @@ class OpenEnd:
 def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[OpenEnd, ...]:
     """Find the ends that no line closes; `length` between perpendiculars, m."""
     found = sections_of(net, closed=False)
+    # Slabs are counted between these: parts of sections that end on a raked transom are none.
+    stations = station_planes(net)
     slabs = {frame.slab for frame in layout.frames}
     every = net.batch.xyz[:, 0]
     ends = []
     for fore in (False, True):
-        at = len(found.x) - 1 if fore else 0
-        x, drawn = float(found.x[at]), float(every.max() if fore else every.min())
+        x = float(stations[-1 if fore else 0])
+        at = int(np.abs(found.x - x).argmin())
+        drawn = float(every.max() if fore else every.min())
         sign = 1.0 if fore else -1.0
         by_lines = sign * drawn > sign * (length if fore else 0.0)
         end = drawn if by_lines else (length if fore else 0.0)
         covered = net.end & np.isfinite(net.x) & (sign * net.x >= sign * x - ON_PLANE)
-        closed = (len(found.x) if fore else 0) in slabs or covered.any()
+        closed = (len(stations) if fore else 0) in slabs or covered.any()
         if closed or sign * (end - x) <= _LEAST_END * length:
             continue
         source = "where its lines end" if by_lines else "the perpendicular"
