@@ -29,6 +29,9 @@ __all__ = ["border_bends", "fit_border", "order_places"]
 _VAGUE = 0.25
 """A place whose doubt is more than this part of its distance says little of a direction."""
 
+_HOOK = np.cos(np.deg2rad(25.0))
+"""A border that turns by more at its last place but one (cosine of 25 degrees) ends in a hook."""
+
 
 def order_places(places: FloatArray, doubt: FloatArray, first: Sequence[int]) -> list[int]:
     """Put places of one border in order along it.
@@ -122,7 +125,7 @@ def fit_border(places: FloatArray, doubt: FloatArray, corners: Sequence[int] = (
     ----------
     places : (n, d), m
         In order; the corners are kept, and so is an end, unless its doubt is a good part of its
-        distance from the next place.
+        distance from the next place and it would be a hook.
     doubt : (n,), m
         How far the curve may pass 49 of 50 of them, and half of how far any, if that can be had.
     corners : sequence of int
@@ -141,13 +144,14 @@ def fit_border(places: FloatArray, doubt: FloatArray, corners: Sequence[int] = (
 def _led_on(course: FloatArray, place: FloatArray, doubt: float) -> FloatArray:
     """Give the end of a border, beyond the two places before it: its mark, unless that is vague.
 
-    A vague one must not bend the border: it is moved to where that goes straight on, or as near to
-    there as its doubt allows.
+    A vague one must not make a hook of the border: it is moved to where that goes straight on, or
+    as near to there as its doubt allows. By less, borders of flats bend to their tips themselves.
     """
     before, last = course
-    if doubt <= _VAGUE * float(np.sqrt(((place - last) ** 2).sum())):
-        return place
+    step = float(np.sqrt(((place - last) ** 2).sum()))
     ahead = (last - before) / float(np.sqrt(((last - before) ** 2).sum()))
+    if doubt <= _VAGUE * step or float((place - last) @ ahead) >= _HOOK * step:
+        return place
     straight = last + ahead * max(float((place - last) @ ahead), 0.0)
     off = straight - place
     size = float(np.sqrt(off @ off))
