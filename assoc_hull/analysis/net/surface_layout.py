@@ -804,7 +804,7 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
     # Slabs are counted between these: parts of sections that end on a raked transom are none.
     stations = station_planes(net)
     slabs = {frame.slab for frame in layout.frames}
-    every = net.batch.xyz[:, 0]
+    every = net.batch.xyz[_tells_extent(net), 0]
     ends = []
     for fore in (False, True):
         x = float(stations[-1 if fore else 0])
@@ -820,3 +820,14 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
         source = "where its lines end" if by_lines else "the perpendicular"
         ends.append(OpenEnd(fore, found.names[at], x, end, source))
     return tuple(ends)
+
+
+def _tells_extent(net: CurveNet) -> NDArray[np.bool_]:
+    """Tell which points of the lines say how far the hull reaches.
+
+    A knuckle traced through sections is carried a little beyond the last of them, to cross it:
+    only where it ends in the centre plane does the hull end there.
+    """
+    traced = np.repeat(net.knuckle, np.diff(net.batch.start))
+    told: NDArray[np.bool_] = ~traced | (np.abs(net.batch.xyz[:, 1]) <= ON_CENTRE)
+    return told

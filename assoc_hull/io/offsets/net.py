@@ -14,7 +14,7 @@ import numpy as np
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind
+from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, freeze
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.io.lines.raw_lines import plane_name
@@ -142,7 +142,26 @@ def _brought_back(
     stations = dict(zip(full.x.tolist(), table.x.tolist(), strict=True))
     levels = dict(zip(full.z.tolist(), table.z.tolist(), strict=True))
     places = {"sections": stations, "waterlines": levels}
-    return [each.scaled(factor, places.get(each.group, {}).get(each.offset)) for each in sources]
+    back = [each.scaled(factor, places.get(each.group, {}).get(each.offset)) for each in sources]
+    return [
+        _at_own_places(one, each.points, stations, levels)
+        for one, each in zip(back, sources, strict=True)
+    ]
+
+
+def _at_own_places(
+    line: LineSource, full: FloatArray, stations: dict[float, float], levels: dict[float, float]
+) -> LineSource:
+    """Put points that stand on a station or at a level into its very plane, as they do at 100 m.
+
+    A section that begins a last bit below a waterline would cross it where it only touches it.
+    """
+    points = line.points.copy()
+    for axis, places in ((0, stations), (2, levels)):
+        own = zip(full[:, axis].tolist(), points[:, axis].tolist(), strict=True)
+        points[:, axis] = [places.get(at, now) for at, now in own]
+    freeze(points)
+    return attrs.evolve(line, points=points)
 
 
 def _printed(table: OffsetTable) -> list[str]:
