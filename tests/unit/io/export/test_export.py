@@ -350,5 +350,5 @@ def test_an_unknown_form_is_refused(wigley: Hull, tmp_path: Path) -> None:
     with pytest.raises(BadInputError, match=r"\.bri"):
         wigley.export(tmp_path / "a.dat")
     with pytest.raises(BadInputError, match="britfair"):
-        wigley.export(tmp_path / "a.dat", "iges")
+        wigley.export(tmp_path / "a.dat", "dwg")
     assert list(tmp_path.iterdir()) == []
