@@ -203,11 +203,10 @@ def draw_knuckles(
         name = f"knuckle {number}"
         source, border = draw_boundary_curve(name, BoundaryKind.KNUCKLE, course, rules, tolerance)
         spline, taken = loft_source(source), 0
-        least = float(course.doubt.max()) / (2.0 * rules.onset)
         for i, part in enumerate(out):
             for place in plane_intersections(spline, part):
-                # Where a line runs along it nobody can tell where it crosses.
-                if _sine(spline, place, part) < least:
+                # Where a line runs along it nobody can tell where it crosses: by the doubt there.
+                if _sine(spline, place, part) < _doubt_at(course, place) / (2.0 * rules.onset):
                     continue
                 split = _split(part, place, tolerance)
                 if split is not None:
@@ -288,6 +287,15 @@ def _split(part: PieceFeatures, place: FloatArray, tolerance: float) -> PieceFea
     rest = tuple(corner for corner in part.suggested if corner is not old)
     corners = tuple(sorted([*kept, new], key=lambda corner: corner.at))
     return attrs.evolve(part, corners=corners, suggested=rest)
+
+
+def _doubt_at(course: BoundaryMarks, place: FloatArray) -> float:
+    """Give the larger doubt (m) of the two marks between which a place lies."""
+    start, step = course.places[:-1], np.diff(course.places, axis=0)
+    along = ((place - start) * step).sum(axis=1) / (step * step).sum(axis=1)
+    foot = start + np.clip(along, 0.0, 1.0)[:, None] * step
+    near = int(np.argmin(((place - foot) ** 2).sum(axis=1)))
+    return float(course.doubt[near : near + 2].max())
 
 
 def _sine(spline: SplineBatch, place: FloatArray, part: PieceFeatures) -> float:
