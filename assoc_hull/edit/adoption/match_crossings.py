@@ -6,6 +6,7 @@ value of a crossing comes from the curve of lower rank.
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 
 import attrs
@@ -31,6 +32,9 @@ __all__ = [
 _REACH = 0.1
 """Times `Tolerances.factor`: how far (m) the end of a line may lie from the boundary curve it is
 meant to end on."""
+
+_LAST_BITS = 8.0
+"""Spacings of floating point numbers by which two ways to one place may differ."""
 
 _TOUCH, _BESIDE = 1e-6, 1e-3
 """Times the same: a place this near (m) lies on a boundary; the box of a segment is widened, for
@@ -218,13 +222,12 @@ def _nearest(
             continue
         at, xyz, away_all = closest_points(known.reference, boundary, place[None])
         if float(away_all[0]) < touch:
-            best = (
-                0.0,
-                boundary,
-                float(at[0]),
-                snap_to_coordinate_planes(state, planes, xyz[0]),
-                0,
-            )
+            # A last bit that scaling has cost would put a line beside those that end there, too:
+            # across the plane of a waterline that it only touches. Powers of two cost none.
+            bits = 0.0 if math.frexp(state.tolerances.factor)[0] == 0.5 else _LAST_BITS
+            same = np.abs(xyz[0] - place) <= bits * np.spacing(np.abs(place))
+            spot = snap_to_coordinate_planes(state, planes, np.where(same, place, xyz[0]))
+            best = (0.0, boundary, float(at[0]), spot, 0)
     return None if best is None else best[1:]
 
 

@@ -108,9 +108,7 @@ def split_blocks(
         book.assume("title", shown, "words, no numbers: read as a comment", float(len(words)))
     if not rows:  # as of a header whose marks too few rows have: it is one long word
         what = "there is no row besides words: neither a header nor numbers are parted into cells"
-        raise BadInputError(
-            what, source, "part the cells of header and rows by one mark: commas, semicolons or tabs"
-        )
+        raise BadInputError(what, source, "part all cells by one mark: commas, semicolons or tabs")
     rows = _decimal_points(rows, mark, source, book)
     starts = [i for i, (_, row) in enumerate(rows) if i == 0 or opens_block(row, within=True)]
     ends = [*starts[1:], len(rows)]
