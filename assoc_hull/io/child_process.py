@@ -159,6 +159,9 @@ _SIGNALLED, _FAILED = 100, 99
 
 def _work(request: dict[str, Any], requests: IO[bytes], answers: IO[bytes]) -> None:
     """Make the object of a session and call its methods until the session ends."""
+    # The server was started earlier, perhaps from another folder: names of files are relative.
+    with contextlib.suppress(OSError):
+        os.chdir(request["folder"])
     _limit(request["limits"])
     module, _, name = request["target"].partition(":")
     found: list[Any] = []
@@ -173,6 +176,14 @@ def _work(request: dict[str, Any], requests: IO[bytes], answers: IO[bytes]) -> N
             return
         method, arguments = call
         _answer(answers, getattr(found[0], method), arguments)
+
+
+def _folder() -> str:
+    """Give the folder that names of files are relative to; the root if it is gone."""
+    try:
+        return os.getcwd()
+    except OSError:
+        return os.sep
 
 
 def _answer(answers: IO[bytes], call: Callable[..., object], arguments: tuple[Any, ...]) -> None:
@@ -342,7 +353,8 @@ class ChildSession:
         self._finish = weakref.finalize(self, _finish, self._server)
         self._finish.atexit = False
         request = {
-            "target": target, "arguments": arguments, "limits": limits, "preload": preload
+            "target": target, "arguments": arguments, "limits": limits, "preload": preload,
+            "folder": _folder(),
         }  # fmt: skip
         self._ask(request)
 

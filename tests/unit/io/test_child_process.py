@@ -270,3 +270,15 @@ def test_no_child_outlives_the_program() -> None:
             return
         time.sleep(0.1)
     raise AssertionError(f"{server} is there still")
+
+
+def test_names_of_files_are_relative_to_where_the_caller_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also when the server was started from another folder."""
+    for name in ("one", "two"):
+        folder = tmp_path / name
+        folder.mkdir()
+        meshes.write(meshes.wigley_half(), folder / f"{name}.stl")
+        monkeypatch.chdir(folder)
+        assert len(read_triangles(Path(f"{name}.stl")).face) == len(meshes.wigley_half().face)
