@@ -23,7 +23,7 @@ from assoc_hull.io.dxf.entities import (
     RawSpline,
     drawing_entities,
     drawing_unit,
-    spline_of,
+    drawn_spline,
 )
 from assoc_hull.io.dxf.read_lines_plan import names_of, plan_curves
 from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawLines, read_number
@@ -161,7 +161,7 @@ def _shape(
 ) -> FloatArray | RawSpline | None:
     """Give what an entity draws, None if it is no line."""
     if entity.kind == "SPLINE":
-        return spline_of(entity) if entity.number(73) else None
+        return drawn_spline(entity) if entity.number(73) else None
     points = _points(entity, entities, at)
     return np.array(points) if len(points) > 1 else None
 

@@ -28,7 +28,7 @@ __all__ = [
     "RawSpline",
     "drawing_entities",
     "drawing_unit",
-    "spline_of",
+    "drawn_spline",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -140,7 +140,7 @@ _STRAIGHT = float(np.cos(np.deg2rad(0.5)))
 """Directions that differ by more make a knuckle where the spline allows one."""
 
 
-def spline_of(entity: DrawingEntity) -> RawSpline:
+def drawn_spline(entity: DrawingEntity) -> RawSpline:
     """Give the B-spline of an entity that has control points.
 
     Raises

@@ -6,7 +6,7 @@ import attrs
 
 from assoc_hull.geometry.patches.spline_curve import SplineCurve
 from assoc_hull.io.dxf.document import IN_SPACE, NAMES
-from assoc_hull.io.dxf.entities import DrawingEntity, drawing_entities, drawing_unit, spline_of
+from assoc_hull.io.dxf.entities import DrawingEntity, drawing_entities, drawing_unit, drawn_spline
 from assoc_hull.io.lines.own_lines import BETWEEN, OwnLines, TextedCurve, own_lines
 from assoc_hull.io.units import METRES
 
@@ -65,7 +65,7 @@ def _number(entity: DrawingEntity) -> str:
 
 def _spline(entity: DrawingEntity, metres: float) -> SplineCurve:
     """Give a spline in m."""
-    raw = spline_of(entity)
+    raw = drawn_spline(entity)
     points = raw.control[:, :3] * metres if metres != 1.0 else raw.control[:, :3].copy()
     weights = raw.control[:, 3].copy() if raw.control.shape[1] > 3 else None
     return SplineCurve(entity.where, raw.degree, raw.knots, points, weights)

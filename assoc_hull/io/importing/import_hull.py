@@ -23,7 +23,7 @@ from assoc_hull.io.importing.judge import finding_of, judge, verdict_notes
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
 from assoc_hull.io.importing.soundness import open_net_note
-from assoc_hull.io.importing.verdict import Finding, Verdict, require_sound
+from assoc_hull.io.importing.verdict import ImportFinding, Verdict, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.offsets.complete_table import net_from_table
 from assoc_hull.io.offsets.place_table import place_table, table_particulars
@@ -155,7 +155,10 @@ def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, Import
         if not notes.faults:
             raise
         # No hull can be made of numbers that are not right: all that is wrong is told.
-        found = *map(finding_of, notes.faults), Finding("not adopted", "the table", str(error))
+        found = (
+            *map(finding_of, notes.faults),
+            ImportFinding("not adopted", "the table", str(error)),
+        )
         raise NotSoundError(path.name, tuple(map(str, found))) from error
     return state, ImportReport(notes, adoption, Verdict(), table=table, frame=frame)
 

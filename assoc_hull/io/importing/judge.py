@@ -8,7 +8,7 @@ from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.io.importing.proportions import examine_particulars
 from assoc_hull.io.importing.soundness import examine_net
 from assoc_hull.io.importing.stated import stated_in
-from assoc_hull.io.importing.verdict import Finding, Findings, Verdict
+from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict
 from assoc_hull.io.lines.boundary_holes import HOLE
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.reports import Note, OffsetReport
@@ -54,9 +54,9 @@ def _take_up(note: Note, state: HullState, found: Findings) -> None:
     (found.faults if broken else found.suspicions).append(finding_of(note))
 
 
-def finding_of(note: Note) -> Finding:
+def finding_of(note: Note) -> ImportFinding:
     """Give a note as a finding."""
-    return Finding(note.kind, note.where, note.what, note.amount)
+    return ImportFinding(note.kind, note.where, note.what, note.amount)
 
 
 def verdict_notes(notes: OffsetReport, verdict: Verdict) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ from assoc_hull.edit.checks.hull_findings import check
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
-from assoc_hull.io.importing.verdict import Finding, Findings
+from assoc_hull.io.importing.verdict import Findings, ImportFinding
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import gap_at, watched_on
 from assoc_hull.model.kinds import BoundaryKind
@@ -225,11 +225,11 @@ def _examine_checks(state: HullState, found: Findings) -> None:
     found.faults.extend(_checked(state))
 
 
-def _checked(state: HullState) -> Iterator[Finding]:
+def _checked(state: HullState) -> Iterator[ImportFinding]:
     """Give the findings of `check`, each with its place."""
     for each in check(state):
         place = "" if each.place is None else f" at {_at(each.place)}"
-        yield Finding(each.kind, f"{each.object}{place}", each.message, each.amount)
+        yield ImportFinding(each.kind, f"{each.object}{place}", each.message, each.amount)
 
 
 _OUTER = frozenset({"profile", "deck edge"})

@@ -5,8 +5,8 @@ told and kept; `strict` refuses them too.
 
 Examples
 --------
->>> from assoc_hull.io.importing.verdict import Finding, Verdict
->>> print(Verdict((), (Finding("draught", "the table", "2 % off the waterline found"),)))
+>>> from assoc_hull.io.importing.verdict import ImportFinding, Verdict
+>>> print(Verdict((), (ImportFinding("draught", "the table", "2 % off the waterline found"),)))
 sound with suspicions (1)
 """
 
@@ -16,11 +16,11 @@ import attrs
 
 from assoc_hull.errors import NotSoundError
 
-__all__ = ["Finding", "Findings", "Verdict", "refused_findings", "require_sound"]
+__all__ = ["Findings", "ImportFinding", "Verdict", "refused_findings", "require_sound"]
 
 
 @attrs.frozen
-class Finding:
+class ImportFinding:
     """One thing that is wrong or looks wrong.
 
     Attributes
@@ -50,14 +50,14 @@ class Verdict:
 
     Attributes
     ----------
-    faults : tuple of Finding
+    faults : tuple of ImportFinding
         What makes the hull not sound.
-    suspicions : tuple of Finding
+    suspicions : tuple of ImportFinding
         What looks wrong and need not be.
     """
 
-    faults: tuple[Finding, ...] = ()
-    suspicions: tuple[Finding, ...] = ()
+    faults: tuple[ImportFinding, ...] = ()
+    suspicions: tuple[ImportFinding, ...] = ()
 
     @property
     def word(self) -> str:
@@ -74,7 +74,7 @@ class Verdict:
         return f"{self.word} ({', '.join(counts)})"
 
 
-def _count(found: tuple[Finding, ...], word: str) -> str:
+def _count(found: tuple[ImportFinding, ...], word: str) -> str:
     return f"{len(found)} {word}{'' if len(found) == 1 else 's'}"
 
 
@@ -82,23 +82,23 @@ def _count(found: tuple[Finding, ...], word: str) -> str:
 class Findings:
     """Collects what several looks at one hull find; `verdict` gives it frozen."""
 
-    faults: list[Finding] = attrs.field(factory=list)
-    suspicions: list[Finding] = attrs.field(factory=list)
+    faults: list[ImportFinding] = attrs.field(factory=list)
+    suspicions: list[ImportFinding] = attrs.field(factory=list)
 
     def fault(self, kind: str, where: str, what: str, amount: float | None = None) -> None:
         """Note what makes the hull not sound."""
-        self.faults.append(Finding(kind, where, what, amount))
+        self.faults.append(ImportFinding(kind, where, what, amount))
 
     def suspect(self, kind: str, where: str, what: str, amount: float | None = None) -> None:
         """Note what looks wrong and need not be."""
-        self.suspicions.append(Finding(kind, where, what, amount))
+        self.suspicions.append(ImportFinding(kind, where, what, amount))
 
     def verdict(self) -> Verdict:
         """Give the verdict; what two looks found in the same words counts once."""
         return Verdict(tuple(dict.fromkeys(self.faults)), tuple(dict.fromkeys(self.suspicions)))
 
 
-def refused_findings(verdict: Verdict, *, accept: bool, strict: bool) -> tuple[Finding, ...]:
+def refused_findings(verdict: Verdict, *, accept: bool, strict: bool) -> tuple[ImportFinding, ...]:
     """Give what a hull is refused for; nothing where it is taken."""
     if accept:
         return ()

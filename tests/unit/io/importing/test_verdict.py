@@ -15,7 +15,7 @@ from assoc_hull.io.importing import proportions
 from assoc_hull.io.importing.import_hull import import_hull
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.soundness import examine_net
-from assoc_hull.io.importing.verdict import Finding, Findings, Verdict
+from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState, Particulars
 from assoc_hull.shipped.series60 import series60_adopted
@@ -305,5 +305,5 @@ def test_a_pipe_is_refused(name: str, tmp_path: Path) -> None:
 )  # fmt: skip
 def test_a_verdict_in_words(faults: int, suspicions: int, words: str) -> None:
     """It begins with one of three words, and counts what was found."""
-    found = Finding("gap", "ST 1", "70 mm")
+    found = ImportFinding("gap", "ST 1", "70 mm")
     assert str(Verdict((found,) * faults, (found,) * suspicions)) == words
