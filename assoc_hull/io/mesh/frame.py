@@ -192,6 +192,17 @@ def _normals(mesh: Triangles) -> FloatArray:
     return np.asarray(sums / np.maximum(length, 1e-300)[:, None])
 
 
+_PAST_SIDE = 1e-3
+"""The surface of half a hull may pass its centre plane by this part of its length."""
+
+
+def _weighted_median(values: FloatArray, weight: FloatArray) -> float:
+    """Give the value below which half of the weight lies."""
+    order = np.argsort(values, kind="stable")
+    part = np.cumsum(weight[order])
+    return float(values[order[int(np.searchsorted(part, 0.5 * part[-1]))]])
+
+
 def half_side(mesh: Triangles, axis: int) -> float | None:
     """Give the place of the centre plane if this is a half hull cut across an axis."""
     rim = boundary_edges(mesh)
@@ -200,7 +211,12 @@ def half_side(mesh: Triangles, axis: int) -> float | None:
     size = float(np.ptp(mesh.xyz, axis=0).max())
     values = mesh.xyz[rim][:, :, axis]
     length = np.linalg.norm(np.diff(mesh.xyz[rim], axis=1)[:, 0], axis=1)
-    for side in (float(mesh.xyz[:, axis].min()), float(mesh.xyz[:, axis].max())):
+    for outmost in (float(mesh.xyz[:, axis].min()), float(mesh.xyz[:, axis].max())):
+        # A surface may pass its centre plane a little: the plane is where most of the edge lies.
+        close = (np.abs(values - outmost) < _PAST_SIDE * size).all(axis=1)
+        if not close.any():
+            continue
+        side = _weighted_median(values[close].mean(axis=1), length[close])
         on = (np.abs(values - side) < 1e-5 * size).all(axis=1)
         span = np.ptp(mesh.xyz[rim[on]].reshape(-1, 3), axis=0) if on.any() else np.zeros(3)
         across = [other for other in range(3) if other != axis]
@@ -208,7 +224,7 @@ def half_side(mesh: Triangles, axis: int) -> float | None:
         # A transom or a hatch is open too: the edge of a half hull spans its whole side.
         filled = all(span[other] > 0.8 * whole[other] for other in across)
         if filled and length[on].sum() > 0.15 * length.sum():
-            return float(np.median(values[on]))  # single vertices may reach a little farther
+            return float(np.median(values[on]))
     return None
 
 

@@ -33,6 +33,8 @@ import numpy as np
 
 from assoc_hull.arguments import instance
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.polylines.operations import cumulative_lengths
 from assoc_hull.geometry.surfaces.triangles import Triangles, check_mesh
 from assoc_hull.io.lines.mend_lines import join_pieces, report_crossings, report_joins
 from assoc_hull.io.lines.several_hulls import HullChoice
@@ -372,6 +374,8 @@ def _boundaries(
         joins += made
         if not chains:
             continue
+        if kind == RimKind.PROFILE:
+            chains = [_without_loops(each, gaps.join, book) for each in chains]
         length = [_length(each) for each in chains]
         longest = max(length)
         kept = [each for each, size in zip(chains, length, strict=True) if size > 0.02 * longest]
@@ -380,6 +384,62 @@ def _boundaries(
             book.repair("short piece", name, what, len(chains) - len(kept))
         found.append(SliceLine("boundary", name, float("nan"), tuple(_forward(kept, kind))))
     return found
+
+
+_LOOPS = 0.02
+"""Loops of more than this part of a profile are parts of the hull, not crossings of its halves."""
+
+_DETOUR = 4.0
+"""A way along the profile this many times longer than the gap between its ends is a loop."""
+
+
+def _without_loops(piece: LinePiece, join: float, book: Notebook) -> LinePiece:
+    """Leave out where a profile turns back: small loops where the surface passes y = 0.
+
+    Ends of a loop lie within `join` (m) of each other.
+    """
+    from scipy.spatial import cKDTree
+
+    at = cumulative_lengths(piece.points)
+    pairs = cKDTree(piece.points).query_pairs(join, output_type="ndarray").astype(np.int64)
+    if piece.closed or not len(pairs):
+        return piece
+    gap = np.linalg.norm(piece.points[pairs[:, 1]] - piece.points[pairs[:, 0]], axis=1)
+    way = np.abs(at[pairs[:, 1]] - at[pairs[:, 0]])
+    loop = way > np.maximum(_DETOUR * gap, join)
+    if not loop.any():
+        return piece
+    kept = _shortest_way(at, pairs[loop], gap[loop])
+    points = piece.points[kept]
+    less = float(at[-1] - cumulative_lengths(points)[-1])
+    if less > _LOOPS * float(at[-1]):
+        return piece
+    first = int(np.flatnonzero(np.diff(kept) > 1)[0])
+    x, _, z = points[first].tolist()
+    what = (
+        f"turned back first at ({x:.4g}, {z:.4g}) m, where the hull passes its centre plane; "
+        f"{len(at) - len(kept)} points, {less:.3g} m of {float(at[-1]):.4g} m, left out"
+    )
+    book.suspect("loop", "profile", what, less)
+    owner = None if piece.owner is None else piece.owner[kept]
+    return attrs.evolve(piece, points=points, owner=owner)
+
+
+def _shortest_way(at: FloatArray, pairs: IntArray, gap: FloatArray) -> IntArray:
+    """Give the points of the shortest way from the first to the last, over pairs too, in order."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import dijkstra
+
+    count = len(at)
+    steps = np.column_stack([np.arange(count - 1), np.arange(1, count)])
+    ends = np.concatenate([steps, pairs])
+    size = np.maximum(np.concatenate([np.diff(at), gap]), 1e-9)  # 0 would be no edge
+    graph = coo_array((size, (ends[:, 0], ends[:, 1])), (count, count)).tocsr()
+    _, before = dijkstra(graph, directed=False, indices=0, return_predecessors=True)
+    way = [count - 1]
+    while way[-1] != 0:
+        way.append(int(before[way[-1]]))
+    return np.array(way[::-1], np.int64)
 
 
 def _length(piece: LinePiece) -> float:
