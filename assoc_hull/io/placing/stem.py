@@ -81,7 +81,9 @@ def _step_above(
     """Give place and height of the stem's foot where the waterline ends on a bulb below it."""
     top = float(outline.high[2])
     heights = np.linspace(z, top, _SAMPLES + 1)[1:-1]
-    fore = np.array([_foremost(outline.contour(height)) for height in heights.tolist()])
+    # Only the bow: where sections end in the centre plane the contour has their keels too.
+    bow = x - _BOW * size
+    fore = np.array([_foremost(outline.contour(height), bow) for height in heights.tolist()])
     known = np.isfinite(fore)
     heights, fore = heights[known], fore[known]
     if not len(fore):
@@ -97,5 +99,6 @@ def _step_above(
     return (float(fore[row]), float(heights[row])) if early or rises else None
 
 
-def _foremost(crossing: FloatArray) -> float:
-    return float(crossing[-1]) if len(crossing) else float("nan")
+def _foremost(crossing: FloatArray, least: float) -> float:
+    """Give the foremost crossing forward of `least` (m), nan where there is none."""
+    return float(crossing[-1]) if len(crossing) and crossing[-1] > least else float("nan")
