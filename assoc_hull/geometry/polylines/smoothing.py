@@ -275,15 +275,21 @@ def fit_polyline(
     tolerance: float | FloatArray,
     first: FloatArray | None = None,
     last: FloatArray | None = None,
+    *,
+    curved: bool = False,
 ) -> PolylineFit | None:
-    """Fit as `smooth_polyline` does, but do not draw; None for fewer than three places."""
+    """Fit as `smooth_polyline` does, but do not draw; None for fewer than three places.
+
+    `curved` says that the line between wide-apart points is as they bend, not their chord, which
+    lies inside the hull where a curved line was digitised by few points.
+    """
     near = np.zeros(len(points)) + tolerance
     line = drop_repeats(points, 1e-6)
     near = near if len(line) == len(points) else np.full(len(line), near.max())
     length = cumulative_lengths(line)
     if len(line) < 3:
         return None
-    at, data = _samples(line)
+    at, data = _samples(line, curved=curved)
     allowed = np.interp(at, length, near)
     knots = np.linspace(0.0, length[-1], min(_LEAST_SPANS, max(2, len(at) // 3)) + 1)
     fit = PenalisedFit(at, data, allowed, knots, first, last)
@@ -299,8 +305,12 @@ def fit_polyline(
     return PolylineFit(fit, size, fit.solve(size))
 
 
-def _samples(line: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the points and more between those that lie wide apart."""
+_CURVED = 4
+"""Fewer points than this do not tell how a line bends between them."""
+
+
+def _samples(line: FloatArray, *, curved: bool = False) -> tuple[FloatArray, FloatArray]:
+    """Give the points and more between those that lie wide apart, on chords or on a curve."""
     at = cumulative_lengths(line)
     most = float(at[-1]) / 80.0
     step = np.diff(at)
@@ -308,7 +318,14 @@ def _samples(line: FloatArray) -> tuple[FloatArray, FloatArray]:
     start = np.repeat(at[:-1], many)
     part = np.arange(len(start)) - np.repeat(np.cumsum(many) - many, many)
     place = np.append(start + part * np.repeat(step / many, many), at[-1])
-    return place, resample(line, place)
+    if not curved or len(line) < _CURVED or not (many > 1).any():
+        return place, resample(line, place)
+    from scipy.interpolate import Akima1DInterpolator
+
+    # Makima: it keeps straight runs straight and does not swing beside a short step.
+    found: FloatArray = Akima1DInterpolator(at, line, method="makima")(place)
+    found[-1] = line[-1]
+    return place, found
 
 
 def _result(fit: PenalisedFit, control: FloatArray) -> SmoothedPolyline:

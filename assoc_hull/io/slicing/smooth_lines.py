@@ -142,7 +142,10 @@ def _stretches(
         if any(a - 0.05 <= low.at and high.at <= b + 0.05 for a, b in drawn):
             fitted = None
         else:
-            fitted = fit_polyline(mine, allowed, low.direction, high.direction)
+            # Chords of facets lie on the mesh; those of a digitised line lie inside its hull.
+            fitted = fit_polyline(
+                mine, allowed, low.direction, high.direction, curved=part.depth == 0.0
+            )
         found.append(SmoothStretch(mine[[0, -1]], fitted))
     return found
 
