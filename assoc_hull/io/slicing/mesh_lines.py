@@ -27,6 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import attrs
 import numpy as np
@@ -68,6 +69,7 @@ __all__ = [
     "refuse_bottomless",
     "report_bottom",
     "slice_mesh",
+    "without_loops",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -375,7 +377,7 @@ def _boundaries(
         if not chains:
             continue
         if kind == RimKind.PROFILE:
-            chains = [_without_loops(each, gaps.join, book) for each in chains]
+            chains = [without_loops(each, gaps.join, book) for each in chains]
         length = [_length(each) for each in chains]
         longest = max(length)
         kept = [each for each, size in zip(chains, length, strict=True) if size > 0.02 * longest]
@@ -393,7 +395,7 @@ _DETOUR = 4.0
 """A way along the profile this many times longer than the gap between its ends is a loop."""
 
 
-def _without_loops(piece: LinePiece, join: float, book: Notebook) -> LinePiece:
+def without_loops(piece: LinePiece, join: float, book: Notebook) -> LinePiece:
     """Leave out where a profile turns back: small loops where the surface passes y = 0.
 
     Ends of a loop lie within `join` (m) of each other.
@@ -434,7 +436,7 @@ def _shortest_way(at: FloatArray, pairs: IntArray, gap: FloatArray) -> IntArray:
     steps = np.column_stack([np.arange(count - 1), np.arange(1, count)])
     ends = np.concatenate([steps, pairs])
     size = np.maximum(np.concatenate([np.diff(at), gap]), 1e-9)  # 0 would be no edge
-    graph = coo_array((size, (ends[:, 0], ends[:, 1])), (count, count)).tocsr()
+    graph: Any = coo_array((size, (ends[:, 0], ends[:, 1])), (count, count)).tocsr()
     _, before = dijkstra(graph, directed=False, indices=0, return_predecessors=True)
     way = [count - 1]
     while way[-1] != 0:

@@ -13,13 +13,14 @@ import numpy as np
 from assoc_hull.arguments import positive
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt, source_order
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.geometry.curves import PointKind, SplineBatch
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.lines.slices import ASSOCIATIONS, GapJoin, Gaps, HullSlices, LinePiece
 from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
 from assoc_hull.io.slicing.boundary_curves import BoundaryCurve, draw_borders, loft_source
 from assoc_hull.io.slicing.features import FeatureRules, KnuckleTrace, find_features, with_arcs
 from assoc_hull.io.slicing.full_size import grown_slices, scaled
+from assoc_hull.io.slicing.loft_sections import is_bare, loft_sections
 from assoc_hull.io.slicing.smooth_lines import (
     SmoothReport,
     join_plans,
@@ -284,6 +285,12 @@ def net_from_slices(
         slices.name, float(size[0]), 2.0 * float(slices.high[1]), float(size[2]),
         0.5 * float(size[2]),
     )  # fmt: skip
+    told = _with_crumbs(slices)
+    if is_bare(slices):
+        draught = None if particulars is None else particulars.draught
+        sources, smoothing, told = _with_longitudinals(
+            sources, smoothing, told, draught, allowed, slices.factor
+        )
     # Reports of pieces stand in the order of the curves that are made of them.
     pairs = sorted(zip(sources, smoothing, strict=True), key=lambda each: source_order(each[0]))
     links = _links({source.group for source in sources})
@@ -292,12 +299,57 @@ def net_from_slices(
         sources, ship, links, attrs.evolve(Tolerances().scaled(slices.factor), adoption=allowed)
     )
     report = SliceReport(
-        _with_crumbs(slices), slices.joins, slices.gaps, wanted, state.tolerances,
+        told, slices.joins, slices.gaps, wanted, state.tolerances,
         float(np.median([each.noise for each in smoothing])), slices.depth,
         tuple(each for _, each in pairs), tuple(knuckles), tuple(borders), adoption,
         slices.frame,
     )  # fmt: skip
     return state, report
+
+
+def _with_longitudinals(
+    sources: list[LineSource],
+    smoothing: list[SmoothReport],
+    told: OffsetReport,
+    draught: float | None,
+    tolerance: float,
+    factor: float,
+) -> tuple[list[LineSource], list[SmoothReport], OffsetReport]:
+    """Add profile, deck edge and waterlines to a hull given by sections alone, and tell it."""
+    lofted = loft_sections(sources, draught, tolerance, factor)
+    where = "the sections"
+    if lofted is None:
+        what = (
+            "no profile, deck edge or waterline is given, and sections in several curves or away "
+            "from the centre plane do not tell them: give them"
+        )
+        note = Note("sections alone", where, what, len(sources))
+        return sources, smoothing, attrs.evolve(told, suspicions=(*told.suspicions, note))
+    gone = {*lofted.posts, lofted.transom}
+    pairs = [
+        (source, report)
+        for source, report in zip(sources, smoothing, strict=True)
+        if source.name not in gone
+    ]
+    pairs += [(line, _report_lofted(line)) for line in lofted.lines]
+    count = sum(line.group == "waterlines" for line in lofted.lines)
+    what = f"profile, deck edge and {count} waterlines are lofted through the {len(sources)} given"
+    if lofted.transom is not None:
+        what += f"; {lofted.transom} is the edge of the transom"
+    if lofted.posts:
+        what += f"; {' and '.join(lofted.posts)}, in the centre plane, part of the profile"
+    note = Note("sections alone", where, what, len(sources))
+    told = attrs.evolve(told, assumptions=(*told.assumptions, note))
+    return [source for source, _ in pairs], [report for _, report in pairs], told
+
+
+def _report_lofted(line: LineSource) -> SmoothReport:
+    """Report a line lofted through sections, which it passes by its tolerance at most."""
+    band = float(np.max(line.tolerance))
+    count = len(line.points)
+    tangents = int((line.kind == PointKind.TANGENT).sum())
+    knuckles = int((line.kind == PointKind.KNUCKLE).sum())
+    return SmoothReport(line.name, count, count, 0.0, band, 0.0, knuckles, tangents, ())
 
 
 def _report_border(border: BoundaryCurve, source: LineSource) -> SmoothReport:

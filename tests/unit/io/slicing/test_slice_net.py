@@ -198,8 +198,8 @@ def test_pieces_too_short_to_be_adopted_are_told() -> None:
     """A line of 10 mm of a hull of 20 m is left out, and its name stands in the report."""
     _, report = net_from_slices(read_lines(_wedge("ST 15,15,1,1", "ST 15,15,1.005,1.01")))
     assert "ST 15" not in [line.line for line in report.adoption.lines]
-    (note,) = report.slices.suspicions
-    assert (note.kind, note.amount) == ("crumbs", 1)
+    (note,) = [each for each in report.slices.suspicions if each.kind == "crumbs"]
+    assert note.amount == 1
     assert "of ST 15" in note.what
 
 
