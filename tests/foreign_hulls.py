@@ -97,6 +97,20 @@ class Truth:
     published: str = ""
 
 
+def at_scale(truth: Truth, factor: float) -> Truth:
+    """Give the truth of a model of a hull, every length times a factor."""
+
+    def at(draught: float) -> Floating:
+        real = truth.at(draught / factor)
+        return Floating(factor**3 * real.volume, factor * real.lcb, factor**2 * real.wetted)
+
+    aft, fore = truth.ends
+    return Truth(
+        at, factor * truth.length, factor * truth.breadth, factor * truth.draught,
+        (factor * aft, factor * fore), factor * truth.top, truth.published,
+    )  # fmt: skip
+
+
 def _of_hull(hull: ah.Hull, draught: float) -> Floating:
     found = hull.hydrostatics(draught=draught, on_error="report")
     return Floating(found.volume, found.lcb, found.wetted_surface)
@@ -301,6 +315,9 @@ def _compare(
 ) -> tuple[tuple[float, float, float], list[str]]:
     """Measure how far a hull is off, and say what is wrong of it."""
     truth, ship = case.truth(), hull.particulars
+    if "scale" not in options and "scale" in case.right:
+        # The file of a model says nothing of a ship: read as it is it is a boat of the model's size.
+        truth = at_scale(truth, 1.0 / case.right["scale"])
     found = hull.hydrostatics(draught=ship.draught)
     aft, fore, top = extent(hull, sections=case.sections)
     # The draught that was given is meant from the true base line; a found one is a plane in space.

@@ -437,7 +437,7 @@ def _shortest_way(at: FloatArray, pairs: IntArray, gap: FloatArray) -> IntArray:
     ends = np.concatenate([steps, pairs])
     size = np.maximum(np.concatenate([np.diff(at), gap]), 1e-9)  # 0 would be no edge
     graph: Any = coo_array((size, (ends[:, 0], ends[:, 1])), (count, count)).tocsr()
-    _, before = dijkstra(graph, directed=False, indices=0, return_predecessors=True)
+    _, before = dijkstra(graph, directed=False, indices=0, return_predecessors=True)  # type: ignore[call-overload]
     way = [count - 1]
     while way[-1] != 0:
         way.append(int(before[way[-1]]))
