@@ -13,6 +13,7 @@ import numpy as np
 
 from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.edit.adoption.adopt_lines import OVER, AdoptionReport, LineReport
+from assoc_hull.edit.adoption.latent_crossings import at_ends
 from assoc_hull.edit.checks.hull_findings import check
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
@@ -185,10 +186,13 @@ def _examine_misses(state: HullState, found: Findings) -> None:
                 continue
             seen.add(pair)
             away = np.sqrt(((places[:, None] - back[None]) ** 2).sum(axis=2))
+            # Where both end on a third line, by that line, there is nothing to cross.
+            ending = at_ends(state, curve, places)[:, None] & at_ends(state, other, back)[None]
+            away[ending & (away <= state.tolerances.adoption)] = 0.0
             i, j = (int(each) for each in np.unravel_index(away.argmin(), away.shape))
             if state.tolerances.coincident < away[i, j] < _REACH * state.particulars.breadth:
                 what = (
-                    f"they pass each other {1e3 * away[i, j]:.1f} mm apart, too far to cross: one "
+                    f"they pass each other {1e3 * away[i, j]:.3g} mm apart, too far to cross: one "
                     "of the two is wrong; mend it, or leave it out"
                 )
                 where = f"{book.curve_name(pair[0])} x {book.curve_name(pair[1])}"

@@ -10,14 +10,16 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
+from assoc_hull.edit.adoption.latent_crossings import make_latent_crossings
 from assoc_hull.errors import BadInputError, NotSoundError
 from assoc_hull.io.importing import proportions
 from assoc_hull.io.importing.import_hull import import_hull
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.soundness import examine_net
 from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict
+from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
-from assoc_hull.model.tables import HullState, Particulars
+from assoc_hull.model.tables import Association, HullState, Particulars
 from assoc_hull.shipped.series60 import series60_adopted
 from assoc_hull.shipped.wigley import wigley_half_breadth
 
@@ -240,6 +242,37 @@ def test_lines_that_pass_one_another_are_a_fault(tmp_path: Path) -> None:
     assert len(told) >= 12, verdict
     assert all(each.where.startswith("ST ") and " x WL 3 at (" in each.where for each in told)
     assert read(sections(), tmp_path)[1].faults == ()
+
+
+@pytest.mark.parametrize(("short", "made"), [(0.0, 0), (5e-5, 0), (0.04, 1)])
+def test_lines_lengthened_to_one_place_of_the_stem_leave_no_gap(short: float, made: int) -> None:
+    """Given lines that end short of the stem meet only when both are on it: no gap by their noise.
+
+    Within the tolerance of their ends they need no crossing; farther from these it is made.
+    """
+    z, y = np.arange(10.0), np.linspace(4.0, 0.0, 9)
+    up = z[5:]
+    stem, station, level = (
+        np.stack([100.0 + 0.5 * (z - 5.0 + short), 0.0 * z, z], axis=1),
+        np.stack([0.0 * up + 100.0, 0.1 * (up - 5.0), up], axis=1),
+        np.stack([100.0 - 4.0 * y, y, 0.0 * y + 5.0], axis=1),
+    )
+    lines = [
+        LineSource.make(
+            "boundary", "profile", stem, plane=((0, 1, 0), 0.0), boundary=BoundaryKind.END
+        ),
+        LineSource.make("sections", "ST 20", station),
+        LineSource.make("waterlines", "WL 5", level),
+    ]
+    links = [("sections", "waterlines"), ("boundary", "sections"), ("boundary", "waterlines")]
+    ship = Particulars("a", 100.0, 10.0, 6.0, 9.0)
+    state, report = adopt(lines, ship, [Association(*each) for each in links])
+    assert len(make_latent_crossings(state)) == made
+    found = Findings()
+    examine_net(state, report, found)
+    assert found.faults == []
+    assert ah.Hull(state).check() == ()
+    assert ah.Hull(state).verify() == ()
 
 
 def test_what_cannot_be_computed_is_a_fault(
