@@ -134,6 +134,10 @@ def _parameters(xyz: FloatArray, corner: FloatArray, uv: FloatArray) -> FloatArr
     return np.asarray(first[:, None] * uv[:, 0] + part[:, :1] * uv[:, 1] + part[:, 1:] * uv[:, 2])
 
 
+_SAG = 1e-3
+"""Chords between the points that are kept pass the others no farther off than this (m), of a hull
+under 100 m less in proportion: what is fitted to them follows the surface between them, too."""
+
 _POINTS, _TURN = 100.0, 0.05
 """A piece keeps this many points, and one more wherever it turns by this much (rad)."""
 
@@ -232,7 +236,7 @@ def _settled(
         book.assume("on triangles", "the lines", what, int((~good).sum()))
     split = np.cumsum(count)[:-1]
     found = iter(zip(np.split(places, split), np.split(sine, split), strict=True))
-    settled = [_replaced(line, found) for line in lines]
+    settled = [_replaced(line, found, slices.factor) for line in lines]
     rest = [line for line in slices.boundaries if line.name != "profile"]
     return attrs.evolve(
         slices, lines=tuple(settled[: len(slices.lines)]),
@@ -250,12 +254,16 @@ def _place(line: SliceLine) -> float:
     return 0.0 if line.group == "boundary" else line.offset
 
 
-def _replaced(line: SliceLine, found: Iterator[tuple[FloatArray, FloatArray]]) -> SliceLine:
+def _replaced(
+    line: SliceLine, found: Iterator[tuple[FloatArray, FloatArray]], factor: float
+) -> SliceLine:
     """Give a line with the next places, thinned, and sines where it had some."""
     pieces = []
     for piece in line.pieces:
         points, sine = next(found)
-        kept = _thinned(points) if line.group != "boundary" else np.arange(len(points))
+        kept = np.arange(len(points))
+        if line.group != "boundary":
+            kept = _with_sag(points, _thinned(points), factor * _SAG)
         angle = None if piece.sine is None else sine[kept]
         owner = None if piece.owner is None else piece.owner[kept]
         pieces.append(attrs.evolve(piece, points=points[kept], sine=angle, owner=owner))
@@ -278,6 +286,21 @@ def _thinned(points: FloatArray) -> IntArray:
     kept = np.append(True, np.diff(place) > 0.0)
     kept[-1] = True
     return np.flatnonzero(kept)
+
+
+def _with_sag(points: FloatArray, kept: IntArray, most: float) -> IntArray:
+    """Keep further points where chords between those kept pass others by more than `most` (m)."""
+    while True:
+        chord = np.repeat(np.arange(len(kept) - 1), np.diff(kept))
+        away = points[: len(chord)] - points[kept[chord]]
+        along = points[kept[chord + 1]] - points[kept[chord]]
+        part = (away * along).sum(axis=1) / np.maximum((along * along).sum(axis=1), 1e-300)
+        off = np.sqrt(((away - part[:, None] * along) ** 2).sum(axis=1))
+        worst = np.maximum.reduceat(off, kept[:-1])
+        if not (worst > most).any():
+            return kept
+        more = np.flatnonzero((off == worst[chord]) & (off > most))
+        kept = np.union1d(kept, more)
 
 
 # --------------------------------------------------------------------------------------

@@ -63,6 +63,17 @@ def test_points_lie_on_the_surface(surfaces: list[SplineSurface]) -> None:
     assert [len(each.pieces) for each in slices.boundaries] == [1, 1]
 
 
+@pytest.mark.parametrize("scale", [1 / 16, 1.0, 2.25], ids=["model", "ship", "long ship"])
+def test_chords_between_the_points_of_a_line_lie_close_to_the_surface(scale: float) -> None:
+    """What is fitted to the points follows the surface between them, within 2 mm of a ship."""
+    shrunk = cad_hulls.moved([wigley()], lambda net: net * scale)
+    places = {name: [scale * each for each in places] for name, places in CUTS.items()}
+    for line in cut(shrunk, places).lines:
+        points = line.pieces[0].points
+        x, y, z = 0.5 * (points[1:] + points[:-1]).T / scale
+        assert np.abs(y - meshes.wigley_y(x, z)).max() < 2e-3 * min(1.0, 1.0 / scale)
+
+
 def test_a_hull_in_other_axes_is_cut_exactly() -> None:
     """Turned, moved and at model scale, in every way at once."""
     shrunk = cad_hulls.moved(
