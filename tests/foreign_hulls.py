@@ -1095,7 +1095,8 @@ CORPUS: tuple[Foreign, ...] = (
     Foreign(
         "coaster_bri", "Coaster of 106 m: BRITFAIR sections",
         _export("coaster.bri", partial(shipped, "seaking_ship"), "britfair"),
-        _ship("seaking_ship", sections=True), {"length": 106.0, "draught": 6.6, "deck": "closed"},
+        _ship("seaking_ship", sections=True),
+        {"origin": "ap", "length": 106.0, "draught": 6.6, "deck": "closed"},
         (_w(_UNIT, unit="ft"), _w(_LENGTH, length=70.0), _w(_DRAUGHT, draught=66.0)),
         sections=True,
     ),

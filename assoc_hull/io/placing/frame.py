@@ -35,6 +35,9 @@ _WET, _DRY = 0.1, 0.95
 _FAR = 0.25
 """A perpendicular this part of the length beyond the hull is a mistake."""
 
+_NEAR = 0.03
+"""x = 0 of the file this part of Lpp from a perpendicular that was found may be meant for it."""
+
 _ROUNDS = 3
 """Stretch of the keel, base line and draught follow from one another: so often."""
 
@@ -111,6 +114,8 @@ def find_frame(
     _tell_heights(outline, heights, length, book, where)
     _tell_waterline(outline, heights, said, book, where)
     _tell_ends(outline, ends, stem, length, book, where)
+    if ends.length is not None and ends.ap_from[0] == ends.fp_from[0] == "found":
+        _tell_zero(ends, length, (axes or FileAxes()).x_sign, book, where)
     breadth = _breadth(outline, heights, asked, said, book, where)
     depth = _depth(outline, heights, ends, asked, said, book, where)
     if trim:
@@ -439,9 +444,11 @@ def _by_waterline(
     ap = 0.0 if same_place(aft, 0.0, fp - aft) else aft
     what = "nothing tells Lpp: the AP is the aft end of the design waterline"
     hint = ""
-    if ap != 0.0 and outline.low[0] < 0.0 < outline.high[0]:
-        hint = f"; if x = 0 of the file, {-aft:.4g} m forward of it, is the AP give origin='ap'"
-        hint = hint if 0.0 < -aft < 0.25 * outline.size else ""
+    # x = 0 of the file farther inside the hull may be the AP of a long stern.
+    inside = outline.low[0] < 0.0 < -aft < 0.25 * outline.size
+    if ap != 0.0 and (inside or abs(aft) <= _NEAR * (fp - aft)):
+        way = "forward" if aft < 0.0 else "aft"
+        hint = f"; if x = 0 of the file, {abs(aft):.4g} m {way} of it, is the AP give origin='ap'"
     doubt = (
         f"the AP is taken at the aft end of the design waterline, x = {aft:.6g} m of the file, and "
         f"Lpp = LWL = {fp - ap:.6g} m: LCB in % of Lpp and station numbers hang on it{hint}; give "
@@ -475,6 +482,25 @@ def _tell_ends(
             "and where x = 0 is"
         )
         book.suspect("forward perpendicular", where, what, ends.fp - stem)
+
+
+def _tell_zero(ends: _Ends, length: float, sign: float, book: Notebook, where: str) -> None:
+    """Suspect perpendiculars by stem and Lpp where x = 0 of the file is near one and not at it."""
+    places = {"ap": ends.ap, "fp": ends.fp, "midship": 0.5 * (ends.ap + ends.fp)}
+    name = min(places, key=lambda each: abs(places[each]))
+    x = places[name]
+    if not 0.0 < abs(x) <= _NEAR * length:
+        return
+    said = name if name == "midship" else f"the {name.upper()}"
+    kind = "forward perpendicular" if name == "fp" else "aft perpendicular"
+    way = "aft" if x > 0.0 else "forward"
+    also = "" if name == "midship" else f" ({name}=0)"
+    what = (
+        f"stem and Lpp put {said} at x = {x:.6g} m of the file, and x = 0 lies {abs(x):.4g} m "
+        f"{way} of that: if x = 0 is {said} give origin={name!r}{also}; if not, give "
+        f"ap='{sign * ends.ap + 0.0:.6g} m'"
+    )
+    book.suspect(kind, where, what, x)
 
 
 # --------------------------------------------------------------------------------------

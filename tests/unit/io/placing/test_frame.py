@@ -102,8 +102,40 @@ def test_perpendiculars_follow_the_hull_wherever_the_file_has_its_origin(
     assert frame.ap == pytest.approx(x, abs=5e-3 * LPP)
     assert frame.fp - frame.ap == pytest.approx(LPP, abs=1e-9)
     assert frame.base == pytest.approx(z, abs=1e-3 * LPP)
-    # z = 0 may cut the hull somewhere else than at the draught: that is asked about.
-    assert suspected(book) <= ({"draught"} if -1.001 * DEPTH < z < 0.0 else set())
+    # z = 0 may cut the hull somewhere else than at the draught, x = 0 lie beside a perpendicular
+    # or midship: that is asked about.
+    beside = min(abs(x), abs(x + 0.5 * LPP), abs(x + LPP)) < 0.03 * LPP + 1e-6
+    allowed = {"aft perpendicular", "forward perpendicular"} if beside else set()
+    assert suspected(book) <= allowed | ({"draught"} if -1.001 * DEPTH < z < 0.0 else set())
+
+
+@pytest.mark.parametrize(
+    ("x", "origin"), [(2.0, "ap"), (-2.5, "ap"), (-51.5, "midship"), (-98.0, "fp"), (-102.0, "fp")]
+)
+def test_x_0_beside_a_found_perpendicular_is_suspected_and_each_remedy_cures_it(
+    x: float, origin: str
+) -> None:
+    """The origin, or the place, as the message says, in a file turned round too."""
+    mesh, axes = moved(ship(), x, 0.0), FileAxes(x_sign=-1.0)
+    _, book = find(mesh, axes=axes, length=LPP, draught=DRAUGHT)
+    (note,) = book.suspicions
+    assert f"give origin={origin!r}" in note.what
+    assert f"{abs(x + {'ap': 0, 'midship': 50, 'fp': 100}[origin]):.4g} m" in note.what
+    place = note.what.partition("give ap='")[2].partition("'")[0]
+    frame, book = find(mesh, axes=axes, length=LPP, draught=DRAUGHT, ap=place)
+    assert frame.ap == pytest.approx(x, abs=1e-3)
+    assert not book.suspicions
+    frame, _ = find(mesh, axes=axes, length=LPP, draught=DRAUGHT, origin=origin)
+    assert frame.ap == {"ap": 0.0, "midship": -50.0, "fp": -100.0}[origin]
+
+
+def test_without_lpp_x_0_beside_the_found_ap_is_named_with_its_origin() -> None:
+    """On either side of it, in the suspicion that is there anyway."""
+    for x in (6.0, 2.0):
+        _, book = find(moved(ship(), x, 0.0), draught=DRAUGHT)
+        (note,) = book.suspicions
+        assert f"2 m {'aft' if x > 4.0 else 'forward'} of it, is the AP give" in note.what
+        assert "origin='ap'" in note.what
 
 
 def test_the_base_line_is_the_bottom_amidships_and_no_dome_or_skeg() -> None:
