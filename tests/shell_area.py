@@ -18,12 +18,13 @@ def area_below(grid: FloatArray, level: float) -> float:
     )
 
 
-def triangles_below(corner: FloatArray, level: float) -> float:
-    """Area (m2) below z = level of triangles (k, 3, 3), m."""
+def triangles_below(corner: FloatArray, level: float, heel_deg: float = 0.0) -> float:
+    """Area (m2) of triangles (k, 3, 3), m, below z = level - y tan(heel)."""
     area = 0.5 * np.linalg.norm(
         np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1
     )
-    low, middle, high = np.sort(corner[:, :, 2] - level, axis=1).T
+    over = corner[:, :, 2] + np.tan(np.radians(heel_deg)) * corner[:, :, 1] - level
+    low, middle, high = np.sort(over, axis=1).T
     with np.errstate(divide="ignore", invalid="ignore"):
         # Two corners above: what is wet is similar to the whole, about the lowest; one: the rest.
         tip = low * low / ((middle - low) * (high - low))

@@ -1,62 +1,36 @@
 """The wetted surface against triangulations that share nothing with it.
 
-Formulas are triangulated as they are; of ships that are nets, the closed mesh on their lines, with
-16 points to an edge, which has cells of its own and none of the strips of hydrostatics.
+`python -m tests.wetted_surfaces` prints the table of all ships; a part of it is tried here.
 """
 
 from __future__ import annotations
 
 import os
+from functools import cache
 
 import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.surface.cells.closed_mesh import ClosedMesh
 from tests.raked_stern import DEPTH, FOOT, half_breadth, keel, raked_ship, shell
 from tests.shell_area import triangles_below
+from tests.wetted_surfaces import FEW, NEAR, SHIPS
 
-SHIPS = {
-    "wigley": ah.examples.wigley,
-    "bulk_carrier": None,
-    "container ship": ah.examples.container_ship_225m,
-}
-"""How each is made; None: it is a fixture."""
-
-if os.environ.get("ASSOC_HULL_LONG"):
-    SHIPS |= {
-        "series60_70": None,
-        "series60_60": None,
-        "plain ship": ah.examples.plain_ship,
-        "bulk carrier 180 m": ah.examples.bulk_carrier_180m,
-        "seaking ship": ah.examples.seaking_ship,
-        "sfolds ship": ah.examples.sfolds_ship,
-        "prelikon ship": ah.examples.prelikon_ship,
-        "dtc": None,
-    }
-
-NEAR = 3e-3
-"""So near (a part) S has to come to a triangulation; and within its own estimate."""
+NAMES = tuple(SHIPS) if os.environ.get("ASSOC_HULL_LONG") else FEW
+"""All ships of the table where time is given, else the cheapest of each kind."""
 
 
-def _of_mesh(hull: ah.Hull, draught: float, points: int = 16) -> float:
-    """Shell of the closed mesh below a draught, m2."""
-    mesh = hull.mesh(points=points)
-    return triangles_below(mesh.xyz[mesh.triangle[mesh.group == 0]], draught)
-
-
-@pytest.mark.parametrize("name", SHIPS)
-def test_s_of_shipped_hulls_is_that_of_a_fine_mesh(
-    request: pytest.FixtureRequest, name: str
+@pytest.mark.parametrize("name", NAMES)
+def test_s_is_that_of_fine_triangles_within_its_own_estimate(
+    name: str, request: pytest.FixtureRequest
 ) -> None:
-    """Within 0.3 %, and within the estimate."""
-    make = SHIPS[name]
-    hull = request.getfixturevalue(name) if make is None else make()
-    found = hull.hydrostatics()
-    truth = _of_mesh(hull, hull.particulars.draught)
-    stated = found.error["wetted_surface"]
-    assert stated is not None
-    assert abs(found.wetted_surface - truth) < NEAR * truth
-    assert abs(found.wetted_surface - truth) <= stated
+    """Of each shipped hull, of a frigate and of formulas: within 0.3 %, and within the estimate."""
+    if "DTC" in name:
+        request.getfixturevalue("data_folder")
+    one = SHIPS[name]()
+    assert abs(one.off) < NEAR
+    assert abs(one.found - one.truth) <= one.stated
 
 
 @pytest.mark.parametrize(
@@ -81,6 +55,39 @@ def test_s_of_a_flat_run_before_a_raked_transom_is_that_of_the_formula(
     assert with_it.wetted_surface == pytest.approx(
         found.wetted_surface + found.transom_area, rel=1e-12
     )
+
+
+@cache
+def ferry() -> tuple[ah.Hull, ClosedMesh]:
+    """The ferry, which has a closed deck, and her mesh."""
+    hull = ah.examples.sfolds_ship()
+    return hull, hull.mesh(points=24)
+
+
+@pytest.mark.parametrize(
+    ("draught", "heel"), [(9.3, 0.0), (10.0, 0.0), (9.3, 25.0), (10.0, -40.0), (7.0, 55.0)]
+)
+def test_a_closed_deck_under_water_counts_nothing_in_s_nor_does_the_transom(
+    draught: float, heel: float
+) -> None:
+    """The ferry over her deck, which is lowest at 9 m, and heeled until its edge is deep.
+
+    The deck was a third of S. Volumes keep it, by both routes; the transom is told beside.
+    """
+    hull, mesh = ferry()
+    found = hull.hydrostatics(draught=draught, heel_deg=heel)
+    shell, transom, deck = (
+        triangles_below(mesh.xyz[mesh.triangle[mesh.group == part]], draught, heel)
+        for part in map(mesh.names.index, ("shell", "aft end", "deck"))
+    )
+    assert deck > 0.1 * shell
+    assert found.wetted_surface == pytest.approx(shell, rel=NEAR)
+    assert abs(found.wetted_surface - shell) <= (found.error["wetted_surface"] or 0.0)
+    assert found.wetted_surface_girth < found.wetted_surface
+    assert found.transom_area == pytest.approx(transom, rel=NEAR)
+    with_it = hull.hydrostatics(draught=draught, heel_deg=heel, transom=True).wetted_surface
+    assert with_it == pytest.approx(found.wetted_surface + found.transom_area, rel=1e-12)
+    assert found.notes == ()
 
 
 @pytest.mark.parametrize("rake", [0.3, -0.4])

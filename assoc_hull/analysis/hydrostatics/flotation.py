@@ -187,7 +187,7 @@ class Flotation:
 
     @cached_property
     def _corners(self) -> FloatArray:
-        """Ends and knuckles of the curves at which the hull ends, and where flats are broadest.
+        """Ends and knuckles of curves at which the hull ends; where flats are broadest, a deck low.
 
         As a waterplane passes one of these its area bends; (c, 3), m.
         """
@@ -198,6 +198,10 @@ class Flotation:
         for curve in np.flatnonzero(self.net.flat).tolist():
             border = batch.xyz[batch.start[curve] : batch.start[curve + 1]]
             parts.append(border[[border[:, 1].argmax()]])
+        if self.closed:
+            # From the lowest place of the deck's edge up the deck floods, and the waterplane goes.
+            deck = self.limits.deck
+            parts.append(deck[[int(deck[:, 2].argmin())]])
         return np.concatenate(parts)
 
     @cached_property

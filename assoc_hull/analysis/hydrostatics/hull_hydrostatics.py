@@ -79,7 +79,7 @@ class HydrostaticIntegrals:
     area, area_x, area_y, area_xx, area_xy, area_yy : m2, m3, m4
         Of the waterplane in plan.
     shell : m2
-        Wetted surface: shell, closed deck, appendages, and the transom if it counts.
+        Wetted surface: shell, appendages, and the transom if it counts; no deck.
     girth : m2
         Integral of the girth over the length, of the shell alone.
     x_least, x_most, y_least, y_most : m

@@ -184,9 +184,9 @@ class Hydrostatics:
     tpc, mtc : t/cm, t m/cm
         Immersion and trimming moment; `mtc` is of `gml` where there is one, else of `bml`.
     wetted_surface, wetted_surface_girth, transom_area : m2
-        By the true surface element, with appendages and a closed deck that is under water,
-        without the transom unless asked for; girths of the bare hull integrated over the length;
-        the transom.
+        By the true surface element, with appendages, without a closed deck that is under water
+        and without the transom unless asked for; girths of the bare hull integrated over the
+        length; the transom.
     lwl, bwl : m
         Extent of the waterplane along x and y.
     a_max, x_a_max, a_midship : m2, m, m2

@@ -300,7 +300,8 @@ def _origin(
     centre = axes.of_ship((moment / volume)[None])[0]
     # Panels cover the ends of bossings too, which are no transoms.
     flat = float(flat_ends_below(body.net, body.closed, planes)[0]) if ends else 0.0
-    area = float(exact.shell[0]) + flat
+    # And a closed deck that is under water, which is no shell.
+    area = float(exact.shell[0]) + float(exact.wet_deck[0]) + flat
     return PanelOrigin(
         ship, position.draught_aft, position.draught_fore, position.heel_deg, x, volume, area,
         np.asarray(centre),

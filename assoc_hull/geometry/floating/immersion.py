@@ -94,11 +94,11 @@ class ImmersedIntegrals:
     area_xx, area_xy, area_yy : m4
         Integrals of x x, x y and y y over the waterplane in plan.
     shell : m2
-        True area of the surface below the plane: strips only, neither faces nor the plane.
+        True area of the shell below the plane: neither faces, nor a closed deck, nor the plane.
     girth : m2
         Integral of the girth over the length, ``sqrt(n_y^2 + n_z^2) dS`` over the same surface.
     wet_deck : m2
-        How much of `shell` is closed deck.
+        True area of the closed deck below the plane.
     x_least, x_most, y_least, y_most : m
         Extent of the waterplane; nan where there is none.
     """

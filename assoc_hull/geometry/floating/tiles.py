@@ -42,8 +42,8 @@ CHUNK = 2048
 """Tiles or cuts at a time, so that the work on them stays in the processor's cache."""
 
 PLAIN, HEELED = 7, 11
-"""Rows of `integrate_tiles`: y N_y, x y N_y, y^2/2 N_y, y z N_y, |N|, girth, |N| on deck; with heel
-the first four once more, with N_z."""
+"""Rows of `integrate_tiles`: y N_y, x y N_y, y^2/2 N_y, y z N_y; |N| and girth but on deck, |N| on
+deck; with heel the first four once more, with N_z."""
 
 _POINTS = 6  # exact to degree 11
 
@@ -143,7 +143,9 @@ def integrate_tiles(
         ]
         return np.concatenate(done, axis=1)
     sums = (_general if lean.any() else _sections)(coefficients, heeled)
-    return np.stack([*sums[:6], sums[4] * deck, *sums[6:]])
+    # A deck bounds the volume, and is no shell.
+    size, girth = sums[4:6]
+    return np.stack([*sums[:4], size * ~deck, girth * ~deck, size * deck, *sums[6:]])
 
 
 def _sections(coefficients: FloatArray, heeled: bool) -> list[FloatArray]:

@@ -71,7 +71,7 @@ def test_every_value_of_the_reference_table_is_met(name: str) -> None:
         "i_t": (body.area_yy[0] - area * tcf**2, breadth**3 * length),
         "i_l": (body.area_xx[0] - area * lcf**2, breadth * length**3),
         "i_lt": (body.area_xy[0] - area * lcf * tcf, breadth**2 * length**2),
-        "wetted": (body.shell[0] + faces, case.wetted),
+        "wetted": (body.shell[0] + body.wet_deck[0] + faces, case.wetted),
     }
     wrong = {
         key: (float(value), getattr(case, key))
