@@ -17,6 +17,7 @@ import numpy as np
 from assoc_hull.analysis.hydrostatics.bracketed_roots import bracketed_newton
 from assoc_hull.analysis.hydrostatics.demihulls import checked_separation, ship_of
 from assoc_hull.analysis.hydrostatics.floating_body import (
+    CLOSE_DECK,
     Appendage,
     FloatingBody,
     FloatingPosition,
@@ -199,15 +200,21 @@ def _require_in_range(sought: _Sought, slope: float, low: float, high: float) ->
     load = sought.load
     if not low < high:
         what = f"no draught keeps the deck dry at heel {load.heel_deg:g} deg"
-        raise BadInputError(what, _IN_IMMERSION, "give less trim or heel, or close the deck")
+        raise BadInputError(what, _IN_IMMERSION, f"give less trim or heel, or {CLOSE_DECK}")
     deepest = sought.plane(high, slope)
     largest = sought.measure(deepest)
     require_volume(largest.volume, load.appendages, deepest, _IN_IMMERSION)
     most = float(largest.volume[0]) * load.rho * load.shell_factor
     if not 0.0 < load.weight <= most:
-        why = "is more than the hull carries" if load.weight > most else "is none"
+        why, remedy = "is more than the hull carries" if load.weight > most else "is none", ""
+        limits = sought.body.limits
+        if load.weight > most and not limits.closed:
+            why += (
+                f" with its open deck dry, whose edge is lowest at {limits.lowest_edge(deepest, 0)}"
+            )
+            remedy = CLOSE_DECK
         where = f"at trim {-slope * sought.length + 0.0:g} m, heel {load.heel_deg:g} deg"
-        raise OutOfRangeError("a weight", load.weight, where, why, 0.0, most, "t")
+        raise OutOfRangeError("a weight", load.weight, where, why, 0.0, most, "t", remedy)
 
 
 def _trim(sought: _Sought, lcg: float) -> tuple[float, float]:

@@ -22,6 +22,7 @@ from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 
 __all__ = [
+    "CLOSE_DECK",
     "Appendage",
     "Floatable",
     "FloatingBody",
@@ -220,7 +221,7 @@ to 12 m, or read or make the hull with deck="closed" (--deck closed) if it has a
         value = each.draught_mean
         if low >= high:
             what = f"no draught keeps the deck dry, {each}"
-            raise BadInputError(what, "in hydrostatics", f"give less trim or heel, or {_CLOSE}")
+            raise BadInputError(what, "in hydrostatics", f"give less trim or heel, or {CLOSE_DECK}")
         if value <= low:
             why = "lies below the keel"
             raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m")
@@ -229,12 +230,12 @@ to 12 m, or read or make the hull with deck="closed" (--deck closed) if it has a
             raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m")
         if value > high:
             why = f"drowns the open deck, whose edge is lowest at {limits.lowest_edge(planes, k)}"
-            remedy = _CLOSE
+            remedy = CLOSE_DECK
             raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m", remedy)
     return planes
 
 
-_CLOSE = 'read or make the hull with deck="closed" (--deck closed) if it has a deck'
+CLOSE_DECK = 'read or make the hull with deck="closed" (--deck closed) if it has a deck'
 """What to do where an open deck is in the way."""
 
 
@@ -263,7 +264,7 @@ def kept_dry(
         notes[
             f"a mean draught of {each.draught_mean:.8g} m drowns the open deck: measured up to "
             f"{float(most[k]):.8g} m, where its edge is lowest ({limits.lowest_edge(planes, k)}); "
-            f"{_CLOSE}"
+            f"{CLOSE_DECK}"
         ] = None
     return found, tuple(notes)
 

@@ -422,6 +422,9 @@ _ORDER, _END_ORDER = 4, 6
 """Gauss points along a strip between sections, and along one at an end of the ship, where
 lines are steeper."""
 
+_BULB = 0.25
+"""A bulb is narrower than this part of the ship."""
+
 _DECK_PLACES = 5
 """Places on a part of the deck edge at which it is looked at."""
 
@@ -711,10 +714,28 @@ def _is_edge(net: CurveNet, frame: StripBoundary, every: Sequence[StripBoundary]
     if frame.deck:
         return not all(closes_end(net, part[0]) for part in frame.deck)
     place = _tops(net, frame)
-    if float(np.abs(place[:, 1]).max()) <= ON_CENTRE:
+    if float(np.abs(place[:, 1]).max()) <= ON_CENTRE or _is_bulb(net, frame, place, every):
         return False
     others = [_tops(net, each) for each in every if each.slab == frame.slab]
     return float(place[:, 2].max()) >= max(float(each[:, 2].max()) for each in others)
+
+
+def _is_bulb(
+    net: CurveNet, frame: StripBoundary, place: FloatArray, every: Sequence[StripBoundary]
+) -> bool:
+    """Tell whether a strip that nothing is drawn over is a bulb or a bossing beyond the deck's end.
+
+    It is narrow, lies ahead or abaft of all that has a deck edge drawn, and is lower than that. A
+    table has no line that closes it.
+    """
+    decks = [each for each in every if each.deck and not closes_end(net, each.deck[0][0])]
+    if not decks:
+        return False
+    beyond = not min(each.slab for each in decks) <= frame.slab <= max(each.slab for each in decks)
+    low = min(float(_tops(net, each)[:, 2].min()) for each in decks)
+    half = float(np.abs(net.batch.xyz[:, 1]).max())
+    narrow = float(np.abs(place[:, 1]).max()) <= _BULB * half
+    return beyond and narrow and float(place[:, 2].max()) < low
 
 
 def _tops(net: CurveNet, frame: StripBoundary) -> FloatArray:

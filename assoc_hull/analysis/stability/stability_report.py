@@ -14,7 +14,12 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.hydrostatics.draughts_from_weight import weight_in_tons
-from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingBody, planes_of
+from assoc_hull.analysis.hydrostatics.floating_body import (
+    CLOSE_DECK,
+    Appendage,
+    FloatingBody,
+    planes_of,
+)
 from assoc_hull.analysis.hydrostatics.flotation import body_of, header_of
 from assoc_hull.analysis.hydrostatics.record import SALT, HydrostaticHeader
 from assoc_hull.analysis.stability.condition import (
@@ -440,7 +445,7 @@ def stability_of(
 def _end(limit: float | None) -> float:
     """Give the largest heel that is computed, degrees."""
     if limit is not None and limit <= 2.0 * _RIM:
-        remedy = "give less draught, or close the deck"
+        remedy = f"give less draught, or {CLOSE_DECK}"
         raise BadInputError("the edge of the open deck is in the water upright", _WHERE, remedy)
     return 90.0 if limit is None else limit - _RIM
 
