@@ -77,6 +77,12 @@ _STEADY = 0.02
 _SAME = 1e-6
 """Places on one curve so near to one another (m) are one."""
 
+_CORNER = 1e-4
+"""A line that ends on a side this near to the rail, in lengths of the rail, ends at its corner.
+
+Three curves of digitised lines that run to one place miss it by the rounding of their points.
+"""
+
 CurvePlace = tuple[int, float]
 """A part of a rail by its number, and the parameter (m) on its curve."""
 
@@ -369,7 +375,7 @@ class _Rail:
             if c == curve and min(t0, t1) - _SAME <= t <= max(t0, t1) + _SAME:
                 return i, float(np.clip(t, min(t0, t1), max(t0, t1)))
         for (c, at), spot in self.corner:
-            if c == curve and abs(at - t) <= _SAME:
+            if c == curve and abs(at - t) <= max(_SAME, _CORNER * self.length):
                 return spot
         return None
 
