@@ -34,6 +34,7 @@ from drawings.dtc import dtc, dtc_report
 from drawings.dxf import lines_plan_dxf
 from drawings.edits import pinned_or_field, pull
 from drawings.hull_plates import hull_plates, hull_surface
+from drawings.imports import bad_imports
 from drawings.net import crossing, levels, roles
 from drawings.production import production_arcs_picture
 from drawings.sections import generated_sections
@@ -200,6 +201,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "hull_plates": hull_plates,
     "hull_surface": hull_surface,
     "lines_plan_dxf": lines_plan_dxf,
+    "bad_imports": bad_imports,
     "dtc": dtc,
     "dtc_report": dtc_report,
 }
