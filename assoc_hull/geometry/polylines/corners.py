@@ -97,8 +97,32 @@ def find_corners(points: FloatArray, noise: float, rule: CornerRule | None = Non
             found = _add(found, _peaks(seen, wanted, noise), half)
     found.sort()
     places = [each[0] for each in found]
-    return [
+    refined = [
         _refine(points, length, at, share, half, places, noise, wanted) for at, share, half in found
+    ]
+    return sorted(refined + _lone_turns(points, length, seen, noise), key=lambda each: each.at)
+
+
+_LONE_DEG, _LONE = 30.0, 0.8
+"""A point that turns by so much, and by this part of all that it and two on either side turn."""
+
+
+def _lone_turns(
+    points: FloatArray, length: FloatArray, seen: list[_Scale], noise: float
+) -> list[Corner]:
+    """Give corners where points lie too wide apart for any scale: straight sides and one turn."""
+    step, inner = np.diff(points, axis=0), length[1:-1]
+    before, after = step[:-1], step[1:]
+    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    turn = np.abs(np.arctan2(cross, (before * after).sum(axis=1)))
+    whole = np.convolve(turn, np.ones(5))[2:-2]
+    lone = (turn >= np.deg2rad(_LONE_DEG)) & (turn >= _LONE * whole)
+    for scale in seen:
+        nearest = np.searchsorted(scale.at, inner).clip(max=len(scale.at) - 1)
+        lone &= ~scale.fits[nearest]
+    return [
+        Corner(float(inner[i]), points[i + 1].copy(), float(np.rad2deg(turn[i])), 1.0, 0.0, noise)
+        for i in np.flatnonzero(lone).tolist()
     ]
 
 

@@ -323,9 +323,28 @@ def _samples(line: FloatArray, *, curved: bool = False) -> tuple[FloatArray, Flo
     from scipy.interpolate import Akima1DInterpolator
 
     # Makima: it keeps straight runs straight and does not swing beside a short step.
-    found: FloatArray = Akima1DInterpolator(at, line, method="makima")(place)
+    there, led = _led_on(at, line)
+    found: FloatArray = Akima1DInterpolator(there, led, method="makima")(place)
     found[-1] = line[-1]
     return place, found
+
+
+def _led_on(at: FloatArray, line: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give a line with a point more before and behind, as far off as the first and the last step.
+
+    It bends on there as at its ends, but less as the step at the end is longer than the next: a
+    flat of one step does not bend against the bilge behind it.
+    """
+    beyond = []
+    for end, mid, inner in ((0, 1, 2), (-1, -2, -3)):
+        step, other = at[mid] - at[end], at[inner] - at[mid]
+        slope, after = (line[mid] - line[end]) / step, (line[inner] - line[mid]) / other
+        beyond.append(line[end] - step * (slope - (after - slope) * min(1.0, other / step)))
+    ends = 2.0 * at[0] - at[1], 2.0 * at[-1] - at[-2]
+    return (
+        np.concatenate([[ends[0]], at, [ends[1]]]),
+        np.concatenate([[beyond[0]], line, [beyond[1]]]),
+    )
 
 
 def _result(fit: PenalisedFit, control: FloatArray) -> SmoothedPolyline:

@@ -268,8 +268,8 @@ def snap_ends(
             if end == 0
             else cumulative_lengths(part.points[::-1])[::-1]
         )
-        # The move fades as a smooth step, so that the line keeps its tangent.
-        part_way = np.maximum(1.0 - far / (_FADE * away.min()), 0.0)
+        # The move fades as a smooth step, so that the line keeps its tangent, and its other end.
+        part_way = np.maximum(1.0 - far / min(_FADE * float(away.min()), float(far.max())), 0.0)
         points += (part_way * part_way * (3.0 - 2.0 * part_way))[:, None] * step
         points[end] = places[int(away.argmin())]
         most = max(most, float(away.min()))

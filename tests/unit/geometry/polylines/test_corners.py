@@ -61,6 +61,24 @@ def test_facets_of_a_bend_are_no_corners() -> None:
     assert find_corners(facets, facet_depth(facets) / 2.0) == []
 
 
+def test_a_corner_beside_one_long_step_is_found() -> None:
+    """A stern frame of many points that meets a keel of two: the corner is the point itself."""
+    post = np.column_stack([np.linspace(3.0, 3.7, 9), np.linspace(3.3, 0.0, 9)])
+    points = np.concatenate([post, [[40.0, 0.0], [41.0, 0.0]]])
+    [corner] = find_corners(points, 1e-5)
+    assert corner.place.tolist() == [3.7, 0.0]
+    assert corner.turn_deg == pytest.approx(np.degrees(np.arctan2(3.3, 0.7)))
+
+
+@pytest.mark.parametrize("count", [3, 4, 6])
+def test_a_bilge_of_few_points_between_long_steps_has_no_corner(count: int) -> None:
+    """Each of its points turns, none by most of it: bottom and side are drawn by their ends."""
+    angle = np.linspace(0.0, 0.5 * np.pi, count)
+    bilge = np.column_stack([8.0 + 2.0 * np.sin(angle), 2.0 - 2.0 * np.cos(angle)])
+    points = np.concatenate([[[0.0, 0.0]], bilge, [[10.0, 20.0]]])
+    assert find_corners(points, 1e-5) == []
+
+
 def test_the_least_turn_is_settable() -> None:
     """A corner of 6 degrees is seen by default, and not by a rule that asks for 10."""
     points = Planted(8.0, lambda s: 0.0 * s, ((4.0, 6.0),)).digitised(1, 0.05)

@@ -48,3 +48,15 @@ def test_a_straight_run_beside_a_bend_stays_straight() -> None:
     assert fitted is not None
     drawn = fitted.draw().points
     assert np.abs(drawn[drawn[:, 0] < 7.5, 1]).max() < 2e-3
+
+
+@pytest.mark.parametrize("turned", [False, True], ids=["at the start", "at the end"])
+def test_a_flat_given_by_its_ends_stays_straight(turned: bool) -> None:
+    """Flat of bottom as one step from the centre line to a bilge of many: it does not dip."""
+    angle = np.linspace(0.0, 0.5 * np.pi, 17)
+    bilge = np.column_stack([8.0 + 2.0 * np.sin(angle), 2.0 - 2.0 * np.cos(angle)])
+    points = np.concatenate([[[0.0, 0.0]], bilge, [[10.0, 8.0]]])
+    fitted = fit_polyline(points[::-1] if turned else points, 1e-3, curved=True)
+    assert fitted is not None
+    drawn = fitted.draw().points
+    assert np.abs(drawn[drawn[:, 0] < 7.5, 1]).max() < 2e-3

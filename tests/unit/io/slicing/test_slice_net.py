@@ -176,6 +176,19 @@ def test_a_mesh_too_coarse_for_its_corners_is_suspected() -> None:
     assert net_from_slices(fine)[1].suspicions == ()
 
 
+def test_a_foot_moved_onto_the_keel_leaves_the_other_end_where_it_is() -> None:
+    """Sections that begin 40 mm above the profile are led down to it, and end on the deck edge."""
+    z = np.linspace(0.0, 6.0, 25)
+    rows = [f"ST {x},{x},{4 * (c / 6.0) ** 0.5},{c}" for x in range(10, 91, 10) for c in z]
+    rows += [f"profile,{x},0,-0.04" for x in range(0, 101, 5)]
+    rows += [f"deck edge,{x},4,6" for x in range(0, 101, 5)]
+    sources = sources_from_slices(read_lines("\n".join(["line,x,y,z", *rows, ""])))[0]
+    sections = [each.points for each in sources if each.group == "sections"]
+    assert len(sections) == 9
+    assert max(abs(points[0, 2] + 0.04) for points in sections) < 1e-6
+    assert max(np.abs(points[-1, 1:] - [4.0, 6.0]).max() for points in sections) < 1e-6
+
+
 def _wedge(*more: str) -> str:
     """Sections of a wedge-shaped hull of two points each, and a waterline of two, as text."""
     rows = [f"ST {x},{x},{y},{z}" for x in (0, 10, 20) for y, z in ((0, 0), (3 + 0.1 * x, 4))]
