@@ -232,11 +232,27 @@ to 12 m, or read or make the hull with deck="closed" (--deck closed) if it has a
             why = f"drowns the open deck, whose edge is lowest at {limits.lowest_edge(planes, k)}"
             remedy = CLOSE_DECK
             raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m", remedy)
-    return planes
+    return planes if limits.closed else _clear_of_edge(planes, limits)
 
 
 CLOSE_DECK = 'read or make the hull with deck="closed" (--deck closed) if it has a deck'
 """What to do where an open deck is in the way."""
+
+_ROUNDING = 1e-12
+"""Of a height: edge and water this near are one level, and rounding tells which is higher."""
+
+
+def _clear_of_edge(planes: FloatingPlanes, limits: WaterplaneLimits) -> FloatingPlanes:
+    """Give planes, those at the level of an open deck's edge right below it.
+
+    Rounding leaves some of a level edge wet and some dry, and so cuts the waterplane to pieces.
+    """
+    lowest = _heights(limits.deck, planes, up=-1.0).min(axis=1)
+    slack = _ROUNDING * np.maximum(np.abs(lowest), np.ptp(limits.bottom[:, 2]))
+    at_edge = np.abs(lowest - planes.height) < slack
+    if not at_edge.any():
+        return planes
+    return attrs.evolve(planes, height=np.where(at_edge, lowest - slack, planes.height))
 
 
 def kept_dry(
