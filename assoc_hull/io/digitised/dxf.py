@@ -26,7 +26,7 @@ from assoc_hull.io.dxf.entities import (
     drawn_spline,
 )
 from assoc_hull.io.dxf.read_lines_plan import names_of, plan_curves
-from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawLines, read_number
+from assoc_hull.io.lines.raw_lines import RawLines, boundary_name, read_number
 from assoc_hull.io.reports import Notebook
 
 __all__ = ["drawn_curves", "parse_dxf"]
@@ -130,7 +130,7 @@ def _size(curves: list[RawCurve]) -> float:
 
 def _has_no_place(name: str, family: str) -> bool:
     """Whether a line of ours is of a kind that digitised lines have not: its like is found anew."""
-    return family == "diagonals" or (family == "boundary" and name.lower() not in BOUNDARIES)
+    return family == "diagonals" or (family == "boundary" and boundary_name(name) is None)
 
 
 def _flags(entity: DrawingEntity) -> int:

@@ -11,7 +11,7 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawPiece
+from assoc_hull.io.lines.raw_lines import RawPiece, boundary_name
 from assoc_hull.io.lines.several_hulls import (
     FoundHulls,
     HullChoice,
@@ -87,7 +87,7 @@ def _sections(raw: list[RawPiece]) -> list[Section]:
     found: dict[float, list[FloatArray]] = {}
     for each in raw:
         points = each.points
-        if each.line.lower() in BOUNDARIES or len(points) < 2 or np.ptp(points[:, 0]) > _FLAT:
+        if boundary_name(each.line) is not None or len(points) < 2 or np.ptp(points[:, 0]) > _FLAT:
             continue
         x = round(float(np.median(points[:, 0])), 3)
         found.setdefault(x, []).append(np.stack([points[:-1, 1:], points[1:, 1:]], axis=1))
@@ -161,7 +161,7 @@ def _moved(piece: RawPiece, bounds: tuple[float, float, float], centre: float) -
     marks, shift = piece.knuckles, np.array([0.0, centre, 0.0])
     inside = (marks[:, 1] > bounds[0]) & (marks[:, 1] < bounds[1]) & (marks[:, 2] <= bounds[2])
     name = piece.line
-    if name.lower() not in BOUNDARIES and np.ptp(piece.points[:, 1]) < _FLAT:
+    if boundary_name(name) is None and np.ptp(piece.points[:, 1]) < _FLAT:
         name = f"BTK {abs(float(np.median(piece.points[:, 1])) - centre):.6g}"
     return [RawPiece(name, run - shift, piece.where, marks[inside] - shift) for run in runs]
 

@@ -29,7 +29,13 @@ from assoc_hull.io.lines.mend_lines import (
     report_crossings,
     report_joins,
 )
-from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawLines, RawPiece, refuse_retraced
+from assoc_hull.io.lines.raw_lines import (
+    BOUNDARIES,
+    RawLines,
+    RawPiece,
+    boundary_name,
+    refuse_retraced,
+)
 from assoc_hull.io.lines.several_hulls import HullChoice
 from assoc_hull.io.lines.slices import (
     AXES,
@@ -315,8 +321,9 @@ def read_lines(
     path_or_text : str or Path
         A file, or the text itself: CSV with the columns line, x, y, z (and piece), DXF, BRITFAIR,
         curves or offsets of DELFTship, or a GHS geometry file. A line is a section, waterline
-        or buttock by its constant coordinate; lines called "profile", "deck edge" and "transom"
-        are boundary curves.
+        or buttock by its constant coordinate; lines called "profile", "deck edge", "transom" and,
+        as edges in which a part ends across the ship, "bossing end" or "skeg end" are boundary
+        curves.
     scale : float
         Full scale over the scale of the file.
     unit : {"auto", "m", "mm", "cm", "ft", "in"}
@@ -493,8 +500,9 @@ def _by_name(raw: list[RawPiece], *, boundary: bool) -> dict[str, list[RawPiece]
     """Give the pieces of boundary curves, or of all other lines, by name."""
     found: dict[str, list[RawPiece]] = {}
     for each in raw:
-        if (each.line.lower() in BOUNDARIES) == boundary:
-            found.setdefault(each.line.lower() if boundary else each.line, []).append(each)
+        title = boundary_name(each.line)
+        if (title is not None) == boundary:
+            found.setdefault(title or each.line, []).append(each)
     return found
 
 
@@ -572,8 +580,9 @@ def _report_gap(name: str, pieces: list[LinePiece], gaps: Gaps, book: Notebook) 
 
 def _under(place: FloatArray, borders: dict[str, FloatArray], small: float) -> str:
     """Name the boundary curve on which the end of a line lies: "loose" if on none."""
-    for name in ("deck edge", "transom"):
-        if name in borders and polyline_distance(borders[name], place) < small * _REACH:
+    for name in sorted(borders, key=lambda each: (each not in BOUNDARIES, each)):
+        near = name != "profile" and polyline_distance(borders[name], place) < small * _REACH
+        if near:
             return name
     return "profile" if abs(place[1]) < small * _CENTRE else "loose"
 

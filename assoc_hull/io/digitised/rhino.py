@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.lines.raw_lines import BOUNDARIES, RawLines, RawPiece, plane_name
+from assoc_hull.io.lines.raw_lines import RawLines, RawPiece, boundary_name, plane_name
 from assoc_hull.io.lines.slices import AXES
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.rhino.read import RhinoCurve, RhinoModel, read_rhino
@@ -109,13 +109,13 @@ def _line_name(curve: RhinoCurve, size: float, metres: float) -> str | None:
     """Give the name of the line of a curve, None if it is none."""
     name = curve.spline.name.strip()
     leaf = curve.layer.rpartition("::")[2].strip().lower()
-    edge = _EDGES.get(name.lower()) or _EDGES.get(leaf)
+    edge = _EDGES.get(name.lower()) or boundary_name(name) or _EDGES.get(leaf)
     if edge is not None:
         return edge
     word = name.split()[0].upper() if name else ""
     if word in _PREFIXES:
         return name
-    if leaf in _NO_LINE or name.lower() in BOUNDARIES:
+    if leaf in _NO_LINE:
         return None
     spread = np.ptp(curve.spline.points, axis=0)
     flat = [group for group, axis in AXES.items() if spread[axis] <= _FLAT * size]

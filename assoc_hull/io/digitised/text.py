@@ -31,6 +31,7 @@ from assoc_hull.io.lines.raw_lines import (
     OTHER_FAMILIES,
     RawLines,
     RawPiece,
+    boundary_name,
     read_number,
 )
 from assoc_hull.io.reports import Notebook
@@ -88,20 +89,27 @@ def parse_iges(text: str, source: str, book: Notebook) -> RawLines:
 
 def _is_line(curve: SplineCurve, size: float) -> bool:
     """Tell whether a curve is a boundary, named as a line, or lies in a plane as a line does."""
+    if boundary_name(curve.name) is not None:
+        return True
     word = curve.name.split()[0].upper() if curve.name.split() else ""
     if word.lower().removesuffix(":") in OTHER_FAMILIES:
         return False
     flat = bool(np.ptp(curve.points, axis=0).min() <= _FLAT * size)
-    return curve.name.lower() in BOUNDARIES or word in _FAMILIES or flat
+    return word in _FAMILIES or flat
 
 
 def _report_others(curves: list[SplineCurve], book: Notebook) -> None:
-    """Report which curves are left out."""
-    names = list(dict.fromkeys(curve.name for curve in curves))
+    """Report which curves are left out; of our own families nothing is missed."""
+    every = list(dict.fromkeys(curve.name for curve in curves))
+    own = [name for name in every if name.partition(":")[0] in OTHER_FAMILIES]
+    names = [name for name in every if name not in own]
+    if own:
+        what = "left out, its like is found anew or cut again"
+        book.assume("lines", ", ".join(own[:6]), what, len(own))
     if names:
         known = ", ".join(BOUNDARIES)
         what = f"no section, waterline or buttock, and none of {known}: left out"
-        book.suspect("curve", ", ".join(names[:6]), what, len(curves))
+        book.suspect("curve", ", ".join(names[:6]), what, len(names))
 
 
 # --------------------------------------------------------------------------------------

@@ -21,6 +21,7 @@ __all__ = [
     "RawLines",
     "RawPiece",
     "TextRows",
+    "boundary_name",
     "plane_name",
     "read_number",
     "refuse_retraced",
@@ -33,8 +34,27 @@ __all__ = [
 BOUNDARIES = ("profile", "deck edge", "transom")
 """Names of boundary curves among digitised lines."""
 
+_PART_ENDS = tuple(f"{part} end" for part in ("bossing", "boss", "skeg", "nozzle", "tunnel"))
+"""Edges in which a part ends across the ship, from the centre line to it: boundary curves, too."""
+
 OTHER_FAMILIES = ("diagonals", "boundary")
 """Families whose other curves are drawn beside digitised lines, and are none."""
+
+
+def boundary_name(name: str) -> str | None:
+    """Give the boundary curve that a line is by its name, None for other lines.
+
+    Files of ours put the family before it.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.lines.raw_lines import boundary_name
+    >>> [boundary_name(each) for each in ("Deck edge", "boundary: bossing end", "ST 2")]
+    ['deck edge', 'bossing end', None]
+    """
+    plain = " ".join(name.lower().removeprefix("boundary:").split())
+    return plain if plain in (*BOUNDARIES, *_PART_ENDS) else None
+
 
 _LARGEST = 1e9
 """No coordinate exceeds this in any unit."""

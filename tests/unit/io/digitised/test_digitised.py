@@ -134,6 +134,24 @@ def test_a_digitised_line_that_crosses_itself_is_named() -> None:
     assert "crosses itself 1 times" in note.what
 
 
+@pytest.mark.parametrize("title", ["bossing end", "boundary: bossing end", "Skeg end"])
+def test_lines_end_on_the_edge_in_which_a_part_ends(title: str) -> None:
+    """It parts the profile, which then has no hole, and is no section though it lies across."""
+    angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 13)
+    rows = [f"{title},6,{0.7 * np.cos(a):.5f},{5 + 0.7 * np.sin(a):.5f}" for a in angle]
+    rows += [f"profile,{x},0,{z},{piece}" for x, z, piece in (
+        (0, 9, 1), (4, 7, 1), (6, 5.7, 1), (6, 4.3, 2), (12, 2, 2), (30, 0, 2), (100, 0, 2),
+    )]  # fmt: skip
+    rows += [f"WL 5,{x},{y},5" for x, y in ((6, 0.7), (12, 1.4), (50, 8), (100, 0))]
+    rows = [row if row.count(",") == 4 else f"{row},1" for row in rows]
+    slices = read_lines("\n".join(["line,x,y,z,piece", *rows, ""]))
+    name = title.removeprefix("boundary: ").lower()
+    assert [line.name for line in slices.boundaries] == [name, "profile"]
+    assert slices["WL 5"].pieces[0].ends == (name, "profile")
+    assert slices.group("sections") == ()
+    assert slices.report.suspicions == ()
+
+
 def test_millimetres_and_starboard_are_seen() -> None:
     """Lines in millimetres, drawn to starboard, come as metres to port, and it is told."""
     text = "line,x,y,z\nWL 1,0,0,1000\nWL 1,50000,-4000,1000\nWL 1,99000,0,1000\n"
