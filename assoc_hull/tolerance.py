@@ -28,6 +28,7 @@ __all__ = [
     "at_full_length",
     "length_factor",
     "round_at_size",
+    "settled",
 ]  # fmt: skip
 
 FULL_LENGTH = 100.0
@@ -40,6 +41,13 @@ put there. Absolute, whatever the hull: coordinates are written with micrometres
 
 SAME_PLANE = 1e-6
 """Planes of one family nearer than this (m) are one plane; absolute, by the same reason."""
+
+
+_DECIMALS = 9
+"""Places are decimals down to 1e-9 m at 100 m, if they are decimals at all."""
+
+_LAST_BITS = 8.0
+"""Spacings of floating point numbers by which two ways to one place may differ."""
 
 
 def length_factor(length: float) -> float:
@@ -70,10 +78,30 @@ def at_full_length(values: ArrayLike, factor: float) -> FloatArray:
     ([4.7, 10.5], 4.700000000000001)
     """
     grown = np.asarray(values, np.float64) / factor
-    if math.frexp(factor)[0] == 0.5:
-        return grown
-    decimal = np.round(grown, 9)
-    return np.where(np.abs(decimal - grown) <= 8.0 * np.spacing(np.abs(grown)), decimal, grown)
+    return grown if math.frexp(factor)[0] == 0.5 else _decimals(grown)
+
+
+def settled(values: ArrayLike, factor: float) -> FloatArray:
+    """Give lengths (m) free of what a change of unit or a shift has left in their last bits.
+
+    What is a decimal of the hull of 100 m, by the factor of lengths, becomes just that; so one hull
+    in metres and in feet has the same bits.
+
+    Examples
+    --------
+    >>> from assoc_hull.tolerance import settled
+    >>> 0.1 + 0.2, settled(0.1 + 0.2, 1.0).item(), settled([0.7 / 3.0], 0.5).tolist()
+    (0.30000000000000004, 0.3, [0.2333333333333333])
+    """
+    return np.asarray(factor * _decimals(np.asarray(values, np.float64) / factor))
+
+
+def _decimals(grown: FloatArray) -> FloatArray:
+    """Give lengths (m) at 100 m, those that rounding alone keeps from a decimal as decimals."""
+    decimal = np.round(grown, _DECIMALS)
+    # A difference of places has the rounding of these, not of its own.
+    rounding = _LAST_BITS * np.spacing(np.maximum(np.abs(grown), FULL_LENGTH))
+    return np.where(np.abs(decimal - grown) <= rounding, decimal, grown)
 
 
 def round_at_size(length: float, digits: int, factor: float) -> float:

@@ -15,6 +15,11 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import all_of, instance
+from assoc_hull.edit.adoption.adopted_size import (
+    brought_back,
+    grown_sources,
+    grown_tolerances,
+)
 from assoc_hull.edit.adoption.defined_net import are_defined, defined_net, write_kinds
 from assoc_hull.edit.adoption.match_crossings import (
     Contact,
@@ -201,6 +206,7 @@ def adopt(
     particulars: Particulars,
     associations: Sequence[Association],
     tolerances: Tolerances | None = None,
+    grown: Sequence[LineSource] | None = None,
 ) -> tuple[HullState, AdoptionReport]:
     """Make a net of given lines.
 
@@ -214,6 +220,9 @@ def adopt(
         Which groups generate points on which, in any order.
     tolerances : Tolerances or None
         Defaults if None.
+    grown : sequence of LineSource or None
+        Of a hull under 100 m the same lines, in the same order, at 100 m: what defines a curve is
+        chosen there, so that it is the same at any size. By default they are made of `sources`.
 
     Returns
     -------
@@ -236,15 +245,19 @@ def adopt(
     state = HullState(particulars, tolerances or Tolerances())
     journal = Journal()
     maker = Maker(state, journal)
-    ordered = sorted(sources, key=source_order)
+    factor = state.tolerances.factor
+    full = list(grown_sources(sources, factor) if grown is None else grown)
+    order = sorted(range(len(full)), key=lambda i: source_order(full[i]))
+    ordered, full = [sources[i] for i in order], [full[i] for i in order]
     _make_lines(maker, ordered, associations)
     reference = loft(line_curve_data(ordered), list(state.curves.key.data))
-    net = ReferenceNet(state, tuple(ordered), reference, *_matches(state, ordered, reference))
     if are_defined(ordered):
+        net = ReferenceNet(state, tuple(ordered), reference, *_matches(state, ordered, reference))
         net, notes = _write_defined(maker, net)
         thinned, allowed = None, [state.tolerances.adoption] * len(ordered)
     else:
-        thinned, allowed = thin_net(net), [float(np.max(each.tolerance)) for each in ordered]
+        net, thinned = _thinned(state, ordered, full, reference, associations)
+        allowed = [float(np.max(each.tolerance)) for each in ordered]
         notes = _write(maker, net, thinned)
     notes += _loft(maker)
     link_adopted_points(state, state.live("curves"), journal)
@@ -252,6 +265,24 @@ def adopt(
     maker.features(find_features(state, allowed))
     lines = report_lines(net)
     return state, AdoptionReport(lines, (*notes, *_over_notes(net, thinned, lines)))
+
+
+def _thinned(
+    state: HullState,
+    sources: Sequence[LineSource],
+    full: Sequence[LineSource],
+    reference: SplineBatch,
+    associations: Sequence[Association],
+) -> tuple[ReferenceNet, ThinnedNet]:
+    """Match lines and choose what defines them, at full size; gives the net at its own."""
+    if full[0] is sources[0]:
+        net = ReferenceNet(state, tuple(sources), reference, *_matches(state, sources, reference))
+        return net, thin_net(net)
+    grown = HullState(state.particulars, grown_tolerances(state.tolerances))
+    _make_lines(Maker(grown, Journal()), full, associations)
+    lofted = loft(line_curve_data(full), list(grown.curves.key.data))
+    net = ReferenceNet(grown, tuple(full), lofted, *_matches(grown, full, lofted))
+    return brought_back(net, thin_net(net), state, sources, reference)
 
 
 def _write_defined(maker: Maker, net: ReferenceNet) -> tuple[ReferenceNet, list[str]]:

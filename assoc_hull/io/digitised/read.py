@@ -7,6 +7,7 @@ repaired or looks wrong goes to a `Notebook`.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import attrs
@@ -53,7 +54,7 @@ from assoc_hull.io.reports import Notebook
 from assoc_hull.io.rhino.read import is_rhino
 from assoc_hull.io.tables.table_text import read_text
 from assoc_hull.io.units import refuse_other_unit
-from assoc_hull.tolerance import length_factor, round_at_size
+from assoc_hull.tolerance import length_factor, round_at_size, settled
 
 __all__ = [
     "read_lines",
@@ -370,6 +371,9 @@ def read_lines(
         raw = below_deck(raw, deck_edge, book)
     knuckles = _knuckles(raw)
     small = _length_factor(raw, length)
+    if math.frexp(factor)[0] != 0.5:
+        # A change of unit leaves something in the last bits, on which no choice may turn.
+        raw = [attrs.evolve(each, points=settled(each.points, small)) for each in raw]
     raw = to_one_side(raw, book, small)
     every = np.concatenate([each.points for each in raw])
     joins: list[GapJoin] = []

@@ -122,8 +122,11 @@ def adopt_completed(
     wet = [i for i in range(len(full.x)) if (full.half_breadth[i, 1:] > 0.0).any()]
     sources += [_closed_section(full, completion, flats, i) for i in wet]
     sources += [_closed_waterline(full, completion, flats, j) for j in range(1, len(full.z) - 1)]
-    sources = sources if factor == 1.0 else _brought_back(sources, full, table, factor)
-    state, report = adopt(sources, ship, ASSOCIATIONS, tolerances or Tolerances().scaled(factor))
+    own = sources if factor == 1.0 else _brought_back(sources, full, table, factor)
+    state, report = adopt(
+        own, ship, ASSOCIATIONS, tolerances or Tolerances().scaled(factor),
+        None if tolerances else sources,
+    )  # fmt: skip
     bare = [i for i in range(len(table.x)) if i not in wet]
     notes = tuple(f"station at x = {table.x[i]:g} m: no breadth, no section made" for i in bare)
     return state, attrs.evolve(report, notes=(*_printed(table), *notes, *report.notes))

@@ -12,6 +12,7 @@ from assoc_hull.io.placing.frame import find_frame
 from assoc_hull.io.placing.options import FileAxes, FrameOptions
 from assoc_hull.io.placing.outline import outline_of_slices
 from assoc_hull.io.reports import Notebook
+from assoc_hull.tolerance import settled
 
 __all__ = ["place_slices", "shift_slices"]
 
@@ -34,14 +35,30 @@ def place_slices(
     """
     outline = outline_of_slices(slices)
     frame = find_frame(outline, options, book, _WHERE, axes=axes, stated=stated)
+    frame = _rounded(frame, slices.factor)
     moved = shift_slices(slices, frame, book) if frame.moves else slices
     return attrs.evolve(moved, frame=frame, report=book.report())
+
+
+_DIGITS = 9
+"""Places that are found are rounded to so many digits of a metre, at the size of 100 m."""
+
+
+def _rounded(frame: ShipFrame, factor: float) -> ShipFrame:
+    """Round places that were found, so that decimals of a file stay decimals in ship axes."""
+    known = ("given", "stated")
+    found = {
+        name: round(getattr(frame, name) / factor, _DIGITS) * factor
+        for name in ("ap", "fp", "base") if frame.origins.get(name, known[0]) not in known
+    }  # fmt: skip
+    return attrs.evolve(frame, **found)
 
 
 def shift_slices(slices: HullSlices, frame: ShipFrame, book: Notebook) -> HullSlices:
     """Move all lines of a hull; those named after their plane are named after the new one."""
     by = np.array([frame.shift[0], 0.0, frame.shift[1]])
-    lines = tuple(_shifted(line, frame) for line in slices.lines)
+    factor = slices.factor
+    lines = tuple(_shifted(line, frame, factor) for line in slices.lines)
     _tell_names(slices.lines, lines, book)
     joins = tuple(
         attrs.evolve(join, place=tuple((np.array(join.place) + by).tolist()))
@@ -50,17 +67,20 @@ def shift_slices(slices: HullSlices, frame: ShipFrame, book: Notebook) -> HullSl
     names = {old.name: new.name for old, new in zip(slices.lines, lines, strict=True)}
     return attrs.evolve(
         slices, lines=lines, joins=joins, low=slices.low + by, high=slices.high + by,
-        boundaries=tuple(_shifted(line, frame) for line in slices.boundaries),
+        boundaries=tuple(_shifted(line, frame, factor) for line in slices.boundaries),
         knuckles={names.get(name, name): xyz + by for name, xyz in slices.knuckles.items()},
     )  # fmt: skip
 
 
-def _shifted(line: SliceLine, frame: ShipFrame) -> SliceLine:
-    pieces = tuple(attrs.evolve(piece, points=frame.moved(piece.points)) for piece in line.pieces)
+def _shifted(line: SliceLine, frame: ShipFrame, factor: float) -> SliceLine:
+    pieces = tuple(
+        attrs.evolve(piece, points=settled(frame.moved(piece.points), factor))
+        for piece in line.pieces
+    )
     if line.group == "boundary":
         return attrs.evolve(line, pieces=pieces)
     by = (frame.shift[0], 0.0, frame.shift[1])[AXES[line.group]]
-    offset = round(line.offset + by, 9)
+    offset = round((line.offset + by) / factor, _DIGITS) * factor
     name = plane_name(line.group, offset) if _by_place(line) else line.name
     flat = []
     for piece in pieces:

@@ -62,6 +62,10 @@ def grown_slices(slices: HullSlices) -> HullSlices:
     found = scaled(slices, 1.0 / factor)
     if slices.facets:
         return found
+    low, high = (at_full_length(each, factor) for each in (slices.low, slices.high))
+    widths = at_full_length([slices.gaps.join, slices.gaps.refuse], factor).tolist()
+    marks = {name: at_full_length(places, factor) for name, places in slices.knuckles.items()}
+    found = attrs.evolve(found, low=low, high=high, gaps=Gaps(*widths), knuckles=marks)
     pairs = [(getattr(found, name), getattr(slices, name)) for name in ("lines", "boundaries")]
     grown = [
         tuple(_settled(new, old, factor) for new, old in zip(*pair, strict=True)) for pair in pairs

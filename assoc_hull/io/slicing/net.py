@@ -12,6 +12,7 @@ import numpy as np
 
 from assoc_hull.arguments import positive
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt, source_order
+from assoc_hull.edit.adoption.adopted_size import grown_sources
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import PointKind, SplineBatch
 from assoc_hull.io.lines.ship_frame import ShipFrame
@@ -154,20 +155,41 @@ def sources_from_slices(
     BadInputError
         A tolerance that is no number above 0, or no piece long enough to be adopted.
     """
+    found = _sources_at_sizes(slices, tolerance, rules)
+    return found.sources, found.reports, found.knuckles, found.tolerance, found.borders
+
+
+@attrs.frozen(eq=False)
+class _SmoothLines:
+    """Smooth lines with their reports, and the lines at 100 m that they were made as."""
+
+    sources: list[LineSource]
+    reports: list[SmoothReport]
+    knuckles: list[KnuckleTrace]
+    tolerance: float
+    borders: list[BoundaryCurve]
+    grown: list[LineSource]
+
+
+def _sources_at_sizes(
+    slices: HullSlices, tolerance: float | None, rules: FeatureRules | None
+) -> _SmoothLines:
     if tolerance is not None:
         tolerance = _checked(tolerance, slices)
     factor = slices.factor
     if factor == 1.0:
-        return _full_size_sources(slices, tolerance, rules or FeatureRules())
-    grown = grown_slices(slices)
+        found = _full_size_sources(slices, tolerance, rules or FeatureRules())
+        return _SmoothLines(*found, found[0])
     limit = None if tolerance is None else tolerance / factor
     wanted = FeatureRules() if rules is None else rules.scaled(1.0 / factor)
-    sources, reports, knuckles, allowed, borders = _full_size_sources(grown, limit, wanted)
+    grown, reports, knuckles, allowed, borders = _full_size_sources(
+        grown_slices(slices), limit, wanted
+    )
     offset = {(line.group, line.name): line.offset for line in slices.lines}
-    sources = [each.scaled(factor, offset.get((each.group, each.name))) for each in sources]
-    return (
+    sources = [each.scaled(factor, offset.get((each.group, each.name))) for each in grown]
+    return _SmoothLines(
         sources, scaled(reports, factor), scaled(knuckles, factor), factor * allowed,
-        scaled(borders, factor),
+        scaled(borders, factor), grown,
     )  # fmt: skip
 
 
@@ -279,7 +301,9 @@ def net_from_slices(
         )
     wanted = rules or FeatureRules().scaled(slices.factor)
     tell("finding features and smoothing", 0, 0)
-    sources, smoothing, knuckles, allowed, borders = sources_from_slices(slices, tolerance, rules)
+    made = _sources_at_sizes(slices, tolerance, rules)
+    sources, smoothing, allowed = made.sources, made.reports, made.tolerance
+    grown: list[LineSource] | None = made.grown
     size = slices.high - slices.low
     ship = particulars or Particulars(
         slices.name, float(size[0]), 2.0 * float(slices.high[1]), float(size[2]),
@@ -291,17 +315,19 @@ def net_from_slices(
         sources, smoothing, told = _with_longitudinals(
             sources, smoothing, told, draught, allowed, slices.factor
         )
+        grown = None
+    if grown is None:
+        grown = list(grown_sources(sources, slices.factor))
     # Reports of pieces stand in the order of the curves that are made of them.
-    pairs = sorted(zip(sources, smoothing, strict=True), key=lambda each: source_order(each[0]))
+    pairs = sorted(zip(grown, smoothing, strict=True), key=lambda each: source_order(each[0]))
     links = _links({source.group for source in sources})
     tell("adopting", 0, 0)
-    state, adoption = adopt(
-        sources, ship, links, attrs.evolve(Tolerances().scaled(slices.factor), adoption=allowed)
-    )
+    tolerances = attrs.evolve(Tolerances().scaled(slices.factor), adoption=allowed)
+    state, adoption = adopt(sources, ship, links, tolerances, grown)
     report = SliceReport(
         told, slices.joins, slices.gaps, wanted, state.tolerances,
         float(np.median([each.noise for each in smoothing])), slices.depth,
-        tuple(each for _, each in pairs), tuple(knuckles), tuple(borders), adoption,
+        tuple(each for _, each in pairs), tuple(made.knuckles), tuple(made.borders), adoption,
         slices.frame,
     )  # fmt: skip
     return state, report
