@@ -32,20 +32,29 @@ class Tally:
     codes: Counter[int] = attrs.field(factory=Counter)
     faults: dict[str, list[tuple[Item, Outcome]]] = attrs.field(factory=dict)
     slowest: float = 0.0
+    words: Counter[str] = attrs.field(factory=Counter)
+    spent: float = 0.0
+    memory: float = 0.0
 
     def add(self, item: Item, outcome: Outcome) -> None:
         """Count an outcome."""
         self.codes[outcome.code] += 1
         self.slowest = max(self.slowest, outcome.seconds)
+        self.spent = max(self.spent, outcome.spent)
+        self.memory = max(self.memory, outcome.memory)
+        if outcome.code == 0 and outcome.word:
+            self.words[outcome.word] += 1
         if outcome.fault:
             self.faults.setdefault(signature(outcome.fault), []).append((item, outcome))
 
     def line(self, name: str) -> str:
         """The row of a table: see `HEAD`."""
         number, lost = sum(self.codes.values()), sum(map(len, self.faults.values()))
+        words = [self.words[each] for each in ("sound", "sound with suspicions", "not sound")]
+        counts = [number, *(self.codes[code] for code in (2, 3, 1, 0)), *words]
         return (
-            f"{name:12}{number:9}{self.codes[2]:9}{self.codes[1]:9}{self.codes[0]:9}"
-            f"{lost:9}{len(self.faults):9}{1e3 * self.slowest:12.0f}"
+            f"{name:13}{''.join(f'{each:9}' for each in counts)}{lost:9}{len(self.faults):8}"
+            f"{self.slowest:9.2f}{self.spent:8.2f}{self.memory:8.0f}"
         )
 
 

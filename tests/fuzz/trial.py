@@ -9,6 +9,7 @@ import io
 import json
 import re
 import time
+import traceback
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from unittest import mock
@@ -21,6 +22,8 @@ from assoc_hull.errors import AssocHullError
 from assoc_hull.io.hull_file.saving import open_hull_file
 from assoc_hull.io.hull_json import read_hull_json
 from tests.fuzz.kind import TARGET, Kind
+from tests.fuzz.measure import MOST_MEMORY, MOST_TIME, peak_memory, processor_time, reset_peak
+from tests.fuzz.taken import verdict_in, wrong_volume
 
 __all__ = ["Outcome", "signature", "trial"]
 
@@ -45,11 +48,20 @@ class Outcome:
         What was wrong; empty if nothing was.
     seconds : float, s
         How long it took, by the clock.
+    word : str
+        The verdict on what was imported, if any.
+    spent : float, s
+        Of processors.
+    memory : float, MB
+        Held at most.
     """
 
     code: int
     fault: str = ""
     seconds: float = 0.0
+    word: str = ""
+    spent: float = 0.0
+    memory: float = 0.0
 
 
 def signature(fault: str) -> str:
@@ -62,18 +74,36 @@ def trial(kind: Kind, data: bytes, folder: Path) -> Outcome:
     given = {**kind.beside(), kind.file: data}
     for name, content in given.items():
         (folder / name).write_bytes(content)
-    start, code, fault = time.perf_counter(), 0, ""
+    reset_peak()
+    start, spent, code, fault, word = time.perf_counter(), processor_time(), 0, "", ""
     try:
         with _inside(folder):
             for command in kind.commands(data):
-                code, fault = _run(command)
+                code, fault, told = _run(command)
                 fault = fault or _files(kind, folder, given, command, code)
+                if command[:1] == ["import"] and not fault:
+                    word, fault = _taken(folder, code, told)
                 if code or fault:
                     break
     finally:
         for path in folder.iterdir():
             path.unlink()
-    return Outcome(code, fault, time.perf_counter() - start)
+    taken, memory = processor_time() - spent, peak_memory()
+    if not fault and (taken > MOST_TIME or memory > MOST_MEMORY):
+        fault = f"it took {taken:.1f} s of processor time and {memory:.0f} MB"
+    return Outcome(code, fault, time.perf_counter() - start, word, taken, memory)
+
+
+def _taken(folder: Path, code: int, told: str) -> tuple[str, str]:
+    """Give the verdict on an import, and what is wrong with a hull that was taken."""
+    target = folder / TARGET
+    word = verdict_in(told) if told else ""
+    if code or not target.exists() or "taken from" in told or '"source"' in told:
+        return word, ""
+    if not word:
+        return "", "import: taken without a verdict"
+    wrong = wrong_volume(target)
+    return word, f"import: {wrong}" if wrong else ""
 
 
 @contextlib.contextmanager
@@ -83,8 +113,8 @@ def _inside(folder: Path) -> Iterator[None]:
         yield
 
 
-def _run(command: list[str]) -> tuple[int, str]:
-    """Run a command; gives its exit code and what is wrong with what it said."""
+def _run(command: list[str]) -> tuple[int, str, str]:
+    """Run a command; gives its exit code, what is wrong with what it said, and what it told."""
     out, err = io.StringIO(), io.StringIO()
     try:
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
@@ -92,9 +122,11 @@ def _run(command: list[str]) -> tuple[int, str]:
     except BaseException as error:
         if isinstance(error, KeyboardInterrupt):
             raise
-        return -1, f"{command[0]}: {type(error).__name__} left the program: {error}"
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        at = f"{Path(place.filename).name}:{place.lineno}"
+        return -1, f"{command[0]}: {type(error).__name__} left the program: {error} ({at})", ""
     wrong = _said(code, out.getvalue(), err.getvalue())
-    return code, f"{command[0]}: {wrong}" if wrong else ""
+    return code, f"{command[0]}: {wrong}" if wrong else "", out.getvalue()
 
 
 def _said(code: int, out: str, err: str) -> str:

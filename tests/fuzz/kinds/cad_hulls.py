@@ -19,7 +19,7 @@ __all__ = ["IGES_HULL", "STEP_HULL"]
 
 OPTIONS: tuple[list[str], ...] = (
     [], ["--scale", "10"], ["--axes", "+x+y+z"], ["--unit", "mm"], ["--draught", "5"],
-    ["--join", "0.5"],
+    ["--join", "0.5"], ["--accept"], ["--accept", "--json"], ["--strict"],
 )  # fmt: skip
 
 

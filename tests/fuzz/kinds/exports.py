@@ -1,4 +1,4 @@
-"""Texts and workbooks as other programs take them: BRITFAIR, DELFTship, GHS, DXF, XLSX."""
+"""Files as other programs take them: BRITFAIR, DELFTship, GHS, DXF, tables, Rhino."""
 
 from __future__ import annotations
 
@@ -11,15 +11,19 @@ from pathlib import Path
 from random import Random
 
 from assoc_hull.io.export.write import export_hull
-from assoc_hull.io.hull_json import read_hull_json
 from tests.fuzz.kind import TARGET, Kind
-from tests.fuzz.kinds.hulls import plain_text
+from tests.fuzz.kinds.hulls import whole_hull
 from tests.fuzz.text import change_bytes, change_text
 
-__all__ = ["BRITFAIR", "DELFTSHIP", "DXF", "GF", "XLSX"]
+__all__ = ["BRITFAIR", "DELFTSHIP", "DXF", "GF", "RHINO", "TABLE", "XLSX"]
 
-OPTIONS: tuple[list[str], ...] = ([], ["--tolerance", "0.1"], ["--draught", "5"], ["--unit", "m"])
-TABLE_OPTIONS: tuple[list[str], ...] = ([], ["--length", "100"], ["--station-zero", "ap"])
+OPTIONS: tuple[list[str], ...] = (
+    [], ["--tolerance", "0.1"], ["--draught", "5"], ["--unit", "m"], ["--accept"], ["--strict"],
+    ["--deck", "closed", "--json"],
+)  # fmt: skip
+TABLE_OPTIONS: tuple[list[str], ...] = (
+    [], ["--length", "100"], ["--station-zero", "ap"], ["--accept"], ["--unit", "mm", "--accept"],
+)  # fmt: skip
 
 
 @functools.cache
@@ -27,7 +31,7 @@ def exported(name: str, form: str) -> bytes:
     """A small hull in a form."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / name
-        export_hull(read_hull_json(plain_text()), path, form)
+        export_hull(whole_hull().state, path, form)
         return path.read_bytes()
 
 
@@ -76,6 +80,22 @@ def make_xlsx(rng: Random) -> bytes:
     return out.getvalue()
 
 
+def make_table(rng: Random) -> bytes:
+    """A changed table of offsets of a whole hull."""
+    return _text(rng, "ship.csv", "csv")
+
+
+def make_rhino(rng: Random) -> bytes:
+    """A file of Rhino whose bytes are changed: often only its first part, where curves lie."""
+    data = exported("ship.3dm", "3dm")
+    if rng.random() < 0.5:
+        return change_bytes(rng, data)
+    found = bytearray(data)
+    for _ in range(rng.choice((1, 3, 30, 300))):
+        found[rng.randrange(32, len(found))] = rng.randrange(256)
+    return bytes(found)
+
+
 def _names(data: bytes) -> list[str]:
     return zipfile.ZipFile(io.BytesIO(data)).namelist()
 
@@ -104,6 +124,16 @@ def of_dxf(data: bytes) -> list[list[str]]:
     return _import("lines.dxf", data, OPTIONS)
 
 
+def of_table(data: bytes) -> list[list[str]]:
+    """Import it."""
+    return _import("ship.csv", data, TABLE_OPTIONS)
+
+
+def of_rhino(data: bytes) -> list[list[str]]:
+    """Import it."""
+    return _import("ship.3dm", data, OPTIONS)
+
+
 def of_xlsx(data: bytes) -> list[list[str]]:
     """Import it."""
     return _import("ship.xlsx", data, TABLE_OPTIONS)
@@ -113,4 +143,6 @@ BRITFAIR = Kind("britfair", "ship.bri", make_britfair, of_britfair, weight=2)
 DELFTSHIP = Kind("delftship", "ship.txt", make_delftship, of_delftship, weight=2)
 GF = Kind("gf", "ship.gf", make_gf, of_gf, weight=2)
 DXF = Kind("dxf-lines", "lines.dxf", make_dxf, of_dxf, weight=2)
+RHINO = Kind("rhino", "ship.3dm", make_rhino, of_rhino, weight=1)
+TABLE = Kind("table", "ship.csv", make_table, of_table, weight=2)
 XLSX = Kind("xlsx", "ship.xlsx", make_xlsx, of_xlsx, weight=2)

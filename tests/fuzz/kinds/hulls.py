@@ -8,13 +8,19 @@ from assoc_hull.hull import Hull
 from assoc_hull.io.hull_json import dumps_hull_json
 from tests.strategies import wigley_sources
 
-__all__ = ["edited_text", "plain_text"]
+__all__ = ["edited_text", "plain_text", "whole_hull"]
 
 
 @functools.cache
 def plain_text() -> str:
     """Two stations, two waterlines."""
     return dumps_hull_json(wigley_sources(2, 2).adopt())
+
+
+@functools.cache
+def whole_hull() -> Hull:
+    """Seven stations, four waterlines: what other forms hold of it is taken, and is sound."""
+    return Hull(wigley_sources(7, 4).adopt())
 
 
 @functools.cache

@@ -13,7 +13,7 @@ __all__ = ["DIGITISED", "DRAWINGS"]
 Line = tuple[str, list[tuple[float, float, float]]]
 OPTIONS: tuple[list[str], ...] = (
     [], ["--tolerance", "0.05"], ["--unit", "mm"], ["--scale", "20"], ["--join", "0.5"], ["--json"],
-    ["--report", "report.json"],
+    ["--report", "report.json"], ["--accept"], ["--accept", "--json"], ["--strict"],
 )  # fmt: skip
 
 

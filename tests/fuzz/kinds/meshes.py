@@ -1,28 +1,36 @@
-"""Meshes as text, and as bytes."""
+"""Meshes as text, and as bytes; a scene, which no reader takes."""
 
 from __future__ import annotations
 
 import functools
+import io
 import struct
 import zlib
 from random import Random
 
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.text import change_bytes, change_text
-from tests.meshes import wigley_half
+from tests.meshes import Triangles, wigley_half
 
-__all__ = ["OBJ", "STL"]
+__all__ = ["GLB", "OBJ", "PLY", "STL", "unchanged_stl"]
 
 OPTIONS: tuple[list[str], ...] = (
     [], ["--scale", "10"], ["--axes", "+x+y+z"], ["--unit", "mm"], ["--draught", "5"],
+    ["--accept"], ["--accept", "--json"], ["--strict"], ["--length", "100", "--accept"],
 )  # fmt: skip
 CUTS = ["--stations", "3", "--waterlines", "2", "--buttocks", "1"]
 
 
 @functools.cache
+def half() -> Triangles:
+    """Half a hull, of few triangles, yet enough that it is taken."""
+    return wigley_half(25, 9)
+
+
+@functools.cache
 def _corners() -> list[list[list[float]]]:
     """The triangles of half a hull."""
-    corners: list[list[list[float]]] = wigley_half(7, 4).corners.tolist()
+    corners: list[list[list[float]]] = half().corners.tolist()
     return corners
 
 
@@ -46,10 +54,15 @@ def _binary() -> bytes:
 
 @functools.cache
 def _obj() -> str:
-    mesh = wigley_half(7, 4)
+    mesh = half()
     rows = ["# hull", *(f"v {x:g} {y:g} {z:g}" for x, y, z in mesh.xyz.tolist())]
     rows += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in mesh.face.tolist()]
     return "\n".join([*rows, ""])
+
+
+def unchanged_stl() -> bytes:
+    """The mesh as it is."""
+    return _binary()
 
 
 def make_stl(rng: Random) -> bytes:
@@ -60,6 +73,54 @@ def make_stl(rng: Random) -> bytes:
 def make_obj(rng: Random) -> bytes:
     """A changed OBJ."""
     return change_text(rng, _obj())
+
+
+@functools.cache
+def _ply(binary: bool) -> bytes:
+    return _filed("ply", encoding="binary" if binary else "ascii")
+
+
+@functools.cache
+def _glb() -> bytes:
+    return _filed("glb")
+
+
+def _filed(form: str, **options: str) -> bytes:
+    """The mesh as trimesh writes it."""
+    import trimesh
+
+    mesh = half()
+    data = trimesh.Trimesh(mesh.xyz, mesh.face, process=False).export(
+        io.BytesIO(), file_type=form, **options
+    )
+    return data.encode() if isinstance(data, str) else bytes(data)
+
+
+def make_ply(rng: Random) -> bytes:
+    """A changed PLY, as text or as bytes."""
+    if rng.random() < 0.5:
+        return change_text(rng, _ply(binary=False).decode("ascii"))
+    return change_bytes(rng, _ply(binary=True))
+
+
+def make_glb(rng: Random) -> bytes:
+    """A changed scene: any bytes, or the lengths that it tells."""
+    if rng.random() < 0.6:
+        return change_bytes(rng, _glb())
+    found = bytearray(_glb())
+    at = rng.choice((8, 12))
+    found[at : at + 4] = struct.pack("<I", rng.choice((0, 1, 2**31, 2**32 - 1, len(found) + 1)))
+    return bytes(found)
+
+
+def of_ply(data: bytes) -> list[list[str]]:
+    """Import it."""
+    return [["import", "hull.ply", "-o", TARGET, *CUTS, *OPTIONS[zlib.crc32(data) % len(OPTIONS)]]]
+
+
+def of_glb(data: bytes) -> list[list[str]]:
+    """Import it."""
+    return [["import", "hull.glb", "-o", TARGET, *CUTS, *OPTIONS[zlib.crc32(data) % len(OPTIONS)]]]
 
 
 def of_stl(data: bytes) -> list[list[str]]:
@@ -73,4 +134,6 @@ def of_obj(data: bytes) -> list[list[str]]:
 
 
 STL = Kind("stl", "hull.stl", make_stl, of_stl, weight=1)
+GLB = Kind("glb", "hull.glb", make_glb, of_glb, weight=1)
+PLY = Kind("ply", "hull.ply", make_ply, of_ply, weight=1)
 OBJ = Kind("obj", "hull.obj", make_obj, of_obj, weight=1)

@@ -51,6 +51,8 @@ OPTIONS: tuple[list[str], ...] = (
     ["--length", "60", "--station-zero", "ap"],
     ["--length", "60", "--report", "report.json"],
     ["--length", "60", "--draught", "3", "--unit", "normalised", "--json"],
+    ["--length", "60", "--accept"],
+    ["--length", "60", "--breadth", "8", "--draught", "3", "--accept"],
 )
 
 
