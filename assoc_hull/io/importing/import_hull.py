@@ -123,13 +123,14 @@ def _import_body_plan(
     path: Path, options: ImportOptions, tell: Tell
 ) -> tuple[HullState, ImportReport]:
     """Read the sections of a flat drawing, and adopt them as digitised lines."""
+    options.refuse("sections stand where the drawing has them", path, options.PLANES)
     plan = read_body_plan(path, BodyPlanRules(
         options.scale or 1.0, options.unit, options.length, options.station_spacings,
         options.frame_spacing, options.station_zero,
     ))  # fmt: skip
     # Stations are counted from AP, whatever a frame would find of sections alone.
     frame = options.frame
-    if options.ap is None and options.length is not None:
+    if options.ap is options.fp is options.origin is None and options.length is not None:
         frame = attrs.evolve(frame, ap="0 m")
     wanted = attrs.evolve(options, unit=plan.unit)
     named = wanted.named(*options.CUTS, "deck", "unit", "deck_edge")

@@ -60,6 +60,7 @@ class ImportOptions:
 
     SIZES: ClassVar[tuple[str, ...]] = ("length", "breadth", "draught")
     TABLES: ClassVar[tuple[str, ...]] = ("station_zero", "station_spacings", "frame_spacing")
+    PLANES: ClassVar[tuple[str, ...]] = ("stations", "waterlines", "buttocks", "axes")
     CUTS: ClassVar[tuple[str, ...]] = (
         "stations", "waterlines", "buttocks", "scale", "axes", "tolerance", "join", "centre",
     )  # fmt: skip

@@ -21,6 +21,7 @@ from assoc_hull.io.offsets.scale import (
     OffsetScale,
     PrintedSizes,
     column_scale,
+    compare_spacing,
     find_scale,
     given_places,
     given_spacing,
@@ -400,6 +401,11 @@ def read_offsets(
     if main.zero and not hints.station_zero:
         hints = attrs.evolve(hints, station_zero=main.zero)
     table = build_table(main, extra, scale, hints, station_zero, book)
+    spacing = frame_spacing or (station_spacings and table.length / station_spacings)
+    if spacing and main.x is not None:
+        places = main.x * column_scale(scale.x, main.columns.single["x"].unit)
+        name = "station_spacings" if frame_spacing is None else "frame_spacing"
+        compare_spacing(name, spacing, main.stations, places, source, book)
     default = Path(source).stem if source != "text" else "offsets"
     return attrs.evolve(table, name=default if name is None else name), book.report()
 

@@ -24,6 +24,7 @@ __all__ = [
     "OffsetScale",
     "PrintedSizes",
     "column_scale",
+    "compare_spacing",
     "find_scale",
     "given_places",
     "given_spacing",
@@ -376,6 +377,38 @@ def given_spacing(
         what = f"{count} were given and the comments say {hints.divisions}; the first counts"
         book.suspect("contradiction", "station numbers", what)
     return attrs.evolve(hints, divisions=count)
+
+
+_SPACING = 0.01
+"""A spacing of stations and that of a column of places agree within this part."""
+
+
+def compare_spacing(
+    name: str, spacing: float, stations: FloatArray, x: FloatArray, source: str, book: Notebook
+) -> None:
+    """Compare a spacing (m) that was given with the places x (s,), m, that the table has anyway.
+
+    Raises
+    ------
+    BadInputError
+        It is another than that of the places, or the stations have no numbers.
+    """
+    known = np.isfinite(stations) & np.isfinite(x)
+    step = np.abs(np.diff(stations[known]))
+    found = np.abs(np.diff(x[known]))[step > 0.0] / step[step > 0.0]
+    remedy = f"leave {name} out: the places count"
+    if not len(found):
+        what = (
+            f"{name} cannot be given: a column tells places of stations, and they have no numbers"
+        )
+        raise BadInputError(what, source, remedy)
+    middle = float(np.median(found))
+    if abs(spacing / middle - 1.0) > _SPACING:
+        what = (
+            f"{name} makes a station every {spacing:.6g} m, and its places one every {middle:.6g} m"
+        )
+        raise BadInputError(what, source, f"{remedy}; or correct them")
+    book.assume("station numbers", "column x", f"one every {middle:.6g} m, as given", middle)
 
 
 def settle_zero(station_zero: str, hints: OffsetHints, book: Notebook) -> str | None:

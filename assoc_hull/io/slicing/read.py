@@ -15,7 +15,7 @@ from assoc_hull.io.lines.several_hulls import HullChoice
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.mesh.read import is_mesh_name
 from assoc_hull.io.placing.options import FrameOptions
-from assoc_hull.io.reports import Tell, no_progress
+from assoc_hull.io.reports import Note, Tell, no_progress
 from assoc_hull.io.rhino.read import is_rhino
 from assoc_hull.io.slicing.cut_planes import Places
 from assoc_hull.io.slicing.mesh_lines import read_mesh, refuse_bottomless
@@ -154,6 +154,11 @@ def read_slices(
         _refuse_cuts(path, list(cuts))
         slices = read_lines(path, deck_edge=deck_edge, **common)
     refuse_bottomless(slices)
+    if join is not None and not slices.joins:
+        what = f"no line has loose ends within {join:.6g} m of each other: nothing was joined"
+        note = Note("join", "the lines", what, join)
+        notes = attrs.evolve(slices.report, assumptions=(*slices.report.assumptions, note))
+        slices = attrs.evolve(slices, report=notes)
     state, report = net_from_slices(slices, _particulars(slices, deck), tolerance, tell=tell)
     return state, report
 
