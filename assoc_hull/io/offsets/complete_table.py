@@ -478,6 +478,11 @@ def centre_profile(
 
 def _refuse_rising(table: OffsetTable, stern: FloatArray, stem: FloatArray) -> None:
     known = np.isfinite(stern).all() and np.isfinite(stem).all()
+    if table.keel is None and not (np.nan_to_num(table.half_breadth[:, 0]) > 0.0).any():
+        raise BadInputError(
+            "no station has a breadth at the lowest level, so there is no flat bottom", "the table",
+            "leave the ends open",
+        )  # fmt: skip
     if table.keel is not None or abs(table.z[0]) > 1e-9 or not known:
         raise BadInputError(
             "the keel is not level or the table does not reach down to it",
@@ -551,7 +556,8 @@ def net_from_table(
         completion = _completion(at_full_size(table))
     except BadInputError as error:
         state, report = net_of_lines(table, ship, tolerances)
-        left = "profile, ends and flats" if table.keel is None else "ends and flats"
+        drawn = "profile" in {str(name) for name in state.lines.name.data}
+        left = "ends and flats" if drawn else "profile, ends and flats"
         note = f"{left} are left open: {_in_its_size(table, error)}"
         return state, attrs.evolve(report, notes=(note, *report.notes))
     return adopt_completed(table, completion, ship, tolerances)

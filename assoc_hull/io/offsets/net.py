@@ -504,21 +504,53 @@ smooth curve through heights so far apart would swing."""
 
 
 def _keel_profile(table: OffsetTable) -> LineSource | None:
-    """Give the profile through the heights of the keel; the end stations close it."""
-    if table.keel is None:
-        return None
-    known = np.isfinite(table.keel)
+    """Give the profile through the heights of the keel; a plumb end runs up from it."""
+    keel = _level_keel(table) if table.keel is None else table.keel
+    known = np.isfinite(keel)
     if known.sum() < 3:
         return None
-    x, z = table.x[known], table.keel[known]
+    x, z = table.x[known], keel[known]
     turn = np.abs(np.diff(np.degrees(np.arctan2(np.diff(z), np.diff(x)))))
     kind = np.full(len(x), int(PointKind.SMOOTH))
     kind[1:-1][turn > _TURN] = int(PointKind.KNUCKLE)
+    places = np.flatnonzero(known)[[0, -1]].tolist()
+    for end, up in zip((0, len(x)), (_post(table, i, keel) for i in places), strict=True):
+        if up is not None:
+            # Aft the profile runs down the post, forward up.
+            up = up if end else up[::-1]
+            kind[-1 if end else 0] = int(PointKind.KNUCKLE)
+            at = len(x) if end else 0
+            x, z = np.insert(x, at, np.full(len(up), x[-1 if end else 0])), np.insert(z, at, up)
+            kind = np.insert(kind, len(kind) if end else 0, [int(PointKind.SMOOTH)] * len(up))
     return LineSource.make(
         "boundary", "profile", np.column_stack([x, np.zeros(len(x)), z]),
         plane=((0.0, 1.0, 0.0), 0.0), boundary=BoundaryKind.END, kind=kind.tolist(),
         tolerance=length_factor(table.length) * _TOLERANCE,
     )  # fmt: skip
+
+
+def _level_keel(table: OffsetTable) -> FloatArray:
+    """Give the lowest level as the keel where no station has a breadth there, nan elsewhere.
+
+    So is the table of a hull whose bottom is an edge; of one that has a bottom it is not known.
+    """
+    low, next_up = table.half_breadth[:, 0], table.half_breadth[:, 1]
+    edge = not (np.nan_to_num(low) > 0.0).any()
+    sharp = (low == 0.0) & ((next_up > 0.0) | _is_post(table))
+    return np.where(edge & sharp, table.z[0], np.nan)
+
+
+def _is_post(table: OffsetTable) -> np.typing.NDArray[np.bool_]:
+    """Tell which stations are printed as zeros from the lowest level to the highest."""
+    return np.asarray((table.half_breadth == 0.0).all(axis=1))
+
+
+def _post(table: OffsetTable, i: int, keel: FloatArray) -> FloatArray | None:
+    """Give heights up a plumb end above its keel, None where the station is none."""
+    if i not in (0, len(table.x) - 1) or not _is_post(table)[i]:
+        return None
+    above = table.z[table.z > keel[i] + _SAME]
+    return above if len(above) else None
 
 
 def _deck(table: OffsetTable) -> Iterator[FloatArray]:
