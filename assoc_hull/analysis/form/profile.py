@@ -24,6 +24,7 @@ from assoc_hull.geometry.splines.plane_intersections import (
     points_at_coordinate,
 )
 from assoc_hull.geometry.splines.segments import power_coefficients
+from assoc_hull.tolerance import length_factor
 
 __all__ = [
     "LEAST_BULB",
@@ -225,7 +226,7 @@ def boss_curve(net: CurveNet, length: float) -> int | None:
     aft = float(net.batch.part(edge[0], edge[0] + 1).xyz[0, 0]) if edge else np.nan
     for i in _flat_ends(net, length):
         ends = net.batch.part(i, i + 1).xyz[[0, -1], 1]
-        if net.x[i] != aft and np.abs(ends).max() <= ON_CENTRE:
+        if net.x[i] != aft and np.abs(ends).max() <= net.on_centre:
             return i
     return None
 
@@ -249,10 +250,11 @@ def leaves_boss(shape: FloatingShape, end: Boss) -> float | Absent:
     curves = shape.take(profile_curves)
     if curves is None:
         return NO_PROFILE
+    near = length_factor(shape.length) * ON_CENTRE
     for i in range(curves.count):
         xyz = curves.part(i, i + 1).xyz
         for run in (xyz, xyz[::-1]):
-            if abs(run[0, 0] - end.x) <= ON_CENTRE and abs(run[0, 2] - end.top) <= ON_CENTRE:
+            if max(abs(run[0, 0] - end.x), abs(run[0, 2] - end.top)) <= near:
                 level = np.abs(run[:, 2] - end.top) <= _LEVEL
                 return float(run[int(np.append(level, False).argmin()) - 1, 0])
     return Absent("no profile above the boss")

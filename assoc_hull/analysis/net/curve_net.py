@@ -56,13 +56,13 @@ __all__ = [
 ]
 
 ON_PLANE = 1e-6
-"""A boundary curve this near to a section's plane (m) lies in it."""
+"""A boundary curve this near to a section's plane (m, of a short hull less) lies in it."""
 
 
 def station_planes(net: CurveNet) -> FloatArray:
     """Give where sections stand between which the surface is laid, ascending, m."""
     every = np.sort(net.x[np.isfinite(net.x) & ~net.end & ~net.ends_on_transom])
-    found: FloatArray = every[np.diff(every, prepend=-np.inf) > ON_PLANE]
+    found: FloatArray = every[np.diff(every, prepend=-np.inf) > net.on_plane]
     return found
 
 
@@ -70,13 +70,13 @@ def station_planes(net: CurveNet) -> FloatArray:
 # Curves and crossings from the tables.
 
 ON_CENTRE = 1e-4
-"""A curve that ends this near to the centre plane (m) ends on it."""
+"""A curve that ends this near to the centre plane (m, of a short hull less) ends on it."""
 
 _STEEP = 0.25
 """The edge of a transom rises at least by this part of what it spans along or across."""
 
 _ON_EDGE = 1e-2
-"""A section that ends this near to the edge of a transom (m) ends on it."""
+"""A section that ends this near to the edge of a transom (m, of a short hull less) ends on it."""
 
 CurvePart = tuple[int, float, float]
 """A curve of the net and the chord parameters (m) between which it is walked, in that sense."""
@@ -117,6 +117,8 @@ class CurveNet:
         It defines neither: the curves may pass one another, along a flat by much.
     row : (k,) int
         The point that it is.
+    factor : float
+        Of lengths, by the size of the hull: those fixed here are of hulls of 100 m and more.
     """
 
     batch: SplineBatch
@@ -133,6 +135,17 @@ class CurveNet:
     place: FloatArray
     watched: NDArray[np.bool_]
     row: IntArray
+    factor: float = 1.0
+
+    @property
+    def on_plane(self) -> float:
+        """How near to a section's plane (m) a boundary curve lies in it."""
+        return self.factor * ON_PLANE
+
+    @property
+    def on_centre(self) -> float:
+        """How near to the centre plane (m) a curve ends on it."""
+        return self.factor * ON_CENTRE
 
     def __attrs_post_init__(self) -> None:
         freeze(self.curve, self.end, self.flat, self.knuckle, self.x, self.centre)
@@ -156,7 +169,7 @@ class CurveNet:
             xyz = real(self.batch.xyz[self.batch.start[curve] : self.batch.start[curve + 1]])
             foot, head = (xyz[0], xyz[-1]) if xyz[0, 2] <= xyz[-1, 2] else (xyz[-1], xyz[0])
             along, across, up = np.ptp(xyz, axis=0).tolist()
-            outward = bool(abs(foot[1]) <= ON_CENTRE < abs(head[1]))
+            outward = bool(abs(foot[1]) <= self.on_centre < abs(head[1]))
             found[curve] = outward and up > _STEEP * max(along, across) and along < across + up
         return found
 
@@ -173,7 +186,9 @@ class CurveNet:
             for at in (self.batch.start[own], self.batch.start[own + 1] - 1):
                 place = self.batch.xyz[at]
                 away = closest_points_each(self.batch, np.full(len(own), edge), place)[2]
-                found[own] |= (away <= _ON_EDGE) & (np.abs(place[:, 1]) > ON_CENTRE)
+                found[own] |= (away <= self.factor * _ON_EDGE) & (
+                    np.abs(place[:, 1]) > self.on_centre
+                )
         # Something has to bound the surface.
         enough = len(np.unique(self.x[own][~found[own]])) >= 2
         return found if enough else np.zeros(self.batch.count, bool)
@@ -212,6 +227,7 @@ def gather_net(state: HullState) -> CurveNet:
         place,
         state.rows.role.data[row] == Role.WATCHED,
         row,
+        state.tolerances.factor,
     )
 
 
@@ -309,7 +325,9 @@ def sections_of(net: CurveNet, closed: bool) -> NetSections:
     x, station = np.unique(net.x[chosen], return_inverse=True)
     names = tuple(net.name[int(chosen[np.argmax(station == i)])] for i in range(len(x)))
     parts = [net.batch.part(curve, curve + 1) for curve in chosen.tolist()]
-    return NetSections(_curves(SplineBatch.join(parts), closed), chosen, station, x, names)
+    return NetSections(
+        _curves(SplineBatch.join(parts), closed, net.on_centre), chosen, station, x, names
+    )
 
 
 _OUTERMOST = 1e-3
@@ -327,9 +345,9 @@ def transom_ends(net: CurveNet) -> IntArray:
     for curve in np.flatnonzero(np.isfinite(net.x) & net.end).tolist():
         x = float(net.x[curve])
         ends = xyz[[net.batch.start[curve], net.batch.start[curve + 1] - 1]]
-        round_it = bool(np.abs(ends[1] - ends[0]).max() <= ON_CENTRE)
-        central = bool(np.abs(ends[:, 1]).max() <= ON_CENTRE)
-        if min(x - aft, fore - x) <= _OUTERMOST or not (round_it or central):
+        round_it = bool(np.abs(ends[1] - ends[0]).max() <= net.on_centre)
+        central = bool(np.abs(ends[:, 1]).max() <= net.on_centre)
+        if min(x - aft, fore - x) <= net.factor * _OUTERMOST or not (round_it or central):
             found.append(curve)
     return np.array(found, np.int64)
 
@@ -358,23 +376,26 @@ def _areas_below(
     if not len(chosen):
         return np.zeros(len(planes.height))
     parts = [net.batch.part(curve, curve + 1) for curve in chosen.tolist()]
-    return areas_of_flat_ends(SplineBatch.join(parts), closed, planes)
+    return areas_of_flat_ends(SplineBatch.join(parts), closed, planes, net.on_centre)
 
 
-def areas_of_flat_ends(edges: SplineBatch, closed: bool, planes: FloatingPlanes) -> FloatArray:
+def areas_of_flat_ends(
+    edges: SplineBatch, closed: bool, planes: FloatingPlanes, on_centre: float = ON_CENTRE
+) -> FloatArray:
     """Give the area inside the edges of transverse ends, (d,), m2, both sides."""
-    area: FloatArray = sections_below(_curves(edges, closed), planes).sum(axis=1)
+    curves = _curves(edges, closed, on_centre)
+    area: FloatArray = sections_below(curves, planes).sum(axis=1)
     return area
 
 
-def _curves(batch: SplineBatch, closed: bool) -> IsoCurves:
+def _curves(batch: SplineBatch, closed: bool, on_centre: float) -> IsoCurves:
     """Give curves as tiles from keel to deck, with a deck where they end off the centre plane."""
     tiles: list[FloatArray] = []
     start, deck = [0], []
     for curve in range(batch.count):
         cubic = _upward(power_coefficients(batch.part(curve, curve + 1)))
         last = cubic[-1].sum(axis=0)
-        covered = bool(closed and abs(last[1]) > ON_CENTRE)
+        covered = bool(closed and abs(last[1]) > on_centre)
         if covered:
             across = last * np.array([0.0, -1.0, 0.0])
             lid = np.stack([last, across, 0.0 * last, 0.0 * last])

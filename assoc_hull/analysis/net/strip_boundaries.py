@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.net.curve_net import ON_PLANE, CurveNet, CurvePart
+from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.numeric.polynomials import horner
 from assoc_hull.geometry.numeric.roots import unit_roots
@@ -91,7 +91,7 @@ def _covered(net: CurveNet, curve: int, ends: FloatArray) -> bool:
     """Tell whether a section begins and ends where such an end does."""
     own = net.batch.xyz[[net.batch.start[curve], net.batch.start[curve + 1] - 1]]
     away = [np.abs(ends - each).max(axis=(1, 2), initial=0.0) for each in (own, own[::-1])]
-    return bool(len(ends)) and float(np.min(away)) <= _SAME
+    return bool(len(ends)) and float(np.min(away)) <= net.factor * _SAME
 
 
 def _nearest(x: FloatArray, place: float) -> int:
@@ -101,7 +101,7 @@ def _nearest(x: FloatArray, place: float) -> int:
 def _cut(net: CurveNet, curve: int, x: FloatArray) -> list[BoundaryArc]:
     """Cut one boundary curve at the planes and at its corners."""
     one = net.batch.part(curve, curve + 1)
-    edge = _edges(one, x)
+    edge = _edges(one, x, net.on_plane)
     middle = 0.5 * (edge[1:] + edge[:-1])
     place = _x_at(one, np.concatenate([edge, middle]))
     at, between = place[: len(edge)], place[len(edge) :]
@@ -109,13 +109,13 @@ def _cut(net: CurveNet, curve: int, x: FloatArray) -> list[BoundaryArc]:
     for i, (begin, finish) in enumerate(zip(edge[:-1].tolist(), edge[1:].tolist(), strict=True)):
         near = _nearest(x, float(between[i])) if len(x) else -1
         spread = np.abs(np.array([at[i], between[i], at[i + 1]]) - x[near]).max()
-        plane = near if spread <= ON_PLANE else -1
+        plane = near if spread <= net.on_plane else -1
         slab = -1 if plane >= 0 else int(np.searchsorted(x, between[i]))
         found.append(BoundaryArc((curve, begin, finish), slab, plane))
     return found
 
 
-def _edges(one: SplineBatch, x: FloatArray) -> FloatArray:
+def _edges(one: SplineBatch, x: FloatArray, near: float) -> FloatArray:
     """Give the parameters at which a curve passes the planes or has a corner, with its ends.
 
     Knots on a plane are taken as they are; roots next to them are the same point, found again.
@@ -126,16 +126,16 @@ def _edges(one: SplineBatch, x: FloatArray) -> FloatArray:
     shifted = cubic[segment].copy()
     shifted[:, 0] -= x[plane]
     roots = unit_roots(shifted)
-    roots = np.where(np.abs(horner(shifted, roots)) <= ON_PLANE, roots, np.nan)
+    roots = np.where(np.abs(horner(shifted, roots)) <= near, roots, np.nan)
     step = np.diff(one.knot)[segment]
     at = (one.knot[segment][:, None] + roots * step[:, None]).ravel()
     corner = np.flatnonzero(np.abs(one.leave - one.arrive).max(axis=1) > _KNUCKLE)
-    on = np.flatnonzero((np.abs(one.xyz[:, 0][:, None] - x) <= ON_PLANE).any(axis=1))
+    on = np.flatnonzero((np.abs(one.xyz[:, 0][:, None] - x) <= near).any(axis=1))
     fixed = np.unique(np.concatenate([one.knot[[0, -1]], one.knot[corner], one.knot[on]]))
     at = at[np.isfinite(at)]
-    apart = np.abs(at[:, None] - fixed).min(axis=1) > 10.0 * ON_PLANE
+    apart = np.abs(at[:, None] - fixed).min(axis=1) > 10.0 * near
     every = np.sort(np.concatenate([fixed, at[apart]]))
-    edges: FloatArray = every[np.diff(every, prepend=-np.inf) > 10.0 * ON_PLANE]
+    edges: FloatArray = every[np.diff(every, prepend=-np.inf) > 10.0 * near]
     return edges
 
 
@@ -449,19 +449,19 @@ def _at_an_end(
     run = loop[begin:] + loop[:begin]
     last = max(i for i, edge in enumerate(run) if edge.kind == kind)
     rail, rest = run[: last + 1], run[last + 1 :]
-    side, middle, back = _stem(rest)
+    side, middle, back = _stem(rest, net.on_plane)
     if kind == "A":
         return rail, side, _turned(middle), _turned(back)
     # The section is the fore rail: sides run from stern to section.
     return _turned(middle), _turned(side), rail, back
 
 
-def _stem(rest: list[_Edge]) -> tuple[list[_Edge], list[_Edge], list[_Edge]]:
+def _stem(rest: list[_Edge], near: float) -> tuple[list[_Edge], list[_Edge], list[_Edge]]:
     """Split the run that closes an end into deck edge, stem (or stern, transom) and keel.
 
     A transverse edge is the rail itself; else it is what closes, without its flat ends.
     """
-    upright = [i for i, edge in enumerate(rest) if edge.closing and _is_upright(edge)]
+    upright = [i for i, edge in enumerate(rest) if edge.closing and _is_upright(edge, near)]
     if upright:
         return rest[: upright[0]], rest[upright[0] : upright[-1] + 1], rest[upright[-1] + 1 :]
     first, last = 0, len(rest)
@@ -478,8 +478,8 @@ def _stem(rest: list[_Edge]) -> tuple[list[_Edge], list[_Edge], list[_Edge]]:
     return rest[:first], rest[first:last], rest[last:]
 
 
-def _is_upright(edge: _Edge) -> bool:
-    return bool(np.abs(edge.last[0] - edge.first[0]) <= ON_PLANE)
+def _is_upright(edge: _Edge, near: float) -> bool:
+    return bool(np.abs(edge.last[0] - edge.first[0]) <= near)
 
 
 def _flat(edge: _Edge) -> bool:
@@ -522,7 +522,7 @@ def _stands(net: CurveNet, edge: _Edge) -> bool:
     """Tell whether an edge lies in a plane across the ship."""
     if edge.kind != "E":
         return True
-    return bool(np.ptp(_along(net, edge.part)[:, 0]) <= ON_PLANE)
+    return bool(np.ptp(_along(net, edge.part)[:, 0]) <= net.on_plane)
 
 
 def _along(net: CurveNet, part: CurvePart) -> FloatArray:

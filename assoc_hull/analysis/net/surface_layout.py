@@ -16,8 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.curve_net import (
-    ON_CENTRE,
-    ON_PLANE,
     CurveNet,
     CurvePart,
     sections_of,
@@ -565,7 +563,7 @@ def _top(net: CurveNet, frame: StripBoundary) -> list[CurvePart]:
         return [part for part in frame.deck if not closes_end(net, part[0])]
     ends = [(rail[-1][0], rail[-1][2], rail[-1][2]) for rail in (frame.aft, frame.fore)]
     place = _tops(net, frame)
-    aside = np.abs(place[:, 1]) > ON_CENTRE
+    aside = np.abs(place[:, 1]) > net.on_centre
     level = float(place[aside, 2].min())
     high = (aside | (place[:, 2] >= level)).tolist()
     return [end for end, keep in zip(ends, high, strict=True) if keep]
@@ -720,7 +718,7 @@ def _is_edge(net: CurveNet, frame: StripBoundary, every: Sequence[StripBoundary]
     if frame.deck:
         return not all(closes_end(net, part[0]) for part in frame.deck)
     place = _tops(net, frame)
-    if float(np.abs(place[:, 1]).max()) <= ON_CENTRE or _is_bulb(net, frame, place, every):
+    if float(np.abs(place[:, 1]).max()) <= net.on_centre or _is_bulb(net, frame, place, every):
         return False
     others = [_tops(net, each) for each in every if each.slab == frame.slab]
     return float(place[:, 2].max()) >= max(float(each[:, 2].max()) for each in others)
@@ -840,7 +838,7 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
         sign = 1.0 if fore else -1.0
         by_lines = sign * drawn > sign * (length if fore else 0.0)
         end = drawn if by_lines else (length if fore else 0.0)
-        covered = net.end & np.isfinite(net.x) & (sign * net.x >= sign * x - ON_PLANE)
+        covered = net.end & np.isfinite(net.x) & (sign * net.x >= sign * x - net.on_plane)
         closed = (len(stations) if fore else 0) in slabs or covered.any()
         if closed or sign * (end - x) <= _LEAST_END * length:
             continue
@@ -856,5 +854,5 @@ def _tells_extent(net: CurveNet) -> NDArray[np.bool_]:
     only where it ends in the centre plane does the hull end there.
     """
     traced = np.repeat(net.knuckle, np.diff(net.batch.start))
-    told: NDArray[np.bool_] = ~traced | (np.abs(net.batch.xyz[:, 1]) <= ON_CENTRE)
+    told: NDArray[np.bool_] = ~traced | (np.abs(net.batch.xyz[:, 1]) <= net.on_centre)
     return told

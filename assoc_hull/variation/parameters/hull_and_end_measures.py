@@ -10,7 +10,6 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.analysis.form.profile import LEAST_BULB, boss_curve, tips, transom_curves
-from assoc_hull.analysis.net.curve_net import ON_CENTRE
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.numeric.circle_fit import CircleFit, fit_circle
 from assoc_hull.geometry.splines.evaluation import sample
@@ -363,7 +362,7 @@ def _foot(hull: DrawnCurves) -> FloatArray | None:
     if not edge:
         return None
     xyz = hull.some(edge).xyz
-    centre = xyz[np.abs(xyz[:, 1]) <= ON_CENTRE]
+    centre = xyz[np.abs(xyz[:, 1]) <= hull.net.on_centre]
     if not len(centre):
         return None
     found: FloatArray = centre[int(centre[:, 2].argmin())]

@@ -16,7 +16,6 @@ from scipy.optimize import brentq
 
 from assoc_hull.analysis.form.form_parameters import shape_of
 from assoc_hull.analysis.form.longitudinal_parts import EQUAL, parallel_body
-from assoc_hull.analysis.net.curve_net import ON_CENTRE
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.floating.sections import areas_at
@@ -280,7 +279,7 @@ def _at_keel(hull: DrawnCurves) -> MeasuredParameter:
     curve = hull.one(section)
     end = 0 if curve.xyz[0, 2] <= curve.xyz[-1, 2] else -1
     keel = curve.xyz[end]
-    if abs(keel[1]) > ON_CENTRE:
+    if abs(keel[1]) > hull.net.on_centre:
         reason = "the section amidships does not reach the centre plane"
         return MeasuredParameter("deadrise_deg", "deg", None, reason=reason)
     ahead = derivative(curve, np.zeros(1, np.int64), curve.knot[[end]])[0]

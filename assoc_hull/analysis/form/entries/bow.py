@@ -18,6 +18,7 @@ from assoc_hull.analysis.form.parameter import (
 )
 from assoc_hull.analysis.form.profile import area_before_fp, bulb_tip
 from assoc_hull.analysis.net.curve_net import ON_CENTRE
+from assoc_hull.tolerance import length_factor
 
 __all__ = ["BOW"]
 
@@ -55,7 +56,7 @@ def bulb_height(shape: FloatingShape) -> MeasuredValue:
 def bulb_breadth(shape: FloatingShape) -> MeasuredValue:
     section = section_at(shape, shape.length)
     half = None if section is None else section.greatest_below(shape.header.draught)
-    if half is None or half <= ON_CENTRE:
+    if half is None or half <= length_factor(shape.length) * ON_CENTRE:
         return Absent("no section at FP below the design draught")
     return 2.0 * half
 

@@ -26,6 +26,7 @@ from assoc_hull.analysis.form.profile import (
 )
 from assoc_hull.analysis.net.curve_net import ON_CENTRE, areas_of_flat_ends
 from assoc_hull.geometry.splines.plane_intersections import points_at_coordinate
+from assoc_hull.tolerance import length_factor
 
 __all__ = ["STERN"]
 
@@ -61,9 +62,10 @@ def transom_breadth(shape: FloatingShape) -> MeasuredValue:
     rise = -shape.position.trim_by_stern / shape.length
     level = shape.position.draught_aft + rise * float(edge.xyz[0, 0])
     half = points_at_coordinate(edge, 2, level).xyz[:, 1]
-    if len(half) and half.max() > ON_CENTRE:
+    near = length_factor(shape.length) * ON_CENTRE
+    if len(half) and half.max() > near:
         return 2.0 * float(half.max())
-    dry = level <= edge.xyz[:, 2].min() + ON_CENTRE
+    dry = level <= edge.xyz[:, 2].min() + near
     return Absent("transom is dry" if dry else "transom is under water")
 
 
@@ -76,7 +78,7 @@ def transom_height(shape: FloatingShape) -> MeasuredValue:
     edge = shape.take(transom)
     if isinstance(edge, Absent):
         return edge
-    centre = edge.xyz[abs(edge.xyz[:, 1]) <= ON_CENTRE]
+    centre = edge.xyz[abs(edge.xyz[:, 1]) <= length_factor(shape.length) * ON_CENTRE]
     if not len(centre):
         return Absent("the transom does not reach the centre plane")
     return float(centre[:, 2].min())
