@@ -211,7 +211,7 @@ def require_afloat(
     ...
     assoc_hull.errors.OutOfRangeError: a mean draught of 13 m drowns the open deck, whose edge is \
 lowest at z 12.000 m at x 0.00 m, y 10.00 m, at T_A 13 m, T_F 13 m, heel 0 deg; give one from 0 \
-to 12 m, or read or make the hull with deck="closed" (--deck closed) if it has a deck
+to 12 m
     """
     planes = planes_of(positions, length)
     least, most = limits.mean_draughts(planes, length)
@@ -230,7 +230,9 @@ to 12 m, or read or make the hull with deck="closed" (--deck closed) if it has a
             raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m")
         if value > high:
             why = f"drowns the open deck, whose edge is lowest at {limits.lowest_edge(planes, k)}"
-            remedy = CLOSE_DECK
+            # Over the highest place of the deck a closed one is under water, too.
+            top = float(attrs.evolve(limits, closed=True).mean_draughts(planes, length)[1][k])
+            remedy = CLOSE_DECK if value <= top else ""
             raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m", remedy)
     return planes if limits.closed else _clear_of_edge(planes, limits)
 

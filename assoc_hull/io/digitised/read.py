@@ -481,9 +481,12 @@ def _factor(raw: list[RawPiece], scale: float, unit: str, book: Notebook, source
         what = f"{unit}, because the longest side is {size:.6g} units at full scale"
         book.assume("unit", "the lines", what, size)
     if size * _UNITS[unit] > _LONGEST:
-        raise BadInputError(f"the lines are {size * _UNITS[unit]:.6g} m long in {unit}, with "
-                            f"{_farthest(raw)}", f"at {source}",
-                            "correct it, or give another unit or scale")  # fmt: skip
+        what = f"the lines are {size * _UNITS[unit]:.6g} m long in {unit}, with {_farthest(raw)}"
+        other = unit == "m" and _SHORTEST < size * _UNITS["mm"] < _LONGEST
+        more = "are these millimetres? give unit='mm'; or " if other else ""
+        raise BadInputError(
+            what, f"at {source}", f"{more}correct it, or give another unit or scale"
+        )
     if 0.0 < size * _UNITS[unit] < _SHORTEST:
         raise BadInputError(f"the lines are only {size * _UNITS[unit]:.4g} m long in {unit}",
                             f"at {source}", "give unit='m', or the scale")  # fmt: skip

@@ -67,6 +67,7 @@ def place_one_hull(
     placed = place(mesh, notes)
     motion = AxisChange.between(mesh.xyz, placed.xyz)
     if turned:
+        _refuse_across(placed)
         _refuse_on_side(mesh, motion)
     sections = mesh_sections(placed)
     low, high = float(placed.xyz[:, 2].min()), float(placed.xyz[:, 2].max())
@@ -240,6 +241,16 @@ def _clipped(
     run = number if np.linalg.det(motion.turn) > 0.0 else number[:, ::-1].copy()
     there = Triangles(np.concatenate([placed.xyz, new])[used], number.copy(), origin)
     return Triangles(in_file, run, origin), there
+
+
+def _refuse_across(placed: Triangles) -> None:
+    """Refuse axes by which the hull is longer across or upward than forward."""
+    long, broad, tall = np.ptp(placed.xyz, axis=0).tolist()
+    if long < max(broad, tall):
+        raise BadInputError(
+            f"as axes= has it the hull is {long:.4g} m long, {broad:.4g} m broad and {tall:.4g} m "
+            "tall", f"in {_WHERE}", "leave axes= out, or give axes= with the longest side first",
+        )  # fmt: skip
 
 
 def _refuse_on_side(mesh: Triangles, motion: AxisChange) -> None:

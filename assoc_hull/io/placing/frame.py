@@ -20,6 +20,7 @@ from assoc_hull.io.placing.options import FileAxes, FrameOptions, same_place
 from assoc_hull.io.placing.outline import HullOutline, Level
 from assoc_hull.io.placing.stem import find_stem
 from assoc_hull.io.reports import Notebook
+from assoc_hull.io.units import METRES
 
 __all__ = ["find_frame"]
 
@@ -237,7 +238,7 @@ def _check_draught(
         raise BadInputError(
             f"the design waterline, {draught:.6g} m above the base line, lies over the top of the "
             f"hull, {top:.6g} m above it", f"in {where}",
-            "give draught= in m at full scale, and check unit=, scale= and base=",
+            "give draught= in m at full scale, and check unit=, scale=, base= and axes=",
         )  # fmt: skip
 
 
@@ -383,9 +384,24 @@ def _check_ends(outline: HullOutline, ends: _Ends, where: str) -> None:
         raise BadInputError(
             f"the perpendiculars would stand at x = {ends.ap:.6g} and {ends.fp:.6g} m of the file, "
             f"and the hull runs from {low:.6g} to {high:.6g} m at full scale", f"in {where}",
-            "give length= in m at full scale, ap= and fp= as they are in the file, and origin= and "
-            "scale= as they are",
+            f"{_other_unit(high - low, ends.fp - ends.ap)}give length= in m at full scale, ap= and "
+            "fp= as they are in the file, and origin= and scale= as they are",
         )  # fmt: skip
+
+
+_NEAR = 0.03
+"""Lpp and the length over all differ by so much, and units by ten times more."""
+
+
+def _other_unit(size: float, length: float) -> str:
+    """Ask for the unit in which a hull of this size (m) has Lpp, if there is one."""
+    for unit in ("ft", "in", "cm", "mm"):
+        if abs(size * METRES[unit] / length - 1.0) < _NEAR:
+            return f"are these {_WORDS[unit]}? give unit='{unit}'; else "
+    return ""
+
+
+_WORDS = {"ft": "feet", "in": "inches", "cm": "centimetres", "mm": "millimetres"}
 
 
 def _by_origin(origin: str, length: float | None, stem: float) -> tuple[float | None, float | None]:

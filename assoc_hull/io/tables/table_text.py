@@ -63,11 +63,22 @@ def _read_file(path: str | Path, book: Notebook) -> tuple[str, str]:
         ) from None
     if raw.startswith(_ARCHIVE):
         return text_of_xlsx(raw, str(path), book), str(path)
+    for head, (what, remedy) in _FOREIGN.items():
+        if raw.startswith(head):
+            raise BadInputError(f"this is {what}, which is not read", str(path), remedy)
     try:
         return raw.decode("utf-8-sig"), str(path)
     except UnicodeDecodeError:
         book.repair("encoding", str(path), "not UTF-8, read as Latin-1")
         return raw.decode("latin-1"), str(path)
+
+
+_FOREIGN = {
+    b"glTF": ("a scene of glTF", "export the mesh as .stl, .obj or .ply"),
+    b"AC10": ("a DWG drawing", "save it as .dxf"),
+    b"%PDF": ("a PDF", "export the lines as .dxf, or the offsets as .csv"),
+}
+"""Files that are often handed in and hold no hull that can be read, by how they begin."""
 
 
 # --------------------------------------------------------------------------------------

@@ -33,23 +33,27 @@ GOOD: tuple[list[str], ...] = (
     ["edit", "ship.hull.json", "edits.json", "-o", TARGET],
     ["hydrostatics", "ship.hull.json", "--draught", "4"],
 )
-OPTIONS = (
+LENGTHS = (
     "--length", "--breadth", "--draught", "--depth", "--draught-aft", "--draught-fwd", "--ap",
-    "--fp", "--base", "--waterline", "--centre", "--origin", "--deck", "--unit", "--scale",
-    "--axes", "--tolerance", "--join", "--station-zero", "--station-spacings", "--deck-edge",
-    "--frame-spacing", "--stations", "--waterlines", "--buttocks", "--accept", "--strict",
-    "--json", "--heel", "--trim", "--kg", "--format", "--nothing",
+    "--fp", "--base", "--waterline", "--centre", "--scale", "--tolerance", "--join",
+    "--station-spacings", "--frame-spacing", "--stations", "--waterlines", "--buttocks",
 )  # fmt: skip
-VALUES = (
-    "0", "-1", "1e300", "1e-300", "nan", "inf", "60", "3", "3 m", "3000 mm", "12-6-3+", "m", "mm",
-    "ft", "normalised", "ap", "fp", "midship", "open", "closed", "+x+y+z", "+x+x+z", "-y+z+x",
-    "auto", "deck edge", "WL 1", "1,2,3", "1,,2", "100000000", "99999999999999999999", "",
+NUMBERS = (
+    "0", "-1", "1e300", "1e-300", "nan", "inf", "60", "3", "12.5m", "300mm", "1", "0.5", "4", "10",
+    "100000000", "99999999999999999999", "1,2,3", "1,,2", "20,30,50", "8", "2", "5", "0.01", "6",
 )  # fmt: skip
+CHOICES = {
+    "--origin": ("ap", "fp", "midship"), "--deck": ("open", "closed"),
+    "--unit": ("auto", "m", "mm", "cm", "ft", "in", "normalised", "mm,m"),
+    "--axes": ("+x+y+z", "+x+x+z", "-y+z+x", "auto", "-x-y+z"),
+    "--station-zero": ("auto", "ap", "fp"), "--deck-edge": ("deck edge", "WL 1", ""),
+}  # fmt: skip
+FLAGS = ("--accept", "--accept", "--strict", "--json", "--nothing")
 
 
 def make(rng: Random) -> bytes:
     """A command with some of its words changed, as JSON; the file to write stays."""
-    words = list(rng.choice(GOOD))
+    words = list(rng.choice(GOOD[:3] if rng.random() < 0.8 else GOOD))
     for _ in range(rng.choice((1, 1, 2, 3))):
         _change(rng, words)
     return json.dumps(words).encode()
@@ -58,22 +62,26 @@ def make(rng: Random) -> bytes:
 def _change(rng: Random, words: list[str]) -> None:
     """One change; `TARGET` alone may be written, so its place and option are left."""
     free = [k for k in range(1, len(words)) if words[k] not in ("-o", TARGET)]
-    match rng.randrange(6):
+    match rng.randrange(12):
         case 0 if free:
             del words[rng.choice(free)]
         case 1 if free:
-            words[rng.choice(free)] = _value(rng)
+            words[rng.choice(free)] = _harmless(odd_word(rng))
         case 2 if free:
             words[rng.choice(free)] = rng.choice(FILES)
         case 3:
-            words.append(rng.choice(OPTIONS))
+            words += [rng.choice(LENGTHS), _harmless(odd_word(rng))]
+        case 4 | 5:
+            words.append(rng.choice(FLAGS))
+        case 6 | 7:
+            option = rng.choice(list(CHOICES))
+            words += [option, rng.choice(CHOICES[option])]
         case _:
-            words += [rng.choice(OPTIONS), _value(rng)]
+            words += [rng.choice(LENGTHS), rng.choice(NUMBERS)]
 
 
-def _value(rng: Random) -> str:
-    """A word that a shell can hand over; none that names a file to write."""
-    word = rng.choice(VALUES) if rng.random() < 0.7 else odd_word(rng)
+def _harmless(word: str) -> str:
+    """A word that a shell can hand over."""
     return "x" if "\0" in word or "\ud800" in word else word
 
 
