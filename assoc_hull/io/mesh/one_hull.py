@@ -14,7 +14,8 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.surfaces.triangles import Triangles
+from assoc_hull.geometry.polylines.operations import self_crossings
+from assoc_hull.geometry.surfaces.triangles import Triangles, sheet_labels
 from assoc_hull.io.lines.several_hulls import (
     FoundHulls,
     HullChoice,
@@ -74,6 +75,8 @@ def place_one_hull(
     found = find_hulls(sections, water_levels(low, high, choice), oriented=True)
     centre = choice.place(factor)
     if centre is None:
+        if found.count > 1:
+            _refuse_crossing(placed, motion, factor)
         refuse_several(found, f"{_in_file(motion, found.centre, factor):.7g}", low, f"in {_WHERE}")
         for mine, theirs in zip(attrs.astuple(book, recurse=False),
                                 attrs.astuple(notes, recurse=False), strict=True):  # fmt: skip
@@ -81,6 +84,31 @@ def place_one_hull(
         return mesh, placed
     picked = _picked(mesh, placed, motion, sections, found, centre, factor, choice, book)
     return picked, place(picked, book)
+
+
+def _refuse_crossing(placed: Triangles, motion: AxisChange, factor: float) -> None:
+    """Refuse a sheet that passes through itself: where it does, sections look like several hulls.
+
+    Two hulls are two sheets, which may well pass through one another.
+    """
+    sheet = sheet_labels(placed)
+    for number in np.unique(sheet).tolist():
+        found = [
+            (x, place)
+            for x, cut in mesh_sections(placed.part(sheet == number))
+            for place in self_crossings(cut[:, 0], cut[:, 1])[:1]
+        ]
+        if not found:
+            continue
+        at, (y, z) = found[len(found) // 2]
+        place = motion.back(np.array([[at, y, z]]))[0] / factor
+        words = ", ".join(f"{letter} = {v:.4g}" for letter, v in zip("xyz", place, strict=True))
+        raise BadInputError(
+            f"the surface crosses itself in {len(found)} of {_SECTIONS} sections, as at {words} of "
+            "the file", f"in {_WHERE}",
+            "mend the fold there, or unite its parts where it was made; if it is several hulls "
+            "give the centre= of one",
+        )  # fmt: skip
 
 
 def mesh_sections(mesh: Triangles) -> list[Section]:
