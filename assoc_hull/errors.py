@@ -652,11 +652,14 @@ class NotSoundError(AssocHullError, ValueError):
         Everything that is wrong, each with its place and number.
     suspected : bool
         The hull is only under suspicion, and was to be refused for that.
+    suspicions : tuple of str
+        What looks wrong besides; often it names the cause of the findings.
     """
 
     source: str
     findings: tuple[str, ...]
     suspected: bool = False
+    suspicions: tuple[str, ...] = ()
 
     @property
     def summary(self) -> str:
@@ -667,6 +670,8 @@ class NotSoundError(AssocHullError, ValueError):
 
     def __str__(self) -> str:
         found = "; ".join(self.findings)
+        if self.suspicions:
+            found += f"; what looks wrong besides: {'; '.join(self.suspicions)}"
         return f"{self._verdict()}: {found}, in {self.source}; {self._remedy()}"
 
     def _verdict(self) -> str:

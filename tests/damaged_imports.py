@@ -145,7 +145,7 @@ def all_tables(data: Path, folder: Path) -> list[PlainTable]:
     """Those shipped, a yacht, and ships as they are exported."""
     yacht = attrs.evolve(sysser_table(data), options={"length": 10.0474})
     tables = [*shipped_tables(), yacht]
-    for ship in ("container_ship_225m", "wigley", "series60_80"):
+    for ship in ("container_ship_225m", "wigley"):
         (folder / ship).mkdir()
         tables.append(exported_table(getattr(ah.examples, ship)(), folder / ship))
     return tables

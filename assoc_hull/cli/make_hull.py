@@ -273,6 +273,11 @@ def _tell_findings(arguments: argparse.Namespace, error: NotSoundError) -> None:
     if arguments.report is not None:
         write_whole(arguments.report, (json.dumps(plain(report), indent=1) + "\n").encode())
     rows = [f"faults ({len(error.findings)})", *(f"  {each}" for each in error.findings)]
+    if error.suspicions:
+        rows += [
+            f"suspicions ({len(error.suspicions)})",
+            *(f"  {each}" for each in error.suspicions),
+        ]
     rows += [f"not written: {arguments.out}", f"verdict: not sound ({len(error.findings)} faults)"]
     facts = {"hull": None, "fingerprint": None, "report": report}
     emit(arguments, facts, "\n".join(rows))

@@ -104,7 +104,9 @@ def parse_delftship(text: str, source: str, book: Notebook) -> RawLines:
     for first, points in _curves(rows, head + 1, source):
         where = f"line {first} of {source}"
         name = plane_name_of(points)
-        parts = [points] if name == "profile" else _split_at_centre(points)
+        # A plumb end post lies in the centre plane whole.
+        whole = name == "profile" or bool((np.abs(points[:, 1]) < CENTRE).all())
+        parts = [points] if whole else _split_at_centre(points)
         if name is None or not parts:
             how = "in no plane" if name is None else "in the centre plane, across the ship,"
             book.suspect("curve", where, f"the curve lies {how} and is left out")

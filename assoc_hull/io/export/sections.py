@@ -17,7 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import PointKind
+from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.io.lines.line_points import CHORD, CurvePolyline, LinePolylines, lines_as_points
 from assoc_hull.io.reports import ExportBook
 from assoc_hull.model.tables import HullState
@@ -37,7 +37,7 @@ _AHEAD = 1e-3
 def sections_to_export(
     state: HullState, book: ExportBook, chord: float = CHORD
 ) -> list[LinePolylines]:
-    """Give the sections of a hull from aft, and a transom in a plane across as the aftmost.
+    """Give the sections of a hull from aft, with a transom in a plane across and plumb end posts.
 
     Parameters
     ----------
@@ -67,6 +67,7 @@ def sections_to_export(
         book.mend("boundary", each.name, what, each.offset)
     _tell_lines([each for each in others if each.name not in written], book)
     found = sorted([*found, *ends], key=lambda each: each.offset)
+    found = _with_posts(found, others, book)
     _tell_ends(found, others, book)
     _tell_tangents(state, book)
     return found
@@ -114,6 +115,42 @@ def _tell_lines(others: list[LinePolylines], book: ExportBook) -> None:
     if names:
         what = f"{', '.join(names)}: the form holds sections; their ends lie on these"
         book.leave_out("boundary", f"{len(names)} boundary curves", what, len(names))
+
+
+_WHOLE = 0.95
+"""An end post is plumb over at least this part of the height of the section beside it."""
+
+
+def _with_posts(
+    sections: list[LinePolylines], others: list[LinePolylines], book: ExportBook
+) -> list[LinePolylines]:
+    """Put plumb ends of the hull before and behind the sections, as sections of no breadth."""
+    parts = [piece.points for line in others for piece in line.pieces]
+    every = np.concatenate(parts) if parts else np.zeros((0, 3))
+    aft = _post(every, sections[0], -1.0)
+    fore = _post(every, sections[-1], 1.0)
+    for post in (aft, fore):
+        if post is not None:
+            what = f"plumb at x = {post.offset:.6g} m: written as a section of half-breadth 0"
+            book.mend("end post", post.name, what, post.offset)
+    return [each for each in (aft, *sections, fore) if each is not None]
+
+
+def _post(every: FloatArray, beside: LinePolylines, side: float) -> LinePolylines | None:
+    """Give the end of the hull aft (-1) or forward (1) of a section if it stands plumb."""
+    beyond = every[side * (every[:, 0] - beside.offset) > _SAME]
+    if not len(beyond):
+        return None
+    end = beyond[np.argmax(side * beyond[:, 0]), 0]
+    at = beyond[np.abs(beyond[:, 0] - end) < _SAME]
+    own = np.concatenate([piece.points[:, 2] for piece in beside.pieces])
+    # A rake below the deck, or a breadth, is no post: of these the last section must do.
+    if np.abs(at[:, 1]).max() > CENTRE or np.ptp(at[:, 2]) < _WHOLE * np.ptp(own):
+        return None
+    points = np.array([[end, 0.0, at[:, 2].min()], [end, 0.0, at[:, 2].max()]])
+    piece = CurvePolyline(points, np.zeros(2, np.bool_), 0.0)
+    name = "stern post" if side < 0.0 else "stem"
+    return LinePolylines("sections", name, float(end), (piece,))
 
 
 def _tell_ends(

@@ -160,7 +160,8 @@ def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, Import
             *map(finding_of, notes.faults),
             ImportFinding("not adopted", "the table", str(error)),
         )
-        raise NotSoundError(path.name, tuple(map(str, found))) from error
+        besides = tuple(str(finding_of(note)) for note in notes.suspicions)
+        raise NotSoundError(path.name, tuple(map(str, found)), suspicions=besides) from error
     return state, ImportReport(notes, adoption, Verdict(), table=table, frame=frame)
 
 

@@ -115,4 +115,5 @@ def require_sound(verdict: Verdict, source: str, *, accept: bool, strict: bool) 
     """
     refused = refused_findings(verdict, accept=accept, strict=strict)
     if refused:
-        raise NotSoundError(source, tuple(map(str, refused)), suspected=not verdict.faults)
+        besides = tuple(map(str, verdict.suspicions)) if verdict.faults else ()
+        raise NotSoundError(source, tuple(map(str, refused)), not verdict.faults, besides)

@@ -554,13 +554,13 @@ def net_from_table(
     try:
         # Fits of borders know lengths: a short hull passes them at the size these hold for.
         completion = _completion(at_full_size(table))
+        return adopt_completed(table, completion, ship, tolerances)
     except BadInputError as error:
         state, report = net_of_lines(table, ship, tolerances)
         drawn = "profile" in {str(name) for name in state.lines.name.data}
         left = "ends and flats" if drawn else "profile, ends and flats"
         note = f"{left} are left open: {_in_its_size(table, error)}"
         return state, attrs.evolve(report, notes=(note, *report.notes))
-    return adopt_completed(table, completion, ship, tolerances)
 
 
 def _in_its_size(table: OffsetTable, error: BadInputError) -> str:

@@ -8,6 +8,7 @@ are half-breadths (s, w), m, by station and waterline; nan where the table is bl
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import attrs
 import numpy as np
@@ -306,6 +307,12 @@ def _foot(completion: Completion, x: float, below: float) -> FloatArray:
     spline = loft(CurveData.single(p, completion.profile_kind.tolist()))
     met = intersect_planes(spline, np.eye(3)[0], np.array([x])).xyz
     heights += [float(h) for h in met[:, 2] if h < below]
+    if not heights:
+        raise BadInputError(
+            f"the station at x = {x:.6g} m has its lowest half-breadth at {below:.6g} m, and no "
+            "keel, stem or stern lies below it",
+            "the table", "correct the half-breadths of that station, or give a column keel",
+        )  # fmt: skip
     return np.array([x, 0.0, max(heights)])
 
 
@@ -465,9 +472,19 @@ def _with_buttocks(run: FloatArray, table: OffsetTable, i: int) -> FloatArray:
     wanted = (heights < widest[1] - factor * _SAME) & (table.buttock_y < widest[0])
     wanted &= (heights >= run[0, 1]) & (table.buttock_y > run[0, 0] + factor * _SAME)
     every = np.vstack([run, np.column_stack([table.buttock_y, heights])[wanted]])
-    every = every[np.lexsort((every[:, 0], every[:, 1]))]
+    # Upward, or outward where that way is shorter: over a flat counter heights hardly tell.
+    low = every[:, 1] <= widest[1]
+    lower, upper = every[low], every[~low]
+    orders = [np.lexsort((lower[:, 0], lower[:, 1])), np.lexsort((lower[:, 1], lower[:, 0]))]
+    lower = min((lower[each] for each in orders), key=_way)
+    every = np.vstack([lower, upper[np.argsort(upper[:, 1], kind="stable")]])
     kept = np.append(True, np.linalg.norm(np.diff(every, axis=0), axis=1) > factor * 1e-3)
     return np.asarray(every[kept])
+
+
+def _way(points: FloatArray) -> float:
+    """Give the length of the way through points, m."""
+    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 
 def _open_waterlines(
@@ -565,7 +582,11 @@ def _deck(table: OffsetTable) -> Iterator[FloatArray]:
 
 
 def _runs(y: FloatArray, at: FloatArray) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Give the runs of numbers, with one zero at either end where there is one."""
+    """Give the runs of numbers, with one zero at either end where there is one.
+
+    A zero between two numbers, as between bulb and stem, ends one run and begins the next: a smooth
+    curve through it would pass the centre plane.
+    """
     wide = np.nan_to_num(y) > 0.0
     known = np.isfinite(y)
     near = np.zeros(len(y), np.bool_)
@@ -574,4 +595,8 @@ def _runs(y: FloatArray, at: FloatArray) -> Iterator[tuple[FloatArray, FloatArra
     keep = known & (wide | near)
     edges = np.flatnonzero(np.diff(np.concatenate([[0], keep, [0]])))
     for first, stop in edges.reshape(-1, 2).tolist():
-        yield y[first:stop], at[first:stop]
+        touches = first + 1 + np.flatnonzero(y[first + 1 : stop - 1] == 0.0)
+        ends = [first, *touches.tolist(), stop - 1]
+        for begin, end in pairwise(ends):
+            if wide[begin : end + 1].any():
+                yield y[begin : end + 1], at[begin : end + 1]
