@@ -281,6 +281,10 @@ def _per_waterline(patient: ExaminedTable, book: Notebook) -> None:
         book.suspect("normalised per waterline", "the table", what, float(largest[0]))
 
 
+_NO_SHIP = 4.0
+"""Beyond the bounds of ships by this factor a unit is wrong, not the ship unusual."""
+
+
 def _sizes(patient: ExaminedTable, book: Notebook) -> None:
     spread = float(patient.x[-1] - patient.x[0]) / patient.length
     ratios = [
@@ -292,7 +296,10 @@ def _sizes(patient: ExaminedTable, book: Notebook) -> None:
         ratios.append(("breadth to draught", patient.breadth / patient.draught, 0.8, 20.0))
         ratios.append(("height to draught", float(patient.z[-1]) / patient.draught, 0.98, 10.0))
     for name, ratio, low, high in ratios:
-        if not low <= ratio <= high:
+        if not low / _NO_SHIP <= ratio <= high * _NO_SHIP:
+            what = f"{name} is {ratio:.4g}, and no ship has it: give unit=, or correct the numbers"
+            book.fault("unit", "the table", what, ratio)
+        elif not low <= ratio <= high:
             what = f"{name} is {ratio:.4g}, outside {low:g} to {high:g}: is it the right unit?"
             book.suspect("unit", "the table", what, ratio)
 

@@ -14,6 +14,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
 from assoc_hull.io.offsets.read import read_offsets
+from tests import damaged_imports
 from tests.damaged_tables import (
     DAMAGES,
     PlainTable,
@@ -106,3 +107,27 @@ def test_a_slip_of_the_decimal_point_is_a_fault_of_the_hull(tmp_path: Path) -> N
     assert [note.kind for note in report.faults] == ["outlier"]
     with pytest.raises(ah.AssocHullError, match=r"station 4\), column '0\.6'.*15\.2 m"):
         ah.read(path)
+
+
+def test_damages_are_seen_by_who_reads_a_hull() -> None:
+    """Each kind of damage once, through `ah.read`: none wrong and quiet; nothing needless."""
+    tables = damaged_imports.shipped_tables()[::3]
+    rates = damaged_imports.run(tables, len(DAMAGES), 3, seed=27)
+    print("\n".join(rates.lines()))
+    assert rates.wrong == rates.needless == []
+    assert rates.damaged.total() == len(DAMAGES)
+    assert rates.unharmed["clean"] == 3 + len(tables)
+
+
+@pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
+def test_two_hundred_damages_are_seen_by_who_reads_a_hull(
+    data_folder: Path, tmp_path: Path
+) -> None:
+    """Seven tables, 200 damages, 100 harmless changes, through `ah.read`; the rates are printed."""
+    tables = damaged_imports.all_tables(data_folder, tmp_path)
+    rates = damaged_imports.run(tables, 200, 100, damaged_imports.SEED)
+    print("\n".join(rates.lines()))
+    assert rates.wrong == rates.needless == []
+    seen = sum(n for word, n in rates.damaged.items() if word != "right, quiet")
+    assert seen > 140
+    assert rates.unharmed["clean"] == 100 + len(tables)
