@@ -86,7 +86,11 @@ def fair_border(table: OffsetTable, border: FloatArray) -> FloatArray:
     True
     """
     out = np.array(border)
-    flat = [j for j, z in enumerate(table.z) if (np.abs(border[:, 2] - z) < 1e-9).any()]
+    # A station may come onto the flat at a waterline that, printed finer, is nowhere on it.
+    flat = [
+        j for j, z in enumerate(table.z)
+        if (np.abs(border[:, 2] - z) < 1e-9).any() and len(_on_flat(table, j))
+    ]  # fmt: skip
     count = len(flat)
     for ends, sign in ((slice(count - 1, None, -1), -1.0), (slice(len(out) - count, None), 1.0)):
         part = out[:count][::-1] if sign < 0.0 else out[ends]
@@ -98,15 +102,20 @@ def fair_border(table: OffsetTable, border: FloatArray) -> FloatArray:
 def _bounds(table: OffsetTable, flat: list[int], sign: float) -> tuple[FloatArray, FloatArray]:
     """Give the interval (m) in which each waterline comes onto the flat, aft (-1) or forward."""
     low, high = np.zeros(len(flat)), np.zeros(len(flat))
-    half = table.breadth / 2.0
     for i, j in enumerate(flat):
-        on = np.flatnonzero(table.half_breadth[:, j] >= half - table.rounding[j] * (1 + 1e-6))
+        on = _on_flat(table, j)
         inside = int(on[0] if sign < 0.0 else on[-1])
         outside = int(np.clip(inside + sign, 0, len(table.x) - 1))
         first, last = sorted((float(table.x[inside]), float(table.x[outside])))
         clear = _CLEAR * (last - first)
         low[i], high[i] = first + clear, max(last - clear, first + _PINNED)
     return low, high
+
+
+def _on_flat(table: OffsetTable, j: int) -> NDArray[np.int_]:
+    """Give the stations at which a waterline is B/2 within its rounding."""
+    off = table.breadth / 2.0 - table.half_breadth[:, j]
+    return np.flatnonzero(off <= table.rounding[j] * (1 + 1e-6) + 1e-12)
 
 
 def _fair(x: FloatArray, low: FloatArray, high: FloatArray, sign: float) -> FloatArray:

@@ -34,6 +34,7 @@ from assoc_hull.io.reports import Notebook, OffsetReport
 from assoc_hull.io.tables.table_blocks import split_blocks
 from assoc_hull.io.tables.table_text import read_text
 from assoc_hull.io.units import check_particular
+from assoc_hull.tolerance import length_factor
 
 __all__ = [
     "build_table",
@@ -83,7 +84,7 @@ def build_table(
         x=x[order].copy(),
         z=z,
         half_breadth=half_breadth[order].copy(),
-        keel=_column(sheet, "keel", (scale.z, scale.y), top, order, book),
+        keel=_keel(_column(sheet, "keel", (scale.z, scale.y), top, order, book), length, book),
         deck_height=deck,
         deck_half_breadth=_column(
             sheet, "deck half-breadth", (scale.y, scale.z), scale.breadth, order, book
@@ -244,6 +245,18 @@ def _column(
         what = f"in another unit than the rest: up to {largest:g}, read as {largest * scale:.6g} m"
         book.assume("unit", f"column {column.label!r}", what, largest * scale)
     return np.array(values[order] * column_scale(scale, column.unit))
+
+
+_LEVEL = 1e-6
+"""A keel nearer than this (m, of a hull of 100 m and more) to the base line lies in it."""
+
+
+def _keel(keel: FloatArray | None, length: float, book: Notebook) -> FloatArray | None:
+    """Leave a keel out that is the base line all along: it says what no column says."""
+    if keel is None or not (np.abs(keel) <= _LEVEL * length_factor(length)).all():
+        return keel
+    book.assume("keel", "the table", "level at the base line at every station, as without a column")
+    return None
 
 
 def _depth(x: FloatArray, deck: FloatArray | None, length: float) -> float | None:

@@ -216,7 +216,7 @@ def given_units(unit: str) -> BlockUnits:
     BadInputError
         A unit is unknown, or there are more than three.
     """
-    words = [word.strip() for word in unit.split(",")]
+    words = [word.strip().lower() for word in unit.split(",")]
     if words == ["auto"]:
         return BlockUnits()
     wrong = [word for word in words if word not in _EVERY]

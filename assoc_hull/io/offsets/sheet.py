@@ -475,7 +475,8 @@ def _decimals(cells: list[str]) -> tuple[int, int]:
         return -1, 0
     places = max(0, *(-int(n.as_tuple().exponent) for n in numbers), 0)
     nonzero = [n for n in numbers if n]
-    if len(nonzero) < _ENOUGH:
+    # Numbers that repeat, as along parallel middle body, end in 0 together by chance.
+    if len(set(nonzero)) < _ENOUGH:
         return places, 0
     needed = max(0, *(-int(n.normalize().as_tuple().exponent) for n in nonzero), 0)
     return min(places, needed), max(0, places - needed)

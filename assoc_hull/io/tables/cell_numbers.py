@@ -36,9 +36,17 @@ _SIGNS = {"\N{VULGAR FRACTION ONE HALF}": " 1/2", "\N{VULGAR FRACTION ONE QUARTE
 _COMMA = re.compile(r"(?<=[0-9]),(?=[0-9]+([eE][-+]?[0-9]{1,3})?$)|^(-?),(?=[0-9]+$)")
 
 
+_DASH = re.compile(r"\s*-\s*(?=[0-9.])")
+
+
+def _closed(cell: str) -> str:
+    """Give a cell without blanks beside its dashes: ``12 - 6 - 3``."""
+    return _DASH.sub("-", cell)
+
+
 def is_eighths(cell: str) -> bool:
     """Tell whether a cell is in feet, inches and eighths: ``12-6-3``, with ``+`` a sixteenth."""
-    found = _EIGHTHS.fullmatch(cell)
+    found = _EIGHTHS.fullmatch(_closed(cell))
     return found is not None and int(found[3]) < 12 and int(found[4]) < 8
 
 
@@ -49,6 +57,7 @@ def cell_value(cell: str) -> float | None:
     """
     if cell in BLANKS:
         return math.nan
+    cell = _closed(cell)
     if _NUMBER.fullmatch(cell):
         return float(cell)
     if not is_eighths(cell):

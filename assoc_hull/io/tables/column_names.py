@@ -53,8 +53,9 @@ _NUMBERED = {
 _TAIL = re.compile(r"_(?:w\.?l\.?|waterline|dwl|lwl|cwl|abl|above_(?:base|bl|keel)(?:_line)?)$")
 _BASE = frozenset({"bl", "b.l", "base", "baseline", "base_line"})
 _STATION = frozenset(
-    {"station", "stations", "stn", "stns", "sta", "st", "frame", "fr", "no", "section", "sections"}
-)
+    {"station", "stations", "stn", "stns", "sta", "st", "frame", "frames", "fr", "no", "nr",
+     "number", "section", "sections", "spant", "spt", "ordinate", "ord"}
+)  # fmt: skip
 _ROWS_OF_WATERLINES = frozenset(
     {"wl", "w.l", "wls", "waterline", "waterlines", "z", "height", "heights"}
 )
@@ -64,7 +65,7 @@ _BEAM = frozenset(
 )  # fmt: skip
 _AREA = frozenset(
     {"sar", "sarraw", "arearatio", "sectionalarearatio", "sectionarearatio", "area", "areas",
-     "sectionalarea", "sectionarea", "aam", "aamax", "aax", "sac"}
+     "sectionalarea", "sectionarea", "aam", "aamax", "aax", "axam", "axax", "sac"}
 )  # fmt: skip
 _KEEL = frozenset({"keel", "profile", "rabbet"})
 _DECK = frozenset({"deck", "sheer", "gunwale"})
@@ -152,8 +153,11 @@ def _single(name: str) -> ColumnName | None:
 def _kind(name: str) -> str | None:
     letters = re.sub(r"[^a-z]", "", name)
     words = set(re.findall(r"[a-z]+", name))
-    if name in _STATION or name == "x":
-        return "x" if name == "x" else "station"
+    if name == "x":
+        return "x"
+    # Such as "Sta. No."; "2_no" is none.
+    if words and words <= _STATION and not re.search(r"[0-9]", name):
+        return "station"
     if letters in _BEAM:
         return "beam"
     if letters in _AREA:

@@ -30,6 +30,10 @@ _ARCHIVE = b"PK\x03\x04"
 """What a workbook begins with."""
 
 
+_MINUS = re.compile(r"[\N{EN DASH}\N{MINUS SIGN}](?=[0-9.])")
+"""What word processors print for the minus of a keyboard."""
+
+
 def read_text(path_or_text: str | Path, book: Notebook) -> tuple[str, str]:
     """Give the text of a table and the name of its source; a string with a line break is the text.
 
@@ -48,7 +52,7 @@ def read_text(path_or_text: str | Path, book: Notebook) -> tuple[str, str]:
         raise BadInputError("the content is binary", source, "give a CSV or TSV text file")
     if not text.strip():
         raise BadInputError("there is nothing in it", source, "give a table of offsets")
-    return text, source
+    return _MINUS.sub("-", text), source
 
 
 def _read_file(path: str | Path, book: Notebook) -> tuple[str, str]:
