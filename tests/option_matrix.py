@@ -141,6 +141,8 @@ def fate(kind: str, path: Path, option: str) -> str:
     """Tell what became of an option: "acts", "told: ...", "refused: ..." or "IGNORED"."""
     plain = read_plainly(kind, path)
     given = {**KINDS[kind][1], **OPTIONS[option]}
+    if option == "deck":  # files of ours say that this one is closed
+        given["deck"] = {"open": "closed", "closed": "open"}[plain.particulars.deck]
     if given.get("frame_spacing"):
         given.pop("station_spacings", None)
     try:

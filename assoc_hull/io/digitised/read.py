@@ -38,6 +38,7 @@ from assoc_hull.io.lines.raw_lines import (
     refuse_retraced,
 )
 from assoc_hull.io.lines.several_hulls import HullChoice
+from assoc_hull.io.lines.ship_frame import StatedPlaces
 from assoc_hull.io.lines.slices import (
     AXES,
     GapJoin,
@@ -314,6 +315,7 @@ def read_lines(
     choice: HullChoice | None = None,
     axes: str | None = None,
     deck_edge: str | None = None,
+    stated: StatedPlaces | None = None,
 ) -> HullSlices:
     """Read digitised lines: x forward, y to port, z up; wherever the file has its origin.
 
@@ -346,6 +348,8 @@ def read_lines(
         Axes of the file that point forward, to port and up: ``"-x-y+z"``; as they are by default.
     deck_edge : str or None
         The line that is the deck edge; what stands above it is cut off.
+    stated : StatedPlaces or None
+        What comments say of the ship, m at the scale of the file; besides what the form itself has.
 
     Returns
     -------
@@ -407,7 +411,10 @@ def read_lines(
     if frame is None:
         return slices
     signs = {"x_sign": float(turn[0].sum()), "z_sign": float(turn[2].sum())}
-    return place_slices(slices, frame, FileAxes(factor=factor, **signs), book)
+    # Places of a form are along its own axes.
+    own = found.stated if axes is None else StatedPlaces()
+    said = own.scaled(factor).joined((stated or StatedPlaces()).scaled(scale))
+    return place_slices(slices, frame, FileAxes(factor=factor, **signs), book, said)
 
 
 def _turned(piece: RawPiece, turn: FloatArray) -> RawPiece:

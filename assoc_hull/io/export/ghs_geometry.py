@@ -27,6 +27,7 @@ from assoc_hull.io.lines.raw_lines import (
     read_number,
     whole_number,
 )
+from assoc_hull.io.lines.ship_frame import StatedPlaces
 from assoc_hull.io.reports import ExportBook, Notebook
 
 __all__ = [
@@ -143,6 +144,9 @@ _SHAPE = re.compile(r"^\*[ \t]*\r?\n[^\r\n*]{1,40}\r?\n[ \t]*[0-9]+[ \t]*\r?$", 
 _DISPLACES = 1
 """The type of a part that displaces water."""
 
+_AP = re.compile(r"\bA\.?P\.?(?!\w)|\baft(?:er)? perpendicular", re.IGNORECASE)
+_FP = re.compile(r"\bF\.?P\.?(?!\w)|\bfore?(?:ward)? perpendicular", re.IGNORECASE)
+_BASE = re.compile(r"\bbase ?line|\bB\.?L\.?(?!\w)|\bkeel\b", re.IGNORECASE)
 _AFT = re.compile(r"\b(A\.?P\.?|aft|after|stern)\b", re.IGNORECASE)
 
 
@@ -180,10 +184,11 @@ def parse_gf(text: str, source: str, book: Notebook) -> RawLines:
     BadInputError
         A line that is not as the form has it, no shape, or a file that ends before ``****``.
     """
-    shapes, components, hull, origin = _scan(TextRows.of(text, source, "****"))
+    shapes, components, hull, origins = _scan(TextRows.of(text, source, "****"))
     if not shapes:
         raise BadInputError("there is no shape", f"in {source}", "give a file with sections")
     component = _choose(shapes, components, hull, book, source)
+    origin, level = origins
     shape = shapes[component.shape]
     shift = _zero(shape, component, origin, book, source)
     pieces = [
@@ -193,7 +198,20 @@ def parse_gf(text: str, source: str, book: Notebook) -> RawLines:
     if not shape.decks:
         what = "no edge of the deck is marked: a deck, if there is one, is read as part of sections"
         book.assume("deck", source, what)
-    return RawLines(pieces, "ft")
+    return RawLines(pieces, "ft", stated=_stated(origin, level, shift, component))
+
+
+def _stated(origin: str, level: str, shift: float, component: _Component) -> StatedPlaces:
+    """Give what OL and OV say of the file's origin, in the axes of the pieces, feet."""
+    found: dict[str, float] = {}
+    said = {"ap": f"the file says OL:{origin}", "fp": f"the file says OL:{origin}",
+            "base": f"the file says OV:{level}"}  # fmt: skip
+    for name, words in (("ap", _AP), ("fp", _FP)):
+        if words.search(origin):
+            found[name] = shift + component.shift[0]
+    if _BASE.search(level):
+        found["base"] = component.shift[2]
+    return StatedPlaces(**found, evidence={name: said[name] for name in found})
 
 
 def _place(part: FloatArray, x: float, component: _Component) -> FloatArray:
@@ -208,17 +226,17 @@ def _place(part: FloatArray, x: float, component: _Component) -> FloatArray:
 
 def _scan(
     rows: TextRows,
-) -> tuple[dict[str, _Shape], dict[str, _Component], list[str], str]:
-    """Read shapes, components, the names of those that displace, and what says where x = 0 is."""
+) -> tuple[dict[str, _Shape], dict[str, _Component], list[str], tuple[str, str]]:
+    """Read shapes, components, names of those that displace, and where x = 0 and z = 0 are."""
     shapes: dict[str, _Shape] = {}
     components: dict[str, _Component] = {}
     hull: list[str] = []
-    origin = ""
+    origin = level = ""
     rows.next("a title")
     while True:
         line = rows.next("'*' or '****'").strip()
         if line.startswith("****"):
-            return shapes, components, hull, origin
+            return shapes, components, hull, (origin, level)
         if line == "***":
             hull += _part(rows)
         elif line == "**":
@@ -229,6 +247,8 @@ def _scan(
             shapes[shape.name] = shape
         elif line.startswith("OL:"):
             origin = line[3:].strip()
+        elif line.startswith("OV:"):
+            level = line[3:].strip()
 
 
 def _shape(rows: TextRows) -> _Shape:

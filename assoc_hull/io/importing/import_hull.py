@@ -23,6 +23,7 @@ from assoc_hull.io.importing.judge import finding_of, judge, verdict_notes
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
 from assoc_hull.io.importing.soundness import open_net_note
+from assoc_hull.io.importing.stated import stated_places
 from assoc_hull.io.importing.verdict import ImportFinding, Verdict, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.offsets.complete_table import net_from_table
@@ -113,7 +114,9 @@ def _import_lines(path: Path, options: ImportOptions, tell: Tell) -> tuple[HullS
         return _import_body_plan(path, options, tell)
     options.refuse("it is for tables of offsets", path, options.TABLES)
     named = options.named(*options.CUTS, "deck", "unit", "deck_edge")
-    state, slices = read_slices(path, frame=options.frame, **named, tell=tell)
+    state, slices = read_slices(
+        path, frame=options.frame, **named, stated=stated_places(path), tell=tell
+    )
     return state, ImportReport(
         slices.slices, slices.adoption, Verdict(), slices=slices, frame=slices.frame
     )

@@ -1,7 +1,8 @@
 """What a file says of its ship in words: ratios, coefficients, LCB, volume, from its comments.
 
-Nothing is taken from here: the readers take unit, frame and dimensions themselves. What was read
-is measured, and compared with what the file says of it.
+Nothing of that is taken: what was read is measured, and compared with what the file says of it.
+Particulars of digitised lines are taken: Lpp, B, T and D as comments, texts of a drawing or the
+title of a form state them. The readers of tables take their own.
 
 Examples
 --------
@@ -16,10 +17,14 @@ import re
 from pathlib import Path
 
 from assoc_hull.arguments import regular_file
+from assoc_hull.io.export.britfair import is_britfair
+from assoc_hull.io.export.ghs_geometry import is_gf
+from assoc_hull.io.lines.ship_frame import StatedPlaces
+from assoc_hull.io.offsets.hints import read_hints
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.table_text import read_text
 
-__all__ = ["read_stated", "stated_in"]
+__all__ = ["read_stated", "stated_in", "stated_places"]
 
 _HEAD = 20_000
 """So many bytes are read: whatever a file says of itself stands at its beginning."""
@@ -64,6 +69,38 @@ def read_stated(text: str) -> dict[str, tuple[float, float]]:
     patterns = {**_PLAIN, "LCB": _LCB, "V": _VOLUME}
     found = {name: pattern.search(said) for name, pattern in patterns.items()}
     return {name: _value(match[1]) for name, match in found.items() if match}
+
+
+_DXF = re.compile(r"\A(?:\s*999\s*\r?\n.*\r?\n)*\s*0\s*\r?\n\s*SECTION")
+_DXF_TEXT = re.compile(r"^[ \t]*(?:999|1)[ \t]*\r?\n(.*?)\r?$", re.MULTILINE)
+_GF_TEXT = re.compile(r"^\\(.*)$", re.MULTILINE)
+_MOST = 200_000_000
+
+
+def stated_places(path: Path) -> StatedPlaces:
+    """Give the particulars that comments and titles of digitised lines state, m.
+
+    These are rows of comments, in DXF also the texts that are drawn, in GF comments and in
+    BRITFAIR the title. Of other forms nothing is known.
+    """
+    file = regular_file(path)
+    if file.stat().st_size > _MOST:
+        return StatedPlaces()
+    data = file.read_bytes()
+    if _BINARY.search(data[:_HEAD]):
+        return StatedPlaces()
+    text = data.decode("utf-8", "replace").lstrip("\ufeff")
+    if _DXF.match(text):
+        words = _DXF_TEXT.findall(text)
+    elif is_gf(text):
+        words = [text.partition("\n")[0], *_GF_TEXT.findall(text)]
+    elif is_britfair(text):
+        words = [text.partition("\n")[0]]
+    else:
+        words = _MARK.findall(text[:_HEAD])
+    said = read_hints(tuple(words))
+    names = ("length", "breadth", "draught", "depth")
+    return StatedPlaces(**{name: getattr(said, name) for name in names})
 
 
 def _value(number: str) -> tuple[float, float]:

@@ -14,6 +14,7 @@ import numpy as np
 from assoc_hull.arguments import shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.lines.ship_frame import StatedPlaces
 
 __all__ = [
     "BOUNDARIES",
@@ -155,11 +156,14 @@ class RawLines:
     told : bool
         Whether the form stands for its unit. Headers of drawings do not: many hold the one with
         which the program began.
+    stated : StatedPlaces
+        Where the form says that perpendiculars and base line are, in the unit of the file.
     """
 
     pieces: list[RawPiece]
     unit: str | None = None
     told: bool = True
+    stated: StatedPlaces = attrs.field(factory=StatedPlaces)
 
 
 def plane_name(group: str, offset: float) -> str:

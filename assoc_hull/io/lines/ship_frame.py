@@ -46,6 +46,18 @@ class StatedPlaces:
     rudder: float | None = None
     evidence: Mapping[str, str] = attrs.field(factory=dict)
 
+    def scaled(self, factor: float) -> StatedPlaces:
+        """Give the same in another unit, or at another scale."""
+        every = attrs.asdict(self, filter=lambda field, _: field.name != "evidence")
+        known = {name: factor * value for name, value in every.items() if value is not None}
+        return attrs.evolve(self, **known)
+
+    def joined(self, other: StatedPlaces) -> StatedPlaces:
+        """Give all that either says; this one counts first."""
+        every = attrs.asdict(self, filter=lambda field, _: field.name != "evidence")
+        missing = {name: getattr(other, name) for name, value in every.items() if value is None}
+        return attrs.evolve(self, **missing, evidence={**other.evidence, **self.evidence})
+
     def why(self, name: str) -> str:
         """Tell why a value is so."""
         return self.evidence.get(name, "as the file says")

@@ -22,7 +22,7 @@ from assoc_hull.io.placing.stem import find_stem
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.units import METRES
 
-__all__ = ["find_frame"]
+__all__ = ["find_frame", "fitting_places"]
 
 _LEVEL = 1e-3
 """Heights this part of Lpp apart are one: z = 0 is the base line, what is lower hangs below it."""
@@ -134,6 +134,45 @@ def find_frame(
     )  # fmt: skip
     _tell_shift(frame, outline, book, where)
     return frame
+
+
+# --------------------------------------------------------------------------------------
+# What a file states, held against the extents.
+
+_FITS = {"length": (0.7, 1.1), "breadth": (0.7, 1.05), "depth": (0.4, 1.05), "draught": (0.05, 1.0)}
+"""Between these parts of the extent a particular that a file states can be that of the hull."""
+
+
+def fitting_places(
+    stated: StatedPlaces, outline: HullOutline, options: FrameOptions, book: Notebook, where: str
+) -> StatedPlaces:
+    """Give what a file states of those values that its hull can have; suspect the others."""
+    low, high = outline.low, outline.high
+    tall = float(high[2]) - (float(low[2]) if stated.base is None else stated.base)
+    sizes = {
+        "length": outline.size, "breadth": 2.0 * float(np.abs(outline.xyz[:, 1]).max()),
+        "depth": tall, "draught": tall,
+    }  # fmt: skip
+    # Bare sections end up to a spacing short of either end of the hull.
+    more = {"length": 4.0 * outline.doubt}
+    wrong: dict[str, Any] = {}
+    for name, size in sizes.items():
+        value, (least, most) = getattr(stated, name), _FITS[name]
+        if value is None or getattr(options, name) is not None:
+            continue
+        if not least * size <= value <= most * size + more.get(name, 0.0):
+            wrong[name] = None
+            what = f"the file says {value:.6g} m, and the lines reach over {size:.6g} m: not taken"
+            book.suspect(name, where, f"{what}; give {name}= in m, and check unit= and scale=",
+                         value)  # fmt: skip
+    slack = _FAR * outline.size
+    for name in ("ap", "fp", "rudder"):
+        value = getattr(stated, name)
+        if value is not None and not low[0] - slack <= value <= high[0] + slack:
+            wrong[name] = None
+            what = f"the file has it at x = {value:.6g} m, and the hull runs from {low[0]:.6g} to"
+            book.suspect(name, where, f"{what} {high[0]:.6g} m: not taken; give {name}=", value)
+    return attrs.evolve(stated, **wrong)
 
 
 # --------------------------------------------------------------------------------------
@@ -339,6 +378,9 @@ def _ends(
         fp, fp_from = said.fp, ("stated", said.why("fp"))
     fixed = fp is not None
     fp = stem if fp is None else fp
+    if said.ap is not None and length is not None and not fixed:
+        ahead = ("found", f"Lpp = {length:.6g} m, {length_from}, forward of the AP")
+        return _Ends(said.ap, ("stated", said.why("ap")), said.ap + length, ahead, length)
     if said.ap is not None and fp_from[0] == "stated":
         return _Ends(said.ap, ("stated", said.why("ap")), fp, fp_from, length)
     if length is not None:

@@ -8,7 +8,7 @@ import numpy as np
 from assoc_hull.io.lines.raw_lines import plane_name
 from assoc_hull.io.lines.ship_frame import ShipFrame, StatedPlaces
 from assoc_hull.io.lines.slices import AXES, HullSlices, SliceLine
-from assoc_hull.io.placing.frame import find_frame
+from assoc_hull.io.placing.frame import find_frame, fitting_places
 from assoc_hull.io.placing.options import FileAxes, FrameOptions
 from assoc_hull.io.placing.outline import outline_of_slices
 from assoc_hull.io.reports import Notebook
@@ -34,7 +34,8 @@ def place_slices(
         As for `assoc_hull.io.placing.frame.find_frame`.
     """
     outline = outline_of_slices(slices)
-    frame = find_frame(outline, options, book, _WHERE, axes=axes, stated=stated)
+    said = None if stated is None else fitting_places(stated, outline, options, book, _WHERE)
+    frame = find_frame(outline, options, book, _WHERE, axes=axes, stated=said)
     frame = _rounded(frame, slices.factor)
     moved = shift_slices(slices, frame, book) if frame.moves else slices
     return attrs.evolve(moved, frame=frame, report=book.report())

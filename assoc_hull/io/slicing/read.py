@@ -12,6 +12,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.digitised.text import is_digitised
 from assoc_hull.io.lines.several_hulls import HullChoice
+from assoc_hull.io.lines.ship_frame import StatedPlaces
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.mesh.read import is_mesh_name
 from assoc_hull.io.placing.options import FrameOptions
@@ -91,6 +92,7 @@ def read_slices(
     tolerance: float | None = None,
     join: float | None = None,
     deck_edge: str | None = None,
+    stated: StatedPlaces | None = None,
     tell: Tell = no_progress,
 ) -> tuple[HullState, SliceReport]:
     """Read a mesh, surfaces or digitised lines and adopt them.
@@ -119,6 +121,8 @@ def read_slices(
         Loose ends of pieces this close are joined; by default 60 mm.
     deck_edge : str or None
         The line that is the deck edge, of digitised lines.
+    stated : StatedPlaces or None
+        What comments say of the ship, m at the scale of the file, of digitised lines.
     tell : callable
         Hears what is being done, and how far.
 
@@ -152,7 +156,7 @@ def read_slices(
         slices = read(path, tell=tell, **common, **cuts)
     else:
         _refuse_cuts(path, list(cuts))
-        slices = read_lines(path, deck_edge=deck_edge, **common)
+        slices = read_lines(path, deck_edge=deck_edge, stated=stated, **common)
     refuse_bottomless(slices)
     if join is not None and not slices.joins:
         what = f"no line has loose ends within {join:.6g} m of each other: nothing was joined"
