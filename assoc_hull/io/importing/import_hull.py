@@ -177,7 +177,7 @@ def _placed_table(
     named: dict[str, Any] = {name: getattr(frame, name) for name in options.SIZES}
     named["frame_spacing"] = options.frame_spacing
     sizes = {name: value / scale for name, value in named.items() if value is not None}
-    more = options.named("unit", "station_spacings") | (
+    more = options.named("unit", "station_spacings", "centre") | (
         {} if zero is None else {"station_zero": zero}
     )
     table, notes = read_offsets(path, **sizes, **more)

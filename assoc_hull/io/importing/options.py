@@ -47,7 +47,7 @@ class ImportOptions:
         Distance of frames, of a table whose stations are frame numbers.
     centre : float or str or None
         The centre plane of a hull that is not at y = 0, or of one of several hulls: in units of
-        the file, or with a unit.
+        the file, or with a unit; of a table from where its half-breadths are to be counted.
     deck_edge : str or None
         The line that is the deck edge, of digitised lines where the uppermost is not.
     scale, axes, stations, waterlines, buttocks, tolerance, join
@@ -65,7 +65,7 @@ class ImportOptions:
         "stations", "waterlines", "buttocks", "scale", "axes", "tolerance", "join", "centre",
     )  # fmt: skip
     ONLY_CUTS: ClassVar[tuple[str, ...]] = (
-        "stations", "waterlines", "buttocks", "axes", "tolerance", "join", "centre", "deck_edge",
+        "stations", "waterlines", "buttocks", "axes", "tolerance", "join", "deck_edge",
     )  # fmt: skip
 
     length: float | None = None

@@ -15,6 +15,7 @@ import numpy as np
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.offsets.damage import compare_areas, compare_beams, examine_lines
+from assoc_hull.io.offsets.demihull import about_centre, deck_about_centre
 from assoc_hull.io.offsets.doctor import ExaminedTable, examine_offsets, wild_values
 from assoc_hull.io.offsets.hints import OffsetHints, read_hints
 from assoc_hull.io.offsets.scale import (
@@ -361,6 +362,7 @@ def read_offsets(
     frame_spacing: float | None = None,
     name: str | None = None,
     buttocks: str | Path | None = None,
+    centre: float | str | None = None,
 ) -> tuple[OffsetTable, OffsetReport]:
     """Read a table of offsets.
 
@@ -385,6 +387,8 @@ def read_offsets(
     buttocks : str, Path or None
         A second file or text with columns ``bt_<y>`` for the same stations; such a block may
         also follow the waterlines in the first.
+    centre : float, str or None
+        From where half-breadths of one of two hulls are counted: its centre plane, in their unit.
 
     Returns
     -------
@@ -409,6 +413,10 @@ def read_offsets(
     main, extra = _sort_out(sheets, source)
     main = _to_port(main, book)
     main = _by_beams(main, book)
+    if extra is not None and centre is not None:
+        what = "buttocks cannot be read with centre"
+        raise BadInputError(what, source, "leave out the block of buttocks")
+    main = about_centre(main, centre, source, book)
     hints = _with_header(main, hints)
     scale = find_scale(unit, _sizes(main), hints, length, breadth, draught, book, source)
     if main.zero and not hints.station_zero:
@@ -419,6 +427,8 @@ def read_offsets(
         places = main.x * column_scale(scale.x, main.columns.single["x"].unit)
         name = "station_spacings" if frame_spacing is None else "frame_spacing"
         compare_spacing(name, spacing, main.stations, places, source, book)
+    if centre is not None:
+        table = deck_about_centre(table, scale.y * float(centre))
     default = Path(source).stem if source != "text" else "offsets"
     return attrs.evolve(table, name=default if name is None else name), book.report()
 

@@ -56,6 +56,11 @@ def test_she_floats_as_the_mesh_of_both(hull: ah.Hull, draught: float, heel: flo
     assert ship.tcb == pytest.approx(float(truth.moment_y[0] / truth.volume[0]), abs=5e-3)
     assert ship.kb == pytest.approx(float(truth.moment_z[0] / truth.volume[0]), abs=5e-3)
     assert ship.waterplane_area_proj == pytest.approx(float(truth.area[0]), rel=2e-3)
+    inertia = float(truth.area_yy[0] - truth.area_y[0] ** 2 / truth.area[0])
+    assert ship.i_t_proj == pytest.approx(inertia, rel=3e-3)
+    if heel == 0.0:
+        kmt = float((truth.moment_z[0] + inertia) / truth.volume[0])
+        assert ship.kmt == pytest.approx(kmt, rel=3e-3)
 
 
 def test_the_header_names_what_the_numbers_are_of(hull: ah.Hull) -> None:
