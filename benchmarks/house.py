@@ -88,7 +88,7 @@ def line_counts() -> Counter[str]:
     for path in ROOT.rglob("*.py"):
         text = path.read_text(encoding="utf-8")
         documented = _docstring_lines(ast.parse(text))
-        code, comments = set(), set()
+        code, comments = set[int](), set[int]()
         for token in tokenize.generate_tokens(io.StringIO(text).readline):
             rows = range(token.start[0], token.end[0] + 1)
             if token.type == tokenize.COMMENT:

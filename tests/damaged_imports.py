@@ -53,6 +53,7 @@ def taken(text: str, folder: Path, options: dict[str, Any]) -> Taken:
     path = folder / "table.csv"
     path.write_text(text, encoding="utf-8")
     hull = ah.read(path, **options)
+    assert hull.adoption is not None
     doubts = tuple(_FOUND.sub("", note) for note in hull.adoption.notes if _FOUND.match(note))
     return Taken(hull.hydrostatics(on_error="report").volume, doubts)
 

@@ -316,7 +316,7 @@ def _compare(
     """Measure how far a hull is off, and say what is wrong of it."""
     truth, ship = case.truth(), hull.particulars
     if "scale" not in options and "scale" in case.right:
-        # The file of a model says nothing of a ship: as it is it is a boat of the size of the model.
+        # The file of a model says nothing of a ship: as it is it is a boat of that size.
         truth = at_scale(truth, 1.0 / case.right["scale"])
     found = hull.hydrostatics(draught=ship.draught)
     aft, fore, top = extent(hull, sections=case.sections)

@@ -840,11 +840,28 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
         end = drawn if by_lines else (length if fore else 0.0)
         covered = net.end & np.isfinite(net.x) & (sign * net.x >= sign * x - net.on_plane)
         closed = (len(stations) if fore else 0) in slabs or covered.any()
-        if closed or sign * (end - x) <= _LEAST_END * length:
+        if closed or sign * (end - x) <= _LEAST_END * length or _is_transom(net, x):
             continue
         source = "where its lines end" if by_lines else "the perpendicular"
         ends.append(OpenEnd(fore, found.names[at], x, end, source))
     return tuple(ends)
+
+
+_BROAD = 0.4
+"""Where lines end at this part of the greatest half-breadth the hull ends, too."""
+
+
+def _is_transom(net: CurveNet, x: float) -> bool:
+    """Tell whether lines along the ship end broad at its last section: it is a transom.
+
+    Sections alone do not tell: there the hull goes on to the perpendicular.
+    """
+    last = net.batch.start[1:] - 1
+    ends = net.batch.xyz[np.concatenate([net.batch.start[:-1], last])]
+    along = np.tile(np.isin(net.family, ("waterlines", "buttocks")), 2)
+    here = along & (np.abs(ends[:, 0] - x) <= net.on_plane)
+    widest = float(np.abs(net.batch.xyz[:, 1]).max())
+    return bool(here.any() and float(np.abs(ends[here, 1]).max()) >= _BROAD * widest)
 
 
 def _tells_extent(net: CurveNet) -> NDArray[np.bool_]:

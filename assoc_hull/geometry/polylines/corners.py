@@ -106,6 +106,9 @@ def find_corners(points: FloatArray, noise: float, rule: CornerRule | None = Non
 _LONE_DEG, _LONE = 30.0, 0.8
 """A point that turns by so much, and by this part of all that it and two on either side turn."""
 
+_SHARP_DEG = 75.0
+"""Nobody draws a bend by one point that turns by so much: a plumb stem on a level keel."""
+
 
 def _lone_turns(
     points: FloatArray, length: FloatArray, seen: list[_Scale], noise: float
@@ -117,6 +120,7 @@ def _lone_turns(
     turn = np.abs(np.arctan2(cross, (before * after).sum(axis=1)))
     whole = np.convolve(turn, np.ones(5))[2:-2]
     lone = (turn >= np.deg2rad(_LONE_DEG)) & (turn >= _LONE * whole)
+    lone |= turn >= np.deg2rad(_SHARP_DEG)
     for scale in seen:
         nearest = np.searchsorted(scale.at, inner).clip(max=len(scale.at) - 1)
         lone &= ~scale.fits[nearest]

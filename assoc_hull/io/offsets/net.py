@@ -435,10 +435,25 @@ def _straightened(
         tangent[1], direction[1] = True, (0.0, 1.0, 0.0)
     tangent[[0, -1]], direction[[0, -1]] = False, 0.0
     kind = np.where(tangent, int(PointKind.TANGENT), int(PointKind.SMOOTH))
+    if group == "sections" and _has_chine(points, same):
+        kind[1], direction[1] = int(PointKind.KNUCKLE), 0.0
     return LineSource.make(
         group, plane_name(group, place), points, plane=(tuple(np.eye(3)[axis].tolist()), place),
         kind=kind.tolist(), direction=direction, tolerance=near,
     )  # fmt: skip
+
+
+_UPRIGHT_SIDE = 0.1
+"""A side that widens by less than this part of its height stands upright."""
+
+
+def _has_chine(points: FloatArray, same: float) -> bool:
+    """Tell whether a flat bottom ends at an upright side: a bilge lies between two offsets."""
+    if len(points) < 3:
+        return False
+    bottom, side = np.diff(points[:3, 1:], axis=0)
+    flat = points[0, 1] == 0.0 and bottom[0] > 0.0 and abs(bottom[1]) < same
+    return bool(flat and abs(side[0]) <= _UPRIGHT_SIDE * side[1])
 
 
 def _open_sections(table: OffsetTable, i: int) -> Iterator[FloatArray]:

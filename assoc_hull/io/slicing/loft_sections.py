@@ -51,6 +51,9 @@ _CENTRE = 1e-3
 _ABAFT = 0.05
 """An immersed end farther (m) forward of the AP than this is where sections end, not the hull."""
 
+_BROAD = 0.4
+"""An immersed end of this part of the greatest half-breadth is a transom wherever it stands."""
+
 _WATERLINES = 13
 """How many are lofted between keel and deck edge."""
 
@@ -128,7 +131,8 @@ def loft_sections(
     if any(abs(each.points[0, 1]) > near or each.points[-1, 1] <= near for each in whole):
         return None
     aft, fore = _post(posts, whole[0].offset, -1), _post(posts, whole[-1].offset, 1)
-    transom = None if aft is not None else _transom(whole[0], draught, factor)
+    widest = max(float(each.points[:, 1].max()) for each in whole)
+    transom = None if aft is not None else _transom(whole[0], draught, factor, widest)
     profile = _profile(whole, aft, fore, tolerance)
     lines = [profile, _deck_edge(whole, aft, fore, tolerance)]
     lines += _waterlines(whole, profile, tolerance, factor)
@@ -155,10 +159,15 @@ def _post(posts: list[LineSource], x: float, side: int) -> LineSource | None:
     return next((each for each in posts if side * (each.offset - x) > 0.0), None)
 
 
-def _transom(section: LineSource, draught: float | None, factor: float) -> LineSource | None:
+def _transom(
+    section: LineSource, draught: float | None, factor: float, widest: float
+) -> LineSource | None:
     """Give the aftmost section if it is a transom, None where the hull goes on abaft of it."""
-    immersed = draught is not None and float(section.points[:, 2].min()) < draught
-    return None if immersed and section.offset > factor * _ABAFT else section
+    under = section.points[section.points[:, 2] < (np.inf if draught is None else draught)]
+    immersed = draught is not None and len(under) > 0
+    broad = len(under) > 0 and float(under[:, 1].max()) >= _BROAD * widest
+    goes_on = immersed and not broad and section.offset > factor * _ABAFT
+    return None if goes_on else section
 
 
 # --------------------------------------------------------------------------------------

@@ -8,9 +8,10 @@ import struct
 import zlib
 from random import Random
 
+from assoc_hull.geometry.surfaces.triangles import Triangles
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.text import change_bytes, change_text
-from tests.meshes import Triangles, wigley_half
+from tests.meshes import wigley_half
 
 __all__ = ["GLB", "OBJ", "PLY", "STL", "unchanged_stl"]
 

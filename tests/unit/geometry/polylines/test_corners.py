@@ -101,3 +101,10 @@ def test_corners_that_do_not_line_up_are_not_joined() -> None:
         lines.append(find_corners(curve.digitised(i), NOISE))
     assert [len(each) for each in lines] == [1] * 5
     assert join_corners(0.5 * np.arange(5.0), lines) == []
+
+
+def test_both_feet_of_plumb_ends_on_one_chord_of_keel_are_corners() -> None:
+    """Four points draw the profile of a hull between plumb ends: each turns by a right angle."""
+    points = np.array([[0.0, 9.0], [0.0, 0.0], [100.0, 0.0], [100.0, 9.0]])
+    found = find_corners(points, 0.0)
+    assert [corner.place.tolist() for corner in found] == [[0.0, 0.0], [100.0, 0.0]]
