@@ -12,7 +12,7 @@ from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict
 from assoc_hull.io.lines.boundary_holes import HOLE
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.reports import Note, OffsetReport
-from assoc_hull.io.slicing.net import SliceReport
+from assoc_hull.io.slicing.net import LOFTED, SliceReport
 from assoc_hull.model.tables import HullState
 
 __all__ = ["finding_of", "judge", "verdict_notes"]
@@ -41,7 +41,8 @@ def judge(
         stated = {name: said for name, said in stated.items() if name not in _COMPARED}
     known = frame is not None and frame.origins.get("breadth") in ("given", "stated")
     examine_particulars(state, found, stated, broad=known)
-    examine_net(state, adoption, found)
+    drawn = slices is not None and LOFTED not in notes.kinds("assumptions")
+    examine_net(state, adoption, found, drawn=drawn)
     return found.verdict()
 
 

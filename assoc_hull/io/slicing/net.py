@@ -34,6 +34,7 @@ from assoc_hull.model.tables import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
+    "LOFTED",
     "SliceReport",
     "net_from_slices",
     "sources_from_slices",
@@ -333,6 +334,10 @@ def net_from_slices(
     return state, report
 
 
+LOFTED = "sections alone"
+"""The kind of what is told of profile and deck edge that no file has."""
+
+
 def _with_longitudinals(
     sources: list[LineSource],
     smoothing: list[SmoothReport],
@@ -349,7 +354,7 @@ def _with_longitudinals(
             "no profile, deck edge or waterline is given, and sections in several curves or away "
             "from the centre plane do not tell them: give them"
         )
-        note = Note("sections alone", where, what, len(sources))
+        note = Note(LOFTED, where, what, len(sources))
         return sources, smoothing, attrs.evolve(told, suspicions=(*told.suspicions, note))
     gone = {*lofted.posts, lofted.transom}
     pairs = [
@@ -364,7 +369,7 @@ def _with_longitudinals(
         what += f"; {lofted.transom} is the edge of the transom"
     if lofted.posts:
         what += f"; {' and '.join(lofted.posts)}, in the centre plane, part of the profile"
-    note = Note("sections alone", where, what, len(sources))
+    note = Note(LOFTED, where, what, len(sources))
     told = attrs.evolve(told, assumptions=(*told.assumptions, note))
     return [source for source, _ in pairs], [report for _, report in pairs], told
 

@@ -1,6 +1,7 @@
 """The verdict on an import: what makes a hull not sound, what is suspected, and what is refused."""
 
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -242,6 +243,36 @@ def test_lines_that_pass_one_another_are_a_fault(tmp_path: Path) -> None:
     assert len(told) >= 12, verdict
     assert all(each.where.startswith("ST ") and " x WL 3 at (" in each.where for each in told)
     assert read(sections(), tmp_path)[1].faults == ()
+
+
+def parted(hole: float) -> str:
+    """The same with deck edge and a profile whose keel lacks so much (m) amidships."""
+    x, z = np.linspace(0.0, L, 41), np.linspace(0.0, D, 19)
+    rows = []
+    for name, level, water in (("deck edge", D, T), ("WL 3", 3.0, 3.0)):
+        half = wigley_half_breadth(x, np.full(len(x), water), L, B, T)
+        rows += [f"{name},{a:g},{b:.6f},{level:g},1" for a, b in zip(x, half, strict=True)]
+    aft = [*((0.0, c) for c in z[::-1]), *((a, 0.0) for a in x[1:20]), (0.5 * (L - hole), 0.0)]
+    rows += [f"profile,{a:g},0,{c:g},1" for a, c in aft]
+    rows += [f"profile,{L - a:g},0,{c:g},2" for a, c in aft[::-1]]
+    rows += [f"{row},1" for row in sections().splitlines()[1:]]
+    return "\n".join(["line,x,y,z,piece", *rows]) + "\n"
+
+
+def test_a_hole_in_the_profile_is_refused_with_a_join_that_closes_it(tmp_path: Path) -> None:
+    """The message names the place; `join=` as told leads to a hull that is sound and closes."""
+    path = tmp_path / "holed.csv"
+    path.write_text(parted(0.17))
+    with pytest.raises(NotSoundError, match=r"hole of 170 mm at \(50, 0, 0\) m") as refused:
+        ah.read(path, length=L, draught=T)
+    told = re.search(r"join= of ([\d.]+) m", str(refused.value))
+    assert told is not None
+    hull = ah.read(path, length=L, draught=T, join=float(told[1]), strict=True)
+    assert hull.mesh().triangles.face.size
+    # So wide that no width is proposed: something is missing that no chord can stand for.
+    path.write_text(parted(2.0))
+    with pytest.raises(NotSoundError, match=r"open net.*profile at \(51\.000, 0\.000, 0\.000\) m"):
+        ah.read(path, length=L, draught=T)
 
 
 @pytest.mark.parametrize(("short", "made"), [(0.0, 0), (5e-5, 0), (0.04, 1)])
