@@ -20,9 +20,9 @@ from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.io.importing.verdict import Findings, ImportFinding
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.gaps import gap_at, watched_on
+from assoc_hull.model.gaps import gap_at, tangents, watched_on
 from assoc_hull.model.kinds import BoundaryKind
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import CurveIntersections, HullState
 from assoc_hull.surface.cells.net_faces import sound_cells
 
 __all__ = ["STUMBLES", "examine_net", "look", "open_net_note", "sampled_places"]
@@ -39,6 +39,9 @@ _MOST = 0.5
 
 _REACH = 0.25
 """Lines that miss one another by less, in breadths of the ship, were to cross."""
+
+_STEEP = 0.02
+"""A curve that meets a plane at a smaller angle (sine) runs along it."""
 
 _SAMPLES = 8
 """Places on each segment at which a curve is looked at."""
@@ -210,8 +213,20 @@ def _latent_places(state: HullState) -> dict[tuple[int, int], FloatArray]:
     for curve in state.live("curves").tolist():
         meets = state.curves.meets.data[curve]
         free = (meets.row < 0) & np.isfinite(meets.xyz).all(axis=1)
+        if free.any():
+            free[free] = _through(state, curve, meets.take(free))
         for line in np.unique(meets.line[free]).tolist():
             found[curve, line] = meets.xyz[free & (meets.line == line)]
+    return found
+
+
+def _through(
+    state: HullState, curve: int, meets: CurveIntersections
+) -> np.typing.NDArray[np.bool_]:
+    """Tell where a curve passes through planes, (k,); along one that it runs in it is chance."""
+    slope = tangents(state, np.full(len(meets.line), curve), meets.parameter)
+    sine = np.abs((slope * state.lines.normal.data[meets.line]).sum(axis=1))
+    found: np.typing.NDArray[np.bool_] = sine >= _STEEP
     return found
 
 
