@@ -197,7 +197,7 @@ def _level(outline: HullOutline, z: float) -> Level:
     """Measure a waterline; that of the whole extent where the hull has none at this height."""
     x = outline.xyz[:, 0]
     half = float(np.abs(outline.xyz[:, 1]).max())
-    return outline.level(z) or Level(float(x.min()), float(x.max()), half)
+    return outline.level(outline.inside(z)) or Level(float(x.min()), float(x.max()), half)
 
 
 def _base(

@@ -48,6 +48,10 @@ class Level:
     half_breadth: float
 
 
+_RIM = 1e-9
+"""Of the height of a hull: what is nearer to its top lies at it."""
+
+
 @attrs.frozen(eq=False)
 class HullOutline:
     """Edges of a hull and its contour in the centre plane.
@@ -92,6 +96,15 @@ class HullOutline:
     def size(self) -> float:
         """Length over all, m."""
         return float(np.ptp(self.xyz[:, 0]))
+
+    def inside(self, z: float) -> float:
+        """Give a height, m; at the very top of the hull that right below it.
+
+        A hull may end at its waterline: rounding must not tell what is left above.
+        """
+        low, high = float(self.low[2]), float(self.high[2])
+        rim = _RIM * (high - low)
+        return high - rim if abs(z - high) < rim else z
 
     def cut(self, axis: int, value: float) -> FloatArray:
         """Give the places where edges pass a plane across an axis, (k, 3); edges in it count."""

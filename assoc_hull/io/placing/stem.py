@@ -43,7 +43,7 @@ class StemPlace:
 
 def find_stem(outline: HullOutline, z: float, level: Level) -> StemPlace:
     """Find where the stem meets the waterline at a height, m."""
-    size = level.fore - level.aft
+    size, z = level.fore - level.aft, outline.inside(z)
     crossing = outline.contour(z)
     bow = crossing[crossing > level.fore - _BOW * size]
     if not len(bow):
