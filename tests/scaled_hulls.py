@@ -17,10 +17,10 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles
 from assoc_hull.hull import Hull
+from assoc_hull.io.iges.write import iges_text
 from assoc_hull.io.importing.import_hull import ImportReport, import_hull
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.lines.line_points import lines_as_points
-from assoc_hull.io.surfaces.surface_file import write_surfaces
 from assoc_hull.model.tables import HullState
 from assoc_hull.shipped.series60 import todd_table
 from tests import meshes
@@ -39,7 +39,7 @@ class ScaledHull:
     ending : str
         Of its file.
     write : callable
-        Writes to a path with coordinates, m at 100 m, times a factor.
+        Writes to a path with coordinates, m at 100 m, times a factor; in a unit.
     draught, breadth : float, m
         At 100 m.
     cuts : dict
@@ -47,7 +47,7 @@ class ScaledHull:
     """
 
     ending: str
-    write: Callable[[Path, float], None]
+    write: Callable[[Path, float, str], None]
     draught: float
     breadth: float
     cuts: dict[str, Any] = attrs.field(factory=dict)
@@ -57,7 +57,7 @@ class ScaledHull:
     ) -> tuple[HullState, ImportReport]:
         """Write the file of the hull at a scale (part of 100 m) in a unit, and import it."""
         path = folder / f"hull{self.ending}"
-        self.write(path, scale / UNITS[unit])
+        self.write(path, scale / UNITS[unit], unit)
         wanted = ImportOptions(
             length=scale * LENGTH, draught=scale * self.draught, breadth=scale * self.breadth,
             unit=unit, accept=True, **self.cuts,
@@ -82,7 +82,7 @@ def digitised(hull: Hull, chord: float = 2e-3) -> ScaledHull:
         for number, piece in enumerate(line.pieces)
     ]
 
-    def write(path: Path, factor: float) -> None:
+    def write(path: Path, factor: float, _: str) -> None:
         path.write_text(_lines_text(lines, factor), encoding="utf-8")
 
     return ScaledHull(".csv", write, grown * ship.draught, grown * ship.breadth)
@@ -96,7 +96,7 @@ def series60_table(block: float) -> ScaledHull:
     y = np.round(grown * table.half_breadth, 6)
     assert table.draught is not None
 
-    def write(path: Path, factor: float) -> None:
+    def write(path: Path, factor: float, _: str) -> None:
         head = ",".join(["x", *(f"wl_{value!r}" for value in (factor * z).tolist())])
         rows = [
             ",".join([repr(at), *("" if np.isnan(b) else repr(b) for b in values)])
@@ -112,7 +112,7 @@ def meshed(mesh: Triangles, draught: float, breadth: float, cuts: dict[str, int]
     xyz = np.round(mesh.xyz, 6)
     faces = [f"f {i} {j} {k}" for i, j, k in (mesh.face + 1).tolist()]
 
-    def write(path: Path, factor: float) -> None:
+    def write(path: Path, factor: float, _: str) -> None:
         rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in (factor * xyz).tolist()]
         path.write_text("\n".join([*rows, *faces]) + "\n", encoding="utf-8")
 
@@ -129,13 +129,16 @@ def yacht_mesh() -> Triangles:
 
 
 def surfaces() -> ScaledHull:
-    """The Wigley hull as one surface, as IGES in the unit metre."""
+    """The Wigley hull as one surface, as IGES."""
     z, breadth = np.array([0.0, 3.125, 6.25]), np.array([0.0, 10.0, 10.0])
     rows = ((0.0, 0.0), (50.0, 1.0), (LENGTH, 0.0))
     net = np.array([np.column_stack([np.full(3, x), part * breadth, z]) for x, part in rows])
 
-    def write(path: Path, factor: float) -> None:
-        write_surfaces([SplineSurface.bezier(factor * net, "hull")], path)
+    def write(path: Path, factor: float, unit: str) -> None:
+        # The writer takes metres and the unit that the file is to declare.
+        metres = factor * UNITS[unit] * net
+        text = iges_text([SplineSurface.bezier(metres, "hull")], unit)
+        path.write_text(text, encoding="ascii")
 
     return ScaledHull(".igs", write, 6.25, 10.0, {"stations": 9, "waterlines": 4, "buttocks": 2})
 

@@ -205,3 +205,23 @@ def test_a_catamaran_is_read_by_its_remedy_and_floats_as_a_ship(tmp_path: Path) 
     assert ship.kmt == pytest.approx(truth.kb + inertia / (2.0 * truth.volume), rel=1e-3)
     assert hull.adoption is not None
     assert any("of 2 hulls side by side" in note for note in hull.adoption.notes)
+
+
+def test_a_surface_that_crosses_itself_is_told_as_that_with_a_place() -> None:
+    """Its folds look like hulls side by side, and no centre plane would help."""
+    hull = meshes.wigley_half(81, 31)
+    x, y, z = hull.xyz.T
+    near = (np.abs(z - 3.0) < 1.0) * y
+    folded = np.column_stack(
+        [
+            x, y + 0.3 * near * np.sin(2.0 * np.pi * z + 1.0),
+            z + 0.7 * near * np.sin(np.pi * (z - 3.0)),
+        ]
+    )  # fmt: skip
+    words = refusal(Triangles(folded, hull.face))
+    assert "the surface crosses itself" in words
+    assert "side by side" not in words
+    at = [float(each) for each in re.findall(r"[xyz] = ([-0-9.]+)", words)]
+    # The place lies on the fold, which is 1 m high about z = 3.
+    assert 0.0 < at[0] < 100.0
+    assert abs(at[2] - 3.0) < 2.0
