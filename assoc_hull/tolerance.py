@@ -1,5 +1,14 @@
 """Every tolerance of the kernel in one frozen value: lengths in metres, and why each is so.
 
+Lengths hold for hulls of 100 m and more, and are less in proportion for others. These stay what
+they are, whatever the hull:
+
+- `IN_PLANE` and `SAME_PLANE`, and points of a file that repeat one another (1e-6 m): coordinates
+  are written with micrometres at best;
+- what is of the order of rounding (1e-9 m and less): it comes from the digits of numbers, and lies
+  far below what any hull of 1 m or more shows;
+- the lengths between which a hull may lie at full scale (1 to 600 m): others show a wrong unit.
+
 Examples
 --------
 >>> from assoc_hull.tolerance import Tolerances

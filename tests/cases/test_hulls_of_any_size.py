@@ -87,6 +87,17 @@ def test_files_in_feet_and_inches_are_the_same_hull(name: str, tmp_path: Path) -
     check(name, UNITS, tmp_path)
 
 
+def test_water_at_the_edge_of_the_deck_has_its_whole_waterplane(tmp_path: Path) -> None:
+    """A hull that ends at its draught, whose edge is level but for rounding: CW is 2/3 by formula.
+
+    The deck edge is a little wet here and a little dry there, and the stem ends at the water.
+    """
+    state, report = scaled_hull("Wigley, surface").read(tmp_path, 1.0 / 25.0)
+    assert coefficients(state)[3] == pytest.approx(2.0 / 3.0, abs=1e-4)
+    assert report.frame is not None
+    assert report.frame.ap == pytest.approx(0.0, abs=1e-3)
+
+
 def test_tolerances_of_100_m_and_more_are_the_usual_ones() -> None:
     """Lengths shrink below 100 m only, in proportion; angles and parts never do."""
     assert Tolerances.of_length(100.0) == Tolerances.of_length(355.0) == Tolerances()
