@@ -642,12 +642,14 @@ class OpenNetError(AssocHullError, ValueError):
 
 @attrs.define(slots=False, eq=False)
 class NotSoundError(AssocHullError, ValueError):
-    """A hull that was read from a file is not sound, and nobody said to take it all the same.
+    """A hull that was read from a file, or a surface to be written to one, is not sound.
+
+    Nobody said to take it all the same.
 
     Attributes
     ----------
     source : str
-        The file.
+        The file, or the surface.
     findings : tuple of str
         Everything that is wrong, each with its place and number.
     suspected : bool

@@ -41,6 +41,7 @@ import assoc_hull as ah
 from assoc_hull.errors import MissingExtraError
 from assoc_hull.io.export.write import FORMS
 from assoc_hull.io.mesh.closed_mesh import write_mesh
+from assoc_hull.io.rhino.read import RhinoModel, read_rhino
 from tests.cases.dtc import read_dtc
 from tests.twins import packed, twin
 from tests.unchanged_acts import Act, draw
@@ -212,8 +213,17 @@ def _exports(hull: ah.Hull) -> Facts:
     facts = dict[str, str]()
     for form in FORMS:
         write = partial(hull.export, form=form)
-        facts[f"file {form}"] = _outcome(partial(_written, write, ".out"))
+        give = _rhino_model if form == "3dm" else _written
+        facts[f"file {form}"] = _outcome(partial(give, write, ".out"))
     return facts
+
+
+def _rhino_model(write: Callable[[Path], object], ending: str) -> RhinoModel:
+    """What a file of Rhino says of the lines; its bytes hold the time at which it was written."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"ship{ending}"
+        write(path)
+        return read_rhino(path)
 
 
 def _surfaces(hull: ah.Hull) -> Facts:
@@ -231,7 +241,8 @@ def _surfaces(hull: ah.Hull) -> Facts:
         return facts | {"surface": f"refused {_refusal(error)}"}
     facts["surface"] = hash_of(found.document())
     for ending in (".igs", ".step"):
-        facts[f"file {ending[1:]}"] = _outcome(partial(_written, found.write, ending))
+        write = partial(found.write, accept=True)
+        facts[f"file {ending[1:]}"] = _outcome(partial(_written, write, ending))
     return facts
 
 

@@ -14,7 +14,7 @@ from assoc_hull.analysis.production_arcs import ArcLines
 from assoc_hull.cli.arguments import Commands, add_command, add_hull, add_json, parse_length
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, NotSoundError
 from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.io.reports import ExportReport
 from assoc_hull.io.write_file import form_by_ending
@@ -33,12 +33,14 @@ __all__ = [
     "export_words",
     "file_words",
     "mesh_words",
+    "tell_faults",
 ]
 
 # --------------------------------------------------------------------------------------
 # Options of `export` that do not go together, refused before anything is computed.
 
 _MESHES = ("stl", "stl-text", "obj", "ply", "glb")
+_PATCHES = ("step", "iges", "iges-brep", "iges-surfaces")
 
 
 def check_arcs(arguments: argparse.Namespace) -> None:
@@ -65,6 +67,7 @@ def check_arcs(arguments: argparse.Namespace) -> None:
             "--unit is none of arcs, which are in m": arguments.unit is not None,
             "--half is none of arcs, which are those of one half": arguments.half,
             "--points is none of arcs": arguments.points is not None,
+            "--accept is none of arcs": arguments.accept,
         }
         remedy = "leave it out, and end the file in .dxf or .csv"
     _refuse(told, name, remedy)
@@ -92,6 +95,8 @@ def check_form(arguments: argparse.Namespace, form: str, *, mesh_or_surface: boo
         "--views chooses the views of a drawing": arguments.views is not None and form != "dxf",
         "--half is for surfaces and meshes": arguments.half and not mesh_or_surface,
         "--points is for meshes": arguments.points is not None and form not in _MESHES,
+        "--accept is for surfaces": arguments.accept
+        and form not in (*_PATCHES, "3dm"),
         "--unit is for drawings, surfaces and meshes": arguments.unit is not None
         and not (drawn or mesh_or_surface or form in ("iges-lines", "3dm")),
     }  # fmt: skip
@@ -215,6 +220,13 @@ def cad_words(report: CadReport) -> str:
     return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
 
 
+def tell_faults(arguments: argparse.Namespace, error: NotSoundError) -> None:
+    """Tell every fault of a surface that is not written, before the one line of the error."""
+    faults = "\n".join(error.findings)
+    facts = {"export": None, "faults": error.findings}
+    emit(arguments, facts, f"{faults}\nnot written: {arguments.out}")
+
+
 # --------------------------------------------------------------------------------------
 # The command that writes a hull in the form of another program.
 
@@ -274,6 +286,10 @@ def add_export(commands: Commands) -> None:
         "--points", type=int, metavar="N",
         help="of a mesh: parts of each line between two crossings, even (default: 4)",
     )  # fmt: skip
+    parser.add_argument(
+        "--accept", action="store_true",
+        help="write a surface too whose halves cross or that leaves its residual limits",
+    )  # fmt: skip
     _add_drawing(parser)
     _add_arcs(parser)
     add_json(parser)
@@ -319,11 +335,15 @@ def _export(arguments: argparse.Namespace) -> int:
     form = check_form(arguments, form, mesh_or_surface=form in _SURFACES)
     check_other_target(arguments.out, arguments.hull)
     hull = open_hull(arguments.hull)
-    with progress(f"writing {arguments.out}"):
-        report = hull.export(
-            arguments.out, form, arguments.unit, scale=arguments.scale, half=arguments.half,
-            points=arguments.points,
-        )  # fmt: skip
+    try:
+        with progress(f"writing {arguments.out}"):
+            report = hull.export(
+                arguments.out, form, arguments.unit, scale=arguments.scale, half=arguments.half,
+                points=arguments.points, accept=arguments.accept,
+            )  # fmt: skip
+    except NotSoundError as error:
+        tell_faults(arguments, error)
+        raise
     words = export_words if isinstance(report, ExportReport) else file_words
     emit(arguments, {"export": report}, words(report))
     return 0

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, NotSoundError
 from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
@@ -39,6 +39,10 @@ def add_surface(commands: Commands) -> None:
     parser.add_argument("--unit", choices=("m", "mm"), help="of FILE (default: mm, m of meshes)")
     parser.add_argument("--half", action="store_true", help="write the port half only")
     parser.add_argument(
+        "--accept", action="store_true",
+        help="write it too if its halves cross or it leaves its residual limits",
+    )  # fmt: skip
+    parser.add_argument(
         "--leave-out", nargs="+", default=[], metavar="NAME",
         help=f"lines that are not fitted, but measured; {_FOURTH}: of the waterlines and sections",
     )  # fmt: skip
@@ -58,10 +62,16 @@ def _surface(arguments: argparse.Namespace) -> int:
     words, saved = [str(found)], []
     document = found.document()
     if arguments.out is not None:
-        from assoc_hull.cli.export import file_words
+        from assoc_hull.cli.export import file_words, tell_faults
 
-        with progress(f"writing {arguments.out}"):
-            report = found.write(arguments.out, unit=arguments.unit, half=arguments.half)
+        try:
+            with progress(f"writing {arguments.out}"):
+                report = found.write(
+                    arguments.out, unit=arguments.unit, half=arguments.half, accept=arguments.accept
+                )
+        except NotSoundError as error:
+            tell_faults(arguments, error)
+            raise
         saved.append(str(arguments.out))
         words += ["", file_words(report)]
     if arguments.picture is not None:
@@ -84,7 +94,10 @@ def _check_targets(arguments: argparse.Namespace) -> None:
         Another ending, a name that is in use, or options without a file; no matplotlib.
     """
     if arguments.out is None:
-        for what, given in (("--unit", arguments.unit is not None), ("--half", arguments.half)):
+        for what, given in (
+            ("--unit", arguments.unit is not None), ("--half", arguments.half),
+            ("--accept", arguments.accept),
+        ):  # fmt: skip
             if given:
                 raise BadInputError(f"{what} is for a file", "in surface", "give it with -o FILE")
     else:

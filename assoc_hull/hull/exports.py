@@ -10,7 +10,7 @@ import os
 from assoc_hull.arguments import flag
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull.results import surface_of_hull
-from assoc_hull.io.cad.write import CadReport
+from assoc_hull.io.cad.write import CAD_FORMS, CadReport
 from assoc_hull.io.export.write import ENDINGS, FORMS, export_hull
 from assoc_hull.io.mesh.closed_mesh import MESH_FORMS, MeshFile, write_mesh
 from assoc_hull.io.reports import ExportReport
@@ -33,21 +33,24 @@ def export_file(
     scale: float | None = None,
     half: bool = False,
     points: int | None = None,
+    accept: bool = False,
 ) -> ExportReport | CadReport | MeshFile:
     """Write a hull in a form of lines, surfaces or meshes; arguments as of `Hull.export`."""
     forms, endings = (*FORMS, *SURFACE_FORMS), {**ENDINGS, **SURFACE_ENDINGS}
     chosen = form_by_ending(path, form, forms, endings, "in export")
     alone, state = flag(half, "half", "in export"), state_of(hull, "in export")
     _refuse("points", "meshes", given=points is not None and chosen not in MESH_FORMS)
+    taken = flag(accept, "accept", "in export")
+    _refuse("accept", "surfaces", given=taken and chosen not in (*CAD_FORMS, "3dm"))
     if chosen in FORMS:
         _refuse("half", "surfaces and meshes", given=alone)
-        return export_hull(state, path, chosen, unit, scale=scale)
+        return export_hull(state, path, chosen, unit, scale=scale, accept=taken)
     _refuse("scale", "a lines plan", given=scale is not None)
     if chosen in MESH_FORMS:
         # The mesh comes from the lines: it needs no surface, which takes longer.
         mesh = closed_mesh(hull, half=alone, points=_POINTS if points is None else points)
         return write_mesh(mesh, path, chosen, unit=unit, name=state.particulars.name or "hull")
-    return surface_of_hull(hull).write(path, chosen, unit=unit, half=alone)
+    return surface_of_hull(hull).write(path, chosen, unit=unit, half=alone, accept=taken)
 
 
 def _refuse(name: str, what: str, *, given: bool) -> None:

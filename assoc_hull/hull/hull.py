@@ -2075,6 +2075,7 @@ class Hull:
         scale: float | None = None,
         half: bool = False,
         points: int | None = None,
+        accept: bool = False,
     ) -> Any:
         """Write offsets, lines, the surface or the closed mesh for other programs.
 
@@ -2092,6 +2093,8 @@ class Hull:
             Of surfaces and meshes: the port half only.
         points : int or None
             Of a mesh: into how many parts each piece of a line between two crossings is cut.
+        accept : bool
+            Of surfaces: also one that crosses the centre plane or leaves its residual limits.
 
         Returns
         -------
@@ -2103,11 +2106,15 @@ class Hull:
         BadInputError, MissingExtraError, OpenNetError, OpenMeshError
             A form, unit or option that is not known or does not go with it, a file that cannot be
             written, an extra that is not installed, a mesh that does not close.
+        NotSoundError
+            A surface whose halves cross or that leaves a limit, which was not accepted.
         """
         from assoc_hull.hull.exports import export_file
 
         self.document.require_ended("export")
-        return export_file(self, path, form, unit, scale=scale, half=half, points=points)
+        return export_file(
+            self, path, form, unit, scale=scale, half=half, points=points, accept=accept
+        )
 
     def refresh(self) -> None:
         """Take over what another process has committed to the hull file since."""

@@ -428,6 +428,7 @@ class HullSurface(NetSurface):
         *,
         unit: str | None = None,
         half: bool = False,
+        accept: bool = False,
     ) -> CadReport | MeshFile:
         """Write it for CAD programs, or the closed mesh.
 
@@ -442,15 +443,17 @@ class HullSurface(NetSurface):
             Of the file: mm of CAD files if None, m of meshes.
         half : bool
             The half y >= 0 only; both sides otherwise.
+        accept : bool
+            Write patches too that cross the centre plane or leave their residual limits.
 
         Raises
         ------
-        BadInputError, MissingExtraError, OpenNetError, OpenMeshError
+        BadInputError, MissingExtraError, NotSoundError, OpenNetError, OpenMeshError
             See there.
         """
         from assoc_hull.io.surfaces.hull_surface import write_surface
 
-        return write_surface(self, path, form, unit=unit, half=half)
+        return write_surface(self, path, form, unit=unit, half=half, accept=accept)
 
     def __str__(self) -> str:
         return text_of(self)

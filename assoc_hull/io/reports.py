@@ -181,12 +181,15 @@ class ExportBook:
         Its unit, where the form has several.
     paper : float or None
         Denominator of the scale at which a drawing is to be printed; None: a fitting one.
+    accept : bool
+        Write a surface that is not sound as well.
     """
 
     decimals: int
     scale: float = 1.0
     unit: str = "m"
     paper: float | None = None
+    accept: bool = False
     lines: int = 0
     curves: int = 0
     points: int = 0

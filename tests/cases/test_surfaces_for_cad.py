@@ -6,9 +6,12 @@ Series 60 always; the DTC, with bulb and stern bulb, and the carrier with ``ASSO
 from __future__ import annotations
 
 import os
+from pathlib import Path
 
 import pytest
 
+import assoc_hull as ah
+from assoc_hull.errors import NotSoundError
 from assoc_hull.hull import Hull
 from assoc_hull.io.cad.check_file import area_of
 from assoc_hull.io.cad.write import cad_bytes
@@ -34,3 +37,23 @@ def test_the_whole_hull_is_one_shell(name: str, request: pytest.FixtureRequest) 
     assert (found.joined_edges, found.free_edges) == SHIPS[name]
     assert found.control_point_error < 1e-8
     assert found.area == pytest.approx(2.0 * sum(map(area_of, patches)), rel=1e-6)
+
+
+def test_a_surface_that_leaves_its_limits_is_written_if_it_is_accepted(tmp_path: Path) -> None:
+    """A tolerance no fit can keep: refused with the block, both sizes and the place."""
+    hull, path = ah.examples.wigley(stations=9, waterlines=6), tmp_path / "hull.igs"
+    found = hull.surface(tolerance=1e-6)
+    with pytest.raises(NotSoundError, match=r"body: 95 % .* over the limit of 0\.0 mm; .* at \("):
+        found.write(path, "iges-surfaces")
+    assert not path.exists()
+    found.write(path, "iges-surfaces", accept=True)
+    assert path.exists()
+
+
+def test_halves_that_cross_are_left_out_of_a_rhino_file(series60_70: Hull, tmp_path: Path) -> None:
+    """The lines and the mesh are written; the report says where the surface is not sound."""
+    pytest.importorskip("rhino3dm")
+    report = series60_70.export(tmp_path / "hull.3dm")
+    (note,) = (each for each in report.left_out if each.kind == "surface")
+    assert "waves across the centre plane by 0.40 mm at (-0.01, -0.00, 6.18)" in str(note)
+    assert "accept=True" in str(note)

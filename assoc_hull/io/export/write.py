@@ -208,6 +208,7 @@ def export_hull(
     unit: str | None = None,
     *,
     scale: float | None = None,
+    accept: bool = False,
 ) -> ExportReport:
     """Write a hull in a form.
 
@@ -224,6 +225,8 @@ def export_hull(
     scale : float or None
         Of a lines plan: denominator of the scale at which it is to be printed, such as 200. It
         changes letters, not lines, which are drawn at full size. None fits a sheet of A1.
+    accept : bool
+        Write a surface too that crosses the centre plane or leaves its residual limits.
 
     Returns
     -------
@@ -242,7 +245,7 @@ def export_hull(
     if scale is not None and not chosen.on_paper:
         what = f"the form {name} has no scale on paper"
         raise BadInputError(what, "in export", "leave the scale out")
-    book.paper = scale
+    book.paper, book.accept = scale, accept
     write_whole(path, chosen.write(state, book))
     report = book.report(os.fspath(path), name)
     return attrs.evolve(report, rounding=0.0) if chosen.decimals == _EXACT else report

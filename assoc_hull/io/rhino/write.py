@@ -17,7 +17,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.net.curve_net import gather_net
-from assoc_hull.errors import AssocHullError, BadInputError, MissingExtraError
+from assoc_hull.errors import AssocHullError, BadInputError, MissingExtraError, NotSoundError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.splines.control_polygon import control_polygon
@@ -28,6 +28,7 @@ from assoc_hull.model.kinds import FAMILIES
 from assoc_hull.model.tables import HullState
 from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import fit_options, length_of
+from assoc_hull.surface.blocks.net_surface import require_sound_surface
 from assoc_hull.surface.cells.closed_mesh import mesh_of_net
 
 __all__ = ["rhino_file", "rhino_module"]
@@ -76,8 +77,12 @@ def rhino_file(state: HullState, book: ExportBook) -> bytes:
     _add_lines(file, state)
     tell_losses(state, book)
     try:
-        for patch in surface_of_net(state, fit_options(length_of(state))).patches:
+        surface = surface_of_net(state, fit_options(length_of(state)))
+        require_sound_surface(surface, accept=book.accept)
+        for patch in surface.patches:
             file.add_surface(patch)
+    except NotSoundError as error:
+        book.leave_out("surface", "the hull", str(error))
     except AssocHullError as error:
         book.leave_out("surface", "the hull", f"none can be fitted: {error}")
     try:

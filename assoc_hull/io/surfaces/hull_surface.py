@@ -23,7 +23,12 @@ from assoc_hull.io.tables.json_schema import (
 )
 from assoc_hull.io.write_file import form_by_ending
 from assoc_hull.model.value_schema import NAME, NOT_NEGATIVE, POSITIVE, REAL, TEXT, list_of, one_of
-from assoc_hull.surface.blocks.net_surface import FORMAT, SCHEMA, NetSurface
+from assoc_hull.surface.blocks.net_surface import (
+    FORMAT,
+    SCHEMA,
+    NetSurface,
+    require_sound_surface,
+)
 from assoc_hull.surface.cells.closed_mesh import mesh_of_net
 
 __all__ = [
@@ -64,6 +69,7 @@ def write_surface(
     *,
     unit: str | None = None,
     half: bool = False,
+    accept: bool = False,
 ) -> CadReport | MeshFile:
     """Write the surface of a hull.
 
@@ -80,6 +86,8 @@ def write_surface(
         Of the file: mm of CAD files if None, m of meshes.
     half : bool
         The half y >= 0 only; both sides are joined on the centre plane otherwise.
+    accept : bool
+        Write patches too that cross the centre plane or leave their residual limits.
 
     Returns
     -------
@@ -92,13 +100,17 @@ def write_surface(
         A form or unit that is not known; a file that cannot be written, or is not sound.
     MissingExtraError
         The form needs a library that is not installed; its extra is named.
+    NotSoundError
+        The halves cross or a limit is left, and that was not accepted; where and how far is told.
     OpenNetError, OpenMeshError
         The mesh does not close.
     """
     instance(found, NetSurface, "the surface", _WHERE)
     chosen, name = surface_form_of(path, form), found.particulars.name or "hull"
     alone = flag(half, "half", _WHERE)
+    taken = flag(accept, "accept", _WHERE)
     if chosen in CAD_FORMS:
+        require_sound_surface(found, accept=taken)
         return write_cad(found.patches, path, chosen, unit=unit or "mm", half=alone, name=name)
     return write_mesh(mesh_of_net(found.net, half=alone), path, chosen, unit=unit, name=name)
 

@@ -29,6 +29,7 @@ __all__ = [
     "doubts_of_border",
     "doubts_of_fit",
     "doubts_of_half",
+    "doubts_of_limits",
     "doubts_of_penalty",
     "doubts_of_shape",
     "line_distances",
@@ -239,8 +240,18 @@ def shown_place(place: FloatArray) -> str:
 
 def doubts_of_fit(kind: str, found: Residuals, options: FitOptions) -> Iterator[str]:
     """Say where the surface of a block of this kind leaves the lines that it was fitted to."""
-    limit, where = options.limit(kind), f"at {shown_place(found.place)} on {found.line}"
-    largest = f"the largest is {1e3 * found.largest:.1f} mm {where}"
+    yield from doubts_of_limits(kind, found, options)
+    limit, largest = options.limit(kind), _largest(found)
+    if found.largest > _STEM * limit and _beside_centre(found, options) and kind != "body":
+        yield f"stem not resolved: {largest}"
+    elif found.p99 > max(_KNUCKLE * found.p95, limit):
+        p99 = 1e3 * found.p99
+        yield f"missing knuckle? 99 % of the residuals are up to {p99:.1f} mm; {largest}"
+
+
+def doubts_of_limits(kind: str, found: Residuals, options: FitOptions) -> Iterator[str]:
+    """Say that the residuals of a block of this kind are over their limits."""
+    limit, largest = options.limit(kind), _largest(found)
     if found.p95 > limit:
         yield (
             f"95 % of the residuals are up to {1e3 * found.p95:.1f} mm, over the limit of "
@@ -249,13 +260,13 @@ def doubts_of_fit(kind: str, found: Residuals, options: FitOptions) -> Iterator[
     if found.median > options.median_limit:
         yield (
             f"the median residual is {1e3 * found.median:.2f} mm, over the limit of "
-            f"{1e3 * options.median_limit:.2f} mm"
+            f"{1e3 * options.median_limit:.2f} mm; {largest}"
         )
-    if found.largest > _STEM * limit and _beside_centre(found, options) and kind != "body":
-        yield f"stem not resolved: {largest}"
-    elif found.p99 > max(_KNUCKLE * found.p95, limit):
-        p99 = 1e3 * found.p99
-        yield f"missing knuckle? 99 % of the residuals are up to {p99:.1f} mm; {largest}"
+
+
+def _largest(found: Residuals) -> str:
+    where = f"at {shown_place(found.place)} on {found.line}"
+    return f"the largest is {1e3 * found.largest:.1f} mm {where}"
 
 
 def _beside_centre(found: Residuals, options: FitOptions) -> bool:

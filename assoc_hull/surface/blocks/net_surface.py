@@ -13,13 +13,20 @@ from typing import Any
 import attrs
 
 from assoc_hull.analysis.net.curve_net import CurveNet
+from assoc_hull.errors import NotSoundError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fitting.fit_input import Samples
+from assoc_hull.geometry.fitting.folds import surface_elements
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.model.tables import Particulars
 from assoc_hull.surface.blocks.fit_block import MadeBlock
 from assoc_hull.surface.blocks.fit_options import FitOptions
-from assoc_hull.surface.blocks.fit_quality import BlockBorder, Residuals
+from assoc_hull.surface.blocks.fit_quality import (
+    BlockBorder,
+    Residuals,
+    doubts_of_half,
+    doubts_of_limits,
+)
 
 __all__ = [
     "FORMAT",
@@ -28,6 +35,8 @@ __all__ = [
     "NetSurface",
     "ResidualTable",
     "document_of",
+    "require_sound_surface",
+    "surface_faults",
     "text_of",
 ]
 
@@ -145,6 +154,44 @@ class NetSurface:
     def patches(self) -> tuple[SplineSurface, ...]:
         """The surfaces of the blocks, with normals out of the hull."""
         return tuple(block.surface for block in self.blocks)
+
+
+# --------------------------------------------------------------------------------------
+# Faults, for which a surface is not written to a file.
+
+
+def surface_faults(surface: NetSurface) -> tuple[str, ...]:
+    """List where a surface crosses the centre plane or leaves its residual limits, and how far.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from assoc_hull.surface.blocks.net_surface import surface_faults
+    >>> surface_faults(ah.examples.wigley(stations=9, waterlines=6).surface())
+    ()
+    """
+    options = surface.options
+    return tuple(
+        f"{block.name}: {doubt}"
+        for block in surface.blocks
+        for doubt in (
+            *doubts_of_limits(block.kind, block.fitted, options),
+            *doubts_of_half(block.surface, surface_elements(block.surface), options),
+        )
+    )
+
+
+def require_sound_surface(surface: NetSurface, *, accept: bool) -> None:
+    """Refuse a surface with faults, unless it is accepted as it is.
+
+    Raises
+    ------
+    NotSoundError
+        All faults, each with its block, place and size.
+    """
+    faults = () if accept else surface_faults(surface)
+    if faults:
+        raise NotSoundError(f"the surface of {surface.particulars.name or 'the hull'}", faults)
 
 
 # --------------------------------------------------------------------------------------

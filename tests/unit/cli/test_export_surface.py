@@ -124,6 +124,27 @@ def test_a_surface_is_fitted_told_and_written(small: Path, facts: Json, tmp_path
     assert found["saved"] == [str(tmp_path / "a.igs")]
 
 
+def test_a_surface_with_crossing_halves_is_written_if_it_is_accepted(
+    series60_70: Hull, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Refused with code 3, no file, and the place and size of each fault; following it works."""
+    ship, out = tmp_path / "ship.hull.json", tmp_path / "a.igs"
+    series60_70.save(ship)
+    asked = ["export", str(ship), "-o", str(out), "--format", "iges-surfaces"]
+    assert main(asked) == 3
+    told = capsys.readouterr()
+    assert "stern counter: waves across the centre plane by 0.40 mm at (-0.01, -0.00, 6.18)" in (
+        told.out
+    )
+    assert f"not written: {out}" in told.out
+    assert "--accept" in told.err
+    assert not out.exists()
+    assert main(["surface", str(ship), "-o", str(out)]) == 3
+    assert not out.exists()
+    assert main([*asked, "--accept"]) == 0
+    assert out.stat().st_size > 0
+
+
 def test_the_schema_beside_the_module_is_the_one_in_use() -> None:
     """If not: ``python -m assoc_hull schema --of hull-surface -o`` writes it."""
     Draft202012Validator.check_schema(net_surface_schema())
@@ -149,6 +170,8 @@ def test_every_fourth_line_is_left_out(
         (["export", "-o", "a.csv", "--unit", "mm"], "--unit is for drawings"),
         (["export", "-o", "a.step", "--points", "2"], "--points is for meshes"),
         (["export", "-o", "a.step", "--views", "2d"], "--views chooses the views of a drawing"),
+        (["export", "-o", "a.stl", "--accept"], "--accept is for surfaces"),
+        (["surface", "--accept"], "--accept is for a file"),
         (["export", "-o", "a.dxf", "--scale", "100"], "add --views 2d"),
         (["export", "-o", "a.dxf", "--views", "2d", "--scale", "0"], "scale is 0"),
         (["export", "-o", "a.dxf", "--biarcs", "1mm", "--views", "2d"], "--views is none of arcs"),
