@@ -216,6 +216,8 @@ def cad_words(report: CadReport) -> str:
     if report.shells:
         shells = "1 shell" if report.shells == 1 else f"{report.shells} shells"
         rows.append(f"{shells}, {report.joined_edges} joined edges, {report.free_edges} free")
+    if report.volume is not None:
+        rows.append(f"beside it the solid, closed by deck and transom: {report.volume:.3f} m3")
     rows.append(f"read back: control points within {1e3 * report.control_point_error:.1e} mm")
     return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
 

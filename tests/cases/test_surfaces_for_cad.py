@@ -15,6 +15,7 @@ from assoc_hull.errors import NotSoundError
 from assoc_hull.hull import Hull
 from assoc_hull.io.cad.check_file import area_of
 from assoc_hull.io.cad.write import cad_bytes
+from assoc_hull.io.slicing.surface_lines import faces_of_file
 
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 SHIPS = {
@@ -25,18 +26,41 @@ SHIPS = {
 
 
 @pytest.mark.parametrize("name", SHIPS)
-def test_the_whole_hull_is_one_shell(name: str, request: pytest.FixtureRequest) -> None:
+def test_the_whole_hull_is_one_shell_and_a_solid(name: str, request: pytest.FixtureRequest) -> None:
     """Both sides of all blocks are joined, also where three of them meet on the centre plane.
 
-    Seams that are open, units, names and normals: the file would be refused.
+    Seams that are open, units, names and normals: the file would be refused. The solid is closed by
+    deck and transom, sound to OpenCASCADE as it is read back, and holds what the lines enclose.
     """
     hull: Hull = request.getfixturevalue(name)
-    patches = hull.surface().patches
+    surface = hull.surface()
+    patches = surface.patches
     _, found = cad_bytes(patches, "step", unit="mm")
     assert (found.faces, found.shells) == (2 * len(patches), 1)
     assert (found.joined_edges, found.free_edges) == SHIPS[name]
     assert found.control_point_error < 1e-8
     assert found.area == pytest.approx(2.0 * sum(map(area_of, patches)), rel=1e-6)
+    # Ruled caps have no share in the flux of (0, y, 0): twice the half is the solid to rounding.
+    above = hull.particulars.depth * 2.0
+    assert found.volume == pytest.approx(2.0 * surface.below(above).volume, rel=1e-7)
+    off = sum(block.fitted.largest * area_of(block.surface) for block in surface.blocks)
+    assert found.volume == pytest.approx(hull.mesh(points=16).volume, abs=2.0 * off)
+
+
+def test_a_solid_beside_its_shell_is_written_once_and_read_as_the_shell(tmp_path: Path) -> None:
+    """Of the flat-decked Wigley hull, within the largest residual of its lines; a half has none."""
+    hull, path = ah.examples.wigley(), tmp_path / "hull.step"
+    surface = hull.surface()
+    report = surface.write(path)
+    truth = hull.hydrostatics(draught=hull.particulars.depth).volume
+    off = surface.blocks[0].fitted.largest * report.area
+    assert report.volume == pytest.approx(truth, abs=off)
+    assert off < 1e-3 * truth
+    text = path.read_text()
+    assert (text.count("MANIFOLD_SOLID_BREP("), text.count("SHELL_BASED_SURFACE_MODEL(")) == (1, 1)
+    assert len(faces_of_file(path).surfaces) == 2
+    half = surface.write(path, half=True)
+    assert (half.volume, path.read_text().count("MANIFOLD_SOLID_BREP(")) == (None, 0)
 
 
 def test_a_surface_that_leaves_its_limits_is_written_if_it_is_accepted(tmp_path: Path) -> None:

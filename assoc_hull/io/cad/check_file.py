@@ -7,6 +7,7 @@ what is compared is in m.
 
 from __future__ import annotations
 
+import math
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -22,7 +23,7 @@ from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.patches.area_elements import elements_on_grid
 from assoc_hull.geometry.patches.bezier_patches import patch_normals, patch_points
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.cad.faces import faces_in, surface_of
+from assoc_hull.io.cad.faces import faces_in, solids_apart, surface_of
 from assoc_hull.io.cad.kernel import MILLIMETRES, quiet_kernel
 from assoc_hull.io.cad.read import read_shape, step_unit
 from assoc_hull.io.iges.file import UNITS, IgesFile
@@ -35,10 +36,12 @@ __all__ = [
     "declared_unit",
     "faults_of",
     "free_edges",
+    "is_closed_solid",
     "lie_along",
     "measure_file",
     "require_written",
     "shape_in",
+    "volume_of",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -139,6 +142,8 @@ class WrittenFile:
         Of all faces.
     valid : bool
         Whether OpenCASCADE finds the topology sound.
+    solids : tuple of float, m3
+        Volumes of the solids beside the shell; nan of one that is not closed.
     """
 
     unit: str
@@ -150,6 +155,7 @@ class WrittenFile:
     seams: int
     area: float
     valid: bool
+    solids: tuple[float, ...] = ()
 
 
 def declared_unit(data: bytes, kind: str) -> str:
@@ -184,7 +190,7 @@ def measure_file(data: bytes, kind: str) -> WrittenFile:
     MissingExtraError
         OpenCASCADE is not there.
     """
-    shape = shape_in(data, kind)
+    shape, solids = solids_apart(shape_in(data, kind))
     from OCP.BRepCheck import BRepCheck_Analyzer
     from OCP.TopAbs import TopAbs_Orientation
 
@@ -206,7 +212,26 @@ def measure_file(data: bytes, kind: str) -> WrittenFile:
         lie_along(free),
         _shape_area(shape, faces),
         valid,
+        tuple(volume_of(each) if is_closed_solid(each) else math.nan for each in solids),
     )
+
+
+def is_closed_solid(solid: Any) -> bool:
+    """Tell whether OpenCASCADE finds a solid sound, and no edge of it free."""
+    from OCP.BRepCheck import BRepCheck_Analyzer
+
+    return bool(BRepCheck_Analyzer(solid).IsValid()) and not free_edges(solid)[0]
+
+
+def volume_of(solid: Any) -> float:
+    """Give the volume that a solid encloses, m3; above 0 where its faces look outward."""
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    found = GProp_GProps()
+    # Without a tolerance it leaves 2e-4 of the volume of a hull.
+    BRepGProp.VolumeProperties_s(solid, found, _AREA_TOLERANCE)
+    return float(found.Mass()) / MILLIMETRES**3
 
 
 def _shells(shape: Any) -> int:
@@ -315,6 +340,8 @@ def _faults_of_surfaces(
         yield f"the area is {found.area:.6f} m2 instead of {wanted:.6f} m2"
     if not found.valid:
         yield "OpenCASCADE finds its topology unsound"
+    if not all(volume > 0.0 for volume in found.solids):
+        yield "the solid beside the shell is not closed"
 
 
 def _faults_of_shell(found: WrittenFile) -> Iterator[str]:

@@ -26,12 +26,21 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.cad.kernel import MILLIMETRES, require_opencascade
 
-__all__ = ["SewnShell", "face_of", "faces_in", "sew_surfaces", "spline_of", "surface_of"]
+__all__ = [
+    "SEWN",
+    "SewnShell",
+    "face_of",
+    "faces_in",
+    "sew_surfaces",
+    "solids_apart",
+    "spline_of",
+    "surface_of",
+]
 
 _DEGENERATE = 1e-6
 """A side of a face shorter than this (mm) is a point."""
 
-_SEWN = 1e-2
+SEWN = 1e-2
 """Sides nearer than this (mm) are one."""
 
 
@@ -135,7 +144,7 @@ def sew_surfaces(surfaces: Sequence[SplineSurface]) -> SewnShell:
     from OCP.BRepBuilderAPI import BRepBuilderAPI_Sewing
     from OCP.TopAbs import TopAbs_ShapeEnum
 
-    sewing = BRepBuilderAPI_Sewing(_SEWN)
+    sewing = BRepBuilderAPI_Sewing(SEWN)
     for each in given:
         sewing.Add(each)
     sewing.Perform()
@@ -242,3 +251,51 @@ def _knots(knot: Callable[[int], float], times: Callable[[int], int], count: int
 
 def _place(point: Any) -> tuple[float, float, float]:
     return point.X(), point.Y(), point.Z()
+
+
+def solids_apart(shape: Any) -> tuple[Any, list[Any]]:
+    """Part a shape into what lies in no solid, and the solids that repeat faces of it.
+
+    A solid none of whose faces stands beside it stays with the rest.
+    """
+    from OCP.BRep import BRep_Builder
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopoDS import TopoDS_Compound
+
+    shells = _found(shape, TopAbs_ShapeEnum.TopAbs_SHELL, avoid=TopAbs_ShapeEnum.TopAbs_SOLID)
+    solids = _found(shape, TopAbs_ShapeEnum.TopAbs_SOLID)
+    beside = {_poles(face) for shell in shells for face in faces_in(shell)}
+    twice = [each for each in solids if beside and beside <= set(map(_poles, faces_in(each)))]
+    if not twice:
+        return shape, []
+    rest, builder = TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(rest)
+    for each in (*shells, *(solid for solid in solids if solid not in twice)):
+        builder.Add(rest, each)
+    return rest, twice
+
+
+def _found(shape: Any, kind: Any, avoid: Any = None) -> list[Any]:
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+
+    found, avoided = [], TopAbs_ShapeEnum.TopAbs_SHAPE if avoid is None else avoid
+    walk = TopExp_Explorer(shape, kind, avoided)
+    while walk.More():
+        found.append(walk.Current())
+        walk.Next()
+    return found
+
+
+def _poles(face: Any) -> tuple[float, ...]:
+    """Tell a spline surface by its corners and its middle, 1e-6 mm; of another kind, by nothing."""
+    from OCP.BRep import BRep_Tool
+    from OCP.Geom import Geom_BSplineSurface
+
+    found = BRep_Tool.Surface_s(face)
+    if not isinstance(found, Geom_BSplineSurface):
+        return (float(id(face)),)
+    rows, columns = found.NbUPoles(), found.NbVPoles()
+    places = ((1, 1), (rows, 1), (1, columns), (rows, columns), (rows // 2, columns // 2))
+    poles = (found.Pole(*each) for each in places)
+    return rows, columns, *(round(x, 6) for p in poles for x in (p.X(), p.Y(), p.Z()))

@@ -22,7 +22,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.triangulation import Facets, joined_facets
-from assoc_hull.io.cad.faces import faces_in, spline_of
+from assoc_hull.io.cad.faces import faces_in, solids_apart, spline_of
 from assoc_hull.io.cad.hull_faces import HullFaces
 from assoc_hull.io.cad.kernel import MILLIMETRES, quiet_kernel, require_installed
 from assoc_hull.io.child_process import ChildSession, limits_for
@@ -179,7 +179,8 @@ class CadFaces:
     def __init__(self, name: str, kind: str) -> None:
         path = Path(name)
         with quiet_kernel():
-            self.shape = _splines(read_shape(path, kind))
+            # A solid beside its shell has the same faces once more, and a deck.
+            self.shape = _splines(solids_apart(read_shape(path, kind))[0])
             self.faces = faces_in(self.shape)
             if not self.faces:
                 raise BadInputError(

@@ -29,6 +29,7 @@ from assoc_hull.io.cad.check_file import (
 )
 from assoc_hull.io.cad.faces import SewnShell, sew_surfaces
 from assoc_hull.io.cad.kernel import ascii_words, quiet_kernel
+from assoc_hull.io.cad.solid import closed_solid
 from assoc_hull.io.iges.surfaces import surfaces_of_iges
 from assoc_hull.io.iges.write import iges_text
 from assoc_hull.io.write_file import form_by_ending, write_whole
@@ -112,8 +113,12 @@ _STEP_TIME = "2000-01-01T00:00:00"
 _STEP_UNITS = {"m": "M", "mm": "MM"}
 
 
-def step_bytes(sewn: SewnShell, names: Sequence[str], unit: str, name: str) -> bytes:
+def step_bytes(
+    sewn: SewnShell, names: Sequence[str], unit: str, name: str, solid: Any | None = None
+) -> bytes:
     """Lay out a shell as the bytes of a STEP file, with one name for each face; unit "m" or "mm".
+
+    A solid stands beside the shell, as a part of its own.
 
     Raises
     ------
@@ -128,6 +133,8 @@ def step_bytes(sewn: SewnShell, names: Sequence[str], unit: str, name: str) -> b
         writer = STEPControl_Writer()
         kind = STEPControl_StepModelType.STEPControl_ShellBasedSurfaceModel
         done = writer.Transfer(sewn.shell, kind)
+        if solid is not None and done == IFSelect_ReturnStatus.IFSelect_RetDone:
+            done = writer.Transfer(solid, STEPControl_StepModelType.STEPControl_ManifoldSolidBrep)
         if done == IFSelect_ReturnStatus.IFSelect_RetDone:
             _name_step_faces(writer, sewn, names)
             _name_part(writer.Model(), name)
@@ -151,11 +158,13 @@ def _name_step_faces(writer: Any, sewn: SewnShell, names: Sequence[str]) -> None
 def _name_part(model: Any, name: str) -> None:
     from OCP.StepBasic import StepBasic_Product
 
+    called = name
     for number in range(1, model.NbEntities() + 1):
         entity = model.Value(number)
         if isinstance(entity, StepBasic_Product):
-            entity.SetId(ascii_words(name))
-            entity.SetName(ascii_words(name))
+            entity.SetId(ascii_words(called))
+            entity.SetName(ascii_words(called))
+            called = f"{name} solid"
 
 
 def _set_step_header(model: Any, name: str) -> None:
@@ -252,7 +261,7 @@ def _printed(model: Any) -> bytes:
 # Files: written, read back, compared.
 
 CAD_FORMS: Mapping[str, str] = MappingProxyType({
-    "step": "STEP (AP214): one shell of faces that share their edges",
+    "step": "STEP (AP214): one shell of faces that share their edges, and the solid it encloses",
     "iges": "IGES: trimmed surfaces (144), each by itself",
     "iges-brep": "IGES: one shell of faces that share their edges (514)",
     "iges-surfaces": "IGES: bare spline surfaces (128), by our own writer",
@@ -294,6 +303,8 @@ class CadReport:
         The largest distance between a control point as written and as read back.
     size : int
         Bytes.
+    volume : float or None, m3
+        Of the solid beside the shell, closed by deck and transom; None where there is none.
     """
 
     path: str
@@ -307,6 +318,7 @@ class CadReport:
     area: float
     control_point_error: float
     size: int
+    volume: float | None = None
 
 
 def write_cad(
@@ -417,13 +429,16 @@ def _by_opencascade(
     with quiet_kernel():
         joined = sew_surfaces(surfaces)
         if form == "step":
-            data = step_bytes(joined, names, unit, name)
+            solid = None if half else closed_solid(joined)
+            data = step_bytes(joined, names, unit, name, solid)
         else:
             data = iges_bytes(joined, names, unit, name, shell=shell)
         found = measure_file(data, "step" if form == "step" else "iges")
         require_written(found, surfaces, unit, shell=shell)
+        volume = found.solids[0] if found.solids else None
         error = control_point_error(found.surfaces, surfaces)
     edges = (found.joined, found.free) if shell else (0, 0)
     return data, CadReport(
-        "", form, unit, half, len(surfaces), found.shells, *edges, found.area, error, len(data)
-    )
+        "", form, unit, half, len(surfaces), found.shells, *edges, found.area, error, len(data),
+        volume,
+    )  # fmt: skip
