@@ -22,7 +22,7 @@ from assoc_hull.io.digitised.body_plan import BodyPlanRules, is_body_plan, read_
 from assoc_hull.io.importing.judge import finding_of, judge, verdict_notes
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
-from assoc_hull.io.importing.soundness import open_net_note
+from assoc_hull.io.importing.soundness import greatest_note, open_net_note
 from assoc_hull.io.importing.stated import stated_places
 from assoc_hull.io.importing.verdict import ImportFinding, Verdict, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
@@ -104,6 +104,8 @@ def import_hull(
     require_sound(verdict, path.name, accept=wanted.accept, strict=wanted.strict)
     mine = (*report.adoption.notes, *(f"{key}: made, since both lines end there" for key in made))
     lcb = (*_place_of_lcb(state, report.frame), *open_net_note(state))
+    if not restored:
+        lcb = (*lcb, *greatest_note(state, _noise(state, report.table)))
     notes = (*verdict_notes(report.notes, verdict), *lcb, *mine)
     adoption = attrs.evolve(report.adoption, notes=notes)
     return state, attrs.evolve(report, verdict=verdict, adoption=adoption, own_notes=(*lcb, *mine))
@@ -154,7 +156,7 @@ def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, Import
     deck = options.deck or DECKS[0]
     ship = table_particulars(table, frame, deck)
     try:
-        state, adoption = net_from_table(table, deck=deck, particulars=ship)
+        state, adoption = net_from_table(table, deck=deck, particulars=ship, straight=True)
     except AssocHullError as error:
         if not notes.faults:
             raise
@@ -200,6 +202,13 @@ def _table_origin(options: ImportOptions) -> tuple[str | None, FrameOptions]:
             f"station_zero is {zero!r} and origin {frame.origin!r}", "as arguments", "give one"
         )
     return frame.origin, attrs.evolve(frame, origin=None)
+
+
+def _noise(state: HullState, table: OffsetTable | None) -> float:
+    """Give what a file leaves open of a breadth, m: a printed digit, or what adoption allows."""
+    if table is None:
+        return state.tolerances.adoption
+    return 2.0 * float(table.rounding.max())
 
 
 @attrs.frozen(eq=False)

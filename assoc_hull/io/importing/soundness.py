@@ -25,7 +25,7 @@ from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import CurveIntersections, HullState
 from assoc_hull.surface.cells.net_faces import sound_cells
 
-__all__ = ["STUMBLES", "examine_net", "look", "open_net_note", "sampled_places"]
+__all__ = ["STUMBLES", "examine_net", "greatest_note", "look", "open_net_note", "sampled_places"]
 
 STUMBLES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """What numerics raise over a hull that is none; errors of this package are among them."""
@@ -282,6 +282,40 @@ def open_net_note(state: HullState) -> tuple[str, ...]:
         "surface and closed mesh cannot be made: they need lines that meet, a profile and a deck "
         "edge, and the file has not all of them",
     )
+
+
+_FINE = 32
+"""Places on each segment at which a greatest breadth is looked for."""
+
+_NAMED = 6
+"""So many lines are named that pass their greatest point."""
+
+
+def greatest_note(state: HullState, noise: float) -> tuple[str, ...]:
+    """Tell which sections and waterlines are broader between their points than at any of them.
+
+    `noise` (m) is what the file leaves open anyway. Where the greatest breadth lies between unequal
+    offsets, a smooth line passes both.
+    """
+    passed = []
+    book = AddressBook(state)
+    for curve in state.live("curves").tolist():
+        if state.family(state.line_of(curve)).name not in ("sections", "waterlines"):
+            continue
+        spline = state.spline(curve)
+        places = sample(spline, _FINE)[1]
+        widest, most = places[int(places[:, 1].argmax())], float(spline.xyz[:, 1].max())
+        if widest[1] - most > noise:
+            passed.append((float(widest[1]) - most, book.curve_name(curve), most, _at(widest)))
+    if not passed:
+        return ()
+    passed.sort(reverse=True)
+    some = "; ".join(
+        f"{name} by {1e3 * over:.1f} mm over {most:.6g} m, at {place}"
+        for over, name, most, place in passed[:_NAMED]
+    )
+    rest = f"; and {len(passed) - _NAMED} more, by less" if len(passed) > _NAMED else ""
+    return (f"broader between given points than at the greatest of them: {some}{rest}",)
 
 
 def _examine_cells(state: HullState, found: Findings, drawn: bool) -> None:

@@ -532,6 +532,7 @@ def net_from_table(
     *,
     deck: str = "open",
     particulars: Particulars | None = None,
+    straight: bool = False,
 ) -> tuple[HullState, AdoptionReport]:
     """Adopt a table of offsets; profile, ends and flats as for the Series 60 example.
 
@@ -549,6 +550,9 @@ def net_from_table(
         Closed: there is a deck between the deck edges; a table does not tell.
     particulars : Particulars or None
         None: those that the table tells, with this deck.
+    straight : bool
+        Lines off the flats run straight, too, between neighbours of their greatest offset, as
+        imports have it; the shipped Series 60 goes without.
 
     Returns
     -------
@@ -563,7 +567,7 @@ def net_from_table(
     try:
         # Fits of borders know lengths: a short hull passes them at the size these hold for.
         completion = _completion(at_full_size(table))
-        return adopt_completed(table, completion, ship, tolerances)
+        return adopt_completed(table, completion, ship, tolerances, straight=straight)
     except BadInputError as error:
         state, report = net_of_lines(table, ship, tolerances)
         drawn = "profile" in {str(name) for name in state.lines.name.data}

@@ -12,6 +12,7 @@ from itertools import pairwise
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.errors import BadInputError
@@ -20,6 +21,7 @@ from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.io.lines.raw_lines import plane_name
 from assoc_hull.io.lines.slices import ASSOCIATIONS
+from assoc_hull.io.offsets.flat_runs import straight_runs_of
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
@@ -114,15 +116,21 @@ def net_from_offsets(
 
 
 def adopt_completed(
-    table: OffsetTable, completion: Completion, ship: Particulars, tolerances: Tolerances | None
-) -> tuple[HullState, AdoptionReport]:
-    """Adopt a table with its completion at full size, as of `at_full_size`."""
+    table: OffsetTable, completion: Completion, ship: Particulars, tolerances: Tolerances | None,
+    *, straight: bool = False,
+) -> tuple[HullState, AdoptionReport]:  # fmt: skip
+    """Adopt a table with its completion at full size, as of `at_full_size`.
+
+    `straight`: lines off the flats run straight, too, where they have one greatest offset.
+    """
     factor, full = length_factor(table.length), at_full_size(table)
     flats = _FlatBorder(completion.side, full)
     sources = _boundaries(full, completion, flats)
     wet = [i for i in range(len(full.x)) if (full.half_breadth[i, 1:] > 0.0).any()]
     sources += [_closed_section(full, completion, flats, i) for i in wet]
     sources += [_closed_waterline(full, completion, flats, j) for j in range(1, len(full.z) - 1)]
+    if straight:
+        sources = [_straight_at_greatest(each, full) for each in sources]
     own = sources if factor == 1.0 else _brought_back(sources, full, table, factor)
     state, report = adopt(
         own, ship, ASSOCIATIONS, tolerances or Tolerances().scaled(factor),
@@ -131,6 +139,31 @@ def adopt_completed(
     bare = [i for i in range(len(table.x)) if i not in wet]
     notes = tuple(f"station at x = {table.x[i]:g} m: no breadth, no section made" for i in bare)
     return state, attrs.evolve(report, notes=(*_printed(table), *notes, *report.notes))
+
+
+def _straight_at_greatest(line: LineSource, table: OffsetTable) -> LineSource:
+    """Let a line that is on no flat of side run straight between neighbours of its greatest offset.
+
+    What ends on the border of a flat is straight there already.
+    """
+    along = {"sections": 2, "waterlines": 0}.get(line.group, -1)
+    if along < 0 or (np.abs(line.direction[:, along]) > 0.0).any():
+        return line
+    unit = float(table.rounding.max())
+    if along == 0:
+        unit = float(table.rounding[int(np.abs(table.z - line.points[0, 2]).argmin())])
+    points, tangent = _on_runs(line.points, along, 2.0 * unit * (1.0 + 1e-6), 1.0)
+    if not tangent.any():
+        return line
+    given = (points[:, None] == line.points[None]).all(axis=2)
+    kind = np.full(len(points), int(PointKind.TANGENT))
+    direction = np.tile(np.eye(3)[along], (len(points), 1))
+    for k in np.flatnonzero(~tangent).tolist():
+        own = int(given[k].argmax())
+        kind[k], direction[k] = line.kind[own], line.direction[own]
+    kind, points = kind.astype(line.kind.dtype), np.array(points)
+    freeze(points, kind, direction)
+    return attrs.evolve(line, points=points, kind=kind, direction=direction)
 
 
 def at_full_size(table: OffsetTable) -> OffsetTable:
@@ -345,6 +378,9 @@ _TOLERANCE = 1e-3
 """How far (m) a curve may pass the points of a table, of a short hull less in proportion."""
 
 _SAME = 1e-9
+_APART = 0.2
+"""Points of adoption stand no closer (m), of a short hull less in proportion."""
+
 _LEVEL = 1e-6
 """As much less in proportion: the plane of a waterline this close (m) to the base line touches a
 flat bottom."""
@@ -416,21 +452,14 @@ def _straightened(
     """Make a section or waterline that runs straight on the flats, and leaves them tangent.
 
     It is on a flat of side where neighbouring offsets are the greatest, to a unit of their
-    rounding; on a flat of bottom up to an offset at the height of the keel.
+    rounding, as of `straight_runs_of`; on a flat of bottom up to an offset at the keel's height.
     """
     axis, along = (0, 2) if group == "sections" else (2, 0)
     unit = 2.0 * float(table.rounding.max() if j < 0 else table.rounding[j]) * (1.0 + 1e-6)
-    y = points[:, 1]
-    on = y >= y.max() - unit
-    beside = np.zeros(len(y), np.bool_)
-    beside[1:] |= on[:-1]
-    beside[:-1] |= on[1:]
-    # Between others of the run nothing is to be said: points in a row are straight as they are.
-    edge = np.ones(len(y), np.bool_)
-    edge[1:-1] = ~(on[:-2] & on[2:])
-    tangent = on & beside & edge
+    factor = length_factor(table.length)
+    points, tangent = _on_runs(points, along, unit, factor)
     direction = np.where(tangent[:, None], np.eye(3)[along], 0.0)
-    same = length_factor(table.length) * _SAME
+    same, y = factor * _SAME, points[:, 1]
     if group == "sections" and y[0] == 0.0 and y[1] > 0.0 and abs(np.diff(points[:2, 2])[0]) < same:
         tangent[1], direction[1] = True, (0.0, 1.0, 0.0)
     tangent[[0, -1]], direction[[0, -1]] = False, 0.0
@@ -454,6 +483,22 @@ def _has_chine(points: FloatArray, same: float) -> bool:
     bottom, side = np.diff(points[:3, 1:], axis=0)
     flat = points[0, 1] == 0.0 and bottom[0] > 0.0 and abs(bottom[1]) < same
     return bool(flat and abs(side[0]) <= _UPRIGHT_SIDE * side[1])
+
+
+def _on_runs(
+    points: FloatArray, along: int, unit: float, factor: float
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Put points in where a line (n, 3), m, comes onto its greatest offset; and tell those."""
+    if (np.diff(points[:, along]) < 0.0).any():  # it turns back: no heights tell a flat there
+        return points, np.zeros(len(points), np.bool_)
+    runs = straight_runs_of(points[:, along], points[:, 1], unit, factor * _APART)
+    found = np.zeros((len(runs.y), 3))
+    found[runs.given] = points
+    new = ~runs.given
+    across = 2 - along
+    found[new, along], found[new, 1] = runs.place[new], runs.y[new]
+    found[new, across] = points[0, across]
+    return found, runs.tangent.copy()
 
 
 def _open_sections(table: OffsetTable, i: int) -> Iterator[FloatArray]:

@@ -294,7 +294,7 @@ def _marks(part: PieceFeatures, slices: HullSlices) -> FloatArray:
 
 
 def _corners(part: PieceFeatures, facets: bool, rules: FeatureRules) -> list[Corner]:
-    if part.piece.closed or len(part.points) < 5:
+    if part.piece.closed or len(part.points) < 3:
         return []
     noise = max(0.5 * part.noise, 5e-4) if facets else part.noise
     return find_corners(part.points, noise, rules.corner)
