@@ -107,4 +107,4 @@ def _entry(
     least = 1.05 * spacing / abs(gap)
     if part > 1.0 - least:
         return None
-    return float(place[0]) + max(part, least, 0.1) * gap
+    return float(place[0] + max(part, least, 0.1) * gap)

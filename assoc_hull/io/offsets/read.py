@@ -78,6 +78,7 @@ def build_table(
         book.repair("station order", "the table", what)
     buttock_y, buttock_height = _buttocks(sheet, extra, scale, book)
     z = np.array([_height(sheet, column, scale, hints) for column in sheet.columns.waterlines])
+    _at_draught(z, scale.draught, book)
     top = 3.0 * max(abs(float(z[0])), float(z[-1]))
     deck = _column(sheet, "deck height", (scale.z, scale.y), top, order, book)
     table = OffsetTable(
@@ -136,6 +137,20 @@ def _height(
             "give draught= in m",
         )
     return column.value * scale.draught
+
+
+_CONVERTED = 2e-4
+"""A highest waterline below the draught by no more of it is the draught in another unit."""
+
+
+def _at_draught(z: FloatArray, draught: float | None, book: Notebook) -> None:
+    """Put the highest waterline at the draught where only its printed digits keep it below."""
+    if draught is not None and 0.0 < draught - z[-1] <= _CONVERTED * draught:
+        below = draught - float(z[-1])
+        if below > 1e-9 * draught:
+            what = f"{1e3 * below:.2g} mm below the draught as printed: taken at {draught:.6g} m"
+            book.assume("draught", "the highest waterline", what, below)
+        z[-1] = draught
 
 
 def _rounding(

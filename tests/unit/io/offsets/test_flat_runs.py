@@ -1,0 +1,69 @@
+"""Lines of a table run straight where it prints one greatest offset again and again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.hull import Hull
+
+UNIT = 0.01
+LEVELS = np.array([0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0])
+
+
+def ship(tumblehome: float = 0.0) -> str:
+    """A hull of 100 m with flat of side from 2.2 m up, printed to the centimetre."""
+    rows = []
+    for k, x in enumerate(np.linspace(0.0, 100.0, 21)):
+        fullness = np.clip((1.0 - abs(x - 50.0) / 50.0) / 0.35, 0.0, 1.0)
+        bilge = 1.0 - (1.0 - np.clip(LEVELS / 2.2, 0.0, 1.0)) ** 2
+        y = 8.0 * (1.0 - (1.0 - fullness) ** 2) * (0.35 + 0.65 * bilge)
+        y *= 1.0 - tumblehome * np.clip(LEVELS - 4.5, 0.0, None) ** 2
+        rows.append(f"{k}," + ",".join(f"{each:.2f}" for each in y))
+    head = "station," + ",".join(f"wl_{z:g}" for z in LEVELS)
+    return "\n".join(["# 0 = AP", "# Lpp = 100 m, B = 16 m, T = 6 m", head, *rows]) + "\n"
+
+
+def most_over(hull: Hull) -> float:
+    """By how much (m) a section or waterline passes the greatest of its own points."""
+    every = [
+        float(curve.polyline(48)[:, 1].max() - max(point.position[1] for point in curve.points))
+        for group in ("sections", "waterlines")
+        for line in hull.groups[group].lines.values() for curve in line.curves
+    ]  # fmt: skip
+    return max(every)
+
+
+def test_lines_run_straight_between_equal_greatest_offsets(tmp_path: Path) -> None:
+    """Neighbours equal to B/2, or to one another: nothing passes them by more than a digit."""
+    path = tmp_path / "ship.csv"
+    path.write_text(ship())
+    hull = ah.read(path)
+    assert hull.adoption is not None
+    assert "verdict: sound" in hull.adoption.notes
+    assert most_over(hull) <= 0.1 * UNIT
+    assert not [note for note in hull.adoption.notes if note.startswith("broader")]
+    # Straight, too, between the greatest offsets; a section onto the side ends tangent there.
+    [section] = hull.groups["sections"].lines["ST 2"].curves
+    side = section.polyline(48)
+    high = side[side[:, 2] > 3.0]
+    assert np.ptp(high[:, 1]) <= 0.1 * UNIT
+
+
+@pytest.mark.parametrize("tumblehome", [0.004, 0.02])
+def test_a_line_that_passes_unequal_offsets_is_told_with_its_place(
+    tumblehome: float, tmp_path: Path
+) -> None:
+    """What is broader between its points than at any of them stands in the notes, never clamped."""
+    path = tmp_path / "ship.csv"
+    path.write_text(ship(tumblehome).replace("wl_4,", "wl_4.3,"))
+    hull = ah.read(path, accept=True)
+    assert hull.adoption is not None
+    told = [note for note in hull.adoption.notes if note.startswith("broader between")]
+    assert bool(told) == (most_over(hull) > UNIT)
+    for note in told:
+        assert " mm over " in note
+        assert "at (" in note
