@@ -62,7 +62,8 @@ class RoundTrip:
     def __str__(self) -> str:
         return (
             f"{self.hull:20s} {self.form:18s} {self.points:6d} points, "
-            f"{1e3 * self.farthest:.5f} of {1e3 * self.digit:.5f} mm, V {100.0 * self.volume:+.3f} %, {self.verdict}; "
+            f"{1e3 * self.farthest:.5f} of {1e3 * self.digit:.5f} mm, "
+            f"V {100.0 * self.volume:+.3f} %, {self.verdict}; "
             f"told: {', '.join(self.told) or 'nothing'}"
         )
 
