@@ -309,10 +309,10 @@ def test_a_table_normalised_per_waterline_is_suspected() -> None:
     assert "normalised per waterline" in read(text)[1].kinds()
 
 
-def test_metres_read_as_millimetres_are_suspected() -> None:
+def test_metres_read_as_millimetres_are_a_fault() -> None:
     """The wrong unit gives a ship of impossible proportions."""
     report = read_offsets(csv_text(), length=LENGTH, unit="mm")[1]
-    assert "unit" in report.kinds()
+    assert [each.kind for each in report.faults].count("unit") > 0
     assert any("length to breadth" in note.what for note in report.suspicions)
 
 
