@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from pathlib import Path
 from typing import Any
 
 import attrs
+import ezdxf.filemanagement
 import numpy as np
 import pytest
 
+import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.digitised.read import read_lines
+from assoc_hull.io.lines.line_points import lines_as_points
 from assoc_hull.io.lines.several_hulls import HullChoice
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.slicing.surface_lines import read_surface_lines
@@ -92,6 +96,29 @@ def test_lines_of_one_hull_stay_as_they_are() -> None:
     for mine, theirs in zip(one.lines, other.lines, strict=True):
         for a, b in zip(mine.pieces, theirs.pieces, strict=True):
             assert np.array_equal(a.points, b.points)
+
+
+def test_a_drawing_of_two_hulls_is_refused_and_its_remedy_leads_to_one(tmp_path: Path) -> None:
+    """A DXF with a layer a line, both demihulls on it: V of the one that is read."""
+    alone = ah.examples.wigley(stations=9, waterlines=6)
+    drawing = ezdxf.filemanagement.new()
+    drawing.units = 6
+    for line in lines_as_points(alone.state, ("sections", "waterlines", "boundary")):
+        drawing.layers.add(line.name)
+        for piece in line.pieces if line.name not in ("flat of side",) else ():
+            sides = (1.0,) if line.name == "profile" else (1.0, -1.0)
+            for off, side in itertools.product((8.0, -8.0), sides):
+                places = piece.points * [1.0, side, 1.0] + [0.0, off, 0.0]
+                drawing.modelspace().add_polyline3d(
+                    places.tolist(), dxfattribs={"layer": line.name}
+                )
+    path = tmp_path / "two.dxf"
+    drawing.saveas(path)
+    with pytest.raises(BadInputError, match=r"there are two hulls side by side.*centre=8$"):
+        ah.read(path, draught=5.0)
+    hull = ah.read(path, draught=5.0, centre=8.0)
+    truth = alone.hydrostatics(draught=5.0).volume
+    assert hull.hydrostatics().volume == pytest.approx(truth, rel=3e-3)
 
 
 def test_surfaces_of_two_hulls_are_refused_and_one_of_them_is_cut(tmp_path: Path) -> None:

@@ -12,11 +12,14 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.surfaces.triangles import Triangles
+from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.lines.several_hulls import HullChoice
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.slicing.mesh_lines import refuse_bottomless, slice_mesh
 from tests import meshes, several_hulls
+from tests.foreign_hulls import write_lines
+from tests.twin_skeg import twin_skeg_ship
 
 CUTS: dict[str, Any] = {"stations": [30.0, 50.0, 75.0], "waterlines": [2.0, 4.0], "buttocks": [2.0]}
 
@@ -225,3 +228,17 @@ def test_a_surface_that_crosses_itself_is_told_as_that_with_a_place() -> None:
     # The place lies on the fold, which is 1 m high about z = 3.
     assert 0.0 < at[0] < 100.0
     assert abs(at[2] - 3.0) < 2.0
+
+
+def test_a_ship_with_twin_skegs_is_no_catamaran(tmp_path: Path) -> None:
+    """Her contours part aft only: as a mesh and as lines she is cut as the one hull that she is."""
+    ship = twin_skeg_ship()
+    mesh = ship.mesh(points=4)
+    slices = cut(Triangles(mesh.xyz, mesh.triangle), stations=[20.0, 150.0], waterlines=[10.0])
+    assert "one hull" not in slices.report.kinds("assumptions")
+    # Both sides of her are one hull: the section of the middle body reaches from keel to side.
+    middle = slices.group("sections")[-1].pieces[0].points
+    assert float(middle[0, 1]) == pytest.approx(0.0, abs=1e-6)
+    assert float(middle[:, 1].max()) == pytest.approx(0.5 * ship.particulars.breadth, rel=0.01)
+    lines = read_lines(write_lines(ship, tmp_path / "twin.csv"))
+    assert "one hull" not in lines.report.kinds("assumptions")
