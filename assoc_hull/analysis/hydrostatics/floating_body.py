@@ -240,7 +240,7 @@ to 12 m
 CLOSE_DECK = 'read or make the hull with deck="closed" (--deck closed) if it has a deck'
 """What to do where an open deck is in the way."""
 
-_ROUNDING = 1e-12
+_ROUNDING = 1e-13
 """Of a height: edge and water this near are one level, and rounding tells which is higher."""
 
 
