@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import logging
+import re
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -90,6 +91,9 @@ def parse_triangles(name: str) -> tuple[FloatArray, IntArray]:
     path = Path(name)
     ending = _ending(path).removeprefix(".")
     data = _recoded(_unpack(path), ending)
+    told = _told_faces(data, ending)
+    if ending == "stl" and told is not None and len(data) < 84 + 50 * told:
+        raise _cut_short(path, told, max(len(data) - 84, 0) // 50)
     try:
         loaded = trimesh.load(io.BytesIO(data), file_type=ending, process=False, force="mesh")
         xyz = np.array(getattr(loaded, "vertices", np.zeros((0, 3))), np.float64)
@@ -103,9 +107,31 @@ def parse_triangles(name: str) -> tuple[FloatArray, IntArray]:
         ) from error  # fmt: skip
     if not len(face):
         raise _no_triangles(path, data, ending)
+    # A text that ends early reads as a mesh with a hole.
+    if told is not None and len(face) < told:
+        raise _cut_short(path, told, len(face))
     if not np.isfinite(xyz).all() or face.min() < 0 or face.max() >= len(xyz):
         raise BadInputError("a vertex is missing or not finite", f"at {path}", "export it again")
     return xyz, face
+
+
+def _told_faces(data: bytes, ending: str) -> int | None:
+    """Give how many faces a file says it holds, where its form says so."""
+    if ending == "stl" and len(data) >= 84 and not _is_text_stl(data):
+        return int.from_bytes(data[80:84], "little")
+    if ending == "ply":
+        found = re.search(rb"^element\s+face\s+(\d{1,18})\s*$", data[:_HEAD], re.MULTILINE)
+        return int(found[1]) if found else None
+    return None
+
+
+_HEAD = 20_000
+"""So many bytes hold the header of a PLY."""
+
+
+def _cut_short(path: Path, told: int, held: int) -> BadInputError:
+    what = f"the file says that it holds {told} faces, and has {held}"
+    return BadInputError(what, f"at {path}", "it was cut short: export or copy it again, whole")
 
 
 def _recoded(data: bytes, ending: str) -> bytes:

@@ -33,7 +33,7 @@ from assoc_hull.io.offsets.sheet import OffsetColumn, OffsetSheet, read_sheet
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.reports import Notebook, OffsetReport
 from assoc_hull.io.tables.table_blocks import split_blocks
-from assoc_hull.io.tables.table_text import read_text
+from assoc_hull.io.tables.table_text import read_text, refuse_long
 from assoc_hull.io.units import check_particular
 from assoc_hull.tolerance import length_factor
 
@@ -420,6 +420,7 @@ def read_offsets(
         check_particular(key, value)
     book = Notebook()
     text, source = read_text(path_or_text, book)
+    refuse_long(text, source)
     comments, blocks = split_blocks(text, source, book)
     hints = given_spacing(read_hints(comments), station_spacings, frame_spacing, book)
     if buttocks is not None:

@@ -270,9 +270,10 @@ def _contour_of_ends(slices: HullSlices) -> FloatArray:
         sorted((_foot(piece.points) for piece in line.pieces), key=lambda at: float(at[1]))
         for line in slices.group("sections")
     ]
-    low, high = slices.low[0], slices.high[0]
+    low = slices.low[0]
+    long = (slices.high[0] - low) or 1.0  # all sections may lie in one plane
     ends = [
-        [each[-1] for each in feet if lower <= (each[0][0] - low) / (high - low) <= upper]
+        [each[-1] for each in feet if lower <= (each[0][0] - low) / long <= upper]
         for lower, upper in ((0.0, _END), (1.0 - _END, 1.0))
     ]
     half = float(slices.high[1])
@@ -282,7 +283,7 @@ def _contour_of_ends(slices: HullSlices) -> FloatArray:
         for kept, row in zip(tips, (every[:, 0].argmin(), every[:, 0].argmax()), strict=True):
             if every[row, 1] <= 0.02 * half:
                 kept.append(every[int(row)][[0, 2]])
-    keel = [each[0] for each in feet if _END <= (each[0][0] - low) / (high - low) <= 1.0 - _END]
+    keel = [each[0] for each in feet if _END <= (each[0][0] - low) / long <= 1.0 - _END]
     lines = (keel, *(tips if all(len(each) > 1 for each in tips) else ends))
     return _chained([np.array(each) for each in lines if len(each) > 1])
 

@@ -23,6 +23,7 @@ from assoc_hull.io.tables.table_blocks import opens_block
 
 __all__ = [
     "read_text",
+    "refuse_long",
     "text_of_xlsx",
 ]
 
@@ -53,6 +54,27 @@ def read_text(path_or_text: str | Path, book: Notebook) -> tuple[str, str]:
     if not text.strip():
         raise BadInputError("there is nothing in it", source, "give a table of offsets")
     return _MINUS.sub("-", text), source
+
+
+_MOST_LETTERS, _MOST_CELLS = 5_000_000, 200_000
+"""Of 500 stations by 400 waterlines; each cell is looked at several times."""
+
+
+def refuse_long(text: str, source: str) -> None:
+    """Refuse a text that no table of offsets is as large as, before its cells are parted.
+
+    Raises
+    ------
+    BadInputError
+        It holds more than 5 MB, or more than 200,000 cells.
+    """
+    few = len(text) <= _MOST_LETTERS
+    cells = max(sum(map(text.count, ",;\t\n")), len(text.split())) if few else 0
+    if few and cells <= _MOST_CELLS:
+        return
+    size = f"{cells} cells, more than {_MOST_CELLS}" if few else f"{len(text) / 1e6:.1f} MB of text"
+    remedy = "give the offsets only; of points of lines begin it with 'line,x,y,z'"
+    raise BadInputError(f"the table holds {size}", source, remedy)
 
 
 def _read_file(path: str | Path, book: Notebook) -> tuple[str, str]:

@@ -13,7 +13,7 @@ from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.text import change_bytes, change_text
 from tests.meshes import wigley_half
 
-__all__ = ["GLB", "OBJ", "PLY", "STL", "unchanged_stl"]
+__all__ = ["GLB", "OBJ", "PLY", "STL", "text_ply", "unchanged_stl"]
 
 OPTIONS: tuple[list[str], ...] = (
     [], ["--scale", "10"], ["--axes", "+x+y+z"], ["--unit", "mm"], ["--draught", "5"],
@@ -59,6 +59,11 @@ def _obj() -> str:
     rows = ["# hull", *(f"v {x:g} {y:g} {z:g}" for x, y, z in mesh.xyz.tolist())]
     rows += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in mesh.face.tolist()]
     return "\n".join([*rows, ""])
+
+
+def text_ply() -> bytes:
+    """The mesh as a PLY of text."""
+    return _ply(binary=False)
 
 
 def unchanged_stl() -> bytes:
