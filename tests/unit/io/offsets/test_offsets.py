@@ -313,7 +313,7 @@ def test_metres_read_as_millimetres_are_a_fault() -> None:
     """The wrong unit gives a ship of impossible proportions."""
     report = read_offsets(csv_text(), length=LENGTH, unit="mm")[1]
     assert [each.kind for each in report.faults].count("unit") > 0
-    assert any("length to breadth" in note.what for note in report.suspicions)
+    assert any("length to breadth" in note.what for note in report.faults)
 
 
 def test_waterlines_in_another_unit_are_read() -> None:
