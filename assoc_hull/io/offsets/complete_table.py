@@ -573,7 +573,30 @@ def net_from_table(
         drawn = "profile" in {str(name) for name in state.lines.name.data}
         left = "ends and flats" if drawn else "profile, ends and flats"
         note = f"{left} are left open: {_in_its_size(table, error)}"
-        return state, attrs.evolve(report, notes=(note, *report.notes))
+        return state, attrs.evolve(report, notes=(note, *report.notes, *_coarse_keel(table)))
+
+
+_STEEP = 0.3
+"""Between two stations a keel that rises by more of the draught is told: it is not known there."""
+
+
+def _coarse_keel(table: OffsetTable) -> list[str]:
+    """Say where heights of the keel are too far apart to tell the profile, as at a round forefoot.
+
+    The profile is straight there; what it may lack is the corner beside it, on both sides.
+    """
+    if table.keel is None:
+        return []
+    known = np.isfinite(table.keel)
+    x, z = table.x[known], table.keel[known]
+    rise, run = np.abs(np.diff(z)), np.diff(x)
+    steep = np.flatnonzero(rise > _STEEP * (table.draught or float(table.z[-1])))
+    return [
+        f"between x = {x[i]:.6g} and {x[i + 1]:.6g} m the keel rises by {rise[i]:.4g} m and the "
+        "table says no more: the profile is straight there, and S may lack up to "
+        f"{rise[i] * run[i]:.3g} m2; give stations between them"
+        for i in steep.tolist()
+    ]
 
 
 def _in_its_size(table: OffsetTable, error: BadInputError) -> str:
