@@ -83,7 +83,17 @@ def test_faults_that_differ_in_names_and_numbers_only_are_one() -> None:
         item = Item(KINDS["edits"], 1, number)
         tally.add(item, Outcome(2, f"edit: no 'ST {number}'", 0.1 * number))
     assert [len(each) for each in tally.faults.values()] == [2]
-    assert tally.line("edits").split() == ["edits", "2", "2", "0", "0", "2", "1", "200"]
+    assert tally.line("edits").split() == [
+        "edits",
+        "2",
+        "2",
+        *"000000",
+        "2",
+        "1",
+        "0.20",
+        "0.00",
+        "0",
+    ]
 
 
 def test_a_faulty_input_is_made_small() -> None:
@@ -126,5 +136,5 @@ def test_a_run_prints_a_table(capsys: pytest.CaptureFixture[str]) -> None:
     """A row per kind, and exit code 0 where nothing was found."""
     assert main(["--count", "12", "--jobs", "1", "--kind", "offsets,edits"]) == 0
     head, *rows = capsys.readouterr().out.splitlines()[:3]
-    assert head.split()[:4] == ["kind", "inputs", "refused", "findings"]
+    assert head.split()[:4] == ["kind", "inputs", "refused", "unsound"]
     assert [row.split()[0:2] for row in rows] == [["offsets", "6"], ["edits", "6"]]

@@ -10,6 +10,7 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.surfaces.triangles import Triangles, boundary_edges
 from assoc_hull.io.lines.slices import HullSlices, SliceLine
@@ -271,7 +272,10 @@ def _contour_of_ends(slices: HullSlices) -> FloatArray:
         for line in slices.group("sections")
     ]
     low = slices.low[0]
-    long = (slices.high[0] - low) or 1.0  # all sections may lie in one plane
+    long = slices.high[0] - low
+    if not long > 0.0:
+        what = f"all lines lie at x = {low:.6g} m"
+        raise BadInputError(what, "in the lines", "give sections at two places or more")
     ends = [
         [each[-1] for each in feet if lower <= (each[0][0] - low) / long <= upper]
         for lower, upper in ((0.0, _END), (1.0 - _END, 1.0))
