@@ -102,7 +102,8 @@ def _taken(folder: Path, code: int, told: str) -> tuple[str, str]:
         return word, ""
     if not word:
         return "", "import: taken without a verdict"
-    wrong = wrong_volume(target)
+    # Of a hull that is not sound, and was taken on demand, the verdict says what is wrong.
+    wrong = "" if word == "not sound" else wrong_volume(target)
     return word, f"import: {wrong}" if wrong else ""
 
 
