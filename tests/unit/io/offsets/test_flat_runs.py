@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -14,14 +15,15 @@ UNIT = 0.01
 LEVELS = np.array([0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0])
 
 
-def ship(tumblehome: float = 0.0) -> str:
-    """A hull of 100 m with flat of side from 2.2 m up, printed to the centimetre."""
+def ship(*, barrel: bool = False) -> str:
+    """A hull of 100 m with flat of side from 2.2 m up, or a barrel broadest at 4.4 m; to 1 cm."""
     rows = []
     for k, x in enumerate(np.linspace(0.0, 100.0, 21)):
         fullness = np.clip((1.0 - abs(x - 50.0) / 50.0) / 0.35, 0.0, 1.0)
         bilge = 1.0 - (1.0 - np.clip(LEVELS / 2.2, 0.0, 1.0)) ** 2
         y = 8.0 * (1.0 - (1.0 - fullness) ** 2) * (0.35 + 0.65 * bilge)
-        y *= 1.0 - tumblehome * np.clip(LEVELS - 4.5, 0.0, None) ** 2
+        if barrel:
+            y = 8.0 * fullness * (1.0 - ((LEVELS - 4.4) / 4.4) ** 2).clip(0.0)
         rows.append(f"{k}," + ",".join(f"{each:.2f}" for each in y))
     head = "station," + ",".join(f"wl_{z:g}" for z in LEVELS)
     return "\n".join(["# 0 = AP", "# Lpp = 100 m, B = 16 m, T = 6 m", head, *rows]) + "\n"
@@ -53,17 +55,18 @@ def test_lines_run_straight_between_equal_greatest_offsets(tmp_path: Path) -> No
     assert np.ptp(high[:, 1]) <= 0.1 * UNIT
 
 
-@pytest.mark.parametrize("tumblehome", [0.004, 0.02])
-def test_a_line_that_passes_unequal_offsets_is_told_with_its_place(
-    tumblehome: float, tmp_path: Path
-) -> None:
-    """What is broader between its points than at any of them stands in the notes, never clamped."""
+def test_a_line_that_passes_unequal_offsets_is_told_with_its_place(tmp_path: Path) -> None:
+    """Broadest at 4.4 m between offsets at 4 and 5 m: told in mm with the place, never clamped."""
     path = tmp_path / "ship.csv"
-    path.write_text(ship(tumblehome).replace("wl_4,", "wl_4.3,"))
+    path.write_text(ship(barrel=True))
     hull = ah.read(path, accept=True)
     assert hull.adoption is not None
-    told = [note for note in hull.adoption.notes if note.startswith("broader between")]
-    assert bool(told) == (most_over(hull) > UNIT)
-    for note in told:
-        assert " mm over " in note
-        assert "at (" in note
+    over = most_over(hull)
+    assert over == pytest.approx(8.0 * (0.4 / 4.4) ** 2, abs=0.03)
+    [note] = [each for each in hull.adoption.notes if each.startswith("broader between")]
+    told = re.search(
+        r"(ST [\d.]+) by ([\d.]+) mm over [\d.]+ m, at \([\d.]+, [\d.]+, (4\.\d+)\) m", note
+    )
+    assert told is not None
+    assert float(told[2]) == pytest.approx(1e3 * over, abs=1.0)
+    assert float(told[3]) == pytest.approx(4.4, abs=0.1)
