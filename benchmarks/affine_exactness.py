@@ -136,13 +136,13 @@ def image_row(hull: ah.Hull, name: str) -> float:
     return max(abs(each) for each in found.values())
 
 
-def scaled(hull: ah.Hull, name: str) -> Variation:
+def scaled(hull: ah.Hull, name: str) -> Variation[ah.Hull]:
     """Scale a net by named parameters."""
     now = hull.measure()
     return hull.vary(set={key: now[key] * by for key, by in SCALINGS[name][0].items()})
 
 
-def off_image(hull: ah.Hull, found: Variation) -> FloatArray:
+def off_image(hull: ah.Hull, found: Variation[ah.Hull]) -> FloatArray:
     """Give how far each curve of a varied net leaves its exact image at most, m.
 
     Curves of the parent that the variant has no more are left out.

@@ -13,6 +13,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import attrs
 import numpy as np
@@ -75,7 +76,7 @@ def round_trip(name: str, hull: Hull, form: str, folder: Path) -> RoundTrip:
     far = table_off(hull, path) if form in TABLES else lines_off(hull, form, path)
     told = sorted({note.kind for note in (*report.left_out, *report.mended)})
     ship = hull.particulars
-    options = (
+    options: dict[str, Any] = (
         {} if form in TABLES else {"ap": "0 m", "length": ship.length, "draught": ship.draught}
     )
     try:

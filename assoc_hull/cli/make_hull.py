@@ -346,8 +346,8 @@ def _adopt(
     if holds_hull(arguments.file):
         return *_adopt_nothing(arguments, options), None
     if holds_definition(arguments.file):
-        options.refuse("a definition says all of it", arguments.file)
-        return *_adopt_definition(arguments), None
+        options.refuse("a definition says all of it", arguments.file, options.of_lines())
+        return _adopt_definition(arguments)
     # Taken here whatever it is worth, so that all that was found can be told; refused by `_import`.
     every = attrs.evolve(options, accept=True, strict=False)
     try:
@@ -386,13 +386,18 @@ def _adopt_nothing(
     return hull, _SCHEMA | {"source": str(arguments.file)}, f"taken from {arguments.file}"
 
 
-def _adopt_definition(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+def _adopt_definition(
+    arguments: argparse.Namespace,
+) -> tuple[Hull, dict[str, Any], str, Verdict | None]:
     """Make the net of a classical definition; the report is the definition's, beside the net."""
+    from assoc_hull.io.importing.judge import judge_definition
+
     definition = read_classical(arguments.file)
     hull = create(definition)
     report = definition.report(hull.state)
     facts = _SCHEMA | {"definition": report.as_dict(), "adoption": hull.adoption}
-    return hull, facts, str(report)
+    verdict = None if hull.adoption is None else judge_definition(hull.state, hull.adoption)
+    return hull, facts, str(report), verdict
 
 
 _SCHEMA = {"format": "assoc-hull report", "schema": 1}

@@ -13,6 +13,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import attrs
+
 from assoc_hull.arguments import file_path, flag, instance, not_negative, regular_file
 from assoc_hull.hull.hull import Hull
 
@@ -327,9 +329,23 @@ either: both say where x = 0 is
         hull.detach()
         return hull
     if holds_definition(file):
-        options.refuse("a definition says all of it", file)
-        return create(read_classical(file))
+        options.refuse("a definition says all of it", file, options.of_lines())
+        return _judged(create(read_classical(file)), file.name, accept=accept, strict=strict)
     return imported_hull(*import_hull(file, options))
+
+
+def _judged(hull: Hull, source: str, *, accept: bool, strict: bool) -> Hull:
+    """Give a hull of a definition its verdict, or refuse it as an import is refused."""
+    from assoc_hull.io.importing.judge import judge_definition
+    from assoc_hull.io.importing.verdict import require_sound, told_verdict
+
+    if hull.adoption is None:
+        return hull
+    verdict = judge_definition(hull.state, hull.adoption)
+    require_sound(verdict, source, accept=accept, strict=strict)
+    notes = (*hull.adoption.notes, *told_verdict(verdict))
+    hull.adoption = attrs.evolve(hull.adoption, notes=notes)
+    return hull
 
 
 def imported_hull(state: HullState, report: ImportReport) -> Hull:

@@ -14,7 +14,7 @@ import assoc_hull as ah
 from assoc_hull.errors import NotSoundError
 from assoc_hull.hull import Hull
 from assoc_hull.io.cad.check_file import area_of
-from assoc_hull.io.cad.write import cad_bytes
+from assoc_hull.io.cad.write import CadReport, cad_bytes
 from assoc_hull.io.slicing.surface_lines import faces_of_file
 
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
@@ -52,6 +52,7 @@ def test_a_solid_beside_its_shell_is_written_once_and_read_as_the_shell(tmp_path
     hull, path = ah.examples.wigley(), tmp_path / "hull.step"
     surface = hull.surface()
     report = surface.write(path)
+    assert isinstance(report, CadReport)
     truth = hull.hydrostatics(draught=hull.particulars.depth).volume
     off = surface.blocks[0].fitted.largest * report.area
     assert report.volume == pytest.approx(truth, abs=off)

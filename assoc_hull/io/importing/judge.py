@@ -8,14 +8,14 @@ from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.io.importing.proportions import examine_particulars
 from assoc_hull.io.importing.soundness import examine_net
 from assoc_hull.io.importing.stated import stated_in
-from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict
+from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict, told_verdict
 from assoc_hull.io.lines.boundary_holes import HOLE
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.reports import Note, OffsetReport
 from assoc_hull.io.slicing.net import LOFTED, SliceReport
 from assoc_hull.model.tables import HullState
 
-__all__ = ["finding_of", "judge", "verdict_notes"]
+__all__ = ["finding_of", "judge", "judge_definition", "verdict_notes"]
 
 _COMPARED = ("L/B", "B/T")
 """What the reader of tables compares itself, with the numbers as printed."""
@@ -46,6 +46,14 @@ def judge(
     return found.verdict()
 
 
+def judge_definition(state: HullState, adoption: AdoptionReport) -> Verdict:
+    """Look at a hull that was made of a definition: its particulars and its net."""
+    found = Findings()
+    examine_particulars(state, found, {}, broad=True)
+    examine_net(state, adoption, found, drawn=False)
+    return found.verdict()
+
+
 def _take_up(note: Note, state: HullState, found: Findings) -> None:
     """Take what the reader suspects; an offset of another size than its neighbours is a fault."""
     half = 0.5 * state.particulars.breadth
@@ -62,7 +70,4 @@ def finding_of(note: Note) -> ImportFinding:
 
 def verdict_notes(notes: OffsetReport, verdict: Verdict) -> tuple[str, ...]:
     """Give what was assumed and found, and the verdict, as lines of text."""
-    assumed = (f"assumed: {note}" for note in notes.assumptions)
-    faults = (f"fault: {each}" for each in verdict.faults)
-    suspected = (f"suspicion: {each}" for each in verdict.suspicions)
-    return (*assumed, *faults, *suspected, f"verdict: {verdict}")
+    return (*(f"assumed: {note}" for note in notes.assumptions), *told_verdict(verdict))

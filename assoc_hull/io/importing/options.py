@@ -114,6 +114,10 @@ class ImportOptions:
         names = (each.name for each in attrs.fields(FrameOptions))
         return FrameOptions(**self.named(*names))
 
+    def of_lines(self) -> tuple[str, ...]:
+        """Name the options given that say how lines are read, not what is taken."""
+        return tuple(name for name in self.given() if name not in ("accept", "strict"))
+
     def given(self) -> tuple[str, ...]:
         """Name the options that are not as by default."""
         fields = attrs.fields(ImportOptions)

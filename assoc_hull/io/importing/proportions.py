@@ -130,7 +130,8 @@ def _examine_sizes(state: HullState, hull: _Measured, found: Findings) -> None:
     where = "the particulars"
     for name, value in {
         "L/B": ship.length / ship.breadth, "B/T": ship.breadth / ship.draught,
-        "B/D": ship.breadth / ship.depth,
+        # A boat is broader at the deck than at the water, and D is to the deck.
+        "B/D": max(ship.breadth, 2.0 * float(hull.high[1])) / ship.depth,
     }.items():  # fmt: skip
         low, high = _RATIOS[name]
         if not low <= value <= high:
@@ -142,6 +143,12 @@ def _examine_sizes(state: HullState, hull: _Measured, found: Findings) -> None:
             "hull: give draught= or depth="
         )
         found.fault("draught", where, what, ship.draught - ship.depth)
+    elif ship.draught > ship.depth * (1.0 + 1e-9):
+        what = (
+            f"the draught {ship.draught:.4g} m is above the depth {ship.depth:.4g} m: give "
+            "draught= or depth="
+        )
+        found.suspect("draught", where, what, ship.draught - ship.depth)
     part = ship.length / float(size[0])
     if not _EXTENT[0] <= part <= _EXTENT[1]:
         what = (

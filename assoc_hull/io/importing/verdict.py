@@ -16,7 +16,14 @@ import attrs
 
 from assoc_hull.errors import NotSoundError
 
-__all__ = ["Findings", "ImportFinding", "Verdict", "refused_findings", "require_sound"]
+__all__ = [
+    "Findings",
+    "ImportFinding",
+    "Verdict",
+    "refused_findings",
+    "require_sound",
+    "told_verdict",
+]
 
 
 @attrs.frozen
@@ -103,6 +110,13 @@ def refused_findings(verdict: Verdict, *, accept: bool, strict: bool) -> tuple[I
     if accept:
         return ()
     return verdict.faults or (verdict.suspicions if strict else ())
+
+
+def told_verdict(verdict: Verdict) -> tuple[str, ...]:
+    """Give what was found and the verdict, as lines of text."""
+    faults = (f"fault: {each}" for each in verdict.faults)
+    suspected = (f"suspicion: {each}" for each in verdict.suspicions)
+    return (*faults, *suspected, f"verdict: {verdict}")
 
 
 def require_sound(verdict: Verdict, source: str, *, accept: bool, strict: bool) -> None:

@@ -203,6 +203,18 @@ def _weighted_median(values: FloatArray, weight: FloatArray) -> float:
     return float(values[order[int(np.searchsorted(part, 0.5 * part[-1]))]])
 
 
+_PLATED = 0.02
+"""Plating of more than this part of all, in the plane of an open edge, is a side of the hull."""
+
+
+def _is_plated(mesh: Triangles, axis: int, side: float) -> bool:
+    """Tell whether the hull has plating in the plane across an axis."""
+    size = float(np.ptp(mesh.xyz, axis=0).max())
+    flat = (np.abs(mesh.corners[:, :, axis] - side) < 1e-5 * size).all(axis=1)
+    area = np.linalg.norm(mesh.area_vectors(), axis=1)
+    return bool(area[flat].sum() > _PLATED * area.sum())
+
+
 def half_side(mesh: Triangles, axis: int) -> float | None:
     """Give the place of the centre plane if this is a half hull cut across an axis."""
     rim = boundary_edges(mesh)
@@ -223,7 +235,9 @@ def half_side(mesh: Triangles, axis: int) -> float | None:
         whole = np.ptp(mesh.xyz, axis=0)
         # A transom or a hatch is open too: the edge of a half hull spans its whole side.
         filled = all(span[other] > 0.8 * whole[other] for other in across)
-        if filled and length[on].sum() > 0.15 * length.sum():
+        cut = filled and length[on].sum() > 0.15 * length.sum()
+        # The upright side of an open barge has such an edge, too, and is itself in its plane.
+        if cut and not _is_plated(mesh, axis, side):
             return float(np.median(values[on]))
     return None
 
@@ -412,12 +426,21 @@ def _mean_breadth(
     return float((np.abs(centre[where, 1]) * weight).sum() / max(float(weight.sum()), 1e-12))
 
 
+_ALIKE = 1e-3
+"""Ends that mirror but for this part of the length are one as good as the other."""
+
+
 def _bow_forward(mesh: Triangles, book: Notebook) -> Triangles:
     """Turn a hull whose bow is at low x: the stern is the wider end at the deck."""
     aft, fore = (_end_breadth(mesh, end) for end in (0.05, -0.05))
     widest = float(np.abs(mesh.xyz[:, 1]).max())
     if abs(aft - fore) < 0.05 * widest:
-        book.assume("bow", _WHERE, "the ends are alike; the bow is taken at high x")
+        what = "the ends are alike; the bow is taken at high x"
+        if mirror_error(mesh, 0) > _ALIKE:
+            # LCB lies on the wrong side of midship if it is not.
+            book.suspect("bow", _WHERE, f"{what}: if it is not, give axes='-x-y+z'")
+        else:
+            book.assume("bow", _WHERE, what)
         return mesh
     if aft > fore:
         what = f"at high x: near the deck half-breadth {fore:.4g} m there, {aft:.4g} m at low x"

@@ -294,10 +294,13 @@ def doubts_of_shape(
 
 
 def doubts_of_half(
-    surface: SplineSurface, shape: SurfaceElements, options: FitOptions
+    surface: SplineSurface, shape: SurfaceElements, options: FitOptions, most: float | None = None
 ) -> Iterator[str]:
-    """Say where the half y >= 0 waves across the centre plane, so that the two halves intersect."""
-    least = -_ACROSS * options.scale
+    """Say where the half y >= 0 waves across the centre plane, so that the two halves intersect.
+
+    By more than `most` (m), or by what may be told of.
+    """
+    least = -_ACROSS * options.scale if most is None else -most
     if surface.net[..., 1].min() >= least:
         return
     place = surface.at(shape.u[:, None], shape.v[None, :]).reshape(-1, 3)

@@ -176,7 +176,10 @@ def surface_faults(surface: NetSurface) -> tuple[str, ...]:
         for block in surface.blocks
         for doubt in (
             *doubts_of_limits(block.kind, block.fitted, options),
-            *doubts_of_half(block.surface, surface_elements(block.surface), options),
+            # Halves that cross by less than the surface may be off its lines are told of only.
+            *doubts_of_half(
+                block.surface, surface_elements(block.surface), options, options.limit(block.kind)
+            ),
         )
     )
 

@@ -124,11 +124,15 @@ def test_what_is_no_text_of_a_ship_is_refused(case: str) -> None:
 
 
 def test_definitions_are_told_by_their_first_word(tmp_path: Path) -> None:
-    """Whatever the file is called; `ah.read` makes the hull, and takes no options."""
+    """Whatever the file is called; `ah.read` makes the hull, judges it, and takes no places."""
     path = tmp_path / "ship.csv"
     path.write_text("# a comment\n" + TEXT, "utf-8")
     assert holds_definition(path)
-    hull = ah.read(path)
+    with pytest.raises(ah.errors.NotSoundError, match="1 section"):
+        ah.read(path)
+    hull = ah.read(path, accept=True)
+    assert hull.adoption is not None
+    assert hull.adoption.notes[-1].startswith("verdict: not sound")
     assert hull.check() == ()
     made = ah.create(ah.creation.read_classical(path))
     assert made.fingerprint == hull.fingerprint

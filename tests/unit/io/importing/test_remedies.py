@@ -23,7 +23,7 @@ from assoc_hull.hull import Hull
 from tests import meshes
 
 L, B, T, D = 100.0, 10.0, 4.5, 6.25
-KNOWN = {"length": L, "draught": T}
+KNOWN: dict[str, Any] = {"length": L, "draught": T}
 Numbers = Any
 
 
@@ -111,7 +111,7 @@ def pair(off: float) -> Triangles:
     return Triangles(np.concatenate([whole.xyz + shift, whole.xyz - shift]), face)
 
 
-CUTS = {"stations": 21, "waterlines": 10, "buttocks": 2}
+CUTS: dict[str, Any] = {"stations": 21, "waterlines": 10, "buttocks": 2}
 
 
 @attrs.frozen

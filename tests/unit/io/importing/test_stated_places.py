@@ -88,7 +88,10 @@ def test_what_a_header_states_is_used_and_told_as_stated(form: str, tmp_path: Pa
     assert (ship.length, ship.breadth, ship.draught) == pytest.approx((97.5, 9.9, 6.0))
     (draught,) = notes(hull, "assumed", "draught")
     assert "as the file says" in draught
-    assert "97.5 m, stated in the file" in " ".join(
+    # Bare sections from x = 0 on leave x = 0 the AP, and 97.5 m the FP.
+    assert (
+        "= 97.5 m of the file" if form == "britfair" else "97.5 m, stated in the file"
+    ) in " ".join(
         notes(hull, "assumed", "aft perpendicular")
         + notes(hull, "assumed", "forward perpendicular")
     )

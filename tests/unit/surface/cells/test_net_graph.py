@@ -1,6 +1,7 @@
 """The graph of a net: nodes from rows, edges between them, normals, cells; what is refused."""
 
 from collections.abc import Callable
+from typing import Any
 
 import attrs
 import numpy as np
@@ -45,7 +46,7 @@ def rows_of(net: CurveNet, one: str, other: str) -> np.ndarray:
 def joined(one: CurveNet, other: CurveNet) -> CurveNet:
     """Two nets side by side."""
     count = one.batch.count
-    both = {
+    both: dict[str, Any] = {
         name: np.concatenate([getattr(one, name), getattr(other, name)])
         for name in ("curve", "end", "flat", "knuckle", "x", "centre", "normal", "watched", "row")
     }
