@@ -18,7 +18,7 @@ MOST_TIME = 10.0
 """Seconds of processor time that one input may take."""
 
 MOST_MEMORY = 1000.0
-"""Megabytes that this process may hold, all libraries and the input in it."""
+"""Megabytes that one input may take, on top of what this process held before."""
 
 _TICK = float(os.sysconf("SC_CLK_TCK")) if hasattr(os, "sysconf") else 100.0
 
@@ -37,16 +37,21 @@ def _of(server: child_process._Server) -> float:
     return sum(map(int, text.rpartition(")")[2].split()[11:15])) / _TICK
 
 
-def reset_peak() -> None:
-    """Forget how much memory was held."""
+def reset_peak() -> float:
+    """Forget how much memory was held at most; give what is held now, MB."""
     with contextlib.suppress(OSError):
         Path("/proc/self/clear_refs").write_text("5")
+    return _status("VmRSS:")
 
 
 def peak_memory() -> float:
     """Megabytes held at most since then."""
+    return _status("VmHWM:")
+
+
+def _status(name: str) -> float:
     with contextlib.suppress(OSError):
         for line in Path("/proc/self/status").read_text().splitlines():
-            if line.startswith("VmHWM:"):
+            if line.startswith(name):
                 return int(line.split()[1]) / 1e3
     return 0.0

@@ -53,7 +53,7 @@ class Outcome:
     spent : float, s
         Of processors.
     memory : float, MB
-        Held at most.
+        Taken at most.
     """
 
     code: int
@@ -74,7 +74,7 @@ def trial(kind: Kind, data: bytes, folder: Path) -> Outcome:
     given = {**kind.beside(), kind.file: data}
     for name, content in given.items():
         (folder / name).write_bytes(content)
-    reset_peak()
+    held = reset_peak()
     start, spent, code, fault, word = time.perf_counter(), processor_time(), 0, "", ""
     try:
         with _inside(folder):
@@ -88,7 +88,7 @@ def trial(kind: Kind, data: bytes, folder: Path) -> Outcome:
     finally:
         for path in folder.iterdir():
             path.unlink()
-    taken, memory = processor_time() - spent, peak_memory()
+    taken, memory = processor_time() - spent, peak_memory() - held
     if not fault and (taken > MOST_TIME or memory > MOST_MEMORY):
         fault = f"it took {taken:.1f} s of processor time and {memory:.0f} MB"
     return Outcome(code, fault, time.perf_counter() - start, word, taken, memory)

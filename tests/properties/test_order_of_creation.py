@@ -17,11 +17,13 @@ from assoc_hull.model.definition.fingerprint import fingerprint
 seed = int(sys.argv[1])
 plain = home.adopt
 
-def shuffled(sources, particulars, associations, tolerances=None):
-    sources, associations = list(sources), list(associations)
-    chance.shuffle(sources)
+def shuffled(sources, particulars, associations, tolerances=None, grown=None):
+    order = list(range(len(sources)))
+    chance.shuffle(order)
+    sources, associations = [sources[i] for i in order], list(associations)
+    grown = None if grown is None else [grown[i] for i in order]
     chance.shuffle(associations)
-    return plain(sources, particulars, associations, tolerances)
+    return plain(sources, particulars, associations, tolerances, grown)
 
 for name in ("shipped.wigley", "io.offsets.net", "shipped.bulk_carrier_207k"):
     import_module(f"assoc_hull.{name}").adopt = shuffled

@@ -111,7 +111,7 @@ HULL: dict[str, Given] = {
     "diff": {"before": "nowhere", "after": None},
     "replay": {"other": None, "skip": False},
     "export": {"path": "no-such-folder/a.dxf", "form": None, "unit": None,
-               "scale": None, "half": False, "points": None},
+               "scale": None, "half": False, "points": None, "accept": False},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
     "move": {"point": POINT, "x": None, "y": 3.0, "z": None},

@@ -840,15 +840,19 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
         end = drawn if by_lines else (length if fore else 0.0)
         covered = net.end & np.isfinite(net.x) & (sign * net.x >= sign * x - net.on_plane)
         closed = (len(stations) if fore else 0) in slabs or covered.any()
-        if closed or sign * (end - x) <= _LEAST_END * length or _is_transom(net, x):
+        if closed or sign * (end - x) <= _LEAST_END * length:
+            continue
+        spacing = abs(float(np.diff(stations[-2:] if fore else stations[:2])[0]))
+        if sign * (end - x) < _HALF * spacing and _is_transom(net, x):
             continue
         source = "where its lines end" if by_lines else "the perpendicular"
         ends.append(OpenEnd(fore, found.names[at], x, end, source))
     return tuple(ends)
 
 
-_BROAD = 0.4
-"""Where lines end at this part of the greatest half-breadth the hull ends, too."""
+_BROAD, _HALF = 0.4, 0.5
+"""Where lines end at this part of the greatest half-breadth the hull ends, too; but not where a
+station may be missing: farther than this part of a spacing from the end."""
 
 
 def _is_transom(net: CurveNet, x: float) -> bool:

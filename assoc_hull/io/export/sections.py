@@ -7,7 +7,7 @@ Examples
 >>> from assoc_hull.io.export.sections import sections_to_export
 >>> book = ExportBook(decimals=4)
 >>> [section.name for section in sections_to_export(wigley(), book)][:2]
-['ST 1', 'ST 2']
+['stern post', 'ST 1']
 >>> [str(note) for note in book.left_out][0]
 'lines: waterlines: 10 lines are left out: the form holds sections'
 """

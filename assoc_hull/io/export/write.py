@@ -9,7 +9,7 @@ Examples
 >>> with tempfile.TemporaryDirectory() as folder:
 ...     report = export_hull(wigley(), Path(folder) / "wigley.bri")
 >>> report.form, report.lines, report.rounding
-('britfair', 19, 5e-06)
+('britfair', 21, 5e-06)
 """
 
 from __future__ import annotations

@@ -105,7 +105,8 @@ def _floating(state: HullState, found: Findings) -> Hydrostatics | None:
     except OutOfRangeError as error:
         found.fault("draught", "the particulars", str(error), error.value)
         return None
-    drowned = record.draught_mean < ship.draught
+    # Water at the very edge is measured right below it, which is no drowning.
+    drowned = record.draught_mean < ship.draught * (1.0 - 1e-9)
     position = FloatingPosition(record.draught_mean, record.draught_mean)
     planes = planes_of([position], ship.length)
     lines, every = (body_of(hull).doubts(planes, numbers) for numbers in (False, True))

@@ -84,7 +84,7 @@ def stated_places(path: Path) -> StatedPlaces:
     BRITFAIR the title. Of other forms nothing is known.
     """
     file = regular_file(path)
-    if file.stat().st_size > _MOST:
+    if not file.is_file() or file.stat().st_size > _MOST:
         return StatedPlaces()
     data = file.read_bytes()
     if _BINARY.search(data[:_HEAD]):

@@ -51,8 +51,9 @@ _CENTRE = 1e-3
 _ABAFT = 0.05
 """An immersed end farther (m) forward of the AP than this is where sections end, not the hull."""
 
-_BROAD = 0.4
-"""An immersed end of this part of the greatest half-breadth is a transom wherever it stands."""
+_BROAD, _HALF = 0.4, 0.5
+"""An immersed end of this part of the greatest half-breadth is a transom within this part of a
+spacing of the AP."""
 
 _WATERLINES = 13
 """How many are lofted between keel and deck edge."""
@@ -132,7 +133,8 @@ def loft_sections(
         return None
     aft, fore = _post(posts, whole[0].offset, -1), _post(posts, whole[-1].offset, 1)
     widest = max(float(each.points[:, 1].max()) for each in whole)
-    transom = None if aft is not None else _transom(whole[0], draught, factor, widest)
+    spacing = whole[1].offset - whole[0].offset
+    transom = None if aft is not None else _transom(whole[0], draught, factor, widest, spacing)
     profile = _profile(whole, aft, fore, tolerance)
     lines = [profile, _deck_edge(whole, aft, fore, tolerance)]
     lines += _waterlines(whole, profile, tolerance, factor)
@@ -160,13 +162,15 @@ def _post(posts: list[LineSource], x: float, side: int) -> LineSource | None:
 
 
 def _transom(
-    section: LineSource, draught: float | None, factor: float, widest: float
+    section: LineSource, draught: float | None, factor: float, widest: float, spacing: float
 ) -> LineSource | None:
     """Give the aftmost section if it is a transom, None where the hull goes on abaft of it."""
     under = section.points[section.points[:, 2] < (np.inf if draught is None else draught)]
     immersed = draught is not None and len(under) > 0
     broad = len(under) > 0 and float(under[:, 1].max()) >= _BROAD * widest
-    goes_on = immersed and not broad and section.offset > factor * _ABAFT
+    # Farther off than half a spacing a section may be missing.
+    far = section.offset > (_HALF * spacing if broad else factor * _ABAFT)
+    goes_on = immersed and far
     return None if goes_on else section
 
 

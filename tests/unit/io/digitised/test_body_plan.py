@@ -72,7 +72,7 @@ def test_a_body_plan_becomes_a_hull(hull: Hull, tmp_path: Path) -> None:
     path = tmp_path / "plan.dxf"
     path.write_text(body_plan(hull, STATIONS, 100.0, "mm"), encoding="utf-8")
     back = ah.read(path, scale=100.0, length=LENGTH, draught=7.0, accept=True)
-    assert len(back.groups["sections"].lines) == 9
+    assert len(back.groups["sections"].lines) == 9  # the hull goes on abaft of the first
     assert {"profile", "deck edge"} <= set(back.groups["boundary"].lines)
     assert back.adoption is not None
     assert any("station numbers" in note for note in back.adoption.notes)

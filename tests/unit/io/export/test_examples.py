@@ -53,7 +53,7 @@ def test_ghs_geometry_files_gf_the_sections_of_the_hull() -> None:
     """GHS geometry files (.GF): the sections of the hull as one displacing part; writing."""
     book = ExportBook(decimals=4, scale=1.0 / FOOT)
     text = dumps_gf("Wigley", 100.0, 10.0, sections_to_export(wigley(), book), book)
-    assert text.splitlines()[10:14] == ["*", "HULL", "19", "-311.6798,32"]
+    assert text.splitlines()[10:14] == ["*", "HULL", "21", "-328.0840,2"]
 
 
 def test_ghs_geometry_files_gf_reading_the_sections() -> None:
