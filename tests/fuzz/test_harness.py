@@ -96,7 +96,7 @@ def test_faults_that_differ_in_names_and_numbers_only_are_one() -> None:
     ]
 
 
-def test_a_faulty_input_is_made_small() -> None:
+def test_a_faulty_input_is_made_small(tmp_path: Path) -> None:
     """What has no part in the fault is left out."""
 
     def faulty(_: object) -> int:
@@ -104,7 +104,9 @@ def test_a_faulty_input_is_made_small() -> None:
 
     data = b"a,b,c\n1,2,3\n" * 20 + b"1,bad,3\n" + b"4,5,6\n" * 20
     with mock.patch.object(cli, "main", faulty):
-        assert small(KINDS["offsets"], data, "import: ValueError left the program: odd") == b"bad"
+        fault = trial(KINDS["offsets"], data, tmp_path).fault
+        assert fault.startswith("import: ValueError left the program: odd (test_harness.py:")
+        assert small(KINDS["offsets"], data, fault) == b"bad"
 
 
 def _spin(_: Random) -> bytes:

@@ -279,6 +279,6 @@ def test_a_name_the_form_cannot_hold_is_mended_and_told(tmp_path: Path) -> None:
         report = hull.export(tmp_path / name)
         assert "name" in {note.kind for note in report.mended}, name
         found = ah.read(tmp_path / name)
-        # Plumb ends are sections of no breadth, which three sections are too few to make a profile of.
+        # Plumb ends are sections of no breadth: three are too few to make a profile of.
         assert len(found.groups["sections"].lines) == (5 if name in ("a.bri", "a.gf") else 3)
         assert found.particulars.length == pytest.approx(100.0, rel=0.6)
