@@ -1129,10 +1129,10 @@ def markdown(rows: Sequence[Row]) -> str:
 
 
 def _word(cell: Cell) -> str:
+    """Give what came of it, and how many suspicions."""
     words = {"silent": "SILENTLY WRONG", "unusable": "no hydrostatics"}
-    many = f", {len(cell.suspicions)} suspicions" if len(cell.suspicions) > 1 else ""
-    one = ", 1 suspicion" if len(cell.suspicions) == 1 else ""
-    return words.get(cell.word, cell.word) + many + one
+    many = f" ({len(cell.suspicions)})" if cell.suspicions else ""
+    return words.get(cell.word, cell.word) + many
 
 
 def _offs(cell: Cell) -> str:
@@ -1140,15 +1140,16 @@ def _offs(cell: Cell) -> str:
 
 
 def _default_words(row: Row) -> str:
+    """Give what came of nothing said; of a refusal, what doing as it says led to."""
     if row.remedy is None:
         return _word(row.defaults)
     options, cell = row.remedy
-    said = ", ".join(f"{name}={value!r}" for name, value in options.items()) or "nothing to do"
-    return f"refused; with {said}: {_word(cell)}"
+    return f"refused, then {_word(cell)}" if options else "refused"
 
 
 def _wrong_words(row: Row) -> str:
-    return "; ".join(f"{each}: {_word(cell)}" for each, cell in row.wrong)
+    words = [_word(cell).partition(" (")[0] for _, cell in row.wrong]
+    return ", ".join(f"{words.count(word)} {word}" for word in sorted(set(words)))
 
 
 _SHOWN = 4
