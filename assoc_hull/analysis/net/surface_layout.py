@@ -41,6 +41,8 @@ from assoc_hull.geometry.splines.paths import Bit, Paths, PathShapes, shape_path
 from assoc_hull.geometry.surfaces.coons import CoonsCells
 
 __all__ = [
+    "BROAD_END",
+    "NEAR_END",
     "LineSpans",
     "OpenEnd",
     "StripAnchor",
@@ -843,14 +845,14 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
         if closed or sign * (end - x) <= _LEAST_END * length:
             continue
         spacing = abs(float(np.diff(stations[-2:] if fore else stations[:2])[0]))
-        if sign * (end - x) < _HALF * spacing and _is_transom(net, x):
+        if sign * (end - x) < NEAR_END * spacing and _is_transom(net, x):
             continue
         source = "where its lines end" if by_lines else "the perpendicular"
         ends.append(OpenEnd(fore, found.names[at], x, end, source))
     return tuple(ends)
 
 
-_BROAD, _HALF = 0.4, 0.5
+BROAD_END, NEAR_END = 0.4, 0.5
 """Where lines end at this part of the greatest half-breadth the hull ends, too; but not where a
 station may be missing: farther than this part of a spacing from the end."""
 
@@ -865,7 +867,7 @@ def _is_transom(net: CurveNet, x: float) -> bool:
     along = np.tile(np.isin(net.family, ("waterlines", "buttocks")), 2)
     here = along & (np.abs(ends[:, 0] - x) <= net.on_plane)
     widest = float(np.abs(net.batch.xyz[:, 1]).max())
-    return bool(here.any() and float(np.abs(ends[here, 1]).max()) >= _BROAD * widest)
+    return bool(here.any() and float(np.abs(ends[here, 1]).max()) >= BROAD_END * widest)
 
 
 def _tells_extent(net: CurveNet) -> NDArray[np.bool_]:

@@ -31,6 +31,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.net.surface_layout import BROAD_END, NEAR_END
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.loft import loft
@@ -50,10 +51,6 @@ _CENTRE = 1e-3
 
 _ABAFT = 0.05
 """An immersed end farther (m) forward of the AP than this is where sections end, not the hull."""
-
-_BROAD, _HALF = 0.4, 0.5
-"""An immersed end of this part of the greatest half-breadth is a transom within this part of a
-spacing of the AP."""
 
 _WATERLINES = 13
 """How many are lofted between keel and deck edge."""
@@ -167,9 +164,9 @@ def _transom(
     """Give the aftmost section if it is a transom, None where the hull goes on abaft of it."""
     under = section.points[section.points[:, 2] < (np.inf if draught is None else draught)]
     immersed = draught is not None and len(under) > 0
-    broad = len(under) > 0 and float(under[:, 1].max()) >= _BROAD * widest
+    broad = len(under) > 0 and float(under[:, 1].max()) >= BROAD_END * widest
     # Farther off than half a spacing a section may be missing.
-    far = section.offset > (_HALF * spacing if broad else factor * _ABAFT)
+    far = section.offset > (NEAR_END * spacing if broad else factor * _ABAFT)
     goes_on = immersed and far
     return None if goes_on else section
 
