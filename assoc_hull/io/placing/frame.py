@@ -437,6 +437,8 @@ _NEAR = 0.03
 
 def _other_unit(size: float, length: float) -> str:
     """Ask for the unit in which a hull of this size (m) has Lpp, if there is one."""
+    if not length > 0.0:
+        return ""  # a waterline that is a point has no length to compare with
     for unit in ("ft", "in", "cm", "mm"):
         if abs(size * METRES[unit] / length - 1.0) < _NEAR:
             return f"are these {_WORDS[unit]}? give unit='{unit}'; else "
