@@ -82,7 +82,7 @@ CurvePart = tuple[int, float, float]
 """A curve of the net and the chord parameters (m) between which it is walked, in that sense."""
 
 _SNAP = 1e-9
-"""A parameter this near to a knot (m) is the knot."""
+"""A parameter this near to a knot (m, of a short hull less) is the knot."""
 
 
 @attrs.frozen(eq=False)
@@ -258,7 +258,9 @@ def segments_of_part(net: CurveNet, part: CurvePart) -> list[Bit]:
     """Give the bits of segments that a part of a curve consists of; backward where it runs so."""
     curve, begin, finish = part
     knot = net.knots[curve]
-    low, high = (_snapped(knot, t) for t in (min(begin, finish), max(begin, finish)))
+    low, high = (
+        _snapped(knot, t, net.factor * _SNAP) for t in (min(begin, finish), max(begin, finish))
+    )
     first = min(bisect_right(knot, low), len(knot) - 1) - 1
     last = max(bisect_left(knot, high), first + 1) - 1
     base = int(net.batch.start[curve]) - curve
@@ -271,12 +273,12 @@ def segments_of_part(net: CurveNet, part: CurvePart) -> list[Bit]:
     return bits if begin <= finish else [(s, b, a) for s, a, b in reversed(bits)]
 
 
-def _snapped(knot: list[float], t: float) -> float:
-    """Give the knot for a parameter that is next to one."""
+def _snapped(knot: list[float], t: float, near: float) -> float:
+    """Give the knot for a parameter that is within `near`, m, of one."""
     i = bisect_left(knot, t)
-    for near in knot[max(i - 1, 0) : i + 1]:
-        if abs(near - t) <= _SNAP:
-            return near
+    for each in knot[max(i - 1, 0) : i + 1]:
+        if abs(each - t) <= near:
+            return each
     return t
 
 

@@ -32,7 +32,7 @@ _INSIDE = 1e-12
 """An end of a bit that is not so near to a knot, in parts of the segment, lies inside."""
 
 _SAME = 1e-7
-"""A crossing is at a place if it is so near, m along the curve."""
+"""A crossing is at a place if it is so near, m along the curve, of a short hull less."""
 
 _STEPS = 3
 """Towards the point on a curve that is nearest: points hardly leave their curves."""
@@ -107,7 +107,7 @@ def _crossings(net: CurveNet, segment: IntArray, u: FloatArray) -> tuple[IntArra
     found = np.full(len(own), -1)
     for at in (near - 1, near):
         good = (at >= begin) & (at < end)
-        good[good] &= np.abs(place[at[good]] - t[good]) <= _SAME
+        good[good] &= np.abs(place[at[good]] - t[good]) <= net.factor * _SAME
         found[good] = order[at[good]]
     count = len(net.meets)
     return np.where(found < 0, -1, found % max(count, 1)), found // max(count, 1)

@@ -75,7 +75,7 @@ _STEADY = 0.02
 """Along an anchor x grows everywhere by this part of its mean growth at least."""
 
 _SAME = 1e-6
-"""Places on one curve so near to one another (m) are one."""
+"""Places on one curve so near to one another (m, of a short hull less) are one."""
 
 _CORNER = 1e-4
 """A line that ends on a side this near to the rail, in lengths of the rail, ends at its corner.
@@ -127,12 +127,15 @@ class LineSpans:
         Which spans run between two curves.
     course : (n, 5, 3), m
         The ends of each stretch and three places between, evenly spaced in x.
+    same : float, m
+        Places on one curve so near to one another are one.
     """
 
     span: tuple[tuple[CurvePart, CurvePlace, CurvePlace, int], ...]
     steady: tuple[bool, ...]
     of: dict[tuple[int, int], tuple[int, ...]]
     course: FloatArray
+    same: float = _SAME
 
 
 def line_spans(net: CurveNet) -> LineSpans:
@@ -156,7 +159,8 @@ def line_spans(net: CurveNet) -> LineSpans:
         key = (min(c0, c1), max(c0, c1))
         of[key] = (*of.get(key, ()), i)
     parts = [each[0] for each in found]
-    return LineSpans(tuple(found), runs_monotonic(net, parts), of, _courses(net, parts))
+    return LineSpans(tuple(found), runs_monotonic(net, parts), of, _courses(net, parts),
+                     net.factor * _SAME)  # fmt: skip
 
 
 def _place(net: CurveNet, curve: int) -> int:
@@ -217,26 +221,26 @@ def strip_anchors(
     side: the frame is given back as it is then.
     """
     found = _found(frame, every)
-    pointed = _pointed(frame, [anchor for _, anchor in found])
+    pointed = _pointed(frame, [anchor for _, anchor in found], every.same)
     if pointed is not None:
         frame = pointed
         found = _found(frame, every)
-    aft, fore = _rails(frame)
+    aft, fore = _rails(frame, every.same)
     keel = StripAnchor(frame.keel, aft.begin, fore.begin, 0.0, 0.0)
     deck = StripAnchor(frame.deck, aft.finish, fore.finish, 1.0, 1.0)
     return frame, _in_order(keel, deck, found)
 
 
-def _rails(frame: StripBoundary) -> tuple[_Rail, _Rail]:
+def _rails(frame: StripBoundary, same: float) -> tuple[_Rail, _Rail]:
     return (
-        _Rail.of(frame.aft, frame.keel[:1], frame.deck[:1], 1),
-        _Rail.of(frame.fore, frame.keel[-1:], frame.deck[-1:], 2),
+        _Rail.of(frame.aft, frame.keel[:1], frame.deck[:1], 1, same),
+        _Rail.of(frame.fore, frame.keel[-1:], frame.deck[-1:], 2, same),
     )
 
 
 def _found(frame: StripBoundary, every: LineSpans) -> list[tuple[int, StripAnchor]]:
     """Find the stretches of lines from one rail to the other."""
-    aft, fore = _rails(frame)
+    aft, fore = _rails(frame, every.same)
     found: list[tuple[int, StripAnchor]] = []
     for i in (
         i
@@ -262,11 +266,11 @@ def _found(frame: StripBoundary, every: LineSpans) -> list[tuple[int, StripAncho
     return found
 
 
-def _pointed(frame: StripBoundary, run: Sequence[StripAnchor]) -> StripBoundary | None:
-    """Give the frame with a rail that is a point, if all anchors run to one."""
+def _pointed(frame: StripBoundary, run: Sequence[StripAnchor], same: float) -> StripBoundary | None:
+    """Give the frame with a rail that is a point, if all anchors run to one within `same`, m."""
     if frame.plane or len(run) < 2:
         return None
-    if len(frame.fore) == 1 and np.ptp([each.fore[1] for each in run]) <= _SAME:
+    if len(frame.fore) == 1 and np.ptp([each.fore[1] for each in run]) <= same:
         (curve, t0, t1), tip = frame.fore[0], run[0].fore[1]
         return attrs.evolve(
             frame,
@@ -274,7 +278,7 @@ def _pointed(frame: StripBoundary, run: Sequence[StripAnchor]) -> StripBoundary 
             keel=(*frame.keel, (curve, t0, tip)),
             deck=(*frame.deck, (curve, t1, tip)),
         )
-    if len(frame.aft) == 1 and np.ptp([each.aft[1] for each in run]) <= _SAME:
+    if len(frame.aft) == 1 and np.ptp([each.aft[1] for each in run]) <= same:
         (curve, t0, t1), tip = frame.aft[0], run[0].aft[1]
         return attrs.evolve(
             frame,
@@ -334,6 +338,8 @@ class _Rail:
     length: float
     corner: tuple[tuple[CurvePlace, CurvePlace], ...]
     """Places on the sides at which the rail begins and ends, and where on the rail that is."""
+    same: float
+    """Places on one curve so near to one another (m) are one."""
 
     @classmethod
     def of(
@@ -342,6 +348,7 @@ class _Rail:
         keel: Sequence[CurvePart],
         deck: Sequence[CurvePart],
         end: int,
+        same: float,
     ) -> _Rail:
         """Make a rail; `end` says which end of the sides it joins: 1 their begin, 2 their end."""
         sizes = [abs(part[2] - part[1]) for part in parts]
@@ -349,7 +356,7 @@ class _Rail:
         begin, finish = (0, parts[0][1]), (len(parts) - 1, parts[-1][2])
         corner = [((part[0], part[end]), begin) for part in keel]
         corner += [((part[0], part[end]), finish) for part in deck]
-        return cls(parts, base, float(sum(sizes)), tuple(corner))
+        return cls(parts, base, float(sum(sizes)), tuple(corner), same)
 
     @property
     def curves(self) -> list[int]:
@@ -372,10 +379,10 @@ class _Rail:
         """Find a place on a curve on the rail, None if it is not there."""
         curve, t = place
         for i, (c, t0, t1) in enumerate(self.parts):
-            if c == curve and min(t0, t1) - _SAME <= t <= max(t0, t1) + _SAME:
+            if c == curve and min(t0, t1) - self.same <= t <= max(t0, t1) + self.same:
                 return i, float(np.clip(t, min(t0, t1), max(t0, t1)))
         for (c, at), spot in self.corner:
-            if c == curve and abs(at - t) <= max(_SAME, _CORNER * self.length):
+            if c == curve and abs(at - t) <= max(self.same, _CORNER * self.length):
                 return spot
         return None
 
