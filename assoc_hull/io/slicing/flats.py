@@ -11,13 +11,16 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.polylines.flats import FlatRegion, fit_plane, join_straight_runs
-from assoc_hull.geometry.polylines.operations import resample
+from assoc_hull.geometry.polylines.operations import cumulative_lengths, resample
 from assoc_hull.geometry.polylines.straight_runs import StraightRun
 from assoc_hull.io.lines.slices import AXES
 from assoc_hull.io.slicing.features import FeatureRules, PieceFeatures
 from assoc_hull.io.slicing.smooth_lines import in_space
 
 __all__ = ["FlatFound", "RimMark", "find_flats"]
+
+_EVEN = 0.6
+"""Two standard deviations of a place that may lie anywhere within a length, as a part of that."""
 
 
 @attrs.frozen(eq=False)
@@ -200,6 +203,7 @@ def _marks(
             place = _on_plane(ends[side], normal, offset, parts[i])
             # Of a gradual onset the middle half: its whole stretch is for the rarest shapes.
             doubt = (2.0 if onset.kind == "arc" else 0.5) * onset.uncertainty
+            doubt = max(doubt, _within_facet(parts[i], onset.at))
             mark = RimMark(i, j, side, place, doubt)
             if onset.uncertainty >= rules.border:
                 found.append(mark)
@@ -212,6 +216,19 @@ def _marks(
         for each in chains:
             found += _chained(each) if len(each) >= rules.chain.lines else each
     return found
+
+
+def _within_facet(part: PieceFeatures, at: float) -> float:
+    """Give the doubt (m) that a facet leaves of a place along its line; 0 of digitised points.
+
+    A hull may leave its flat anywhere within the facet: 2 standard deviations of an even spread.
+    """
+    if part.depth == 0.0:
+        return 0.0
+    along = cumulative_lengths(part.points)
+    after = int(np.clip(np.searchsorted(along, at), 1, len(along) - 1))
+    near = np.diff(along[max(after - 2, 0) : after + 2])
+    return float(_EVEN * near.max())
 
 
 def _chained(chain: list[RimMark]) -> list[RimMark]:

@@ -241,7 +241,7 @@ _FADE = 400.0
 """The line follows its end over this many times the move: it turns by a sixth of a degree."""
 
 _REACH = 0.1
-"""How far (m) an end may lie from the smooth boundary curve it is on."""
+"""How far (m across the hull) an end may lie from the smooth boundary curve it is on."""
 
 
 def snap_ends(
@@ -260,7 +260,7 @@ def snap_ends(
         places = np.concatenate(met)[:, columns] if met else np.zeros((0, 2))
         away = np.linalg.norm(places - part.points[end], axis=1)
         # Where the plane cuts the hull at a small angle, a move along the line matters little.
-        if not len(away) or not least / part.sine[end] < away.min() < _REACH:
+        if not len(away) or not least < part.sine[end] * away.min() < _REACH:
             continue
         step = places[int(away.argmin())] - part.points[end]
         far = (
@@ -287,7 +287,9 @@ def make_source(plan: PiecePlan, tolerance: float) -> tuple[LineSource, SmoothRe
     """Draw a piece as a line that can be adopted within `tolerance` (m) of the smooth curve."""
     part = plan.part
     drawn = [stretch.draw() for stretch in plan.stretches]
-    xy, kind, direction = _to_port(part, *_chain(plan, drawn))
+    xy, kind, direction = _chain(plan, drawn)
+    kept = _to_port(part, xy, kind)
+    xy, kind, direction = xy[kept], kind[kept], direction[kept]
     way = np.zeros((len(xy), 3))
     way[:, piece_columns(part)] = direction
     line, sine = (
@@ -319,19 +321,14 @@ _BEYOND = 1e-6
 """Points of a smooth line farther (m) beyond the centre plane than rounding takes them are none."""
 
 
-def _to_port(
-    part: PieceFeatures,
-    xy: FloatArray,
-    kind: np.typing.NDArray[np.int8],
-    direction: FloatArray,
-) -> tuple[FloatArray, np.typing.NDArray[np.int8], FloatArray]:
+def _to_port(part: PieceFeatures, xy: FloatArray, kind: np.typing.NDArray[np.int8]) -> IntArray:
     """Leave out smooth points beyond the centre plane: a line along it is smoothed across it."""
     columns = piece_columns(part)
     if part.line.group == "boundary" or 1 not in columns:
-        return xy, kind, direction
+        return np.arange(len(xy))
     kept = (xy[:, columns.index(1)] >= -_BEYOND) | (kind != PointKind.SMOOTH)
     kept[[0, -1]] = True
-    return xy[kept], kind[kept], direction[kept]
+    return np.flatnonzero(kept)
 
 
 def _chain(
@@ -395,25 +392,35 @@ def _numbers(fits: Sequence[PolylineFit | None]) -> list[int]:
 
 @attrs.frozen(eq=False)
 class _Track:
-    """Which fit each point of a line comes from: first point, fit and lengths (m) per stretch."""
+    """Which fit each point of a line comes from: first point, fit and lengths (m) per stretch.
+
+    `kept` are the points that the line has: those beyond the centre plane are left out of it.
+    """
 
     first: IntArray
     number: list[int]
     at: list[FloatArray]
+    kept: IntArray
 
     def find(self, interval: int, part: float) -> tuple[int, float]:
         """Give the fit, -1 if straight, and the length for a place in an interval of points."""
-        stretch = int(np.searchsorted(self.first, interval, "right")) - 1
-        at, i = self.at[stretch], interval - int(self.first[stretch])
-        return self.number[stretch], float(at[i] + part * (at[i + 1] - at[i]))
+        low, high = self.kept[interval : interval + 2].tolist()
+        # What is left out is smooth: an interval never reaches over the end of a stretch.
+        stretch = int(np.searchsorted(self.first, low, "right")) - 1
+        at, begin = self.at[stretch], int(self.first[stretch])
+        below, above = float(at[low - begin]), float(at[high - begin])
+        return self.number[stretch], below + part * (above - below)
 
 
 def _tracks(plans: Sequence[PiecePlan], numbers: Sequence[int]) -> list[_Track]:
     tracks, begin = [], 0
     for plan in plans:
-        at = [each.draw().at for each in plan.stretches]
+        drawn = [each.draw() for each in plan.stretches]
+        at = [each.at for each in drawn]
         first = np.concatenate([[0], np.cumsum([len(each) - 1 for each in at])[:-1]])
-        tracks.append(_Track(first, list(numbers[begin : begin + len(at)]), at))
+        xy, kind, _ = _chain(plan, drawn)
+        kept = _to_port(plan.part, xy, kind)
+        tracks.append(_Track(first, list(numbers[begin : begin + len(at)]), at, kept))
         begin += len(at)
     return tracks
 
