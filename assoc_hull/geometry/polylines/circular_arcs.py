@@ -297,7 +297,8 @@ def _trend(along: FloatArray, off: FloatArray, noise: float) -> float:
     left = off - table @ found
     spread = float(np.sqrt((left * left).sum() / max(len(off) - 5, 1)))
     inverse = np.linalg.pinv(table.T @ table)
-    doubt = np.sqrt(np.diag(inverse)) * max(spread, noise, 1e-7)
+    # Rounding leaves less than nothing where the points hardly tell the terms apart.
+    doubt = np.sqrt(np.maximum(np.diag(inverse), 1e-300)) * max(spread, noise, 1e-7)
     return float(np.abs(found[3:] / doubt[3:]).max())
 
 

@@ -15,10 +15,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.polylines.operations import cumulative_lengths
 
-__all__ = ["facet_depth", "facet_depths", "point_scatter"]
+__all__ = ["facet_depth", "facet_depths", "forward_points", "point_scatter"]
 
 _GAUSS = 1.4826
 """Standard deviation over median of the absolute value, of a normal distribution."""
@@ -119,3 +119,68 @@ def facet_depths(points: FloatArray, corner_deg: float = 10.0) -> FloatArray:
     depth, _, smooth = _depths(points, corner_deg)
     whole = np.concatenate([[0.0], np.where(smooth, depth, 0.0), [0.0]])
     return np.asarray(maximum_filter1d(whole, 9, mode="nearest"))
+
+
+_WINDOW = 12
+"""A line that runs to and fro is looked at over so many points at most."""
+
+
+def forward_points(points: FloatArray, allowed: FloatArray) -> IntArray:
+    """Give the points (k,) of a line without those between which it runs to and fro.
+
+    A plane that grazes a surface cuts its facets in an order that is not that of the line. Where
+    a line turns by over 90 degrees, and the chord over that place passes all points between its
+    ends by no more than is allowed, those are left out. Corners stay: chords pass them farther off.
+
+    Parameters
+    ----------
+    points : (n, d), m
+        In order along the line.
+    allowed : (n,), m
+        How far the line may be moved at each of them.
+
+    Examples
+    --------
+    >>> x = np.array([0.0, 1.0, 2.0, 1.9, 2.1, 3.0])
+    >>> forward_points(np.column_stack([x, 0.01 * x]), np.full(6, 0.05)).tolist()
+    [0, 1, 4, 5]
+    """
+    kept = np.arange(len(points))
+    place = 1
+    while place < len(kept) - 1:
+        one, two = np.diff(points[kept[place - 1 : place + 2]], axis=0)
+        window = None if one @ two >= 0.0 else _turn_window(points[kept], allowed[kept], place)
+        if window is None:
+            place += 1
+            continue
+        low, high = window
+        kept = np.delete(kept, np.arange(low + 1, high))
+        place = max(low, 1)
+    return kept
+
+
+def _turn_window(points: FloatArray, allowed: FloatArray, place: int) -> tuple[int, int] | None:
+    """Give the shortest stretch around a turn whose chord may take its place, by its ends."""
+    last = len(points) - 1
+    for size in range(2, _WINDOW + 1):
+        for low in range(max(place - size + 1, 0), place):
+            high = low + size
+            if high > last:
+                break
+            chord = points[high] - points[low]
+            length = float(chord @ chord)
+            inner = points[low + 1 : high] - points[low]
+            part = np.clip(inner @ chord / max(length, 1e-300), 0.0, 1.0)
+            away = inner - part[:, None] * chord
+            near = (away * away).sum(axis=1) <= allowed[low + 1 : high] ** 2
+            if near.all() and _goes_on(points, low, high):
+                return low, high
+    return None
+
+
+def _goes_on(points: FloatArray, low: int, high: int) -> bool:
+    """Tell whether the line goes on at both ends of a chord without turning back."""
+    chord = points[high] - points[low]
+    before = low == 0 or bool((points[low] - points[low - 1]) @ chord > 0.0)
+    after = high == len(points) - 1 or bool((points[high + 1] - points[high]) @ chord > 0.0)
+    return before and after

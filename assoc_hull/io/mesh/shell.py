@@ -1,7 +1,7 @@
 """The shell of a hull, and the lines that planes cut from it.
 
-The shell is half of the mesh without deck and transom. Lines cut from it end on the profile, the
-deck edge or the edge of the transom, which are its open edges (`RimKind`).
+The shell is half of the mesh without deck, transom and the flat end of a bossing. Lines cut from it
+end on the profile, the deck edge or the edges of the ends, which are its open edges (`RimKind`).
 """
 
 from __future__ import annotations
@@ -151,8 +151,8 @@ _PLANE = 1e-6
 class RimKind:
     """What an open edge of the shell is."""
 
-    PROFILE, DECK, TRANSOM, LOOSE = range(4)
-    NAMES = ("profile", "deck edge", "transom", "loose")
+    PROFILE, DECK, TRANSOM, BOSSING, LOOSE = range(5)
+    NAMES = ("profile", "deck edge", "transom", "bossing end", "loose")
 
 
 @attrs.frozen(eq=False)
@@ -192,10 +192,17 @@ def make_shell(mesh: Triangles, book: Notebook) -> MeshShell:
     mesh = _half(mesh)
     deck, transom = _find_deck(mesh), _find_transom(mesh)
     deck &= ~transom
+    bossing = _find_bossing_end(mesh) & ~transom
     _tell_caps(mesh, deck, transom, book)
-    shell = mesh.part(~(deck | transom))
+    shell = mesh.part(~(deck | transom | bossing))
     rim = boundary_edges(shell)
     sort = _sort(mesh, rim, mesh.face[deck], mesh.face[transom])
+    sort[_around_bossing(mesh, rim, sort)] = RimKind.BOSSING
+    if (sort == RimKind.BOSSING).any():
+        ends = mesh.xyz[rim[sort == RimKind.BOSSING]]
+        x, z = float(ends[..., 0].mean()), ends[..., 2]
+        what = f"flat across the ship at x = {x:.6g} m, z = {z.min():.6g} to {z.max():.6g} m"
+        book.assume("bossing end", _WHERE, what, x)
     loose = int((sort == RimKind.LOOSE).sum())
     if loose:
         low = mesh.xyz[rim[sort == RimKind.LOOSE]][:, :, 2].min()
@@ -288,6 +295,44 @@ def _find_transom(mesh: Triangles) -> _BoolArray:
     flat = aft & (np.abs(mesh.corners @ normal - offset).max(axis=1) < 2e-4 * (high[0] - low[0]))
     end = float((high[1] - low[1]) * (high[2] - low[2]))
     return _large_parts(mesh, flat, area, 0.005 * end)
+
+
+_DISC = 2e-4
+"""The least flat end of a bossing, as a part of breadth times depth of the half."""
+
+_FLAT = 0.1
+"""So far the edge of an end is off a plane across the ship, in parts of its size."""
+
+
+def _find_bossing_end(mesh: Triangles) -> _BoolArray:
+    """Find small flat parts square to the ship that look aft, as the end of a bossing or skeg."""
+    vectors = mesh.area_vectors()
+    area = np.linalg.norm(vectors, axis=1)
+    low, high = mesh.xyz.min(axis=0), mesh.xyz.max(axis=0)
+    aft = (vectors[:, 0] < -0.99999 * area) & (
+        mesh.corners[:, :, 0].mean(axis=1) < 0.5 * (low[0] + high[0])
+    )
+    least = _DISC * float((high[1] - low[1]) * (high[2] - low[2]))
+    return _large_parts(mesh, aft, area, least)
+
+
+def _around_bossing(mesh: Triangles, rim: IntArray, sort: IntArray) -> _BoolArray:
+    """Tell which loose edges go around an end that is flat across the ship, abaft midships."""
+    loose = np.flatnonzero(sort == RimKind.LOOSE)
+    out = np.zeros(len(rim), np.bool_)
+    if not len(loose):
+        return out
+    middle = 0.5 * float(mesh.xyz[:, 0].min() + mesh.xyz[:, 0].max())
+    number = np.full(len(mesh.xyz), -1)
+    for i, (path, closed) in enumerate(order_paths(rim[loose], len(mesh.xyz))):
+        size = np.ptp(mesh.xyz[path], axis=0)
+        flat = size[0] <= _FLAT * min(size[1:])
+        on_centre = closed or (mesh.xyz[path[[0, -1]], 1] == 0.0).all()
+        if flat and on_centre and mesh.xyz[path, 0].max() < middle:
+            number[path] = i
+    edge = number[rim[loose]]
+    out[loose] = (edge[:, 0] >= 0) & (edge[:, 0] == edge[:, 1])
+    return out
 
 
 def _large_parts(mesh: Triangles, chosen: _BoolArray, area: FloatArray, least: float) -> _BoolArray:

@@ -199,22 +199,43 @@ def draw_knuckles(
     sources: list[LineSource] = []
     borders: list[BoundaryCurve] = []
     known = [line for each in knuckles for line in _known(each, rules)]
-    for number, course in enumerate(_knuckle_courses(known, tolerance), 1):
-        name = f"knuckle {number}"
+    for course in _knuckle_courses(known, tolerance):
+        name = f"knuckle {len(borders) + 1}"
         source, border = draw_boundary_curve(name, BoundaryKind.KNUCKLE, course, rules, tolerance)
-        spline, taken = loft_source(source), 0
-        for i, part in enumerate(out):
-            for place in plane_intersections(spline, part):
-                # Where a line runs along it nobody can tell where it crosses: by the doubt there.
-                if _sine(spline, place, part) < _doubt_at(course, place) / (2.0 * rules.onset):
-                    continue
-                split = _split(part, place, tolerance)
-                if split is not None:
-                    part = out[i] = split
-                    taken += 1
+        split, taken, missed = _split_on(loft_source(source), out, course, rules, tolerance)
+        if missed > taken - len(course.lines):
+            continue
+        out = split
         sources.append(source)
         borders.append(attrs.evolve(border, taken=taken))
     return out, sources, borders
+
+
+def _split_on(
+    spline: SplineBatch,
+    parts: list[PieceFeatures],
+    course: BoundaryMarks,
+    rules: FeatureRules,
+    tolerance: float,
+) -> tuple[list[PieceFeatures], int, int]:
+    """Let the lines that cross a knuckle line have their corner there.
+
+    Gives the pieces, how many corners lie on it now, and how many lines that show no mark of it
+    pass it by: turns of facets in a row make no knuckle line if most others pass them by, and a
+    line that others pass without an intersection would leave the net open.
+    """
+    out, taken, missed = list(parts), 0, 0
+    for i, part in enumerate(parts):
+        for place in plane_intersections(spline, part):
+            # Where a line runs along it nobody can tell where it crosses: by the doubt there.
+            told = _sine(spline, place, part) >= _doubt_at(course, place) / (2.0 * rules.onset)
+            split = _split(out[i], place, tolerance) if told else None
+            if split is not None:
+                out[i] = split
+                taken += 1
+            elif part.line.name not in course.lines:
+                missed += 1
+    return out, taken, missed
 
 
 def _known(line: KnuckleTrace, rules: FeatureRules) -> list[KnuckleTrace]:

@@ -24,7 +24,12 @@ from assoc_hull.geometry.polylines.corners import (
     marked_corners,
     with_marked,
 )
-from assoc_hull.geometry.polylines.noise import facet_depth, facet_depths, point_scatter
+from assoc_hull.geometry.polylines.noise import (
+    facet_depth,
+    facet_depths,
+    point_scatter,
+    forward_points,
+)
 from assoc_hull.geometry.polylines.operations import cumulative_lengths, distinct_points
 from assoc_hull.geometry.polylines.smoothing import local_scatter
 from assoc_hull.geometry.polylines.straight_runs import (
@@ -284,7 +289,16 @@ def _bare(
         noise = point_scatter(points)
         least = np.full(len(points), max(3.0 * noise, rules.smooth_least))
         allowed = least
-    return PieceFeatures(line, piece, points, noise, np.maximum(allowed, least), sine, slices.depth)
+    allowed = np.maximum(allowed, least)
+    if slices.facets:
+        # Where a plane grazes the hull, its cut through facets runs to and fro.
+        ahead = forward_points(points, _TO_AND_FRO * allowed)
+        points, allowed, sine = points[ahead], allowed[ahead], sine[ahead]
+    return PieceFeatures(line, piece, points, noise, allowed, sine, slices.depth)
+
+
+_TO_AND_FRO = 3.0
+"""Where a line runs to and fro it may be moved so many times as far as elsewhere."""
 
 
 def _marks(part: PieceFeatures, slices: HullSlices) -> FloatArray:

@@ -370,7 +370,7 @@ def _boundaries(
 ) -> list[SliceLine]:
     """Chain the open edges into profile, deck edge and edge of the transom."""
     found: list[SliceLine] = []
-    for kind in (RimKind.PROFILE, RimKind.DECK, RimKind.TRANSOM):
+    for kind in (RimKind.PROFILE, RimKind.DECK, RimKind.TRANSOM, RimKind.BOSSING):
         name = RimKind.NAMES[kind]
         chains, made = join_pieces(name, rim_pieces(shell, kind), gaps)
         joins += made
@@ -450,7 +450,7 @@ def _length(piece: LinePiece) -> float:
 
 def _forward(pieces: list[LinePiece], kind: int) -> list[LinePiece]:
     """Turn profile and deck edge from aft forward, the transom from the centre plane outward."""
-    column = 1 if kind == RimKind.TRANSOM else 0
+    column = 1 if kind in (RimKind.TRANSOM, RimKind.BOSSING) else 0
     turned = [
         piece if piece.points[0, column] <= piece.points[-1, column] else piece.reversed()
         for piece in pieces

@@ -241,7 +241,11 @@ _FADE = 400.0
 """The line follows its end over this many times the move: it turns by a sixth of a degree."""
 
 _REACH = 0.1
-"""How far (m across the hull) an end may lie from the smooth boundary curve it is on."""
+"""How far (m across line and hull) an end may lie from the smooth boundary curve it is on."""
+
+_ALONG = 1.0
+"""How far (m) it may lie from there at all: a boundary that a line meets at a small angle, as that
+of a deck with little sheer, crosses the line's plane far from where facets do."""
 
 
 def snap_ends(
@@ -259,10 +263,15 @@ def snap_ends(
         met = [intersect_planes(border, *plane).xyz for border in borders.get(name, [])]
         places = np.concatenate(met)[:, columns] if met else np.zeros((0, 2))
         away = np.linalg.norm(places - part.points[end], axis=1)
-        # Where the plane cuts the hull at a small angle, a move along the line matters little.
-        if not len(away) or not least < part.sine[end] * away.min() < _REACH:
+        if not len(away):
             continue
         step = places[int(away.argmin())] - part.points[end]
+        # Where the plane cuts the hull at a small angle, a move along the line matters little.
+        sine = part.sine[end]
+        if not least < sine * away.min() or sine * _across(part.points, end, step) > _REACH:
+            continue
+        if away.min() > _ALONG:
+            continue
         far = (
             cumulative_lengths(part.points)
             if end == 0
@@ -281,6 +290,17 @@ def snap_ends(
     return attrs.evolve(
         part, points=points[keep], allowed=part.allowed[keep], sine=part.sine[keep], moved=most
     )
+
+
+def _across(points: FloatArray, end: int, step: FloatArray) -> float:
+    """Give how far (m) a step from an end of a polyline, 0 or -1, leads off its direction there."""
+    from_end = np.linalg.norm(points - points[end], axis=1)
+    ahead = points[int(np.argmax(from_end > _REACH))] - points[end]
+    size = float(np.linalg.norm(ahead))
+    if size == 0.0:
+        return float(np.linalg.norm(step))
+    along = float(step @ ahead) / size
+    return float(np.sqrt(max(float(step @ step) - along * along, 0.0)))
 
 
 def make_source(plan: PiecePlan, tolerance: float) -> tuple[LineSource, SmoothReport]:
