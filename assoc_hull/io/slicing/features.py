@@ -27,8 +27,8 @@ from assoc_hull.geometry.polylines.corners import (
 from assoc_hull.geometry.polylines.noise import (
     facet_depth,
     facet_depths,
-    point_scatter,
     forward_points,
+    point_scatter,
 )
 from assoc_hull.geometry.polylines.operations import cumulative_lengths, distinct_points
 from assoc_hull.geometry.polylines.smoothing import local_scatter
