@@ -140,6 +140,8 @@ def _counts(net: FloatArray, deflection: float, longest: float) -> IntArray:
     if degree > 1:
         bend = np.sqrt((np.diff(net, 2, axis=1) ** 2).sum(axis=-1)).max(axis=(1, 2, 3))
         wanted = np.maximum(wanted, np.sqrt(degree * (degree - 1) * bend / (8.0 * deflection)))
+    # Of places beyond all numbers the extent is refused later.
+    wanted = np.nan_to_num(wanted, nan=_MOST, posinf=_MOST)
     return np.clip(np.ceil(wanted), 1, _MOST).astype(np.int64)
 
 

@@ -48,7 +48,8 @@ _VOLUME = re.compile(
     rf"(?<![\w/])(?:V|[Vv]ol(?:ume)?|[Dd]isplaced volume|\u2207){_SAYS}([0-9]+(?:[.,][0-9]+)?)"
     r"\s*(?:m3|m\^3|m\u00b3)"
 )
-_MARK = re.compile(r'^\s*"?\s*(?:#+|//|;|\*|!|%)\s?(.*)$', re.MULTILINE)
+# Within one line: \s* would run over empty ones, again from each of them.
+_MARK = re.compile(r'^[ \t]*"?[ \t]*(?:#+|//|;|\*|!|%)[ \t]?(.*)$', re.MULTILINE)
 
 
 def stated_in(path: Path) -> dict[str, tuple[float, float]]:
@@ -71,7 +72,7 @@ def read_stated(text: str) -> dict[str, tuple[float, float]]:
     return {name: _value(match[1]) for name, match in found.items() if match}
 
 
-_DXF = re.compile(r"\A(?:\s*999\s*\r?\n.*\r?\n)*\s*0\s*\r?\n\s*SECTION")
+_DXF = re.compile(r"\A(?:[ \t]*999[ \t]*\r?\n.*\n)*\s*0[ \t]*\r?\n[ \t]*SECTION")
 _DXF_TEXT = re.compile(r"^[ \t]*(?:999|1)[ \t]*\r?\n(.*?)\r?$", re.MULTILINE)
 _GF_TEXT = re.compile(r"^\\(.*)$", re.MULTILINE)
 _MOST = 200_000_000
