@@ -204,6 +204,8 @@ def mesh_words(report: MeshFile) -> str:
         if report.volume is None
         else f"closed, {report.volume:.3f} m3",
     ]
+    if report.chord is not None:
+        rows.append(f"lines leave the edges of triangles by up to {1e3 * report.chord:.1f} mm")
     if report.left_out:
         rows.append(f"{report.left_out} triangles have no area in the numbers of the file")
     return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
@@ -218,6 +220,8 @@ def cad_words(report: CadReport) -> str:
         rows.append(f"{shells}, {report.joined_edges} joined edges, {report.free_edges} free")
     if report.volume is not None:
         rows.append(f"beside it the solid, closed by deck and transom: {report.volume:.3f} m3")
+    if report.residual is not None:
+        rows.append(f"lines lie up to {1e3 * report.residual:.1f} mm off it")
     rows.append(f"read back: control points within {1e3 * report.control_point_error:.1e} mm")
     return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
 

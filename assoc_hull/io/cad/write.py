@@ -305,6 +305,8 @@ class CadReport:
         Bytes.
     volume : float or None, m3
         Of the solid beside the shell, closed by deck and transom; None where there is none.
+    residual : float or None, m
+        How far the lines of the hull lie off its surfaces at most; None of surfaces alone.
     """
 
     path: str
@@ -319,6 +321,7 @@ class CadReport:
     control_point_error: float
     size: int
     volume: float | None = None
+    residual: float | None = None
 
 
 def write_cad(

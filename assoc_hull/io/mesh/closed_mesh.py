@@ -266,6 +266,8 @@ class MeshFile:
         What it encloses; None of a half, which encloses nothing.
     size : int
         Bytes.
+    chord : float or None, m
+        How far the lines leave the edges of triangles between points at most.
     """
 
     path: str
@@ -278,6 +280,7 @@ class MeshFile:
     groups: tuple[str, ...]
     volume: float | None
     size: int
+    chord: float | None = None
 
 
 def mesh_form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
@@ -344,5 +347,5 @@ def write_mesh(
     return MeshFile(
         os.fspath(path), chosen, used, mesh.half, len(filed.xyz), len(filed.triangle),
         len(mesh.triangle) - len(filed.triangle), mesh.names,
-        None if mesh.half else mesh.volume, len(data),
+        None if mesh.half else mesh.volume, len(data), float(mesh.sagitta[2]),
     )  # fmt: skip

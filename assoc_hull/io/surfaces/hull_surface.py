@@ -10,6 +10,8 @@ import os
 from collections.abc import Mapping
 from types import MappingProxyType
 
+import attrs
+
 from assoc_hull.arguments import flag, instance
 from assoc_hull.io.cad.write import CAD_ENDINGS, CAD_FORMS, CadReport, write_cad
 from assoc_hull.io.mesh.closed_mesh import MESH_ENDINGS, MESH_FORMS, MeshFile, write_mesh
@@ -111,7 +113,8 @@ def write_surface(
     taken = flag(accept, "accept", _WHERE)
     if chosen in CAD_FORMS:
         require_sound_surface(found, accept=taken)
-        return write_cad(found.patches, path, chosen, unit=unit or "mm", half=alone, name=name)
+        report = write_cad(found.patches, path, chosen, unit=unit or "mm", half=alone, name=name)
+        return attrs.evolve(report, residual=found.residuals.whole[0].largest)
     return write_mesh(mesh_of_net(found.net, half=alone), path, chosen, unit=unit, name=name)
 
 

@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from tests.table_round_trips import FORMS, HULLS, SECTIONS, TABLES, round_trips
+from tests.round_trips import FORMS, HULLS, SECTIONS, TABLES, round_trips
 
 LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 
