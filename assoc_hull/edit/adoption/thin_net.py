@@ -208,6 +208,11 @@ def thin_net(net: ReferenceNet) -> ThinnedNet:
     return _outcome(work, roles, orders, [*left, *more])
 
 
+_BADLY, _TIGHT = 2.0, 0.25
+"""A curve that would pass its line by so many times what it may keeps points beside a crossing, but
+for those nearer than this part of the least spacing."""
+
+
 def _spread(work: ThinningState, curve: int, order: list[CurveItem]) -> list[CurveItem]:
     """Leave out adopted points of a dense curve that stand beside a crossing.
 
@@ -221,7 +226,7 @@ def _spread(work: ThinningState, curve: int, order: list[CurveItem]) -> list[Cur
         return order
     spacing = work.net.state.tolerances.adopted_spacing
 
-    def crowded(item: CurveItem) -> bool:
+    def crowded(item: CurveItem, least: float) -> bool:
         if item.number < last:
             return False
         point = work.points[item.number - last]
@@ -229,10 +234,17 @@ def _spread(work: ThinningState, curve: int, order: list[CurveItem]) -> list[Cur
         return (
             free
             and item not in (order[0], order[-1])
-            and float(np.abs(held - item.at).min()) < spacing
+            and float(np.abs(held - item.at).min()) < least
         )
 
-    return [item for item in order if not crowded(item)]
+    for least in (spacing, _TIGHT * spacing):
+        found = [item for item in order if not crowded(item, least)]
+        if len(found) == len(order):
+            return order
+        # A tip or a narrow strip may need points that stand closer than is usual.
+        if _part(work, curve, found, loft_orders(work, [curve], [found]), 0) <= _BADLY:
+            break
+    return found
 
 
 def _outcome(
