@@ -208,9 +208,9 @@ def thin_net(net: ReferenceNet) -> ThinnedNet:
     return _outcome(work, roles, orders, [*left, *more])
 
 
-_BADLY, _TIGHT = 2.0, 0.25
-"""A curve that would pass its line by so many times what it may keeps points beside a crossing, but
-for those nearer than this part of the least spacing."""
+_BADLY, _TIGHT = 1.0, 0.25
+"""A curve that would pass its line by more than this part of what it may keeps points beside a
+crossing, but for those nearer than this part of the least spacing."""
 
 
 def _spread(work: ThinningState, curve: int, order: list[CurveItem]) -> list[CurveItem]:
