@@ -57,6 +57,13 @@ __all__ = [
     "strip_extents",
 ]
 
+BROAD_END, NEAR_END = 0.4, 0.5
+"""Where lines end at this part of the greatest half-breadth the hull ends, too; but not where a
+station may be missing: farther than this part of a spacing from the end."""
+
+_LEAST_END = 1e-4
+"""Parts of the length: where the extent goes on by less, the section is the end."""
+
 # --------------------------------------------------------------------------------------
 # The lines that run along a strip: from a place on one rail to a place on the other.
 
@@ -799,9 +806,6 @@ def strip_extents(strips: Strips, strip: IntArray) -> FloatArray:
 # --------------------------------------------------------------------------------------
 # Ends that no line closes: a hull given by sections alone has neither profile nor transom.
 
-_LEAST_END = 1e-4
-"""Parts of the length: where the extent goes on by less, the section is the end."""
-
 
 @attrs.frozen
 class OpenEnd:
@@ -857,11 +861,6 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
         source = "where its lines end" if by_lines else "the perpendicular"
         ends.append(OpenEnd(fore, found.names[at], x, end, source))
     return tuple(ends)
-
-
-BROAD_END, NEAR_END = 0.4, 0.5
-"""Where lines end at this part of the greatest half-breadth the hull ends, too; but not where a
-station may be missing: farther than this part of a spacing from the end."""
 
 
 def _is_transom(net: CurveNet, x: float) -> bool:

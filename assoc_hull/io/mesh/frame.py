@@ -25,13 +25,29 @@ __all__ = [
     "scale_mesh",
 ]
 
+_WHERE = "the mesh"
+
+_WORST = 0.02
+"""A hull that is farther from mirroring, as a part of its length, has no centre plane."""
+
+_PAST_SIDE = 1e-3
+"""The surface of half a hull may pass its centre plane by this part of its length."""
+
+_PLATED = 0.02
+"""Plating of more than this part of all, in the plane of an open edge, is a side of the hull."""
+
+_ALIKE = 1e-3
+"""Ends that mirror but for this part of the length are one as good as the other."""
+
+_LONGEST, _SHORTEST = 600.0, 1.0  # m, of a ship at full scale
+_USUAL = {"L/B": (1.5, 40.0), "L/D": (3.0, 80.0), "B/D": (0.4, 12.0)}
+"""Length over breadth and depth of anything that floats as a ship, from barge to rowing eight."""
+
+_UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
+
 # --------------------------------------------------------------------------------------
 # Axes. The length is the longest. The breadth is the axis in which the hull mirrors, or across
 # which half a hull is cut.
-
-_WHERE = "the mesh"
-_WORST = 0.02
-"""A hull that is farther from mirroring, as a part of its length, has no centre plane."""
 
 
 def find_columns(mesh: Triangles, book: Notebook) -> tuple[int, int, int]:
@@ -192,19 +208,11 @@ def _normals(mesh: Triangles) -> FloatArray:
     return np.asarray(sums / np.maximum(length, 1e-300)[:, None])
 
 
-_PAST_SIDE = 1e-3
-"""The surface of half a hull may pass its centre plane by this part of its length."""
-
-
 def _weighted_median(values: FloatArray, weight: FloatArray) -> float:
     """Give the value below which half of the weight lies."""
     order = np.argsort(values, kind="stable")
     part = np.cumsum(weight[order])
     return float(values[order[int(np.searchsorted(part, 0.5 * part[-1]))]])
-
-
-_PLATED = 0.02
-"""Plating of more than this part of all, in the plane of an open edge, is a side of the hull."""
 
 
 def _is_plated(mesh: Triangles, axis: int, side: float) -> bool:
@@ -244,12 +252,6 @@ def half_side(mesh: Triangles, axis: int) -> float | None:
 
 # --------------------------------------------------------------------------------------
 # Placing: unit, centre plane, up, bow; x and z keep the origin of the file.
-
-_LONGEST, _SHORTEST = 600.0, 1.0  # m, of a ship at full scale
-_USUAL = {"L/B": (1.5, 40.0), "L/D": (3.0, 80.0), "B/D": (0.4, 12.0)}
-"""Length over breadth and depth of anything that floats as a ship, from barge to rowing eight."""
-
-_UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
 
 
 def scale_mesh(mesh: Triangles, scale: float, unit: str, book: Notebook) -> Triangles:
@@ -424,10 +426,6 @@ def _mean_breadth(
     """Give the mean half-breadth (m) of triangles, weighted by area."""
     weight = area[where]
     return float((np.abs(centre[where, 1]) * weight).sum() / max(float(weight.sum()), 1e-12))
-
-
-_ALIKE = 1e-3
-"""Ends that mirror but for this part of the length are one as good as the other."""
 
 
 def _bow_forward(mesh: Triangles, book: Notebook) -> Triangles:
