@@ -18,14 +18,18 @@ from assoc_hull.io.lines.several_hulls import (
     Section,
     find_hulls,
     refuse_asymmetric,
+    refuse_missing,
     refuse_several,
+    sections_within,
+    tell_which,
+    top_below_bridge,
     water_levels,
 )
 from assoc_hull.io.reports import Notebook
 
 __all__ = ["take_one_hull"]
 
-_WHERE = "in the lines"
+_WHERE = "the lines"
 
 _FLAT = 0.02
 """A piece whose points scatter less than this (m) along an axis lies across it."""
@@ -56,29 +60,23 @@ def take_one_hull(
     found = find_hulls(sections, water_levels(low, high, choice))
     given, unit = choice.place(factor), sign / factor
     if given is None:
-        refuse_several(found, f"{unit * found.centre:.7g}", low, _WHERE)
+        refuse_several(found, f"{unit * found.centre:.7g}", low, f"in {_WHERE}")
         _refuse_beside(sections, found, unit)
         return raw
     centre = sign * given
-    limits, top = found.limits(centre), np.inf
     if found.bridge is not None:
-        top = _top(found.bridge, low, choice, book)
-    mine = [(x, _within(part, limits)) for x, part in sections]
-    mine = [(x, part) for x, part in mine if len(part)]
+        _refuse_above(found.bridge - low, choice.depth)
+    limits, top = found.limits(centre), top_below_bridge(found, low, choice, _WHERE, book)
+    mine = sections_within(sections, limits)
     if not mine:
-        raise BadInputError(
-            f"there is no hull at centre={unit * centre:.7g}", _WHERE,
-            f"give the centre plane of one, as {unit * found.centre:.7g}",
-        )  # fmt: skip
+        refuse_missing(unit * centre, unit * found.centre, _WHERE)
     across = np.concatenate([part[..., 0].ravel() for _, part in mine]) - centre
     # Half a demihull has no mirror image to be compared with.
     if min(across.max(), -across.min()) > 0.1 * np.ptp(across):
         size = float(np.ptp(every[:, 0]))
         noise = max(_NOISE * min(1.0, size / 100.0), 0.5 * _sag(mine))
-        refuse_asymmetric(mine, centre, top, noise, (unit, 0.0), _WHERE)
-    if found.count > 1:
-        what = f"of {found.count} hulls side by side that at {unit * centre:.7g} is read"
-        book.assume("one hull", "the lines", what, centre)
+        refuse_asymmetric(mine, centre, top, noise, (unit, 0.0), f"in {_WHERE}")
+    tell_which(found, unit * centre, centre, _WHERE, book)
     return [part for each in raw for part in _moved(each, (limits[0], limits[1], top), centre)]
 
 
@@ -92,11 +90,6 @@ def _sections(raw: list[RawPiece]) -> list[Section]:
         x = round(float(np.median(points[:, 0])), 3)
         found.setdefault(x, []).append(np.stack([points[:-1, 1:], points[1:, 1:]], axis=1))
     return [(x, np.concatenate(found[x])) for x in sorted(found)]
-
-
-def _within(part: FloatArray, limits: tuple[float, float]) -> FloatArray:
-    middle = part[..., 0].mean(axis=1)
-    return np.asarray(part[(middle > limits[0]) & (middle < limits[1])])
 
 
 def _sag(sections: list[Section]) -> float:
@@ -123,7 +116,7 @@ def _refuse_beside(sections: list[Section], found: FoundHulls, unit: float) -> N
     if abs(middle) > _BESIDE * breadth and np.abs(begin - middle).max() < 1e-3 * breadth:
         raise BadInputError(
             f"all {len(sections)} sections begin {middle:.4g} m off the centre plane",
-            _WHERE, f"of half a hull that lies there give centre={unit * middle:.7g}",
+            f"in {_WHERE}", f"of half a hull that lies there give centre={unit * middle:.7g}",
         )  # fmt: skip
 
 
@@ -134,22 +127,13 @@ def _lowest(part: FloatArray) -> float:
     return float(low[np.abs(low[:, 0]).argmin(), 0])
 
 
-def _top(bridge: float, low: float, choice: HullChoice, book: Notebook) -> float:
-    """Give the height at which a demihull ends, m: below the bridge deck."""
-    depth = choice.depth
-    if depth is None:
-        depth = bridge - low
-        what = f"the bridge deck begins {depth:.4g} m high; the hull is taken to end there"
-        book.assume("depth", "the lines", f"{what}, unless depth= is given", depth)
-    elif depth > bridge - low + 1e-9:
+def _refuse_above(bridge: float, depth: float | None) -> None:
+    """Refuse a depth above that of the bridge deck, m: lines would be cut across it."""
+    if depth is not None and depth > bridge + 1e-9:
         raise BadInputError(
-            f"the bridge deck hangs down to {bridge - low:.4g} m, and depth is {depth:.4g} m",
-            _WHERE, f"give depth={bridge - low:.4g} or less",
+            f"the bridge deck hangs down to {bridge:.4g} m, and depth is {depth:.4g} m",
+            f"in {_WHERE}", f"give depth={bridge:.4g} or less",
         )  # fmt: skip
-    book.repair(
-        "bridge deck", "the lines", f"what lies higher than {depth:.4g} m is cut off", depth
-    )
-    return low + depth
 
 
 def _moved(piece: RawPiece, bounds: tuple[float, float, float], centre: float) -> list[RawPiece]:

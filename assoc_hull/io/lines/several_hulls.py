@@ -21,6 +21,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import NoReturn
 
 import attrs
 import numpy as np
@@ -28,6 +29,7 @@ import numpy as np
 from assoc_hull.arguments import number, shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.reports import Notebook
 from assoc_hull.io.units import METRES
 
 __all__ = [
@@ -38,7 +40,11 @@ __all__ = [
     "find_hulls",
     "largest_difference",
     "refuse_asymmetric",
+    "refuse_missing",
     "refuse_several",
+    "sections_within",
+    "tell_which",
+    "top_below_bridge",
     "water_levels",
 ]
 
@@ -251,6 +257,58 @@ def _rounded_down(height: float) -> str:
     """Give a height to the centimetre of a ship, and not above it."""
     step = 10.0 ** (np.floor(np.log10(max(height, 1e-6))) - 2.0)
     return f"{np.floor(height / step + 1e-9) * step:.6g}"
+
+
+# --------------------------------------------------------------------------------------
+# What the one that is meant has for itself, be it of lines or of a mesh.
+
+
+def sections_within(sections: Sequence[Section], limits: tuple[float, float]) -> list[Section]:
+    """Give the pieces of sections that lie between two y, without the sections that have none."""
+    found = []
+    for x, part in sections:
+        middle = part[..., 0].mean(axis=1)
+        mine = np.asarray(part[(middle > limits[0]) & (middle < limits[1])])
+        if len(mine):
+            found.append((x, mine))
+    return found
+
+
+def top_below_bridge(
+    found: FoundHulls, low: float, choice: HullChoice, where: str, book: Notebook
+) -> float:
+    """Give the height at which the hull ends, m: below a bridge deck; infinite without one."""
+    if found.bridge is None:
+        return np.inf
+    depth = choice.depth
+    if depth is None:
+        depth = found.bridge - low
+        what = f"the bridge deck begins {depth:.4g} m high; the hull is taken to end there"
+        book.assume("depth", where, f"{what}, unless depth= is given", depth)
+    what = f"what lies higher than {depth:.4g} m is cut off"
+    book.repair("bridge deck", where, what, depth)
+    return low + depth
+
+
+def refuse_missing(centre: float, proposed: float, where: str) -> NoReturn:
+    """Refuse a centre plane about which there is no hull; both places in the unit of the file.
+
+    Raises
+    ------
+    BadInputError
+        Always.
+    """
+    raise BadInputError(
+        f"there is no hull at centre={centre:.7g}", f"in {where}",
+        f"give the centre plane of one, as {proposed:.7g}",
+    )  # fmt: skip
+
+
+def tell_which(found: FoundHulls, place: float, centre: float, where: str, book: Notebook) -> None:
+    """Tell which of several is read, by its place in the file; `centre` is that in m."""
+    if found.count > 1:
+        what = f"of {found.count} hulls side by side that at {place:.7g} is read"
+        book.assume("one hull", where, what, centre)
 
 
 # --------------------------------------------------------------------------------------

@@ -13,7 +13,6 @@ import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polylines.operations import self_crossings
 from assoc_hull.geometry.surfaces.triangles import Triangles, sheet_labels
 from assoc_hull.io.lines.several_hulls import (
@@ -22,7 +21,11 @@ from assoc_hull.io.lines.several_hulls import (
     Section,
     find_hulls,
     refuse_asymmetric,
+    refuse_missing,
     refuse_several,
+    sections_within,
+    tell_which,
+    top_below_bridge,
     water_levels,
 )
 from assoc_hull.io.mesh.axis_change import AxisChange
@@ -169,51 +172,33 @@ def _picked(
     middle = sign * centre + shift
     low = float(placed.xyz[:, 2].min())
     limits = found.limits(middle)
-    top = _top(found, low, choice, book)
+    top = top_below_bridge(found, low, choice, _WHERE, book)
     part = _clipped(mesh, placed, motion, 2, top, -1.0)
     for bound, side in zip(limits, (1.0, -1.0), strict=True):
         _refuse_bridge(part, bound, low, top)
         part = _clipped(*part, motion, 1, bound, side)
     picked, there = part
     if not len(picked.face):
-        raise BadInputError(
-            f"there is no hull at centre={centre / factor:.7g}", f"in {_WHERE}",
-            f"give the centre plane of one, as {_in_file(motion, found.centre, factor):.7g}",
-        )  # fmt: skip
+        refuse_missing(centre / factor, _in_file(motion, found.centre, factor), _WHERE)
     half = half_side(there, 1)
     if half is None:
         size = float(np.ptp(mesh.xyz, axis=0).max())
         noise = max(2.0 * facet_depth(there), _ROUNDING * size)
         scale = (sign / factor, -sign * shift / factor)
-        mine = [(x, _within(cut, limits)) for x, cut in sections]
-        mine = [(x, cut) for x, cut in mine if len(cut)]
-        refuse_asymmetric(mine, middle, top, noise, scale, f"in {_WHERE}")
+        refuse_asymmetric(
+            sections_within(sections, limits), middle, top, noise, scale, f"in {_WHERE}"
+        )
     elif abs(half - middle) > _ROUNDING * float(np.ptp(mesh.xyz, axis=0).max()):
         raise BadInputError(
             f"half a hull is cut at {_in_file(motion, half, factor):.7g}, not at its centre="
             f"{centre / factor:.7g}", f"in {_WHERE}", "leave centre out, or give that place",
         )  # fmt: skip
+    tell_which(found, centre / factor, centre, _WHERE, book)
     if found.count > 1:
-        what = f"of {found.count} hulls side by side that at {centre / factor:.7g} is read"
-        book.assume("one hull", _WHERE, what, centre)
         # What was told of parts that touch nowhere held for all hulls together.
         book.suspicions[:] = [note for note in book.suspicions if note.kind != "parts"]
         tell_parts(picked, book)
     return picked
-
-
-def _top(found: FoundHulls, low: float, choice: HullChoice, book: Notebook) -> float:
-    """Give the height at which the hull ends, m: below a bridge deck."""
-    depth = choice.depth
-    if found.bridge is None:
-        return np.inf
-    if depth is None:
-        depth = found.bridge - low
-        what = f"the bridge deck begins {depth:.4g} m high; the hull is taken to end there"
-        book.assume("depth", _WHERE, f"{what}, unless depth= is given", depth)
-    what = f"what lies higher than {depth:.4g} m is cut off"
-    book.repair("bridge deck", _WHERE, what, depth)
-    return low + depth
 
 
 def _refuse_bridge(part: tuple[Triangles, Triangles], bound: float, low: float, top: float) -> None:
@@ -231,11 +216,6 @@ def _refuse_bridge(part: tuple[Triangles, Triangles], bound: float, low: float, 
         f"the bridge deck hangs down to {height:.4g} m, and depth is {top - low:.4g} m",
         f"in {_WHERE}", remedy,
     )  # fmt: skip
-
-
-def _within(part: FloatArray, limits: tuple[float, float]) -> FloatArray:
-    middle = part[..., 0].mean(axis=1)
-    return np.asarray(part[(middle > limits[0]) & (middle < limits[1])])
 
 
 def _clipped(
