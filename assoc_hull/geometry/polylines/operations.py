@@ -14,6 +14,7 @@ array([[3., 2., 0.]])
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
@@ -24,6 +25,7 @@ __all__ = [
     "order_paths",
     "project_on_polyline",
     "resample",
+    "runs_where",
     "self_crossings",
 ]  # fmt: skip
 
@@ -96,6 +98,20 @@ def distinct_points(points: FloatArray, least: float) -> IntArray:
     if len(keep) > 1:
         keep[-1] = len(points) - 1
     return keep
+
+
+def runs_where(held: NDArray[np.bool_]) -> IntArray:
+    """Give first place and the one past the last (k, 2) of each run of places that hold.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.polylines.operations import runs_where
+    >>> runs_where(np.array([True, False, True, True])).tolist()
+    [[0, 1], [2, 4]]
+    """
+    edges = np.diff(np.concatenate([[False], held, [False]]).astype(np.int8))
+    return np.flatnonzero(edges).reshape(-1, 2)
 
 
 def order_paths(edges: IntArray, count: int) -> list[tuple[IntArray, bool]]:

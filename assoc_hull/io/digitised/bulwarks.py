@@ -21,6 +21,7 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.polylines.operations import runs_where
 from assoc_hull.io.lines.raw_lines import RawPiece
 from assoc_hull.io.reports import Notebook
 
@@ -74,8 +75,7 @@ def _parts_below(points: FloatArray, deck: FloatArray) -> Iterator[FloatArray]:
     """Give the parts of a polyline that lie below the deck, each with its ends on it."""
     over = points[:, 2] - np.interp(points[:, 0], deck[:, 0], deck[:, 1])
     inside = over <= _SAME
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], inside, [0]])))
-    for first, stop in edges.reshape(-1, 2).tolist():
+    for first, stop in runs_where(inside).tolist():
         run = [points[first:stop]]
         if first > 0:
             run.insert(0, _crossing(points, over, first, first - 1))

@@ -9,8 +9,10 @@ station besides its offsets (largest beam, sectional area) is compared.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.polylines.operations import runs_where
 from assoc_hull.io.offsets.doctor import ExaminedTable, predicted_values
 from assoc_hull.io.reports import Notebook
 
@@ -225,10 +227,9 @@ def _many_times(y: FloatArray, j: int) -> FloatArray:
     return np.asarray(y[:, j] - 3.0 * below)
 
 
-def _runs(out: FloatArray) -> bool:
+def _runs(out: NDArray[np.bool_]) -> bool:
     """Tell whether so many stations in a row stand out."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], out.astype(int), [0]])))
-    return bool((np.diff(edges)[::2] >= _RUN).any())
+    return bool((np.diff(runs_where(out), axis=1) >= _RUN).any())
 
 
 def _tell_column(

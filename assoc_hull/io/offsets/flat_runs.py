@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.polylines.operations import runs_where
 
 __all__ = ["StraightRuns", "straight_runs_of"]
 
@@ -68,7 +69,7 @@ def straight_runs_of(place: FloatArray, y: FloatArray, unit: float, spacing: flo
     run = on & beside
     tangent = np.zeros(len(y), np.bool_)
     more: list[tuple[float, float]] = []
-    for first, stop in np.flatnonzero(np.diff(np.r_[False, run, False])).reshape(-1, 2).tolist():
+    for first, stop in runs_where(run).tolist():
         for edge, before in ((first, slice(first - 1, None, -1)), (stop - 1, slice(stop, None))):
             if (edge == first and not first) or (edge != first and stop == len(y)):
                 continue  # it is the end of the line: points in a row are straight as they are

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, freeze
+from assoc_hull.geometry.polylines.operations import runs_where
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.io.lines.raw_lines import plane_name
@@ -653,8 +654,7 @@ def _runs(y: FloatArray, at: FloatArray) -> Iterator[tuple[FloatArray, FloatArra
     near[1:] |= wide[:-1]
     near[:-1] |= wide[1:]
     keep = known & (wide | near)
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], keep, [0]])))
-    for first, stop in edges.reshape(-1, 2).tolist():
+    for first, stop in runs_where(keep).tolist():
         touches = first + 1 + np.flatnonzero(y[first + 1 : stop - 1] == 0.0)
         ends = [first, *touches.tolist(), stop - 1]
         for begin, end in pairwise(ends):

@@ -22,6 +22,7 @@ from assoc_hull.geometry.polylines.operations import (
     cumulative_lengths,
     project_on_polyline,
     resample,
+    runs_where,
 )
 from assoc_hull.geometry.polylines.straight_runs import Onset
 from assoc_hull.geometry.splines.distance import closest_points
@@ -243,12 +244,10 @@ def _known(line: KnuckleTrace, rules: FeatureRules) -> list[KnuckleTrace]:
 
     On a coarse mesh a corner may lie a metre off, which would move the lines by decimetres.
     """
-    good = np.append(line.doubt < 2.0 * rules.onset, False)
-    edges = np.flatnonzero(np.diff(np.append(False, good).astype(np.int8)))
     return [
         KnuckleTrace(line.group, line.lines[a:b], line.places[a:b].copy(),
                     line.turn_deg[a:b].copy(), line.doubt[a:b].copy())
-        for a, b in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True)
+        for a, b in runs_where(line.doubt < 2.0 * rules.onset).tolist()
         if b - a >= rules.chain.lines
     ]  # fmt: skip
 

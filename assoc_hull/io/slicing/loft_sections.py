@@ -30,9 +30,11 @@ from collections.abc import Sequence
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.surface_layout import BROAD_END, NEAR_END
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.polylines.operations import runs_where
 from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
@@ -240,9 +242,9 @@ def _straight(xyz: FloatArray, tolerance: float) -> IntArray:
     Through a run that ends in a bend a spline would swing; none ends at the first or last point.
     """
     kind = np.full(len(xyz), int(PointKind.SMOOTH), np.int64)
-    same = (np.abs(np.diff(xyz[:, 1:], axis=0)) < _EQUAL * tolerance).all(axis=1)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8)))
-    for first, last in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+    near = np.abs(np.diff(xyz[:, 1:], axis=0)) < _EQUAL * tolerance
+    same: NDArray[np.bool_] = np.asarray(near.all(axis=1))
+    for first, last in runs_where(same).tolist():
         if last - first < 2:
             continue
         if first > 0:
