@@ -107,7 +107,7 @@ SHIPS: dict[str, Callable[[], Wetted]] = {
 }
 """Each is measured when it is called."""
 
-FEW = ("Wigley", "bulk carrier 207k", "container ship")
+FEW = ("Wigley", "container ship")
 """Those of the ordinary suite."""
 
 

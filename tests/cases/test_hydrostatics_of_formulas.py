@@ -5,7 +5,9 @@ Truth are the bodies of `tests.exact_hulls` below the same planes.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 
 import attrs
 import numpy as np
@@ -22,6 +24,7 @@ from tests import exact_hulls
 from tests.floating_bodies import StripBody, head
 from tests.nets import ellipsoid_net, wigley_net
 
+LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 SIZES = ((21, 11), (41, 21), (81, 41))
 BOUNDS = (2e-4, 3e-5, 4e-6)
 FALL = 6.0
@@ -51,6 +54,10 @@ FAMILIES: dict[str, tuple[Callable[[int, int], HullState], str, float]] = {
     "shipped wigley": (_shipped, "wigley", 10.0),
     "ellipsoid net": (ellipsoid_net, "ellipsoid", 16.0),
 }
+
+
+FINE = tuple(FAMILIES) if LONG else ("wigley net",)
+"""Families of which the finest net is tried too: it costs more than the two others together."""
 
 
 @attrs.frozen
@@ -97,7 +104,7 @@ def _rows(truth: dict[str, StripBody]) -> Iterator[Row]:
         whole = table_of(
             truth[body], list(POSITIONS.values()), head(100.0, breadth, 6.25), estimate=False
         )
-        for size in SIZES:
+        for size in SIZES if family in FINE else SIZES[:-1]:
             hull = ah.Hull(make(*size))
             for i, (words, position) in enumerate(POSITIONS.items()):
                 draughts = position.draught_aft, position.draught_fore
@@ -120,9 +127,9 @@ def test_volumes_of_nets_are_within_the_bounds_and_converge(rows: list[Row]) -> 
         for position in POSITIONS:
             same = [r for r in rows if (r.family, r.position) == (family, position)]
             off = [row.off("volume") / row.truth.volume for row in same]
-            assert all(a <= b for a, b in zip(off, BOUNDS, strict=True)), (family, off)
-            assert off[0] >= FALL * off[1], (family, off)
-            assert off[1] >= FALL * off[2], (family, off)
+            assert len(off) == (3 if family in FINE else 2)
+            assert all(a <= b for a, b in zip(off, BOUNDS, strict=False)), (family, off)
+            assert all(a >= FALL * b for a, b in pairwise(off)), (family, off)
 
 
 def test_the_volume_is_off_by_no_more_than_is_stated_and_stated_closely(rows: list[Row]) -> None:

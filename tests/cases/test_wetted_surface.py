@@ -18,7 +18,7 @@ from tests.shell_area import triangles_below
 from tests.wetted_surfaces import FEW, NEAR, SHIPS
 
 NAMES = tuple(SHIPS) if os.environ.get("ASSOC_HULL_LONG") else FEW
-"""All ships of the table where time is given, else the cheapest of each kind."""
+"""All ships of the table where time is given, else a formula and a ship with bulb and transom."""
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -99,7 +99,7 @@ def lines(size: float = 1.0, profile: tuple[str, str] = ("profile", "profile")) 
 
 def mesh(size: float = 1.0) -> Triangles:
     """Half of it, open at the deck."""
-    half = meshes.wigley_half(121, 51)
+    half = meshes.wigley_half(81, 41)
     return Triangles(half.xyz * size, half.face)
 
 
@@ -111,7 +111,7 @@ def pair(off: float) -> Triangles:
     return Triangles(np.concatenate([whole.xyz + shift, whole.xyz - shift]), face)
 
 
-CUTS: dict[str, Any] = {"stations": 21, "waterlines": 10, "buttocks": 2}
+CUTS: dict[str, Any] = {"stations": 15, "waterlines": 8, "buttocks": 1}
 
 
 @attrs.frozen
