@@ -6,6 +6,7 @@ program, and some that are new each time.
 
 from __future__ import annotations
 
+import os
 import tempfile
 from pathlib import Path
 from random import Random
@@ -20,6 +21,9 @@ from tests.fuzz.kind import made
 from tests.fuzz.trial import trial
 
 KEPT = sorted(path for path in CORPUS.rglob("*") if path.is_file())
+TIMES = 4 if os.environ.get("ASSOC_HULL_LONG") else 2
+"""Inputs of each kind that takes long."""
+
 SLOW = {name: kind for name, kind in KINDS.items() if kind.weight < 10}
 
 
@@ -38,7 +42,7 @@ def test_a_changed_input_is_taken_or_refused(name: str, rng: Random) -> None:
         assert trial(KINDS[name], KINDS[name].make(rng), Path(folder)).fault == ""
 
 
-@pytest.mark.parametrize("number", range(4))
+@pytest.mark.parametrize("number", range(TIMES))
 @pytest.mark.parametrize("name", SLOW)
 def test_a_changed_drawing_or_mesh_is_taken_or_refused(
     name: str, number: int, tmp_path: Path
