@@ -136,7 +136,7 @@ def round_trip(name: str, hull: Hull, form: str, folder: Path) -> RoundTrip:
         farthest, limit, same = found.away, _EXACT, _same(hull, back, found.inflections)
         count = report.points
     elif form in SOLIDS:
-        farthest, limit, count = solid_off(hull, path), *_allowed(report)
+        farthest, limit, count = solid_off(hull, path), *_allowed(report, hull)
     else:
         far = table_off(hull, path) if form in TABLES else lines_off(hull, form, path)
         farthest, limit, count = far, report.rounding, report.points
@@ -170,14 +170,14 @@ def _same(hull: Hull, back: Hull, inflections: int) -> str:
     )
 
 
-def _allowed(report: Any) -> tuple[float, int]:
+def _allowed(report: Any, hull: Hull) -> tuple[float, int]:
     """Give what an export of a surface or mesh said of its distance from the lines, and its size.
 
     Triangles leave lines by their chords.
     """
     if hasattr(report, "chord"):
         return float(report.chord), int(report.triangles)
-    return float(report.residual) + _DEFLECTION, int(report.faces)
+    return float(report.residual) + _DEFLECTION * hull.particulars.length, int(report.faces)
 
 
 def _numbers_off(hull: Hull, back: Hull | None) -> tuple[float, float]:
@@ -191,13 +191,13 @@ _NEAREST = 16
 """So many triangles are looked at for the nearest to a point."""
 
 
-_DEFLECTION = 5e-4
-"""Surfaces are measured on facets that lie within this of them, m."""
+_DEFLECTION = 1e-5
+"""Surfaces are measured on facets that lie within this part of Lpp of them."""
 
 
 def solid_off(hull: Hull, path: Path) -> float:
     """Give how far the farthest point of a section, waterline or buttock is off a solid, m."""
-    corner = _corners(path)
+    corner = _corners(path, hull.particulars.length)
     lines = lines_as_points(hull.state, ("sections", "waterlines", "buttocks"), 0.05)
     points = np.concatenate([piece.points for line in lines for piece in line.pieces])
     centre = corner.mean(axis=1)
@@ -220,13 +220,13 @@ def solid_off(hull: Hull, path: Path) -> float:
     return most
 
 
-def _corners(path: Path) -> FloatArray:
+def _corners(path: Path, length: float) -> FloatArray:
     """Give the triangles (n, 3, 3), m, of a mesh, or of fine facets of surfaces."""
     if path.suffix == ".stl":
         mesh = read_triangles(path)
         corner: FloatArray = mesh.xyz[mesh.face]
         return corner
-    found = faces_of_file(path).facets(_DEFLECTION, 1.0).mesh
+    found = faces_of_file(path).facets(_DEFLECTION * length, 0.02 * length).mesh
     return np.asarray(found.xyz[found.face])
 
 

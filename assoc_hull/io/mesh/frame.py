@@ -43,6 +43,9 @@ _LONGEST, _SHORTEST = 600.0, 1.0  # m, of a ship at full scale
 _USUAL = {"L/B": (1.5, 40.0), "L/D": (3.0, 80.0), "B/D": (0.4, 12.0)}
 """Length over breadth and depth of anything that floats as a ship, from barge to rowing eight."""
 
+_KEEL_UP = 1.05
+"""A hull whose lower half holds more than this many times its upper half lies keel up."""
+
 _UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
 
 # --------------------------------------------------------------------------------------
@@ -403,29 +406,31 @@ def _report_proportions(mesh: Triangles, book: Notebook) -> None:
 
 
 def _upright(mesh: Triangles, book: Notebook) -> Triangles:
-    """Turn a hull that lies keel up: it is broader at the bottom than at the top."""
-    y = np.abs(mesh.xyz[:, 1])
-    z = (mesh.xyz[:, 2] - mesh.xyz[:, 2].min()) / np.ptp(mesh.xyz[:, 2])
-    area = np.linalg.norm(mesh.area_vectors(), axis=1)
-    centre = mesh.corners.mean(axis=1)
-    low, high = float(mesh.xyz[:, 2].min()), float(mesh.xyz[:, 2].max())
-    level = (centre[:, 2] - low) / (high - low)
-    upper = _mean_breadth(centre, area, level > 0.85)
-    lower = _mean_breadth(centre, area, level < 0.15)
-    below, above = y[z < 0.02], y[z > 0.98]
-    narrow = len(below) and len(above) and below.max() > 1.02 * above.max()
-    if narrow and lower > upper:
-        book.repair("upside down", _WHERE, "the hull narrows upward; turned about its length")
+    """Turn a hull that lies keel up: its lower half holds more than its upper half."""
+    lower, upper = _half_volumes(mesh)
+    if lower > _KEEL_UP * upper:
+        what = (
+            f"the half of the hull at low z holds {lower:.4g} m3, that at high z {upper:.4g} m3; "
+            "turned about its length"
+        )
+        book.repair("upside down", _WHERE, what)
         return _to_port(_turned(mesh, np.diag([1.0, -1.0, -1.0])))
     return mesh
 
 
-def _mean_breadth(
-    centre: FloatArray, area: FloatArray, where: np.typing.NDArray[np.bool_]
-) -> float:
-    """Give the mean half-breadth (m) of triangles, weighted by area."""
-    weight = area[where]
-    return float((np.abs(centre[where, 1]) * weight).sum() / max(float(weight.sum()), 1e-12))
+def _half_volumes(mesh: Triangles) -> tuple[float, float]:
+    """Give what the lower and the upper half of the depth amidships hold between the sides, m3.
+
+    Sheer, bulb and dome lie above and below and do not count; neither deck nor bottom is needed.
+    """
+    centre, x = mesh.corners.mean(axis=1), mesh.xyz[:, 0]
+    middle = np.abs(x - 0.5 * (x.min() + x.max())) <= 0.1 * np.ptp(x)
+    z = mesh.xyz[middle if middle.any() else slice(None), 2]
+    half = 0.5 * float(np.ptp(z))
+    level = (centre[:, 2] - float(z.min())) / max(half, 1e-12)
+    held = np.abs(centre[:, 1] * mesh.area_vectors()[:, 1])
+    lower = float(held[(level >= 0.0) & (level < 1.0)].sum())
+    return lower, float(held[(level >= 1.0) & (level <= 2.0)].sum())
 
 
 def _bow_forward(mesh: Triangles, book: Notebook) -> Triangles:

@@ -155,7 +155,11 @@ def _apart(breaks: list[PieceBreak], length: float) -> list[PieceBreak]:
     out: list[PieceBreak] = []
     for each in sorted(breaks, key=lambda b: (b.direction is not None, b.at)):
         # Corners stand first in this order, so that of two close breaks the corner stays.
-        clear = all(abs(each.at - other.at) > 0.3 for other in out)
+        # Two runs of a flat may have been led to one place of its border.
+        clear = all(
+            abs(each.at - other.at) > 0.3 and np.abs(each.place - other.place).max() > 1e-3
+            for other in out
+        )
         if clear and 0.3 < each.at < length - 0.3:
             out.append(each)
     return sorted(out, key=lambda b: b.at)

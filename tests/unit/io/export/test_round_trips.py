@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from tests.round_trips import FORMS, HULLS, SECTIONS, TABLES, round_trips
+from tests.round_trips import FORMS, HULLS, SECTIONS, SOLIDS, SPLINES, TABLES, round_trips
 
 LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 
@@ -15,19 +15,32 @@ def test_the_wigley_hull_comes_back_from_tables_and_sections() -> None:
     """With both plumb ends, which sections alone hold as sections of no breadth."""
     for each in round_trips(["wigley"], ["csv", "britfair", "delftship"]):
         print(each)
-        assert each.farthest <= each.digit * (1.0 + 1e-6)
+        assert each.farthest <= each.limit * (1.0 + 1e-6)
         assert abs(each.volume) <= 5e-4
-        assert each.verdict == "verdict: sound"
+        assert each.verdict == "sound"
         assert ("end post" in each.told) == (each.form in SECTIONS)
         assert "boundary" in each.told
+
+
+NOT_BACK = {"step": ("yacht", "seaking_ship", "prelikon_ship"), "stl": ("yacht", "sfolds_ship")}
+"""Solids that are refused at import today, with the place."""
 
 
 @pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
 @pytest.mark.parametrize("name", HULLS)
 def test_each_hull_comes_back_from_each_form(name: str) -> None:
-    """Points to their digits; what the form cannot hold is in the report of the export."""
+    """Within what the form allows for; what it cannot hold is in the report of the export."""
     for each in round_trips([name], FORMS):
         print(each)
-        assert each.farthest <= each.digit * (1.0 + 1e-6)
-        assert "boundary" in each.told
-        assert each.form in (*TABLES, "delftship-offsets") or "lines" in each.told
+        if each.form == "step" and each.verdict.startswith("not written: not sound"):
+            assert "centre plane" in each.verdict  # the halves of two ships cross at the stern
+            continue
+        assert each.farthest <= each.limit * (1.0 + 1e-6)
+        if each.form in SPLINES:
+            assert each.same == "0 new inflections, all else the same"
+        elif each.form not in SOLIDS:
+            assert "boundary" in each.told
+            assert each.form in (*TABLES, "delftship-offsets") or "lines" in each.told
+        elif name not in NOT_BACK.get(each.form, ()):
+            assert not each.verdict.startswith("refused")
+            assert abs(each.volume) <= 5e-4

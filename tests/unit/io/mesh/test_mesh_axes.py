@@ -1,13 +1,17 @@
 """Which axes of a mesh are breadth and height where the hull is open: found, or called doubtful."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
+import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.io.lines.slices import HullSlices
+from assoc_hull.io.mesh.frame import place_mesh
+from assoc_hull.io.reports import Notebook
 from assoc_hull.io.slicing.mesh_lines import slice_mesh
 from tests import meshes
 
@@ -90,3 +94,20 @@ def test_a_vertex_across_the_centre_plane_does_not_move_the_hull() -> None:
     assert {piece.ends[0] for line in slices.group("sections") for piece in line.pieces} == {
         "profile"
     }
+
+
+@pytest.mark.parametrize("ship", [ah.examples.bulk_carrier_180m, ah.examples.prelikon_ship])
+def test_full_ships_with_sheer_are_turned_only_if_they_lie_keel_up(
+    ship: Callable[[], ah.Hull],
+) -> None:
+    """Their bow is narrow above and their bottom broad: the volume of the halves tells."""
+    hull = ship()
+    mesh = hull.mesh(points=2).triangles
+    depth = hull.particulars.depth
+    for turn, mended in ((1.0, False), (-1.0, True)):
+        book = Notebook()
+        xyz = mesh.xyz * np.array([1.0, turn, turn])
+        placed = place_mesh(mesh.moved(xyz), "auto", book)
+        assert ("upside down" in book.report().kinds("repairs")) == mended
+        deck = placed.xyz[np.abs(placed.xyz[:, 0] - 60.0) < 10.0, 2].max()
+        assert deck - placed.xyz[:, 2].min() == pytest.approx(depth, abs=0.05 * depth)
