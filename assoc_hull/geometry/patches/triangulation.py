@@ -105,6 +105,10 @@ def _grid(
     number = np.arange(uu.size).reshape(uu.shape)
     a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
     first, second = np.stack([a, b, c], axis=2), np.stack([a, c, d], axis=2)
+    # A cell at a corner is cut through the corner: else all of one triangle lies on two borders,
+    # at the foot of a stem in the centre plane, and waterlines end on its third side.
+    for i, j in ((-1, 0), (0, -1)):
+        first[i, j], second[i, j] = (a[i, j], b[i, j], d[i, j]), (b[i, j], c[i, j], d[i, j])
     face = np.stack([first, second], axis=2).reshape(-1, 3)
     parameters = np.column_stack([uu.ravel(), vv.ravel()])
     return surface.at(parameters[:, 0], parameters[:, 1]), face, parameters

@@ -26,6 +26,15 @@ NOT_BACK = {"step": ("yacht", "seaking_ship", "prelikon_ship"), "stl": ("yacht",
 """Solids that are refused at import today, with the place."""
 
 
+def test_the_surface_of_a_file_of_rhino_is_a_sound_hull_by_itself() -> None:
+    """Triangles at the foot of the stem do not lie in the centre plane: waterlines reach it."""
+    [found] = round_trips(["wigley"], ["3dm-surface"])
+    print(found)
+    assert found.verdict.startswith("sound")
+    assert abs(found.volume) <= 5e-4
+    assert found.farthest <= found.limit
+
+
 @pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
 @pytest.mark.parametrize("name", HULLS)
 def test_each_hull_comes_back_from_each_form(name: str) -> None:
