@@ -69,6 +69,7 @@ def sections_to_export(
     found = sorted([*found, *ends], key=lambda each: each.offset)
     found = _with_posts(found, others, book)
     _tell_ends(found, others, book)
+    _tell_parts(found, book)
     _tell_tangents(state, book)
     return found
 
@@ -168,6 +169,17 @@ def _tell_ends(
         if most > _AHEAD:
             what = f"{most:.4g} m beyond the section at x = {last:.6g} m are left out"
             book.leave_out("end", where, what, float(most))
+
+
+def _tell_parts(sections: list[LinePolylines], book: ExportBook) -> None:
+    """Say where sections alone leave the hull open: a bulb ends between two of them."""
+    several = [line.name for line in sections if len(line.pieces) > 1]
+    if several:
+        what = (
+            f"{', '.join(several)}: where their curves part and end between two sections the form "
+            "cannot say, so that a hull read from it is open there; a drawing (DXF, IGES, 3DM) can"
+        )
+        book.leave_out("parting", f"{len(several)} sections", what, len(several))
 
 
 def _tell_tangents(state: HullState, book: ExportBook) -> None:

@@ -183,7 +183,10 @@ def _examine_gaps(state: HullState, found: Findings) -> None:
 
 
 def _examine_misses(state: HullState, found: Findings) -> None:
-    """Lines that pass each other farther apart than a crossing could be: they have none."""
+    """Lines that pass each other farther apart than a crossing could be: they have none.
+
+    By less than the least limit of a gap they touch, and there is nothing to mend.
+    """
     book, seen = AddressBook(state), set[tuple[int, int]]()
     latent = _latent_places(state)
     for (curve, line), places in sorted(latent.items()):
@@ -198,7 +201,7 @@ def _examine_misses(state: HullState, found: Findings) -> None:
             ending = at_ends(state, curve, places)[:, None] & at_ends(state, other, back)[None]
             away[ending & (away <= state.tolerances.adoption)] = 0.0
             i, j = (int(each) for each in np.unravel_index(away.argmin(), away.shape))
-            if state.tolerances.coincident < away[i, j] < _REACH * state.particulars.breadth:
+            if state.tolerances.gap_floor < away[i, j] < _REACH * state.particulars.breadth:
                 what = (
                     f"they pass each other {1e3 * away[i, j]:.3g} mm apart, too far to cross: one "
                     "of the two is wrong; mend it, or leave it out"

@@ -35,6 +35,14 @@ def test_the_surface_of_a_file_of_rhino_is_a_sound_hull_by_itself() -> None:
     assert found.farthest <= found.limit
 
 
+def test_sections_that_part_are_told_at_export_and_at_import() -> None:
+    """Where a bulb ends between two sections no form of sections can say: the hull is open."""
+    [found] = round_trips(["container_ship_225m"], ["britfair"])
+    print(found)
+    assert "parting" in found.told
+    assert "ST 222.1875, ST 225: between two sections they do not close" in found.verdict
+
+
 @pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
 @pytest.mark.parametrize("name", HULLS)
 def test_each_hull_comes_back_from_each_form(name: str) -> None:

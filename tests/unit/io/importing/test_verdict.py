@@ -13,7 +13,7 @@ import assoc_hull as ah
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.edit.adoption.latent_crossings import make_latent_crossings
 from assoc_hull.errors import BadInputError, NotSoundError
-from assoc_hull.io.importing import proportions
+from assoc_hull.io.importing import proportions, soundness
 from assoc_hull.io.importing.import_hull import import_hull
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.soundness import examine_net
@@ -213,6 +213,28 @@ def sections(change: Callable[[np.ndarray], None] | None = None) -> str:
         for i, a in enumerate(x) for b, c in zip(y[i], z, strict=True)
     ]  # fmt: skip
     return "\n".join(["line,x,y,z", *rows]) + "\n"
+
+
+@pytest.mark.parametrize(("apart", "count"), [(2e-5, 0), (9e-4, 0), (1.1e-3, 1), (0.05, 1)])
+def test_lines_that_touch_do_not_miss_one_another(
+    monkeypatch: pytest.MonkeyPatch, apart: float, count: int
+) -> None:
+    """Within the least limit of a gap, a millimetre of a ship of 100 m, nothing is to be mended."""
+    state, report = series60_adopted(0.70)
+    lines = state.live("lines").tolist()
+    one, other = (
+        next(line for line in lines if state.family(line).name == family)
+        for family in ("sections", "waterlines")
+    )
+    place = np.array([[50.0, 5.0, 4.0]])
+    places = {
+        (state.lines.curves.data[one][0], other): place,
+        (state.lines.curves.data[other][0], one): place + np.array([0.0, apart, 0.0]),
+    }
+    monkeypatch.setattr(soundness, "_latent_places", lambda _: places)
+    found = Findings()
+    examine_net(state, report, found)
+    assert sum(each.kind == "gap" for each in found.faults) == count
 
 
 def test_a_line_through_the_centre_plane_is_a_fault() -> None:
