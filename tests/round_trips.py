@@ -128,6 +128,7 @@ def round_trip(name: str, hull: Hull, form: str, folder: Path) -> RoundTrip:
         nan = float("nan")
         return RoundTrip(name, form, 0, nan, nan, "", (), nan, nan, f"not written: {error}")
     told = _told(report)
+    back: Hull | None = None
     try:
         back = _read(hull, path, form)
     except NotSoundError as error:
@@ -135,9 +136,9 @@ def round_trip(name: str, hull: Hull, form: str, folder: Path) -> RoundTrip:
         verdict = f"refused, measured all the same: {len(error.findings)} of: {first}"[:200]
         back = _read(hull, path, form, accept=True)
     except AssocHullError as error:
-        back, verdict = None, f"refused: {error}".partition(": give")[0][:200]
+        verdict = f"refused: {error}".partition(": give")[0][:200]
     else:
-        notes = back.adoption.notes if back.adoption else ()
+        notes = () if back.adoption is None else back.adoption.notes
         verdict = ", ".join(n.removeprefix("verdict: ") for n in notes if n.startswith("verdict"))
     same = ""
     if form in SPLINES and back is not None:
@@ -230,7 +231,7 @@ def solid_off(hull: Hull, path: Path) -> float:
     centre = corner.mean(axis=1)
     reach = np.sqrt(((corner - centre[:, None]) ** 2).sum(axis=2)).max()
     tree = cKDTree(centre)
-    away, near = tree.query(points, _NEAREST)
+    away, near = (np.asarray(each) for each in tree.query(points, _NEAREST))
     found = np.min([_from_triangles(points, corner[each]) for each in near.T], axis=0)
     # A triangle whose middle is farther than that cannot be nearer: all others are looked at.
     # Only what could be the farthest of all is looked at with every triangle in reach.
@@ -272,7 +273,7 @@ def _from_triangles(points: FloatArray, corner: FloatArray) -> FloatArray:
         part = ((points - start) * step).sum(axis=1) / np.maximum((step * step).sum(axis=1), 1e-300)
         gap = points - start - np.clip(part, 0.0, 1.0)[:, None] * step
         sides.append(np.sqrt((gap * gap).sum(axis=1)))
-    return np.where(inside, np.abs(height), np.min(sides, axis=0))
+    return np.asarray(np.where(inside, np.abs(height), np.min(sides, axis=0)))
 
 
 def table_off(hull: Hull, path: Path) -> float:

@@ -114,7 +114,7 @@ def write_surface(
     if chosen in CAD_FORMS:
         require_sound_surface(found, accept=taken)
         report = write_cad(found.patches, path, chosen, unit=unit or "mm", half=alone, name=name)
-        return attrs.evolve(report, residual=found.residuals.whole[0].largest)
+        return attrs.evolve(report, residual=found.whole[0].largest)
     return write_mesh(mesh_of_net(found.net, half=alone), path, chosen, unit=unit, name=name)
 
 
