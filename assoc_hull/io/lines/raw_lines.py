@@ -35,7 +35,7 @@ __all__ = [
 BOUNDARIES = ("profile", "deck edge", "transom")
 """Names of boundary curves among digitised lines."""
 
-_PART_ENDS = tuple(f"{part} end" for part in ("bossing", "boss", "skeg", "nozzle", "tunnel"))
+_PART_ENDS = tuple(f"{part} end" for part in ("bossing", "boss", "skeg", "nozzle", "tunnel", "bow"))
 """Edges in which a part ends across the ship, from the centre line to it: boundary curves, too."""
 
 OTHER_FAMILIES = ("diagonals", "boundary")

@@ -194,6 +194,7 @@ def make_shell(mesh: Triangles, book: Notebook) -> MeshShell:
     deck &= ~transom
     bossing = _find_bossing_end(mesh) & ~transom
     _tell_caps(mesh, deck, transom, book)
+    _tell_flat_bow(mesh, book)
     shell = mesh.part(~(deck | transom | bossing))
     rim = boundary_edges(shell)
     sort = _sort(mesh, rim, mesh.face[deck], mesh.face[transom])
@@ -276,14 +277,16 @@ def _find_deck(mesh: Triangles) -> _BoolArray:
     return _large_parts(mesh, up & high_up, area, 0.05 * plan)
 
 
-def _find_transom(mesh: Triangles) -> _BoolArray:
-    """Find a flat part that looks aft, at the aft end."""
+def _find_transom(mesh: Triangles, *, forward: bool = False) -> _BoolArray:
+    """Find a flat part that looks aft, at the aft end; or that of a barge's bow, forward."""
     vectors = mesh.area_vectors()
     area = np.linalg.norm(vectors, axis=1)
     low, high = mesh.xyz.min(axis=0), mesh.xyz.max(axis=0)
-    aft: _BoolArray = (vectors[:, 0] < -0.7 * area) & (
-        mesh.corners[:, :, 0].mean(axis=1) < low[0] + 0.1 * (high[0] - low[0])
-    )
+    x, size = mesh.corners[:, :, 0].mean(axis=1), float(high[0] - low[0])
+    aft: _BoolArray = (vectors[:, 0] < -0.7 * area) & (x < low[0] + 0.1 * size)
+    if forward:
+        # A stem may be flat over its breadth and raked; the end plate of a barge is square to her.
+        aft = (vectors[:, 0] > 0.99999 * area) & (x > high[0] - 0.1 * size)
     if not aft.any():
         return aft
     heart = int(np.argmax(np.where(aft, area, 0.0)))
@@ -365,6 +368,21 @@ def _tell_caps(mesh: Triangles, deck: _BoolArray, transom: _BoolArray, book: Not
             book.assume(name, _WHERE, what, low)
         else:
             book.assume(name, _WHERE, f"no {name} among the triangles")
+
+
+def _tell_flat_bow(mesh: Triangles, book: Notebook) -> None:
+    """Say that a hull ends forward in a plate, as a barge: lines round the corners around it."""
+    bow = _find_transom(mesh, forward=True)
+    if not bow.any():
+        return
+    x = float(mesh.corners[bow][..., 0].mean())
+    area = float(np.linalg.norm(mesh.area_vectors()[bow], axis=1).sum())
+    what = (
+        f"the hull ends in a flat of {2.0 * area:.4g} m2 across the ship at x = {x:.6g} m: lines "
+        "round its corners, and V may be some tenths of a per cent too small; give it as lines "
+        "with a boundary curve around that flat, called 'bow end'"
+    )
+    book.suspect("flat bow", _WHERE, what, x)
 
 
 def _sort(mesh: Triangles, rim: IntArray, deck: IntArray, transom: IntArray) -> IntArray:

@@ -368,9 +368,9 @@ def _report_loose_ends(name: str, pieces: list[LinePiece], book: Notebook) -> No
 def _boundaries(
     shell: MeshShell, gaps: Gaps, joins: list[GapJoin], book: Notebook
 ) -> list[SliceLine]:
-    """Chain the open edges into profile, deck edge and edge of the transom."""
+    """Chain the open edges into profile, deck edge and the edges of transom and bossing."""
     found: list[SliceLine] = []
-    for kind in (RimKind.PROFILE, RimKind.DECK, RimKind.TRANSOM, RimKind.BOSSING):
+    for kind in range(RimKind.LOOSE):
         name = RimKind.NAMES[kind]
         chains, made = join_pieces(name, rim_pieces(shell, kind), gaps)
         joins += made
@@ -450,7 +450,7 @@ def _length(piece: LinePiece) -> float:
 
 def _forward(pieces: list[LinePiece], kind: int) -> list[LinePiece]:
     """Turn profile and deck edge from aft forward, the transom from the centre plane outward."""
-    column = 1 if kind in (RimKind.TRANSOM, RimKind.BOSSING) else 0
+    column = 0 if kind in (RimKind.PROFILE, RimKind.DECK) else 1
     turned = [
         piece if piece.points[0, column] <= piece.points[-1, column] else piece.reversed()
         for piece in pieces

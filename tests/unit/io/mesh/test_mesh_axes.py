@@ -8,9 +8,10 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.surfaces.triangles import Triangles
+from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.mesh.frame import place_mesh
+from assoc_hull.io.mesh.shell import make_shell
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.slicing.mesh_lines import slice_mesh
 from tests import meshes
@@ -111,3 +112,29 @@ def test_full_ships_with_sheer_are_turned_only_if_they_lie_keel_up(
         assert ("upside down" in book.report().kinds("repairs")) == mended
         deck = placed.xyz[np.abs(placed.xyz[:, 0] - 60.0) < 10.0, 2].max()
         assert deck - placed.xyz[:, 2].min() == pytest.approx(depth, abs=0.05 * depth)
+
+
+def test_a_bow_that_ends_in_a_plate_is_told() -> None:
+    """A box of 60 m x 15 m x 4 m: the end aft is its transom, that forward a suspicion."""
+    u, v = np.meshgrid(np.linspace(0.0, 60.0, 13), np.linspace(-1.0, 1.0, 33), indexing="ij")
+    y = np.clip(v * 11.5, -7.5, 7.5)
+    shell = grid_triangles(np.stack([u, y, np.abs(v * 11.5) - np.abs(y)], axis=2))
+    ends = [
+        grid_triangles(
+            np.array([[[x, y, z] for z in (0.0, 4.0)] for y in np.linspace(-7.5, 7.5, 9) * turn])
+        )
+        for x, turn in ((0.0, 1.0), (60.0, -1.0))
+    ]
+    parts = [shell, *ends]
+    first = np.cumsum([0, *(len(each.xyz) for each in parts[:-1])])
+    book = Notebook()
+    make_shell(
+        Triangles(
+            np.concatenate([each.xyz for each in parts]),
+            np.concatenate([each.face + n for each, n in zip(parts, first.tolist(), strict=True)]),
+        ),
+        book,
+    )
+    [note] = [each for each in book.report().suspicions if each.kind == "flat bow"]
+    assert note.amount == pytest.approx(60.0)
+    assert "60 m2" in note.what
