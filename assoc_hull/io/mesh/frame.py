@@ -409,9 +409,9 @@ def _upright(mesh: Triangles, book: Notebook) -> Triangles:
     """Turn a hull that lies keel up: its lower half holds more than its upper half."""
     lower, upper = _half_volumes(mesh)
     if lower > _KEEL_UP * upper:
+        more = lower / max(upper, 1e-9)
         what = (
-            f"the half of the hull at low z holds {lower:.4g} m3, that at high z {upper:.4g} m3; "
-            "turned about its length"
+            f"its half at low z holds {more:.3g} times its half at high z; turned about its length"
         )
         book.repair("upside down", _WHERE, what)
         return _to_port(_turned(mesh, np.diag([1.0, -1.0, -1.0])))
