@@ -6,12 +6,9 @@ Where the system tells neither, both are nil.
 from __future__ import annotations
 
 import contextlib
-import gc
 import os
 import time
 from pathlib import Path
-
-from assoc_hull.io import child_process
 
 __all__ = ["MOST_MEMORY", "MOST_TIME", "peak_memory", "processor_time", "reset_peak"]
 
@@ -25,19 +22,20 @@ _TICK = float(os.sysconf("SC_CLK_TCK")) if hasattr(os, "sysconf") else 100.0
 
 
 def processor_time() -> float:
-    """Seconds of this process and of the children that wait for it, so far."""
-    # A child waits again once its session is forgotten: what it did before counts as done.
-    gc.collect()
-    return time.process_time() + sum(map(_of, child_process._WAITING))
-
-
-def _of(server: child_process._Server) -> float:
-    """Seconds of a server and of the workers that have ended."""
-    try:
-        text = Path(f"/proc/{server.process.pid}/stat").read_text()
-    except OSError:
-        return 0.0
-    return sum(map(int, text.rpartition(")")[2].split()[11:15])) / _TICK
+    """Seconds of this process and of all processes that it has started, so far."""
+    started: dict[str, list[str]] = {}
+    spent: dict[str, float] = {}
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):
+            fields = path.read_text().rpartition(")")[2].split()
+            started.setdefault(fields[1], []).append(path.parent.name)
+            # Its own, and of those that it waited for: what still runs is counted by itself.
+            spent[path.parent.name] = sum(map(int, fields[11:15])) / _TICK
+    found, below = time.process_time(), started.get(str(os.getpid()), [])
+    while below:
+        found += sum(spent[each] for each in below)
+        below = [child for each in below for child in started.get(each, [])]
+    return found
 
 
 def reset_peak() -> float:
