@@ -77,6 +77,33 @@ def test_a_difference_is_told(
     assert capsys.readouterr().out.endswith("3 facts of 1 ships are the same\n")
 
 
+def test_last_bits_of_products_are_kept_by_kind_of_machine(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A fact kept for one arithmetic is compared on it alone, and counted elsewhere.
+
+    What is written anew is forgotten for the kinds of machines that were not asked.
+    """
+    file, found = tmp_path / "unchanged.json", {"records": {"one": "a", "two": "b"}}
+    facts = {"records": {"one": "a", "two": {"there": "y"}}}
+    file.write_text(json.dumps({"wigley": {"acts": [], "facts": facts}}), encoding="utf-8")
+    monkeypatch.setattr("tests.unchanged.FILE", file)
+    monkeypatch.setattr("tests.unchanged._compute", lambda *_: found)
+    monkeypatch.setattr("tests.unchanged._arithmetic", lambda: "here")
+    asked = ["--only", "wigley"]
+    assert main(asked) == 0
+    assert (
+        "1 facts are kept for other kinds of arithmetic than here only\n" in capsys.readouterr().out
+    )
+    assert main([*asked, "--machine"]) == 0
+    found["records"] = {"one": "a", "two": "c"}
+    assert main(asked) == 1
+    assert "records, two:\n    was b\n    is  c\n" in capsys.readouterr().out
+    assert main([*asked, "--write"]) == 0
+    kept = json.loads(file.read_text(encoding="utf-8"))["wigley"]["facts"]["records"]
+    assert kept == {"one": "a", "two": {"here": "c"}}
+
+
 @pytest.mark.parametrize(
     ("one", "other"),
     [
