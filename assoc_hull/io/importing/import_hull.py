@@ -130,7 +130,7 @@ def _import_body_plan(
     """Read the sections of a flat drawing, and adopt them as digitised lines."""
     options.refuse("sections stand where the drawing has them", path, options.PLANES)
     plan = read_body_plan(path, BodyPlanRules(
-        options.scale or 1.0, options.unit, options.length, options.station_spacings,
+        _scale(options), options.unit, options.length, options.station_spacings,
         options.frame_spacing, options.station_zero,
     ))  # fmt: skip
     # Stations are counted from AP, whatever a frame would find of sections alone.
@@ -148,6 +148,12 @@ def _import_body_plan(
         notes, slices.adoption, Verdict(), slices=attrs.evolve(slices, slices=notes),
         frame=slices.frame,
     )  # fmt: skip
+
+
+def _scale(options: ImportOptions) -> float:
+    """Give full scale over that of the file: 1 where nobody says it, and above 0."""
+    given = 1.0 if options.scale is None else options.scale
+    return positive(given, "scale", "as an argument")
 
 
 def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, ImportReport]:
@@ -174,9 +180,10 @@ def _placed_table(
     path: Path, options: ImportOptions
 ) -> tuple[OffsetTable, OffsetReport, ShipFrame]:
     """Read a table at the scale of the file, bring it to full scale and into ship axes."""
-    scale = positive(options.scale or 1.0, "scale", "as an argument")
+    scale = _scale(options)
     zero, frame = _table_origin(options)
     named: dict[str, Any] = {name: getattr(frame, name) for name in options.SIZES}
+    named["draught"] = frame.mean_draught
     named["frame_spacing"] = options.frame_spacing
     sizes = {name: value / scale for name, value in named.items() if value is not None}
     more = options.named("unit", "station_spacings", "centre") | (
