@@ -535,16 +535,30 @@ def _tell_ends(
         name = "LWL" if ends.ap_from[0] == "assumed" else "the distance of the perpendiculars"
         book.assume("length", where, f"Lpp = {name} = {length:.6g} m", length)
     out = float(outline.low[0]) - ends.ap
-    if ends.length is not None and out > 0.01 * length:
+    if ends.length is not None and out > 0.01 * length + _beyond(outline, fore=False):
         what = f"the AP lies {out:.4g} m aft of the hull, which Lpp = {length:.6g} m does not fit"
         book.suspect("aft perpendicular", where, f"{what}: check length=", out)
-    if ends.fp_from[0] != "stated" and not same_place(ends.fp, stem, 2.0 * length):
+    off = abs(ends.fp - stem) - _beyond(outline, fore=True) * (ends.fp > stem)
+    if ends.fp_from[0] != "stated" and not same_place(off, 0.0, 2.0 * length) and off > 0.0:
         what = (
             f"the FP lies at x = {ends.fp:.6g} m of the file, and the stem meets the design "
             f"waterline at {stem:.6g} m, {abs(ends.fp - stem):.4g} m off: check length=, draught= "
             "and where x = 0 is"
         )
         book.suspect("forward perpendicular", where, what, ends.fp - stem)
+
+
+_BLUNT = 0.02
+"""A last section this part of the greatest half-breadth broad is not the end of the hull."""
+
+
+def _beyond(outline: HullOutline, *, fore: bool) -> float:
+    """Give how far (m) a hull known by sections alone may go on beyond a last one that is broad."""
+    x = float(outline.high[0] if fore else outline.low[0])
+    places = outline.cut(0, x)
+    broad = float(np.abs(places[:, 1]).max(initial=0.0))
+    most = float(np.abs(outline.xyz[:, 1]).max())
+    return 2.0 * outline.doubt if broad > _BLUNT * most else 0.0
 
 
 def _tell_zero(ends: _Ends, length: float, sign: float, book: Notebook, where: str) -> None:
