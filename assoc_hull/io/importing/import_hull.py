@@ -24,7 +24,7 @@ from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
 from assoc_hull.io.importing.soundness import greatest_note, open_net_note
 from assoc_hull.io.importing.stated import stated_places
-from assoc_hull.io.importing.verdict import ImportFinding, Verdict, require_sound
+from assoc_hull.io.importing.verdict import ImportFinding, Verdict, grouped, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.offsets.complete_table import net_from_table
 from assoc_hull.io.offsets.place_table import place_table, table_particulars
@@ -168,10 +168,10 @@ def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, Import
             raise
         # No hull can be made of numbers that are not right: all that is wrong is told.
         found = (
-            *map(finding_of, notes.faults),
+            *grouped([*map(finding_of, notes.faults)]),
             ImportFinding("not adopted", "the table", str(error)),
         )
-        besides = tuple(str(finding_of(note)) for note in notes.suspicions)
+        besides = tuple(map(str, grouped([*map(finding_of, notes.suspicions)])))
         raise NotSoundError(path.name, tuple(map(str, found)), suspicions=besides) from error
     return state, ImportReport(notes, adoption, Verdict(), table=table, frame=frame)
 
