@@ -15,7 +15,12 @@ import numpy as np
 from assoc_hull.arguments import number
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.offsets.damage import compare_areas, compare_beams, examine_lines
+from assoc_hull.io.offsets.damage import (
+    compare_areas,
+    compare_beams,
+    examine_bottom,
+    examine_lines,
+)
 from assoc_hull.io.offsets.doctor import ExaminedTable, examine_offsets, wild_values
 from assoc_hull.io.offsets.hints import OffsetHints, read_hints
 from assoc_hull.io.offsets.scale import (
@@ -348,6 +353,7 @@ def _examine(
     )
     examine_offsets(patient, book)
     examine_lines(patient, book)
+    examine_bottom(patient, book)
     areas, beams = sheet.single("area"), sheet.single("beam")
     compare_areas(patient, None if areas is None else areas[order], book)
     compare_beams(patient, None if beams is None else beams[order], book)
