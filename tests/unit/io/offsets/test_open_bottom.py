@@ -61,3 +61,21 @@ def test_a_sharp_bottom_leaves_nothing_open() -> None:
         rows.append(",".join([str(i), *cells, f"{k:.4f}"]))
     _, report = read_offsets("\n".join(rows), length=L, draught=2.0, station_zero="ap")
     assert "open bottom" not in report.kinds("suspicions")
+
+
+def test_a_counter_that_reaches_the_deck_alone_is_taken(tmp_path: Path) -> None:
+    """A station with one half-breadth, at the deck: it was refused for a curve of one point."""
+    x, z = np.linspace(0.0, 14.0, 15), np.array([-0.7, -0.5, -0.3, -0.1, 0.1, 0.3, 0.6, 0.9, 1.2])
+    rows = ["x," + ",".join(f"{each:g}" for each in z)]
+    for place in x:
+        u = abs(place / 7.0 - 1.0)
+        low = -0.75 + 1.05 * u**2 + 0.7 * u**4
+        half = 1.9 * (1.0 - min(abs((place - 6.6) / 7.4) ** 2.3, 1.0))
+        up = np.clip((z - low) / (1.2 - low), 0.0, 1.0) ** 0.62
+        cells = ["" if a < low - 1e-9 else f"{half * b:.3f}" for a, b in zip(z, up, strict=True)]
+        rows.append(",".join([f"{place:g}", *cells]))
+    path = tmp_path / "yacht.csv"
+    path.write_text("\n".join(rows) + "\n")
+    state, report = import_hull(path, ImportOptions(draught=0.7, accept=True))
+    assert "left open" in str(report.adoption.notes)
+    assert hydrostatics(Document(state), on_error="report").volume == pytest.approx(5.887, rel=0.02)
