@@ -1,4 +1,6 @@
-"""Reading packed files: no more than a bound, since what is packed may unpack to anything.
+"""Bytes of files before anybody looks at them: packed ones unpacked, UTF-16 as UTF-8.
+
+No more than a bound is unpacked, since what is packed may unpack to anything.
 
 Examples
 --------
@@ -17,9 +19,34 @@ from pathlib import Path
 
 from assoc_hull.errors import BadInputError
 
-__all__ = ["too_large", "unpacked"]
+__all__ = ["as_utf8", "too_large", "unpacked"]
 
 _PART = 1 << 20
+
+_MARKS = ((b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
+_HEAD = 4000
+_MOSTLY = 0.8
+"""Of a text in UTF-16 so many of every second bytes are 0, and none of the others."""
+
+
+def as_utf8(data: bytes) -> bytes:
+    r"""Give a text that is UTF-16, as spreadsheets save "Unicode text", in UTF-8; else what it is.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.read_file import as_utf8
+    >>> as_utf8("line,x".encode("utf-16")), as_utf8(b"line,x")
+    (b'line,x', b'line,x')
+    """
+    for mark, name in _MARKS:
+        if data.startswith(mark):
+            return data[2:].decode(name, "replace").encode()
+    head = data[:_HEAD]
+    first, second = head[::2], head[1::2]
+    for zeros, others, name in ((second, first, "utf-16-le"), (first, second, "utf-16-be")):
+        if zeros.count(0) > _MOSTLY * len(zeros) > 0.0 and not others.count(0):
+            return data.decode(name, "replace").encode()
+    return data
 
 
 def unpacked(data: bytes, most: int, where: str) -> bytes:

@@ -24,7 +24,7 @@ from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
 from assoc_hull.io.importing.soundness import greatest_note, open_net_note
 from assoc_hull.io.importing.stated import stated_places
-from assoc_hull.io.importing.verdict import ImportFinding, Verdict, require_sound
+from assoc_hull.io.importing.verdict import ImportFinding, Verdict, grouped, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.offsets.complete_table import net_from_table
 from assoc_hull.io.offsets.place_table import place_table, table_particulars
@@ -130,7 +130,7 @@ def _import_body_plan(
     """Read the sections of a flat drawing, and adopt them as digitised lines."""
     options.refuse("sections stand where the drawing has them", path, options.PLANES)
     plan = read_body_plan(path, BodyPlanRules(
-        options.scale or 1.0, options.unit, options.length, options.station_spacings,
+        _scale(options), options.unit, options.length, options.station_spacings,
         options.frame_spacing, options.station_zero,
     ))  # fmt: skip
     # Stations are counted from AP, whatever a frame would find of sections alone.
@@ -150,6 +150,12 @@ def _import_body_plan(
     )  # fmt: skip
 
 
+def _scale(options: ImportOptions) -> float:
+    """Give full scale over that of the file: 1 where nobody says it, and above 0."""
+    given = 1.0 if options.scale is None else options.scale
+    return positive(given, "scale", "as an argument")
+
+
 def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, ImportReport]:
     options.refuse("it is for meshes, surfaces and digitised lines", path, options.ONLY_CUTS)
     table, notes, frame = _placed_table(path, options)
@@ -162,10 +168,10 @@ def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, Import
             raise
         # No hull can be made of numbers that are not right: all that is wrong is told.
         found = (
-            *map(finding_of, notes.faults),
+            *grouped([*map(finding_of, notes.faults)]),
             ImportFinding("not adopted", "the table", str(error)),
         )
-        besides = tuple(str(finding_of(note)) for note in notes.suspicions)
+        besides = tuple(map(str, grouped([*map(finding_of, notes.suspicions)])))
         raise NotSoundError(path.name, tuple(map(str, found)), suspicions=besides) from error
     return state, ImportReport(notes, adoption, Verdict(), table=table, frame=frame)
 
@@ -174,9 +180,10 @@ def _placed_table(
     path: Path, options: ImportOptions
 ) -> tuple[OffsetTable, OffsetReport, ShipFrame]:
     """Read a table at the scale of the file, bring it to full scale and into ship axes."""
-    scale = positive(options.scale or 1.0, "scale", "as an argument")
+    scale = _scale(options)
     zero, frame = _table_origin(options)
     named: dict[str, Any] = {name: getattr(frame, name) for name in options.SIZES}
+    named["draught"] = frame.mean_draught
     named["frame_spacing"] = options.frame_spacing
     sizes = {name: value / scale for name, value in named.items() if value is not None}
     more = options.named("unit", "station_spacings", "centre") | (

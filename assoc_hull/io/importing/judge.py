@@ -5,8 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
+from assoc_hull.io.importing.cut_ends import examine_ends
 from assoc_hull.io.importing.proportions import examine_particulars
-from assoc_hull.io.importing.soundness import examine_net
+from assoc_hull.io.importing.soundness import examine_net, look
 from assoc_hull.io.importing.stated import stated_in
 from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict, told_verdict
 from assoc_hull.io.lines.boundary_holes import HOLE
@@ -40,8 +41,10 @@ def judge(
     if table:
         stated = {name: said for name, said in stated.items() if name not in _COMPARED}
     known = frame is not None and frame.origins.get("breadth") in ("given", "stated")
-    examine_particulars(state, found, stated, broad=known)
+    record = examine_particulars(state, found, stated, broad=known)
     drawn = slices is not None and LOFTED not in notes.kinds("assumptions")
+    if not drawn and not table:
+        look(lambda: examine_ends(state, record, found), "the ends", found)
     examine_net(state, adoption, found, drawn=drawn)
     return found.verdict()
 

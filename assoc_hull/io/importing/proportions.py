@@ -66,11 +66,11 @@ def examine_particulars(
     stated: Mapping[str, tuple[float, float]] | None = None,
     *,
     broad: bool = True,
-) -> None:
+) -> Hydrostatics | None:
     """Look at the particulars of a hull, and at its coefficients.
 
     `stated` is what the file says, as `assoc_hull.io.importing.stated.read_stated` gives it;
-    `broad`: the breadth was given or stated, not found.
+    `broad`: the breadth was given or stated, not found. Gives what was measured, if anything.
     """
     measured: list[_Measured] = []
     look(lambda: measured.append(_measure(state, found)), "the hull", found)
@@ -83,6 +83,7 @@ def examine_particulars(
             lambda hull=hull: _examine_stated(state, hull, stated or {}, found),
         ):
             look(each, "the particulars", found)
+    return measured[0].record if measured else None
 
 
 def _measure(state: HullState, found: Findings) -> _Measured:

@@ -21,6 +21,7 @@ from assoc_hull.io.export.britfair import is_britfair
 from assoc_hull.io.export.ghs_geometry import is_gf
 from assoc_hull.io.lines.ship_frame import StatedPlaces
 from assoc_hull.io.offsets.hints import read_hints
+from assoc_hull.io.read_file import as_utf8
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.table_text import read_text
 
@@ -55,7 +56,7 @@ _MARK = re.compile(r'^[ \t]*"?[ \t]*(?:#+|//|;|\*|!|%)[ \t]?(.*)$', re.MULTILINE
 def stated_in(path: Path) -> dict[str, tuple[float, float]]:
     """Give what the comments of a file say, as `read_stated`; nothing of one that is no text."""
     with regular_file(path).open("rb") as file:
-        head = file.read(_HEAD)
+        head = as_utf8(file.read(_HEAD))
     if head.startswith(_WORKBOOK):
         return read_stated(read_text(path, Notebook())[0])
     return {} if _BINARY.search(head) else read_stated(head.decode("utf-8", "replace"))
@@ -87,7 +88,7 @@ def stated_places(path: Path) -> StatedPlaces:
     file = regular_file(path)
     if not file.is_file() or file.stat().st_size > _MOST:
         return StatedPlaces()
-    data = file.read_bytes()
+    data = as_utf8(file.read_bytes())
     if _BINARY.search(data[:_HEAD]):
         return StatedPlaces()
     text = data.decode("utf-8", "replace").lstrip("\ufeff")

@@ -12,6 +12,9 @@ sound with suspicions (1)
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+
 import attrs
 
 from assoc_hull.errors import NotSoundError
@@ -20,6 +23,7 @@ __all__ = [
     "Findings",
     "ImportFinding",
     "Verdict",
+    "grouped",
     "refused_findings",
     "require_sound",
     "told_verdict",
@@ -101,8 +105,52 @@ class Findings:
         self.suspicions.append(ImportFinding(kind, where, what, amount))
 
     def verdict(self) -> Verdict:
-        """Give the verdict; what two looks found in the same words counts once."""
-        return Verdict(tuple(dict.fromkeys(self.faults)), tuple(dict.fromkeys(self.suspicions)))
+        """Give the verdict; what looks found in the same words counts once, with all its places."""
+        return Verdict(grouped(self.faults), grouped(self.suspicions))
+
+
+_ALIKE = 3
+"""So many findings that differ in places and numbers alone are one."""
+
+_NAMED = 24
+"""So many of their places are named."""
+
+_FIGURE = re.compile(r"[-+]?[0-9][-+0-9.,]*(?:e[-+]?[0-9]+)?")
+_NAME = re.compile(r"(?:[A-Za-z]+ )?[-+]?[0-9][-+0-9.]*|[^ ]+")
+
+
+def grouped(findings: Sequence[ImportFinding]) -> tuple[ImportFinding, ...]:
+    """Put findings together that say one thing of many lines: the worst, and where else it holds.
+
+    Examples
+    --------
+    >>> found = [ImportFinding("fold", f"ST {x}", f"by {x} mm", float(x)) for x in (1, 3, 2)]
+    >>> [str(each) for each in grouped(found)]
+    ['fold: ST 3; likewise ST 1, ST 2: by 3 mm']
+    """
+    alike: dict[tuple[str, str], list[ImportFinding]] = {}
+    for each in dict.fromkeys(findings):
+        said = (each.kind, _FIGURE.sub("#", each.what))
+        alike.setdefault(said, []).append(each)
+    found = []
+    for group in alike.values():
+        found += group if len(group) < _ALIKE else [_as_one(group)]
+    return tuple(found)
+
+
+def _as_one(group: list[ImportFinding]) -> ImportFinding:
+    """Give the worst of findings that are alike, with the places of the others."""
+    worst = max(group, key=lambda each: abs(each.amount or 0.0))
+    places = [each.where.partition(" at (")[0] for each in group]
+    if len(set(places)) == 1:  # the line stands in the sentence
+        places = [found[0] if (found := _NAME.match(each.what)) else each.what for each in group]
+    rest = [place for place, each in zip(places, group, strict=True) if each is not worst]
+    own = places[[each is worst for each in group].index(True)]
+    names = [name for name in dict.fromkeys(rest) if name != own]
+    shown = ", ".join(names[:_NAMED])
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    others = f"; likewise {shown}{more}" if names else ""
+    return attrs.evolve(worst, where=f"{worst.where}{others}")
 
 
 def refused_findings(verdict: Verdict, *, accept: bool, strict: bool) -> tuple[ImportFinding, ...]:

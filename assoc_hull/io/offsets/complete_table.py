@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
 from assoc_hull.io.offsets.net import (
     Completion,
@@ -568,7 +568,8 @@ def net_from_table(
         # Fits of borders know lengths: a short hull passes them at the size these hold for.
         completion = _completion(at_full_size(table))
         return adopt_completed(table, completion, ship, tolerances, straight=straight)
-    except BadInputError as error:
+    except (BadInputError, TooFewPointsError) as error:
+        # Too few: as of a counter that reaches the deck alone at her last station.
         state, report = net_of_lines(table, ship, tolerances)
         drawn = "profile" in {str(name) for name in state.lines.name.data}
         left = "ends and flats" if drawn else "profile, ends and flats"
@@ -599,13 +600,13 @@ def _coarse_keel(table: OffsetTable) -> list[str]:
     ]
 
 
-def _in_its_size(table: OffsetTable, error: BadInputError) -> str:
+def _in_its_size(table: OffsetTable, error: BadInputError | TooFewPointsError) -> str:
     """Say why a table has no completion, with lengths of its own and not of full size."""
     try:
         _completion(table)
     except BadInputError as own:
         return own.what
-    return error.what
+    return error.what if isinstance(error, BadInputError) else str(error)
 
 
 def _completion(table: OffsetTable) -> Completion:

@@ -282,3 +282,53 @@ def compare_beams(patient: ExaminedTable, told: FloatArray | None, book: Noteboo
         what = f"its largest half-breadth is {largest[i]:.6g} m, the column says "
         what += f"{factor * told[i]:.6g} m"
         book.suspect("largest beam", f"station {patient.stations[i]}", what, float(off[i]))
+
+
+# --------------------------------------------------------------------------------------
+# What a table leaves open between the keel and the lowest half-breadth of a station.
+
+_OPEN_BOTTOM = 3e-3
+"""Told where more than this part of V hangs on it."""
+
+
+def examine_bottom(patient: ExaminedTable, book: Notebook) -> None:
+    """Tell where the keel has a height and the next half-breadth over it is wide already.
+
+    Between the two a section may be flat or sharp: it is drawn straight, and half of what lies
+    between these two may be wrong.
+    """
+    if len(patient.x) < 3:
+        return
+    y, z = np.nan_to_num(patient.y), patient.z
+    rows = np.arange(len(y))
+    wide = y > 0.0
+    first = np.argmax(wide, axis=1)
+    # Without heights of the keel the last blank below a half-breadth tells how low it may be.
+    under = np.maximum(first - 1, 0)
+    blank = np.isnan(patient.y[rows, under]) & (first > 0)
+    keel = np.where(blank, z[under], z[first]) if patient.keel is None else patient.keel
+    gap = np.where(wide.any(axis=1), z[first] - keel, 0.0)
+    gap = np.nan_to_num(np.where(gap > 0.0, gap, 0.0))
+    # As the lowest two half-breadths run on, so broad is the bottom at the keel, if at all.
+    above = np.minimum(first + 1, y.shape[1] - 1)
+    rise = np.maximum(z[above] - z[first], 1e-300)
+    slope = np.where(above > first, (y[rows, above] - y[rows, first]) / rise, 0.0)
+    flat = np.clip(y[rows, first] - gap * np.maximum(slope, 0.0), 0.0, None)
+    open_area = flat * gap  # both sides, between a straight line and a flat bottom
+    area = 2.0 * section_areas(patient, patient.draught)
+    volume, doubt = (float(np.trapezoid(each, patient.x)) for each in (area, open_area))
+    if not doubt > _OPEN_BOTTOM * max(volume, 1e-300):
+        return
+    large = np.flatnonzero(open_area > 0.25 * open_area.max())
+    names = ", ".join(patient.stations[i] for i in large[:_NAMED].tolist())
+    worst = int(open_area.argmax())
+    what = (
+        f"between the keel and the lowest half-breadth the table says nothing, at station "
+        f"{patient.stations[worst]} over {gap[worst]:.3g} m below {y[worst, first[worst]]:.4g} m: "
+        f"drawn straight; if the bottom is flat there V is {100.0 * doubt / volume:.2g} % too "
+        "small: give waterlines nearer to the keel, or a half-breadth of the bottom at its height"
+    )
+    book.suspect("open bottom", f"stations {names}", what, doubt / volume)
+
+
+_NAMED = 12

@@ -18,6 +18,7 @@ from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, freeze
 from assoc_hull.geometry.polylines.operations import runs_where
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.io.lines.raw_lines import plane_name
@@ -467,11 +468,20 @@ def _straightened(
     kind = np.where(tangent, int(PointKind.TANGENT), int(PointKind.SMOOTH))
     if group == "sections" and _has_chine(points, same):
         kind[1], direction[1] = int(PointKind.KNUCKLE), 0.0
+    if group == "sections" and len(points) > 2 and points[0, 1] == 0.0:
+        lower = loft(CurveData.single(points, kind.tolist(), direction))
+        dip = float(points[0, 2] - sample(lower, _FINE)[1][: _FINE + 1, 2].min())
+        # Nothing of a section lies below its keel: the bottom runs straight to the first offset.
+        if dip > near:
+            kind[1], direction[1] = int(PointKind.KNUCKLE), 0.0
     return LineSource.make(
         group, plane_name(group, place), points, plane=(tuple(np.eye(3)[axis].tolist()), place),
         kind=kind.tolist(), direction=direction, tolerance=near,
     )  # fmt: skip
 
+
+_FINE = 16
+"""Places on the first segment of a section at which it is looked at."""
 
 _UPRIGHT_SIDE = 0.1
 """A side that widens by less than this part of its height stands upright."""
@@ -510,7 +520,7 @@ def _open_sections(table: OffsetTable, i: int) -> Iterator[FloatArray]:
     ]
     if not runs:
         return
-    keel = 0.0 if table.keel is None else float(table.keel[i])
+    keel = _foot_of_blanks(table, i) if table.keel is None else float(table.keel[i])
     first = runs[0][0]
     if np.isfinite(keel) and (keel, 0.0) < (first[1], first[0]) and first[0] > 0.0:
         runs[0] = np.vstack([[0.0, keel], runs[0]])
@@ -522,6 +532,24 @@ def _open_sections(table: OffsetTable, i: int) -> Iterator[FloatArray]:
     for run in runs:
         if len(run) > 1:
             yield np.column_stack([np.full(len(run), table.x[i]), run])
+
+
+def _foot_of_blanks(table: OffsetTable, i: int) -> float:
+    """Give the height of the keel of a station without a column of it: where the table is blank.
+
+    It lies between the last blank and the first half-breadth over it: where the straight line
+    through the lowest two comes to the centre plane, else at the blank.
+    """
+    y, z = table.half_breadth[i], table.z
+    known = np.flatnonzero(np.isfinite(y))
+    first = int(known[0]) if len(known) else 0
+    if not first:
+        return 0.0
+    foot = float(z[first - 1])
+    if len(known) > 1 and y[known[1]] > y[first]:
+        rise = float((z[known[1]] - z[first]) / (y[known[1]] - y[first]))
+        foot = max(foot, float(z[first] - y[first] * rise))
+    return foot
 
 
 def _with_buttocks(run: FloatArray, table: OffsetTable, i: int) -> FloatArray:

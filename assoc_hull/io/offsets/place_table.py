@@ -82,7 +82,7 @@ def _stated(
     if table.draught is None and table.z[0] >= 0.0:
         found["draught"] = top
         evidence["draught"] = "the highest waterline, because nothing tells it; give draught="
-    elif options.draught is None:
+    elif options.mean_draught is None:
         found["draught"] = table.draught
     if table.keel is None and table.z[0] >= 0.0:
         found["base"] = 0.0

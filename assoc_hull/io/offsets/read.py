@@ -15,7 +15,12 @@ import numpy as np
 from assoc_hull.arguments import number
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.offsets.damage import compare_areas, compare_beams, examine_lines
+from assoc_hull.io.offsets.damage import (
+    compare_areas,
+    compare_beams,
+    examine_bottom,
+    examine_lines,
+)
 from assoc_hull.io.offsets.doctor import ExaminedTable, examine_offsets, wild_values
 from assoc_hull.io.offsets.hints import OffsetHints, read_hints
 from assoc_hull.io.offsets.scale import (
@@ -32,6 +37,7 @@ from assoc_hull.io.offsets.scale import (
 from assoc_hull.io.offsets.sheet import OffsetColumn, OffsetSheet, read_sheet
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.reports import Notebook, OffsetReport
+from assoc_hull.io.tables.column_names import column_name
 from assoc_hull.io.tables.table_blocks import split_blocks
 from assoc_hull.io.tables.table_text import read_text, refuse_long
 from assoc_hull.io.units import check_particular
@@ -347,6 +353,7 @@ def _examine(
     )
     examine_offsets(patient, book)
     examine_lines(patient, book)
+    examine_bottom(patient, book)
     areas, beams = sheet.single("area"), sheet.single("beam")
     compare_areas(patient, None if areas is None else areas[order], book)
     compare_beams(patient, None if beams is None else beams[order], book)
@@ -522,6 +529,8 @@ def read_offsets(
     if buttocks is not None:
         blocks += split_blocks(*read_text(buttocks, book), book)[1]
     sheets = [read_sheet(block, book) for block in blocks]
+    if frame_spacing or station_spacings:
+        sheets = [_by_number(sheet, book) for sheet in sheets]
     main, extra = _sort_out(sheets, source)
     main = _to_port(main, book)
     main = _by_beams(main, book)
@@ -543,6 +552,18 @@ def read_offsets(
         table = _deck_about_centre(table, scale.y * float(centre))
     default = Path(source).stem if source != "text" else "offsets"
     return attrs.evolve(table, name=default if name is None else name), book.report()
+
+
+def _by_number(sheet: OffsetSheet, book: Notebook) -> OffsetSheet:
+    """Take places under a corner without a name for numbers: a spacing was given for them."""
+    column = sheet.columns.single.get("x")
+    if sheet.x is None or column is None or column_name(column.label) is not None:
+        return sheet
+    what = "numbers of stations or frames, since their spacing was given"
+    book.assume("corner", sheet.block.source, what)
+    others = {kind: each for kind, each in sheet.columns.single.items() if kind != "x"}
+    columns = attrs.evolve(sheet.columns, single={**others, "station": column})
+    return attrs.evolve(sheet, columns=columns, stations=sheet.x, x=None)
 
 
 def _sort_out(sheets: list[OffsetSheet], source: str) -> tuple[OffsetSheet, OffsetSheet | None]:

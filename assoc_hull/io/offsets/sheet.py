@@ -458,8 +458,13 @@ def _in_order(sheet: OffsetSheet) -> None:
 
 def _half_units(block: TableBlock, columns: tuple[OffsetColumn, ...], book: Notebook) -> FloatArray:
     """Give half of the last printed digit of each column, (k,), in its unit."""
-    printed = [_decimals([row[c.index] for row in block.rows]) for c in columns]
-    most = max((digits for digits, _ in printed), default=0)
+    cells = [[row[c.index] for row in block.rows] for c in columns]
+    # Workbooks and many programs drop zeros at the end: few numbers do not tell the digits then.
+    dropped = any(len({_places_of(n) for n in _numbers_in(column) if n}) > 1 for column in cells)
+    printed = [_decimals(column, dropped=dropped) for column in cells]
+    most = max([digits for digits, _ in printed if digits >= 0], default=-1)
+    if most < 0:
+        most = max([0, *(_places_of(n) for column in cells for n in _numbers_in(column))])
     padded = [c.label for c, (_, zeros) in zip(columns, printed, strict=True) if zeros]
     if padded:
         what = "every number ends in 0; the last digit counted is the one before the zeros"
@@ -468,15 +473,28 @@ def _half_units(block: TableBlock, columns: tuple[OffsetColumn, ...], book: Note
     return np.array([0.5 * 10.0**-digits for digits in known], np.float64)
 
 
-def _decimals(cells: list[str]) -> tuple[int, int]:
-    """Give the decimals that count and those that are padding; -1 for a column without numbers."""
-    numbers = [Decimal(cell) for cell in cells if not np.isnan(_number_or_nan(cell))]
-    if not numbers:
-        return -1, 0
-    places = max(0, *(-int(n.as_tuple().exponent) for n in numbers), 0)
+def _numbers_in(cells: list[str]) -> list[Decimal]:
+    """Give the numbers among cells."""
+    return [Decimal(cell) for cell in cells if not np.isnan(_number_or_nan(cell))]
+
+
+def _places_of(number: Decimal) -> int:
+    """Give the decimals of a number as printed, less than 0 of 4e3."""
+    return -int(number.as_tuple().exponent)
+
+
+def _decimals(cells: list[str], *, dropped: bool) -> tuple[int, int]:
+    """Give the decimals that count and those that are padding; -1 where the column tells none.
+
+    `dropped`: zeros at the end of numbers are not printed.
+    """
+    numbers = _numbers_in(cells)
+    places = max([0, *map(_places_of, numbers)])
     nonzero = [n for n in numbers if n]
+    if not nonzero and places == 0:
+        return -1, 0  # "0" is what every program prints, to however many digits
     # Numbers that repeat, as along parallel middle body, end in 0 together by chance.
     if len(set(nonzero)) < _ENOUGH:
-        return places, 0
+        return (-1 if dropped else places), 0
     needed = max(0, *(-int(n.normalize().as_tuple().exponent) for n in nonzero), 0)
     return min(places, needed), max(0, places - needed)

@@ -122,6 +122,7 @@ def find_frame(
     if trim:
         what = f"{trim:.6g} m by the stern; the draught amidships is {heights.draught:.6g} m"
         book.assume("design trim", where, f"{what}, the hull stays in its own axes", trim)
+    _tell_mean(asked, heights.draught, book, where)
     frame = ShipFrame(
         ap=ends.ap, fp=ends.fp, base=heights.base, draught=heights.draught, breadth=breadth[0],
         depth=depth[0], trim=trim, rake=heights.keel.rise * length, stem=stem,
@@ -134,6 +135,14 @@ def find_frame(
     )  # fmt: skip
     _tell_shift(frame, outline, book, where)
     return frame
+
+
+def _tell_mean(asked: FrameOptions, draught: float, book: Notebook, where: str) -> None:
+    """Tell which draught counts where one was given beside both of a design trim."""
+    mean = attrs.evolve(asked, draught=None).mean_draught
+    if asked.draught is not None and mean is not None and asked.draught != mean:
+        what = f"{draught:.6g} m, as given; the mean of draught_aft and draught_fwd is {mean:.6g} m"
+        book.assume("draught", where, f"{what}, and they give the trim alone", draught - mean)
 
 
 # --------------------------------------------------------------------------------------
@@ -204,7 +213,7 @@ def _base(
     keel: Keel, length: float, asked: FrameOptions, said: StatedPlaces
 ) -> tuple[float, tuple[str, str]]:
     """Give the height of the base line in the file, whence it is known, and the evidence."""
-    given, waterline, draught = asked.metres("base"), asked.metres("waterline"), _mean(asked)
+    given, waterline, draught = asked.metres("base"), asked.metres("waterline"), asked.mean_draught
     if given is not None:
         return given, ("given", f"at z = {given:.6g} m of the file, as given")
     if waterline is not None and draught is not None:
@@ -220,17 +229,11 @@ def _base(
     return keel.low, ("found", f"{what}, at x = {keel.at:.6g} m")
 
 
-def _mean(asked: FrameOptions) -> float | None:
-    if asked.draught is not None or asked.draught_aft is None or asked.draught_fwd is None:
-        return asked.draught
-    return 0.5 * (asked.draught_aft + asked.draught_fwd)
-
-
 def _draught(
     base: float, low: float, high: float, asked: FrameOptions, said: StatedPlaces
 ) -> tuple[float, tuple[str, str]]:
     """Give the draught (m), whence it is known, and the evidence."""
-    given, waterline = _mean(asked), asked.metres("waterline")
+    given, waterline = asked.mean_draught, asked.metres("waterline")
     if given is not None:
         return given, ("given", f"{given:.6g} m, as given")
     if waterline is not None:
@@ -532,16 +535,30 @@ def _tell_ends(
         name = "LWL" if ends.ap_from[0] == "assumed" else "the distance of the perpendiculars"
         book.assume("length", where, f"Lpp = {name} = {length:.6g} m", length)
     out = float(outline.low[0]) - ends.ap
-    if ends.length is not None and out > 0.01 * length:
+    if ends.length is not None and out > 0.01 * length + _beyond(outline, fore=False):
         what = f"the AP lies {out:.4g} m aft of the hull, which Lpp = {length:.6g} m does not fit"
         book.suspect("aft perpendicular", where, f"{what}: check length=", out)
-    if ends.fp_from[0] != "stated" and not same_place(ends.fp, stem, 2.0 * length):
+    off = abs(ends.fp - stem) - _beyond(outline, fore=True) * (ends.fp > stem)
+    if ends.fp_from[0] != "stated" and not same_place(off, 0.0, 2.0 * length) and off > 0.0:
         what = (
             f"the FP lies at x = {ends.fp:.6g} m of the file, and the stem meets the design "
             f"waterline at {stem:.6g} m, {abs(ends.fp - stem):.4g} m off: check length=, draught= "
             "and where x = 0 is"
         )
         book.suspect("forward perpendicular", where, what, ends.fp - stem)
+
+
+_BLUNT = 0.02
+"""A last section this part of the greatest half-breadth broad is not the end of the hull."""
+
+
+def _beyond(outline: HullOutline, *, fore: bool) -> float:
+    """Give how far (m) a hull known by sections alone may go on beyond a last one that is broad."""
+    x = float(outline.high[0] if fore else outline.low[0])
+    places = outline.cut(0, x)
+    broad = float(np.abs(places[:, 1]).max(initial=0.0))
+    most = float(np.abs(outline.xyz[:, 1]).max())
+    return 2.0 * outline.doubt if broad > _BLUNT * most else 0.0
 
 
 def _tell_zero(ends: _Ends, length: float, sign: float, book: Notebook, where: str) -> None:

@@ -127,6 +127,13 @@ class FrameOptions:
                 found[name] = sign * _place(value, name, axes.factor) + 0.0
         return attrs.evolve(self, **found)
 
+    @property
+    def mean_draught(self) -> float | None:
+        """The draught given, m, else the mean of both draughts of a design trim."""
+        if self.draught is not None or self.draught_aft is None or self.draught_fwd is None:
+            return self.draught
+        return 0.5 * (self.draught_aft + self.draught_fwd)
+
     def metres(self, name: str) -> float | None:
         """Give a place after `in_metres`, or None."""
         value = getattr(self, name)

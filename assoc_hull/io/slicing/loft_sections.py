@@ -1,10 +1,11 @@
 """Longitudinal lines through the sections of a hull that is given by sections alone.
 
-BRITFAIR, GHS and DELFTship files hold sections and nothing else. A net of them has no ends and
-nothing between two sections, so the profile, the deck edge and some waterlines are lofted through
-them, as a loftsman draws them: the profile through the feet of the sections, the deck edge through
-their heads, waterlines through the places where they reach a height. They are fair curves through
-what is given; between two sections they are a guess, and it is told.
+BRITFAIR, GHS and DELFTship files hold sections and nothing else, drawings often a profile too. A
+net of them has no ends and nothing between two sections, so the profile, the deck edge and some
+waterlines are lofted through them, as a loftsman draws them: the profile through the feet of the
+sections, the deck edge through their heads, waterlines through the places where they reach a
+height. They are fair curves through what is given; between two sections they are a guess, and it is
+told.
 
 Examples
 --------
@@ -63,6 +64,10 @@ _LEAST = 5
 _FLATTEST = 0.1
 """Where a section rises at a smaller sine a waterline's place on it is a guess."""
 
+_SHEER = 0.3
+"""Where a drawn profile ends farther above or below the last section's head, of the depth, the deck
+does not end with it."""
+
 _EQUAL = 0.2
 """Places that differ by less than this part of the tolerance are equal: the line is straight."""
 
@@ -87,10 +92,10 @@ class LoftedSections:
 
 
 def is_bare(slices: HullSlices) -> bool:
-    """Tell whether a hull is given by sections alone."""
+    """Tell whether a hull is given by sections alone, or by these and the profile."""
     return (
         not slices.facets
-        and not slices.boundaries
+        and all(line.name == "profile" for line in slices.boundaries)
         and {line.group for line in slices.lines} == {"sections"}
     )
 
@@ -106,7 +111,7 @@ def loft_sections(
     Parameters
     ----------
     sources : sequence of LineSource
-        The sections, upward; others are passed over.
+        The sections, upward, and the profile if it is drawn; others are passed over.
     draught : float or None, m
         Of the design: below it an end that lies forward of the AP is not the hull's.
     tolerance : float, m
@@ -118,7 +123,7 @@ def loft_sections(
     -------
     LoftedSections or None
         None where the sections do not tell enough: few of them, sections in several curves, as
-        through a bulb, or such as do not begin in the centre plane.
+        through a bulb, or such as do not begin in the centre plane; a profile in several curves.
     """
     chosen = [each for each in sources if each.group == "sections"]
     ordered = sorted(chosen, key=lambda each: each.offset)
@@ -130,6 +135,11 @@ def loft_sections(
         return None
     if any(abs(each.points[0, 1]) > near or each.points[-1, 1] <= near for each in whole):
         return None
+    drawn = [each for each in sources if each.group == "boundary" and each.name == "profile"]
+    if len(drawn) > 1:
+        return None
+    if drawn:
+        return _along_profile(drawn[0], whole, posts, tolerance, factor)
     aft, fore = _post(posts, whole[0].offset, -1), _post(posts, whole[-1].offset, 1)
     widest = max(float(each.points[:, 1].max()) for each in whole)
     spacing = whole[1].offset - whole[0].offset
@@ -137,13 +147,47 @@ def loft_sections(
     profile = _profile(whole, aft, fore, tolerance)
     lines = [profile, _deck_edge(whole, aft, fore, tolerance)]
     lines += _waterlines(whole, profile, tolerance, factor)
+    return _with_transom(lines, transom, posts)
+
+
+def _along_profile(
+    profile: LineSource, whole: list[LineSource], posts: list[LineSource], tolerance: float,
+    factor: float,
+) -> LoftedSections | None:  # fmt: skip
+    """Loft deck edge and waterlines between a profile that is drawn and the sections."""
+    aft, fore = sorted((profile.points[0], profile.points[-1]), key=lambda each: float(each[0]))
+    tall = max(float(np.ptp(each.points[:, 2])) for each in whole)
+    heads = [each.points[-1] for each in whole]
+    near = factor * _ABAFT
+    # A profile that comes to the foot of the last section ends there, and so does the hull.
+    last = whole[0].points[0]
+    transom = whole[0] if float(np.abs(aft - last)[[0, 2]].max()) <= near else None
+    for end, sign in ((aft, -1.0), (fore, 1.0)):
+        if end is aft and transom is not None:
+            continue
+        beside = heads[0 if end is aft else -1]
+        beyond = sign * float(end[0] - beside[0])
+        if beyond <= near or abs(float(end[2] - beside[2])) > _SHEER * tall:
+            return None
+        heads.insert(0 if end is aft else len(heads), np.array([end[0], 0.0, end[2]]))
+    xyz = np.array(heads)
+    deck = _boundary("deck edge", xyz, _straight(xyz, tolerance), tolerance, plane=False)
+    lines = [deck, *_waterlines(whole, profile, tolerance, factor)]
+    return _with_transom(lines, transom, posts)
+
+
+def _with_transom(
+    lines: list[LineSource], transom: LineSource | None, posts: list[LineSource]
+) -> LoftedSections:
+    """Put the section that is the edge of the transom, if one is, among the boundary curves."""
     if transom is not None:
-        lines.append(
+        lines = [
+            *lines,
             attrs.evolve(
                 transom, group="boundary", family="boundary", name="transom",
                 boundary=BoundaryKind.END,
-            )
-        )  # fmt: skip
+            ),
+        ]  # fmt: skip
     left = None if transom is None else transom.name
     return LoftedSections(tuple(lines), left, tuple(each.name for each in posts))
 

@@ -349,6 +349,8 @@ def _with_longitudinals(
     """Add profile, deck edge and waterlines to a hull given by sections alone, and tell it."""
     lofted = loft_sections(sources, draught, tolerance, factor)
     where = "the sections"
+    if lofted is None and any(each.name == "profile" for each in sources):
+        return sources, smoothing, told
     if lofted is None:
         what = (
             "no profile, deck edge or waterline is given, and sections in several curves or away "
@@ -364,7 +366,9 @@ def _with_longitudinals(
     ]
     pairs += [(line, _report_lofted(line)) for line in lofted.lines]
     count = sum(line.group == "waterlines" for line in lofted.lines)
-    what = f"profile, deck edge and {count} waterlines are lofted through the {len(sources)} given"
+    own = [each for each in sources if each.group == "sections"]
+    made = "deck edge" if len(own) < len(sources) else "profile, deck edge"
+    what = f"{made} and {count} waterlines are lofted through the {len(own)} given"
     if lofted.transom is not None:
         what += f"; {lofted.transom} is the edge of the transom"
     if lofted.posts:

@@ -16,6 +16,7 @@ from assoc_hull.io.lines.ship_frame import StatedPlaces
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.mesh.read import is_mesh_name
 from assoc_hull.io.placing.options import FrameOptions
+from assoc_hull.io.read_file import as_utf8
 from assoc_hull.io.reports import Note, Tell, no_progress
 from assoc_hull.io.rhino.read import is_rhino
 from assoc_hull.io.slicing.cut_planes import Places
@@ -39,7 +40,7 @@ def holds_lines(path: Path) -> bool:
         return False
     if is_rhino(path) or cad_kind(path):
         return True
-    head = path.read_bytes()[:_HEAD]
+    head = as_utf8(path.read_bytes()[:_HEAD])
     return b"\0" not in head and is_digitised(head.decode("utf-8", "replace"))
 
 
@@ -146,7 +147,7 @@ def read_slices(
     cuts = {name: value for name, value in named.items() if value is not None}
     common: dict[str, Any] = {
         "scale": scale, "unit": unit, "gaps": join, "length": places.length, "frame": places,
-        "choice": HullChoice(centre, places.depth, places.draught),
+        "choice": HullChoice(centre, places.depth, places.mean_draught),
     }  # fmt: skip
     if axes is not None:
         common["axes"] = axes

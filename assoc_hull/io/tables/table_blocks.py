@@ -13,6 +13,7 @@ import re
 from collections import Counter
 
 import attrs
+import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.reports import Notebook
@@ -341,7 +342,7 @@ def _fit(
 
 
 def _stations_across(block: TableBlock) -> bool:
-    """Tell whether stations go across and waterlines down; only where names say so plainly."""
+    """Tell whether stations go across and waterlines down: names say so plainly, or numbers."""
     if not block.rows:
         return False
     heads = [column_name(cell) for cell in block.header[1:]]
@@ -354,13 +355,53 @@ def _stations_across(block: TableBlock) -> bool:
         2 * named > len(downward)
         or 2 * over > len(block.header) - 1
         or is_corner_of_waterlines(block.header[0])
+        or (not any(each is not None and each.named for each in heads) and _runs_across(block))
     )
+
+
+_RISING, _FALLING = 0.9, 0.5
+"""Parts of the columns that rise all the way down, and of the rows that rise and fall again."""
+
+_LOW_END = 0.9
+"""A row falls again where both ends lie below this part of its greatest number."""
+
+
+def _runs_across(block: TableBlock) -> bool:
+    """Tell by the numbers: down a section half-breadths rise, along a waterline they fall again."""
+    places = [[cell_value(with_points(cell)) for cell in row] for row in block.rows
+              if column_name(row[0]) is None or number_like(with_points(row[0]))]  # fmt: skip
+    if len(places) < _FEWEST or len(block.header) <= _FEWEST:
+        return False
+    y = np.array([[np.nan if each is None else each for each in row[1:]] for row in places])
+    down = [column[np.isfinite(column)] for column in y.T]
+    along = [row[np.isfinite(row)] for row in y]
+    rises = [bool((np.diff(each) >= 0.0).all()) for each in down if len(each) > 2]
+    falls = [max(each[0], each[-1]) < _LOW_END * each.max() for each in along if len(each) > 2]
+    return bool(
+        rises and falls
+        and sum(rises) >= _RISING * len(rises)
+        and sum(falls) >= _FALLING * len(falls)
+    )  # fmt: skip
+
+
+_FEWEST = 3
+"""Waterlines and stations of a table whose numbers tell which go across."""
+
+
+def _across_name(corner: str) -> str:
+    """Give the name of what goes across: as the corner says; "" where it names what goes down."""
+    name = column_name(corner)
+    if name is not None and name.kind in ("station", "x"):
+        return corner
+    return corner if "\\" in corner or "/" in corner else ""
 
 
 def _turned(block: TableBlock, line: int, book: Notebook) -> TableBlock:
     """Turn a block about: its rows become columns."""
     book.repair("stations across", block.source, "stations go across and waterlines down: turned")
-    header = ("station", *(row[0] for row in block.rows))
+    words = any(map(station_label, block.header[1:]))
+    corner = "station" if words else _across_name(block.header[0])
+    header = (corner, *(row[0] for row in block.rows))
     columns = zip(*(row[1:] for row in block.rows), strict=True)
     rows = [(name, *cells) for name, cells in zip(block.header[1:], columns, strict=True)]
     places = tuple(range(2, len(rows) + 2))

@@ -17,6 +17,7 @@ from typing import Any
 
 from assoc_hull.arguments import regular_file
 from assoc_hull.errors import BadInputError
+from assoc_hull.io.read_file import as_utf8
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.spreadsheets import openpyxl_module
 from assoc_hull.io.tables.table_blocks import opens_block
@@ -93,7 +94,10 @@ def _read_file(path: str | Path, book: Notebook) -> tuple[str, str]:
         if raw.startswith(head):
             raise BadInputError(f"this is {what}, which is not read", str(path), remedy)
     try:
-        return raw.decode("utf-8-sig"), str(path)
+        plain = as_utf8(raw)
+        if plain is not raw:
+            book.repair("encoding", str(path), "UTF-16, as of 'Unicode text', read as such")
+        return plain.decode("utf-8-sig"), str(path)
     except UnicodeDecodeError:
         book.repair("encoding", str(path), "not UTF-8, read as Latin-1")
         return raw.decode("latin-1"), str(path)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.geometry.curves import PointKind
 from assoc_hull.io.slicing.loft_sections import loft_sections
 from assoc_hull.model.line_source import LineSource
 
@@ -98,3 +99,49 @@ def test_lofted_waterlines_pass_through_their_sections() -> None:
             y = np.interp(point[2], section[:, 2], section[:, 1])
             # A chord of the formula's parabola lies within 4 mm of it.
             assert point[1] == pytest.approx(y, abs=4e-3)
+
+
+def _profile(aft: float) -> LineSource:
+    """The keel from a place to the stem, and up it; from 0 up the stern post, too."""
+    up = [[LENGTH, 0.0, 0.5 * DEPTH], [LENGTH, 0.0, DEPTH]]
+    keel = [[x, 0.0, 0.0] for x in np.linspace(aft, LENGTH, 9)]
+    down = [] if aft else [[0.0, 0.0, DEPTH], [0.0, 0.0, 0.5 * DEPTH]]
+    kind = np.full(len(down) + 11, int(PointKind.SMOOTH))
+    kind[[len(down), len(down) + 8]] = PointKind.KNUCKLE
+    points = np.array([*down, *keel, *up])
+    return LineSource.make("boundary", "profile", points, kind=kind.tolist())
+
+
+def test_a_drawn_profile_ends_deck_edge_and_waterlines() -> None:
+    """Sections from 5 to 95 m between stem and stern: without these V was .26 % short."""
+    sections = _sections(np.linspace(5.0, 95.0, 19))
+    lofted = loft_sections([*sections, _profile(0.0)], 4.0, 0.005)
+    assert lofted is not None
+    assert [line.name for line in lofted.lines][:1] == ["deck edge"]
+    for line in lofted.lines:
+        assert line.points[[0, -1], 0] == pytest.approx([0.0, LENGTH])
+        assert line.points[[0, -1], 1] == pytest.approx([0.0, 0.0])
+
+
+def test_a_drawn_profile_that_ends_at_a_foot_ends_at_a_transom() -> None:
+    """The aftmost section is its edge then, though she is immersed there."""
+    lofted = loft_sections([*_sections(np.linspace(20.0, 95.0, 16)), _profile(20.0)], 4.0, 0.005)
+    assert lofted is not None
+    assert lofted.transom == "ST 20"
+    # One that ends in the open tells nothing of a deck.
+    assert loft_sections([*_sections(np.linspace(20.0, 95.0, 16)), _profile(10.0)], 4.0, 0.005) is (
+        None
+    )
+
+
+def test_sections_and_a_profile_hold_the_volume_between_them(tmp_path: Path) -> None:
+    """Digitised lines without a deck edge: V as the formula, by 10 sections and the profile."""
+    rows = ["line,x,y,z"]
+    for x in np.linspace(5.0, 95.0, 10):
+        rows += [f"ST {x:g},{x:g},{y:.5f},{z:.5f}" for _, y, z in _wigley(x)[::2].tolist()]
+    rows += [f"profile,{x:g},{y:g},{z:g}" for x, y, z in _profile(0.0).points.tolist()]
+    path = tmp_path / "lines.csv"
+    path.write_text("\n".join(rows) + "\n")
+    hull = ah.read(path, length=LENGTH, draught=DRAUGHT, strict=True)
+    truth = 4.0 / 9.0 * LENGTH * 2.0 * HALF * DRAUGHT
+    assert hull.hydrostatics().volume == pytest.approx(truth, rel=5e-4)
