@@ -256,7 +256,18 @@ def _checked(state: HullState) -> Iterator[ImportFinding]:
     """Give the findings of `check`, each with its place."""
     for each in check(state):
         place = "" if each.place is None else f" at {_at(each.place)}"
-        yield ImportFinding(each.kind, f"{each.object}{place}", each.message, each.amount)
+        what = each.message
+        if each.kind == "fold":  # what is imported has had no edit that could be undone
+            what = f"{what.partition(': ')[0]}: {_unfold(state)}"
+        yield ImportFinding(each.kind, f"{each.object}{place}", what, each.amount)
+
+
+def _unfold(state: HullState) -> str:
+    """Say what to do about a line that folds: details of a model are finer than a boat's."""
+    remedy = "mend the line there, give it more points, or cut at other places"
+    if state.tolerances.factor == 1.0:
+        return remedy
+    return f"if this is the model of a ship give scale=, full scale over it; else {remedy}"
 
 
 _OUTER = frozenset({"profile", "deck edge"})

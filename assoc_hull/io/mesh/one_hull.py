@@ -28,6 +28,7 @@ from assoc_hull.io.lines.several_hulls import (
     top_below_bridge,
     water_levels,
 )
+from assoc_hull.io.mesh.appendages import without_appendages
 from assoc_hull.io.mesh.axis_change import AxisChange
 from assoc_hull.io.mesh.frame import half_side, mirror_error
 from assoc_hull.io.mesh.repair import facet_depth, tell_parts
@@ -81,6 +82,11 @@ def place_one_hull(
         if found.count > 1:
             _refuse_crossing(placed, motion, factor)
         refuse_several(found, f"{_in_file(motion, found.centre, factor):.7g}", low, f"in {_WHERE}")
+        bare = without_appendages(
+            mesh, placed, place, book, turned="upside down" in notes.report().kinds("repairs")
+        )
+        if bare is not None:
+            mesh, placed, notes = bare
         for mine, theirs in zip(attrs.astuple(book, recurse=False),
                                 attrs.astuple(notes, recurse=False), strict=True):  # fmt: skip
             mine += theirs

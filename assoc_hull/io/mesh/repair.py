@@ -18,7 +18,14 @@ from assoc_hull.geometry.surfaces.triangles import (
 )
 from assoc_hull.io.reports import Notebook
 
-__all__ = ["boundary_edges", "check_mesh", "facet_depth", "mend_mesh", "tell_parts"]
+__all__ = [
+    "boundary_edges",
+    "check_mesh",
+    "facet_depth",
+    "mend_mesh",
+    "tell_branches",
+    "tell_parts",
+]
 
 _WHERE = "the mesh"
 _ROUNDING = 1e-6
@@ -46,7 +53,7 @@ def mend_mesh(mesh: Triangles, book: Notebook) -> Triangles:
     mesh = _drop_degenerate(mesh, book)
     mesh = _drop_duplicates(mesh, book)
     mesh = _weld(mesh, book)
-    _refuse_branches(mesh, book)
+    tell_branches(mesh, book)
     mesh = _wind(mesh, book)
     _tell_open(mesh, book)
     tell_parts(mesh, book)
@@ -108,7 +115,14 @@ def _weld(mesh: Triangles, book: Notebook) -> Triangles:
     return _drop_degenerate(welded, Notebook())
 
 
-def _refuse_branches(mesh: Triangles, book: Notebook) -> None:
+def tell_branches(mesh: Triangles, book: Notebook) -> None:
+    """Tell of edges with three triangles or more.
+
+    Raises
+    ------
+    BadInputError
+        They are so many that there is no surface.
+    """
     edges, count = np.unique(mesh.edge_keys(), return_counts=True)
     bad = edges[count > 2]
     if not len(bad):

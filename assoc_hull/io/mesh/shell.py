@@ -151,8 +151,8 @@ _PLANE = 1e-6
 class RimKind:
     """What an open edge of the shell is."""
 
-    PROFILE, DECK, TRANSOM, BOSSING, LOOSE = range(5)
-    NAMES = ("profile", "deck edge", "transom", "bossing end", "loose")
+    PROFILE, DECK, TRANSOM, BOSSING, BOW, LOOSE = range(6)
+    NAMES = ("profile", "deck edge", "transom", "bossing end", "bow end", "loose")
 
 
 @attrs.frozen(eq=False)
@@ -193,11 +193,13 @@ def make_shell(mesh: Triangles, book: Notebook) -> MeshShell:
     deck, transom = _find_deck(mesh), _find_transom(mesh)
     deck &= ~transom
     bossing = _find_bossing_end(mesh) & ~transom
+    bow = _find_transom(mesh, forward=True) & ~deck
     _tell_caps(mesh, deck, transom, book)
-    _tell_flat_bow(mesh, book)
-    shell = mesh.part(~(deck | transom | bossing))
+    _tell_flat_bow(mesh, bow, book)
+    shell = mesh.part(~(deck | transom | bossing | bow))
     rim = boundary_edges(shell)
-    sort = _sort(mesh, rim, mesh.face[deck], mesh.face[transom])
+    caps = {RimKind.DECK: deck, RimKind.TRANSOM: transom, RimKind.BOW: bow}
+    sort = _sort(mesh, rim, {kind: mesh.face[chosen] for kind, chosen in caps.items()})
     sort[_around_bossing(mesh, rim, sort)] = RimKind.BOSSING
     if (sort == RimKind.BOSSING).any():
         ends = mesh.xyz[rim[sort == RimKind.BOSSING]]
@@ -370,23 +372,17 @@ def _tell_caps(mesh: Triangles, deck: _BoolArray, transom: _BoolArray, book: Not
             book.assume(name, _WHERE, f"no {name} among the triangles")
 
 
-def _tell_flat_bow(mesh: Triangles, book: Notebook) -> None:
-    """Say that a hull ends forward in a plate, as a barge: lines round the corners around it."""
-    bow = _find_transom(mesh, forward=True)
-    if not bow.any():
-        return
-    x = float(mesh.corners[bow][..., 0].mean())
-    area = float(np.linalg.norm(mesh.area_vectors()[bow], axis=1).sum())
-    what = (
-        f"the hull ends in a flat of {2.0 * area:.4g} m2 across the ship at x = {x:.6g} m: lines "
-        "round its corners, and V may be some tenths of a per cent too small; give it as lines "
-        "with a boundary curve around that flat, called 'bow end'"
-    )
-    book.suspect("flat bow", _WHERE, what, x)
+def _tell_flat_bow(mesh: Triangles, bow: _BoolArray, book: Notebook) -> None:
+    """Say that a hull ends forward in a plate, as a barge: lines end on its edge."""
+    if bow.any():
+        x = float(mesh.corners[bow][..., 0].mean())
+        area = float(np.linalg.norm(mesh.area_vectors()[bow], axis=1).sum())
+        what = f"a flat of {2.0 * area:.4g} m2 across the ship at x = {x:.6g} m taken off"
+        book.assume("bow end", _WHERE, what, x)
 
 
-def _sort(mesh: Triangles, rim: IntArray, deck: IntArray, transom: IntArray) -> IntArray:
-    """Say what each open edge is."""
+def _sort(mesh: Triangles, rim: IntArray, caps: dict[int, IntArray]) -> IntArray:
+    """Say what each open edge is; `caps` are the faces taken off by the sort of their edges."""
     sort = np.full(len(rim), RimKind.LOOSE)
     ends = mesh.xyz[rim]
     low, high = mesh.xyz.min(axis=0), mesh.xyz.max(axis=0)
@@ -401,7 +397,7 @@ def _sort(mesh: Triangles, rim: IntArray, deck: IntArray, transom: IntArray) -> 
     if open_end.any() and np.ptp(ends[open_end][:, :, 2]) > 0.02 * (high[2] - low[2]):
         sort[open_end] = RimKind.TRANSOM
     keys = np.sort(rim, axis=1)
-    for faces, kind in ((deck, RimKind.DECK), (transom, RimKind.TRANSOM)):
+    for kind, faces in caps.items():
         around = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), 1)
         sort[_among(keys, around, len(mesh.xyz))] = kind
     sort[centre] = RimKind.PROFILE

@@ -31,6 +31,7 @@ from assoc_hull.geometry.polylines.noise import (
     point_scatter,
 )
 from assoc_hull.geometry.polylines.operations import cumulative_lengths, distinct_points
+from assoc_hull.geometry.polylines.polygons import filled_polygon, polygon_corners
 from assoc_hull.geometry.polylines.smoothing import local_scatter
 from assoc_hull.geometry.polylines.straight_runs import (
     Onset,
@@ -276,6 +277,8 @@ def _bare(
     kept = distinct_points(piece.points[:, columns], 1e-6)
     points = piece.points[kept][:, columns]
     sine = np.ones(len(kept)) if piece.sine is None else np.maximum(piece.sine[kept], 0.1)
+    if slices.facets and not piece.closed and polygon_corners(points) is not None:
+        points, sine = filled_polygon(points, sine)
     local = local_scatter(points, 6)
     # Points of a mesh lie inside the hull by the depth of its facets, those of a drawing scatter.
     if slices.facets:
@@ -304,7 +307,11 @@ _TO_AND_FRO = 3.0
 def _marks(part: PieceFeatures, slices: HullSlices) -> FloatArray:
     """Give the places in its plane where the file marks a knuckle of a piece, (k, 2), m."""
     places = slices.knuckles.get(part.line.name, np.zeros((0, 3)))
-    return np.asarray(places[:, _columns(part.line, part.piece)])
+    marks = np.asarray(places[:, _columns(part.line, part.piece)])
+    if not slices.facets or part.piece.closed or part.points.shape[1] != 2:
+        return marks
+    corners = polygon_corners(part.points)
+    return marks if corners is None else np.concatenate([marks, part.points[corners]])
 
 
 def _corners(part: PieceFeatures, facets: bool, rules: FeatureRules) -> list[Corner]:

@@ -54,6 +54,7 @@ from assoc_hull.io.mesh.one_hull import place_one_hull
 from assoc_hull.io.mesh.read import read_triangles
 from assoc_hull.io.mesh.repair import facet_depth, mend_mesh
 from assoc_hull.io.mesh.shell import MeshShell, RimKind, cut_shell, make_shell, rim_pieces
+from assoc_hull.io.mesh.tilt import levelled
 from assoc_hull.io.placing.frame import find_frame
 from assoc_hull.io.placing.options import FileAxes, FrameOptions
 from assoc_hull.io.placing.outline import outline_of_mesh
@@ -235,7 +236,7 @@ def slice_mesh(
     scaled = scale_mesh(mesh, scale, unit, book)
     factor = float(np.ptp(scaled.xyz, axis=0).max()) / float(np.ptp(mesh.xyz, axis=0).max())
     mended, turned = place_one_hull(
-        mend_mesh(scaled, book), lambda each, notes: place_mesh(each, axes, notes),
+        levelled(mend_mesh(scaled, book), book), lambda each, notes: place_mesh(each, axes, notes),
         choice or HullChoice(), float(f"{factor:.12g}"), book, turned=axes != "auto",
     )  # fmt: skip
     placed, found = in_ship_axes(turned, mended, factor, frame, book, "the mesh")

@@ -53,6 +53,7 @@ from assoc_hull.io.mesh.axis_change import AxisChange
 from assoc_hull.io.mesh.frame import place_mesh
 from assoc_hull.io.mesh.one_hull import place_one_hull
 from assoc_hull.io.mesh.repair import mend_mesh
+from assoc_hull.io.mesh.tilt import refuse_tilt
 from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.reports import Notebook, Tell, no_progress
 from assoc_hull.io.rhino.read import is_rhino, read_rhino
@@ -188,6 +189,7 @@ def slice_surfaces(
     facets = facets_at_scale(faces, scale, size, book, factor)
     check_mesh(facets.mesh)
     mended = mend_mesh(facets.mesh, book)
+    refuse_tilt(mended, "the surfaces")
     metres = scale * METRES.get(faces.unit, 1.0)
     mended, turned = place_one_hull(
         mended, lambda each, notes: place_mesh(each, axes, notes, 2.0 * FINE * size),

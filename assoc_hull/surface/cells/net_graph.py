@@ -8,7 +8,9 @@ Half-edge 2 e runs along edge e, half-edge 2 e + 1 against it.
 from __future__ import annotations
 
 import heapq
+from collections.abc import Iterator
 from functools import cached_property
+from itertools import combinations
 
 import attrs
 import numpy as np
@@ -213,6 +215,9 @@ def _same_way(
 _TANGENT = 0.02
 """Lines whose directions have a smaller cross product do not tell a normal."""
 
+_ALONG = 1.0 - 0.5 * _TANGENT**2
+"""Cosine from which an edge runs along a normal: how it lies around that is chance."""
+
 _CROWDED = 0.02
 """Edges that leave a node with so small an angle between them (radians) lie on one another, seen
 along its normal: at the foot of a stem the keel does, and the border of a flat bottom."""
@@ -223,13 +228,14 @@ def node_normals(place: FloatArray, edge: IntArray, leave: FloatArray) -> FloatA
 
     For edges between nodes (e, 2), which leave them in unit directions (e, 2, 3). The mean of the
     neighbours is taken where all lines are tangent to one another, and where some lie on one
-    another as seen along the normal of the others: at corners of the hull.
+    another as seen along the normal of the others, or one leaves along it: at corners of the hull.
     """
     if not len(place):
         return np.empty((0, 3))
     normal, size = _widest(len(place), edge, leave)
-    good = size >= _TANGENT
-    sign = _one_side(normal, good, edge, leave)
+    ridge = _on_ridge(normal, edge, leave)
+    good = (size >= _TANGENT) & ~ridge
+    sign = _one_side(normal, good, edge, leave, ridge)
     normal = normal * sign[:, None]
     normal = _from_neighbours(normal, good, edge)
     corner = _crowded(edge_angles(normal, edge, leave), edge.ravel(), len(place))
@@ -249,6 +255,14 @@ def edge_angles(normal: FloatArray, edge: IntArray, leave: FloatArray) -> FloatA
     first /= np.sqrt(dot(first, first))[:, None]
     second = np.cross(normal, first)
     return np.arctan2(dot(away, second[node]), dot(away, first[node]))
+
+
+def _on_ridge(normal: FloatArray, edge: IntArray, leave: FloatArray) -> NDArray[np.bool_]:
+    """Tell which nodes an edge leaves along the normal of two others: square corners, (n,)."""
+    node, away = edge.ravel(), leave.reshape(-1, 3)
+    found = np.zeros(len(normal), np.bool_)
+    found[node[np.abs(dot(away, normal[node])) > _ALONG]] = True
+    return found
 
 
 def _crowded(angle: FloatArray, node: IntArray, count: int) -> NDArray[np.bool_]:
@@ -283,15 +297,25 @@ def _widest(count: int, edge: IntArray, leave: FloatArray) -> tuple[FloatArray, 
 
 
 def _one_side(
-    normal: FloatArray, good: NDArray[np.bool_], edge: IntArray, leave: FloatArray
+    normal: FloatArray,
+    good: NDArray[np.bool_],
+    edge: IntArray,
+    leave: FloatArray,
+    ridge: NDArray[np.bool_],
 ) -> FloatArray:
-    """Give signs that turn all normals to one side: along edges, the surest first."""
+    """Give signs that turn all normals to one side: along edges, the surest first.
+
+    Over a `ridge`, which has no normal of its own, they go from the edges to one another.
+    """
     # From one end of an edge to the other the normal turns as the edge does.
     carried = _turned(normal[edge[:, 0]], leave[:, 0], -leave[:, 1])
     alike = dot(carried, normal[edge[:, 1]])
     alike[~good[edge].all(axis=1)] = 0.0
     beside: list[list[tuple[float, int, float]]] = [[] for _ in range(len(normal))]
     for (a, b), each in zip(edge.tolist(), alike.tolist(), strict=True):
+        beside[a].append((-abs(each), b, each))
+        beside[b].append((-abs(each), a, each))
+    for a, b, each in _over_ridges(normal, good, edge, leave, ridge):
         beside[a].append((-abs(each), b, each))
         beside[b].append((-abs(each), a, each))
     sign = np.zeros(len(normal))
@@ -308,6 +332,29 @@ def _one_side(
                 if not sign[other] and good[other]:
                     heapq.heappush(waiting, (rank, other, own if each >= 0.0 else -own))
     return sign
+
+
+def _over_ridges(
+    normal: FloatArray,
+    good: NDArray[np.bool_],
+    edge: IntArray,
+    leave: FloatArray,
+    ridge: NDArray[np.bool_],
+) -> Iterator[tuple[int, int, float]]:
+    """Give the pairs of nodes beside one on a ridge, and how alike their normals are.
+
+    The normal turns as the way from the one to the other does: along the edges, and at the ridge.
+    """
+    for node in np.flatnonzero(ridge).tolist():
+        rows, ends = np.nonzero(edge == node)
+        far = edge[rows, 1 - ends]
+        out, back = leave[rows, ends], leave[rows, 1 - ends]
+        for i, j in combinations(np.flatnonzero(good[far]).tolist(), 2):
+            vector = normal[far[i]][None]
+            steps = ((back[i], -out[i]), (-out[i], out[j]), (out[j], -back[j]))
+            for before, after in steps:
+                vector = _turned(vector, before[None], after[None])
+            yield int(far[i]), int(far[j]), float(vector[0] @ normal[far[j]])
 
 
 def _turned(vector: FloatArray, before: FloatArray, after: FloatArray) -> FloatArray:

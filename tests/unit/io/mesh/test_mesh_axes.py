@@ -115,7 +115,7 @@ def test_full_ships_with_sheer_are_turned_only_if_they_lie_keel_up(
 
 
 def test_a_bow_that_ends_in_a_plate_is_told() -> None:
-    """A box of 60 m x 15 m x 4 m: the end aft is its transom, that forward a suspicion."""
+    """A box of 60 m x 15 m x 4 m: the end aft is its transom, that forward a plate taken off."""
     u, v = np.meshgrid(np.linspace(0.0, 60.0, 13), np.linspace(-1.0, 1.0, 33), indexing="ij")
     y = np.clip(v * 11.5, -7.5, 7.5)
     shell = grid_triangles(np.stack([u, y, np.abs(v * 11.5) - np.abs(y)], axis=2))
@@ -135,6 +135,6 @@ def test_a_bow_that_ends_in_a_plate_is_told() -> None:
         ),
         book,
     )
-    [note] = [each for each in book.report().suspicions if each.kind == "flat bow"]
+    [note] = [each for each in book.report().assumptions if each.kind == "bow end"]
     assert note.amount == pytest.approx(60.0)
     assert "60 m2" in note.what

@@ -1,0 +1,28 @@
+"""What an import says of a line that folds: an option that helps, as nothing was edited."""
+
+import attrs
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.edit.checks.finding import Finding
+from assoc_hull.io.importing import soundness
+from assoc_hull.io.importing.verdict import Findings
+
+
+@pytest.mark.parametrize(("factor", "scale"), [(1.0, False), (0.06, True)])
+def test_a_fold_is_told_with_what_an_import_can_do(
+    factor: float, scale: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Undo is no remedy of an import; of a hull under 100 m the scale of a model is asked for."""
+    fold = Finding(
+        "fold", "BTK 1", (1.0, 2.0, 3.0), -0.3, "folds back (cosine -0.3): move the points, or undo"
+    )
+    monkeypatch.setattr(soundness, "check", lambda _: (fold,))
+    state = ah.examples.wigley().state
+    state = attrs.evolve(state, tolerances=state.tolerances.scaled(factor))
+    found = Findings()
+    soundness._examine_checks(state, found)
+    (told,) = found.faults
+    assert "folds back (cosine -0.3): " in told.what
+    assert "undo" not in told.what
+    assert ("give scale=" in told.what) == scale
