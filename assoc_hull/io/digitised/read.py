@@ -27,6 +27,7 @@ from assoc_hull.io.lines.mend_lines import (
     join_width_text,
     nearest_ends,
     put_in_order,
+    put_pieces_in_order,
     report_crossings,
     report_joins,
 )
@@ -370,6 +371,7 @@ def read_lines(
     for each in raw:
         refuse_retraced(each)
     raw = [RawPiece(e.line, e.points * factor, e.where, e.knuckles * factor) for e in raw]
+    raw = put_pieces_in_order(raw, book)
     raw = take_one_hull(raw, choice or HullChoice(), factor, book, float(turn[1].sum()))
     if deck_edge is not None:
         raw = below_deck(raw, deck_edge, book)
