@@ -399,6 +399,8 @@ def read_lines(
     )  # fmt: skip
     if frame is None:
         return slices
+    if axes is None or axes == "auto":
+        _tell_bow(slices, book)
     signs = {"x_sign": float(turn[0].sum()), "z_sign": float(turn[2].sum())}
     # Places of a form are along its own axes.
     own = found.stated if axes is None else StatedPlaces()
@@ -655,6 +657,32 @@ def _group(name: str, points: FloatArray, where: str, small: float) -> str:
             "begin its name with ST, WL or BTK, or call it profile, deck edge or transom",
         )  # fmt: skip
     return flat[0]
+
+
+_ENDS, _BROADER = 0.08, 0.15
+"""Parts of the length at either end, and of the half-breadth: by so much a stern is broader."""
+
+
+def _tell_bow(slices: HullSlices, book: Notebook) -> None:
+    """Suspect lines whose transom, or broader end, lies forward: their x may run aft."""
+    pieces = [piece for line in (*slices.lines, *slices.boundaries) for piece in line.pieces]
+    x, y, z = np.concatenate([piece.points for piece in pieces]).T
+    low, high = float(x.min()), float(x.max())
+    transom = slices.boundary("transom")
+    found = None
+    if transom is not None:
+        place = float(np.concatenate([piece.points for piece in transom.pieces])[:, 0].mean())
+        if place - low > high - place:
+            found = f"the transom is at x = {place:.6g} m, at the fore end"
+    else:
+        # Ends are compared above the middle: below it a stern may be finer than the bow.
+        part, upper = (x - low) / max(high - low, 1e-300), y * (2.0 * z > z.min() + z.max())
+        aft, fore = (float(upper[at].max(initial=0.0)) for at in (part < _ENDS, part > 1.0 - _ENDS))
+        if fore - aft > _BROADER * float(y.max()):
+            found = f"the fore end is {2.0 * fore:.4g} m broad, the aft end {2.0 * aft:.4g} m"
+    if found is not None:
+        remedy = "if x runs aft in the file give axes='-x-y+z'; of a body plan station_zero="
+        book.suspect("bow", "the lines", f"{found}: {remedy}")
 
 
 def _refuse_twins(lines: list[SliceLine], source: str) -> None:
