@@ -102,7 +102,10 @@ def test_pieces_of_sections_are_joined_where_they_meet(
         found.append(read_lines(plan.text, unit=plan.unit))
     for one, other in zip(found[0].lines, found[1].lines, strict=True):
         assert one.offset == other.offset
-        assert np.allclose(one.pieces[0].points, other.pieces[0].points)
+        a, b = one.pieces[0].points, other.pieces[0].points
+        # Steps of 1e-5 of the size are none; all other points are kept.
+        assert len(b) >= len(a) - 2
+        assert np.linalg.norm(a[:, None] - b, axis=2).min(axis=0).max() < 1e-9
 
 
 def test_a_section_on_both_sides_is_two_halves(hull: Hull, tmp_path: Path) -> None:
