@@ -160,6 +160,8 @@ def read_body_plan(path: Path, rules: BodyPlanRules) -> BodyPlan:
     for layer, count in grid.items():
         book.assume("left out", f"the layer {layer!r}", f"{count} straight lines: a grid", count)
     centre = _centre(curves, size, book)
+    flats = [each for each in every if _is_straight(each, size)]
+    curves = [_with_bottom(each, flats, centre, size) for each in curves]
     labels = _set_alike(curves, _labels(entities), centre, size)
     pairs, rest = _labelled(curves, labels, size)
     if not pairs:
@@ -242,6 +244,25 @@ def _along(curves: list[_Curve], node: IntArray) -> list[FloatArray]:
         if run:
             found.append(np.concatenate([run[0], *(each[1:] for each in run[1:])]))
     return found
+
+
+def _with_bottom(curve: _Curve, flats: list[_Curve], centre: float, size: float) -> _Curve:
+    """Lead a section in to the centre line along a level bottom that it shares with others."""
+    up, near = _upward(curve.xy), _SAME * size
+    x, y = up[0].tolist()
+    level = [
+        sorted(each.xy[[0, -1], 0].tolist())
+        for each in flats
+        if each.layer == curve.layer and np.abs(each.xy[:, 1] - y).max() <= near
+    ]
+    reached, ahead = x, np.sign(centre - x)
+    # From one line to the next, as far as they touch.
+    for _ in level:
+        here = [pair for pair in level if pair[0] - near <= reached <= pair[1] + near]
+        reached = ahead * max([ahead * reached, *(ahead * end for pair in here for end in pair)])
+    if abs(x - centre) <= _NEAR * size or ahead * (centre - reached) > near:
+        return curve
+    return attrs.evolve(curve, xy=np.vstack([[centre, y], up]))
 
 
 def _halves(curve: _Curve, size: float) -> list[_Curve]:
