@@ -25,6 +25,9 @@ _AGAIN = 0.1
 _SHARE = 0.25
 """A short one by no more than this part of its length: it may close a gap beside them."""
 
+_MOST = 24
+"""Lines in more pieces are not looked at: each is compared with each."""
+
 _ALIKE = 5e-3
 """Pieces that differ by more than this (m) where they are drawn twice are suspected."""
 
@@ -38,6 +41,9 @@ def drawn_once(raw: list[RawPiece], book: Notebook, small: float) -> list[RawPie
     unlike: dict[str, float] = {}
     found: list[RawPiece] = []
     for name, pieces in lines.items():
+        if not 1 < len(pieces) <= _MOST:
+            found += pieces
+            continue
         kept, covered = _without_covered(pieces, small)
         twice += [name] * (len(pieces) - len(kept))
         kept, cut, overlapped = _without_overlaps(kept, small)
@@ -46,8 +52,8 @@ def drawn_once(raw: list[RawPiece], book: Notebook, small: float) -> list[RawPie
         unlike[name] = max(covered, overlapped)
     _report(book, twice, "are drawn on others of their line and left out")
     _report(book, over, "overlap the next one of their line and are cut there")
-    worst = max(unlike, key=lambda name: unlike[name])
-    if (off := unlike[worst]) > small * _ALIKE:
+    worst = max(unlike, key=lambda name: unlike[name], default="")
+    if (off := unlike.get(worst, 0.0)) > small * _ALIKE:
         many = sum(each > small * _ALIKE for each in unlike.values())
         what = f"{many} lines differ where they are drawn twice, by up to {1e3 * off:.3g} mm"
         what += f" ({worst}): one was left out; leave out the one that is wrong"
@@ -64,8 +70,6 @@ def _report(book: Notebook, names: list[str], what: str) -> None:
 def _without_covered(pieces: list[RawPiece], small: float) -> tuple[list[RawPiece], float]:
     """Leave out pieces that lie along longer ones; gives the farthest that one lies off, m."""
     kept, worst = list(pieces), 0.0
-    if len(pieces) < 2:
-        return kept, worst
     sizes = [_length(each.points) for each in pieces]
     for i in np.argsort(sizes, kind="stable").tolist():
         others = [each for each in kept if each is not pieces[i]]
