@@ -14,10 +14,13 @@ from pathlib import Path
 
 import attrs
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.digitised.dxf import drawn_curves
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.io.digitised.dxf import drawn_curves, tell_oddities
 from assoc_hull.io.dxf.entities import DrawingEntity, drawing_entities, drawing_unit
 from assoc_hull.io.dxf.read_lines_plan import names_of
 from assoc_hull.io.lines.raw_lines import plane_name
@@ -33,8 +36,17 @@ _HEAD, _MOST_BYTES = 2000, 50_000_000
 _CHORD = 1e-5
 """Points of a spline are this close, as a part of the drawing's size."""
 
+_SAME = 1e-5
+"""Ends this near one another, in parts of the size, meet."""
+
 _STRAIGHT, _NEAR, _REACH = 1e-3, 5e-3, 0.12
 """Parts of the size: of a straight line, of the centre line, and how far a label may lie."""
+
+_SET = 1e-3
+"""Labels whose offsets from their sections differ by less, in parts of the size, were set alike."""
+
+_ALIKE = (3, 0.8)
+"""So many labels, and this part of those of a side, tell that all were set alike."""
 
 _TWINS = 0.025
 """Sections that end this near one another, in parts of the size, may have each other's label."""
@@ -117,6 +129,8 @@ class _Label:
 
     word: str
     place: tuple[float, float]
+    alike: bool = False
+    """Whether it was set as all others: then the end of its section is in its place."""
 
 
 def read_body_plan(path: Path, rules: BodyPlanRules) -> BodyPlan:
@@ -131,19 +145,25 @@ def read_body_plan(path: Path, rules: BodyPlanRules) -> BodyPlan:
     entities = drawing_entities(path.read_bytes().decode("utf-8", "replace"), path.name)
     unit = _unit(drawing_unit(entities), rules.unit, path.name)
     drawn = drawn_curves(entities)
+    tell_oddities(entities, book, without=("curve",))  # stamps and frames: told by layer
     size = float(max(np.ptp(each.corners[:, :2], axis=0).max() for _, each in drawn))
     every = [
         _Curve(curve.piece(_CHORD * size).points[:, :2], entity.word(8)) for entity, curve in drawn
     ]
+    every = [half for each in _chained(every, size) for half in _halves(each, size)]
     curves = [each for each in every if not _is_straight(each, size)]
     if not curves:
-        raise BadInputError("all curves of the flat drawing are straight", where,
+        told = "".join(f"; {note.what}" for note in book.suspicions)
+        raise BadInputError(f"all curves of the flat drawing are straight{told}", where,
                             "give a drawing of sections, or lines in space")  # fmt: skip
     grid = Counter(each.layer for each in every if _is_straight(each, size))
     for layer, count in grid.items():
         book.assume("left out", f"the layer {layer!r}", f"{count} straight lines: a grid", count)
     centre = _centre(curves, size, book)
-    pairs, rest = _labelled(curves, _labels(entities), size)
+    flats = [each for each in every if _is_straight(each, size)]
+    curves = [_with_bottom(each, flats, centre, size) for each in curves]
+    labels = _set_alike(curves, _labels(entities), centre, size)
+    pairs, rest = _labelled(curves, labels, size)
     if not pairs:
         raise BadInputError("no section of the body plan has a number beside it", where,
                             "put the number of its station at the end of each section")  # fmt: skip
@@ -177,6 +197,91 @@ def _unit(told: str | None, given: str | None, source: str) -> str:
         what = "a body plan tells no unit"
         raise BadInputError(what, f"in {source}", f"give unit: {', '.join(METRES)}")
     return found
+
+
+def _chained(curves: list[_Curve], size: float) -> list[_Curve]:
+    """Join curves of a layer where the ends of two meet and of no third: pieces of one section."""
+    found: list[_Curve] = []
+    for layer in dict.fromkeys(each.layer for each in curves):
+        mine = [each for each in curves if each.layer == layer]
+        open_ = [each for each in mine if np.ptp(each.xy[[0, -1]], axis=0).max() > _SAME * size]
+        found += [each for each in mine if each not in open_]
+        if open_:
+            ends = np.concatenate([each.xy[[0, -1]] for each in open_])
+            # Places within a rounding of one another are one node.
+            node = connected_components(_near(ends, _SAME * size))[1].astype(np.int64)
+            found += [_Curve(xy, layer) for xy in _along(open_, node.reshape(-1, 2))]
+    return found
+
+
+def _near(places: FloatArray, near: float) -> coo_array:
+    """Give the pairs of places nearer to one another than this, as a graph."""
+    pairs = cKDTree(places).query_pairs(near, output_type="ndarray")
+    return coo_array(
+        (np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(places), len(places))
+    )
+
+
+def _along(curves: list[_Curve], node: IntArray) -> list[FloatArray]:
+    """Give the points of chains of curves, whose ends are nodes, (n, 2)."""
+    count = np.bincount(node.ravel())
+    at: dict[int, list[tuple[int, int]]] = {}
+    for i, pair in enumerate(node.tolist()):
+        for end, place in enumerate(pair):
+            at.setdefault(place, []).append((i, end))
+    done, found = set[int](), list[FloatArray]()
+    # Chains begin where they end; what is left then are rings.
+    starts = [(i, end) for place, here in at.items() if count[place] != 2 for i, end in here]
+    for start in [*starts, *((i, 0) for i in range(len(curves)))]:
+        i, end = start
+        run: list[FloatArray] = []
+        while i not in done:
+            done.add(i)
+            run.append(curves[i].xy[::-1] if end else curves[i].xy)
+            place = int(node[i, 1 - end])
+            if count[place] == 2:
+                i, end = next((each for each in at[place] if each[0] != i), (i, end))
+        if run:
+            found.append(np.concatenate([run[0], *(each[1:] for each in run[1:])]))
+    return found
+
+
+def _with_bottom(curve: _Curve, flats: list[_Curve], centre: float, size: float) -> _Curve:
+    """Lead a section in to the centre line along a level bottom that it shares with others."""
+    up, near = _upward(curve.xy), _SAME * size
+    x, y = up[0].tolist()
+    level = [
+        sorted(each.xy[[0, -1], 0].tolist())
+        for each in flats
+        if each.layer == curve.layer and np.abs(each.xy[:, 1] - y).max() <= near
+    ]
+    reached, ahead = x, np.sign(centre - x)
+    # From one line to the next, as far as they touch.
+    for _ in level:
+        here = [pair for pair in level if pair[0] - near <= reached <= pair[1] + near]
+        reached = ahead * max([ahead * reached, *(ahead * end for pair in here for end in pair)])
+    if abs(x - centre) <= _NEAR * size or ahead * (centre - reached) > near:
+        return curve
+    return attrs.evolve(curve, xy=np.vstack([[centre, y], up]))
+
+
+def _halves(curve: _Curve, size: float) -> list[_Curve]:
+    """Part a section that is drawn on both sides in its middle."""
+    xy = curve.xy
+    middle = 0.5 * float(xy[0, 0] + xy[-1, 0])
+    level = abs(float(xy[0, 1] - xy[-1, 1])) <= _STRAIGHT * size
+    low = int(xy[:, 1].argmin())
+    if not level or _is_straight(curve, size) or low in (0, len(xy) - 1):
+        return [curve]
+    side = np.sign(xy[:, 0] - middle)
+    cut = np.flatnonzero(side[1:] != side[0])
+    first = int(cut[0]) + 1 if len(cut) else 0
+    if not first or (side[first:] == side[0]).any():
+        return [curve]  # a ring, or what turns back
+    a, b = xy[first - 1], xy[first]
+    foot = a + (middle - a[0]) / (b[0] - a[0]) * (b - a)
+    parts = np.vstack([xy[:first], foot]), np.vstack([foot, xy[first:]])
+    return [_Curve(each, curve.layer) for each in parts]
 
 
 def _is_straight(curve: _Curve, size: float) -> bool:
@@ -224,6 +329,34 @@ def _value(word: str) -> float | None:
     return whole - part if whole < 0.0 else whole + part
 
 
+def _set_alike(
+    curves: list[_Curve], labels: list[_Label], centre: float, size: float
+) -> list[_Label]:
+    """Move the labels of a side onto the ends of its sections, where they stand at one offset."""
+    found: list[_Label] = []
+    for left in (True, False):
+        mine = [each for each in labels if (each.place[0] < centre) == left]
+        tops = [_upward(each.xy)[-1] for each in curves if (each.xy[:, 0].mean() < centre) == left]
+        moved: list[_Label] = []
+        if mine and len(tops) >= _ALIKE[0]:
+            step = np.array([each.place for each in mine])[:, None] - np.array(tops)
+            offsets = step.reshape(-1, 2)
+            offsets = offsets[np.hypot(*offsets.T) <= _REACH * size]
+            # How many labels stand at each offset from the end of some section; the nearest first.
+            offsets = offsets[np.argsort(np.hypot(*offsets.T), kind="stable")]
+            met = [np.abs(step - each).max(axis=2).min(axis=1) <= _SET * size for each in offsets]
+            count = [int(each.sum()) for each in met]
+            best = int(np.argmax(count)) if count else 0
+            if count and count[best] >= max(_ALIKE[0], _ALIKE[1] * min(len(mine), len(tops))):
+                off = offsets[best]
+                moved = [
+                    attrs.evolve(each, place=tuple((each.place - off).tolist()), alike=True)
+                    for each, on in zip(mine, met[best].tolist(), strict=True) if on
+                ]  # fmt: skip
+        found += moved or mine
+    return found
+
+
 def _labelled(
     curves: list[_Curve], labels: list[_Label], size: float
 ) -> tuple[list[tuple[_Curve, _Label]], list[_Curve]]:
@@ -252,7 +385,8 @@ def _in_order(
     for side in (left, ~left):
         mine = np.flatnonzero(side)
         rising = float(((area - area[side].mean()) * (numbers - numbers[side].mean()))[side].sum())
-        for group in _together(ends[mine], _TWINS * size):
+        near = _SET if sum(label.alike for _, label in pairs) > 0.5 * len(pairs) else _TWINS
+        for group in _together(ends[mine], near * size):
             rows = mine[group]
             if len(rows) < 2:
                 continue

@@ -29,7 +29,7 @@ from assoc_hull.io.dxf.read_lines_plan import names_of, plan_curves
 from assoc_hull.io.lines.raw_lines import RawLines, boundary_name, read_number
 from assoc_hull.io.reports import Notebook
 
-__all__ = ["drawn_curves", "parse_dxf"]
+__all__ = ["drawn_curves", "parse_dxf", "tell_oddities"]
 
 _AXES = {10: 0, 20: 1, 30: 2}
 _CURVED = ("ARC", "CIRCLE", "ELLIPSE", "HELIX", "MLINE", "INSERT")
@@ -72,7 +72,7 @@ def parse_dxf(text: str, source: str, book: Notebook) -> RawLines:
     """
     entities = drawing_entities(text, source)
     drawn = drawn_curves(entities)
-    _tell_oddities(entities, book)
+    tell_oddities(entities, book)
     found = [
         attrs.evolve(curve, line=name)
         for name, family, curve in plan_curves(drawn, book) or _curves(drawn)
@@ -112,10 +112,13 @@ def _curves(drawn: list[tuple[DrawingEntity, RawCurve]]) -> list[tuple[str, str,
     return found
 
 
-def _tell_oddities(entities: list[DrawingEntity], book: Notebook) -> None:
+def tell_oddities(
+    entities: list[DrawingEntity], book: Notebook, without: tuple[str, ...] = ()
+) -> None:
+    """Suspect what entities draw that polylines do not show, but for some kinds of it."""
     odd: dict[tuple[str, str], list[str]] = {}
     for each in entities:
-        for kind in _oddities(each):
+        for kind in [kind for kind in _oddities(each) if kind not in without]:
             owner = "POLYLINE" if each.kind == "VERTEX" else each.kind
             odd.setdefault((kind, owner), []).append(each.where)
     for (kind, owner), places in odd.items():

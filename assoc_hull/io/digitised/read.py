@@ -22,11 +22,13 @@ from assoc_hull.io.digitised.one_hull import take_one_hull
 from assoc_hull.io.digitised.rhino import rhino_lines
 from assoc_hull.io.digitised.text import parse_lines
 from assoc_hull.io.lines.boundary_holes import polyline_distance, report_holes, with_met_ends
+from assoc_hull.io.lines.drawn_twice import distances_off, drawn_once
 from assoc_hull.io.lines.mend_lines import (
     join_pieces,
     join_width_text,
     nearest_ends,
     put_in_order,
+    put_pieces_in_order,
     report_crossings,
     report_joins,
 )
@@ -244,7 +246,9 @@ def _drawn_twice(sides: _Sides, small: float) -> tuple[list[RawPiece], list[RawP
         if 2.0 * _length(sides.port) < _length(sides.starboard):
             sides.port, sides.starboard = sides.starboard, sides.port
         return sides.starboard, []
-    again = [_farthest_off(each.points, sides.port) < small * _IMAGE for each in sides.starboard]
+    again = [
+        distances_off(each.points, sides.port).max() < small * _IMAGE for each in sides.starboard
+    ]
     pairs = list(zip(sides.starboard, again, strict=True))
     return [each for each, twice in pairs if twice], [each for each, twice in pairs if not twice]
 
@@ -253,27 +257,11 @@ def _length(pieces: list[RawPiece]) -> float:
     return sum(float(cumulative_lengths(each.points)[-1]) for each in pieces)
 
 
-def _farthest_off(points: FloatArray, pieces: list[RawPiece]) -> float:
-    """Give how far the farthest of some points lies off the polylines of pieces, m."""
-    nearest = np.full(len(points), np.inf)
-    for piece in pieces:
-        start, step = piece.points[:-1], np.diff(piece.points, axis=0)
-        if not len(step):
-            start, step = piece.points, np.zeros_like(piece.points)
-        square = np.maximum((step * step).sum(axis=1), 1e-12)
-        for i in range(0, len(points), 500):
-            off = points[i : i + 500, None] - start
-            part = np.clip((off * step).sum(axis=2) / square, 0.0, 1.0)
-            far = np.linalg.norm(off - part[:, :, None] * step, axis=2).min(axis=1)
-            nearest[i : i + 500] = np.minimum(nearest[i : i + 500], far)
-    return float(nearest.max())
-
-
 def _report_difference(
     name: str, kept: list[RawPiece], dropped: list[RawPiece], book: Notebook, small: float
 ) -> None:
     """Report the sides of a line that differ by more than drawing errors."""
-    away = max((_farthest_off(each.points, kept) for each in dropped), default=0.0)
+    away = max((float(distances_off(each.points, kept).max()) for each in dropped), default=0.0)
     if away > small * _SYMMETRIC:
         what = f"its sides differ by up to {1e3 * away:.3g} mm; one is left out"
         book.suspect("both sides", name, what, away)
@@ -370,6 +358,7 @@ def read_lines(
     for each in raw:
         refuse_retraced(each)
     raw = [RawPiece(e.line, e.points * factor, e.where, e.knuckles * factor) for e in raw]
+    raw = put_pieces_in_order(raw, book)
     raw = take_one_hull(raw, choice or HullChoice(), factor, book, float(turn[1].sum()))
     if deck_edge is not None:
         raw = below_deck(raw, deck_edge, book)
@@ -378,7 +367,7 @@ def read_lines(
     if math.frexp(factor)[0] != 0.5:
         # A change of unit leaves something in the last bits, on which no choice may turn.
         raw = [attrs.evolve(each, points=settled(each.points, small)) for each in raw]
-    raw = to_one_side(raw, book, small)
+    raw = drawn_once(to_one_side(raw, book, small), book, small)
     every = np.concatenate([each.points for each in raw])
     joins: list[GapJoin] = []
     limits = settled_gaps(gaps, small, "in read_lines")
@@ -410,6 +399,8 @@ def read_lines(
     )  # fmt: skip
     if frame is None:
         return slices
+    if axes is None or axes == "auto":
+        _tell_bow(slices, book)
     signs = {"x_sign": float(turn[0].sum()), "z_sign": float(turn[2].sum())}
     # Places of a form are along its own axes.
     own = found.stated if axes is None else StatedPlaces()
@@ -666,6 +657,32 @@ def _group(name: str, points: FloatArray, where: str, small: float) -> str:
             "begin its name with ST, WL or BTK, or call it profile, deck edge or transom",
         )  # fmt: skip
     return flat[0]
+
+
+_ENDS, _BROADER = 0.08, 0.15
+"""Parts of the length at either end, and of the half-breadth: by so much a stern is broader."""
+
+
+def _tell_bow(slices: HullSlices, book: Notebook) -> None:
+    """Suspect lines whose transom, or broader end, lies forward: their x may run aft."""
+    pieces = [piece for line in (*slices.lines, *slices.boundaries) for piece in line.pieces]
+    x, y, z = np.concatenate([piece.points for piece in pieces]).T
+    low, high = float(x.min()), float(x.max())
+    transom = slices.boundary("transom")
+    found = None
+    if transom is not None:
+        place = float(np.concatenate([piece.points for piece in transom.pieces])[:, 0].mean())
+        if place - low > high - place:
+            found = f"the transom is at x = {place:.6g} m, at the fore end"
+    else:
+        # Ends are compared above the middle: below it a stern may be finer than the bow.
+        part, upper = (x - low) / max(high - low, 1e-300), y * (2.0 * z > z.min() + z.max())
+        aft, fore = (float(upper[at].max(initial=0.0)) for at in (part < _ENDS, part > 1.0 - _ENDS))
+        if fore - aft > _BROADER * float(y.max()):
+            found = f"the fore end is {2.0 * fore:.4g} m broad, the aft end {2.0 * aft:.4g} m"
+    if found is not None:
+        remedy = "if x runs aft in the file give axes='-x-y+z'; of a body plan station_zero="
+        book.suspect("bow", "the lines", f"{found}: {remedy}")
 
 
 def _refuse_twins(lines: list[SliceLine], source: str) -> None:

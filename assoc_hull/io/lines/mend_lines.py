@@ -7,19 +7,27 @@ order where one order is plain, and reported else. Points are (n, 3), m.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.polylines.operations import distinct_points, order_paths, self_crossings
+from assoc_hull.io.lines.raw_lines import RawPiece
 from assoc_hull.io.lines.slices import GapJoin, Gaps, LinePiece
 from assoc_hull.io.reports import Notebook
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 __all__ = [
     "join_pieces",
     "join_width_text",
     "nearest_ends",
     "put_in_order",
+    "put_pieces_in_order",
     "report_crossings",
     "report_joins",
 ]
@@ -141,6 +149,66 @@ _MOST = 3000
 """Longer pieces are not put in order: their points are too many to be compared in pairs."""
 
 
+_JUMPS = 2
+"""A line drawn on both sides, each from the keel, turns back twice and is in order."""
+
+_WANDERS = 4.0
+"""A polyline this many times as long as the shortest tree of its points runs to and fro."""
+
+
+def put_pieces_in_order(pieces: list[RawPiece], book: Notebook) -> list[RawPiece]:
+    """Put pieces (m) whose points are shuffled in order, before hulls or sides are told apart.
+
+    Raises
+    ------
+    BadInputError
+        The points of a line are shuffled, and no one order is plain.
+    """
+    found = []
+    for each in pieces:
+        back, points = _turns_back(each.points), each.points
+        across = points[:, 1].min() < 0.0 < points[:, 1].max()
+        if not len(back) or (across and len(back) <= _JUMPS):
+            found.append(each)
+            continue
+        order = _plain_order(points)
+        orders = _orders_of_sides(points) if order is None and across else [order]
+        if any(one is None for one in orders):
+            _refuse_shuffled(each, back)
+            found.append(each)
+            continue
+        runs = [points[one] for one in orders if one is not None]
+        _report_order(each.line, each.points, back, runs, book)
+        found += [attrs.evolve(each, points=run) for run in runs]
+    return found
+
+
+def _orders_of_sides(points: FloatArray) -> list[IntArray | None]:
+    """Give the order of the points on each side, which at a narrow end lie close to one another."""
+    found: list[IntArray | None] = []
+    for side in (1.0, -1.0):
+        mine = np.flatnonzero(side * points[:, 1] >= 0.0)
+        order = _plain_order(points[mine])
+        found.append(None if order is None else mine[order])
+    # A side that does not begin in the centre plane would lose what lies between.
+    return found if (points[:, 1] == 0.0).any() else [None]
+
+
+def _refuse_shuffled(piece: RawPiece, back: IntArray) -> None:
+    """Refuse a line whose points run to and fro; one that only goes back somewhere is let be."""
+    points = piece.points[np.unique(np.linspace(0, len(piece.points) - 1, _MOST).astype(int))]
+    run = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    if len(back) <= _JUMPS or run < _WANDERS * float(_tree(points).sum()):
+        return
+    x, y, z = piece.points[back[0]].tolist()
+    raise BadInputError(
+        f"the points of {piece.line} are in no order: it turns back at {len(back)} of "
+        f"{len(piece.points)} points, first at ({x:.4g}, {y:.4g}, {z:.4g}) m, and no one order "
+        "is plain",
+        f"in {piece.where}", "give the points in order along the line, and a piece for each branch",
+    )  # fmt: skip
+
+
 def put_in_order(name: str, points: FloatArray, book: Notebook) -> FloatArray:
     """Put the points of a piece in order where the line turns back and one order is plain.
 
@@ -151,20 +219,46 @@ def put_in_order(name: str, points: FloatArray, book: Notebook) -> FloatArray:
     back = _turns_back(points)
     if not len(back):
         return points
-    x, y, z = points[back[0]].tolist()
-    where = f"turned back at ({x:.4g}, {y:.4g}, {z:.4g}) m"
-    order = _path(points) if len(points) <= _MOST else None
-    if order is not None and not len(_turns_back(points[order])):
-        moved = int((order != np.arange(len(points))).sum())
-        what = f"{where}; {moved} of {len(points)} points put in order along the line"
-        book.repair("order", name, what, moved)
+    order = _plain_order(points)
+    if order is not None:
+        _report_order(name, points, back, [points[order]], book)
         return np.asarray(points[order])
     what = (
-        f"{where} and at {len(back) - 1} places more; no one order is plain, left as it is: "
-        "give the points in order along the line, and a piece for each branch"
+        f"{_first_turn(points, back)} and at {len(back) - 1} places more; no one order is plain, "
+        "left as it is: give the points in order along the line, and a piece for each branch"
     )
     book.suspect("order", name, what, len(back))
     return points
+
+
+def _first_turn(points: FloatArray, back: IntArray) -> str:
+    x, y, z = points[back[0]].tolist()
+    return f"turned back at ({x:.4g}, {y:.4g}, {z:.4g}) m"
+
+
+def _report_order(
+    name: str, points: FloatArray, back: IntArray, runs: list[FloatArray], book: Notebook
+) -> None:
+    ordered = np.concatenate(runs)[: len(points)]
+    # What was left out as it came twice counts as moved.
+    moved = int((ordered != points[: len(ordered)]).any(axis=1).sum()) + len(points) - len(ordered)
+    what = f"{_first_turn(points, back)}; {moved} of {len(points)} points put in order"
+    book.repair("order", name, f"{what} along the line", moved)
+
+
+def _plain_order(points: FloatArray) -> IntArray | None:
+    """Give the order in which points are a line that turns back nowhere; None if none is plain.
+
+    Points that come twice are kept once, but for the end of a closed line.
+    """
+    if len(points) > _MOST:
+        return None
+    closed = bool((points[0] == points[-1]).all())
+    once = np.sort(np.unique(points, axis=0, return_index=True)[1])
+    once = np.arange(len(points)) if closed else once
+    path = _path(points[once])
+    order = None if path is None else once[path]
+    return order if order is not None and not len(_turns_back(points[order])) else None
 
 
 def _turns_back(points: FloatArray) -> IntArray:
@@ -180,15 +274,20 @@ def _turns_back(points: FloatArray) -> IntArray:
 
 def _path(points: FloatArray) -> IntArray | None:
     """Give the order along the shortest tree that joins all points, if it does not branch."""
-    from scipy.sparse.csgraph import minimum_spanning_tree
-    from scipy.spatial.distance import cdist
-
-    tree = minimum_spanning_tree(cdist(points, points)).tocoo()
+    tree = _tree(points).tocoo()
     edges = np.column_stack([tree.row, tree.col]).astype(np.int64)
     if len(edges) != len(points) - 1 or np.bincount(edges.ravel()).max() > 2:
         return None
     ((order, _),) = order_paths(edges, len(points))
     return order if np.flatnonzero(order == 0)[0] < 0.5 * len(order) else order[::-1].copy()
+
+
+def _tree(points: FloatArray) -> csr_array:
+    """Give the lengths of the shortest tree that joins all points, by pairs of them."""
+    from scipy.sparse.csgraph import minimum_spanning_tree
+    from scipy.spatial.distance import cdist
+
+    return minimum_spanning_tree(cdist(points, points))
 
 
 def report_crossings(name: str, pieces: list[LinePiece], axis: int, book: Notebook) -> None:

@@ -112,7 +112,7 @@ def find_frame(
     ends = _ends(outline, heights, stem, asked, said, where)
     _check_ends(outline, ends, where)
     length = ends.fp - ends.ap if ends.length is None else ends.length
-    _tell_heights(outline, heights, length, book, where)
+    _tell_heights(outline, heights, length, (axes or FileAxes()).z_sign, book, where)
     _tell_waterline(outline, heights, said, book, where)
     _tell_ends(outline, ends, stem, length, book, where)
     if ends.length is not None and ends.ap_from[0] == ends.fp_from[0] == "found":
@@ -285,12 +285,18 @@ def _check_draught(
 
 
 def _tell_heights(
-    outline: HullOutline, heights: _Heights, length: float, book: Notebook, where: str
+    outline: HullOutline,
+    heights: _Heights,
+    length: float,
+    z_sign: float,
+    book: Notebook,
+    where: str,
 ) -> None:
     keel, base = heights.keel, heights.base
     if heights.base_from[0] != "given":
         book.assume("base line", where, heights.base_from[1], base)
-    elif abs(keel.low - base) > _LEVEL * length:
+    # The base line of a raked keel may be through any place of it.
+    elif abs(keel.low - base) > (_LEVEL + abs(keel.rise)) * length:
         what = f"{heights.base_from[1]}; the bottom amidships lies at z = {keel.low:.6g} m"
         book.suspect("base line", where, f"{what}, {abs(keel.low - base):.4g} m off: check it",
                      keel.low - base)  # fmt: skip
@@ -299,9 +305,25 @@ def _tell_heights(
         end = "aft" if keel.rise > 0.0 else "forward"
         what = f"the keel is raked, over Lpp {rake:.4g} m deeper {end}; the base line is level"
         book.assume("raked keel", where, f"{what}, through its lowest place amidships", rake)
+        _tell_raked_zero(heights, length, z_sign, book, where)
     if heights.draught_from[0] != "given" and heights.draught_from[1]:
         book.assume("draught", where, heights.draught_from[1], heights.draught)
     _tell_below(outline, heights, length, book, where)
+
+
+def _tell_raked_zero(
+    heights: _Heights, length: float, z_sign: float, book: Notebook, where: str
+) -> None:
+    """Suspect a draught given over a raked keel, below which the file has its z = 0 elsewhere."""
+    base, (base_from, draught_from) = heights.base, (heights.base_from[0], heights.draught_from[0])
+    # Farther off z = 0 is no base line of any draught.
+    near = _LEVEL * length < abs(base) < 0.5 * heights.draught
+    if near and base_from == "found" and draught_from == "given":
+        side = "over" if base > 0.0 else "below"
+        what = f"the keel is raked, and the draught counts from {abs(base):.4g} m {side} z = 0"
+        place = f"'{z_sign * base:.6g} m'"
+        what += f" of the file: if it is meant from z = 0 give base=0; if not, give base={place}"
+        book.suspect("base line", where, what, base)
 
 
 _SHOWN = 0.01

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
+import ezdxf.filemanagement
 import numpy as np
 import pytest
 
@@ -12,7 +14,9 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
 from assoc_hull.io.digitised.body_plan import BodyPlanRules, is_body_plan, read_body_plan
 from assoc_hull.io.digitised.read import read_lines
+from assoc_hull.io.lines.drawn_twice import distances_off
 from assoc_hull.io.lines.line_points import lines_as_points
+from assoc_hull.io.lines.raw_lines import RawPiece
 from tests.body_plans import body_plan
 
 LENGTH = 121.92
@@ -65,6 +69,83 @@ def test_stations_may_be_numbered_from_the_bow(hull: Hull, tmp_path: Path) -> No
     places = [each.offset for each in read_lines(plan.text, unit=plan.unit).lines]
     assert np.allclose(places, [x for _, x in STATIONS], atol=1e-9)
     assert any("at the FP" in note.what for note in plan.notes.assumptions)
+
+
+def redrawn(text: str, form: str) -> str:
+    """The sections of a drawing as lines from point to point, in two pieces, or on both sides."""
+    drawing = ezdxf.filemanagement.read(io.StringIO(text))
+    space = drawing.modelspace()
+    for each in list(space.query("LWPOLYLINE")):
+        xy = np.array(each.get_points("xy"))
+        half, layer = len(xy) // 2, {"layer": "sections"}
+        if form == "lines":
+            for a, b in zip(xy[:-1].tolist(), xy[1:].tolist(), strict=True):
+                space.add_line(a, b, dxfattribs=layer)
+        elif form == "pieces":
+            for part in (xy[half:], xy[half::-1]):
+                space.add_lwpolyline(part.tolist(), dxfattribs=layer)
+        space.delete_entity(each)
+    out = io.StringIO()
+    drawing.write(out)
+    return out.getvalue()
+
+
+@pytest.mark.parametrize("form", ["lines", "pieces"])
+def test_pieces_of_sections_are_joined_where_they_meet(
+    hull: Hull, tmp_path: Path, form: str
+) -> None:
+    """Lines from point to point are no grid, and pieces without a number are not left out."""
+    path, text = tmp_path / "plan.dxf", body_plan(hull, STATIONS)
+    found = []
+    for each in (text, redrawn(text, form)):
+        path.write_text(each, encoding="utf-8")
+        plan = read_body_plan(path, BodyPlanRules(length=LENGTH))
+        assert not plan.notes.suspicions
+        found.append(read_lines(plan.text, unit=plan.unit))
+    for one, other in zip(found[0].lines, found[1].lines, strict=True):
+        assert one.offset == other.offset
+        a, b = one.pieces[0].points, other.pieces[0].points
+        # Steps of 1e-5 of the size are none; all other points are kept.
+        assert distances_off(a, [RawPiece("", b, "")]).max() < 1e-3
+        assert np.linalg.norm(a[:, None] - b, axis=2).min(axis=0).max() < 1e-9
+
+
+def test_a_section_on_both_sides_is_two_halves(hull: Hull, tmp_path: Path) -> None:
+    """Parted at its middle, where no point need be; one of the halves has the number."""
+    drawing = ezdxf.filemanagement.read(io.StringIO(body_plan(hull, STATIONS)))
+    space = drawing.modelspace()
+    for each in list(space.query("LWPOLYLINE")):
+        xy = np.array(each.get_points("xy"))
+        whole = np.concatenate([xy[:0:-1] * [-1.0, 1.0], xy[1:]])
+        space.add_lwpolyline(whole.tolist(), dxfattribs={"layer": "sections"})
+        space.delete_entity(each)
+    path = tmp_path / "plan.dxf"
+    drawing.saveas(path)
+    lines = read_lines(read_body_plan(path, BodyPlanRules(length=LENGTH)).text, unit="m")
+    for line in lines.lines:
+        assert line.pieces[0].points[:, 1].min() == 0.0
+
+
+def test_labels_at_one_offset_from_their_sections_are_not_shared_out_anew(tmp_path: Path) -> None:
+    """Over a keel deeper aft the fuller section need not lie nearer amidships."""
+    rows, labels = [], []
+    for k in range(1, 10):
+        low, wide = 0.1 * k, 4.0 + 0.002 * (k - 5) ** 2
+        z = np.linspace(low, 5.0, 21)
+        y = wide * np.sqrt(1.0 - ((5.0 - z) / (5.0 - low)) ** 2)
+        sign = -1.0 if k < 5 else 1.0
+        rows.append(np.column_stack([sign * y, z]))
+        labels.append((str(k), (sign * (wide + 0.2), 5.1)))
+    drawing = ezdxf.filemanagement.new("R2000")
+    drawing.units = 6
+    for row, (word, place) in zip(rows, labels, strict=True):
+        drawing.modelspace().add_lwpolyline(row.tolist())
+        drawing.modelspace().add_text(word).dxf.insert = place
+    path = tmp_path / "plan.dxf"
+    drawing.saveas(path)
+    lines = read_lines(read_body_plan(path, BodyPlanRules(length=100.0)).text, unit="m").lines
+    lows = [line.pieces[0].points[0, 2] for line in lines]
+    assert lows == pytest.approx(0.1 * np.arange(1, 10))
 
 
 def test_a_body_plan_becomes_a_hull(hull: Hull, tmp_path: Path) -> None:

@@ -106,6 +106,37 @@ def test_points_out_of_order_are_put_in_order(order: list[int]) -> None:
     assert np.allclose(mended["ST 1"].pieces[0].points, given["ST 1"].pieces[0].points)
 
 
+def shuffled_wigley(jumble: float = 0.0) -> str:
+    """Nine sections of Wigley's hull on both sides, their points shuffled, some written twice."""
+    draw, rows = np.random.default_rng(5), ["line,x,y,z"]
+    for x in np.linspace(10.0, 90.0, 9):
+        z = np.linspace(0.0, 6.25, 21)
+        y = meshes.wigley_y(np.full(21, x), z)
+        points = np.column_stack([np.append(-y[:0:-1], y), np.append(z[:0:-1], z)])
+        points = draw.permutation(np.concatenate([points, points[5:7]]))
+        points += draw.uniform(-jumble, jumble, points.shape)
+        rows += [f"ST {x:g},{x:g},{a:.4f},{b:.4f}" for a, b in points.tolist()]
+    return "\n".join(rows) + "\n"
+
+
+def test_shuffled_points_are_no_hulls_side_by_side() -> None:
+    """Sections are put in order before hulls are counted and sides are parted."""
+    lines = read_lines(shuffled_wigley())
+    assert sum(note.kind == "order" for note in lines.report.repairs) == 9
+    assert lines.report.kinds("suspicions") == ()
+    for line in lines.lines:
+        ((x, y, z),) = [piece.points.T for piece in line.pieces]
+        assert len(z) == 21
+        assert (np.diff(z) > 0.0).all()
+        assert np.abs(y - meshes.wigley_y(x, z)).max() < 1e-4
+
+
+def test_shuffled_points_without_one_order_are_refused_as_such() -> None:
+    """Scattered as they are shuffled: the line, how often it turns back, and what to give."""
+    with pytest.raises(BadInputError, match=r"points of ST \d+ are in no order: it turns back at"):
+        read_lines(shuffled_wigley(0.8))
+
+
 def test_a_line_without_one_plain_order_is_named() -> None:
     """A line that runs back over itself to begin a branch: the place, and what to give."""
     text = "line,x,y,z\n" + "".join(

@@ -161,6 +161,21 @@ def test_a_raked_keel_is_told_and_the_base_line_goes_through_its_lowest_place_am
     assert flat.rake == 0.0
 
 
+def test_a_draught_over_a_raked_keel_is_suspected_beside_z_0_and_each_remedy_cures_it() -> None:
+    """The place is named as the file has it, in a file with z downward too."""
+    mesh, axes = raked(ship(), 2.0), FileAxes(z_sign=-1.0)
+    frame, book = find(mesh, axes=axes, length=LPP, draught=DRAUGHT)
+    assert suspected(book) == {"base line"}
+    what = book.suspicions[0].what
+    assert f"{frame.base:.4g} m over z = 0" in what
+    assert "give base=0;" in what
+    place = what.partition("give base='")[2].partition("'")[0]
+    for base, low in ((place, frame.base), (0, 0.0)):
+        again, book = find(mesh, axes=axes, length=LPP, draught=DRAUGHT, base=base)
+        assert again.base == pytest.approx(low, abs=1e-5)
+        assert not suspected(book)
+
+
 def test_z_0_is_the_waterline_only_where_it_cuts_the_hull_above_the_base_line() -> None:
     """Drawn from the waterline the draught is found; from the keel it is taken, and said."""
     frame, book = find(moved(ship(), 0.0, -DRAUGHT), length=LPP)

@@ -92,6 +92,26 @@ def test_lines_may_have_other_axes() -> None:
     assert float(slices.high[1]) == pytest.approx(B / 2)
 
 
+@pytest.mark.parametrize("transom", [True, False], ids=["a transom", "a broad end"])
+def test_a_stern_that_lies_forward_is_suspected_and_the_remedy_cures_it(transom: bool) -> None:
+    """Half of a Wigley hull, which ends broad at x = 0, drawn aft: axes= as told turns it."""
+    rows = []
+    for x in np.linspace(50.0, 98.0, 9).tolist():
+        name = "transom" if transom and x == 50.0 else f"ST {x:g}"
+        rows += [f"{name},{-x},{half_breadth(x, z):.6f},{z}" for z in np.linspace(0, 2 * T, 21)]
+    text = "line,x,y,z\n" + "\n".join(rows) + "\n"
+    said = FrameOptions(draught=T)
+    (note,) = [
+        each for each in read_lines(text, frame=said).report.suspicions if each.kind == "bow"
+    ]
+    remedy = note.what.partition("axes='")[2].partition("'")[0]
+    turned = read_lines(text, frame=said, axes=remedy)
+    assert "bow" not in turned.report.kinds("suspicions")
+    right = read_lines(text.replace(",-", ","), frame=said)
+    assert "bow" not in right.report.kinds("suspicions")
+    assert [line.offset for line in turned.lines] == [line.offset for line in right.lines]
+
+
 def test_a_named_line_is_the_deck_edge_and_bulwarks_are_cut() -> None:
     """What stands above it goes, is told, and the depth is that of the deck."""
     text = lines(0.0, 0.0).replace("deck edge", "bulwark")
