@@ -83,9 +83,7 @@ def lines_of(
 
 
 @pytest.mark.parametrize("form", LINES)
-def test_points_come_back_within_the_rounding(
-    hull: Hull, form: str, lines_of: LinesOf
-) -> None:
+def test_points_come_back_within_the_rounding(hull: Hull, form: str, lines_of: LinesOf) -> None:
     """Every point of every curve comes back within half a digit, and each curve as one piece."""
     report, found = lines_of(hull, form)
     wanted = written_lines(hull, form)
@@ -99,9 +97,7 @@ def test_points_come_back_within_the_rounding(
 
 
 @pytest.mark.parametrize("form", LINES)
-def test_points_lie_on_the_curves(
-    hull: Hull, form: str, lines_of: LinesOf
-) -> None:
+def test_points_lie_on_the_curves(hull: Hull, form: str, lines_of: LinesOf) -> None:
     """What is read lies on the hull's own curves within the rounding of both coordinates."""
     report, found = lines_of(hull, form)
     limit = np.sqrt(2.0) * report.rounding * (1.0 + 1e-6)

@@ -60,9 +60,14 @@ def test_sections_that_part_are_told_at_export_and_at_import(
     report = hull.export(tmp_path / "ship.bri", "britfair")
     assert any(note.kind == "parting" for note in (*report.left_out, *report.mended))
     ship = hull.particulars
-    given: dict[str, Any] = {"length": ship.length, "draught": ship.draught, "deck": ship.deck, "ap": "0 m"}
+    given: dict[str, Any] = {
+        "length": ship.length,
+        "draught": ship.draught,
+        "deck": ship.deck,
+        "ap": "0 m",
+    }
     with pytest.raises(NotSoundError) as refused:
-        ah.read(tmp_path / "ship.bri", **given)
+        ah.read(tmp_path / "ship.bri", ap="0 m", **given)
     told = "ST 222.1875, ST 225: between two sections they do not close"
     assert any(told in each for each in refused.value.findings)
 
