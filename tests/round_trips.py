@@ -116,7 +116,7 @@ _EXACT = 1e-9
 """Splines come back within this, m."""
 
 
-def round_trip(name: str, hull: Hull, form: str, folder: Path, **cuts: int) -> RoundTrip:
+def round_trip(name: str, hull: Hull, form: str, folder: Path, **cuts: Any) -> RoundTrip:
     """Export, measure what is in the file, and read the hull as a user does, with other cuts."""
     endings = {**{each: f".{each}" for each in TABLES}, **SPLINES, **SOLIDS}
     path = folder / f"{name}{endings.get(form, '.txt')}"
@@ -177,7 +177,7 @@ def _told(report: Any) -> tuple[str, ...]:
     return tuple(sorted({note.kind for note in notes}))
 
 
-def _read(hull: Hull, path: Path, form: str, *, accept: bool = False, **cuts: int) -> Hull:
+def _read(hull: Hull, path: Path, form: str, *, accept: bool = False, **cuts: Any) -> Hull:
     ship = hull.particulars
     options: dict[str, Any] = {"length": ship.length, "draught": ship.draught, "deck": ship.deck}
     if form in SPLINES:

@@ -22,6 +22,7 @@ NAMES = tuple(SHIPS) if os.environ.get("ASSOC_HULL_LONG") else FEW
 
 
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.usefixtures("made_already")
 def test_s_is_that_of_fine_triangles_within_its_own_estimate(
     name: str, request: pytest.FixtureRequest
 ) -> None:

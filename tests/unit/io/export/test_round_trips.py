@@ -67,7 +67,7 @@ def test_sections_that_part_are_told_at_export_and_at_import(
         "ap": "0 m",
     }
     with pytest.raises(NotSoundError) as refused:
-        ah.read(tmp_path / "ship.bri", ap="0 m", **given)
+        ah.read(tmp_path / "ship.bri", **given)
     told = "ST 222.1875, ST 225: between two sections they do not close"
     assert any(told in each for each in refused.value.findings)
 
