@@ -5,11 +5,13 @@ import os
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
 import pytest
+from _pytest.pathlib import import_path
 from hypothesis import HealthCheck, settings
 
 from assoc_hull.hull import Hull
@@ -42,19 +44,26 @@ ROOM = 4_000_000_000
 """Bytes that must be free in memory before files of tests are laid there."""
 
 
+gc.disable()  # while tests are collected: a third of that time, and hardly any of it is garbage
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """Let all processes of a run share temporary files in memory, and compiled modules.
 
     A hull file waits at every edit until the disk has it: tests that edit hulls in files take
-    twice as long on a disk. Modules are shared where none may lie beside the sources: many tests
-    start a Python of their own, and each would compile the package anew.
+    twice as long on a disk. Modules are shared where none may lie beside the sources, and kept
+    with what pytest keeps: each process, and each Python that a test starts, would compile the
+    package and what it imports anew, for half a minute.
     """
+    config.addinivalue_line("markers", "slow: takes some seconds; runs all the same")
     if "PYTEST_XDIST_WORKER" in os.environ:
         return
     if "TMPDIR" not in os.environ and os.access(IN_MEMORY, os.W_OK) and _room(IN_MEMORY) > ROOM:
         os.environ["TMPDIR"] = tempfile.tempdir = _folder(config, "files", IN_MEMORY)
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
-        os.environ["PYTHONPYCACHEPREFIX"] = _folder(config, "pycache")
+        cache: pytest.Cache | None = getattr(config, "cache", None)
+        kept = _folder(config, "pycache") if cache is None else cache.mkdir("pycache")
+        os.environ["PYTHONPYCACHEPREFIX"] = str(kept)
 
 
 def pytest_collection_finish() -> None:
@@ -62,6 +71,27 @@ def pytest_collection_finish() -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(20_000, 20, 20)
+    gc.enable()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection(session: pytest.Session) -> None:
+    """Let the second process load the modules of tests from the last to the first.
+
+    Each compiles one half and finds the other half compiled. A run of a part of the tests does
+    not need them all.
+    """
+    config = session.config
+    whole = [str(config.rootpath / path) for path in config.getini("testpaths")]
+    given = [str(config.invocation_params.dir / path) for path in config.args]
+    if os.environ.get("PYTEST_XDIST_WORKER", "gw0") == "gw0" or given != whole:
+        return
+    for path in sorted((config.rootpath / "tests").rglob("test_*.py"), reverse=True):
+        with suppress(Exception, pytest.skip.Exception, pytest.fail.Exception):
+            # What fails here is told when this module is collected.
+            import_path(
+                path, mode="importlib", root=config.rootpath, consider_namespace_packages=False
+            )
 
 
 def _room(folder: Path) -> int:

@@ -116,8 +116,8 @@ _EXACT = 1e-9
 """Splines come back within this, m."""
 
 
-def round_trip(name: str, hull: Hull, form: str, folder: Path) -> RoundTrip:
-    """Export, measure what is in the file, and read the hull as a user does."""
+def round_trip(name: str, hull: Hull, form: str, folder: Path, **cuts: Any) -> RoundTrip:
+    """Export, measure what is in the file, and read the hull as a user does, with other cuts."""
     endings = {**{each: f".{each}" for each in TABLES}, **SPLINES, **SOLIDS}
     path = folder / f"{name}{endings.get(form, '.txt')}"
     try:
@@ -130,11 +130,11 @@ def round_trip(name: str, hull: Hull, form: str, folder: Path) -> RoundTrip:
     told = _told(report)
     back: Hull | None = None
     try:
-        back = _read(hull, path, form)
+        back = _read(hull, path, form, **cuts)
     except NotSoundError as error:
         first = error.findings[0].partition("; ")[0]
         verdict = f"refused, measured all the same: {len(error.findings)} of: {first}"[:200]
-        back = _read(hull, path, form, accept=True)
+        back = _read(hull, path, form, accept=True, **cuts)
     except AssocHullError as error:
         verdict = f"refused: {error}".partition(": give")[0][:200]
     else:
@@ -177,7 +177,7 @@ def _told(report: Any) -> tuple[str, ...]:
     return tuple(sorted({note.kind for note in notes}))
 
 
-def _read(hull: Hull, path: Path, form: str, *, accept: bool = False) -> Hull:
+def _read(hull: Hull, path: Path, form: str, *, accept: bool = False, **cuts: Any) -> Hull:
     ship = hull.particulars
     options: dict[str, Any] = {"length": ship.length, "draught": ship.draught, "deck": ship.deck}
     if form in SPLINES:
@@ -186,7 +186,7 @@ def _read(hull: Hull, path: Path, form: str, *, accept: bool = False) -> Hull:
         options = {"deck": ship.deck}
     elif form not in SOLIDS:
         options["ap"] = "0 m"
-    return ah.read(path, accept=accept, **options)
+    return ah.read(path, accept=accept, **options, **cuts)
 
 
 def _same(hull: Hull, back: Hull, inflections: int) -> str:

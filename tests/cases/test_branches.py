@@ -2,9 +2,12 @@
 
 The hull has a valley amidships, so a buttock meets a waterline at two places or at four:
 outside and inside of either hump. The true branches follow from the formula of the hull.
+Steps of 1 cm are for long runs.
 """
 
 from __future__ import annotations
+
+import os
 
 import numpy as np
 import pytest
@@ -12,6 +15,7 @@ import pytest
 import assoc_hull as ah
 from tests.cases.valley import LENGTH, breadth_at, valley_hull
 
+LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 LOW, LAST, HIGH = 2.2, 2.7, 3.3
 """Half-breadths (m): before the first two branches meet, past the last, and far past it."""
 LEVELS = tuple(float(z) for z in np.linspace(0.0, 8.0, 9)[2:-1])
@@ -54,11 +58,10 @@ def clear_of_merging(breadth: float) -> bool:
     return bool(np.abs(middle - breadth).min() > 2e-3)
 
 
-@pytest.mark.parametrize(
-    ("step", "high"),
-    [(0.5, HIGH), (0.01, LAST)],
-    ids=["50 cm", "1 cm"],
-)
+STEPS = {"50 cm": (0.5, HIGH), "3 cm": (0.03, LAST), **({"1 cm": (0.01, LAST)} if LONG else {})}
+
+
+@pytest.mark.parametrize(("step", "high"), STEPS.values(), ids=STEPS)
 def test_no_crossing_changes_its_branch_and_births_and_deaths_are_the_true_ones(
     step: float, high: float
 ) -> None:

@@ -6,6 +6,7 @@ Series 60 always; the DTC, with bulb and stern bulb, and the carrier with ``ASSO
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -75,10 +76,12 @@ def test_a_surface_that_leaves_its_limits_is_written_if_it_is_accepted(tmp_path:
     assert path.exists()
 
 
-def test_halves_that_cross_are_left_out_of_a_rhino_file(tmp_path: Path) -> None:
+def test_halves_that_cross_are_left_out_of_a_rhino_file(
+    shipped: Callable[[str], ah.Hull], tmp_path: Path
+) -> None:
     """The lines and the mesh are written; the report says where the surface is not sound."""
     pytest.importorskip("rhino3dm")
-    report = ah.examples.plain_ship().export(tmp_path / "hull.3dm")
+    report = shipped("plain_ship").export(tmp_path / "hull.3dm")
     (note,) = (each for each in report.left_out if each.kind == "surface")
     assert "waves across the centre plane by 6.24 mm at (2.96, -0.01, 4.28)" in str(note)
     assert "accept=True" in str(note)

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import os
-from functools import cache
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -22,6 +22,7 @@ NAMES = tuple(SHIPS) if os.environ.get("ASSOC_HULL_LONG") else FEW
 
 
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.usefixtures("made_already")
 def test_s_is_that_of_fine_triangles_within_its_own_estimate(
     name: str, request: pytest.FixtureRequest
 ) -> None:
@@ -57,10 +58,10 @@ def test_s_of_a_flat_run_before_a_raked_transom_is_that_of_the_formula(
     )
 
 
-@cache
-def ferry() -> tuple[ah.Hull, ClosedMesh]:
+@pytest.fixture(scope="module")
+def ferry(shipped: Callable[[str], ah.Hull]) -> tuple[ah.Hull, ClosedMesh]:
     """The ferry, which has a closed deck, and her mesh."""
-    hull = ah.examples.sfolds_ship()
+    hull = shipped("sfolds_ship")
     return hull, hull.mesh(points=24)
 
 
@@ -68,13 +69,13 @@ def ferry() -> tuple[ah.Hull, ClosedMesh]:
     ("draught", "heel"), [(9.3, 0.0), (10.0, 0.0), (9.3, 25.0), (10.0, -40.0), (7.0, 55.0)]
 )
 def test_a_closed_deck_under_water_counts_nothing_in_s_nor_does_the_transom(
-    draught: float, heel: float
+    ferry: tuple[ah.Hull, ClosedMesh], draught: float, heel: float
 ) -> None:
     """The ferry over her deck, which is lowest at 9 m, and heeled until its edge is deep.
 
     The deck was a third of S. Volumes keep it, by both routes; the transom is told beside.
     """
-    hull, mesh = ferry()
+    hull, mesh = ferry
     found = hull.hydrostatics(draught=draught, heel_deg=heel)
     shell, transom, deck = (
         triangles_below(mesh.xyz[mesh.triangle[mesh.group == part]], draught, heel)

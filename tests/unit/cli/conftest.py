@@ -13,11 +13,6 @@ from assoc_hull.hull.sources import examples
 Json = Callable[..., Any]
 
 
-def pytest_configure(config: pytest.Config) -> None:
-    """Name the mark of tests that take seconds; they run all the same."""
-    config.addinivalue_line("markers", "slow: takes some seconds")
-
-
 @pytest.fixture(scope="session")
 def wigley_bytes(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """The Wigley hull as a file holds it."""

@@ -1,6 +1,7 @@
 """The commands `surface`, and `export` to CAD files, meshes and drawings."""
 
 import sys
+from collections.abc import Callable
 from importlib import resources
 from pathlib import Path
 
@@ -126,11 +127,11 @@ def test_a_surface_is_fitted_told_and_written(small: Path, facts: Json, tmp_path
 
 
 def test_a_surface_with_crossing_halves_is_written_if_it_is_accepted(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    shipped: Callable[[str], ah.Hull], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Refused with code 3, no file, and the place and size of each fault; following it works."""
     ship, out = tmp_path / "ship.hull.json", tmp_path / "a.igs"
-    ah.examples.plain_ship().save(ship)
+    shipped("plain_ship").save(ship)
     asked = ["export", str(ship), "-o", str(out), "--format", "iges-surfaces"]
     assert main(asked) == 3
     told = capsys.readouterr()

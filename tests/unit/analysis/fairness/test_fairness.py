@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -19,9 +20,9 @@ from assoc_hull.geometry.fairness.combs import comb_integrals
 
 
 @pytest.fixture(scope="module")
-def ship() -> ah.Hull:
+def ship(shipped: Callable[[str], ah.Hull]) -> ah.Hull:
     """A published form with knuckles at the deck and watched crossings."""
-    return ah.examples.series60(cb=0.7)
+    return shipped("series60_70")
 
 
 @pytest.fixture(scope="module")

@@ -94,10 +94,12 @@ def test_report_measures_up_to_the_deck_edge_in_every_use_that_has_it(hull: ah.H
     assert hull.bonjean().z[-1] == pytest.approx(LOWEST, abs=1e-4)
 
 
-def test_the_open_top_of_a_bulb_ahead_of_the_deck_is_no_deck_edge(tmp_path: Path) -> None:
+def test_the_open_top_of_a_bulb_ahead_of_the_deck_is_no_deck_edge(
+    bulk_carrier: ah.Hull, tmp_path: Path
+) -> None:
     """A table of a carrier ends on sections of her bulb, 10 m high: the deck limits, at 27 m."""
     path = tmp_path / "carrier.csv"
-    ah.examples.bulk_carrier_207k().export(path)
+    bulk_carrier.export(path)
     hull = ah.read(path, accept=True)
     assert hull.adoption is not None
     assert not any("drowns the open deck" in note for note in hull.adoption.notes)

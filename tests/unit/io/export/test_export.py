@@ -2,6 +2,7 @@
 
 import json
 import sys
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.errors import BadInputError, NotSoundError
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.hull import Hull
@@ -29,6 +30,8 @@ SECTIONS = ("britfair", "delftship", "gf")
 LINES = (*SECTIONS, "delftship-offsets")
 TABLES = ("csv", "xlsx")
 HULLS = ("wigley", "series60_70", "bulk_carrier")
+LinesOf = Callable[[Hull, str], tuple[ExportReport, HullSlices]]
+TableOf = Callable[[Hull, str], tuple[OffsetTable, ExportReport]]
 
 
 @pytest.fixture(scope="session")
@@ -64,11 +67,26 @@ def largest_difference(wanted: list[LinePolylines], found: HullSlices) -> float:
     return worst
 
 
+@pytest.fixture(scope="module")
+def lines_of(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> LinesOf:
+    """What an export said, and what is read of its file; each made once."""
+    folder = tmp_path_factory.mktemp("lines")
+
+    @cache
+    def go(hull: Hull, form: str) -> tuple[ExportReport, HullSlices]:
+        report = hull.export(folder / "lines.dat", form)
+        return report, read_lines(folder / "lines.dat")
+
+    return go
+
+
 @pytest.mark.parametrize("form", LINES)
-def test_points_come_back_within_the_rounding(hull: Hull, form: str, tmp_path: Path) -> None:
+def test_points_come_back_within_the_rounding(hull: Hull, form: str, lines_of: LinesOf) -> None:
     """Every point of every curve comes back within half a digit, and each curve as one piece."""
-    report = hull.export(tmp_path / "lines.dat", form)
-    wanted, found = written_lines(hull, form), read_lines(tmp_path / "lines.dat")
+    report, found = lines_of(hull, form)
+    wanted = written_lines(hull, form)
     assert len(found.lines) == len(wanted)
     worst = largest_difference(wanted, found)
     print(f"\n{hull.particulars.name} {form}: {report.points} points, {1e3 * worst:.4f} mm")
@@ -79,10 +97,9 @@ def test_points_come_back_within_the_rounding(hull: Hull, form: str, tmp_path: P
 
 
 @pytest.mark.parametrize("form", LINES)
-def test_points_lie_on_the_curves(hull: Hull, form: str, tmp_path: Path) -> None:
+def test_points_lie_on_the_curves(hull: Hull, form: str, lines_of: LinesOf) -> None:
     """What is read lies on the hull's own curves within the rounding of both coordinates."""
-    report = hull.export(tmp_path / "lines.dat", form)
-    found = read_lines(tmp_path / "lines.dat")
+    report, found = lines_of(hull, form)
     limit = np.sqrt(2.0) * report.rounding * (1.0 + 1e-6)
     for line in hull.groups["sections"].lines.values():
         position = line.position
@@ -96,10 +113,17 @@ def test_points_lie_on_the_curves(hull: Hull, form: str, tmp_path: Path) -> None
             assert off.max() <= limit, line.name
 
 
-def table_of(hull: Hull, form: str, folder: Path) -> tuple[OffsetTable, ExportReport]:
-    """The table of a hull as it is read back, and what the export said."""
-    report = hull.export(folder / f"offsets.{form}")
-    return read_offsets(folder / f"offsets.{form}")[0], report
+@pytest.fixture(scope="module")
+def table_of(tmp_path_factory: pytest.TempPathFactory) -> TableOf:
+    """The table of a hull as it is read back, and what the export said; each made once."""
+    folder = tmp_path_factory.mktemp("tables")
+
+    @cache
+    def go(hull: Hull, form: str) -> tuple[OffsetTable, ExportReport]:
+        report = hull.export(folder / f"offsets.{form}")
+        return read_offsets(folder / f"offsets.{form}")[0], report
+
+    return go
 
 
 def positions(hull: Hull, group: str) -> list[float]:
@@ -107,19 +131,19 @@ def positions(hull: Hull, group: str) -> list[float]:
     return [round(each.position or 0.0, 9) for each in hull.groups[group].lines.values()]
 
 
-def own_offset(hull: Hull, x: float, z: float) -> float:
-    """The half-breadth of the section at x, m; nan where there is none."""
+def own_offsets(hull: Hull, x: float, heights: list[float]) -> list[float]:
+    """The half-breadths of the section at x, m; nan where there is none."""
     for line in hull.groups["sections"].lines.values():
         if abs((line.position or 0.0) - x) < 1e-8:
-            met = line.meet(((0.0, 0.0, 1.0), z))
-            return float(met[:, 1].max()) if len(met) else float("nan")
-    return float("nan")
+            every = [line.meet(((0.0, 0.0, 1.0), z)) for z in heights]
+            return [float(met[:, 1].max()) if len(met) else float("nan") for met in every]
+    return [float("nan")] * len(heights)
 
 
 @pytest.mark.parametrize("form", TABLES)
-def test_offsets_come_back_within_the_rounding(hull: Hull, form: str, tmp_path: Path) -> None:
+def test_offsets_come_back_within_the_rounding(hull: Hull, form: str, table_of: TableOf) -> None:
     """Places come back to a nanometre, half-breadths and heights within half a digit."""
-    table, report = table_of(hull, form, tmp_path)
+    table, report = table_of(hull, form)
     for group, places in (("sections", table.x), ("waterlines", table.z)):
         assert set(positions(hull, group)) <= set(places.tolist())
     assert report.rounding == pytest.approx(5e-5)
@@ -127,7 +151,7 @@ def test_offsets_come_back_within_the_rounding(hull: Hull, form: str, tmp_path: 
     assert (table.length, table.draught) == (hull.particulars.length, hull.particulars.draught)
     some = slice(None, None, 3 if form == "xlsx" else 1)
     x, z = table.x.tolist()[some], table.z.tolist()
-    wanted = np.array([[own_offset(hull, one, other) for other in z] for one in x])
+    wanted = np.array([own_offsets(hull, one, z) for one in x])
     known = np.isfinite(wanted)
     off = np.abs(wanted - table.half_breadth[some])[known]
     assert known.sum() > 0.6 * known.size
@@ -149,9 +173,9 @@ def _compare_buttocks(hull: Hull, table: OffsetTable) -> None:
                 assert abs(met[:, 2].min() - height) <= 5e-5 * (1.0 + 1e-6)
 
 
-def test_workbook_and_text_hold_the_same(hull: Hull, tmp_path: Path) -> None:
+def test_workbook_and_text_hold_the_same(hull: Hull, table_of: TableOf) -> None:
     """The XLSX and the CSV of a hull read back as the same table."""
-    one, other = (table_of(hull, form, tmp_path)[0] for form in TABLES)
+    one, other = (table_of(hull, form)[0] for form in TABLES)
     for name in ("x", "z", "half_breadth", "buttock_y", "rounding", "station"):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
     assert (one.length, one.breadth, one.draught) == (other.length, other.breadth, other.draught)
@@ -180,13 +204,13 @@ def test_the_same_hull_gives_the_same_bytes(wigley: Hull, form: str, tmp_path: P
     ],
 )  # fmt: skip
 def test_the_ending_tells_the_form_and_the_content_tells_it_back(
-    wigley: Hull, name: str, form: str, tmp_path: Path
+    name: str, form: str, tmp_path: Path
 ) -> None:
     """A name chooses the form; `read` finds it by content, under any name, and it is sound."""
-    assert wigley.export(tmp_path / name).form == form
+    assert examples.wigley(stations=7, waterlines=5).export(tmp_path / name).form == form
     (tmp_path / name).rename(tmp_path / "hull.dat")
     hull = ah.read(tmp_path / "hull.dat")
-    assert len(hull.groups["sections"].lines) == 19
+    assert len(hull.groups["sections"].lines) == 5
     assert hull.check() == ()
     assert hull.verify() == ()
 
@@ -197,7 +221,7 @@ def read_back(name: str, form: str, folder: Path) -> Hull:
     with pytest.MonkeyPatch.context() as patch:
         module = sys.modules["assoc_hull.shipped.wigley"]
         patch.setattr(module, "Particulars", lambda _, *sizes: Particulars(name, *sizes))
-        ship = examples.wigley(stations=9, waterlines=5)
+        ship = examples.wigley(stations=5, waterlines=5)
     assert ship.particulars.name == name
     path = folder / form
     ship.export(path, form)
@@ -227,11 +251,11 @@ def test_a_table_that_no_rule_completes_is_adopted_as_it_stands(
 ) -> None:
     """The carrier, with bulb and bossing, comes back with its lines, if taken with its faults."""
     bulk_carrier.export(tmp_path / "t.csv")
-    # Of bulb and bossing a table tells too little: the verdict names the places, and refuses.
-    with pytest.raises(NotSoundError, match=r"off its source: ST 22\.5"):
-        ah.read(tmp_path / "t.csv")
     hull = ah.read(tmp_path / "t.csv", accept=True)
     assert hull.adoption is not None
+    # Of bulb and bossing a table tells too little: the verdict names the places, and would refuse.
+    assert any(note.startswith("verdict: not sound") for note in hull.adoption.notes)
+    assert any("off its source: ST 22.5" in note for note in hull.adoption.notes)
     # The table holds heights of the keel, so there is a profile.
     assert any(note.startswith("ends and flats are left open") for note in hull.adoption.notes)
     assert hull.check() == ()

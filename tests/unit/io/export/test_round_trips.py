@@ -3,17 +3,33 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 
-from tests.round_trips import FORMS, HULLS, SECTIONS, SOLIDS, SPLINES, TABLES, round_trips
+import assoc_hull as ah
+from assoc_hull.errors import NotSoundError
+from tests.round_trips import (
+    FORMS,
+    HULLS,
+    SECTIONS,
+    SOLIDS,
+    SPLINES,
+    TABLES,
+    round_trip,
+    round_trips,
+)
 
 LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 
 
-def test_the_wigley_hull_comes_back_from_tables_and_sections() -> None:
+def test_the_wigley_hull_comes_back_from_tables_and_sections(tmp_path: Path) -> None:
     """With both plumb ends, which sections alone hold as sections of no breadth."""
-    for each in round_trips(["wigley"], ["csv", "britfair", "delftship"]):
+    hull = ah.examples.wigley(stations=9, waterlines=5)
+    for form in ("csv", "britfair", "delftship"):
+        each = round_trip("wigley", hull, form, tmp_path)
         print(each)
         assert each.farthest <= each.limit * (1.0 + 1e-6)
         assert abs(each.volume) <= 5e-4
@@ -26,21 +42,34 @@ NOT_BACK = {"step": ("yacht", "seaking_ship", "prelikon_ship"), "stl": ("yacht",
 """Solids that are refused at import today, with the place."""
 
 
-def test_the_surface_of_a_file_of_rhino_is_a_sound_hull_by_itself() -> None:
+def test_the_surface_of_a_file_of_rhino_is_a_sound_hull_by_itself(tmp_path: Path) -> None:
     """Triangles at the foot of the stem do not lie in the centre plane: waterlines reach it."""
-    [found] = round_trips(["wigley"], ["3dm-surface"])
+    cuts = {"stations": 15, "waterlines": 8, "buttocks": 1}
+    found = round_trip("wigley", ah.examples.wigley(), "3dm-surface", tmp_path, **cuts)
     print(found)
     assert found.verdict.startswith("sound")
     assert abs(found.volume) <= 5e-4
     assert found.farthest <= found.limit
 
 
-def test_sections_that_part_are_told_at_export_and_at_import() -> None:
+def test_sections_that_part_are_told_at_export_and_at_import(
+    shipped: Callable[[str], ah.Hull], tmp_path: Path
+) -> None:
     """Where a bulb ends between two sections no form of sections can say: the hull is open."""
-    [found] = round_trips(["container_ship_225m"], ["britfair"])
-    print(found)
-    assert "parting" in found.told
-    assert "ST 222.1875, ST 225: between two sections they do not close" in found.verdict
+    hull = shipped("container_ship_225m")
+    report = hull.export(tmp_path / "ship.bri", "britfair")
+    assert any(note.kind == "parting" for note in (*report.left_out, *report.mended))
+    ship = hull.particulars
+    given: dict[str, Any] = {
+        "length": ship.length,
+        "draught": ship.draught,
+        "deck": ship.deck,
+        "ap": "0 m",
+    }
+    with pytest.raises(NotSoundError) as refused:
+        ah.read(tmp_path / "ship.bri", **given)
+    told = "ST 222.1875, ST 225: between two sections they do not close"
+    assert any(told in each for each in refused.value.findings)
 
 
 @pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")

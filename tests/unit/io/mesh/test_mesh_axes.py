@@ -97,12 +97,12 @@ def test_a_vertex_across_the_centre_plane_does_not_move_the_hull() -> None:
     }
 
 
-@pytest.mark.parametrize("ship", [ah.examples.bulk_carrier_180m, ah.examples.prelikon_ship])
+@pytest.mark.parametrize("ship", ["bulk_carrier_180m", "prelikon_ship"])
 def test_full_ships_with_sheer_are_turned_only_if_they_lie_keel_up(
-    ship: Callable[[], ah.Hull],
+    ship: str, shipped: Callable[[str], ah.Hull]
 ) -> None:
     """Their bow is narrow above and their bottom broad: the volume of the halves tells."""
-    hull = ship()
+    hull = shipped(ship)
     mesh = hull.mesh(points=2).triangles
     depth = hull.particulars.depth
     for turn, mended in ((1.0, False), (-1.0, True)):

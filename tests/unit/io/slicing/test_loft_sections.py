@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -54,9 +55,11 @@ def test_sections_in_the_centre_plane_are_plumb_ends(tmp_path: Path) -> None:
     assert len(hull.surface().patches) > 0
 
 
-def test_a_dry_end_is_a_transom_and_all_that_is_asked_for_runs(tmp_path: Path) -> None:
+def test_a_dry_end_is_a_transom_and_all_that_is_asked_for_runs(
+    shipped: Callable[[str], ah.Hull], tmp_path: Path
+) -> None:
     """A cargo ship by GHS sections: V and S as hers; perpendiculars where the bow is."""
-    ship = ah.examples.plain_ship()
+    ship = shipped("plain_ship")
     path = tmp_path / "plain.gf"
     ship.export(path, "gf")
     hull = ah.read(path, length=120.0, draught=7.2, deck="closed")
