@@ -9,13 +9,17 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import NotSoundError
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.hull import Hull
-from assoc_hull.io.cad.check_file import area_of
-from assoc_hull.io.cad.write import CadReport, cad_bytes
+from assoc_hull.io.cad.check_file import area_of, volume_of
+from assoc_hull.io.cad.faces import sew_surfaces
+from assoc_hull.io.cad.kernel import quiet_kernel
+from assoc_hull.io.cad.write import CadReport, both_sides, cad_bytes, closed_solid
 from assoc_hull.io.slicing.surface_lines import faces_of_file
 
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
@@ -63,6 +67,22 @@ def test_a_solid_beside_its_shell_is_written_once_and_read_as_the_shell(tmp_path
     assert len(faces_of_file(path).surfaces) == 2
     half = surface.write(path, half=True)
     assert (half.volume, path.read_text().count("MANIFOLD_SOLID_BREP(")) == (None, 0)
+
+
+def test_an_end_that_leaves_the_centre_plane_is_closed_where_it_does() -> None:
+    """An edge in the centre plane that runs round a plate, as a bossing ends: the solid is whole.
+
+    With x = 4 v and z a polyline in u the volume of both sides is twice that of trapezes, 6 m3.
+    """
+    aft = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 1.5], [0.0, 0.0, 2.0]]
+    amidst = [[2.0, 0.0, 0.0], [2.0, 1.0, 1.0], [2.0, 2.0, 1.5], [2.0, 0.0, 2.0]]
+    stem = [[4.0, 0.0, 0.0], [4.0, 0.0, 1.0], [4.0, 0.0, 1.5], [4.0, 0.0, 2.0]]
+    knots = np.array([0.0, 0.0, 2.0, 2.5, 3.0, 3.0]), np.repeat([0.0, 1.0], 3)
+    side = SplineSurface("side", (1, 2), *knots, np.stack([aft, amidst, stem], axis=1))
+    with quiet_kernel():
+        solid = closed_solid(sew_surfaces(both_sides([side])))
+        assert solid is not None
+        assert volume_of(solid) == pytest.approx(6.0, rel=1e-9)
 
 
 def test_a_surface_that_leaves_its_limits_is_written_if_it_is_accepted(tmp_path: Path) -> None:

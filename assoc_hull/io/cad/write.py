@@ -9,6 +9,7 @@ Source: ISO 10303-21 and 10303-214; IGES 5.3 (US PRO, 1996), sections 4.34, 4.24
 from __future__ import annotations
 
 import io
+import itertools
 import os
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
@@ -21,6 +22,7 @@ from assoc_hull.arguments import all_of, choice, flag, text
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.geometry.polylines.operations import runs_where
 from assoc_hull.io.cad.check_file import (
     area_of,
     breadth_flux,
@@ -114,7 +116,7 @@ def mirrored_surface(surface: SplineSurface, name: str) -> SplineSurface:
 # mesh has it: a plane where deck or transom is one. The camber of a deck is not there.
 
 _ASIDE = 1e-3
-"""An edge whose middle is so far from the centre plane (mm) is to port."""
+"""A span of an edge whose middle is so far from the centre plane (mm) is to port."""
 
 
 def closed_solid(sewn: SewnShell) -> Any | None:
@@ -158,36 +160,52 @@ def closed_solid(sewn: SewnShell) -> Any | None:
 
 
 def _caps(edges: Sequence[Any]) -> list[SplineSurface]:
-    """Rule a surface across the ship from each free edge to port."""
-    from OCP.BRepAdaptor import BRepAdaptor_Curve
+    """Rule a surface across the ship from each run of a free edge to port.
 
+    An edge may run in the centre plane and leave it, as the end of a bossing does: there both
+    sides are joined, and the run beyond is closed by itself; sewing cuts the edge at its ends.
+    """
     found = []
     for edge in edges:
-        curve = BRepAdaptor_Curve(edge)
-        middle = 0.5 * (curve.FirstParameter() + curve.LastParameter())
-        if curve.Value(middle).Y() > _ASIDE:
-            found.append(_ruled(edge))
+        spline = _spline_of(edge)
+        knots = [spline.Knot(i) for i in range(1, spline.NbKnots() + 1)]
+        aside = np.array([_half_breadth(spline, *span) for span in itertools.pairwise(knots)])
+        runs = runs_where(aside > _ASIDE).tolist()
+        found += [_ruled(spline, knots[first], knots[stop]) for first, stop in runs]
     return found
 
 
-def _ruled(edge: Any) -> SplineSurface:
-    """Rule a surface from an edge to its image; called by what it closes."""
-    degree, knots, points = _curve_of(edge)
-    net = np.stack([points, points * _MIRROR], axis=1)
-    chord = points[-1] - points[0]
-    name = "transom" if abs(chord[2]) > np.hypot(chord[0], 1e-9) else "deck"
-    return SplineSurface(name, (degree, 1), knots, np.array([0.0, 0.0, 1.0, 1.0]), net)
-
-
-def _curve_of(edge: Any) -> tuple[int, FloatArray, FloatArray]:
-    """Give degree, knots and control points (n, 3), m, of an edge."""
+def _spline_of(edge: Any) -> Any:
+    """Give the curve of an edge as a B-spline of OpenCASCADE, from end to end."""
     from OCP.BRep import BRep_Tool
     from OCP.Geom import Geom_TrimmedCurve
     from OCP.GeomConvert import GeomConvert
 
     first, last = BRep_Tool.Range_s(edge)
     curve = BRep_Tool.Curve_s(edge, first, last)
-    spline = GeomConvert.CurveToBSplineCurve_s(Geom_TrimmedCurve(curve, first, last))
+    return GeomConvert.CurveToBSplineCurve_s(Geom_TrimmedCurve(curve, first, last))
+
+
+def _half_breadth(spline: Any, first: float, last: float) -> float:
+    """Give the half-breadth (mm) amidst a span of a curve; below 0 to starboard."""
+    return float(spline.Value(0.5 * (first + last)).Y())
+
+
+def _ruled(spline: Any, first: float, last: float) -> SplineSurface:
+    """Rule a surface from a part of a curve to its image; called by what it closes."""
+    from OCP.Geom import Geom_TrimmedCurve
+    from OCP.GeomConvert import GeomConvert
+
+    part = GeomConvert.CurveToBSplineCurve_s(Geom_TrimmedCurve(spline, first, last))
+    degree, knots, points = _curve_of(part)
+    net = np.stack([points, points * _MIRROR], axis=1)
+    chord = points[-1] - points[0]
+    name = "transom" if abs(chord[2]) > np.hypot(chord[0], 1e-9) else "deck"
+    return SplineSurface(name, (degree, 1), knots, np.array([0.0, 0.0, 1.0, 1.0]), net)
+
+
+def _curve_of(spline: Any) -> tuple[int, FloatArray, FloatArray]:
+    """Give degree, knots and control points (n, 3), m, of a curve."""
     poles = (spline.Pole(i) for i in range(1, spline.NbPoles() + 1))
     points = np.array([(each.X(), each.Y(), each.Z()) for each in poles]) / MILLIMETRES
     places = range(1, spline.NbKnots() + 1)
