@@ -6,7 +6,7 @@ from pathlib import Path
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.io.importing.cut_ends import examine_ends
-from assoc_hull.io.importing.proportions import examine_particulars
+from assoc_hull.io.importing.proportions import examine_certainty, examine_particulars
 from assoc_hull.io.importing.soundness import examine_net, look
 from assoc_hull.io.importing.stated import stated_in
 from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict, told_verdict
@@ -46,6 +46,7 @@ def judge(
     if not drawn and not table:
         look(lambda: examine_ends(state, record, found), "the ends", found)
     examine_net(state, adoption, found, drawn=drawn)
+    look(lambda: examine_certainty(record, found), "the net", found)
     return found.verdict()
 
 

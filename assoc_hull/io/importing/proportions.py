@@ -25,7 +25,7 @@ from assoc_hull.io.importing.soundness import look, sampled_places
 from assoc_hull.io.importing.verdict import Findings
 from assoc_hull.model.tables import HullState
 
-__all__ = ["examine_particulars"]
+__all__ = ["examine_certainty", "examine_particulars"]
 
 _RATIOS = {
     "L/B": (2.0, 15.0), "B/T": (1.2, 12.0), "B/D": (0.8, 12.0),
@@ -45,6 +45,12 @@ _STATED = {"L/B": 0.01, "B/T": 0.01, "V": 0.02}
 _STATED_COEFFICIENT = 0.03
 _STATED_LCB = 1.0
 """How far (per cent of Lpp) LCB may lie off what the file says."""
+
+_CERTAIN = {"V": ("volume", 2e-3), "S": ("wetted_surface", 6e-3)}
+"""Numbers whose estimated error, as a part of them, is told above this: good imports have less."""
+
+_TOLD = ("open end", "open bottom", "doubtful numbers")
+"""Suspicions that tell of a part that is missing, whose doubt the estimates hold."""
 
 _DESIGN = re.compile(r"(?:[DLC]\.?\s?W\.?\s?L\.?|(?:design|load) ?water ?line)", re.IGNORECASE)
 _SYMBOL = {"cb": "CB", "cm": "CM", "cx": "CX", "cp": "CP", "cw": "CW"}
@@ -221,6 +227,27 @@ def _examine_coefficients(hull: _Measured, found: Findings) -> None:
             "check where x = 0 and the perpendiculars are"
         )
         found.suspect("LCB", where, what, record.lcb_percent)
+
+
+def examine_certainty(record: Hydrostatics | None, found: Findings) -> None:
+    """Suspect lines so few that volume or surface hang on what is drawn between them.
+
+    Where what is missing has been told already (ends that are open), its doubt is not told twice.
+    """
+    if record is None or any(each.kind in _TOLD for each in found.suspicions):
+        return
+    told, most = [], 0.0
+    for symbol, (name, limit) in _CERTAIN.items():
+        error, value = record.error[name], getattr(record, name)
+        if error is not None and error > limit * value > 0.0:
+            told.append(f"{symbol} is known to {100.0 * error / value:.2g} % only")
+            most = max(most, error / value)
+    if told:
+        what = (
+            f"{' and '.join(told)}, since lines are few or far apart: give more sections and "
+            "waterlines where the hull bends, above all at its ends and the bilge"
+        )
+        found.suspect("few lines", "the net", what, most)
 
 
 def _examine_stated(
