@@ -31,7 +31,7 @@ from assoc_hull.geometry.polylines.noise import (
     point_scatter,
 )
 from assoc_hull.geometry.polylines.operations import cumulative_lengths, distinct_points
-from assoc_hull.geometry.polylines.polygons import filled_polygon, polygon_corners
+from assoc_hull.geometry.polylines.polygons import PolygonRule, filled_polygon, polygon_corners
 from assoc_hull.geometry.polylines.smoothing import local_scatter
 from assoc_hull.geometry.polylines.straight_runs import (
     Onset,
@@ -69,6 +69,8 @@ class FeatureRules:
         What counts as a straight run.
     arc : ArcRule
         What counts as a circular arc.
+    polygon : PolygonRule
+        What counts as a polygon, of lines cut from facets.
     onset : float, m
         A tangent point is kept where its place is known at least this well, or where its doubt
         moves the line across by less than its scatter.
@@ -101,6 +103,7 @@ class FeatureRules:
     alone_deg: float = 10.0
     run: StraightRunRule = attrs.field(factory=StraightRunRule)
     arc: ArcRule = attrs.field(factory=ArcRule)
+    polygon: PolygonRule = attrs.field(factory=PolygonRule)
     onset: float = 0.1
     border: float = 20.0
     border_deg: float = 40.0
@@ -126,11 +129,12 @@ class FeatureRules:
             chain=_times(self.chain, ratio, "slack"),
             run=_times(self.run, ratio, "within", "least"),
             arc=_times(self.arc, ratio, "within"),
+            polygon=_times(self.polygon, ratio, "off", "least", "long", "close", "reach", "spaced"),
             **{name: ratio * getattr(self, name) for name in lengths},
         )
 
 
-Rule = TypeVar("Rule", CornerRule, ChainRule, StraightRunRule, ArcRule)
+Rule = TypeVar("Rule", CornerRule, ChainRule, StraightRunRule, ArcRule, PolygonRule)
 
 
 def _times(rule: Rule, ratio: float, *names: str) -> Rule:
@@ -230,7 +234,7 @@ def find_features(
             for line in slices.group(group)
             for piece in line.pieces
         ]
-        marks = [marked_corners(part.points, _marks(part, slices)) for _, part in parts]
+        marks = [marked_corners(part.points, _marks(part, slices, wanted)) for _, part in parts]
         seen = [
             with_marked(_corners(part, slices.facets, wanted), marked)
             for (_, part), marked in zip(parts, marks, strict=True)
@@ -255,7 +259,7 @@ def find_features(
             every = _corners(part, slices.facets, wanted) if plane else []
             # A boundary curve has no neighbours to join a knuckle line with.
             strong = [each for each in every if each.turn_deg >= wanted.alone_deg]
-            marked = marked_corners(part.points, _marks(part, slices)) if plane else []
+            marked = marked_corners(part.points, _marks(part, slices, wanted)) if plane else []
             found.append(attrs.evolve(part, corners=tuple(with_marked(strong, marked))))
     return found, knuckles
 
@@ -277,8 +281,10 @@ def _bare(
     kept = distinct_points(piece.points[:, columns], 1e-6)
     points = piece.points[kept][:, columns]
     sine = np.ones(len(kept)) if piece.sine is None else np.maximum(piece.sine[kept], 0.1)
-    if slices.facets and not piece.closed and polygon_corners(points) is not None:
-        points, sine = filled_polygon(points, sine)
+    if slices.facets and not piece.closed:
+        sides = polygon_corners(points, rules.polygon)
+        if sides is not None:
+            points, sine = filled_polygon(points, sides, sine, rules.polygon)
     local = local_scatter(points, 6)
     # Points of a mesh lie inside the hull by the depth of its facets, those of a drawing scatter.
     if slices.facets:
@@ -304,13 +310,13 @@ _TO_AND_FRO = 3.0
 """Where a line runs to and fro it may be moved so many times as far as elsewhere."""
 
 
-def _marks(part: PieceFeatures, slices: HullSlices) -> FloatArray:
+def _marks(part: PieceFeatures, slices: HullSlices, rules: FeatureRules) -> FloatArray:
     """Give the places in its plane where the file marks a knuckle of a piece, (k, 2), m."""
     places = slices.knuckles.get(part.line.name, np.zeros((0, 3)))
     marks = np.asarray(places[:, _columns(part.line, part.piece)])
     if not slices.facets or part.piece.closed or part.points.shape[1] != 2:
         return marks
-    corners = polygon_corners(part.points)
+    corners = polygon_corners(part.points, rules.polygon)
     return marks if corners is None else np.concatenate([marks, part.points[corners]])
 
 
