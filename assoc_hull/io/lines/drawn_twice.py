@@ -106,6 +106,8 @@ def _overlap(one: FloatArray, other: FloatArray, small: float) -> tuple[FloatArr
     An end of each lies beside the other, away from its ends: so one goes on as the other begins.
     """
     near = small * _AGAIN
+    if min(len(one), len(other)) < 2:
+        return None  # a point lies along nothing
     for end in (one[-1], one[0]):
         place, off = _along(other, end)
         for turned in (other, other[::-1]):

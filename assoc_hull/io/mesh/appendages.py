@@ -142,8 +142,8 @@ def _walls(mesh: Triangles) -> Iterator[_BoolArray]:
     large = np.bincount(label, area[up]) >= _DECK * plan
     level = np.full(len(area), -1)
     level[up] = np.where(large[label], label, -1)
-    if (level < 0).all():
-        return
+    if (level < 0).all() or (level >= 0).all():
+        return  # there is no deck, or nothing but decks
     rest = np.flatnonzero(level < 0)
     wall = np.full(len(area), -1)
     wall[rest] = sheet_labels(mesh.part(rest))

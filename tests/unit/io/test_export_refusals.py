@@ -128,7 +128,7 @@ def test_a_text_that_breaks_its_form_is_refused(content: str, holds: str, tmp_pa
     "change",
     [
         pytest.param(lambda data: b"", id="empty"),
-        pytest.param(lambda data: data.decode("latin-1").encode("utf-16"), id="UTF-16"),
+        pytest.param(lambda data: data.decode("latin-1").encode("utf-32"), id="UTF-32"),
         pytest.param(lambda data: b"\x00\x01\x02" + data[::-1], id="binary"),
         pytest.param(lambda data: b"\n \n\t\n", id="blank"),
     ],
@@ -139,6 +139,17 @@ def test_what_is_no_text_is_refused(
 ) -> None:
     """Empty files, binary ones and other encodings get their line."""
     refusal(tmp_path / "a", change(files[form]))
+
+
+@pytest.mark.parametrize("form", TEXTS)
+def test_a_text_in_utf_16_is_the_text(form: str, files: dict[str, bytes], tmp_path: Path) -> None:
+    """What a spreadsheet saves as "Unicode text" is read as the same text in UTF-8 is."""
+    data = files[form]
+    for name, content in (("a", data), ("b", data.decode("latin-1").encode("utf-16"))):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "hull").write_bytes(content)
+    one, other = (ah.read(tmp_path / name / "hull", accept=True) for name in "ab")
+    assert other.fingerprint == one.fingerprint
 
 
 def rezipped(data: bytes, member: str, change: Callable[[bytes], bytes]) -> bytes:
