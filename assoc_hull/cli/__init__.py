@@ -62,13 +62,24 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(argv: Sequence[str] | None) -> int:
     try:
-        arguments = make_parser().parse_args(argv)
+        arguments = make_parser().parse_args(_with_axes(sys.argv[1:] if argv is None else argv))
     except SystemExit as done:  # --help and --version
         return int(done.code or 0)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the one line on standard error says what is wrong
         code: int = arguments.run(arguments)
     return code
+
+
+def _with_axes(words: Sequence[str]) -> list[str]:
+    """Join ``--axes`` with axes that begin with a minus, which would be taken for an option."""
+    found: list[str] = []
+    for word in words:
+        if found[-1:] == ["--axes"] and word[:2].lower() in ("-x", "-y", "-z"):
+            found[-1] = f"--axes={word}"
+        else:
+            found.append(word)
+    return found
 
 
 def _fail(text: str, code: int) -> int:

@@ -40,13 +40,16 @@ _ONE = 1.0 + 1e-3
 _EXTENT = (0.75, 1.05)
 """Lpp as a part of the length over all."""
 
+_AMIDSHIPS, _TOP = 0.1, 1.4
+"""Within this part of the length of midship no bulwark or trunk rises to so many depths."""
+
 _BREADTH, _DRAUGHT, _LCB = 0.02, 0.01, 10.0
 _STATED = {"L/B": 0.01, "B/T": 0.01, "V": 0.02}
 _STATED_COEFFICIENT = 0.03
 _STATED_LCB = 1.0
 """How far (per cent of Lpp) LCB may lie off what the file says."""
 
-_CERTAIN = {"V": ("volume", 2e-3), "S": ("wetted_surface", 6e-3)}
+_CERTAIN = {"V": ("volume", 3e-3), "S": ("wetted_surface", 1e-2)}
 """Numbers whose estimated error, as a part of them, is told above this: good imports have less."""
 
 _TOLD = ("open end", "open bottom", "doubtful numbers")
@@ -59,10 +62,11 @@ _CHECK = "check length, breadth, draught and the unit"
 
 @attrs.frozen
 class _Measured:
-    """A hull as found: extents (m) and, if it floats, hydrostatics at its draught."""
+    """A hull as found: extents, top amidships (m); if it floats, hydrostatics at its draught."""
 
     low: FloatArray
     high: FloatArray
+    top: float
     record: Hydrostatics | None
 
 
@@ -95,9 +99,11 @@ def examine_particulars(
 def _measure(state: HullState, found: Findings) -> _Measured:
     places = sampled_places(state)[0]
     low, high = places.min(axis=0), places.max(axis=0)
+    amidships = np.abs(places[:, 0] - 0.5 * (low[0] + high[0])) <= _AMIDSHIPS * (high[0] - low[0])
+    top = float(places[amidships, 2].max(initial=low[2]))
     records: list[Hydrostatics | None] = []
     look(lambda: records.append(_floating(state, found)), "hydrostatics", found)
-    return _Measured(low, high, records[0] if records else None)
+    return _Measured(low, high, top, records[0] if records else None)
 
 
 def _floating(state: HullState, found: Findings) -> Hydrostatics | None:
@@ -170,6 +176,12 @@ def _examine_sizes(state: HullState, hull: _Measured, found: Findings) -> None:
             f"{hull.high[2]:.4g} m: give depth=, or check the base line"
         )
         found.suspect("depth", where, what, ship.depth - float(hull.high[2]))
+    elif hull.top > _TOP * ship.depth:
+        what = (
+            f"the depth {ship.depth:.4g} m is {ship.depth / hull.top:.3g} of the {hull.top:.4g} m "
+            "to which the hull rises amidships: give depth=, or check unit and scale"
+        )
+        found.suspect("depth", where, what, ship.depth - hull.top)
 
 
 def _examine_breadth(state: HullState, hull: _Measured, found: Findings) -> None:

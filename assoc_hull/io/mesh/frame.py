@@ -312,6 +312,7 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0) -
     """
     if word(axes, "axes", "as an argument") != "auto":
         placed = _centred(_turned(mesh, axes_rows(axes)), book, doubt)
+        _tell_bow(placed, axes, book)
     else:
         moved = _turned(mesh, np.eye(3)[list(find_columns(mesh, book))])
         moved = _upright(_centred(moved, book, doubt), book)
@@ -431,6 +432,21 @@ def _half_volumes(mesh: Triangles) -> tuple[float, float]:
     held = np.abs(centre[:, 1] * mesh.area_vectors()[:, 1])
     lower = float(held[(level >= 0.0) & (level < 1.0)].sum())
     return lower, float(held[(level >= 1.0) & (level <= 2.0)].sum())
+
+
+_BROADER = 0.15
+"""Part of the half-breadth: an end that is broader near the deck by so much is a stern."""
+
+
+def _tell_bow(mesh: Triangles, axes: str, book: Notebook) -> None:
+    """Suspect axes as given where the end that lies forward is the broader one."""
+    aft, fore = (_end_breadth(mesh, end) for end in (0.05, -0.05))
+    if fore - aft > _BROADER * float(np.abs(mesh.xyz[:, 1]).max()):
+        what = (
+            f"with axes={axes!r} the fore end is {2.0 * fore:.4g} m broad near the deck, the aft "
+            f"end {2.0 * aft:.4g} m: if that is the stern turn the signs of x and y"
+        )
+        book.suspect("bow", _WHERE, what, fore - aft)
 
 
 def _bow_forward(mesh: Triangles, book: Notebook) -> Triangles:

@@ -64,6 +64,8 @@ class OffsetHints:
         Half unit of the last digit per waterline, in the table's unit; empty if not given.
     frame_spacing : float or None
         Distance of frames, m, where stations are numbers of frames.
+    full : str
+        The words by which the numbers are breadths and no half-breadths; "" if there are none.
     """
 
     units: BlockUnits = BlockUnits()
@@ -79,6 +81,7 @@ class OffsetHints:
     level_spacing: float | None = None
     rounding: tuple[float, ...] = ()
     frame_spacing: float | None = None
+    full: str = ""
 
     def stated(self) -> Mapping[str, float]:
         """Give all numbers that the comments tell of the hull, by their usual names."""
@@ -114,7 +117,18 @@ def read_hints(comments: tuple[str, ...]) -> OffsetHints:
         coefficients=_coefficients(text),
         level_spacing=_particular(text, r"(?:[Ww]aterline|WL)\s+spacing"),
         rounding=_rounding(text),
+        full=_said(_FULL, text),
     )
+
+
+_FULL = re.compile(
+    r"\b(?:full|whole|total)[- ]?(?:breadths|widths|breadth offsets|width offsets)\b", re.IGNORECASE
+)
+
+
+def _said(pattern: re.Pattern[str], text: str) -> str:
+    found = pattern.search(text)
+    return found[0] if found else ""
 
 
 # --------------------------------------------------------------------------------------

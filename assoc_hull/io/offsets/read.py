@@ -539,6 +539,9 @@ def read_offsets(
         raise BadInputError(what, source, "leave out the block of buttocks")
     main = _about_centre(main, centre, source, book)
     hints = _with_header(main, hints)
+    if hints.full:
+        what = f"the comments say {hints.full!r}, and half-breadths are read: give half of each"
+        book.suspect("full breadths", source, what)
     scale = find_scale(unit, _sizes(main), hints, length, breadth, draught, book, source)
     if main.zero and not hints.station_zero:
         hints = attrs.evolve(hints, station_zero=main.zero)
@@ -640,9 +643,10 @@ def _by_beams(sheet: OffsetSheet, book: Notebook) -> OffsetSheet:
 
 
 def _with_header(sheet: OffsetSheet, hints: OffsetHints) -> OffsetHints:
-    """Take the unit of heights from the columns of keel and deck where waterlines tell none."""
-    heights = [sheet.columns.single.get(kind) for kind in ("keel", "deck height")]
-    units = {column.unit for column in heights if column is not None and column.unit}
+    """Take the unit of heights from the names of columns where the comments tell none."""
+    single = [sheet.columns.single.get(kind) for kind in ("keel", "deck height")]
+    heights = [*sheet.columns.waterlines, *(column for column in single if column is not None)]
+    units = {column.unit for column in heights if column.unit}
     if hints.units.z or len(units) != 1:
         return hints
     return attrs.evolve(hints, units=attrs.evolve(hints.units, z=units.pop()))

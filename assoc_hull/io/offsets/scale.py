@@ -124,6 +124,8 @@ def find_scale(
     _compare("B/T", hints.breadth_draught, breadth, draught, book)
     _tell_units(given, told, book)
     across = given.y or told.y or likely_unit(printed, breadth, book, source)
+    if given.y is None:
+        _tell_mixed(across, told, book, source)
     if across == "normalised":
         sizes = (length, breadth, draught)
         return _normalised(given, told, printed, sizes, book, source)
@@ -278,6 +280,19 @@ def likely_unit(printed: PrintedSizes, breadth: float | None, book: Notebook, so
     what = f"{likely[0]}, because the largest half-breadth is {largest:g}"
     book.assume("unit", "the table", what, largest)
     return likely[0]
+
+
+_ENGLISH = ("ft", "in")
+
+
+def _tell_mixed(unit: str, told: BlockUnits, book: Notebook, source: str) -> None:
+    """Suspect half-breadths taken as metric beside heights that are told to be English."""
+    if told.y is None and told.z in _ENGLISH and unit in ("m", "mm"):
+        what = (
+            f"heights are in {told.z} and nothing tells the unit of the half-breadths, taken as "
+            f"{unit} by their size: give unit={told.z!r}, or unit='{unit},{told.z}' if it is so"
+        )
+        book.suspect("unit", source, what)
 
 
 def _likely_units(largest: float, broad: float, breadth: float | None) -> list[str]:

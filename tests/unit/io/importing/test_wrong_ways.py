@@ -1,0 +1,79 @@
+"""Files that are read the wrong way round, or in another unit, are told: each had been sound."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.cli import main
+from assoc_hull.io.mesh.frame import place_mesh
+from assoc_hull.io.reports import Notebook
+from tests import meshes
+
+X, Z = np.linspace(0.0, 100.0, 11), np.linspace(0.0, 7.0, 8)
+
+
+def table(path: Path, *, comment: str = "", z_unit: str = "", scale: float = 1.0) -> Path:
+    """A ship's table of half-breadths in metres times a scale; heights in metres, or in feet."""
+    foot = 0.3048 if z_unit else 1.0
+    heads = ",".join(f"WL {z / foot:.4f} {z_unit}".strip() for z in Z)
+    rows = [comment, f"station,{heads}"]
+    for i, x in enumerate(X):
+        half = 7.0 * (1.0 - (abs(x - 50.0) / 50.0) ** 3) * (1.0 - (1.0 - Z / 7.0) ** 2)
+        rows.append(f"{i}," + ",".join(f"{scale * y:.4f}" for y in half))
+    path.write_text("\n".join(row for row in rows if row) + "\n")
+    return path
+
+
+def suspicions(path: Path, **options: object) -> str:
+    """What an import suspects, one a line."""
+    hull = ah.read(path, accept=True, station_zero="ap", **options)  # type: ignore[arg-type]
+    assert hull.adoption is not None
+    return "\n".join(note for note in hull.adoption.notes if note.startswith("suspicion"))
+
+
+def test_a_table_of_full_breadths_is_told(tmp_path: Path) -> None:
+    """The comments say so; a beam in numbers is no such word."""
+    full = table(tmp_path / "a.csv", comment="# full breadths, m", scale=2.0)
+    assert "half-breadths are read: give half of each" in suspicions(full, length=100, draught=5)
+    plain = table(tmp_path / "b.csv", comment="# total beam: 14.0 m")
+    assert "full" not in suspicions(plain, length=100, draught=5)
+
+
+def test_heights_in_feet_beside_half_breadths_of_no_unit_are_told(tmp_path: Path) -> None:
+    """The unit of the heights is no evidence for metres; what is advised settles it."""
+    path = table(tmp_path / "a.csv", z_unit="ft", scale=1.0 / 0.3048)
+    told = suspicions(path, length=100, draught=5)
+    assert "give unit='ft', or unit='m,ft' if it is so" in told
+    right = ah.read(path, length=100, draught=5, unit="ft", station_zero="ap")
+    assert right.particulars.breadth == pytest.approx(14.0 * (1.0 - (2.0 / 7.0) ** 2), rel=1e-3)
+
+
+def test_a_depth_far_below_the_deck_is_told(tmp_path: Path) -> None:
+    """Heights in feet read as metres rise to three depths amidships."""
+    path = table(tmp_path / "a.csv")
+    assert "to which the hull rises amidships" in suspicions(path, length=100, draught=2, depth=2.2)
+    assert "rises amidships" not in suspicions(path, length=100, draught=5, depth=6.5)
+
+
+def test_axes_that_put_the_stern_forward_are_told() -> None:
+    """A hull that is 3 m broad at one end near the deck has her stern there, whatever axes say."""
+
+    def broad_aft(xyz: np.ndarray) -> np.ndarray:
+        x, y, z = xyz.T
+        return np.column_stack([x, y + 1.5 * (1.0 - x / 100.0) ** 2 * z / 6.25, z])
+
+    ship = meshes.mirrored(meshes.moved(meshes.wigley_half(41, 11), broad_aft))
+    for axes, told in (("+x+y+z", False), ("-x-y+z", True)):
+        book = Notebook()
+        place_mesh(ship, axes, book)
+        assert [note.kind == "bow" for note in book.report().suspicions] == [True] * told
+
+
+def test_axes_may_begin_with_a_minus(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What a suspicion advises can be typed: it is no option of its own."""
+    assert main(["import", str(tmp_path / "none.stl"), "--axes", "-x-y+z", "-o", "a.hull"]) == 2
+    assert "none.stl" in capsys.readouterr().err
