@@ -176,7 +176,7 @@ def _examine_sizes(state: HullState, hull: _Measured, found: Findings) -> None:
             f"{hull.high[2]:.4g} m: give depth=, or check the base line"
         )
         found.suspect("depth", where, what, ship.depth - float(hull.high[2]))
-    elif hull.top > _TOP * ship.depth:
+    elif hull.top > _TOP * ship.depth >= _TOP * ship.draught:  # else the depth is told above
         what = (
             f"the depth {ship.depth:.4g} m is {ship.depth / hull.top:.3g} of the {hull.top:.4g} m "
             "to which the hull rises amidships: give depth=, or check unit and scale"
