@@ -166,15 +166,14 @@ def test_dtc_is_adopted(dtc_with_report: tuple[Hull, SliceReport]) -> None:
 
 def test_a_mesh_too_coarse_for_its_shape_is_suspected() -> None:
     """A Wigley hull of 9 by 4 is adopted in decimetres: told, and not of a fine one or a barge."""
-    cuts = {"stations": 5, "waterlines": 3, "buttocks": 1}
-    coarse = slice_mesh(meshes.wigley_half(9, 4), **cuts)
+    coarse = slice_mesh(meshes.wigley_half(9, 4), stations=5, waterlines=3, buttocks=1)
     assert net_from_slices(coarse)[1].suspicions[0].startswith("tolerance: adopted within")
     x, y, z = 40.0, 5.0, 6.0
     corner = np.array([[i, j, k] for i in (0, x) for j in (-y, y) for k in (0, z)], float)
     quads = [[0, 2, 6, 4], [0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [1, 5, 7, 3]]
     face = np.array([[a, b, c] for q in quads for a, b, c in (q[:3], (q[0], q[2], q[3]))])
     barge = slice_mesh(Triangles(corner, face), stations=7, waterlines=3, buttocks=2)
-    fine = slice_mesh(meshes.wigley_half(161, 41), **cuts)
+    fine = slice_mesh(meshes.wigley_half(161, 41), stations=5, waterlines=3, buttocks=1)
     for sound in (barge, fine):
         assert net_from_slices(sound)[1].suspicions == ()
 
