@@ -95,11 +95,13 @@ from tests.cases.walk import walk
 
 plain, chance = net.adopt, random.Random(5)
 
-def shuffled(sources, particulars, associations, tolerances=None):
-    sources, associations = list(sources), list(associations)
-    chance.shuffle(sources)
+def shuffled(sources, particulars, associations, tolerances, grown):
+    order, associations = list(range(len(sources))), list(associations)
+    chance.shuffle(order)
     chance.shuffle(associations)
-    return plain(sources, particulars, associations, tolerances)
+    sources = [sources[i] for i in order]
+    grown = None if grown is None else [grown[i] for i in order]
+    return plain(sources, particulars, associations, tolerances, grown)
 
 net.adopt = shuffled
 hull = read_dtc(Path(sys.stdin.readline().strip()))
