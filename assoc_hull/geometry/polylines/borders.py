@@ -21,8 +21,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.polylines.operations import cumulative_lengths
+from assoc_hull.geometry.polylines.smoothing import PenalisedFit
 
 __all__ = ["border_bends", "fit_border", "order_places"]
 
@@ -118,7 +119,9 @@ def _neighbour(places: FloatArray, doubt: FloatArray, i: int, way: int) -> int:
     return far if vague else near
 
 
-def fit_border(places: FloatArray, doubt: FloatArray, corners: Sequence[int] = ()) -> FloatArray:
+def fit_border(
+    places: FloatArray, doubt: FloatArray, corners: Sequence[int] = (), apart: float = 0.0
+) -> FloatArray:
     """Give the smoothest curve within the doubt of its places, as a place for each, (n, d), m.
 
     Parameters
@@ -128,13 +131,17 @@ def fit_border(places: FloatArray, doubt: FloatArray, corners: Sequence[int] = (
         distance from the next place and it would be a hook.
     doubt : (n,), m
         How far the curve may pass 49 of 50 of them, and half of how far any, if that can be had.
+        A place that the curve through all others misses by more, and that alone makes it far less
+        smooth, is less sure than it says: its doubt counts as what it is missed by.
     corners : sequence of int
         Inner places at which it may turn.
+    apart : float, m
+        Places nearer to one another count as one: no curve of a net can go through both.
     """
     out = places.copy()
     for low, high in pairwise([0, *corners, len(places) - 1]):
         if high - low > 2:
-            out[low : high + 1] = _fit(places[low : high + 1], doubt[low : high + 1])
+            out[low : high + 1] = _fit(places[low : high + 1], doubt[low : high + 1], apart)
     for end, way in ((0, 1), (len(places) - 1, -1)):
         if len(places) > 3 and end + way not in corners:
             out[end] = _led_on(out[[end + 2 * way, end + way]], places[end], float(doubt[end]))
@@ -158,15 +165,88 @@ def _led_on(course: FloatArray, place: FloatArray, doubt: float) -> FloatArray:
     return np.asarray(place + off * min(1.0, doubt / max(size, 1e-300)))
 
 
-def _fit(places: FloatArray, doubt: FloatArray) -> FloatArray:
-    from assoc_hull.geometry.polylines.smoothing import PenalisedFit
+_SMOOTHER = 3.0
+"""Without an outlier the penalty on change of curvature may be so many times as large."""
 
-    at = cumulative_lengths(places)
-    fit = PenalisedFit(at, places, doubt, at)
-    control = fit.solve(fit.largest())
-    out, slope = np.asarray(fit.basis @ control), np.asarray(fit.slope @ control)
+_OUTLIERS = 0.25
+"""At most this part of the places are outliers."""
+
+_TRIED = 4
+"""So many of the places that are passed farthest off are tried for the next outlier."""
+
+
+def _fit(places: FloatArray, doubt: FloatArray, apart: float) -> FloatArray:
+    number = _grouped(places, apart)
+    data, near = _means(places, doubt, number)
+    if len(data) < 4:
+        return places.copy()
+    fit, control = _robust(data, near)
+    out = np.asarray(fit.basis @ control)[number]
+    slope = np.asarray(fit.slope @ control)[number]
     # The fit may pass a place a little earlier or later: its nearest point is what is wanted.
     along = ((places - out) * slope).sum(axis=1) / (slope * slope).sum(axis=1)
     out = out + along[:, None] * slope
     out[[0, -1]] = places[[0, -1]]
     return np.asarray(out)
+
+
+def _grouped(places: FloatArray, apart: float) -> IntArray:
+    """Give each place in order a number, the same to those within `apart` (m) of their first.
+
+    Both ends stay alone.
+    """
+    number = np.zeros(len(places), np.int64)
+    first, last = 0, len(places) - 1
+    for i in range(1, last + 1):
+        near = float(np.linalg.norm(places[i] - places[first])) < apart
+        if i == last or first == 0 or not near:
+            number[i], first = number[i - 1] + 1, i
+        else:
+            number[i] = number[i - 1]
+    return number
+
+
+def _means(
+    places: FloatArray, doubt: FloatArray, number: IntArray
+) -> tuple[FloatArray, FloatArray]:
+    """Give the weighted mean of each group of places, and the doubt of its surest."""
+    weight = 1.0 / doubt**2
+    total = np.bincount(number, weight)
+    columns = [np.bincount(number, weight * column) / total for column in places.T]
+    near = np.full(len(total), np.inf)
+    np.minimum.at(near, number, doubt)
+    return np.stack(columns, axis=1), near
+
+
+def _robust(places: FloatArray, doubt: FloatArray) -> tuple[PenalisedFit, FloatArray]:
+    """Fit places, the doubt of outliers raised to what the curve through the others misses."""
+    at, near = cumulative_lengths(places), doubt.copy()
+    size, fit, control = _smoothest(at, places, near)
+    for _ in range(int(_OUTLIERS * len(places))):
+        part = fit.off(control) / near
+        part[[0, -1]] = 0.0
+        best = size * _SMOOTHER, -1, 0.0
+        for i in np.argsort(-part, kind="stable")[:_TRIED].tolist():
+            freed = near.copy()
+            freed[i] *= _FREE
+            larger, other, bent = _smoothest(at, places, freed)
+            missed = float(other.off(bent)[i])
+            if missed > near[i] and larger > best[0]:
+                best = larger, i, missed
+        if best[1] < 0:
+            break
+        near[best[1]] = best[2]
+        size, fit, control = _smoothest(at, places, near)
+    return fit, control
+
+
+_FREE = 10.0
+"""A place of so many times its doubt does not hold the curve."""
+
+
+def _smoothest(
+    at: FloatArray, places: FloatArray, near: FloatArray
+) -> tuple[float, PenalisedFit, FloatArray]:
+    fit = PenalisedFit(at, places, near, at)
+    size = fit.largest()
+    return size, fit, fit.solve(size)

@@ -45,7 +45,8 @@ def judge(
     drawn = slices is not None and LOFTED not in notes.kinds("assumptions")
     if not drawn and not table:
         look(lambda: examine_ends(state, record, found), "the ends", found)
-    examine_net(state, adoption, found, drawn=drawn)
+    borders = () if slices is None else slices.borders
+    examine_net(state, adoption, found, borders, drawn=drawn)
     look(lambda: examine_certainty(record, found), "the net", found)
     return found.verdict()
 

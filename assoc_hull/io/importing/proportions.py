@@ -40,6 +40,10 @@ _ONE = 1.0 + 1e-3
 _EXTENT = (0.75, 1.05)
 """Lpp as a part of the length over all."""
 
+_WATERLINE = (0.95, 1.01)
+"""Lpp as a part of the design waterline: load line rules take at least .96 of it for a length, and
+neither perpendicular is put beyond it by more than a rudder stock abaft a cruiser stern."""
+
 _AMIDSHIPS, _TOP = 0.1, 1.4
 """Within this part of the length of midship no bulwark or trunk rises to so many depths."""
 
@@ -170,6 +174,8 @@ def _examine_sizes(state: HullState, hull: _Measured, found: Findings) -> None:
             f"outside {_EXTENT[0]:g} to {_EXTENT[1]:g}: give length=, or check unit and scale"
         )
         found.suspect("length", where, what, part)
+    elif hull.record is not None:
+        _examine_length(ship.length, hull.record, found)
     if ship.depth > 1.01 * max(float(hull.high[2]), 0.0):
         what = (
             f"the depth {ship.depth:.4g} m reaches above the hull, which ends at "
@@ -182,6 +188,18 @@ def _examine_sizes(state: HullState, hull: _Measured, found: Findings) -> None:
             "to which the hull rises amidships: give depth=, or check unit and scale"
         )
         found.suspect("depth", where, what, ship.depth - hull.top)
+
+
+def _examine_length(length: float, record: Hydrostatics, found: Findings) -> None:
+    """Suspect a length between perpendiculars that is hardly one of the design waterline."""
+    part, (least, most) = length / record.lwl, _WATERLINE
+    if not least <= part <= most:
+        what = (
+            f"the length {length:.4g} m is {part:.3f} of the waterline's {record.lwl:.4g} m at the "
+            f"draught {record.draught_mean:.4g} m, outside {least:g} to {most:g}: check length= "
+            "and draught="
+        )
+        found.suspect("length", "the particulars", what, part)
 
 
 def _examine_breadth(state: HullState, hull: _Measured, found: Findings) -> None:

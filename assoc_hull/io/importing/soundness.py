@@ -7,7 +7,7 @@ cannot be computed is a fault as well, never a traceback.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.io.importing.verdict import Findings, ImportFinding
+from assoc_hull.io.slicing.boundary_curves import BoundaryCurve
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import gap_at, tangents, watched_on
 from assoc_hull.model.kinds import BoundaryKind
@@ -48,15 +49,21 @@ _SAMPLES = 8
 
 
 def examine_net(
-    state: HullState, adoption: AdoptionReport, found: Findings, *, drawn: bool = True
+    state: HullState,
+    adoption: AdoptionReport,
+    found: Findings,
+    borders: Sequence[BoundaryCurve] = (),
+    *,
+    drawn: bool = True,
 ) -> None:
     """Look at all lines of a hull, and at how they hang together.
 
-    `drawn` says that profile and deck edge are lines of the file, and not made of its sections.
+    `borders` are those of flats that were drawn; `drawn` says that profile and deck edge are lines
+    of the file, and not made of its sections.
     """
     for each in (
         lambda: _examine_lines(state, adoption.lines, found),
-        lambda: _examine_borders(state, adoption.lines, found),
+        lambda: _examine_borders(state, adoption.lines, borders, found),
         lambda: _examine_gaps(state, found),
         lambda: _examine_misses(state, found),
         lambda: _examine_centre(state, found),
@@ -146,19 +153,35 @@ def _examine_lines(state: HullState, lines: tuple[LineReport, ...], found: Findi
         found.suspect("off their sources", where, what, rest[0].deviation)
 
 
-def _examine_borders(state: HullState, lines: tuple[LineReport, ...], found: Findings) -> None:
+def _examine_borders(
+    state: HullState,
+    lines: tuple[LineReport, ...],
+    borders: Sequence[BoundaryCurve],
+    found: Findings,
+) -> None:
     """Borders of flats have an allowance of their own, since all lines end in them tangent."""
     number = {key: i for i, key in enumerate(state.curves.key.data)}
     for line in filter(_is_beyond, lines):
         boundary = int(state.lines.boundary.data[state.line_of(number[line.curve])])
-        if boundary == BoundaryKind.FLAT:
+        allowed = max(line.tolerance, _doubt_there(line, borders))
+        part = line.tolerance_used * line.tolerance / allowed
+        if boundary == BoundaryKind.FLAT and not part <= OVER:
             what = (
                 f"the border passes its marks {1e3 * line.deviation:.1f} mm off, "
-                f"{line.tolerance_used:.1f} times its own allowance: give more lines that cross "
-                "it, or draw the border as a line of the file"
+                f"{part:.1f} times its own allowance: give more lines that cross it, or draw the "
+                "border as a line of the file"
             )
             where = f"{line.line} at {_at(line.place)}"
             found.fault("border of a flat", where, what, line.deviation)
+
+
+def _doubt_there(line: LineReport, borders: Sequence[BoundaryCurve]) -> float:
+    """Give the doubt (m) of the mark of a drawn border where it is passed; 0 if it was drawn."""
+    mine = [each for each in borders if each.name == line.line]
+    if not mine:
+        return 0.0
+    away = np.concatenate([np.abs(each.places - line.place).sum(axis=1) for each in mine])
+    return float(np.concatenate([each.doubt for each in mine])[int(away.argmin())])
 
 
 # --------------------------------------------------------------------------------------

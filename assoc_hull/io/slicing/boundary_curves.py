@@ -8,13 +8,20 @@ run of a flat is looked for between corners.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch, freeze
+from assoc_hull.geometry.curves import (
+    CurveData,
+    FloatArray,
+    IntArray,
+    PointKind,
+    SplineBatch,
+    freeze,
+)
 from assoc_hull.geometry.polylines.borders import border_bends, fit_border, order_places
 from assoc_hull.geometry.polylines.corners import Corner
 from assoc_hull.geometry.polylines.flats import fit_plane
@@ -53,8 +60,12 @@ __all__ = [
     "plane_intersections",
 ]
 
-_OVER = 0.05
-"""By which part of its last step a border is led on beyond its last mark."""
+_OVER = (0.05, 0.25)
+"""By which parts of its last step a border is led on beyond its last mark, at least and at most:
+between them by so much that the line of that mark can be adopted beside its end."""
+
+_ROOM = 1.05
+"""Of the least distance of adopted points, so that rounding does not take one away."""
 
 _SURE = 0.2
 """A border is adopted within this part of the doubt of its marks."""
@@ -133,18 +144,38 @@ def draw_boundary_curve(
     if course.places[0, 0] > course.places[-1, 0]:
         course = course.reversed()
     corners = border_bends(course.places, course.doubt, rules.border_deg)
-    xyz = fit_border(course.places, course.doubt, corners)
+    xyz = fit_border(course.places, course.doubt, corners, rules.apart)
     away = np.sqrt(((xyz - course.places) ** 2).sum(axis=1))
-    before, after = xyz[0] - xyz[1], xyz[-1] - xyz[-2]
-    whole = np.concatenate([[xyz[0] + _OVER * before], xyz, [xyz[-1] + _OVER * after]])
+    kept = _spaced(xyz, course.doubt, corners, rules.apart)
+    drawn = xyz[kept]
+    ends = [_beyond(drawn[1], drawn[0], rules.apart), _beyond(drawn[-2], drawn[-1], rules.apart)]
+    whole = np.concatenate([ends[:1], drawn, ends[1:]])
     kinds = np.full(len(whole), int(PointKind.SMOOTH))
-    kinds[np.array(corners, np.int64) + 1] = int(PointKind.KNUCKLE)
-    sure = np.maximum(tolerance, _SURE * course.doubt)
+    kinds[np.searchsorted(kept, np.array(corners, np.int64)) + 1] = int(PointKind.KNUCKLE)
+    sure = np.maximum(tolerance, _SURE * course.doubt[kept])
     source = LineSource.make(
         "boundary", name, _in_plane(whole, course.plane), plane=course.plane, boundary=kind,
         kind=kinds.tolist(), tolerance=np.concatenate([sure[:1], sure, sure[-1:]]),
     )  # fmt: skip
     return source, BoundaryCurve(name, kind, course.lines, xyz, course.doubt, float(away.max()))
+
+
+def _beyond(before: FloatArray, last: FloatArray, apart: float) -> FloatArray:
+    """Give the place to which a border is led on straight beyond its last mark."""
+    step = last - before
+    part = _ROOM * apart / max(float(np.sqrt(step @ step)), 1e-300)
+    return np.asarray(last + float(np.clip(part, *_OVER)) * step)
+
+
+def _spaced(xyz: FloatArray, doubt: FloatArray, corners: Sequence[int], apart: float) -> IntArray:
+    """Give numbers of places `apart` (m) from one another: ends, corners, of others the surest."""
+    fixed = {0, len(xyz) - 1, *corners}
+    kept = sorted(fixed)
+    rest = [i for i in np.argsort(doubt, kind="stable").tolist() if i not in fixed]
+    for i in rest:
+        if float(np.sqrt(((xyz[kept] - xyz[i]) ** 2).sum(axis=1)).min()) >= apart:
+            kept.append(i)
+    return np.array(sorted(kept), np.int64)
 
 
 def _in_plane(xyz: FloatArray, plane: tuple[FloatArray, float] | None) -> FloatArray:

@@ -77,6 +77,8 @@ class FeatureRules:
     border : float, m
         The end of a run counts for the border of a flat where it is known at least this well,
         for that of a run without a radius too.
+    apart : float, m
+        Marks of a border nearer to one another count as one: as points are adopted.
     border_deg : float
         A border is split where it turns by more.
     smooth_least : float, m
@@ -106,6 +108,7 @@ class FeatureRules:
     polygon: PolygonRule = attrs.field(factory=PolygonRule)
     onset: float = 0.1
     border: float = 20.0
+    apart: float = 0.2
     border_deg: float = 40.0
     smooth_least: float = 1e-3
     smooth_times: float = 2.5
@@ -120,8 +123,8 @@ class FeatureRules:
     def scaled(self, ratio: float) -> FeatureRules:
         """Give the rules with every length times a ratio: for the model of a ship."""
         lengths = (
-            "onset", "border", "smooth_least", "smooth_most", "adopt_least", "adopt_least_facets",
-            "near_least",
+            "onset", "border", "apart", "smooth_least", "smooth_most", "adopt_least",
+            "adopt_least_facets", "near_least",
         )  # fmt: skip
         return attrs.evolve(
             self,

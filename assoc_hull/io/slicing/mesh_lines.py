@@ -25,6 +25,7 @@ BTK 2.5 ('deck edge', 'deck edge')
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -270,7 +271,24 @@ def in_ship_axes(
         return turned, None
     axes = FileAxes.between(float(f"{factor:.12g}"), before.xyz, turned.xyz)
     frame = find_frame(outline_of_mesh(turned), options, book, where, axes=axes)
+    _suspect_trim(frame, options, book, where)
     return turned.moved(frame.moved(turned.xyz)), frame
+
+
+def _suspect_trim(frame: ShipFrame, options: FrameOptions, book: Notebook, where: str) -> None:
+    """Suspect a raked keel: a body lies in its file as it was drawn, which may be as it floats.
+
+    Offsets and lines are measured from a base line, so that a keel that rises there is raked.
+    """
+    known = options.draught_aft is not None or options.draught_fwd is not None
+    if frame.rake and not known:
+        angle = math.degrees(math.atan2(abs(frame.rake), frame.length))
+        end = "stern" if frame.rake > 0.0 else "bow"
+        what = (
+            f"the keel is straight and lies {angle:.3g} degrees deeper by the {end}: if the hull "
+            "is not built with such a rake but lies trimmed in the file, turn it level first"
+        )
+        book.suspect("trim", where, what, frame.rake)
 
 
 def cut_placed(
