@@ -415,10 +415,19 @@ def draw_flats(
             source, border = draw_boundary_curve(
                 flat.name, BoundaryKind.FLAT, course, rules, tolerance
             )
+            if _folds(source):
+                continue  # its marks are of no one border: lines end on the flat each for itself
             taken = _take(out, flat, loft_source(source))
             sources.append(source)
             borders.append(attrs.evolve(border, taken=taken))
     return out, sources, borders
+
+
+def _folds(source: LineSource) -> bool:
+    """Tell whether a border turns by more than a right angle other than at a knuckle."""
+    step = np.diff(source.points, axis=0)
+    back = (step[:-1] * step[1:]).sum(axis=1) < 0.0
+    return bool((back & (source.kind[1:-1] != PointKind.KNUCKLE)).any())
 
 
 def _rim_courses(flat: FlatFound, parts: list[PieceFeatures]) -> Iterator[BoundaryMarks]:
