@@ -625,7 +625,7 @@ def _triangulated(surfaces: Sequence[SplineSurface], along: int, up: int) -> Tri
 
 @cache
 def boat_truth() -> Truth:
-    """Measured on fine triangles; x = 0 at the transom is the AP, the FP at the water's end."""
+    """Measured on fine triangles; x from the transom is the AP, the FP at the water's end."""
     mesh = _triangulated(boat_surfaces(), 1201, 161)
     return truth_of_mesh(mesh, boat_length(), 2.0 * mesh.xyz[:, 1].max(), BOAT["draught"])
 
@@ -955,13 +955,13 @@ CORPUS: tuple[Foreign, ...] = (
          _w(_DRAUGHT, draught=3.2), _w(_BREADTH, breadth=10.0), _w(_UNIT, unit="mm")),
     ),
     Foreign(
-        "series60_070", "Series 60, CB .70: Todd's table, y/(B/2) and z/T, station 0 = FP, CSV",
+        "series60_070", "Series 60, CB .70: the same",
         _copy("series60", "s60_cb070_offsets.csv"), _ship("series60", 0.70),
         {"length": 121.92},
         (_w(_ZERO, station_zero="ap"), _w(_DRAUGHT, draught=11.0), _w(_BREADTH, breadth=25.0)),
     ),
     Foreign(
-        "dtc_model", "DTC: STL at 1:59.407, z = 0 at the keel, x from about AP",
+        "dtc_model", "DTC: STL at 1:59.407, z from the keel, x from about AP",
         _copy("dtc", "DTC-scaled.stl.gz"), dtc_truth,
         {"scale": 59.407, "length": 355.0, "draught": 14.5},
         (_w(_UNIT, scale=100.0), _w(_UNIT, scale=1.0), _w(_UNIT, unit="ft"),
@@ -976,28 +976,28 @@ CORPUS: tuple[Foreign, ...] = (
         cuts=_FEW,
     ),
     Foreign(
-        "wigley", "Wigley: WaveBEM's half surface, IGES, L = 2.5 m, z = 0 at the waterline",
+        "wigley", "Wigley: WaveBEM's half surface, IGES, 2.5 m, z from the waterline",
         _copy("wigley", "wavebem_wigley.iges"), wigley_truth, {"length": 2.5, "draught": 0.15625},
         (_w(_UNIT, unit="mm"), _w(_UNIT, scale=40.0), _w(_LENGTH, length=3.5),
          _w(_DRAUGHT, draught=0.12), _w(_BREADTH, breadth=0.5)),
         cuts=_FEW,
     ),
     Foreign(
-        "sysser1", "Sysser 1: yacht, CSV, m, blanks below a rising keel, x = 0 at the stern",
+        "sysser1", "Sysser 1: yacht, CSV, m, blanks below a rising keel, x from the stern",
         _copy("sysser1", "sysser01_offsets.csv"), sysser_truth,
         {"length": 10.0, "draught": 0.794},
         (_w(_UNIT, unit="mm"), _w(_UNIT, unit="ft"), _w(_LENGTH, length=16.0),
          _w(_DRAUGHT, draught=1.9)),
     ),
     Foreign(
-        "carrier_transom", "207k carrier: IGES curves in mm, x = 0 at the transom",
+        "carrier_transom", "207k carrier: IGES curves in mm, x from the transom",
         _export("carrier.igs", _shift("bulk_carrier_207k", 5.0, 0.0, 0.0), "iges-lines", "mm"),
         _ship("bulk_carrier_207k"), {"length": 300.0, "draught": 18.0, "deck": "closed"},
         (_w(_UNIT, unit="m"), _w(_UNIT, scale=0.5), _w(_LENGTH, length=200.0),
          _w(_DRAUGHT, draught=180.0), _w(_BREADTH, breadth=40.0), _w(_ORIGIN, ap=30.0)),
     ),
     Foreign(
-        "carrier_midship", "180 m carrier: DXF splines in mm, x = 0 midship, z = 0 at the "
+        "carrier_midship", "180 m carrier: DXF splines in mm, x from midship, z from the "
         "waterline",
         _export("carrier.dxf", _shift("bulk_carrier_180m", -90.0, 0.0, -10.5), "dxf", "mm"),
         _ship("bulk_carrier_180m"), {"length": 180.0, "draught": 10.5},
@@ -1005,7 +1005,7 @@ CORPUS: tuple[Foreign, ...] = (
          _w(_DRAUGHT, draught=7.5), _w(_ORIGIN, origin="fp"), _w(_BASE, base=-7.0)),
     ),
     Foreign(
-        "cargo_fp", "Cargo ship of 120 m: XLSX table, x = 0 at the FP and negative abaft",
+        "cargo_fp", "Cargo ship of 120 m: XLSX table, x from the FP, negative abaft",
         write_workbook, _made(partial(with_post, 1.0), True),
         {"length": 120.0, "draught": 7.2, "station_zero": "fp"},
         (_w(_UNIT, unit="mm"), _w(_LENGTH, length=80.0), _w(_DRAUGHT, draught=72.0),
@@ -1045,7 +1045,7 @@ CORPUS: tuple[Foreign, ...] = (
         cuts=_FEW,
     ),
     Foreign(
-        "yacht", "Sysser 1: the same table, z = 0 at the waterline", write_yacht, sysser_truth,
+        "yacht", "Sysser 1: the same table, z from the waterline", write_yacht, sysser_truth,
         {"length": 10.0, "draught": 0.794, "base": -0.794},
         (_w(_UNIT, unit="mm"), _w(_DRAUGHT, draught=1.3), _w(_LENGTH, length=16.0),
          _w(_BASE, base=-0.4)),
@@ -1069,8 +1069,8 @@ CORPUS: tuple[Foreign, ...] = (
         sections=True,
     ),
     Foreign(
-        "carrier_table", "207k carrier: her table, which cannot say what lies abaft bulb and "
-        "bossing", _export("carrier.csv", partial(shipped, "bulk_carrier_207k")),
+        "carrier_table", "207k carrier: her table",
+        _export("carrier.csv", partial(shipped, "bulk_carrier_207k")),
         _ship("bulk_carrier_207k", sections=True), {"deck": "closed"}, sections=True, sound=False,
     ),
     Foreign(

@@ -71,6 +71,28 @@ def test_a_border_is_smooth_within_the_doubt_of_its_places() -> None:
     assert np.linalg.norm(drawn - noisy, axis=1).max() <= 0.8
 
 
+def test_a_border_is_not_bent_by_a_place_that_is_less_sure_than_it_says() -> None:
+    """One of 41 lies five times its doubt off: the others count, and it is passed by."""
+    truth = border()
+    places = truth + np.random.default_rng(6).normal(0.0, 0.01, truth.shape) * [0.0, 1.0]
+    places[20, 1] += 0.2
+    drawn = fit_border(places, np.full(41, 0.04))
+    off = np.abs(drawn[:, 1] - 20.0 * (drawn[:, 0] / 100.0) ** 4)
+    assert off.max() <= 0.04
+
+
+def test_places_too_near_for_a_net_count_as_one() -> None:
+    """Two that contradict one another, 0.1 m apart, make no wave of a straight border."""
+    x = np.array([0.0, 2.0, 4.0, 6.0, 6.1, 8.0, 10.0, 12.0])
+    places = np.column_stack([x, 0.5 * x])
+    places[3, 1] -= 0.03
+    places[4, 1] += 0.03
+    doubt = np.full(8, 0.02)
+    apart, alone = (fit_border(places, doubt, apart=size) for size in (0.2, 0.0))
+    off = [np.abs(each[:, 1] - 0.5 * each[:, 0]).max() for each in (apart, alone)]
+    assert off[0] <= 5e-3 < off[1]
+
+
 def test_a_border_turns_where_it_surely_does() -> None:
     """A corner is kept, a turn that the doubt of its places explains is none."""
     places = np.array([[0.0, 9.0], [0.0, 6.0], [0.0, 3.0], [4.0, 3.0], [8.0, 3.0]])

@@ -82,12 +82,13 @@ def test_what_no_ship_can_have_is_a_fault(
     ("options", "said", "kind", "words"),
     [
         ({"length": 130.0}, "", "length", "1.300 of the 100 m from end to end"),
+        ({"length": 94.0}, "", "length", "0.940 of the waterline's 100 m at the draught"),
         ({"draught": 0.7, "breadth": 10.0}, "", "proportions", "B/T is 14.29"),
         ({}, ", CB = 0.70", "stated", "the file says CB 0.7, and the hull has 0.4"),
         ({}, ", V = 2300 m3", "stated", "the file says V 2300 m3, and the hull has 27"),
         ({}, ", LCB = -2.5 %", "stated", "the file says LCB -2.5 % of Lpp"),
     ],
-    ids=["Lpp", "B/T", "CB", "volume", "LCB"],
+    ids=["Lpp", "Lpp of the waterline", "B/T", "CB", "volume", "LCB"],
 )
 def test_what_few_ships_have_is_a_suspicion(
     options: dict[str, object], said: str, kind: str, words: str, tmp_path: Path

@@ -10,7 +10,9 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.cli import main
 from assoc_hull.io.mesh.frame import place_mesh
+from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.reports import Notebook
+from assoc_hull.io.slicing.mesh_lines import slice_mesh
 from tests import meshes
 
 X, Z = np.linspace(0.0, 100.0, 11), np.linspace(0.0, 7.0, 8)
@@ -77,3 +79,27 @@ def test_axes_may_begin_with_a_minus(tmp_path: Path, capsys: pytest.CaptureFixtu
     """What a suspicion advises can be typed: it is no option of its own."""
     assert main(["import", str(tmp_path / "none.stl"), "--axes", "-x-y+z", "-o", "a.hull"]) == 2
     assert "none.stl" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("degrees", "options", "told"),
+    [
+        (1.0, {"draught": 5.0}, "the keel is straight and lies 1 degrees deeper by the bow"),
+        (-0.3, {"draught": 5.0}, "the keel is straight and lies 0.3 degrees deeper by the stern"),
+        (1.0, {"draught_aft": 4.2, "draught_fwd": 5.8}, ""),
+        (0.0, {"draught": 5.0}, ""),
+    ],
+    ids=["by the bow", "by the stern", "trim given", "level"],
+)
+def test_a_mesh_that_lies_trimmed_is_told(
+    degrees: float, options: dict[str, float], told: str
+) -> None:
+    """A straight keel that is not level may be raked, or the hull may lie as it floats."""
+    sine, cosine = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
+    turn = np.array([[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]])
+    mesh = meshes.moved(meshes.closed_wigley(), lambda xyz: xyz @ turn)
+    frame = FrameOptions(length=100.0, **options)
+    cuts = {"stations": [25.0, 50.0], "waterlines": [2.0], "buttocks": [2.0]}
+    report = slice_mesh(mesh, **cuts, frame=frame).report  # type: ignore[arg-type]
+    said = [note.what for note in report.suspicions if note.kind == "trim"]
+    assert [each.partition(":")[0] for each in said] == [told][: len(told)]
