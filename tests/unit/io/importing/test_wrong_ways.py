@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -92,7 +93,7 @@ def test_axes_may_begin_with_a_minus(tmp_path: Path, capsys: pytest.CaptureFixtu
     ids=["by the bow", "by the stern", "trim given", "level"],
 )
 def test_a_mesh_that_lies_trimmed_is_told(
-    degrees: float, options: dict[str, float], told: str
+    degrees: float, options: dict[str, Any], told: str
 ) -> None:
     """A straight keel that is not level may be raked, or the hull may lie as it floats."""
     sine, cosine = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
