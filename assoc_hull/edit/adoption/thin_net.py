@@ -32,7 +32,7 @@ from assoc_hull.edit.adoption.thinning_state import (
     loft_orders,
     thinned_at,
 )
-from assoc_hull.geometry.curves import PointKind, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, PointKind, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.model.kinds import Role
@@ -199,13 +199,64 @@ def thin_net(net: ReferenceNet) -> ThinnedNet:
         worst, left = find_worst(net, splines, orders, work)
         # gaps come last, when every curve holds its own points
         worst = worst or find_wide(net, splines, orders, work, roles)
-        if not worst:
+        if not worst and not _unfold(work, orders):
             break
         for curve, point in worst:
             _take_in(work, curve, point, orders[curve])
     orders = [_spread(work, curve, order) for curve, order in enumerate(orders)]
     orders, more = remove_added_inflections(work, orders)
     return _outcome(work, roles, orders, [*left, *more])
+
+
+def _unfold(work: ThinningState, orders: list[list[CurveItem]]) -> bool:
+    """Bar crossings at which dense curves fold; False if there are none.
+
+    Where the line that drives a crossing passes the other's plane at a small angle, the place is
+    off along that plane by far more than the lines are off one another.
+    """
+    found = False
+    for curve, order in enumerate(orders):
+        if work.net.sources[curve].dense and len(order) > _SMALLEST:
+            item = _folding(work, curve, order)
+            if item is not None:
+                work.chosen[curve].discard(item.number)
+                work.barred.add((curve, item.number))
+                found = True
+    return found
+
+
+_SMALLEST = 4
+"""A curve through so few points folds whichever is left out."""
+
+
+def _folding(work: ThinningState, curve: int, order: list[CurveItem]) -> CurveItem | None:
+    """Give the crossing without which the chords of a curve fold no more; None if none does."""
+    numbers = work.numbers(order)
+    xyz = work.given.xyz[numbers]
+    kind = work.given.on(np.full(len(order), curve), numbers)[0]
+    folds = np.flatnonzero((_cosines(xyz) < 0.0) & (kind[1:-1] == PointKind.SMOOTH)) + 1
+    for place in folds.tolist():
+        near = range(max(place - 1, 1), min(place + 2, len(order) - 1))
+        free = [i for i in near if _is_free(work, curve, order[i])]
+        part = slice(max(place - 3, 0), place + 4)
+        left = {i: float(_cosines(np.delete(xyz, i, axis=0)[part]).min(initial=1.0)) for i in free}
+        best = max(left, key=lambda i: left[i], default=-1)
+        if best >= 0 and left[best] > 0.0:
+            return order[best]
+    return None
+
+
+def _is_free(work: ThinningState, curve: int, item: CurveItem) -> bool:
+    """Tell whether an item is a crossing that defines a curve by the rule alone."""
+    meeting = len(work.net.contacts) <= item.number < work.fixed_count
+    return meeting and not item.fixed and item.number in work.chosen[curve]
+
+
+def _cosines(xyz: FloatArray) -> FloatArray:
+    """Give the cosines between neighbouring chords through places, (n - 2,)."""
+    step = np.diff(xyz, axis=0)
+    step = step / np.maximum(np.sqrt((step * step).sum(axis=1)), 1e-12)[:, None]
+    return np.asarray((step[1:] * step[:-1]).sum(axis=1))
 
 
 _BADLY, _TIGHT = 1.0, 0.25

@@ -149,6 +149,8 @@ class ThinningState:
         By curve, the numbers through which it was last found to hold its line.
     given : NumberedItems
         All that has a number, as columns.
+    barred : set of (int, int)
+        Curves and the numbers of crossings at which they would fold.
     fixed_count : int
         Number of contacts and meetings; points are counted after them.
     """
@@ -159,6 +161,7 @@ class ThinningState:
     points: list[PointItem]
     held: dict[int, list[int]]
     given: NumberedItems = attrs.field(init=False)
+    barred: set[tuple[int, int]] = attrs.field(factory=set, init=False)
     fixed_count: int = attrs.field(init=False)
 
     def __attrs_post_init__(self) -> None:
@@ -247,7 +250,8 @@ def is_thinned(work: ThinningState, curve: int, item: CurveItem) -> bool:
     slides along the hull by metres where the hull moves by millimetres.
     """
     steep = item.angle_deg >= work.net.state.tolerances.transversal_deg
-    return steep and item.number < work.fixed_count and item.number not in work.chosen[curve]
+    left = item.number not in work.chosen[curve] and (curve, item.number) not in work.barred
+    return steep and item.number < work.fixed_count and left
 
 
 def thinned_at(work: ThinningState, curve: int, point: int) -> int | None:

@@ -76,8 +76,9 @@ def join_straight_runs(
         chains.append(chain)
     found: list[FlatRegion] = []
     taken: set[int] = set()
+    back = _turned(beside)
     for chain in sorted(chains, key=lambda each: (-len(each), each)):
-        if taken.isdisjoint(chain):
+        if taken.isdisjoint(chain) and not _is_curved(chain, beside, back, begin, end, within):
             taken |= set(chain)
             normal, offset, _ = fit_plane(_ends(chain, begin, end), within)
             found.append(FlatRegion(tuple(chain), normal, offset))
@@ -163,6 +164,32 @@ def _grow(
         if not ways or min(ways)[0] > within:
             return out
         out.append(min(ways)[1])
+
+
+_BEND = np.tan(np.deg2rad(8.0))
+"""A wall whose next line leaves the plane of the last ones by less bends on; by more it breaks."""
+
+
+def _is_curved(
+    chain: list[int], links: _Links, back: _Links, begin: FloatArray, end: FloatArray, within: float
+) -> bool:
+    """Tell whether straight lines in an oblique plane go on beside it and bend off it.
+
+    Few lines of an upright wall that is curved along the ship lie in one plane as nearly as is
+    asked; a flat across an axis has its wall beside it too, and is none the less flat.
+    """
+    normal, offset, _ = fit_plane(_ends(chain, begin, end), within)
+    if 1.0 in normal:
+        return False
+    middle = 0.5 * (begin + end)
+    for last, beyond in ((chain[-1], links[chain[-1]]), (chain[0], back[chain[0]])):
+        for other in beyond:
+            off = max(abs(float(place @ normal) - offset) for place in (begin[other], end[other]))
+            step = middle[other] - middle[last]
+            away = float(np.sqrt(max(step @ step - float(step @ normal) ** 2, 0.0)))
+            if off < _BEND * away:
+                return True
+    return False
 
 
 def _ends(chain: list[int], begin: FloatArray, end: FloatArray) -> FloatArray:

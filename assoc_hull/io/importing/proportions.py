@@ -23,7 +23,7 @@ from assoc_hull.errors import OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.importing.soundness import look, sampled_places
 from assoc_hull.io.importing.verdict import Findings
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import HullState, Particulars
 
 __all__ = ["examine_certainty", "examine_particulars"]
 
@@ -31,6 +31,9 @@ _RATIOS = {
     "L/B": (2.0, 15.0), "B/T": (1.2, 12.0), "B/D": (0.8, 12.0),
 }  # fmt: skip
 """Between these lie nearly all ships, from pontoons to racing shells' neighbours."""
+
+_BROAD, _FLAT, _FINE, _SHIP = 4.2, 4.0, 0.8, 60.0
+"""Of ships over 60 m only pontoons, which are full, are broader than L / 4.2 and than 4 T."""
 
 _USUAL = {"cb": (0.25, 0.95), "cm": (0.3, math.inf)}
 _COEFFICIENTS = ("cb", "cm", "cx", "cp", "cw")
@@ -93,6 +96,7 @@ def examine_particulars(
             lambda hull=hull: _examine_sizes(state, hull, found),
             lambda hull=hull: _examine_breadth(state, hull, found) if broad else None,
             lambda: _examine_draught(state, found),
+            lambda hull=hull: _examine_broad(state.particulars, hull.record, found),
             lambda hull=hull: _examine_coefficients(hull, found),
             lambda hull=hull: _examine_stated(state, hull, stated or {}, found),
         ):
@@ -278,6 +282,25 @@ def examine_certainty(record: Hydrostatics | None, found: Findings) -> None:
             "waterlines where the hull bends, above all at its ends and the bilge"
         )
         found.suspect("few lines", "the net", what, most)
+
+
+def _examine_broad(ship: Particulars, record: Hydrostatics | None, found: Findings) -> None:
+    """Suspect a fine ship as broad as full breadths, or feet read as metres, make her."""
+    if record is None or ship.length < _SHIP or not record.cb < _FINE:
+        return
+    slender, flat = ship.length / ship.breadth, ship.breadth / ship.draught
+    if slender < _BROAD and flat > _FLAT and _within("L/B", slender) and _within("B/T", flat):
+        what = (
+            f"L/B is {slender:.3g}, B/T {flat:.3g} and CB {record.cb:.2g}, as of few ships over "
+            f"{_SHIP:g} m: are the half-breadths full breadths, or in another unit (feet)? "
+            "give half of each, or unit="
+        )
+        found.suspect("proportions", "the particulars", what, slender)
+
+
+def _within(name: str, value: float) -> bool:
+    low, high = _RATIOS[name]
+    return low <= value <= high
 
 
 def _examine_stated(

@@ -22,6 +22,7 @@ __all__ = ["compare_areas", "compare_beams", "examine_lines", "section_areas"]
 def examine_lines(patient: ExaminedTable, book: Notebook) -> None:
     """Note rows and columns that do not fit those beside them; nothing is changed."""
     _doubled(patient, book)
+    _doubled_columns(patient, book)
     _misfits(patient, book)
     _steps(patient, book)
     _gaps(patient, book)
@@ -71,6 +72,27 @@ def _doubled(patient: ExaminedTable, book: Notebook) -> None:
             names = f"stations {patient.stations[i]} and {patient.stations[i + 1]}"
             what = "all their half-breadths are the same, and the hull changes beside them"
             book.suspect("doubled station", names, what, float(patient.x[i + 1] - patient.x[i]))
+
+
+_CHANGE = 5e-3
+"""Part of the half-breadth by which columns beside two of the same numbers must differ."""
+
+
+def _doubled_columns(patient: ExaminedTable, book: Notebook) -> None:
+    """Note waterlines with the same numbers at all stations, where those beside them differ.
+
+    Of a hull with upright sides those above or below are the same too.
+    """
+    y = np.nan_to_num(patient.y)
+    step = np.abs(np.diff(y, axis=1))
+    same = (step <= 0.2 * patient.rounding[:-1]).all(axis=0) & (y[:, 1:].max(axis=0) > 0.0)
+    change, half = step.mean(axis=0), patient.breadth / 2.0
+    least = np.maximum(_CHANGE * half, 5.0 * patient.rounding[:-1])
+    for j in np.flatnonzero(same[1:-1]) + 1:
+        if min(change[j - 1], change[j + 1]) > least[j]:
+            names = f"waterlines at {patient.z[j]:.6g} and {patient.z[j + 1]:.6g} m"
+            what = "all their half-breadths are the same, and the hull changes beside them"
+            book.suspect("doubled waterline", names, what, float(patient.z[j + 1] - patient.z[j]))
 
 
 def _misfits(patient: ExaminedTable, book: Notebook) -> None:

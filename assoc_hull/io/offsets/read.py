@@ -182,6 +182,10 @@ _LONE = 0.02
 """Part of the cells that may be beyond B/2 and count as wrong numbers, not as a wrong unit."""
 
 
+_ROUNDED = 1e-3
+"""A breadth may be told with so few digits that half-breadths exceed its half by this part."""
+
+
 def _refuse_wide(
     sheet: OffsetSheet,
     half_breadth: FloatArray,
@@ -191,13 +195,13 @@ def _refuse_wide(
 ) -> None:
     """Refuse half-breadths beyond B/2; a few among many are faults of the table."""
     half = scale.breadth / 2.0
-    wide = np.argwhere(half_breadth > half + rounding * (1.0 + 1e-6) + 1e-9 * half)
+    wide = np.argwhere(half_breadth > half + np.maximum(rounding * (1.0 + 1e-6), _ROUNDED * half))
     lone = len(wide) <= max(1.0, _LONE * half_breadth.size)
     for i, j in wide:
         column = sheet.columns.waterlines[j]
         times = half_breadth[i, j] / half
         what = (
-            f"the half-breadth {sheet.offsets[i, j]:g} is {half_breadth[i, j]:.6g} m, {times:.4g} "
+            f"the half-breadth {sheet.offsets[i, j]:g} is {half_breadth[i, j]:.6g} m, {times:.5g} "
             f"times B/2 = {half:.6g} m"
         )
         remedy = "correct the number, or give breadth= or unit='mm'"
@@ -657,13 +661,14 @@ def _sizes(sheet: OffsetSheet) -> PrintedSizes:
     waterlines = sheet.columns.waterlines
     bare = all(column.unit is None for column in waterlines)
     top = max(abs(waterlines[0].value), abs(waterlines[-1].value)) if bare else np.nan
-    plain = sheet.x is not None and sheet.columns.single["x"].unit is None
+    along = None if sheet.x is None else sheet.columns.single["x"].unit
     return PrintedSizes(
         _borne_out(sheet),
         float(np.nanpercentile(sheet.offsets, 95)),
         top,
-        float(np.ptp(sheet.x)) if plain and sheet.x is not None else np.nan,
+        float(np.ptp(sheet.x)) if along is None and sheet.x is not None else np.nan,
         sheet.printed_unit,
+        along,
     )
 
 

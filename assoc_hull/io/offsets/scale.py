@@ -78,8 +78,8 @@ class PrintedSizes:
         One that only a twentieth exceed: a single wrong number must not decide on the unit.
     top, span : float
         Highest waterline; from the first station to the last.
-    unit : str or None
-        Unit of the half-breadths where the cells tell it.
+    unit, along : str or None
+        Units of the half-breadths where the cells tell it, and of x where its column does.
     """
 
     largest: float
@@ -87,6 +87,7 @@ class PrintedSizes:
     top: float = math.nan
     span: float = math.nan
     unit: str | None = None
+    along: str | None = None
 
 
 def find_scale(
@@ -124,8 +125,7 @@ def find_scale(
     _compare("B/T", hints.breadth_draught, breadth, draught, book)
     _tell_units(given, told, book)
     across = given.y or told.y or likely_unit(printed, breadth, book, source)
-    if given.y is None:
-        _tell_mixed(across, told, book, source)
+    _tell_mixed(across, given, told, printed.along, book, source)
     if across == "normalised":
         sizes = (length, breadth, draught)
         return _normalised(given, told, printed, sizes, book, source)
@@ -285,12 +285,22 @@ def likely_unit(printed: PrintedSizes, breadth: float | None, book: Notebook, so
 _ENGLISH = ("ft", "in")
 
 
-def _tell_mixed(unit: str, told: BlockUnits, book: Notebook, source: str) -> None:
-    """Suspect half-breadths taken as metric beside heights that are told to be English."""
-    if told.y is None and told.z in _ENGLISH and unit in ("m", "mm"):
+def _tell_mixed(
+    unit: str, given: BlockUnits, told: BlockUnits, along: str | None, book: Notebook, source: str
+) -> None:
+    """Suspect half-breadths taken as metric beside heights or x that are told to be English."""
+    if told.y is not None or unit not in ("m", "mm"):
+        return
+    if given.y is None and told.z in _ENGLISH:
         what = (
             f"heights are in {told.z} and nothing tells the unit of the half-breadths, taken as "
             f"{unit} by their size: give unit={told.z!r}, or unit='{unit},{told.z}' if it is so"
+        )
+        book.suspect("unit", source, what)
+    elif along in _ENGLISH and given.x != along:
+        what = (
+            f"x is in {along} by the name of its column, and half-breadths are taken as {unit}: "
+            f"give unit={along!r}, or unit='{unit},{unit},{along}' if it is so"
         )
         book.suspect("unit", source, what)
 

@@ -111,7 +111,7 @@ def classify_columns(block: TableBlock, book: Notebook) -> OffsetColumns:
         raise BadInputError(
             "there is neither a station nor an x column",
             f"{block.source}, header {','.join(block.header)[:60]!r}",
-            "name one column 'station' or 'x_m'",
+            "name one column 'station', or by its unit 'x_m', 'x_mm' or 'x_ft'",
         )
     _tell_left(left, families["waterline"], block, book)
     ordered = [_ascending(family, block, book) for family in families.values()]

@@ -466,7 +466,8 @@ def _other_unit(size: float, length: float) -> str:
         return ""  # a waterline that is a point has no length to compare with
     for unit in ("ft", "in", "cm", "mm"):
         if abs(size * METRES[unit] / length - 1.0) < _NEAR:
-            return f"are these {_WORDS[unit]}? give unit='{unit}'; else "
+            named = f"of a column named in m name it 'x_{unit}'"
+            return f"are these {_WORDS[unit]}? give unit='{unit}', {named}; else "
     return ""
 
 

@@ -14,26 +14,36 @@ from assoc_hull.io.mesh.frame import place_mesh
 from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.slicing.mesh_lines import slice_mesh
+from assoc_hull.io.units import METRES
 from tests import meshes
 
 X, Z = np.linspace(0.0, 100.0, 11), np.linspace(0.0, 7.0, 8)
 
 
-def table(path: Path, *, comment: str = "", z_unit: str = "", scale: float = 1.0) -> Path:
-    """A ship's table of half-breadths in metres times a scale; heights in metres, or in feet."""
+def table(
+    path: Path, *, comment: str = "", z_unit: str = "", scale: float = 1.0, x_unit: str = "",
+    copied: int | None = None,
+) -> Path:  # fmt: skip
+    """A ship's table of half-breadths in metres times a scale; heights in metres, or in feet.
+
+    Stations are numbers, or x in a unit; `copied` is the waterline that the next one is a copy of.
+    """
     foot = 0.3048 if z_unit else 1.0
     heads = ",".join(f"WL {z / foot:.4f} {z_unit}".strip() for z in Z)
-    rows = [comment, f"station,{heads}"]
+    rows = [comment, f"{f'x_{x_unit}' if x_unit else 'station'},{heads}"]
     for i, x in enumerate(X):
         half = 7.0 * (1.0 - (abs(x - 50.0) / 50.0) ** 3) * (1.0 - (1.0 - Z / 7.0) ** 2)
-        rows.append(f"{i}," + ",".join(f"{scale * y:.4f}" for y in half))
+        if copied is not None:
+            half[copied + 1] = half[copied]
+        place = f"{x / METRES[x_unit]:.4f}" if x_unit else f"{i}"
+        rows.append(f"{place}," + ",".join(f"{scale * y:.4f}" for y in half))
     path.write_text("\n".join(row for row in rows if row) + "\n")
     return path
 
 
 def suspicions(path: Path, **options: object) -> str:
     """What an import suspects, one a line."""
-    hull = ah.read(path, accept=True, station_zero="ap", **options)  # type: ignore[arg-type]
+    hull = ah.read(path, accept=True, **{"station_zero": "ap", **options})  # type: ignore[arg-type]
     assert hull.adoption is not None
     return "\n".join(note for note in hull.adoption.notes if note.startswith("suspicion"))
 
@@ -53,6 +63,44 @@ def test_heights_in_feet_beside_half_breadths_of_no_unit_are_told(tmp_path: Path
     assert "give unit='ft', or unit='m,ft' if it is so" in told
     right = ah.read(path, length=100, draught=5, unit="ft", station_zero="ap")
     assert right.particulars.breadth == pytest.approx(14.0 * (1.0 - (2.0 / 7.0) ** 2), rel=1e-3)
+
+
+def test_x_in_feet_beside_half_breadths_of_no_unit_is_told(tmp_path: Path) -> None:
+    """As much as feet read as metres; what is advised settles it, for all or for x alone."""
+    feet = table(tmp_path / "a.csv", x_unit="ft", scale=1.0 / 0.3048)
+    given: dict[str, Any] = {"length": 100, "draught": 5, "station_zero": "auto"}
+    for unit in ("auto", "m"):
+        told = suspicions(feet, **given, unit=unit)
+        assert "x is in ft by the name of its column" in told
+        assert "give unit='ft', or unit='m,m,ft' if it is so" in told
+    mixed = table(tmp_path / "b.csv", x_unit="ft")
+    assert "x is in ft" not in suspicions(mixed, **given, unit="m,m,ft")
+
+
+def test_a_fine_ship_that_is_very_broad_is_told(tmp_path: Path) -> None:
+    """Full breadths without a word, or feet read as metres, make her so."""
+    full = table(tmp_path / "a.csv", scale=2.0)
+    told = suspicions(full, length=100, draught=5)
+    assert "L/B is 3.89, B/T 5.14 and CB" in told
+    assert "are the half-breadths full breadths" in told
+    assert "full breadths" not in suspicions(table(tmp_path / "b.csv"), length=100, draught=5)
+
+
+def test_a_waterline_that_is_a_copy_of_the_next_is_told(tmp_path: Path) -> None:
+    """Not so of a hull whose sides are upright from there up."""
+    copied = table(tmp_path / "a.csv", copied=3)
+    told = suspicions(copied, length=100, draught=5)
+    assert (
+        "doubled waterline: waterlines at 3 and 4 m: all their half-breadths are the same" in told
+    )
+    assert "doubled" not in suspicions(table(tmp_path / "b.csv"), length=100, draught=5)
+
+
+def test_a_breadth_of_four_digits_fits_its_table(tmp_path: Path) -> None:
+    """B/2 of few digits may lie below the largest half-breadth by a thousandth."""
+    path = table(tmp_path / "a.csv")
+    hull = ah.read(path, length=100, draught=5, breadth=13.99, station_zero="ap")
+    assert hull.particulars.breadth == 13.99
 
 
 def test_a_depth_far_below_the_deck_is_told(tmp_path: Path) -> None:
