@@ -21,6 +21,7 @@ __all__ = [
     "ExaminedTable",
     "examine_offsets",
     "lone_values",
+    "most_half_breadth",
     "predicted_values",
     "wild_values",
 ]
@@ -38,6 +39,15 @@ _AT_ENDS = 7.0
 _MOST = 12
 _NOISE = 3e-4
 """Offsets count as rounded to no less than this part of the largest."""
+
+
+_DIGITS = 5e-4
+"""A breadth of four digits is told to this part of itself."""
+
+
+def most_half_breadth(half: float, rounding: FloatArray) -> FloatArray:
+    """Give what a half-breadth may be beside B/2, (w,), m, by what both are rounded to."""
+    return np.asarray(half + np.maximum(rounding * (1.0 + 1e-6), _DIGITS * half))
 
 
 def predicted_values(place: FloatArray, value: FloatArray) -> FloatArray:
@@ -259,7 +269,7 @@ def _outer_blanks(patient: ExaminedTable, i: int, first: int, last: int, book: N
 def _beyond(patient: ExaminedTable, book: Notebook) -> None:
     half = patient.breadth / 2.0
     # What is beyond B/2 by more than its rounding is a fault, and told with its cell.
-    within = half + patient.rounding * (1.0 + 1e-6) + 1e-9 * half
+    within = most_half_breadth(half, patient.rounding)
     above = (patient.y > half * (1.0 + 1e-12)) & (patient.y <= within)
     if above.any():
         most = float(patient.y[above].max()) - half

@@ -21,7 +21,12 @@ from assoc_hull.io.offsets.damage import (
     examine_bottom,
     examine_lines,
 )
-from assoc_hull.io.offsets.doctor import ExaminedTable, examine_offsets, wild_values
+from assoc_hull.io.offsets.doctor import (
+    ExaminedTable,
+    examine_offsets,
+    most_half_breadth,
+    wild_values,
+)
 from assoc_hull.io.offsets.hints import OffsetHints, read_hints
 from assoc_hull.io.offsets.scale import (
     OffsetScale,
@@ -178,12 +183,11 @@ def _rounding(
     return rounding * scale.y
 
 
+_PLAINLY = 1.01
+"""Beyond so many times B/2 four digits tell it."""
+
 _LONE = 0.02
 """Part of the cells that may be beyond B/2 and count as wrong numbers, not as a wrong unit."""
-
-
-_ROUNDED = 1e-3
-"""A breadth may be told with so few digits that half-breadths exceed its half by this part."""
 
 
 def _refuse_wide(
@@ -195,13 +199,14 @@ def _refuse_wide(
 ) -> None:
     """Refuse half-breadths beyond B/2; a few among many are faults of the table."""
     half = scale.breadth / 2.0
-    wide = np.argwhere(half_breadth > half + np.maximum(rounding * (1.0 + 1e-6), _ROUNDED * half))
+    wide = np.argwhere(half_breadth > most_half_breadth(half, rounding))
     lone = len(wide) <= max(1.0, _LONE * half_breadth.size)
     for i, j in wide:
         column = sheet.columns.waterlines[j]
         times = half_breadth[i, j] / half
+        told = f"{times:.4g}" if times > _PLAINLY else f"{times:.6g}"
         what = (
-            f"the half-breadth {sheet.offsets[i, j]:g} is {half_breadth[i, j]:.6g} m, {times:.5g} "
+            f"the half-breadth {sheet.offsets[i, j]:g} is {half_breadth[i, j]:.6g} m, {told} "
             f"times B/2 = {half:.6g} m"
         )
         remedy = "correct the number, or give breadth= or unit='mm'"

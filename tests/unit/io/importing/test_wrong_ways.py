@@ -99,8 +99,8 @@ def test_a_waterline_that_is_a_copy_of_the_next_is_told(tmp_path: Path) -> None:
 def test_a_breadth_of_four_digits_fits_its_table(tmp_path: Path) -> None:
     """B/2 of few digits may lie below the largest half-breadth by a thousandth."""
     path = table(tmp_path / "a.csv")
-    hull = ah.read(path, length=100, draught=5, breadth=13.99, station_zero="ap")
-    assert hull.particulars.breadth == 13.99
+    hull = ah.read(path, length=100, draught=5, breadth=13.995, station_zero="ap")
+    assert hull.particulars.breadth == 13.995
 
 
 def test_a_depth_far_below_the_deck_is_told(tmp_path: Path) -> None:

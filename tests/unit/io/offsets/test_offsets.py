@@ -344,7 +344,8 @@ def test_a_missing_flat_of_bottom_is_suspected(fill: float) -> None:
 
 
 def test_above_half_the_breadth_within_rounding_is_told() -> None:
-    """Half a printed digit above B/2 passes with a note; more is refused."""
+    """Half a printed digit above B/2 passes with a note, or what a breadth of few digits lacks;
+    more is refused."""
     offsets = np.minimum(fair_offsets(), 15.99)
     offsets[10, 8] = 15.99
     report = read(csv_text(offsets, digits=2), breadth=31.975)[1]
