@@ -15,6 +15,7 @@ import numpy as np
 
 from assoc_hull.edit.adoption.match_crossings import Contact, LineIntersection
 from assoc_hull.edit.adoption.thinned_deviations import (
+    chord_cosines,
     distances,
     find_wide,
     find_worst,
@@ -32,7 +33,7 @@ from assoc_hull.edit.adoption.thinning_state import (
     loft_orders,
     thinned_at,
 )
-from assoc_hull.geometry.curves import FloatArray, PointKind, SplineBatch
+from assoc_hull.geometry.curves import PointKind, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.model.kinds import Role
@@ -234,12 +235,14 @@ def _folding(work: ThinningState, curve: int, order: list[CurveItem]) -> CurveIt
     numbers = work.numbers(order)
     xyz = work.given.xyz[numbers]
     kind = work.given.on(np.full(len(order), curve), numbers)[0]
-    folds = np.flatnonzero((_cosines(xyz) < 0.0) & (kind[1:-1] == PointKind.SMOOTH)) + 1
+    folds = np.flatnonzero((chord_cosines(xyz) < 0.0) & (kind[1:-1] == PointKind.SMOOTH)) + 1
     for place in folds.tolist():
         near = range(max(place - 1, 1), min(place + 2, len(order) - 1))
         free = [i for i in near if _is_free(work, curve, order[i])]
         part = slice(max(place - 3, 0), place + 4)
-        left = {i: float(_cosines(np.delete(xyz, i, axis=0)[part]).min(initial=1.0)) for i in free}
+        left = {
+            i: float(chord_cosines(np.delete(xyz, i, axis=0)[part]).min(initial=1.0)) for i in free
+        }
         best = max(left, key=lambda i: left[i], default=-1)
         if best >= 0 and left[best] > 0.0:
             return order[best]
@@ -250,13 +253,6 @@ def _is_free(work: ThinningState, curve: int, item: CurveItem) -> bool:
     """Tell whether an item is a crossing that defines a curve by the rule alone."""
     meeting = len(work.net.contacts) <= item.number < work.fixed_count
     return meeting and not item.fixed and item.number in work.chosen[curve]
-
-
-def _cosines(xyz: FloatArray) -> FloatArray:
-    """Give the cosines between neighbouring chords through places, (n - 2,)."""
-    step = np.diff(xyz, axis=0)
-    step = step / np.maximum(np.sqrt((step * step).sum(axis=1)), 1e-12)[:, None]
-    return np.asarray((step[1:] * step[:-1]).sum(axis=1))
 
 
 _BADLY, _TIGHT = 1.0, 0.25

@@ -27,6 +27,7 @@ from assoc_hull.model.gaps import crossing_normals
 from assoc_hull.model.kinds import Role
 
 __all__ = [
+    "chord_cosines",
     "distances",
     "find_wide",
     "find_worst",
@@ -68,6 +69,13 @@ def has_room(edges: FloatArray, at: FloatArray, spacing: float) -> BoolArray:
     return np.asarray(edges[number] - edges[number - 1] >= spacing)
 
 
+def chord_cosines(xyz: FloatArray) -> FloatArray:
+    """Give the cosines between neighbouring chords through places (n, 3), (n - 2,)."""
+    step = np.diff(xyz, axis=0)
+    step = step / np.maximum(np.linalg.norm(step, axis=1), 1e-12)[:, None]
+    return np.asarray((step[1:] * step[:-1]).sum(axis=1))
+
+
 def sharp_turn(
     known: FloatArray, edges: FloatArray, at: FloatArray, knuckle: BoolArray, factor: float = 1.0
 ) -> int:
@@ -76,9 +84,7 @@ def sharp_turn(
     `known` (k, 3) and `edges` (k,), m, are the defining points and their parameters; those at a
     `knuckle` (k,) may turn as they like. `factor` is that of the tolerances of the hull.
     """
-    step = np.diff(known, axis=0)
-    step = step / np.maximum(np.linalg.norm(step, axis=1), 1e-12)[:, None]
-    cosine = (step[1:] * step[:-1]).sum(axis=1)
+    cosine = chord_cosines(known)
     for i in np.flatnonzero((cosine < _FOLD) & ~knuckle[1:-1]).tolist():
         wide = i if edges[i + 1] - edges[i] > edges[i + 2] - edges[i + 1] else i + 1
         low, high = float(edges[wide]), float(edges[wide + 1])
