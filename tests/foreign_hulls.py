@@ -574,6 +574,55 @@ def write_frigate(folder: Path) -> Path:
     return write(Triangles(file_axes, shell.face[:, ::-1]), folder / "frigate.stl")
 
 
+# Meshes of a row of points a station, as a script of one's own writes them: a boat with a V bottom,
+# and a ship with flat side, flat bottom and round bilges. The triangles themselves are the truth.
+
+
+@cache
+def vee_boat_mesh(along: int, around: int) -> Triangles:
+    """The port half of a boat of 20 m: bottom and side ruled, the chine ends in a raked stem."""
+    stations = []
+    for part in np.linspace(0.0, 1.0, along).tolist():
+        plan = 1.0 if part < 0.4 else 1.0 - ((part - 0.4) / 0.6) ** 2
+        chine, deck = 0.55 + 1.1 * part**3, 2.4 + 0.5 * part**2
+        keel = chine * max(0.0, (part - 0.55) / 0.45) ** 2
+        corner = np.array(
+            [[18.0 * part, 0.0, keel], [18.0 * part, 2.125 * plan, chine],
+             [20.0 * part, 2.5 * plan**0.7, deck]]
+        )  # fmt: skip
+        step = np.linspace(0.0, 2.0, 2 * around - 1)
+        stations.append([np.interp(step, [0.0, 1.0, 2.0], column) for column in corner.T])
+    return grid_triangles(np.moveaxis(np.array(stations), 1, 2))
+
+
+@cache
+def box_ship_mesh(along: int, around: int) -> Triangles:
+    """The port half of a ship of 100 x 16 x 10 m, bilge radius 2 m, ends of her lines parabolic."""
+    stations = []
+    for x in (50.0 * (1.0 - np.cos(np.linspace(0.0, np.pi, along)))).tolist():
+        away = max(0.35 - 0.01 * x, 0.01 * x - 0.65, 0.0) / 0.35
+        half = 8.0 * (1.0 - away**2)
+        flat, turn = max(half - min(2.0, half), 0.0), np.linspace(0.0, np.pi / 2, around)[1:]
+        bilge = half - flat
+        y = [np.linspace(0.0, flat, around), flat + bilge * np.sin(turn), np.full(around - 1, half)]
+        z = [np.zeros(around), bilge * (1.0 - np.cos(turn)), np.linspace(bilge, 10.0, around)[1:]]
+        each = np.concatenate(y), np.concatenate(z)
+        stations.append(np.column_stack([np.full(len(each[0]), x), *each]))
+    return grid_triangles(np.array(stations))
+
+
+def _whole(half: Callable[[], Triangles], name: str) -> Callable[[Path], Path]:
+    """Write both halves of a mesh, without deck, as a STL."""
+
+    def made(folder: Path) -> Path:
+        port = half()
+        both = port.xyz, port.xyz * [1.0, -1.0, 1.0]
+        face = np.concatenate([port.face, port.face[:, ::-1] + len(port.xyz)])
+        return write(Triangles(np.concatenate(both), face), folder / f"{name}.stl")
+
+    return made
+
+
 # The chine boat: ruled surfaces between keel, chine and sheer.
 
 BOAT = {"draught": 0.62, "depth": 1.9}
@@ -1035,6 +1084,22 @@ CORPUS: tuple[Foreign, ...] = (
         "chine_boat", "Planing boat of 12 m, hard chine: IGES surfaces in mm, port half",
         write_boat, boat_truth, {"length": round(boat_length(), 4), "draught": 0.62},
         (_w(_UNIT, unit="m"), _w(_LENGTH, length=7.0), _w(_DRAUGHT, draught=6.2)),
+        cuts=_FEW,
+    ),
+    Foreign(
+        "vee_boat", "Boat of 20 m, V bottom, raked stem: STL of 41 stations, whole, no deck",
+        _whole(lambda: vee_boat_mesh(41, 7), "vee_boat"),
+        lambda: truth_of_mesh(vee_boat_mesh(41, 7), 16.68, 4.432, 1.0),
+        {"length": 16.68, "draught": 1.0},
+        (_w(_UNIT, unit="ft"), _w(_LENGTH, length=20.0), _w(_DRAUGHT, draught=2.6)),
+        cuts=_FEW,
+    ),
+    Foreign(
+        "box_ship", "Flat-sided ship of 100 m, bilge radius 2 m: STL of 81 stations, no deck",
+        _whole(lambda: box_ship_mesh(81, 13), "box_ship"),
+        lambda: truth_of_mesh(box_ship_mesh(81, 13), 100.0, 16.0, 6.0),
+        {"length": 100.0, "draught": 6.0},
+        (_w(_UNIT, unit="ft"), _w(_LENGTH, length=115.0), _w(_DRAUGHT, draught=60.0)),
         cuts=_FEW,
     ),
     Foreign(

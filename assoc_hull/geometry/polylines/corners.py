@@ -100,7 +100,11 @@ def find_corners(points: FloatArray, noise: float, rule: CornerRule | None = Non
     refined = [
         _refine(points, length, at, share, half, places, noise, wanted) for at, share, half in found
     ]
-    return sorted(refined + _lone_turns(points, length, seen, noise), key=lambda each: each.at)
+    lone = [
+        each for each in _lone_turns(points, length, seen, noise)
+        if all(abs(each.at - other.at) > 0.5 * other.stretch for other in refined)
+    ]  # fmt: skip
+    return sorted(refined + lone, key=lambda each: each.at)
 
 
 _LONE_DEG, _LONE = 30.0, 0.8
@@ -109,11 +113,16 @@ _LONE_DEG, _LONE = 30.0, 0.8
 _SHARP_DEG = 75.0
 """Nobody draws a bend by one point that turns by so much: a plumb stem on a level keel."""
 
+_BESIDE = 7
+"""A scale sees a turn that it may look at throughout so many samples, half of half its stretch."""
+
 
 def _lone_turns(
     points: FloatArray, length: FloatArray, seen: list[_Scale], noise: float
 ) -> list[Corner]:
     """Give corners where points lie too wide apart for any scale: straight sides and one turn."""
+    from scipy.ndimage import minimum_filter1d
+
     step, inner = np.diff(points, axis=0), length[1:-1]
     before, after = step[:-1], step[1:]
     cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
@@ -123,7 +132,10 @@ def _lone_turns(
     lone |= turn >= np.deg2rad(_SHARP_DEG)
     for scale in seen:
         nearest = np.searchsorted(scale.at, inner).clip(max=len(scale.at) - 1)
-        lone &= ~scale.fits[nearest]
+        # Points that lie near on one side only let a scale look beside the turn, not at it.
+        looks = minimum_filter1d(scale.fits, _BESIDE)[nearest]
+        # Nearer to an end it sees one side only.
+        lone &= ~(looks & (inner > scale.half) & (inner < length[-1] - scale.half))
     return [
         Corner(float(inner[i]), points[i + 1].copy(), float(np.rad2deg(turn[i])), 1.0, 0.0, noise)
         for i in np.flatnonzero(lone).tolist()
@@ -233,8 +245,9 @@ def _refine(
     """Take the point that turns nearly all by itself, else intersect curves fitted to the sides."""
     sharp = _sharpest(points, length, at, half)
     if sharp is not None:
-        place = points[sharp[0]].copy()
-        return Corner(float(length[sharp[0]]), place, sharp[1], share, 2.0 * half, noise)
+        number, turned = sharp
+        place, doubt = points[number].copy(), 0.0 if turned >= _PLAIN_DEG else noise
+        return Corner(float(length[number]), place, turned, share, 2.0 * half, doubt)
     near = min([abs(other - at) for other in others if abs(other - at) > half], default=np.inf)
     best: tuple[float, float, FloatArray, float, float] | None = None
     for window in (rule.window, 0.5 * rule.window, 0.25 * rule.window):
@@ -257,10 +270,18 @@ def _refine(
     return Corner(foot, best[2], best[3], share, 2.0 * half, doubt)
 
 
+_PLAIN_DEG, _SLIGHT_DEG = 30.0, 8.0
+"""A point that turns by so much, of the second at least where it lies between others, is taken for
+the corner where it has ..."""
+
+_ALONE = 0.8
+"""... this part of all that points around turn: facets of a bend turn alike."""
+
+
 def _sharpest(
     points: FloatArray, length: FloatArray, at: float, half: float
 ) -> tuple[int, float] | None:
-    """Give the point near a place that turns by 30 degrees or more, and its turn in degrees."""
+    """Give the point near a place that turns nearly all by itself, and its turn in degrees."""
     inner = np.flatnonzero(np.abs(length[1:-1] - at) < half) + 1
     if not len(inner):
         return None
@@ -268,10 +289,11 @@ def _sharpest(
     cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
     turn = np.abs(np.arctan2(cross, (before * after).sum(axis=1)))
     best = int(turn.argmax())
-    whole = turn.sum()
-    if turn[best] < np.deg2rad(30.0) or turn[best] < 0.8 * whole:
-        return None
-    return int(inner[best]), float(np.rad2deg(turn[best]))
+    turned, part = float(np.rad2deg(turn[best])), float(turn[best] / max(turn.sum(), 1e-12))
+    # Points on either side that hardly turn show that it is no bend.
+    between = 0 < best < len(inner) - 1 and turned >= _SLIGHT_DEG
+    found = part >= _ALONE and (turned >= _PLAIN_DEG or between)
+    return (int(inner[best]), turned) if found else None
 
 
 def _intersect_sides(

@@ -48,7 +48,12 @@ class FlatRegion:
 
 
 def join_straight_runs(
-    line: IntArray, begin: FloatArray, end: FloatArray, within: float, lines: int = 3
+    line: IntArray,
+    begin: FloatArray,
+    end: FloatArray,
+    within: float | FloatArray,
+    lines: int = 3,
+    beyond: FloatArray | None = None,
 ) -> list[FlatRegion]:
     """Join straight runs of neighbouring lines that lie in one plane.
 
@@ -58,10 +63,13 @@ def join_straight_runs(
         Number of the line of each run, neighbours by 1 apart.
     begin, end : (n, 3), m
         Both ends of each run, all in the same sense.
-    within : float, m
-        How far the ends may lie off the plane.
+    within : float or (n,), m
+        How far the ends of each may lie off the plane; for several the largest counts.
     lines : int
         Neighbouring lines that must agree.
+    beyond : (n, 2, 3) or None, m
+        Where the line before and the line after each run pass its middle most closely, nan where
+        there is no such line: an oblique plane off which the hull only bends there is none.
 
     Returns
     -------
@@ -69,18 +77,21 @@ def join_straight_runs(
         The one of most lines first; each run is in one at most.
     """
     beside = _neighbours(line, begin, end)
+    allowed = np.broadcast_to(np.asarray(within, np.float64), line.shape)
     chains: list[list[int]] = []
-    for seed in _seeds(beside, begin, end, within, lines):
-        chain = _grow(seed, beside, begin, end, within)
-        chain = _grow(chain[::-1], _turned(beside), begin, end, within)[::-1]
+    for seed in _seeds(beside, begin, end, allowed, lines):
+        chain = _grow(seed, beside, begin, end, allowed)
+        chain = _grow(chain[::-1], _turned(beside), begin, end, allowed)[::-1]
         chains.append(chain)
     found: list[FlatRegion] = []
     taken: set[int] = set()
     back = _turned(beside)
     for chain in sorted(chains, key=lambda each: (-len(each), each)):
-        if taken.isdisjoint(chain) and not _is_curved(chain, beside, back, begin, end, within):
+        few = len(chain) <= lines + 1
+        go_on = few or bool(back[chain[0]]), few or bool(beside[chain[-1]])
+        if taken.isdisjoint(chain) and not _is_curved(chain, begin, end, beyond, go_on, allowed):
             taken |= set(chain)
-            normal, offset, _ = fit_plane(_ends(chain, begin, end), within)
+            normal, offset, _ = fit_plane(_ends(chain, begin, end), float(allowed[chain].max()))
             found.append(FlatRegion(tuple(chain), normal, offset))
     return found
 
@@ -145,23 +156,23 @@ def _turned(links: _Links) -> _Links:
 
 
 def _seeds(
-    links: _Links, begin: FloatArray, end: FloatArray, within: float, lines: int
+    links: _Links, begin: FloatArray, end: FloatArray, within: FloatArray, lines: int
 ) -> list[list[int]]:
     """Give all chains of the least number of lines that lie in one plane."""
     chains = [[i] for i in links]
     for _ in range(lines - 1):
         chains = [[*chain, j] for chain in chains for j in links[chain[-1]]]
-    return [chain for chain in chains if _off(chain, begin, end, within) <= within]
+    return [chain for chain in chains if _off(chain, begin, end, within) <= 1.0]
 
 
 def _grow(
-    chain: list[int], links: _Links, begin: FloatArray, end: FloatArray, within: float
+    chain: list[int], links: _Links, begin: FloatArray, end: FloatArray, within: FloatArray
 ) -> list[int]:
     """Lengthen a chain at its end as long as it lies in one plane."""
     out = list(chain)
     while True:
         ways = [(_off([*out, j], begin, end, within), j) for j in links[out[-1]]]
-        if not ways or min(ways)[0] > within:
+        if not ways or min(ways)[0] > 1.0:
             return out
         out.append(min(ways)[1])
 
@@ -171,24 +182,31 @@ _BEND = np.tan(np.deg2rad(8.0))
 
 
 def _is_curved(
-    chain: list[int], links: _Links, back: _Links, begin: FloatArray, end: FloatArray, within: float
+    chain: list[int],
+    begin: FloatArray,
+    end: FloatArray,
+    beyond: FloatArray | None,
+    go_on: tuple[bool, bool],
+    within: FloatArray,
 ) -> bool:
-    """Tell whether straight lines in an oblique plane go on beside it and bend off it.
+    """Tell whether the hull bends off an oblique plane beside the lines that lie in it.
 
     Few lines of an upright wall that is curved along the ship lie in one plane as nearly as is
-    asked; a flat across an axis has its wall beside it too, and is none the less flat.
+    asked. Of more only straight lines that go on speak against the plane, before and after as
+    `go_on` says: a flat may have a bend beside it. One across an axis is flat in any case.
     """
-    normal, offset, _ = fit_plane(_ends(chain, begin, end), within)
-    if 1.0 in normal:
+    allowed = float(within[chain].max())
+    normal, offset, _ = fit_plane(_ends(chain, begin, end), allowed)
+    if beyond is None or 1.0 in normal:
         return False
-    middle = 0.5 * (begin + end)
-    for last, beyond in ((chain[-1], links[chain[-1]]), (chain[0], back[chain[0]])):
-        for other in beyond:
-            off = max(abs(float(place @ normal) - offset) for place in (begin[other], end[other]))
-            step = middle[other] - middle[last]
-            away = float(np.sqrt(max(step @ step - float(step @ normal) ** 2, 0.0)))
-            if off < _BEND * away:
-                return True
+    for side, run in enumerate((chain[0], chain[-1])):
+        place = beyond[run, side]
+        off = abs(float(place @ normal) - offset)
+        step = place - 0.5 * (begin[run] + end[run])
+        away = float(np.sqrt(max(step @ step - float(step @ normal) ** 2, 0.0)))
+        # Where there is no line, nan is neither.
+        if go_on[side] and allowed < off < _BEND * away:
+            return True
     return False
 
 
@@ -196,5 +214,7 @@ def _ends(chain: list[int], begin: FloatArray, end: FloatArray) -> FloatArray:
     return np.concatenate([begin[chain], end[chain]])
 
 
-def _off(chain: list[int], begin: FloatArray, end: FloatArray, within: float) -> float:
-    return fit_plane(_ends(chain, begin, end), within)[2]
+def _off(chain: list[int], begin: FloatArray, end: FloatArray, within: FloatArray) -> float:
+    """Give how far the ends of runs lie off one plane, as a part of what is allowed."""
+    allowed = float(within[chain].max())
+    return fit_plane(_ends(chain, begin, end), allowed)[2] / allowed

@@ -61,11 +61,16 @@ def point_scatter(points: FloatArray) -> float:
     return float(np.sqrt((calm * calm).mean())) if len(calm) else robust
 
 
+_ALONE = 0.6
+"""A point that has this part of all that it and two on either side turn is a corner."""
+
+
 def facet_depth(points: FloatArray, corner_deg: float = 10.0) -> float:
     """Estimate how deep (m) the facets of a polyline lie inside the curve they stand for.
 
     The sagitta of a facet is its length times the turn to the next over 8; 19 of 20 are less
-    than what is given. Turns above `corner_deg` at short facets are corners and left out.
+    than what is given. Turns above `corner_deg` at short facets, and of single points, are corners
+    and left out.
 
     Examples
     --------
@@ -95,7 +100,10 @@ def _depths(
     unit = step / np.maximum(length, 1e-300)[:, None]
     turn = np.arccos(np.clip((unit[1:] * unit[:-1]).sum(axis=1), -1.0, 1.0))
     mean = 0.5 * (length[1:] + length[:-1])
-    smooth = (turn < np.deg2rad(corner_deg)) | (mean > 1.0)
+    # Facets of a curve turn alike: a point that turns nearly alone is a corner.
+    around = np.convolve(turn, np.ones(5))[2:-2] if len(turn) else turn
+    alone = (turn > np.deg2rad(corner_deg)) & (turn >= _ALONE * around)
+    smooth = (turn < np.deg2rad(corner_deg)) | ((mean > 1.0) & ~alone)
     return np.minimum(length[1:], length[:-1]) * turn / 8.0, mean, smooth
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.polylines.flats import FlatRegion, fit_plane, join_straight_runs
 from assoc_hull.geometry.polylines.operations import cumulative_lengths, resample
 from assoc_hull.geometry.polylines.straight_runs import StraightRun
@@ -135,14 +135,36 @@ def _of_group(parts: list[PieceFeatures], group: str, rules: FeatureRules) -> li
         return []
     ends = [_ends_of(parts[i], (parts[i].runs or ())[j]) for _, i, j in keys]
     both = np.array(ends)
-    noise = max(part.noise for _, part in mine)
-    within = max(rules.run.within, rules.run.scatters * noise)
+    # By the scatter of their own lines: those at the ends of a ship may be known far less well.
+    noise = np.array([parts[i].noise for _, i, _ in keys])
+    within = np.maximum(rules.run.within, rules.run.scatters * noise)
     line = np.array([key[0] for key in keys])
-    flats = join_straight_runs(line, both[:, 0], both[:, 1], within, rules.chain.lines)
+    beyond = _beyond(both.mean(axis=1), line, offsets, mine)
+    flats = join_straight_runs(line, both[:, 0], both[:, 1], within, rules.chain.lines, beyond)
     return [
-        _Seen(flat, tuple(keys[i] for i in flat.runs), tuple(ends[i] for i in flat.runs), within)
+        _Seen(
+            flat, tuple(keys[i] for i in flat.runs), tuple(ends[i] for i in flat.runs),
+            float(within[list(flat.runs)].max()),
+        )
         for flat in flats
-    ]
+    ]  # fmt: skip
+
+
+def _beyond(
+    middle: FloatArray, line: IntArray, offsets: list[float], mine: list[tuple[int, PieceFeatures]]
+) -> FloatArray:
+    """Give where the lines before and after pass the middles of runs most closely, (n, 2, 3), m."""
+    places: list[list[FloatArray]] = [[] for _ in offsets]
+    for _, part in mine:
+        places[offsets.index(part.line.offset)].append(in_space(part, part.points))
+    joined = [np.concatenate(each) for each in places]
+    out = np.full((len(line), 2, 3), np.nan)
+    for i, number in enumerate(line.tolist()):
+        for side, other in ((0, number - 1), (1, number + 1)):
+            if 0 <= other < len(joined):
+                away = ((joined[other] - middle[i]) ** 2).sum(axis=1)
+                out[i, side] = joined[other][int(away.argmin())]
+    return out
 
 
 def _ends_of(part: PieceFeatures, run: StraightRun) -> FloatArray:

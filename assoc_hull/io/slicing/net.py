@@ -14,7 +14,7 @@ from assoc_hull.arguments import positive
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt, source_order
 from assoc_hull.edit.adoption.adopted_size import grown_sources
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import PointKind, SplineBatch
+from assoc_hull.geometry.curves import PointKind
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.lines.slices import ASSOCIATIONS, GapJoin, Gaps, HullSlices, LinePiece
 from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
@@ -23,6 +23,7 @@ from assoc_hull.io.slicing.features import FeatureRules, KnuckleTrace, find_feat
 from assoc_hull.io.slicing.full_size import grown_slices, scaled
 from assoc_hull.io.slicing.loft_sections import is_bare, loft_sections
 from assoc_hull.io.slicing.smooth_lines import (
+    Rim,
     SmoothReport,
     join_plans,
     make_source,
@@ -44,7 +45,8 @@ __all__ = [
 # The report.
 
 _COARSE = 3.0
-"""Lines adopted within more than this many times the least tolerance of a mesh are doubtful."""
+"""Lines adopted within more than this many times the least tolerance of a mesh are doubtful, and
+so is a mesh whose facets are deeper."""
 
 
 @attrs.frozen(eq=False)
@@ -121,14 +123,20 @@ class SliceReport:
     def suspicions(self) -> tuple[str, ...]:
         """What is doubtful about smoothing and adoption, none for a hull drawn well."""
         most = _COARSE * self.rules.adopt_least_facets
-        if self.tolerance <= most:
-            return ()
-        near, noise = 1e3 * self.tolerance, 1e3 * self.noise
-        return (
-            f"tolerance: adopted within {near:.3g} mm only, since the lines scatter by {noise:.3g} "
-            "mm; corners that facets or points are too few to show count as scatter, and are "
-            "rounded: give a finer mesh, more points, or tolerance=",
-        )
+        found: list[str] = []
+        if self.tolerance > most:
+            near, noise = 1e3 * self.tolerance, 1e3 * self.noise
+            found.append(
+                f"tolerance: adopted within {near:.3g} mm only, since the lines scatter by "
+                f"{noise:.3g} mm; corners that facets or points are too few to show count as "
+                "scatter, and are rounded: give a finer mesh, more points, or tolerance="
+            )
+        if self.facet_depth > most:
+            found.append(
+                f"coarse mesh: facets lie up to {1e3 * self.facet_depth:.3g} mm inside the "
+                "hull that they stand for, and lines may be off by as much: give a finer mesh"
+            )
+        return tuple(found)
 
 
 # --------------------------------------------------------------------------------------
@@ -214,9 +222,9 @@ def _full_size_sources(
         make_source(plan_piece(part, wanted), allowed)
         for part in parts if part.line.group == "boundary"
     ]  # fmt: skip
-    borders: dict[str, list[SplineBatch]] = {}
-    for source, _ in rims:
-        borders.setdefault(source.name, []).append(loft_source(source))
+    borders: dict[str, list[Rim]] = {}
+    for source, report in rims:
+        borders.setdefault(source.name, []).append(Rim(loft_source(source), report.residual))
     parts = [snap_ends(p, borders, 0.5 * allowed) for p in parts if p.line.group != "boundary"]
     parts, curves, drawn = draw_borders(parts, knuckles, wanted, allowed)
     if not parts:

@@ -7,7 +7,7 @@ Points of a piece are (n, 2) in its plane, (n, 3) for a boundary curve in space,
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import attrs
@@ -44,6 +44,7 @@ from assoc_hull.model.tables import Association
 __all__ = [
     "PieceBreak",
     "PiecePlan",
+    "Rim",
     "SmoothReport",
     "SmoothStretch",
     "in_space",
@@ -63,6 +64,14 @@ class PieceBreak:
     at: float
     place: FloatArray
     direction: FloatArray | None
+
+
+@attrs.frozen(eq=False)
+class Rim:
+    """A smooth boundary curve, and how far (m) the places it was made of lie off it at most."""
+
+    curve: SplineBatch
+    residual: float
 
 
 @attrs.frozen(eq=False)
@@ -245,7 +254,8 @@ _FADE = 400.0
 """The line follows its end over this many times the move: it turns by a sixth of a degree."""
 
 _REACH = 0.1
-"""How far (m across line and hull) an end may lie from the smooth boundary curve it is on."""
+"""How far (m across line and hull) an end may lie from the smooth boundary curve it is on, and as
+far besides as this was smoothed: by the depth of coarse facets, that is more."""
 
 _ALONG = 1.0
 """How far (m) it may lie from there at all: a boundary that a line meets at a small angle, as that
@@ -253,7 +263,7 @@ of a deck with little sheer, crosses the line's plane far from where facets do."
 
 
 def snap_ends(
-    part: PieceFeatures, borders: dict[str, list[SplineBatch]], least: float
+    part: PieceFeatures, borders: Mapping[str, Sequence[Rim]], least: float
 ) -> PieceFeatures:
     """Move the ends of a piece onto the smooth boundary curves (by name) they lie on.
 
@@ -264,15 +274,18 @@ def snap_ends(
     points, keep = part.points.copy(), np.ones(len(part.points), np.bool_)
     most = 0.0
     for end, name in ((0, part.piece.ends[0]), (-1, part.piece.ends[1])):
-        met = [intersect_planes(border, *plane).xyz for border in borders.get(name, [])]
+        rims = borders.get(name, [])
+        met = [intersect_planes(rim.curve, *plane).xyz for rim in rims]
         places = np.concatenate(met)[:, columns] if met else np.zeros((0, 2))
         away = np.linalg.norm(places - part.points[end], axis=1)
         if not len(away):
             continue
-        step = places[int(away.argmin())] - part.points[end]
+        nearest = int(away.argmin())
+        smoothed = np.repeat([rim.residual for rim in rims], [len(each) for each in met])[nearest]
+        step = places[nearest] - part.points[end]
         # Where the plane cuts the hull at a small angle, a move along the line matters little.
-        sine = part.sine[end]
-        if not least < sine * away.min() or sine * _across(part.points, end, step) > _REACH:
+        sine, reach = part.sine[end], _REACH + float(smoothed)
+        if not least < sine * away.min() or sine * _across(part.points, end, step) > reach:
             continue
         if away.min() > _ALONG:
             continue
@@ -284,7 +297,7 @@ def snap_ends(
         # The move fades as a smooth step, so that the line keeps its tangent, and its other end.
         part_way = np.maximum(1.0 - far / min(_FADE * float(away.min()), float(far.max())), 0.0)
         points += (part_way * part_way * (3.0 - 2.0 * part_way))[:, None] * step
-        points[end] = places[int(away.argmin())]
+        points[end] = places[nearest]
         most = max(most, float(away.min()))
         # Points that the end has come close to would make the line turn back.
         keep &= np.linalg.norm(part.points - part.points[end], axis=1) > 3.0 * away.min()

@@ -66,21 +66,37 @@ def check_lines(graph: NetGraph) -> None:
         )  # fmt: skip
 
 
-def check_faces(graph: NetGraph, faces: int) -> None:
+def check_faces(graph: NetGraph, start: IntArray, member: IntArray) -> None:
     """Refuse edges that cannot be drawn on half a hull without crossing one another.
+
+    Faces are the `member` half-edges from each `start` to the next.
 
     Raises
     ------
     OpenNetError
-        With crossings that the table does not hold.
+        With crossings that the table does not hold; where there are none, with places that one
+        face passes twice.
     """
-    euler = len(graph.place) - len(graph.edge) + faces
+    euler = len(graph.place) - len(graph.edge) + len(start) - 1
     if euler != 2:
         raise OpenNetError(
             f"nodes - edges + faces is {euler}, not 2, as where a crossing is missing",
-            missed_crossings(graph, _FAR),
+            missed_crossings(graph, _FAR) or _pinched(graph, start, member),
             "associate the groups of these lines, or leave one of them out",
         )
+
+
+def _pinched(graph: NetGraph, start: IntArray, member: IntArray) -> tuple[str, ...]:
+    """Name the lines that meet where a face passes a node twice: there edges lie across another."""
+    face = np.repeat(np.arange(len(start) - 1), np.diff(start))
+    node = half_edge_origins(graph)[member]
+    key, count = np.unique(np.column_stack([face, node]), axis=0, return_counts=True)
+    told = []
+    for at in np.unique(key[count > 1, 1]).tolist():
+        curves = np.unique(graph.curve[(graph.edge == at).any(axis=1)]).tolist()
+        names = " x ".join(dict.fromkeys(graph.net.name[c] for c in curves))
+        told.append(f"{names} at {_told(graph.place[at])}")
+    return tuple(told)
 
 
 def missed_crossings(graph: NetGraph, reach: float = REACH) -> tuple[str, ...]:
@@ -264,7 +280,7 @@ def find_cells(graph: NetGraph) -> NetCells:
     """
     check_lines(graph)
     start, member = permutation_cycles(next_half_edges(graph))
-    check_faces(graph, len(start) - 1)
+    check_faces(graph, start, member)
     length = np.add.reduceat(graph.length[member >> 1], start[:-1])
     outer = int(length.argmax())
     check_outline(graph, member[start[outer] : start[outer + 1]])

@@ -7,7 +7,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.lines.slices import LinePiece, SliceLine
 from assoc_hull.io.slicing.boundary_curves import loft_source
 from assoc_hull.io.slicing.features import PieceFeatures
-from assoc_hull.io.slicing.smooth_lines import _tracks, make_source, plan_piece, snap_ends
+from assoc_hull.io.slicing.smooth_lines import Rim, _tracks, make_source, plan_piece, snap_ends
 from assoc_hull.model.line_source import LineSource
 
 
@@ -54,7 +54,6 @@ def test_an_end_is_led_to_its_boundary_curve_at_flat_angles_too(sheer: float) ->
     line = np.column_stack([np.linspace(75.0 + off, 110.0, 40), np.full(40, 8.0)])
     line[:, 1] -= 0.1 * (line[:, 0] - line[0, 0])
     line[:3, 1] = 8.0
-    found = snap_ends(
-        piece("waterlines", 10.0, line, [0, 1]), {"deck edge": [loft_source(deck)]}, 5e-3
-    )
+    rim = Rim(loft_source(deck), 0.0)
+    found = snap_ends(piece("waterlines", 10.0, line, [0, 1]), {"deck edge": [rim]}, 5e-3)
     assert found.points[0] == pytest.approx([75.0, 8.0], abs=1e-6)
