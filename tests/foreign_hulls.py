@@ -1087,7 +1087,7 @@ CORPUS: tuple[Foreign, ...] = (
         cuts=_FEW,
     ),
     Foreign(
-        "vee_boat", "Boat of 20 m, V bottom, raked stem: STL of 41 stations, whole, no deck",
+        "vee_boat", "Boat of 20 m, V bottom: STL",
         _whole(lambda: vee_boat_mesh(41, 7), "vee_boat"),
         lambda: truth_of_mesh(vee_boat_mesh(41, 7), 16.68, 4.432, 1.0),
         {"length": 16.68, "draught": 1.0},
@@ -1095,7 +1095,7 @@ CORPUS: tuple[Foreign, ...] = (
         cuts=_FEW,
     ),
     Foreign(
-        "box_ship", "Flat-sided ship of 100 m, bilge radius 2 m: STL of 81 stations, no deck",
+        "box_ship", "Flat-sided ship of 100 m: STL",
         _whole(lambda: box_ship_mesh(81, 13), "box_ship"),
         lambda: truth_of_mesh(box_ship_mesh(81, 13), 100.0, 16.0, 6.0),
         {"length": 100.0, "draught": 6.0},

@@ -282,18 +282,21 @@ def _sharpest(
     points: FloatArray, length: FloatArray, at: float, half: float
 ) -> tuple[int, float] | None:
     """Give the point near a place that turns nearly all by itself, and its turn in degrees."""
-    inner = np.flatnonzero(np.abs(length[1:-1] - at) < half) + 1
-    if not len(inner):
+    away = np.abs(length[1:-1] - at)
+    if not (away < half).any():
         return None
-    before, after = points[inner] - points[inner - 1], points[inner + 1] - points[inner]
+    step = np.diff(points, axis=0)
+    before, after = step[:-1], step[1:]
     cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
     turn = np.abs(np.arctan2(cross, (before * after).sum(axis=1)))
-    best = int(turn.argmax())
-    turned, part = float(np.rad2deg(turn[best])), float(turn[best] / max(turn.sum(), 1e-12))
-    # Points on either side that hardly turn show that it is no bend.
-    between = 0 < best < len(inner) - 1 and turned >= _SLIGHT_DEG
-    found = part >= _ALONE and (turned >= _PLAIN_DEG or between)
-    return (int(inner[best]), turned) if found else None
+    best = int(np.where(away < half, turn, -1.0).argmax())
+    turned = float(np.rad2deg(turn[best]))
+    if turned >= _PLAIN_DEG and turn[best] >= _ALONE * turn[away < half].sum():
+        return best + 1, turned
+    # Points on either side that hardly turn show that a slight turn is no bend.
+    around = np.flatnonzero(away < 2.0 * half)
+    between = around[0] < best < around[-1] and turned >= _SLIGHT_DEG
+    return (best + 1, turned) if between and turn[best] >= _ALONE * turn[around].sum() else None
 
 
 def _intersect_sides(

@@ -70,6 +70,34 @@ def test_a_corner_beside_one_long_step_is_found() -> None:
     assert corner.turn_deg == pytest.approx(np.degrees(np.arctan2(3.3, 0.7)))
 
 
+def test_a_corner_near_an_end_with_dense_points_on_one_side_is_found() -> None:
+    """A waterline turns by 60 degrees across a flat bottom: dense there, wide apart along the side.
+
+    Some scales see one side of the corner only, and speak neither for nor against it.
+    """
+    way = np.deg2rad(150.0)
+    side = np.arange(0.0, 60.0, 1.3)[::-1, None] * [np.cos(way), np.sin(way)]
+    bottom = np.column_stack([np.zeros(12), -np.linspace(0.25, 3.0, 12)])
+    [corner] = find_corners(np.concatenate([side, bottom]), 5e-4)
+    assert corner.place.tolist() == [0.0, 0.0]
+    assert corner.turn_deg == pytest.approx(60.0)
+
+
+def test_a_chine_between_facets_is_the_point_itself() -> None:
+    """A section that turns by 22 degrees at one point, its facets by .2: no side is fitted.
+
+    Points lie wide apart above and in pairs below, as a plane cuts two triangles a cell.
+    """
+    turn = np.deg2rad([*[33.0, 33.2] * 5, *np.arange(55.2, 56.3, 0.2)])
+    step = np.array([*[0.9, 0.12] * 5, 0.25, 1.2, 1.3, 0.1, 1.2, 1.3])
+    move = step[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+    points = np.concatenate([[[0.0, 0.0]], np.cumsum(move, axis=0)])
+    [corner] = find_corners(points, 1e-3)
+    assert corner.place.tolist() == points[10].tolist()
+    assert corner.turn_deg == pytest.approx(22.0)
+    assert 0.0 < corner.uncertainty <= 1e-3
+
+
 @pytest.mark.parametrize("count", [3, 4, 6])
 def test_a_bilge_of_few_points_between_long_steps_has_no_corner(count: int) -> None:
     """Each of its points turns, none by most of it: bottom and side are drawn by their ends."""

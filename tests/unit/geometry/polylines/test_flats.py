@@ -26,6 +26,42 @@ def test_a_rise_of_floor_is_a_flat_too() -> None:
     assert np.degrees(np.arccos(flat.normal[2])) == pytest.approx(3.0, abs=1e-6)
 
 
+def wall(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Ends of upright lines of a wall that curves along the ship, radius 150 m, 2 m apart."""
+    x = 2.0 * np.arange(count)
+    y = 8.0 - 0.2 * x - x * x / 300.0
+    return np.column_stack([x, y, x * 0 + 2.0]), np.column_stack([x, y, x * 0 + 9.0])
+
+
+def test_three_lines_of_a_curved_wall_are_no_flat() -> None:
+    """They lie in one plane within 10 mm, but the lines beside them bend off it."""
+    begin, end = wall(5)
+    middle = 0.5 * (begin + end)
+    beyond = np.stack([middle[:3], middle[2:]], axis=1)
+    [flat] = join_straight_runs(np.arange(3), begin[1:4], end[1:4], 1e-2)
+    assert flat.runs == (0, 1, 2)
+    assert join_straight_runs(np.arange(3), begin[1:4], end[1:4], 1e-2, beyond=beyond) == []
+
+
+def test_a_flat_beside_which_no_line_is_stays() -> None:
+    """Three lines from end to end of a ruled side: nothing speaks against them."""
+    begin, end = wall(3)
+    [flat] = join_straight_runs(
+        np.arange(3), begin, end, 1e-2, beyond=np.full((3, 2, 3), np.nan)
+    )  # fmt: skip
+    assert flat.runs == (0, 1, 2)
+
+
+def test_runs_are_joined_by_the_scatter_of_their_own_lines() -> None:
+    """A line known within a decimetre only does not make a flat of others that bend by less."""
+    begin, end = wall(9)
+    within = np.full(9, 1e-3)
+    assert join_straight_runs(np.arange(9), begin, end, within) == []
+    within[-1] = 0.1
+    found = join_straight_runs(np.arange(9), begin, end, within)
+    assert all(8 in flat.runs for flat in found)
+
+
 @pytest.mark.parametrize("lines", [[0, 1], [0, 1, 3]], ids=["two lines", "a line between without"])
 def test_fewer_than_three_neighbours_make_no_flat(lines: list[int]) -> None:
     """Runs of two lines, or of three that are not neighbours, are no flat."""

@@ -1,10 +1,11 @@
 """Lines cut from facets: where they run to and fro."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.geometry.polylines.noise import forward_points
+from assoc_hull.geometry.polylines.noise import facet_depth, forward_points
 
 
 def test_a_line_cut_at_a_grazing_angle_is_led_forward() -> None:
@@ -38,3 +39,18 @@ def test_corners_stay() -> None:
     """A bar across a line is no facet: chords pass it too far off."""
     line = np.array([[0.0, 0.0], [1.0, 0.0], [0.8, 0.3], [1.2, 0.6], [2.0, 0.6]])
     assert forward_points(line, np.full(5, 0.02)).tolist() == [0, 1, 2, 3, 4]
+
+
+def test_a_point_that_turns_alone_makes_no_facets_deep() -> None:
+    """A stem of long steps on a keel of long steps: neither is a facet of a curve."""
+    keel = np.column_stack([np.arange(0.0, 40.0, 2.5), np.zeros(16)])
+    stem = keel[-1] + np.arange(1.0, 6.0)[:, None] * [0.6, 1.6]
+    assert facet_depth(np.concatenate([keel, stem])) == pytest.approx(0.0, abs=1e-7)
+
+
+def test_facets_of_an_arc_between_straight_lines_stay_deep() -> None:
+    """A bilge of three facets of 1 m: each stands for an arc it lies inside of."""
+    angle = np.linspace(0.0, 0.5 * np.pi, 4)
+    bilge = np.column_stack([8.0 + 2.0 * np.sin(angle), 2.0 - 2.0 * np.cos(angle)])
+    points = np.concatenate([[[0.0, 0.0], [4.0, 0.0]], bilge, [[10.0, 6.0], [10.0, 10.0]]])
+    assert facet_depth(points) > 0.05

@@ -230,3 +230,15 @@ def test_the_tolerance_is_a_number_above_nil(tolerance: object) -> None:
     """Anything else is refused before lines are smoothed, by its name."""
     with pytest.raises(BadInputError, match="tolerance is"):
         net_from_slices(read_lines(_wedge()), tolerance=tolerance)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("around", "told"), [(9, True), (33, False)], ids=["coarse", "fine"])
+def test_a_mesh_of_deep_facets_is_doubtful(around: int, told: bool) -> None:
+    """What its facets cut off the hull is told, and that a finer mesh is the remedy."""
+    mesh = meshes.ellipsoid_half(10 * (around - 1) + 1, around)
+    _, report = net_of(mesh)
+    found = [each for each in report.suspicions if each.startswith("coarse mesh: ")]
+    assert bool(found) is told
+    if found:
+        assert f"{1e3 * report.facet_depth:.3g} mm" in found[0]
+        assert "give a finer mesh" in found[0]

@@ -1,5 +1,6 @@
 """The graph of a net: nodes from rows, edges between them, normals, cells; what is refused."""
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -12,6 +13,7 @@ from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
 from assoc_hull.errors import OpenNetError
 from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.geometry.splines.arc_length import arc_length
+from assoc_hull.surface.cells import net_faces
 from assoc_hull.surface.cells.net_faces import NetCells, find_cells, sound_cells
 from assoc_hull.surface.cells.net_graph import net_graph
 from tests.nets import A, B, C, ellipsoid_net
@@ -192,6 +194,16 @@ def test_a_crossing_without_a_row_is_named(wigley: CurveNet) -> None:
     assert "ST 7 x WL 2.5 near (35.000, 2.912, 2.500) m, 0.000 m apart" in told
     told = refused(without_rows(shortened(wigley), rows_of(wigley, "profile", "WL 2.5")))
     assert "lines end on no other line: WL 2.5 at (" in told
+
+
+def test_a_place_that_a_face_passes_twice_is_named(
+    wigley: CurveNet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where no pair of lines is found that crosses unlisted, the place of the fault is told."""
+    monkeypatch.setattr(net_faces, "missed_crossings", lambda *_: ())
+    told = refused(without_rows(wigley, rows_of(wigley, "WL 2.5", "ST 7")))
+    # Neighbours of the crossing at (35, 2.912, 2.5) m that is missing.
+    assert re.search(r"(ST [68] x WL 2.5|ST 7 x WL (1.875|3.125)) at \(", told)
 
 
 def test_a_crossing_without_a_row_is_found_where_lines_meet(wigley: CurveNet) -> None:
