@@ -263,11 +263,19 @@ def _carry_out(arguments: argparse.Namespace, name: str, changes: Changes) -> in
 
 def _try(arguments: argparse.Namespace, name: str, changes: Changes) -> int:
     """Tell what the edit would do; nothing is written."""
-    hull = open_hull(arguments.hull)
+    hull, wrong = open_hull(arguments.hull), list[InFileError]()
+
+    def ask(edit: Edit) -> None:
+        try:
+            _modify_all(edit, changes, arguments.edits)
+        except InFileError as error:  # a preview tells it as refused; here the file is wrong
+            wrong.append(error)
+            raise
+
     with progress("updating"), _values_of(str(arguments.edits)):
-        found = hull.preview(
-            lambda edit: _modify_all(edit, changes, arguments.edits), name=name, why=arguments.why
-        )
+        found = hull.preview(ask, name=name, why=arguments.why)
+    if wrong:
+        raise wrong[0]
     if found.report is None:
         return _refused(arguments, name, found.refused)
     facts = _facts(found.report, found.why, found.fingerprint, None) | {
@@ -475,7 +483,7 @@ def _history_facts(report: EditReport) -> dict[str, Any]:
     return {
         "number": report.number, "name": report.name, "author": report.author,
         "time": report.time, "relofted": len(report.relofted), "largest": report.largest,
-        "notes": report.notes,
+        "largest_normal": report.largest_normal, "notes": report.notes,
     }  # fmt: skip
 
 
@@ -484,7 +492,8 @@ def _lines(
 ) -> Iterator[str]:
     """Give a line for each edit, and one for each name of the state after it."""
     for each in reports:
-        moved = f", {1e3 * each.largest.distance:.1f} mm" if each.largest else ""
+        most = each.largest_normal or each.largest
+        moved = f", {1e3 * most.distance:.1f} mm" if most else ""
         who = f"  {each.author}" if each.author else ""
         yield (
             f"{mark} {each.number:4}  {each.time}{who}  {each.name}"

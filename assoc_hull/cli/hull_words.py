@@ -16,7 +16,7 @@ from typing import Any
 import attrs
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, LineReport
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.report import SAME_MOVEMENT, EditReport, Movement
 from assoc_hull.hull import Hull
 from assoc_hull.io.importing.import_hull import ImportReport
 from assoc_hull.io.offsets.table import OffsetTable
@@ -315,15 +315,23 @@ def edit_words(hull: Hull, report: EditReport, indent: str = "  ") -> str:
 
 
 def _moved(hull: Hull, report: EditReport, indent: str) -> Iterator[str]:
+    """Name the largest movement along the normal, and the farthest slide along curves."""
     if report.largest is None:
         return
-    book, (x, y, z) = AddressBook(hull.state), report.largest.place
-    key = report.largest.point
+    normal = report.largest_normal
+    if normal is None:
+        yield f"{indent}moved most   {_movement(hull, report.largest)}"
+        return
+    yield f"{indent}moved most   {_movement(hull, normal, ' along the normal')}"
+    if report.largest.distance > normal.distance + SAME_MOVEMENT:
+        yield f"{indent}with slides  {_movement(hull, report.largest)}"
+
+
+def _movement(hull: Hull, movement: Movement, way: str = "") -> str:
+    book, (x, y, z) = AddressBook(hull.state), movement.place
+    key = movement.point
     name = book.address(book.keys[key].row) if key in book.keys else key
-    yield (
-        f"{indent}moved most   {name}, by {1e3 * report.largest.distance:.1f} mm, "
-        f"to ({x:.3f}, {y:.3f}, {z:.3f}) m"
-    )
+    return f"{name}, by {1e3 * movement.distance:.1f} mm{way}, to ({x:.3f}, {y:.3f}, {z:.3f}) m"
 
 
 def lists(report: EditReport, indent: str) -> Iterator[str]:

@@ -14,18 +14,40 @@ from collections.abc import Iterator
 from datetime import UTC, datetime
 
 import attrs
+import numpy as np
 
-from assoc_hull.arguments import shown, shown_name, text
+from assoc_hull.arguments import integer, shown, shown_name, text
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.step_storage import Keeper, Label
 from assoc_hull.errors import BadInputError, NameTakenError, UnknownNameError
+from assoc_hull.geometry.curves import IntArray, freeze
+from assoc_hull.graph.network import distinct
 from assoc_hull.model.index import Index, build_index
 from assoc_hull.model.tables import HullState, copy_into, copy_state
 
-__all__ = ["Document"]
+__all__ = ["Changed", "Document"]
 
 _HELD = 16
 """So many steps are held in full where a keeper has them all."""
+
+
+@attrs.frozen(eq=False)
+class Changed:
+    """What has changed between two published states.
+
+    Attributes
+    ----------
+    curves, rows, lines : (k,) int
+        Numbers of curves, points and lines, ascending; those that have gone as well, as long as the
+        tables hold their numbers.
+    structural : bool
+        Whether lines, points or roles came or went.
+    """
+
+    curves: IntArray
+    rows: IntArray
+    lines: IntArray
+    structural: bool
 
 
 @attrs.define(eq=False)
@@ -50,6 +72,8 @@ class Document:
         Fingerprint of the hull as it came; empty where it has not been taken.
     writer : object
         The transaction that is open; None if none is.
+    known_index : Index or None
+        The look-ups, if they have been derived: see `index`.
     """
 
     state: HullState
@@ -61,7 +85,8 @@ class Document:
     author: str = ""
     start: str = ""
     writer: object = attrs.field(default=None, init=False)
-    _index: Index | None = attrs.field(default=None, init=False)
+    known_index: Index | None = attrs.field(default=None, init=False)
+    _states: list[tuple[Step, ...]] = attrs.field(factory=list, init=False)
     _free: list[bool] = attrs.field(factory=lambda: [True], init=False)
 
     @property
@@ -70,13 +95,37 @@ class Document:
 
         So a hull whose links run in a ring can be opened, and be told what is wrong.
         """
-        if self._index is None:
-            self._index = build_index(self.state)
-        return self._index
+        if self.known_index is None:
+            self.known_index = build_index(self.state)
+        return self.known_index
 
     def refresh(self) -> None:
         """Derive the look-ups anew, after the structure changed."""
-        self._index = build_index(self.state)
+        self.known_index = build_index(self.state)
+
+    @property
+    def state_number(self) -> int:
+        """Number of the published state: it rises with commit, undo, redo, go and refresh."""
+        return len(self._states)
+
+    def since(self, number: int) -> Changed:
+        """Tell what has changed since the state with a number.
+
+        Raises
+        ------
+        BadInputError
+            There was no such state.
+        """
+        first = integer(number, "the state", "in since", least=0, most=self.state_number)
+        steps = [step for state in self._states[first:] for step in state]
+        none = np.zeros(0, np.int64)
+        curves = distinct(np.concatenate([none, *(step.curves for step in steps)]))
+        rows = distinct(np.concatenate([none, *(step.rows for step in steps)]))
+        curves = curves[curves < self.state.curves.count]  # those of steps taken back are no more
+        rows = rows[rows < self.state.rows.count]
+        lines = distinct(self.state.curves.line.data[curves])
+        freeze(curves, rows, lines)
+        return Changed(curves, rows, lines, any(step.structural for step in steps))
 
     @property
     def head(self) -> int:
@@ -133,6 +182,7 @@ class Document:
         self.undone.clear()
         self.history.append(step)
         self.steps[step.number] = step
+        self._states.append((step,))
         self._agree()
         if len(self.history) > _HELD:
             self.history[-1 - _HELD].release()
@@ -209,9 +259,12 @@ class Document:
     def follow(self, head: int, tip: int) -> None:
         """Bring the tables to where somebody else has brought the hull, and keep nothing."""
         self.require_ended("refresh")
-        for step, forward in self._moves(head):
+        moves = self._moves(head)
+        for step, forward in moves:
             self._turn(step, forward)
         self.stand(head, tip)
+        if moves:
+            self._states.append(tuple(step for step, _ in moves))
 
     def keep_revisions(self, rows: dict[int, int], curves: dict[int, int]) -> None:
         """Raise revisions to those that are known elsewhere; none is lowered."""
@@ -283,6 +336,7 @@ class Document:
                 if self.keeper is not None:
                     self.keeper.move(self.head, self.tip, steps, branch)
             self._name(branch)
+            self._states.append(tuple(steps))
             self._agree()
         return steps
 

@@ -12,6 +12,7 @@ from assoc_hull.edit.step import Step, StepBody
 from assoc_hull.edit.update_passes import Work
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.network import Readers
+from assoc_hull.model.gaps import along_normal
 from assoc_hull.model.tables import HullState, curve_node, row_node
 
 __all__ = ["step_of"]
@@ -63,6 +64,7 @@ def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:
         failed=tuple(f"{work.network.name(node)}: {why}" for node, why in work.failed.items()),
         blocked=tuple(work.network.name(node) for part in parts for node in part.blocked.tolist()),
         largest=_largest(state, changed, moved),
+        largest_normal=_largest_normal(work, changed, moved),
         largest_gap=0.0 if work.wide is None else work.wide.largest,
         notes=tuple(work.pending.notes),
         carried=tuple(work.pending.carried),
@@ -81,3 +83,21 @@ def _largest(state: HullState, changed: IntArray, moved: FloatArray) -> Movement
     row = int(changed[points][best]) >> 1
     place = tuple(state.rows.xyz.data[row].tolist())
     return Movement(state.rows.key.data[row], float(moved[points][best]), place)
+
+
+def _largest_normal(work: Work, changed: IntArray, moved: FloatArray) -> Movement | None:
+    """Find the largest movement along the normal of the hull, as its curves lie after the edit."""
+    state = work.state
+    rows = changed[((changed & 1) == 0) & (moved > 0.0)] >> 1
+    places = work.journal.net(state.rows.xyz)
+    known = np.isin(rows, places.rows)
+    rows = rows[known & state.rows.alive.data[np.where(known, rows, 0)]]
+    if not len(rows):
+        return None
+    away = state.rows.xyz.data[rows] - places.old[np.searchsorted(places.rows, rows)]
+    distance = along_normal(state, rows, away)
+    if not np.isfinite(distance).any():
+        return None
+    best = int(np.nanargmax(distance))
+    x, y, z = state.rows.xyz.data[rows[best]].tolist()
+    return Movement(state.rows.key.data[int(rows[best])], float(distance[best]), (x, y, z))

@@ -79,6 +79,8 @@ class Pending:
         Lines whose points are to come from definitions again.
     detached : list of int
         Curves that have left their definitions in this transaction.
+    stopped : callable
+        Tells whether somebody has asked to end the update; looked at before every pass.
     """
 
     values: dict[int, FloatArray] = attrs.field(factory=dict)
@@ -103,6 +105,7 @@ class Pending:
     forms: dict[str, FormDefinition] = attrs.field(factory=dict)
     attach: set[int] = attrs.field(factory=set)
     detached: list[int] = attrs.field(factory=list)
+    stopped: Callable[[], bool] = bool
 
     @staticmethod
     def not_alone(name: str) -> tuple[str, str, str]:

@@ -7,7 +7,15 @@ import attrs
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 
-__all__ = ["EditReport", "Fairness", "FormChange", "Movement", "change_text"]
+__all__ = [
+    "SAME_MOVEMENT",
+    "EditReport",
+    "Fairness",
+    "FormChange",
+    "Movement",
+    "change_text",
+    "movement_words",
+]
 
 Inflections = tuple[tuple[str, int], ...]
 
@@ -84,6 +92,36 @@ class Movement:
     place: tuple[float, float, float]
 
 
+SAME_MOVEMENT = 0.05e-3
+"""A slide that adds less (m) to the movement along the normal is not told: it prints alike."""
+
+
+def movement_words(largest: Movement, normal: Movement | None) -> list[str]:
+    """Say how far the hull moved along its normal, and by how much more a point slid on it.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.report import Movement, movement_words
+    >>> slid = Movement("P", 0.0813, (50.0, 4.0, 2.0))
+    >>> movement_words(slid, Movement("Q", 0.01, (48.0, 4.1, 2.5)))[0]
+    'largest movement 10.0 mm along the normal at (48.000, 4.100, 2.500) m, Q'
+    """
+    if normal is None:
+        return [f"largest movement {_movement_words(largest)}"]
+    slid = largest.distance > normal.distance + SAME_MOVEMENT
+    if slid and largest.point == normal.point:
+        way = f" along the normal and {1e3 * largest.distance:.1f} mm in all"
+        return [f"largest movement {_movement_words(normal, way)}"]
+    told = [f"largest movement {_movement_words(normal, ' along the normal')}"]
+    return [*told, f"with slides on the hull {_movement_words(largest)}"] if slid else told
+
+
+def _movement_words(movement: Movement, way: str = "") -> str:
+    x, y, z = movement.place
+    distance = f"{1e3 * movement.distance:.1f} mm"
+    return f"{distance}{way} at ({x:.3f}, {y:.3f}, {z:.3f}) m, {movement.point}"
+
+
 @attrs.frozen
 class EditReport:
     """The report of one committed edit.
@@ -107,7 +145,10 @@ class EditReport:
     failed, blocked : tuple of str
         Objects that could not be made, and those made from them.
     largest : Movement or None
-        The largest movement of any point.
+        The largest movement of any point; a crossing may only have slid along its curves.
+    largest_normal : Movement or None
+        The largest movement along the normal of the hull, or across the curve of a point that is
+        on one alone; None if no point moved, and in steps that older versions kept.
     largest_gap : float, m
         The largest gap at the watched crossings that were checked.
     notes : tuple of str
@@ -150,6 +191,7 @@ class EditReport:
     fairness: Fairness | None = attrs.field(default=None, eq=False, repr=False)
     counted: Inflections = attrs.field(default=(), eq=False, repr=False)
     changed: bool = True
+    largest_normal: Movement | None = None
     number: int = attrs.field(default=0, eq=False)
     author: str = attrs.field(default="", eq=False)
     time: str = attrs.field(default="", eq=False)
@@ -165,11 +207,7 @@ class EditReport:
         parts = [f"{self.name}: {len(self.relofted)} curves re-lofted"]
         parts += [f"{each[0]}: {change_text(each)}" for each in self.definitions]
         if self.largest is not None:
-            x, y, z = self.largest.place
-            parts.append(
-                f"largest movement {1e3 * self.largest.distance:.1f} mm at "
-                f"({x:.3f}, {y:.3f}, {z:.3f}) m, {self.largest.point}"
-            )
+            parts += movement_words(self.largest, self.largest_normal)
         parts.append(f"largest gap {1e3 * self.largest_gap:.2f} mm")
         if self.carried:
             parts.append(f"{len(self.carried)} lines carried, {len(self.cut_again)} cut again")

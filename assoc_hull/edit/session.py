@@ -35,15 +35,41 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.space_map import Jacobian, PointMapping, space_map
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.errors import (
+    AbsentParameterError,
+    AssocHullError,
+    BadInputError,
+    FileBusyError,
+    ForeignPointError,
+    HullFileError,
+    MissingExtraError,
+    RefusedEditError,
+    StaleHullError,
+    UnknownNameError,
+    WrongTypeError,
+)
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 from assoc_hull.model.tables import HullState
 
-__all__ = ["Edit"]
+__all__ = ["Edit", "refusal_of"]
 
 _USE = "use it in a with statement"
 _HANDLE = "give a handle or an address"
+
+
+_RAISED = (
+    WrongTypeError, UnknownNameError, AbsentParameterError, ForeignPointError, HullFileError,
+    FileBusyError, StaleHullError, MissingExtraError,
+)  # fmt: skip
+"""Of these the asking is wrong, or the file, and not what was asked for."""
+
+
+def refusal_of(error: AssocHullError) -> tuple[str, ...]:
+    """Give why an edit that only looks would be refused; raise what is no refusal."""
+    if isinstance(error, _RAISED):
+        raise error
+    return error.findings if isinstance(error, RefusedEditError) else (str(error),)
 
 
 class Edit:
@@ -63,6 +89,8 @@ class Edit:
     look : callable or None
         For a preview: called with the step, or None if nothing changed, when the update has
         run, before everything is taken back.
+    stopped : callable or None
+        Asked before each pass: whether the update is to end there, with a refusal.
     """
 
     def __init__(
@@ -71,8 +99,11 @@ class Edit:
         name: str,
         settings: Settings | None = None,
         look: Callable[[Step | None], None] | None = None,
+        stopped: Callable[[], bool] | None = None,
     ) -> None:
         self._held = Transaction(document, name, settings, look)
+        if stopped is not None:
+            self._held.pending.stopped = stopped
 
     def __enter__(self) -> Self:
         self._held.__enter__()

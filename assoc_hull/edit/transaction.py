@@ -23,6 +23,7 @@ from assoc_hull.edit.update import update
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
+from assoc_hull.model.index import Index
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.tables import HullState
 
@@ -67,6 +68,8 @@ class Transaction:
         self._broken = False
         self._quiet = PausedCollector()
         self._over = False
+        self._index: Index | None = None
+        self._kept: dict[str, Any] = {}
 
     @property
     def active(self) -> bool:
@@ -132,6 +135,7 @@ class Transaction:
                 raise BadInputError("another edit is open", where, "end that one first")
             self.document.begin(keep=self.look is None)
             self.document.writer, self._thread = self, threading.get_ident()
+            self._index, self._kept = self.document.known_index, dict(self.state.kept)
             self._quiet.__enter__()
         elif self._thread != threading.get_ident():
             what, remedy = "another thread is at work on this hull", "let one edit at a time"
@@ -204,7 +208,10 @@ class Transaction:
         return step.report
 
     def _restore(self) -> None:
+        """Take everything back; what was derived from the tables before is true again."""
         structural, self.pending = self.pending.structural, Pending()
         self.journal.undo()
+        self.state.kept.clear()
+        self.state.kept.update(self._kept)
         if structural:
-            self.document.refresh()
+            self.document.known_index = self._index

@@ -92,6 +92,8 @@ class Work:
 
     def go(self, rows: IntArray, curves: IntArray) -> None:
         """Run one pass from points that were set and curves whose recipe changed."""
+        if self.pending.stopped():
+            raise RefusedEditError(self.name, ("it was stopped",))
         seeds = row_node(rows)
         if not self.passes:
             seeds = np.concatenate([seeds, self.forms])

@@ -20,7 +20,7 @@ array([0, 1])
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Protocol
 
 import attrs
@@ -57,6 +57,9 @@ class _Entry(Protocol):
 
     def idle(self) -> bool: ...
 
+    def restamp(self) -> None:
+        """Bring back the numbers of the writes before this one, which has just been undone."""
+
 
 @attrs.frozen(eq=False)
 class _ArrayEntry:
@@ -64,14 +67,18 @@ class _ArrayEntry:
     index: NDArray[np.int64]
     old: NDArray[Any]
     new: NDArray[Any]
+    was: int
+
+    def restamp(self) -> None:
+        self.column.writes = self.was
 
     def undo(self) -> None:
         self.column.store[self.index] = self.old
-        self.column.writes += 1
+        self.column.written()
 
     def redo(self) -> None:
         self.column.store[self.index] = self.new
-        self.column.writes += 1
+        self.column.written()
 
     def idle(self) -> bool:
         return self.old.tobytes() == self.new.tobytes()
@@ -111,14 +118,18 @@ class _PartEntry:
     part: NDArray[np.int64]
     old: PickedRows
     new: PickedRows
+    was: int
+
+    def restamp(self) -> None:
+        self.column.writes = self.was
 
     def undo(self) -> None:
         _scatter(self.column.parts(), self.part, self.old.values())
-        self.column.writes += 1
+        self.column.written()
 
     def redo(self) -> None:
         _scatter(self.column.parts(), self.part, self.new.values())
-        self.column.writes += 1
+        self.column.written()
 
     def idle(self) -> bool:
         return self.old.values().tobytes() == self.new.values().tobytes()
@@ -139,6 +150,9 @@ class _ListEntry:
         for index, value in zip(self.index, self.new, strict=True):
             self.column.data[index] = value
 
+    def restamp(self) -> None:
+        """Do nothing: who derives something from a list holds the objects themselves."""
+
     def idle(self) -> bool:
         return all(same_value(old, new) for old, new in zip(self.old, self.new, strict=True))
 
@@ -148,6 +162,10 @@ class _GrowEntry:
     table: Table
     old: int
     new: int
+    was: Mapping[str, int]
+
+    def restamp(self) -> None:
+        self.table.restamp(self.was)
 
     def undo(self) -> None:
         self.table.resize(self.old)
@@ -220,9 +238,10 @@ class Journal:
         new = np.array(values, column.store.dtype)
         if new.shape != (len(rows), *column.store.shape[1:]):
             new = np.broadcast_to(new, (len(rows), *column.store.shape[1:])).copy()
-        self.entries.append(_ArrayEntry(column, rows, column.store.take(rows, axis=0), new))
+        old = column.store.take(rows, axis=0)
+        self.entries.append(_ArrayEntry(column, rows, old, new, column.writes))
         column.store[rows] = new
-        column.writes += 1
+        column.written()
 
     def put_parts(
         self,
@@ -242,9 +261,9 @@ class Journal:
         there = parts.take(part, axis=0)
         if before is None or not _same_bits(before.values(), there):
             before = PickedRows(there)
-        self.entries.append(_PartEntry(column, part, before, new))
+        self.entries.append(_PartEntry(column, part, before, new, column.writes))
         _scatter(parts, part, new.values())
-        column.writes += 1
+        column.written()
 
     def set(self, column: ListColumn, index: Iterable[int], values: Iterable[object]) -> None:
         """Write one object each to the rows `index` of a list column."""
@@ -257,7 +276,7 @@ class Journal:
 
     def grow(self, table: Table, count: int) -> NDArray[np.int64]:
         """Add rows to a table and give their numbers."""
-        entry = _GrowEntry(table, table.count, table.count + count)
+        entry = _GrowEntry(table, table.count, table.count + count, table.stamps())
         self.entries.append(entry)
         entry.redo()
         return np.arange(entry.old, entry.new)
@@ -325,9 +344,14 @@ class Journal:
         return all(entry.idle() for entry in self.entries)
 
     def undo(self, keep: int = 0) -> None:
-        """Take back every entry after the first `keep`, and forget it."""
+        """Take back every entry after the first `keep`, and forget it.
+
+        What was derived from the tables before is true again: they are as they were.
+        """
         while len(self.entries) > keep:
-            self.entries.pop().undo()
+            entry = self.entries.pop()
+            entry.undo()
+            entry.restamp()
 
     def back(self) -> None:
         """Run the entries backward, keeping them."""

@@ -11,6 +11,8 @@ Examples
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -18,12 +20,15 @@ from numpy.typing import DTypeLike, NDArray
 
 __all__ = ["ArrayColumn", "ListColumn", "Table"]
 
+_WRITES = itertools.count(1)
+"""No two writes of any column have one number, so a number may come back with its content."""
+
 
 class ArrayColumn:
     """A growing numpy array, one entry a row; `data` is a read-only view of the rows in use.
 
-    `writes` rises whenever anything is written: what was derived from the column is true as
-    long as it stands.
+    `writes` is the number of the last write: what was derived from the column is true as long as
+    it stands. A journal that takes everything back brings back the number as well.
     """
 
     def __init__(self, dtype: DTypeLike, shape: tuple[int, ...], fill: float | bool = 0) -> None:
@@ -31,6 +36,10 @@ class ArrayColumn:
         self.fill = fill
         self.data = self.store[:0]
         self.writes = 0
+
+    def written(self) -> None:
+        """Say that something was written."""
+        self.writes = next(_WRITES)
 
     def resize(self, count: int) -> None:
         """Bring the column to `count` rows; new ones hold the fill value."""
@@ -44,7 +53,7 @@ class ArrayColumn:
             self.store[old:count] = self.fill
         self.data = self.store[:count]
         self.data.setflags(write=False)
-        self.writes += 1
+        self.written()
 
     def parts(self) -> NDArray[Any]:
         """Give the first two axes as one, to be written to: row r, part p is at r * parts + p."""
@@ -83,6 +92,21 @@ class Table:
 
     def __getattr__(self, name: str) -> Any:
         raise AttributeError(f"this table has no column {name!r}")
+
+    def stamps(self) -> dict[str, int]:
+        """Give the number of the last write of every array column."""
+        return {
+            name: each.writes
+            for name, each in self.columns.items()
+            if isinstance(each, ArrayColumn)
+        }
+
+    def restamp(self, stamps: Mapping[str, int]) -> None:
+        """Say that the columns are again as they were when they had these numbers."""
+        for name, each in stamps.items():
+            column = self.columns[name]
+            assert isinstance(column, ArrayColumn)
+            column.writes = each
 
     def resize(self, count: int) -> None:
         """Bring every column to `count` rows."""

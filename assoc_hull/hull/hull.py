@@ -68,11 +68,14 @@ if TYPE_CHECKING:
     from assoc_hull.creation.creation_report import CreationReport
     from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
     from assoc_hull.edit.checks.finding import Finding
+    from assoc_hull.edit.document import Changed
+    from assoc_hull.edit.drag import Drag, DragWay
     from assoc_hull.edit.explain.causes import Thing, Why
     from assoc_hull.edit.explain.compare_states import Comparison
     from assoc_hull.edit.explain.hull_graph import OnlyName
     from assoc_hull.edit.explain.preview import Preview
     from assoc_hull.edit.script import Replayed
+    from assoc_hull.edit.shapes import Shapes
     from assoc_hull.edit.step_storage import Label
     from assoc_hull.geometry.curves import FloatArray
     from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
@@ -236,6 +239,8 @@ class Hull:
         *,
         name: str = "preview",
         why: Sequence[Thing | str] = (),
+        shapes: bool = False,
+        measure: bool = True,
     ) -> Preview:
         """Run edits, publish nothing, and tell what they would do.
 
@@ -247,17 +252,131 @@ class Hull:
             As for `edit`.
         name, why : str, sequence of objects or addresses
             Name of the edit, for its report; of what to tell why it would change.
+        shapes, measure : bool
+            Whether the curves that would change are given, and volume and LCB measured.
 
         Returns
         -------
         Preview
             The report, or why it would be refused; lines that would change; volume and LCB.
+
+        Raises
+        ------
+        BadInputError
+            An edit is open.
+        WrongTypeError, UnknownNameError, AbsentParameterError, ForeignPointError
+            What was asked for is not there, or is of another kind; all else is `refused`.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> move = [{"op": "move", "point": "WL 2.5 x ST 7", "y": 2.95}]
+        >>> seen = hull.preview(move, shapes=True, measure=False)
+        >>> seen.shapes.spline.count, seen.volume_change
+        (2, None)
         """
         from assoc_hull.edit.explain.preview import preview
 
         return preview(
-            self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps), name, why
-        )
+            self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps), name,
+            why, shapes=shapes, measure=measure,
+        )  # fmt: skip
+
+    def drag(
+        self,
+        point: Point | str,
+        how: DragWay = "pull",
+        radius: tuple[float, float] | None = None,
+        *,
+        across_flats: bool = False,
+        policy: PolicyName = "all_or_nothing",
+        gaps: GapsName = "refuse",
+    ) -> Drag:
+        """Begin to drag a point: each step is carried out and read, and none is published.
+
+        Parameters
+        ----------
+        point : Point or address
+            The point.
+        how : {"pull", "move"}
+            A soft pull along the hull's normal, or the point alone along its freedom.
+        radius : (float, float) or None, m
+            Of a pull, as for `Edit.pull`.
+        across_flats : bool
+            Of a pull: whether flats may move.
+        policy, gaps
+            As for `edit`.
+
+        Returns
+        -------
+        Drag
+            For a ``with`` statement: ``to`` tells what the hull would be, ``commit`` makes the
+            edit that the last ``to`` asked for, ``stop`` ends a ``to`` from another thread.
+
+        Raises
+        ------
+        BadInputError
+            An unknown way or point, or an edit is open.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.drag("WL 2.5 x ST 7", radius=(20.0, 4.0)) as drag:
+        ...     for d in (0.005, 0.010, 0.015):
+        ...         live = drag.to(d=d)  # a picture would be drawn from it
+        ...     report = drag.commit("fuller shoulder")
+        >>> print(f"{len(live.curves)} curves, about {live.volume_change:+.1f} m3")
+        17 curves, about +2.4 m3
+        >>> len(hull.history)
+        1
+        """
+        from assoc_hull.edit.drag import Drag
+
+        settings = settings_of(policy, gaps)
+        return Drag(self.document, point, how, radius, across_flats=across_flats, settings=settings)
+
+    def shapes(self) -> Shapes:
+        """Give all curves as one batch of splines, with their numbers.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> shapes = ah.examples.wigley().shapes()
+        >>> shapes.spline.count == len(shapes.curves)
+        True
+        """
+        from assoc_hull.edit.shapes import shapes_of
+
+        return shapes_of(self.state)
+
+    @property
+    def state_number(self) -> int:
+        """Number of the published state: it rises with each edit, undo, redo, go and refresh.
+
+        It counts what this object has seen, from 0 where it was opened or made.
+        """
+        return self.document.state_number
+
+    def since(self, number: int) -> Changed:
+        """Tell which curves, points and lines have changed since the state with a number.
+
+        Raises
+        ------
+        BadInputError
+            There was no such state.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> seen = hull.state_number
+        >>> report = hull.apply("a", [{"op": "move", "point": "WL 2.5 x ST 7", "y": 2.95}])
+        >>> len(hull.since(seen).curves) == len(report.relofted)
+        True
+        """
+        return self.document.since(number)
 
     def apply(self, name: str, edits: Changes | None = None) -> EditReport | None:
         """Carry out edits given as for `preview`; None if they joined one that is still open.

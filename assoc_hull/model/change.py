@@ -201,8 +201,8 @@ def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
     part = 2 * row + side
     table.parameter.parts()[part] = places.at[actual, 0]
     table.spot.parts()[part] = places.at[actual, 1:]
-    table.parameter.writes += 1
-    table.spot.writes += 1
+    table.parameter.written()
+    table.spot.written()
 
 
 # --------------------------------------------------------------------------------------
@@ -437,7 +437,7 @@ def _flip(column: ArrayColumn, rows: IntArray, bits: NDArray[np.uint8]) -> None:
     values = column.store.take(rows, axis=0)
     flipped = _bytes(values) ^ bits
     column.store[rows] = flipped.view(column.store.dtype).reshape(values.shape)
-    column.writes += 1
+    column.written()
 
 
 def _counted(state: HullState, births: Births, forward: bool) -> dict[tuple[str, str], int]:

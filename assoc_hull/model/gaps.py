@@ -88,6 +88,41 @@ def crossing_normals(first: FloatArray, second: FloatArray) -> FloatArray:
     return normal.T
 
 
+def along_normal(state: HullState, rows: IntArray, away: FloatArray) -> FloatArray:
+    """Give how far movements (k, 3), m, of points lead along the normal of the hull, (k,), m.
+
+    That is the normal of their two curves. Of a point on one curve, or where two are tangent, it
+    is what leads across the curve; nan for a point whose curves are not there.
+    """
+    table, found = state.rows, np.full(len(rows), np.nan)
+    curve, at = table.curve.data[rows], table.parameter.data[rows]
+    held = (curve >= 0) & np.isfinite(at)
+    for side in (0, 1):
+        held[:, side] &= _is_lofted(state, curve[:, side], held[:, side])
+    tangent = np.zeros((len(rows), 2, 3))
+    one, two = np.nonzero(held)
+    tangent[one, two] = tangents(state, curve[one, two], at[one, two])
+    normal = crossing_normals(tangent[:, 0], tangent[:, 1])
+    crossing = held.all(axis=1) & (normal != 0.0).any(axis=1)
+    found[crossing] = np.abs((away[crossing] * normal[crossing]).sum(axis=1))
+    alone = held.any(axis=1) & ~crossing
+    along = tangent[alone, np.argmax(held[alone], axis=1)]
+    across = away[alone] - (away[alone] * along).sum(axis=1)[:, None] * along
+    found[alone] = np.sqrt((across * across).sum(axis=1))
+    return found
+
+
+def _is_lofted(
+    state: HullState, curves: IntArray, asked: np.typing.NDArray[np.bool_]
+) -> np.typing.NDArray[np.bool_]:
+    """Tell which curves have a spline; False where it is not asked."""
+    spline = state.curves.spline.data
+    return np.array(
+        [bool(ask) and spline[curve] is not None
+         for curve, ask in zip(curves.tolist(), asked.tolist(), strict=True)], np.bool_,
+    )  # fmt: skip
+
+
 def gap_at(
     state: HullState, rows: IntArray, guess: np.typing.NDArray[np.integer] | None = None
 ) -> FloatArray:

@@ -458,6 +458,6 @@ def _copy(given: Table, found: Table) -> None:
         other = found.columns[name]
         if isinstance(column, ArrayColumn) and isinstance(other, ArrayColumn):
             other.store[: given.count] = column.data
-            other.writes += 1
+            other.written()
         elif isinstance(column, ListColumn):
             other.data[:] = column.data

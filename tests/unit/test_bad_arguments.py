@@ -91,7 +91,14 @@ HULL: dict[str, Given] = {
     "edit": {"name": "a", "policy": "all_or_nothing", "gaps": "refuse"},
     "preview": {
         "edits": [], "policy": "all_or_nothing", "gaps": "refuse", "name": "a", "why": [POINT],
+        "shapes": False, "measure": False,
     },
+    "drag": {
+        "point": POINT, "how": "pull", "radius": (20.0, 5.0), "across_flats": False,
+        "policy": "all_or_nothing", "gaps": "refuse",
+    },
+    "shapes": {},
+    "since": {"number": 0},
     "apply": {"name": "a", "edits": []},
     "undo": {"n": 0},
     "redo": {"n": 0},

@@ -14,15 +14,16 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.hydrostatics.flotation import EvenKeelDisplacement, even_keel_displacement
-from assoc_hull.arguments import all_of, text
+from assoc_hull.arguments import all_of, flag, text
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain.causes import Thing, Why, node_of, why_after
 from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.report import EditReport
-from assoc_hull.edit.session import Edit
+from assoc_hull.edit.session import Edit, refusal_of
+from assoc_hull.edit.shapes import Shapes, joined
 from assoc_hull.edit.step import Step
-from assoc_hull.errors import BadInputError, RefusedEditError
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.address import AddressBook
@@ -155,6 +156,8 @@ class Preview:
         Why each object that was asked for would change.
     fingerprint : str or None
         That of the hull after the edit; None if refused.
+    shapes : Shapes or None
+        The curves that would change, as they would be, if that was asked for.
     """
 
     report: EditReport | None
@@ -164,6 +167,7 @@ class Preview:
     lines: tuple[LineChange, ...] = ()
     why: Mapping[str, Why] = attrs.field(factory=dict, repr=False)
     fingerprint: str | None = None
+    shapes: Shapes | None = attrs.field(default=None, eq=False, repr=False)
 
     def __str__(self) -> str:
         if self.report is None:
@@ -180,6 +184,9 @@ def preview(
     settings: Settings | None = None,
     name: str = "preview",
     why: Sequence[Thing | str] = (),
+    *,
+    shapes: bool = False,
+    measure: bool = True,
 ) -> Preview:
     """Run an edit beside the published state, and take it back.
 
@@ -195,27 +202,42 @@ def preview(
         Name of the edit, for its report.
     why : sequence of objects or addresses
         Objects whose causes are reported: why they would change.
+    shapes, measure : bool
+        Whether the curves that would change are given, and volume and LCB measured.
 
     Returns
     -------
     Preview
+
+    Raises
+    ------
+    BadInputError
+        An edit is open.
+    WrongTypeError, UnknownNameError, AbsentParameterError, ForeignPointError
+        What was asked for is not there, or is of another kind.
     """
     asked: list[Any] = all_of(why, object, "why", "in preview")
-    before, after = _measure(document), list[_After]()
+    flag(shapes, "shapes", "in preview")
+    flag(measure, "measure", "in preview")
+    document.require_ended("preview")
+    before = _measure(document) if measure else None
+    after = list[_After]()
     trial = Edit(
         document, text(name, "the name", "in preview"), settings,
-        look=lambda step: after.append(_look(document, step, asked)),
+        look=lambda step: after.append(
+            _look(document, step, asked, shapes=shapes, measure=before is not None)
+        ),
     )  # fmt: skip
     try:
         with trial:
             carry_out(trial)
-    except RefusedEditError as error:
-        return Preview(None, error.findings, None, None)
+    except AssocHullError as error:
+        return Preview(None, refusal_of(error), None, None)
     now, volume, lcb = after[0], None, None
     if before is not None and now.displaced is not None:
         volume = now.displaced.volume - before.volume
         lcb = now.displaced.lcb - before.lcb
-    return Preview(trial.report, (), volume, lcb, now.lines, now.why, now.fingerprint)
+    return Preview(trial.report, (), volume, lcb, now.lines, now.why, now.fingerprint, now.shapes)
 
 
 @attrs.frozen
@@ -226,15 +248,32 @@ class _After:
     lines: tuple[LineChange, ...]
     why: dict[str, Why]
     fingerprint: str
+    shapes: Shapes | None
 
 
-def _look(document: Document, step: Step | None, asked: Sequence[Thing | str]) -> _After:
+def _look(
+    document: Document,
+    step: Step | None,
+    asked: Sequence[Thing | str],
+    *,
+    shapes: bool,
+    measure: bool,
+) -> _After:
     state, steps = document.state, [*document.history, *([] if step is None else [step])]
     causes = dict[str, Why]()
     for thing in asked:
         node = node_of(state, thing)
         causes[thing if isinstance(thing, str) else thing.id] = why_after(state, steps, node)
-    return _After(_measure(document), line_changes(state, step), causes, fingerprint(state))
+    displaced = _measure(document) if measure else None
+    drawn = _shapes(state, step) if shapes else None
+    return _After(displaced, line_changes(state, step), causes, fingerprint(state), drawn)
+
+
+def _shapes(state: HullState, step: Step | None) -> Shapes:
+    curves = np.zeros(0, np.int64) if step is None else np.sort(step.curves)
+    curves = curves[state.curves.alive.data[curves]]
+    freeze(curves)
+    return Shapes(curves, joined([state.spline(curve) for curve in curves.tolist()]))
 
 
 def _measure(document: Document) -> EvenKeelDisplacement | None:

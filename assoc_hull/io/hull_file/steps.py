@@ -310,6 +310,12 @@ def report_text(report: EditReport) -> str:
     return json.dumps({**said, "inflections": report.inflections}, separators=(",", ":"))
 
 
+def _movement(said: Any) -> Movement | None:
+    if said is None:
+        return None
+    return Movement(said["point"], said["distance"], tuple(said["place"]))
+
+
 def report_from(text: str) -> EditReport:
     """Give a report from JSON.
 
@@ -320,14 +326,14 @@ def report_from(text: str) -> EditReport:
     """
     said = json.loads(text)
     counted = tuple((key, int(count)) for key, count in said.pop("inflections"))
-    largest = said.pop("largest")
-    if largest is not None:
-        largest = Movement(largest["point"], largest["distance"], tuple(largest["place"]))
+    largest, normal = (_movement(said.pop(name, None)) for name in ("largest", "largest_normal"))
     changes = tuple(tuple(each) for each in said.pop("definitions", ()))
     plain: dict[str, Any] = {
         name: tuple(x) if isinstance(x, list) else x for name, x in said.items()
     }
-    return EditReport(**plain, largest=largest, counted=counted, definitions=changes)
+    return EditReport(
+        **plain, largest=largest, largest_normal=normal, counted=counted, definitions=changes
+    )
 
 
 def steps_of(

@@ -172,7 +172,8 @@ def test_an_edit_is_told_in_words(
     assert main(["edit", str(hull), str(edits(moved(hull, 0.01))), "--why", "ST 7"]) == 0
     text = capsys.readouterr().out
     assert "2 curves re-lofted (sections 1, waterlines 1)" in text
-    assert f"moved most   {POINT}, by 10.0 mm" in text
+    assert f"moved most   {POINT}, by 7.5 mm along the normal" in text
+    assert f"with slides  {POINT}, by 10.0 mm" in text
     assert "why ST 7\nedit 1, 'edits':" in text
     assert f"written: {hull}" in text
 

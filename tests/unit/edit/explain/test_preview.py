@@ -5,7 +5,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.explain.preview import line_changes
-from assoc_hull.errors import UnknownNameError, WrongTypeError
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 
 POINT = "WL 2.5 x ST 7"
 PULL = [{"op": "pull", "point": POINT, "d": 0.02, "radius": (25.0, 3.0)}]
@@ -106,3 +106,50 @@ def test_without_a_step_no_line_changes(hull: ah.Hull) -> None:
     found = hull.preview([{"op": "move", "point": POINT, "y": hull.points[POINT].y}])
     assert found.lines == ()
     assert found.fingerprint == hull.fingerprint
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"op": "move", "point": POINT, "x": 1.0}, "x"),
+        ({"op": "move", "point": POINT, "y": float("nan")}, "finite"),
+        ({"op": "set_role", "crossing": POINT, "role": "sideways"}, "role"),
+        ({"op": "delete", "point": POINT}, ""),
+    ],
+    ids=["not free", "no number", "no role", "delete"],
+)
+def test_what_an_edit_refuses_is_a_value(
+    change: dict[str, object], words: str, hull: ah.Hull
+) -> None:
+    """With the words of the edit's own error; the hull is as it was."""
+    before = hull.fingerprint
+    found = hull.preview([change])
+    with pytest.raises(ah.AssocHullError) as refused:
+        hull.apply("it", [change])
+    findings = getattr(refused.value, "findings", (str(refused.value),))
+    assert found.refused == tuple(findings)
+    assert words in found.refused[0]
+    assert hull.fingerprint == before
+
+
+def test_shapes_are_those_the_edit_would_leave(hull: ah.Hull) -> None:
+    """Of the curves that change, when asked; without measuring nothing is known of the volume."""
+    found = hull.preview(PULL, shapes=True, measure=False)
+    assert found.volume_change is None
+    assert found.shapes is not None
+    report = hull.apply("pull", PULL)
+    assert report is not None
+    after = hull.shapes()
+    rows = np.searchsorted(after.curves, found.shapes.curves)
+    assert {hull.state.curves.key.data[each] for each in found.shapes.curves} == set(
+        report.relofted
+    )
+    want = np.concatenate([after.spline.part(row, row + 1).xyz for row in rows.tolist()])
+    np.testing.assert_array_equal(found.shapes.spline.xyz, want)
+    assert hull.preview([]).shapes is None
+
+
+def test_a_preview_waits_for_the_end_of_an_open_edit(hull: ah.Hull) -> None:
+    """It would show what that edit has not published."""
+    with hull.edit("open"), pytest.raises(BadInputError, match="an edit is open"):
+        hull.preview(PULL)

@@ -1,0 +1,391 @@
+"""The live drag: a point is moved or pulled again and again, and nothing is published.
+
+Each `Drag.to` carries out the whole edit on the tables, reads what came of it, and takes it back
+to the last bit: no step, no revision, no write to a file. `Drag.commit` makes the edit that the
+last `to` asked for. What all steps of one drag read of the hull as it is (normals, field context,
+look-ups) is made once: the journal brings back the numbers of the writes with their content.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from functools import cached_property
+from threading import Event
+from types import TracebackType
+from typing import Literal, Self
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import choice, flag, shown
+from assoc_hull.edit.arguments import GivenObjects
+from assoc_hull.edit.displacement_field import field_context
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.hull_normals import hull_normals
+from assoc_hull.edit.pending_changes import Settings
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.session import Edit, refusal_of
+from assoc_hull.edit.shapes import joined, lofted_curves
+from assoc_hull.edit.step import Step
+from assoc_hull.errors import AssocHullError, BadInputError, WrongTypeError
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.integrals.area_moments import section_area
+from assoc_hull.geometry.splines.distance import closest_points_each
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.address import address
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.links import free_axes
+from assoc_hull.model.objects import Point
+from assoc_hull.model.tables import HullState
+
+__all__ = ["Drag", "DragWay", "Live"]
+
+DragWay = Literal["pull", "move"]
+
+
+@attrs.frozen(eq=False, slots=False)
+class Live:
+    """What a hull would be if the drag ended here; relative to the published state.
+
+    Attributes
+    ----------
+    refused : tuple of str
+        Why the edit would be refused; then all else is empty.
+    curves : (k,) int
+        Numbers of the curves that changed, ascending, as `Hull.shapes` has them.
+    spline : SplineBatch
+        Of exactly these, in that order.
+    born, gone : tuple of str
+        Keys of points that the hull would have more, and would have no more; a drag makes and
+        takes no curves.
+    rows, xyz : (n,) int, (n, 3) m
+        Points of the published hull that changed their place, and where they would be.
+    relofted : int
+        Curves that were lofted.
+    report : EditReport or None
+        The report that the edit would have.
+    seconds : float
+        How long it took, by the clock.
+    """
+
+    refused: tuple[str, ...]
+    curves: IntArray
+    spline: SplineBatch
+    born: tuple[str, ...]
+    gone: tuple[str, ...]
+    rows: IntArray
+    xyz: FloatArray
+    relofted: int
+    report: EditReport | None
+    seconds: float
+    _before: _Published = attrs.field(repr=False)
+
+    @cached_property
+    def moved(self) -> FloatArray:
+        """How far each of `curves` lies off its published shape at most, (k,), m.
+
+        Of its defining points the distance of the farthest from the curve as it is published: what
+        slides along the curve has not moved. nan for a curve that is new.
+        """
+        return self._before.distances(self.curves, self.spline)
+
+    @cached_property
+    def sections(self) -> IntArray:
+        """Those of `curves` that belong to plane sections across the ship, ascending."""
+        found: IntArray = self.curves[np.isin(self.curves, self._before.section_curves)]
+        return found
+
+    @cached_property
+    def areas(self) -> FloatArray:
+        """Area of the half section within each of `sections`, below the design draught, m2."""
+        chosen = np.flatnonzero(np.isin(self.curves, self.sections))
+        return _areas(_chosen(self.spline, chosen), self._before.draught)
+
+    @cached_property
+    def volume_change(self) -> float:
+        """About how much the volume below the design draught changes, both sides, m3.
+
+        Trapezes between the sections that changed and those beside them; the exact number is that
+        of `Hull.preview`.
+        """
+        return self._moment(0)
+
+    @cached_property
+    def lcb_change(self) -> float:
+        """About how much the centre of buoyancy moves, m, forward positive; nan at no volume."""
+        volume, first = self._before.volume
+        after = volume + self.volume_change
+        if not after > 0.0 or not volume > 0.0:
+            return float("nan")
+        return (first + self._moment(1)) / after - first / volume
+
+    def _moment(self, power: int) -> float:
+        """Integrate the changes of sectional areas times a power of x over the length."""
+        before, change = self._before, np.zeros(len(self._before.stations))
+        where = np.searchsorted(before.section_curves, self.sections)
+        np.add.at(change, before.station_of[where], self.areas - before.areas[where])
+        return 2.0 * float(np.trapezoid(change * before.stations**power, before.stations))
+
+
+@attrs.frozen(eq=False, slots=False)
+class _Published:
+    """The published hull, as the answers of a drag are measured from it."""
+
+    splines: Mapping[int, SplineBatch]
+    draught: float
+    section_curves: IntArray
+    station_of: IntArray
+    stations: FloatArray
+
+    @classmethod
+    def of(cls, state: HullState) -> Self:
+        """Take what is there; splines are frozen, so that later edits leave them alone."""
+        curves = lofted_curves(state)
+        splines = {curve: state.spline(curve) for curve in curves.tolist()}
+        line = state.curves.line.data[curves]
+        across = state.lines.planar.data[line] & (np.abs(state.lines.normal.data[line, 0]) == 1.0)
+        across &= state.lines.boundary.data[line] < 0
+        # An end plate in a plane of its own is a boundary curve: it is no section.
+        mine = curves[across]
+        x = state.lines.offset.data[line[across]] * state.lines.normal.data[line[across], 0]
+        stations, station_of = np.unique(x, return_inverse=True)
+        return cls(splines, state.particulars.draught, mine, station_of, stations)
+
+    @cached_property
+    def areas(self) -> FloatArray:
+        """Area of the half section within each of the section curves, below the draught, m2."""
+        if not len(self.section_curves):
+            return np.zeros(0)
+        batch = SplineBatch.join([self.splines[curve] for curve in self.section_curves.tolist()])
+        return _areas(batch, self.draught)
+
+    @cached_property
+    def volume(self) -> tuple[float, float]:
+        """Volume of both sides by trapezes, m3, and its moment about x = 0, m4."""
+        area = np.zeros(len(self.stations))
+        np.add.at(area, self.station_of, self.areas)
+        return tuple(  # type: ignore[return-value]
+            2.0 * float(np.trapezoid(area * self.stations**power, self.stations))
+            for power in (0, 1)
+        )
+
+    def distances(self, curves: IntArray, spline: SplineBatch) -> FloatArray:
+        """Give the distance of the farthest defining point of each curve from what is published."""
+        found = np.full(len(curves), np.nan)
+        known = np.array([curve in self.splines for curve in curves.tolist()], bool)
+        if not known.any():
+            return found
+        old = SplineBatch.join([self.splines[curve] for curve in curves[known].tolist()])
+        new = _chosen(spline, np.flatnonzero(known))
+        owner = np.repeat(np.arange(new.count), np.diff(new.start))
+        away = closest_points_each(old, owner, new.xyz)[2]
+        found[known] = np.maximum.reduceat(away, new.start[:-1])
+        return found
+
+
+def _chosen(batch: SplineBatch, places: IntArray) -> SplineBatch:
+    """Give some curves of a batch; none may be chosen."""
+    if len(places) == batch.count:
+        return batch
+    return joined([batch.part(place, place + 1) for place in places.tolist()])
+
+
+def _areas(batch: SplineBatch, draught: float) -> FloatArray:
+    return section_area(batch, draught) if batch.count else np.zeros(0)
+
+
+def _come_and_gone(step: Step, state: HullState) -> tuple[IntArray, IntArray]:
+    """Give the points that a step has made, and those that it has taken away."""
+    assert isinstance(step.journal, Journal), "a step that has just been made holds its writes"
+    lives = step.journal.net(state.rows.alive)
+    return lives.rows[lives.new & ~lives.old], lives.rows[lives.old & ~lives.new]
+
+
+class Drag:
+    """One point of a hull while it is dragged, to be used in a ``with`` statement.
+
+    `Hull.drag` makes it. Leaving the block without `commit` changes nothing.
+
+    Attributes
+    ----------
+    start : (3,), m
+        Where the point lies.
+    free : tuple of str
+        The coordinates it may be moved in; empty for one that is computed, which may be pulled.
+    normal : (3,) or None
+        Outward unit normal of the hull there; None where it is not known.
+    """
+
+    def __init__(
+        self,
+        document: Document,
+        point: Point | str,
+        how: DragWay = "pull",
+        radius: tuple[float, float] | None = None,
+        *,
+        across_flats: bool = False,
+        settings: Settings | None = None,
+    ) -> None:
+        choice(how, "how", ("pull", "move"), "in drag")
+        flag(across_flats, "across_flats", "in drag")
+        self._how: DragWay = how
+        self._document, self._settings = document, settings
+        document.require_ended("drag")
+        state = document.state
+        row, _ = GivenObjects(state).point(point)
+        self._name = address(state, row)
+        self._asked = {"radius": radius, "across_flats": across_flats}
+        self.start: FloatArray = state.rows.xyz.data[row].copy()
+        computed = state.rows.sort.data[row] == Sort.CROSSING
+        computed &= state.rows.role.data[row] != Role.SHARED
+        self.free = () if computed else free_axes(state, row)
+        normal = hull_normals(state)[row]
+        self.normal: FloatArray | None = normal.copy() if (normal != 0.0).any() else None
+        freeze(self.start, *([] if self.normal is None else [self.normal]))
+        if how == "pull":
+            field_context(state, across_flats=across_flats)  # once, for all steps
+        self._published = _Published.of(state)
+        self._number, self._last = document.state_number, dict[str, object]()
+        self._over, self._stopped = False, Event()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._over = True
+
+    def to(
+        self,
+        d: float | None = None,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        z: float | None = None,
+    ) -> Live:
+        """Carry out the edit, read it, and take it back.
+
+        Parameters
+        ----------
+        d : float, m
+            How far to pull, outward positive; of a drag that pulls.
+        x, y, z : float, m
+            Where to move to; of a drag that moves, exactly the coordinates of `free`.
+
+        Returns
+        -------
+        Live
+            What changed, or why it is refused.
+
+        Raises
+        ------
+        BadInputError
+            The drag has ended, another edit is open or was made meanwhile, or arguments do not
+            fit the drag.
+        WrongTypeError
+            An argument is no number.
+        """
+        self._require_open("to")
+        self._last = self._arguments({"d": d, "x": x, "y": y, "z": z})
+        self._stopped.clear()
+        begin, seen = time.perf_counter(), list[Live]()
+        trial = Edit(
+            self._document, "drag", self._settings,
+            look=lambda step: seen.append(self._look(step)), stopped=self._stopped.is_set,
+        )  # fmt: skip
+        try:
+            with trial:
+                self._ask(trial)
+        except AssocHullError as error:
+            seen = [self._nothing(refusal_of(error))]
+        return attrs.evolve(seen[0], seconds=time.perf_counter() - begin)
+
+    def commit(self, name: str) -> EditReport:
+        """Make the edit that the last `to` asked for, and end the drag.
+
+        Raises
+        ------
+        BadInputError
+            Nothing was asked for; as for `to`.
+        RefusedEditError, PointRoleError, FreedomError
+            What the last `to` told as refused; the hull is as it was.
+        """
+        self._require_open("commit")
+        if not self._last:
+            what, remedy = "nothing was asked for", "call to before"
+            raise BadInputError(what, f"in the drag of {self._name}", remedy)
+        edit = Edit(self._document, name, self._settings)
+        with edit:
+            self._ask(edit)
+        self._over = True
+        assert edit.report is not None
+        return edit.report
+
+    def stop(self) -> None:
+        """End a `to` that is in progress, at its next sub-step; from any thread.
+
+        It is told as refused. The next `to` runs as usual.
+        """
+        self._stopped.set()
+
+    def _require_open(self, act: str) -> None:
+        """Refuse a drag that is over, or whose ground has changed."""
+        where = f"in {act} of the drag of {self._name}"
+        self._document.require_ended(act)
+        if self._over:
+            raise BadInputError("it has ended", where, "begin another one (hull.drag)")
+        if self._document.state_number != self._number:
+            what = "the hull was changed since the drag began"
+            raise BadInputError(what, where, "begin another one (hull.drag)")
+
+    def _arguments(self, given: dict[str, float | None]) -> dict[str, object]:
+        """Take what was given; a drag takes d, or coordinates."""
+        asked: dict[str, object] = {
+            name: value for name, value in given.items() if value is not None
+        }
+        fits = set(asked) == {"d"} if self._how == "pull" else bool(asked) and "d" not in asked
+        if not fits:
+            wanted = "d" if self._how == "pull" else ", ".join(self.free) or "no coordinate"
+            what = f"{', '.join(asked) or 'nothing'} was given to a drag that {self._how}s"
+            raise BadInputError(what, f"in to of the drag of {self._name}", f"give {wanted}")
+        for name, value in asked.items():
+            if isinstance(value, bool) or not isinstance(value, float | int | np.number):
+                what = f"{name} is {shown(value)}"
+                raise WrongTypeError(what, f"in to of the drag of {self._name}", "give a number")
+        return asked
+
+    def _ask(self, edit: Edit) -> None:
+        """Ask an edit for what the last `to` asked for."""
+        if self._how == "pull":
+            edit.pull(self._name, **self._last, **self._asked)  # type: ignore[arg-type]
+        else:
+            edit.move(self._name, **self._last)  # type: ignore[arg-type]
+
+    def _nothing(self, refused: tuple[str, ...]) -> Live:
+        none, nowhere = np.zeros(0, np.int64), np.zeros((0, 3))
+        return Live(refused, none, joined([]), (), (), none, nowhere, 0, None, 0.0,
+                    self._published)  # fmt: skip
+
+    def _look(self, step: Step | None) -> Live:
+        """Read what an edit has done to the tables, before it is taken back."""
+        if step is None:
+            return self._nothing(())
+        state = self._document.state
+        curves = step.curves[state.curves.alive.data[step.curves]]
+        rows = step.rows[state.rows.alive.data[step.rows]]
+        born, gone = _come_and_gone(step, state)
+        known = rows[~np.isin(rows, born)]
+        key = state.rows.key.data
+        spline = joined([state.spline(curve) for curve in curves.tolist()])
+        xyz = state.rows.xyz.data[known]
+        freeze(curves, known, xyz)
+        return Live(
+            (), curves, spline, tuple(key[row] for row in born.tolist()),
+            tuple(key[row] for row in gone.tolist()), known, xyz, len(step.report.relofted),
+            step.report, 0.0, self._published,
+        )  # fmt: skip

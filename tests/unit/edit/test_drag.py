@@ -1,0 +1,262 @@
+"""The live drag: what it shows is what the edit would do, and nothing is published meanwhile."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import assoc_hull as ah
+from assoc_hull.edit.drag import Live
+from assoc_hull.errors import (
+    BadInputError,
+    PointRoleError,
+    RefusedEditError,
+    UnknownNameError,
+    WrongTypeError,
+)
+from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.table import Table
+from tests.twins import packed, twin
+
+POINT = "WL 2.5 x ST 7"
+PACK = packed(ah.examples.wigley())
+RADIUS = (20.0, 4.0)
+
+
+def hull() -> ah.Hull:
+    """Wigley's hull."""
+    made: ah.Hull = twin(PACK)
+    return made
+
+
+def published(ship: ah.Hull) -> tuple[object, ...]:
+    """All that anybody can see of a hull."""
+    state = ship.state
+    return (
+        ship.fingerprint, len(ship.history), ship.state_number, dict(state.revision_row),
+        dict(state.revision_curve), state.rows.count, state.curves.count,
+    )  # fmt: skip
+
+
+AMOUNTS = st.lists(
+    st.one_of(
+        st.floats(-0.03, 0.03),
+        st.sampled_from([0.0, 0.4, -5.0, 1e9, float("nan"), float("inf")]),
+    ),
+    min_size=1,
+    max_size=4,
+)
+
+
+@settings(max_examples=12, deadline=None)
+@given(how=st.sampled_from(["pull", "move"]), amounts=AMOUNTS)
+def test_nothing_is_published_and_the_last_step_is_what_is_committed(
+    how: str, amounts: list[float]
+) -> None:
+    """Whatever was shown before, refusals too, the hull is as it was; then it is as by one edit."""
+    ship, other = hull(), hull()
+    before = published(ship)
+    way: dict[str, object] = {"radius": RADIUS} if how == "pull" else {}
+    with ship.drag(POINT, how, **way) as drag:  # type: ignore[arg-type]
+        for amount in amounts:
+            live = drag.to(amount) if how == "pull" else drag.to(y=drag.start[1] + amount)
+            assert published(ship) == before
+        if live.refused:
+            with pytest.raises(ah.AssocHullError):
+                drag.commit("it")
+            assert published(ship) == before
+            return
+        if how == "pull" and amounts[-1] == 0.0:
+            return
+        drag.commit("it")
+    with other.edit("it") as edit:
+        if how == "pull":
+            edit.pull(POINT, amounts[-1], RADIUS)
+        else:
+            edit.move(POINT, y=float(drag.start[1]) + amounts[-1])
+    assert ship.fingerprint == other.fingerprint
+    assert np.array_equal(live.spline.xyz, _curves(ship, live))
+
+
+def _curves(ship: ah.Hull, live: Live) -> np.ndarray:
+    shapes = ship.shapes()
+    places = np.searchsorted(shapes.curves, live.curves)
+    if not len(places):
+        return np.zeros((0, 3))
+    return np.concatenate([shapes.spline.part(at, at + 1).xyz for at in places.tolist()])
+
+
+def test_a_hull_file_is_not_touched(tmp_path: Path) -> None:
+    """While a point of a saved hull is dragged, no byte of its file changes."""
+    ship, path = hull(), tmp_path / "ship.hull"
+    ship.save(path)
+    before = path.read_bytes()
+    with ship.drag(POINT, radius=RADIUS) as drag:
+        for d in (0.01, 50.0, 0.02):
+            drag.to(d)
+            assert path.read_bytes() == before
+            assert {each.name for each in tmp_path.iterdir()} <= {
+                "ship.hull", "ship.hull-wal", "ship.hull-shm",
+            }  # fmt: skip
+    ship.close()
+
+
+def test_what_slides_along_a_curve_has_not_moved(fresh_series60_70: ah.Hull) -> None:
+    """A pull of 10 mm moves sections by 10 mm and less; crossings of flat lines slide farther."""
+    with fresh_series60_70.drag("WL 0.625 x ST 16", radius=(20.0, 8.0)) as drag:
+        live = drag.to(0.010)
+    assert live.report is not None
+    assert live.report.largest is not None
+    section = live.moved[np.isin(live.curves, live.sections)]
+    assert 0.0095 < section.max() < 0.0115
+    assert live.report.largest.distance > 3.0 * section.max()
+    assert live.report.largest_normal is not None
+    assert live.report.largest_normal.distance == pytest.approx(0.010, rel=0.1)
+    told = str(live.report)
+    assert told.index("mm along the normal") < told.index("with slides on the hull")
+
+
+def test_volume_and_centre_are_about_what_a_preview_says() -> None:
+    """Trapezes between the sections give the change within a tenth."""
+    ship = hull()
+    with ship.drag(POINT, radius=RADIUS) as drag:
+        live = drag.to(0.02)
+    exact = ship.preview(lambda edit: edit.pull(POINT, 0.02, RADIUS))
+    assert exact.volume_change is not None
+    assert exact.lcb_change is not None
+    assert live.volume_change == pytest.approx(exact.volume_change, rel=0.1)
+    assert live.lcb_change == pytest.approx(exact.lcb_change, rel=0.1)
+    assert len(live.areas) == len(live.sections) > 0
+
+
+def test_refusals_are_values_and_wrong_arguments_are_errors() -> None:
+    """What cannot be is told; what nobody can have meant is raised."""
+    ship = hull()
+    with ship.drag(POINT, "move") as drag:
+        assert drag.free == ("y",)
+        assert "folds" in drag.to(y=90.0).refused[0]
+        assert "finite" in drag.to(y=float("nan")).refused[0]
+        assert "x" in drag.to(x=1.0).refused[0]
+        assert not drag.to(y=drag.start[1]).refused
+        with pytest.raises(BadInputError, match="d was given to a drag that moves"):
+            drag.to(0.1)
+        with pytest.raises(WrongTypeError):
+            drag.to(y="3")  # type: ignore[arg-type]
+        drag.to(y=90.0)
+        with pytest.raises(RefusedEditError):
+            drag.commit("too far")
+    with pytest.raises(BadInputError, match="it has ended"):
+        drag.to(y=4.0)
+    with pytest.raises(UnknownNameError):
+        ship.drag("WL 2.5 x ST 99")
+    with pytest.raises(BadInputError):
+        ship.drag(POINT, "push")  # type: ignore[arg-type]
+
+
+def test_a_drag_ends_with_the_state_that_it_began_on() -> None:
+    """An edit made meanwhile, or one that is open, is told: start and normal are true no more."""
+    ship = hull()
+    with ship.drag(POINT) as drag:
+        with pytest.raises(BadInputError, match="nothing was asked for"):
+            drag.commit("nothing")
+        with ship.edit("other") as edit:
+            with pytest.raises(BadInputError, match="open"):
+                drag.to(0.01)
+            edit.move(POINT, y=float(drag.start[1]) + 0.005)
+        with pytest.raises(BadInputError, match="changed since the drag began"):
+            drag.to(0.01)
+
+
+def test_a_computed_point_may_be_pulled_and_not_moved(fresh_series60_70: ah.Hull) -> None:
+    """A computed point has no freedom: a move tells who drives it, a pull adopts a point."""
+    ship = fresh_series60_70
+    before, driven = published(ship), "BTK 0.76 x ST 16"
+    with ship.drag(driven, "move") as drag:
+        assert drag.free == ()
+        assert "watched" in drag.to(z=4.0).refused[0]
+        with pytest.raises(PointRoleError):
+            drag.commit("no")
+    with ship.drag(driven, radius=(20.0, 8.0)) as drag:
+        live = drag.to(0.01)
+        again = drag.to(0.01)
+        assert (again.born, again.refused) == (live.born, live.refused)
+        assert live.refused or live.born
+    assert published(ship) == before
+
+
+def test_a_step_is_stopped_from_another_thread() -> None:
+    """A long pull ends with a refusal before its next sub-step; the next one runs."""
+    ship = hull()
+    before = published(ship)
+    with ship.drag(POINT, radius=RADIUS) as drag:
+        done = threading.Event()
+
+        def stop() -> None:
+            while not done.wait(0.002):
+                drag.stop()
+
+        thread = threading.Thread(target=stop)
+        thread.start()
+        try:
+            live = drag.to(0.4)
+        finally:
+            done.set()
+            thread.join()
+        assert live.refused == ("it was stopped",)
+        assert published(ship) == before
+        assert not drag.to(0.01).refused
+
+
+def test_what_has_changed_since_a_state_is_told() -> None:
+    """The number of the state rises with edit, undo and redo, and each tells its curves."""
+    ship = hull()
+    assert ship.state_number == 0
+    y = float(ship.drag(POINT).start[1]) + 0.005
+    report = ship.apply("a", [{"op": "move", "point": POINT, "y": y}])
+    assert report is not None
+    first = ship.since(0)
+    assert len(first.curves) == len(report.relofted)
+    ship.undo()
+    assert ship.state_number == 2
+    assert ship.since(1).curves.tolist() == first.curves.tolist()
+    assert ship.since(2).curves.size == 0
+    ship.redo()
+    assert ship.since(0).rows.tolist() == first.rows.tolist()
+    assert not ship.since(0).structural
+    with pytest.raises(BadInputError, match="from 0 to 3"):
+        ship.since(4)
+
+
+def test_shapes_are_all_curves_in_one_batch() -> None:
+    """Each curve of the batch is the one of its number, to the bit."""
+    ship = hull()
+    shapes = ship.shapes()
+    assert shapes.curves.tolist() == ship.state.live("curves").tolist()
+    for place, curve in enumerate(shapes.curves.tolist()):
+        assert np.array_equal(
+            shapes.spline.part(place, place + 1).xyz, ship.state.spline(curve).xyz
+        )
+
+
+@given(st.lists(st.sampled_from(["put", "grow", "undo"]), max_size=12))
+def test_the_number_of_a_write_comes_back_with_its_content(acts: list[str]) -> None:
+    """A number of writes that was seen before stands for the same content, at any time."""
+    table = Table(height=(float, ()), side=(float, ()))
+    seen = dict[int, bytes]()
+    journal, marks = Journal(), [0]
+    for turn, act in enumerate(acts):
+        if act == "undo":
+            journal.undo(keep=marks.pop() if len(marks) > 1 else 0)
+        elif act == "grow" or not table.count:
+            marks.append(len(journal.entries))
+            journal.grow(table, 2)
+        else:
+            marks.append(len(journal.entries))
+            journal.put(table.height, [turn % table.count], [float(turn)])
+        content = table.height.data.tobytes()
+        assert seen.setdefault(table.height.writes, content) == content
