@@ -130,6 +130,9 @@ def _lone_turns(
     whole = np.convolve(turn, np.ones(5))[2:-2]
     lone = (turn >= np.deg2rad(_LONE_DEG)) & (turn >= _LONE * whole)
     lone |= turn >= np.deg2rad(_SHARP_DEG)
+    # Beside a short step the scatter of the points alone makes a turn.
+    size = np.diff(length)
+    lone &= turn * np.minimum(size[:-1], size[1:]) > 4.0 * np.sqrt(6.0) * noise
     for scale in seen:
         nearest = np.searchsorted(scale.at, inner).clip(max=len(scale.at) - 1)
         # Points that lie near on one side only let a scale look beside the turn, not at it.
