@@ -19,7 +19,7 @@ from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.step import Step
-from assoc_hull.errors import AssocHullError, BadInputError, UnknownNameError, WrongTypeError
+from assoc_hull.errors import AssocHullError, UnknownNameError, WrongTypeError
 from assoc_hull.graph.run_update import FailurePolicy
 
 __all__ = [
@@ -74,7 +74,7 @@ def carry_out(edit: Edit, changes: Changes | None) -> None:
     ------
     UnknownNameError
         No such modification.
-    BadInputError
+    WrongTypeError
         A mapping without ``op``, or arguments that do not fit.
     """
     if callable(changes):
@@ -101,11 +101,11 @@ def _modify(edit: Edit, change: object, where: str) -> None:
     for given in arguments:
         if given not in takes.parameters and not any_name:
             remedy = f"it takes {', '.join(takes.parameters)}"
-            raise BadInputError(f"{name} takes no {given!r}", where, remedy)
+            raise WrongTypeError(f"{name} takes no {given!r}", where, remedy)
     try:
         takes.bind(**arguments)
     except TypeError as error:
-        raise BadInputError(f"{name}: {error}", where, "add it") from error
+        raise WrongTypeError(f"{name}: {error}", where, "add it") from error
     method(**arguments)
 
 
