@@ -339,7 +339,8 @@ def examine_bottom(patient: ExaminedTable, book: Notebook) -> None:
     open_area = flat * gap  # both sides, between a straight line and a flat bottom
     area = 2.0 * section_areas(patient, patient.draught)
     volume, doubt = (float(np.trapezoid(each, patient.x)) for each in (area, open_area))
-    if not doubt > _OPEN_BOTTOM * max(volume, 1e-300):
+    # Sections of no area are told elsewhere: of nothing no part can be missing.
+    if not volume > 0.0 or not doubt > _OPEN_BOTTOM * volume:
         return
     large = np.flatnonzero(open_area > 0.25 * open_area.max())
     names = ", ".join(patient.stations[i] for i in large[:_NAMED].tolist())

@@ -79,3 +79,10 @@ def test_a_counter_that_reaches_the_deck_alone_is_taken(tmp_path: Path) -> None:
     state, report = import_hull(path, ImportOptions(draught=0.7, accept=True))
     assert "left open" in str(report.adoption.notes)
     assert hydrostatics(Document(state), on_error="report").volume == pytest.approx(5.887, rel=0.02)
+
+
+def test_a_hull_that_is_out_of_the_water_is_told_as_such() -> None:
+    """Its sections have no area below the draught, of which a part could be missing."""
+    rows = ["x_m,WL 2 m,WL 3 m,WL 4 m,keel", *(f"{x},4,5,5,1.6" for x in range(0, 60, 6))]
+    _, report = read_offsets("\n".join(rows), length=54.0, draught=1.0)
+    assert "open bottom" not in report.kinds("suspicions")
