@@ -163,8 +163,11 @@ def draw_boundary_curve(
 def _beyond(before: FloatArray, last: FloatArray, apart: float) -> FloatArray:
     """Give the place to which a border is led on straight beyond its last mark."""
     step = last - before
-    part = _ROOM * apart / max(float(np.sqrt(step @ step)), 1e-300)
-    return np.asarray(last + float(np.clip(part, *_OVER)) * step)
+    part = float(np.clip(_ROOM * apart / max(float(np.sqrt(step @ step)), 1e-300), *_OVER))
+    # Not beyond the centre plane, which a knuckle that runs into the stem would pass.
+    if last[1] > 0.0 > last[1] + 2.0 * part * step[1]:
+        part = -0.5 * float(last[1] / step[1])
+    return np.asarray(last + part * step)
 
 
 def _spaced(xyz: FloatArray, doubt: FloatArray, corners: Sequence[int], apart: float) -> IntArray:

@@ -37,3 +37,16 @@ def test_a_border_of_marks_in_order_is_led_on_at_both_ends() -> None:
     for end, mark in ((0, 0), (-1, -1)):
         beyond = abs(float(source.points[end, 0] - places[mark, 0]))
         assert 0.05 * 5.0 - 1e-9 <= beyond <= 0.25 * 5.0 + 0.05
+
+
+def test_a_border_is_not_led_on_through_the_centre_plane() -> None:
+    """A knuckle that runs into the stem: its last mark lies .11 m off, and the next step is .62."""
+    x = np.array([101.0, 103.0, 104.5, 106.0, 107.0, 108.0, 109.0])
+    y = np.array([4.306, 3.422, 2.69, 1.895, 1.329, 0.735, 0.111])
+    places = np.column_stack([x, y, np.full(7, 8.7)])
+    marks = BoundaryMarks(
+        tuple(f"ST {each:g}" for each in x), places, np.full(7, 0.005), (np.eye(3)[2], 8.7)
+    )
+    source, _ = draw_boundary_curve("knuckle 1", BoundaryKind.KNUCKLE, marks, FeatureRules(), 0.01)
+    assert source.points[-1, 0] > 109.0
+    assert source.points[:, 1].min() > 0.05
