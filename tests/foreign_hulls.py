@@ -1062,8 +1062,8 @@ CORPUS: tuple[Foreign, ...] = (
         sections=True,
     ),
     Foreign(
-        "container_holed", "225 m container ship: digitised lines, 7 mm of the profile missing "
-        "above the stern bulb", write_container, _ship("container_ship_225m"),
+        "container_holed", "225 m container ship: digitised lines, 7 mm of the profile missing",
+        write_container, _ship("container_ship_225m"),
         {"length": 225.0, "draught": 10.8},
         (_w(_UNIT, unit="ft"), _w(_LENGTH, length=150.0), _w(_DRAUGHT, draught=1.08)),
     ),
@@ -1074,8 +1074,8 @@ CORPUS: tuple[Foreign, ...] = (
         cuts=_FEW,
     ),
     Foreign(
-        "frigate", "Frigate: STL, whole; dome 1.8 m below base; x aft from FP, z = 0 at the "
-        "waterline", write_frigate, frigate_truth, {"length": 117.0, "draught": 4.4},
+        "frigate", "Frigate: whole STL; dome 1.8 m below base; x aft from FP, z from the waterline",
+        write_frigate, frigate_truth, {"length": 117.0, "draught": 4.4},
         (_w(_UNIT, unit="ft"), _w(_LENGTH, length=70.0), _w(_DRAUGHT, draught=6.2),
          _w(_BASE, base=-6.2)),
         cuts=_FEW,
