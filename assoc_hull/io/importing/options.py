@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 
 import attrs
 
+from assoc_hull.arguments import word
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.placing.options import FrameOptions, Place
 from assoc_hull.io.slicing.cut_planes import Places
@@ -97,6 +98,10 @@ class ImportOptions:
     strict: bool = False
 
     def __attrs_post_init__(self) -> None:
+        # Before any file is opened: which reader would come upon it hangs on the file.
+        for name in ("unit", "axes"):
+            if getattr(self, name) is not None:
+                word(getattr(self, name), name, "in the import")
         if self.accept and self.strict:
             raise BadInputError(
                 "accept takes what is not sound, and strict refuses what is suspected",
