@@ -99,7 +99,7 @@ class ImportOptions:
 
     def __attrs_post_init__(self) -> None:
         # Before any file is opened: which reader would come upon it hangs on the file.
-        for name in ("unit", "axes"):
+        for name in ("unit", "axes", "origin", "deck", "station_zero", "deck_edge"):
             if getattr(self, name) is not None:
                 word(getattr(self, name), name, "in the import")
         if self.accept and self.strict:
