@@ -4,31 +4,84 @@ Undo and redo run what a step wrote backward and forward; they never compute any
 steps form a tree. The present state lies on one path through it: the steps up to it are
 `history`, those beyond it that were taken back are `undone`. An edit made in the place of
 undone steps begins another path, and the old one gets a name; nothing is ever thrown away.
+
+A keeper, which a hull file is, keeps the steps beyond the life of the process. It is asked before a
+step counts as committed, so that what is told to be committed is kept. Where it fails the edit is
+taken back; where an act is broken off behind that, memory follows what is kept: see `settle`.
 """
 
 from __future__ import annotations
 
 import contextlib
 import operator
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
+from typing import Protocol
 
 import attrs
 import numpy as np
 
 from assoc_hull.arguments import integer, shown, shown_name, text
 from assoc_hull.edit.step import Step
-from assoc_hull.edit.step_storage import Keeper, Label
-from assoc_hull.errors import BadInputError, NameTakenError, UnknownNameError
+from assoc_hull.errors import AssocHullError, BadInputError, NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import IntArray, freeze
 from assoc_hull.graph.network import distinct
 from assoc_hull.model.index import Index, build_index
 from assoc_hull.model.tables import HullState, copy_into, copy_state
 
-__all__ = ["Changed", "Document"]
+__all__ = ["Changed", "Document", "Keeper", "Label"]
 
 _HELD = 16
 """So many steps are held in full where a keeper has them all."""
+
+
+@attrs.frozen
+class Label:
+    """A name for a state of the hull.
+
+    Attributes
+    ----------
+    name : str
+        The name.
+    step : int
+        Number of the step after which the hull is in this state; 0 as it came.
+    branch : bool
+        Whether it was given to undone steps when another edit was made in their place; else a
+        checkpoint, that somebody asked for.
+    author, time : str
+        Who gave the name, and when: ISO 8601, UTC.
+    """
+
+    name: str
+    step: int
+    branch: bool = False
+    author: str = attrs.field(default="", eq=False)
+    time: str = attrs.field(default="", eq=False)
+
+
+class Keeper(Protocol):
+    """Keeps what is committed; every method raises, and keeps nothing of it, if it cannot."""
+
+    def begin(self) -> None:
+        """Take the right to write; nobody else has it until `end`."""
+
+    def commit(self, step: Step, branch: Label | None) -> None:
+        """Keep a step that was just made, and a name for the steps that it takes the place of."""
+
+    def move(self, head: int, tip: int, steps: Sequence[Step], branch: Label | None) -> None:
+        """Keep that the hull is now as after step `head`, where these steps were run."""
+
+    def label(self, label: Label) -> None:
+        """Keep a name."""
+
+    def agree(self, steps: int) -> None:
+        """Take note that what was kept last is in memory as well, where there are so many steps."""
+
+    def end(self) -> None:
+        """Give the right to write back; what was not kept by now is not kept."""
+
+    def refresh(self, document: Document) -> None:
+        """Bring a document to what is kept."""
 
 
 @attrs.frozen(eq=False)
@@ -74,6 +127,8 @@ class Document:
         The transaction that is open; None if none is.
     known_index : Index or None
         The look-ups, if they have been derived: see `index`.
+    unsettled : bool
+        Whether something was being kept when it was broken off: the keeper may be ahead of memory.
     """
 
     state: HullState
@@ -86,8 +141,9 @@ class Document:
     start: str = ""
     writer: object = attrs.field(default=None, init=False)
     known_index: Index | None = attrs.field(default=None, init=False)
+    unsettled: bool = attrs.field(default=False, init=False)
     _states: list[tuple[Step, ...]] = attrs.field(factory=list, init=False)
-    _free: list[bool] = attrs.field(factory=lambda: [True], init=False)
+    _holder: dict[str, object] = attrs.field(factory=dict, init=False)
 
     @property
     def index(self) -> Index:
@@ -137,7 +193,7 @@ class Document:
         """Number of the step that redoing all undone ones would lead to."""
         return self.undone[0].number if self.undone else self.head
 
-    def begin(self, *, keep: bool = True) -> None:
+    def begin(self, holder: object, *, keep: bool = True) -> None:
         """Take the right to write the tables, and what keeps them unless nothing is to be kept.
 
         Raises
@@ -146,24 +202,48 @@ class Document:
             Another thread has it.
         """
         try:
-            self._free.pop()  # atomic: one thread gets it
-        except IndexError:
-            what, remedy = "another thread is at work on this hull", "let one edit at a time"
-            raise BadInputError(what, "in the hull", remedy) from None
-        try:
+            if self._holder.setdefault("writer", holder) is not holder:  # atomic: one gets it
+                what, remedy = "another thread is at work on this hull", "let one edit at a time"
+                raise BadInputError(what, "in the hull", remedy)
             if keep and self.keeper is not None:
+                self.settle()
                 self.keeper.begin()
         except BaseException:
-            self._free.append(True)
+            self.end(holder, keep=keep)
             raise
 
-    def end(self, *, keep: bool = True) -> None:
-        """Give it back."""
+    def end(self, holder: object, *, keep: bool = True) -> None:
+        """Give it back, if this is who has it."""
+        if self._holder.get("writer") is not holder:
+            return
         try:
             if keep and self.keeper is not None:
                 self.keeper.end()
         finally:
-            self._free.append(True)
+            self._holder.clear()
+
+    @contextlib.contextmanager
+    def held(self, *, keep: bool = True) -> Iterator[None]:
+        """Have the right to write for as long as a block runs; as `begin`."""
+        holder = object()
+        try:
+            try:
+                self.begin(holder, keep=keep)
+                yield
+            finally:
+                self.end(holder, keep=keep)
+        finally:  # once more, should an interrupt come just there: it may be done twice
+            self.end(holder, keep=keep)
+
+    def settle(self) -> None:
+        """Bring memory to what its keeper holds, where something was broken off while it was kept.
+
+        An interrupt may come between the moment from which a step is kept and the one from which
+        memory knows: the step counts, since nothing that is kept is ever lost.
+        """
+        if self.unsettled and self.keeper is not None:
+            self.keeper.refresh(self)
+            self.unsettled = False
 
     def commit(self, step: Step) -> None:
         """Take a finished step into the history; whatever fails, it is not in it."""
@@ -171,19 +251,28 @@ class Document:
         branch = self._branch(self.tip if self.undone else None)
         report = attrs.evolve(step.report, number=step.number, author=self.author, time=_now())
         step.replace(attrs.evolve(step.body, report=report))
-        self._revise(step, 1)
+        revised, places = self._revisions(step), (len(self.history), len(self._states))
+        undone = list(self.undone)
         try:
+            self._revise(revised)
             if self.keeper is not None:
+                self.unsettled = True
                 self.keeper.commit(step, branch)
+            self._name(branch)
+            self.undone.clear()
+            self.history.append(step)
+            self.steps[step.number] = step
+            self._states.append((step,))
+            self._agree()
         except BaseException:
-            self._revise(step, -1)
+            # What the keeper holds of it by then comes back with `settle`.
+            del self.history[places[0] :], self._states[places[1] :]
+            self.undone[:] = undone
+            self.steps.pop(step.number, None)
+            if branch is not None:
+                self.labels.pop(branch.name, None)
+            _forget(revised)
             raise
-        self._name(branch)
-        self.undone.clear()
-        self.history.append(step)
-        self.steps[step.number] = step
-        self._states.append((step,))
-        self._agree()
         if len(self.history) > _HELD:
             self.history[-1 - _HELD].release()
 
@@ -295,6 +384,7 @@ class Document:
         label = Label(name, self.head, author=self.author, time=_now())
         with self._writing():
             if self.keeper is not None:
+                self.unsettled = True
                 self.keeper.label(label)
             self.labels[name] = label
             self._agree()
@@ -302,11 +392,21 @@ class Document:
 
     @contextlib.contextmanager
     def _writing(self) -> Iterator[None]:
-        self.begin()
         try:
-            yield
+            with self.held():
+                yield
         finally:
-            self.end()
+            self.try_to_settle()
+
+    def try_to_settle(self) -> None:
+        """Settle where that can be done now; else the next act that writes does, or says why not.
+
+        For the way out of an act that failed: what it failed with is what is told.
+        """
+        if not self.unsettled:
+            return
+        with contextlib.suppress(AssocHullError), self.held(keep=False):
+            self.settle()
 
     @contextlib.contextmanager
     def unharmed(self) -> Iterator[None]:
@@ -334,6 +434,7 @@ class Document:
                 if leaves:
                     self.undone.clear()
                 if self.keeper is not None:
+                    self.unsettled = True
                     self.keeper.move(self.head, self.tip, steps, branch)
             self._name(branch)
             self._states.append(tuple(steps))
@@ -351,7 +452,7 @@ class Document:
             self.undone.append(self.history.pop())
         if step.structural:
             self.refresh()
-        self._revise(step, 1)
+        self._revise(self._revisions(step))
 
     def _branch(self, tip: int | None) -> Label | None:
         """Give a name for steps that are left, unless they can be reached by one already."""
@@ -366,6 +467,7 @@ class Document:
         """Tell the keeper that memory holds what it keeps."""
         if self.keeper is not None:
             self.keeper.agree(len(self.steps))
+        self.unsettled = False
 
     def _name(self, label: Label | None) -> None:
         if label is not None:
@@ -395,16 +497,33 @@ class Document:
                 f"give a number from 1 to {len(steps)}" if steps else f"there is nothing to {act}",
             )
 
-    def _revise(self, step: Step, by: int) -> None:
-        """Raise the revision of everything whose geometry changed; lower it if it never did."""
-        for numbers, revisions in (
-            (step.rows, self.state.revision_row),
-            (step.curves, self.state.revision_curve),
-        ):
-            for number in numbers.tolist():
-                revisions[number] = revisions.get(number, 0) + by
-                if not revisions[number]:
-                    del revisions[number]
+    def _revisions(self, step: Step) -> _Revisions:
+        """Give the revisions of everything whose geometry a step changes, as they are."""
+        return [
+            (revisions, {number: revisions.get(number, 0) for number in numbers.tolist()})
+            for numbers, revisions in (
+                (step.rows, self.state.revision_row), (step.curves, self.state.revision_curve),
+            )
+        ]  # fmt: skip
+
+    def _revise(self, revised: _Revisions) -> None:
+        """Raise those revisions."""
+        for revisions, was in revised:
+            # At once: an interrupt finds all of them raised or none.
+            revisions.update({number: before + 1 for number, before in was.items()})
+
+
+_Revisions = list[tuple[dict[int, int], dict[int, int]]]
+
+
+def _forget(revised: _Revisions) -> None:
+    """Lower revisions to what they were; those that never were go."""
+    for revisions, was in revised:
+        for number, before in was.items():
+            if before:
+                revisions[number] = before
+            else:
+                revisions.pop(number, None)
 
 
 def _now() -> str:

@@ -33,7 +33,7 @@ class PausedCollector:
         gc.disable()
 
     def __exit__(self, *_: object) -> None:
-        if self._was.pop():
+        if self._was and self._was.pop():  # empty where entering was broken off
             gc.enable()
 
 

@@ -127,21 +127,44 @@ class Transaction:
                 )
 
     def __enter__(self) -> Self:
-        if not self._depth:
-            where = f"in the edit {self.name!r}"
-            if self._over:
-                raise BadInputError("it has ended", where, "begin another one")
-            if self.document.writer is not None:
-                raise BadInputError("another edit is open", where, "end that one first")
-            self.document.begin(keep=self.look is None)
-            self.document.writer, self._thread = self, threading.get_ident()
-            self._index, self._kept = self.document.known_index, dict(self.state.kept)
-            self._quiet.__enter__()
-        elif self._thread != threading.get_ident():
-            what, remedy = "another thread is at work on this hull", "let one edit at a time"
-            raise BadInputError(what, f"in the edit {self.name!r}", remedy)
-        self._depth += 1
-        return self
+        before = self._depth
+        try:
+            if not before:
+                self._begin()
+            elif self._thread != threading.get_ident():
+                what, remedy = "another thread is at work on this hull", "let one edit at a time"
+                raise BadInputError(what, f"in the edit {self.name!r}", remedy)
+            self._depth += 1
+            return self
+        except BaseException:
+            # Broken off: there will be no exit.
+            self._depth = before
+            if not before:
+                self._end()
+            raise
+
+    def _begin(self) -> None:
+        """Take the right to write."""
+        where = f"in the edit {self.name!r}"
+        if self._over:
+            raise BadInputError("it has ended", where, "begin another one")
+        if self.document.writer is not None:
+            raise BadInputError("another edit is open", where, "end that one first")
+        self._thread = threading.get_ident()
+        self._index, self._kept = self.document.known_index, dict(self.state.kept)
+        self.document.begin(self, keep=self.look is None)
+        self.document.writer = self
+        self._quiet.__enter__()
+
+    def _end(self) -> None:
+        """Give the right to write back, and bring memory to what is kept if that is ahead."""
+        if self.document.writer is self:
+            self.document.writer = None
+        try:
+            self.document.end(self, keep=self.look is None)
+        finally:
+            self._quiet.__exit__()
+            self.document.try_to_settle()
 
     def __exit__(
         self,
@@ -149,22 +172,25 @@ class Transaction:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self._depth -= 1
-        if error is not None:
-            self._broken = True
-            self._restore()
-        if self._depth:
-            return
-        self._over, self.document.writer = True, None
         try:
-            if error is None:
-                self._finish()
-        finally:
-            self.document.end(keep=self.look is None)
-            self._quiet.__exit__()
+            try:
+                self._depth -= 1
+                if error is not None:
+                    self._broken = True
+                    self._restore()
+                elif not self._depth:
+                    self._over, self.document.writer = True, None
+                    self._finish()
+            finally:
+                if not self._depth:
+                    self._over = True
+                    self._end()
+        finally:  # once more, should an interrupt come just there: it may be done twice
+            if not self._depth:
+                self._end()
 
     def _finish(self) -> None:
-        """Run the update and publish it; whatever goes wrong, the hull is as it was."""
+        """Run the update and publish it; whatever goes wrong before, the hull is as it was."""
         try:
             if self._broken:
                 reason = "an edit nested in it failed, so all of it was taken back"
@@ -177,7 +203,9 @@ class Transaction:
             else:
                 self.report = self._publish()
         except BaseException:
-            self._restore()
+            # Behind the commit nothing is taken back: the step is in the history, and kept.
+            if self._step is None or self.document.steps.get(self._step.number) is not self._step:
+                self._restore()
             raise
         if self.look is not None:
             try:
@@ -199,13 +227,11 @@ class Transaction:
 
     def _publish(self) -> EditReport:
         """Run the update, and take its step into the history unless it is only looked at."""
-        step = update(self.document, self.name, self.journal, self.pending, self.settings)
+        self._step = update(self.document, self.name, self.journal, self.pending, self.settings)
         if self.look is None:
-            step.script = Script.of(self.script, self.settings)
-            self.document.commit(step)
-        else:
-            self._step = step
-        return step.report
+            self._step.script = Script.of(self.script, self.settings)
+            self.document.commit(self._step)
+        return self._step.report
 
     def _restore(self) -> None:
         """Take everything back; what was derived from the tables before is true again."""

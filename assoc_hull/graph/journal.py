@@ -349,9 +349,11 @@ class Journal:
         What was derived from the tables before is true again: they are as they were.
         """
         while len(self.entries) > keep:
-            entry = self.entries.pop()
+            # An entry goes when it has been taken back: one broken off is taken back once more.
+            entry = self.entries[-1]
             entry.undo()
             entry.restamp()
+            self.entries.pop()
 
     def back(self) -> None:
         """Run the entries backward, keeping them."""

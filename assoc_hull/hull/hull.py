@@ -68,7 +68,7 @@ if TYPE_CHECKING:
     from assoc_hull.creation.creation_report import CreationReport
     from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
     from assoc_hull.edit.checks.finding import Finding
-    from assoc_hull.edit.document import Changed
+    from assoc_hull.edit.document import Changed, Label
     from assoc_hull.edit.drag import Drag, DragWay
     from assoc_hull.edit.explain.causes import Thing, Why
     from assoc_hull.edit.explain.compare_states import Comparison
@@ -76,7 +76,6 @@ if TYPE_CHECKING:
     from assoc_hull.edit.explain.preview import Preview
     from assoc_hull.edit.script import Replayed
     from assoc_hull.edit.shapes import Shapes
-    from assoc_hull.edit.step_storage import Label
     from assoc_hull.geometry.curves import FloatArray
     from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
     from assoc_hull.hull.pictures import HullPictures

@@ -195,13 +195,12 @@ def walk_states(document: Document) -> Iterator[StateWalk]:
         An edit is open.
     """
     document.require_ended("the history")
-    document.begin(keep=False)
-    walk = StateWalk(document)
-    try:
-        yield walk
-    finally:
-        walk.go(document.head)
-        document.end(keep=False)
+    with document.held(keep=False):
+        walk = StateWalk(document)
+        try:
+            yield walk
+        finally:
+            walk.go(document.head)
 
 
 def state_at(document: Document, number: int) -> HullState:

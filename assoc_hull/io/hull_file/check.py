@@ -17,9 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from assoc_hull.edit.document import Document
+from assoc_hull.edit.document import Document, Label
 from assoc_hull.edit.step import Step
-from assoc_hull.edit.step_storage import Label
 from assoc_hull.geometry.curves import IntArray, PointKind
 from assoc_hull.model.form_definition import GENERATED
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Role, Sort, State

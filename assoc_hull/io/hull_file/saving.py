@@ -359,11 +359,8 @@ def refresh_hull(document: Document) -> None:
         remedy = "save it as a hull file first"
         raise BadInputError("this hull lives in memory", "in refresh", remedy)
     document.require_ended("refresh")
-    document.begin(keep=False)
-    try:
+    with document.held(keep=False):
         document.keeper.refresh(document)
-    finally:
-        document.end(keep=False)
 
 
 def detach_hull(document: Document) -> None:

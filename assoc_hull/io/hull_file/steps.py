@@ -18,10 +18,10 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.edit.document import Label
 from assoc_hull.edit.recording import Script
 from assoc_hull.edit.report import EditReport, Movement
 from assoc_hull.edit.step import Rerun, Step, StepBody
-from assoc_hull.edit.step_storage import Label
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.network import Readers
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays

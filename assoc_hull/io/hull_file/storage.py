@@ -38,10 +38,9 @@ from typing import Any
 
 import numpy as np
 
-from assoc_hull.edit.document import Document
+from assoc_hull.edit.document import Document, Label
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Rerun, Step, StepBody
-from assoc_hull.edit.step_storage import Label
 from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
@@ -120,9 +119,9 @@ class HullFile:
             Another process writes; it has written; the file may only be read, is closed, or
             has been replaced by another.
         """
-        self._enter("BEGIN IMMEDIATE")
         self._agreed = False
         try:
+            self._enter("BEGIN IMMEDIATE")
             with database_errors(self.path):
                 self.place.require_log()
                 self._refuse_stale()
@@ -139,6 +138,8 @@ class HullFile:
         self._require_open()
         self.place.require_file()
         with database_errors(self.path, self.wait):
+            if self.database.in_transaction:  # one whose end was broken off
+                self.database.execute("ROLLBACK")
             self.database.execute(how)
 
     def _refuse_stale(self) -> None:
@@ -339,10 +340,10 @@ class HullFile:
 
     def refresh(self, document: Document) -> None:
         """Bring a document to the state in the file; if that fails, it is as it was."""
-        self._enter("BEGIN")
         self._known_printer = None
         known = self.serial, self._known
         try:
+            self._enter("BEGIN")
             self.place.require_log()
             with document.unharmed():
                 document.follow(*self.follow(document))

@@ -379,7 +379,7 @@ def test_a_name_that_is_no_text_is_refused(hull: ah.Hull, file: Path, tmp_path: 
 def test_an_interrupt_leaves_no_two_truths(
     hull: ah.Hull, file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """After the commit, before memory knows: the file is ahead, the next edit is told so."""
+    """Behind the commit, before memory knows: the step counts, and memory has it too."""
 
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
@@ -389,10 +389,30 @@ def test_an_interrupt_leaves_no_two_truths(
         patch.setattr(type(hull.document.keeper), "keep", interrupted)
         with pytest.raises(KeyboardInterrupt):
             shift(hull, "cut short")
-    assert (hull.fingerprint, len(hull.history)) == (before, 0)
-    with pytest.raises(StaleHullError, match="cut short"):
-        shift(hull, "next")
-    hull.refresh()
     assert [each.name for each in hull.history] == ["cut short"]
     assert hull.fingerprint == ah.open(file).fingerprint != before
     shift(hull, "next")
+    assert stand(hull) == stand(ah.open(file))
+
+
+def test_what_cannot_be_settled_at_once_is_before_the_next_edit(
+    hull: ah.Hull, file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The file cannot be read either, for a while: the next edit finds the step in its history."""
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    def unreadable(*_: object) -> None:
+        raise ah.errors.HullFileError(str(file), "it cannot be read", "try again")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(type(hull.document.keeper), "keep", interrupted)
+        patch.setattr(type(hull.document.keeper), "refresh", unreadable)
+        with pytest.raises(KeyboardInterrupt):
+            shift(hull, "cut short")
+        with pytest.raises(ah.errors.HullFileError, match="cannot be read"):
+            shift(hull, "refused")
+    shift(hull, "next")
+    assert [each.name for each in hull.history] == ["cut short", "next"]
+    assert stand(hull) == stand(ah.open(file))
