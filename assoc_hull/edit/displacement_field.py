@@ -24,6 +24,7 @@ from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
 from assoc_hull.model.tables import HullState
 
 __all__ = [
+    "CLOSE",
     "FieldContext",
     "NormalField",
     "PointDisplacements",
@@ -289,6 +290,9 @@ _STEPS = 64
 
 # --------------------------------------------------------------------------------------
 # Soft pulls.
+
+CLOSE = 2e-3
+"""The part of the way that a pulled point may lack without needing another sub-step."""
 
 _NEARLY = 0.01
 """A point that came within this part of the way it was pulled is where it was asked to be."""

@@ -1,16 +1,18 @@
 """The live drag: a point is moved or pulled again and again, and nothing is published.
 
-Each `Drag.to` carries out the whole edit on the tables, reads what came of it, and takes it back
-to the last bit: no step, no revision, no write to a file. `Drag.commit` makes the edit that the
-last `to` asked for. What all steps of one drag read of the hull as it is (normals, field context,
-look-ups) is made once: the journal brings back the numbers of the writes with their content.
+Each `Drag.to` runs the program of the net on numbers of its own: the tables are only read. Where
+the structure would change, or the run has a doubt, it carries out the whole edit on the tables,
+reads what came of it, and takes it back to the last bit: no step, no revision, no write to a file.
+Both ways give the same bits. `Drag.commit` makes the edit that the last `to` asked for.
 """
 
 from __future__ import annotations
 
+import contextlib
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
+from math import isfinite
 from threading import Event
 from types import TracebackType
 from typing import Literal, Self
@@ -20,10 +22,19 @@ import numpy as np
 
 from assoc_hull.arguments import choice, flag, shown
 from assoc_hull.edit.arguments import GivenObjects
-from assoc_hull.edit.displacement_field import field_context
+from assoc_hull.edit.displacement_field import (
+    CLOSE,
+    FieldContext,
+    PullField,
+    field_context,
+    sub_step_count,
+)
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.hull_normals import hull_normals
+from assoc_hull.edit.modifications.points import PointFreedom
+from assoc_hull.edit.modifications.pull import curves_to_hold, pull_field
 from assoc_hull.edit.pending_changes import Settings
+from assoc_hull.edit.published_program import LiveNumbers, published_program
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit, refusal_of
 from assoc_hull.edit.shapes import joined, lofted_curves
@@ -37,6 +48,7 @@ from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import free_axes
 from assoc_hull.model.objects import Point
+from assoc_hull.model.run_program import ProgramRun, write_points
 from assoc_hull.model.tables import HullState
 
 __all__ = ["Drag", "DragWay", "Live"]
@@ -64,7 +76,8 @@ class Live:
     relofted : int
         Curves that were lofted.
     report : EditReport or None
-        The report that the edit would have.
+        The report that the edit would have; made when it is first asked for, and None where the
+        hull has been changed by then.
     seconds : float
         How long it took, by the clock.
     """
@@ -77,9 +90,14 @@ class Live:
     rows: IntArray
     xyz: FloatArray
     relofted: int
-    report: EditReport | None
     seconds: float
     _before: _Published = attrs.field(repr=False)
+    _tell: Callable[[], EditReport | None] = attrs.field(repr=False)
+
+    @cached_property
+    def report(self) -> EditReport | None:
+        """The report that the edit would have."""
+        return self._tell()
 
     @cached_property
     def moved(self) -> FloatArray:
@@ -202,6 +220,82 @@ def _come_and_gone(step: Step, state: HullState) -> tuple[IntArray, IntArray]:
     return lives.rows[lives.new & ~lives.old], lives.rows[lives.old & ~lives.new]
 
 
+@attrs.frozen(eq=False)
+class _QuickWay:
+    """What a drag reads once of the hull as it is, so that each step is one run of the program."""
+
+    numbers: LiveNumbers
+    state: HullState
+    row: int
+    freedom: PointFreedom | None
+    pull: PullField | None
+    ground: FieldContext | None
+
+    @classmethod
+    def of(
+        cls, document: Document, row: int, how: DragWay, radius: tuple[float, float] | None,
+        across_flats: bool,
+    ) -> Self | None:  # fmt: skip
+        """Give what is read; None where every step has to go the full way."""
+        state = document.state
+        published = published_program(document)
+        if published is None:
+            return None
+        numbers = LiveNumbers.of(published)
+        try:
+            if how == "move":
+                # An adopted point becomes a placed one: another structure.
+                adopted = state.rows.sort.data[row] == Sort.ADOPTED
+                freedom = PointFreedom.of(state, row)
+                return None if adopted else cls(numbers, state, row, freedom, None, None)
+            pull = pull_field(state, row, 1.0, radius, across_flats=across_flats)
+        except AssocHullError:
+            return None  # each step says why
+        ground = field_context(state, across_flats=across_flats)
+        return None if curves_to_hold(state, row) else cls(numbers, state, row, None, pull, ground)
+
+    def written(self, asked: dict[str, float]) -> tuple[IntArray, FloatArray] | None:
+        """Give the points that an edit writes, and their places; None if it is refused or large."""
+        table = self.state.rows
+        if self.freedom is not None:
+            try:
+                return np.array([self.row]), self.freedom.place(asked)[None]
+            except AssocHullError:
+                return None
+        if self.pull is None or self.ground is None or asked["d"] == 0.0:
+            return np.array([self.row]), table.xyz.data[[self.row]]
+        shift = attrs.evolve(self.pull, amount=asked["d"]).shift(self.ground, 1.0)
+        if sub_step_count(self.state, shift) > 1:
+            return None
+        return shift.rows, table.xyz.data[shift.rows] + shift.delta
+
+    @contextlib.contextmanager
+    def tried(
+        self, rows: IntArray, places: FloatArray, amount: float
+    ) -> Iterator[ProgramRun | None]:
+        """Run with points elsewhere; None where the run does not answer for the edit.
+
+        `amount` is how far the point was pulled, m; nil where it was moved.
+        """
+        numbers, table = self.numbers, self.state.rows
+        moved = write_points(numbers.values, rows, places)
+        # What a field has moved does not ride in the same edit.
+        held = moved[table.sort.data[moved] == Sort.ADOPTED] if self.pull else moved[:0]
+        run = numbers.run(moved, held)
+        try:
+            yield run if run.sound and self._has_arrived(amount) else None
+        finally:
+            numbers.restore(run)
+
+    def _has_arrived(self, amount: float) -> bool:
+        """Tell whether the point came where it was pulled, so that no more sub-steps follow."""
+        if self.pull is None or amount == 0.0:
+            return True
+        way = self.numbers.values.xyz[self.row] - self.pull.place
+        reached = float((way * self.pull.normal).sum())
+        return abs(1.0 - reached / amount) <= CLOSE
+
+
 class Drag:
     """One point of a hull while it is dragged, to be used in a ``with`` statement.
 
@@ -243,8 +337,7 @@ class Drag:
         normal = hull_normals(state)[row]
         self.normal: FloatArray | None = normal.copy() if (normal != 0.0).any() else None
         freeze(self.start, *([] if self.normal is None else [self.normal]))
-        if how == "pull":
-            field_context(state, across_flats=across_flats)  # once, for all steps
+        self._row, self._quick = row, _QuickWay.of(document, row, how, radius, across_flats)
         self._published = _Published.of(state)
         self._number, self._last = document.state_number, dict[str, object]()
         self._over, self._stopped = False, Event()
@@ -293,17 +386,61 @@ class Drag:
         self._require_open("to")
         self._last = self._arguments({"d": d, "x": x, "y": y, "z": z})
         self._stopped.clear()
-        begin, seen = time.perf_counter(), list[Live]()
+        begin = time.perf_counter()
+        found = self._run() or self._full()
+        return attrs.evolve(found, seconds=time.perf_counter() - begin)
+
+    def _run(self) -> Live | None:
+        """Run the program; None where that does not answer for the whole edit."""
+        if self._quick is None or self._document.writer is not None:
+            return None
+        asked = {name: float(value) for name, value in self._last.items()}  # type: ignore[arg-type]
+        if not all(map(isfinite, asked.values())):
+            return None
+        written = self._quick.written(asked)
+        if written is None:
+            return None
+        with self._quick.tried(*written, asked.get("d", 0.0)) as run:
+            if run is None:
+                return None
+            return self._live(run, self._quick.numbers) if len(run.rows) else self._nothing(())
+
+    def _live(self, run: ProgramRun, numbers: LiveNumbers) -> Live:
+        """Read what a run has made of the numbers."""
+        program = numbers.published.program
+        number = program.number[run.curves]
+        order = np.argsort(number)
+        curves, rows, asked = number[order], run.rows, dict(self._last)
+        spline, xyz = numbers.splines(run.curves[order]), numbers.values.xyz[rows]
+        freeze(curves, rows, xyz)
+        return Live((), curves, spline, (), (), rows, xyz, len(curves), 0.0, self._published,
+                    lambda: self._report_of(asked))  # fmt: skip
+
+    def _report_of(self, asked: dict[str, object]) -> EditReport | None:
+        """Give the report of an edit that was tried, if the hull is as it was then."""
+        document = self._document
+        if document.writer is not None or document.state_number != self._number:
+            return None
+        seen = list[EditReport | None]()
+        trial = Edit(document, "drag", self._settings,
+                     look=lambda step: seen.append(None if step is None else step.report))  # fmt: skip
+        with trial:
+            self._ask(trial, asked)
+        return seen[0]
+
+    def _full(self) -> Live:
+        """Carry out the whole edit, read it, and take it back."""
+        seen = list[Live]()
         trial = Edit(
             self._document, "drag", self._settings,
             look=lambda step: seen.append(self._look(step)), stopped=self._stopped.is_set,
         )  # fmt: skip
         try:
             with trial:
-                self._ask(trial)
+                self._ask(trial, self._last)
         except AssocHullError as error:
             seen = [self._nothing(refusal_of(error))]
-        return attrs.evolve(seen[0], seconds=time.perf_counter() - begin)
+        return seen[0]
 
     def commit(self, name: str) -> EditReport:
         """Make the edit that the last `to` asked for, and end the drag.
@@ -321,7 +458,7 @@ class Drag:
             raise BadInputError(what, f"in the drag of {self._name}", remedy)
         edit = Edit(self._document, name, self._settings)
         with edit:
-            self._ask(edit)
+            self._ask(edit, self._last)
         self._over = True
         assert edit.report is not None
         return edit.report
@@ -359,17 +496,17 @@ class Drag:
                 raise WrongTypeError(what, f"in to of the drag of {self._name}", "give a number")
         return asked
 
-    def _ask(self, edit: Edit) -> None:
-        """Ask an edit for what the last `to` asked for."""
+    def _ask(self, edit: Edit, asked: dict[str, object]) -> None:
+        """Ask an edit for what a `to` asked for."""
         if self._how == "pull":
-            edit.pull(self._name, **self._last, **self._asked)  # type: ignore[arg-type]
+            edit.pull(self._name, **asked, **self._asked)  # type: ignore[arg-type]
         else:
-            edit.move(self._name, **self._last)  # type: ignore[arg-type]
+            edit.move(self._name, **asked)  # type: ignore[arg-type]
 
     def _nothing(self, refused: tuple[str, ...]) -> Live:
         none, nowhere = np.zeros(0, np.int64), np.zeros((0, 3))
-        return Live(refused, none, joined([]), (), (), none, nowhere, 0, None, 0.0,
-                    self._published)  # fmt: skip
+        return Live(refused, none, joined([]), (), (), none, nowhere, 0, 0.0, self._published,
+                    lambda: None)  # fmt: skip
 
     def _look(self, step: Step | None) -> Live:
         """Read what an edit has done to the tables, before it is taken back."""
@@ -387,5 +524,5 @@ class Drag:
         return Live(
             (), curves, spline, tuple(key[row] for row in born.tolist()),
             tuple(key[row] for row in gone.tolist()), known, xyz, len(step.report.relofted),
-            step.report, 0.0, self._published,
+            0.0, self._published, lambda: step.report,
         )  # fmt: skip

@@ -24,6 +24,7 @@ from assoc_hull.edit.checks.update_findings import (
     splines_of,
 )
 from assoc_hull.edit.displacement_field import (
+    CLOSE,
     add_displacements,
     field_context,
     land_points,
@@ -74,8 +75,8 @@ _NONE: IntArray = np.zeros(0, np.int64)
 _ROUNDS = 6
 """Crossings that come make others come, seldom more than twice."""
 
-_MORE, _CLOSE = 4, 2e-3
-"""Sub-steps a field may have in addition, and the part it may lack without needing one."""
+_MORE = 4
+"""Sub-steps a field may have in addition."""
 
 
 def update(
@@ -207,7 +208,7 @@ def _part(work: Work, step: int, steps: int) -> float:
     """
     fields, done = work.pending.fields, min(step, steps) / steps
     left = fields[0].left(work.state, done) if len(fields) == 1 else 1.0 - done
-    if step >= steps and abs(left) <= _CLOSE:
+    if step >= steps and abs(left) <= CLOSE:
         return 0.0
     return float(np.clip(left / max(steps - step, 1), -1.0 / steps, 1.0 / steps))
 

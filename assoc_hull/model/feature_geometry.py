@@ -20,7 +20,7 @@ from assoc_hull.model.features import Feature
 from assoc_hull.model.tables import HullState
 from assoc_hull.tolerance import round_at_size
 
-__all__ = ["host_curve", "line_numbers", "places_off", "rounded_gap", "rounding_of"]
+__all__ = ["host_curve", "line_numbers", "off_shapes", "places_off", "rounded_gap", "rounding_of"]
 
 _ROUNDING = 1e-6
 
@@ -56,6 +56,16 @@ def places_off(feature: Feature, xyz: FloatArray) -> FloatArray:
     if feature.kind == "straight":
         return _off_chord(xyz)
     return np.zeros(len(xyz))
+
+
+def off_shapes(shape: int, numbers: FloatArray, xyz: FloatArray) -> FloatArray:
+    """Measure as `places_off`, of a feature as `CompiledFeatures` has it; (n,), m."""
+    if shape == 0:
+        return _off_circle(xyz - numbers[:3], numbers[4:], float(numbers[3]))
+    if shape == 1:
+        off: FloatArray = np.abs(dot(xyz, numbers[4:]) - numbers[3])
+        return off
+    return _off_chord(xyz) if shape == 2 else np.zeros(len(xyz))
 
 
 def _off_circle(away: FloatArray, normal: FloatArray, radius: float) -> FloatArray:

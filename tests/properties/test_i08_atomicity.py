@@ -134,12 +134,17 @@ def _in_check(name: str) -> Callable[[int, BaseException], mock._patch[object]]:
 
 
 def _publish(node: int, error: BaseException) -> mock._patch[object]:
+    """Fail when the points have been revised and the curves have not, or before both."""
     original = Document._revise
 
-    def fail(self: Document, step: Step, by: int) -> None:
-        if node in step.changed.tolist():
+    def fail(self: Document, revised: list[tuple[dict[int, int], dict[int, int]]]) -> None:
+        points, curves = revised
+        if node & 1 and node >> 1 in curves[1]:
+            original(self, [points, (curves[0], {})])
             raise error
-        original(self, step, by)
+        if not node & 1 and node >> 1 in points[1]:
+            raise error
+        original(self, revised)
 
     return mock.patch.object(Document, "_revise", fail)
 

@@ -7,7 +7,9 @@ their values. It is right for millimetres: it is inherently a local bump.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Self
 
+import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -34,7 +36,7 @@ from assoc_hull.model.links import free_axes
 from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import HullState
 
-__all__ = ["delete", "insert", "move", "pin", "set_kind", "unpin"]
+__all__ = ["PointFreedom", "delete", "insert", "move", "pin", "set_kind", "unpin"]
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 _BY_DEFINITION = "set the definitions its driver is made of (edit.set_form)"
@@ -62,19 +64,52 @@ def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
     BadInputError
         A number that is not finite.
     """
-    state = edit.state
-    _refuse_computed(state, row)
-    free = free_axes(state, row)
-    if set(to) != set(free):
-        raise FreedomError(address(state, row), tuple(to), free)
-    curves = [curve for curve in state.rows.curve.data[row].tolist() if curve >= 0]
-    lines, what = [state.line_of(curve) for curve in curves], f"move of {address(state, row)}"
-    given = {_AXES[axis]: value for axis, value in to.items()}
-    place = completed_in_planes(state, lines, state.rows.xyz.data[row], given)
-    edit.write(np.array([row]), checked_in_planes(state, lines, place, f"in a {what}")[None], what)
-    edit.pending.moved_curves |= set(curves)
+    state, freedom = edit.state, PointFreedom.of(edit.state, row)
+    edit.write(np.array([row]), freedom.place(to)[None], f"move of {freedom.name}")
+    curves = state.rows.curve.data[row]
+    edit.pending.moved_curves |= set(curves[curves >= 0].tolist())
     if state.rows.sort.data[row] == Sort.ADOPTED:
         pin(edit, row)
+
+
+@attrs.frozen(eq=False)
+class PointFreedom:
+    """How a point may be moved.
+
+    Attributes
+    ----------
+    state, row : HullState, int
+        The tables and the point.
+    name : str
+        Its address.
+    axes : tuple of str
+        The coordinates that it is free in.
+    lines : list of int
+        The lines that it lies on.
+    """
+
+    state: HullState
+    row: int
+    name: str
+    axes: tuple[str, ...]
+    lines: list[int]
+
+    @classmethod
+    def of(cls, state: HullState, row: int) -> Self:
+        """Read the tables; a driven or watched point raises a PointRoleError."""
+        _refuse_computed(state, row)
+        curves = [curve for curve in state.rows.curve.data[row].tolist() if curve >= 0]
+        lines = [state.line_of(curve) for curve in curves]
+        return cls(state, row, address(state, row), free_axes(state, row), lines)
+
+    def place(self, to: Mapping[str, float]) -> FloatArray:
+        """Give where the point comes to lie, (3,), m; it raises as `move` does."""
+        if set(to) != set(self.axes):
+            raise FreedomError(self.name, tuple(to), self.axes)
+        given = {_AXES[axis]: value for axis, value in to.items()}
+        now = self.state.rows.xyz.data[self.row]
+        place = completed_in_planes(self.state, self.lines, now, given)
+        return checked_in_planes(self.state, self.lines, place, f"in a move of {self.name}")
 
 
 def _refuse_computed(state: HullState, row: int) -> None:

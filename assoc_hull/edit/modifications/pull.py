@@ -21,12 +21,13 @@ from assoc_hull.edit.displacement_field import (
 from assoc_hull.edit.followup.adopted_points import insert_defining_point
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import PointRoleError
-from assoc_hull.geometry.curves import IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.make_objects import PointSpec
+from assoc_hull.model.tables import HullState
 
-__all__ = ["pull"]
+__all__ = ["curves_to_hold", "pull", "pull_field"]
 
 _NEAR = 0.15
 """Times `Tolerances.factor`: a curve with a point as near as this (m) is given no other to
@@ -63,7 +64,22 @@ def pull(
     PointRoleError
         The point lies on a flat, or on the profile.
     """
-    state = edit.state
+    field = pull_field(edit.state, row, amount, radius, across_flats=across_flats)
+    if amount != 0.0:
+        edit.pending.fields.append(field)
+        for curve, place in curves_to_hold(edit.state, row):
+            _hold(edit, row, curve, place)
+
+
+def pull_field(
+    state: HullState,
+    row: int,
+    amount: float,
+    radius: tuple[float, float] | None,
+    *,
+    across_flats: bool,
+) -> PullField:
+    """Give the field of a pull; it raises as `pull`."""
     place = state.rows.xyz.data[row].copy()
     if radius is None:
         reach = (3.0 * row_spacing(state, place), 3.0 * row_spacing(state, place))
@@ -78,33 +94,39 @@ def pull(
             None,
             "move the border curve, or pull with across_flats=True",
         )
-    if amount == 0.0:
-        return
     fade, normal = min(reach[1], border), ground.normal[row].copy()
-    edit.pending.fields.append(PullField(row, place, amount, normal, reach, fade, across_flats))
-    _hold(edit, row)
+    return PullField(row, place, amount, normal, reach, fade, across_flats)
 
 
-def _hold(edit: Transaction, row: int) -> None:
-    """Give the curves that carry a driven or watched crossing a point of their own there."""
-    state = edit.state
+def curves_to_hold(state: HullState, row: int) -> list[tuple[int, FloatArray]]:
+    """Give the curves that carry a driven or watched crossing and have no point of their own there.
+
+    With each comes the place on it, (3,), m, where it needs one to be pulled at.
+    """
+    found: list[tuple[int, FloatArray]] = []
     if state.rows.sort.data[row] != Sort.CROSSING:
-        return
+        return found
     for side, curve in enumerate(state.rows.curve.data[row].tolist()):
         carries = state.rows.role.data[row] == Role.WATCHED or state.rows.driver.data[row] == curve
         place = state.rows.spot.data[row, side].copy()
         rows: IntArray = state.curves.rows.data[curve]
         step = state.rows.xyz.data[rows] - place
         near = float(np.sqrt((step * step).sum(axis=1)).min())
-        if not carries or near < state.tolerances.factor * _NEAR:
-            continue
-        point = int(edit.maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
-        insert_defining_point(edit.maker, curve, point)
-        edit.pending.structural = True
-        edit.pending.curves.add(curve)
-        edit.pending.notes.append(
-            f"{address(state, row)}: {address(state, point)} was adopted, to be pulled there"
-        )
+        if carries and near >= state.tolerances.factor * _NEAR:
+            found.append((curve, place))
+    return found
+
+
+def _hold(edit: Transaction, row: int, curve: int, place: FloatArray) -> None:
+    """Give a curve that carries a crossing a point of its own there."""
+    state = edit.state
+    point = int(edit.maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
+    insert_defining_point(edit.maker, curve, point)
+    edit.pending.structural = True
+    edit.pending.curves.add(curve)
+    edit.pending.notes.append(
+        f"{address(state, row)}: {address(state, point)} was adopted, to be pulled there"
+    )
 
 
 def _border_distance(ground: FieldContext, row: int) -> float | None:

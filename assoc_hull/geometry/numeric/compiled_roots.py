@@ -16,7 +16,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.numeric.jit import jit
 
-__all__ = ["find_roots"]
+__all__ = ["find_roots", "safe_root"]
 
 
 @jit
@@ -26,7 +26,7 @@ def _value(origin: float, first: float, second: float, third: float, u: float) -
 
 
 @jit
-def _safe_root(
+def safe_root(
     origin: float,
     first: float,
     second: float,
@@ -93,7 +93,7 @@ def _mend_roots(
             roots[m] = lower
         elif np.isnan(roots[m]):
             limit = floor + relative * (abs(at_lower) + abs(at_upper))
-            roots[m] = _safe_root(
+            roots[m] = safe_root(
                 cubics[0, m], cubics[1, m], cubics[2, m], cubics[3, m],
                 lower, upper, at_lower < 0.0, limit, most_trials,
             )  # fmt: skip

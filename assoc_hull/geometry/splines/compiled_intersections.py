@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.numeric.jit import jit
 
-__all__ = ["meet_curves", "place_meetings"]
+__all__ = ["meet_curves", "place_meetings", "stationary"]
 
 Flags = NDArray[np.int8]
 PLAIN, BENT, LYING = 0, 1, 2
@@ -150,7 +150,7 @@ def _powers(courses: FloatArray, i: int) -> tuple[float, float, float]:
 
 
 @jit
-def _stationary(first: float, second: float, third: float) -> tuple[float, float]:
+def stationary(first: float, second: float, third: float) -> tuple[float, float]:
     """Give the fractions where the derivative is nil, 0 or 1 where not needed."""
     inside = second * second - 3.0 * (third * first)
     if not inside >= 0.0:
@@ -178,7 +178,7 @@ def _add_bent(
     """Add the monotone parts of a segment that pass planes."""
     first, second, third = _powers(courses, i)
     origin = courses[0, i]
-    lower, upper = _stationary(first, second, third)
+    lower, upper = stationary(first, second, third)
     fraction, height, rank = np.empty(4), np.empty(4), np.empty(4, np.int64)
     fraction[0], fraction[1], fraction[2], fraction[3] = 0.0, lower, upper, 1.0
     height[0], height[3] = origin, courses[0, i + 1]
