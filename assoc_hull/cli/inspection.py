@@ -18,6 +18,7 @@ from assoc_hull.cli.output import can_print, emit, progress, why_document
 from assoc_hull.cli.problems import UsageError, check_other_target, check_target
 from assoc_hull.edit.explain.causes import Why
 from assoc_hull.hull.sources import open as open_hull
+from assoc_hull.model.program_engine import engine_words, wait_for_engine
 
 __all__ = [
     "add_fairness",
@@ -40,8 +41,20 @@ def add_inspection(commands: Commands) -> None:
     info = add_command(
         commands, "info", "tell what a hull holds", _info,
         """assoc-hull info ship.hull
-        assoc-hull info ship.hull --json""",
+        assoc-hull info ship.hull --json
+        assoc-hull info --engine --wait""",
     )  # fmt: skip
+    info.add_argument(
+        "hull", metavar="HULL", type=Path, nargs="?", help="a .hull or .hull.json file"
+    )
+    info.add_argument(
+        "--engine", action="store_true",
+        help="tell whether live drags run compiled (extra fast) or in numpy, and why",
+    )  # fmt: skip
+    info.add_argument(
+        "--wait", action="store_true", help="with --engine: wait until it has been compiled"
+    )
+    add_json(info)
     check = add_command(
         commands, "check", "tell what is wrong with a hull; exit 1 if anything is", _check,
         """assoc-hull check ship.hull
@@ -57,12 +70,18 @@ def add_inspection(commands: Commands) -> None:
         help="allow differences of this part of the largest number (0 compares bits; "
         "1e-12 for a hull that was written on another machine)",
     )  # fmt: skip
-    for parser in (info, check, verify):
+    for parser in (check, verify):
         add_hull(parser)
         add_json(parser)
 
 
 def _info(arguments: argparse.Namespace) -> int:
+    if arguments.engine:
+        told = wait_for_engine() if arguments.wait else engine_words()
+        emit(arguments, {"engine": told}, told)
+        return 0
+    if arguments.hull is None:
+        raise UsageError("no hull is named: give one, or --engine")
     hull = open_hull(arguments.hull)
     emit(arguments, hull_facts(hull), hull_words(hull, names=True))
     return 0

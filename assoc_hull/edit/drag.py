@@ -257,15 +257,15 @@ class _QuickWay:
     def written(self, asked: dict[str, float]) -> tuple[IntArray, FloatArray] | None:
         """Give the points that an edit writes, and their places; None if it is refused or large."""
         table = self.state.rows
-        if self.freedom is not None:
-            try:
+        try:
+            if self.freedom is not None:
                 return np.array([self.row]), self.freedom.place(asked)[None]
-            except AssocHullError:
+            if self.pull is None or self.ground is None or asked["d"] == 0.0:
+                return np.array([self.row]), table.xyz.data[[self.row]]
+            shift = attrs.evolve(self.pull, amount=asked["d"]).shift(self.ground, 1.0)
+            if sub_step_count(self.state, shift) > 1:
                 return None
-        if self.pull is None or self.ground is None or asked["d"] == 0.0:
-            return np.array([self.row]), table.xyz.data[[self.row]]
-        shift = attrs.evolve(self.pull, amount=asked["d"]).shift(self.ground, 1.0)
-        if sub_step_count(self.state, shift) > 1:
+        except (AssocHullError, ArithmeticError):
             return None
         return shift.rows, table.xyz.data[shift.rows] + shift.delta
 
@@ -421,12 +421,10 @@ class Drag:
         document = self._document
         if document.writer is not None or document.state_number != self._number:
             return None
-        seen = list[EditReport | None]()
-        trial = Edit(document, "drag", self._settings,
-                     look=lambda step: seen.append(None if step is None else step.report))  # fmt: skip
-        with trial:
+        seen = list[Step | None]()
+        with Edit(document, "drag", self._settings, look=seen.append) as trial:
             self._ask(trial, asked)
-        return seen[0]
+        return None if seen[0] is None else seen[0].report
 
     def _full(self) -> Live:
         """Carry out the whole edit, read it, and take it back."""

@@ -14,11 +14,11 @@ import numpy as np
 
 from assoc_hull.edit.document import Document
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
-from assoc_hull.geometry.splines.backend import backend
 from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.model.index import Index, Objects
 from assoc_hull.model.program import Program, Values, compile_program
-from assoc_hull.model.run_program import NumpyProgram, ProgramRun, RunProgram
+from assoc_hull.model.program_engine import runner_of
+from assoc_hull.model.run_program import ProgramRun, RunProgram
 from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = ["LiveNumbers", "PublishedProgram", "published_program"]
@@ -45,7 +45,7 @@ class LiveNumbers:
     @classmethod
     def of(cls, published: PublishedProgram) -> LiveNumbers:
         """Begin with the published numbers."""
-        return cls(published, published.values.copy(), _runner(published.program))
+        return cls(published, published.values.copy(), runner_of(published.program))
 
     def run(self, rows: IntArray, held: IntArray) -> ProgramRun:
         """Bring all up to date with points that were written."""
@@ -65,15 +65,6 @@ class LiveNumbers:
         block = np.concatenate(blocks, axis=1)
         knot = np.concatenate([values.knot[a:b] for a, b in spans])
         return SplineBatch(start, knot, block[:3].T, block[3:6].T, block[6:].T)
-
-
-def _runner(program: Program) -> RunProgram:
-    """Choose the arithmetic; numba is imported only where it is asked for."""
-    if backend() == "numpy":
-        return NumpyProgram(program)
-    from assoc_hull.model.program_compiled import CompiledProgram
-
-    return CompiledProgram(program)
 
 
 def published_program(document: Document) -> PublishedProgram | None:

@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import sqrt
+from typing import TypeVar
 
+import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.numeric.compiled_roots import find_roots, safe_root
-from assoc_hull.geometry.numeric.jit import jit
+from assoc_hull.geometry.numeric.jit import jit, was_loaded
 from assoc_hull.geometry.numeric.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
 from assoc_hull.geometry.numeric.tridiagonal import MOST_LEVELS
 from assoc_hull.geometry.splines.compiled_intersections import (
@@ -26,12 +28,13 @@ from assoc_hull.geometry.splines.compiled_intersections import (
 from assoc_hull.geometry.splines.compiled_loft import loft_curves
 from assoc_hull.geometry.splines.loft_rules import LEAST_COSINE, NO_DIRECTION
 from assoc_hull.geometry.splines.plane_heights import CONTACT
-from assoc_hull.model.program import Program, Values
+from assoc_hull.model.program import CompiledFeatures, Program, Values
 from assoc_hull.model.run_program import Doubt, ProgramRun
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["CompiledProgram"]
+__all__ = ["CompiledProgram", "warm"]
 
+Scalar = TypeVar("Scalar", bound=np.generic)
 Flags = NDArray[np.int8]
 
 NOTHING, UNSURE, NOT_MADE, MEETINGS, SENSE, GAP, FOLD, BEYOND, LATENT, FEATURE = range(10)
@@ -682,8 +685,8 @@ class CompiledProgram:
             self._dirty[curves] = 1
         self._held[held] = 1
         _run(
-            *self._structure, *_columns(values), before.folds, before.lowest, *self._room,
-            int(curves is not None),
+            *self._structure, *_columns(values), _read_only(before.folds),
+            _read_only(before.lowest), *self._room, int(curves is not None),
         )  # fmt: skip
         if curves is not None:
             self._dirty[:] = 0
@@ -697,7 +700,7 @@ class CompiledProgram:
     def restore(self, values: Values, before: Values, run: ProgramRun) -> None:
         """Put back what a run has written, from numbers as they were."""
         program = self.program
-        there, here = _columns(before), _columns(values)
+        here, there = _columns(values), [_read_only(each) for each in _columns(before)]
         _restore(
             program.start, program.meet_start, program.watch, here[0], *here[3:], there[0],
             *there[3:], run.rows, run.curves, run.watched,
@@ -709,3 +712,47 @@ def _columns(values: Values) -> tuple[NDArray[np.generic], ...]:
         values.xyz, values.base, values.anchor_from, values.knot, values.block, values.at,
         values.place, values.segment, values.gap, values.folds, values.lowest,
     )  # fmt: skip
+
+
+def _read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
+    """Give a view that cannot be written to: numba compiles anew for one that can."""
+    if not array.flags.writeable:
+        return array
+    view = array.view()
+    view.setflags(write=False)
+    return view
+
+
+_SHAPES = {
+    "direction": (2, 3), "end_kind": (2, 2), "end_vector": (2, 2, 3), "reader": (2, 2),
+    "anchor": (2, 2), "normal": (2, 3), "numbers": (2, 7),
+}  # fmt: skip
+"""Of the arrays of a program that have more than one axis."""
+
+
+def warm() -> bool:
+    """Compile all, or load what was compiled; tell whether it was loaded.
+
+    The kinds of the arrays are those of every program; there is nothing in them.
+    """
+    blank = {each.name: _blank(each.name, str(each.type)) for each in attrs.fields(Program)}
+    features = {
+        each.name: _blank(each.name, str(each.type)) for each in attrs.fields(CompiledFeatures)
+    }
+    program = Program(**blank | {"features": CompiledFeatures(**features)})  # type: ignore[arg-type]
+    wide, deep, none = np.zeros((2, 3)), np.zeros((2, 2, 3)), np.zeros(0, np.int64)
+    values = Values(
+        wide, wide.copy(), deep, np.zeros(2), np.zeros(18), np.zeros(2), wide.copy(),
+        np.zeros(2, np.int64), np.zeros(2), np.zeros(2, np.int64), np.zeros(2),
+    )  # fmt: skip
+    compiled = CompiledProgram(program)
+    compiled.restore(values, values.copy(), compiled.run(values, values.copy(), none, none))
+    return was_loaded(run) and was_loaded(restore)
+
+
+def _blank(name: str, kind: str) -> object:
+    """Give nothing, in an array of the kind of a part of a program; or a plain number."""
+    if kind == "float":
+        return 1.0
+    dtype = {"Flags": np.int8, "IntArray": np.int64}.get(kind, np.float64)
+    return _read_only(np.zeros(_SHAPES.get(name, (2,)), dtype))

@@ -19,7 +19,6 @@ from assoc_hull.edit import update
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.script import PolicyName
 from assoc_hull.edit.session import Edit
-from assoc_hull.edit.step import Step
 from assoc_hull.errors import AssocHullError, TooFewPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal

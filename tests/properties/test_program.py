@@ -19,7 +19,7 @@ from assoc_hull.edit.drag import Drag, Live
 from assoc_hull.edit.published_program import PublishedProgram, published_program
 from assoc_hull.geometry.splines.backend import backend, set_backend
 from assoc_hull.model.program import Values
-from assoc_hull.model.run_program import NumpyProgram, run_program, write_points
+from assoc_hull.model.run_program import NumpyProgram, RunProgram, run_program, write_points
 from assoc_hull.model.tables import HullState
 from tests.conftest import Shipped
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
@@ -141,9 +141,7 @@ def assert_drags_agree(hull: ah.Hull, rng: np.random.Generator, count: int) -> i
 
 
 @settings(max_examples=25, deadline=None)
-@given(
-    number=st.integers(0, POOL - 1), edits=tasks_of_all_kinds, seed=st.integers(0, 2**32 - 1)
-)
+@given(number=st.integers(0, POOL - 1), edits=tasks_of_all_kinds, seed=st.integers(0, 2**32 - 1))
 def test_a_step_of_a_drag_is_the_whole_edit_to_the_bit(
     number: int, edits: list[Task], seed: int
 ) -> None:
@@ -172,7 +170,7 @@ def test_compiled_and_numpy_give_the_same_bits_and_doubts(name: str, shipped: Sh
     found = program_of(shipped(name))
     assert found is not None
     program, before = found.program, found.values
-    runners = NumpyProgram(program), CompiledProgram(program)
+    runners: tuple[RunProgram, ...] = (NumpyProgram(program), CompiledProgram(program))
     numbers = before.copy(), before.copy()
     rng, doubts = np.random.default_rng(9), set[str]()
     for _ in range(120):

@@ -17,7 +17,7 @@ from typing import ParamSpec, TypeVar
 
 import numba
 
-__all__ = ["jit"]
+__all__ = ["jit", "was_loaded"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -51,3 +51,9 @@ def jit(function: Callable[P, R]) -> Callable[P, R]:
     decorate = numba.njit(cache=kept, error_model="numpy", nogil=True)
     result: Callable[P, R] = decorate(function)
     return result
+
+
+def was_loaded(function: Callable[..., object]) -> bool:
+    """Tell whether a compiled function came from the cache on the disk."""
+    stats = getattr(function, "stats", None)
+    return stats is not None and sum(stats.cache_hits.values()) > 0

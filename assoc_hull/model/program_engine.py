@@ -1,0 +1,123 @@
+"""Which arithmetic runs the program of a net: numpy, or the compiled form where that is at hand.
+
+Compiling takes half a minute of one processor, once on a machine; so it is done by a child process,
+which leaves it in the cache of numba, and numpy serves until then. Both give the same bits.
+``ASSOC_HULL_FAST=0`` keeps to numpy, ``1`` compiles here and now. Nothing of numba is imported
+before somebody drags: that would cost a command that runs once a third of a second.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import os
+import subprocess
+import sys
+import threading
+
+import attrs
+
+from assoc_hull.geometry.splines.backend import backend
+from assoc_hull.model.program import Program
+from assoc_hull.model.run_program import NumpyProgram, RunProgram
+
+__all__ = ["engine_words", "runner_of", "wait_for_engine"]
+
+_MAKE = """
+import os, sys
+again, *sys.path[:] = sys.argv[1:]
+if again == "no" and hasattr(os, "nice"):
+    os.nice(5)
+from assoc_hull.model.program_compiled import warm
+if not warm():
+    if again == "yes":
+        sys.exit("what numba compiles cannot be kept on this disk: see NUMBA_CACHE_DIR")
+    os.execv(sys.executable, [sys.executable, "-c", os.environ["MAKE"], "yes", *sys.path])
+"""
+"""What the child runs: it compiles, and makes sure that another process finds that in the cache."""
+
+_lock = threading.Lock()
+
+
+@attrs.define
+class _Engine:
+    """What is known of the compiled form in this process; `told` says why numpy serves."""
+
+    child: subprocess.Popen[bytes] | None = None
+    told: str = ""
+    ready: bool = False
+
+
+_engine = _Engine()
+
+
+def runner_of(program: Program) -> RunProgram:
+    """Give a program with the arithmetic at hand; where none is compiled yet, begin that."""
+    if _is_ready():
+        from assoc_hull.model.program_compiled import CompiledProgram
+
+        return CompiledProgram(program)
+    return NumpyProgram(program)
+
+
+def engine_words() -> str:
+    """Say in one line which arithmetic serves, and why."""
+    if _is_ready():
+        return "compiled by numba"
+    return f"numpy: {_engine.told}"
+
+
+def wait_for_engine(seconds: float = 300.0) -> str:
+    """Wait until the compiled form is at hand, if it is being made; say which arithmetic serves."""
+    _is_ready()
+    child = _engine.child
+    if child is not None:
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            child.wait(seconds)
+    return engine_words()
+
+
+def _is_ready() -> bool:
+    """Tell whether the compiled form can be used at once; ask for it where nobody has."""
+    if os.environ.get("ASSOC_HULL_FAST") == "0":
+        _engine.told = "ASSOC_HULL_FAST=0 asks for it"
+        return False
+    if backend() == "numba":
+        return True
+    with _lock:
+        if not _engine.ready and not _engine.told:
+            _begin()
+        child = _engine.child
+        if child is not None and child.poll() is not None:
+            _finish(child)
+        return _engine.ready
+
+
+def _begin() -> None:
+    """Let a child process compile, or find what was compiled before."""
+    if importlib.util.find_spec("numba") is None:
+        _engine.told = "numba is not installed (pip install 'assoc-hull[fast]')"
+        return
+    command = [sys.executable, "-c", _MAKE, "no", *sys.path]
+    try:
+        _engine.child = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            env={**os.environ, "MAKE": _MAKE, "ASSOC_HULL_FAST": "0"},
+        )
+        _engine.told = "the compiled form is being made"
+    except OSError as error:
+        _engine.told = f"the compiled form cannot be made ({error})"
+
+
+def _finish(child: subprocess.Popen[bytes]) -> None:
+    """Take note of how a child has ended."""
+    _engine.child = None
+    told = child.communicate()[1].decode(errors="replace")
+    if child.returncode == 0:
+        _engine.ready = True
+        return
+    last = told.strip().splitlines()[-1:] or [f"exit code {child.returncode}"]
+    _engine.told = f"the compiled form cannot be made ({last[0]})"

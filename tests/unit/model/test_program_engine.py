@@ -1,0 +1,97 @@
+"""Which arithmetic runs the program, and what is said of it."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from collections.abc import Iterator
+
+import pytest
+
+from assoc_hull.cli import main
+from assoc_hull.model import program_engine
+from assoc_hull.model.program_engine import engine_words, wait_for_engine
+
+
+@pytest.fixture(autouse=True)
+def nobody_has_asked(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Let every test begin as a process does."""
+    engine = program_engine._Engine()
+    monkeypatch.setattr(program_engine, "_engine", engine)
+    monkeypatch.delenv("ASSOC_HULL_FAST", raising=False)
+    monkeypatch.setattr(program_engine, "backend", lambda: "numpy")
+    yield
+    if engine.child is not None:
+        engine.child.communicate()
+
+
+def child_that(monkeypatch: pytest.MonkeyPatch, code: str) -> None:
+    """Let the child run other code."""
+    pytest.importorskip("numba")
+    monkeypatch.setattr(program_engine, "_MAKE", code)
+
+
+def test_numpy_can_be_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Then no child is started."""
+    monkeypatch.setenv("ASSOC_HULL_FAST", "0")
+    monkeypatch.setattr(program_engine, "_begin", lambda: pytest.fail("a child"))
+    assert engine_words() == "numpy: ASSOC_HULL_FAST=0 asks for it"
+
+
+def test_without_numba_numpy_serves_and_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It is no error."""
+    monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
+    assert "pip install 'assoc-hull[fast]'" in engine_words()
+
+
+def test_numpy_serves_while_a_child_compiles(monkeypatch: pytest.MonkeyPatch) -> None:
+    """When the child is done the compiled form serves."""
+    child_that(monkeypatch, "import sys; sys.stdin.read()")
+    assert engine_words() == "numpy: the compiled form is being made"
+    assert wait_for_engine() == "compiled by numba"
+
+
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        ("raise ImportError('numba is too old')", "ImportError: numba is too old"),
+        ("import sys; sys.exit('what numba compiles cannot be kept')", "cannot be kept"),
+        ("import os; os._exit(9)", "exit code 9"),
+    ],
+)
+def test_a_child_that_fails_leaves_numpy_and_says_why(
+    monkeypatch: pytest.MonkeyPatch, code: str, words: str
+) -> None:
+    """It is asked once in a process, not at every drag."""
+    child_that(monkeypatch, code)
+    assert words in wait_for_engine()
+    monkeypatch.setattr(program_engine, "_begin", lambda: pytest.fail("a second child"))
+    assert words in engine_words()
+
+
+def test_what_a_child_compiles_is_found_by_another_process() -> None:
+    """One version of each function is compiled, and it is loaded the next time."""
+    pytest.importorskip("numba")
+    code = (
+        "from assoc_hull.model.program_engine import wait_for_engine\n"
+        "print(wait_for_engine())\n"
+        "from assoc_hull.model import program_compiled as made\n"
+        "made.warm()\n"
+        "print(len(made.run.signatures), len(made.restore.signatures))\n"
+    )
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.split("\n")[:2] == ["compiled by numba", "1 1"], found
+
+
+def test_the_command_tells(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """No hull is needed for it, and one is for all else."""
+    monkeypatch.setenv("ASSOC_HULL_FAST", "0")
+    assert main(["info", "--engine", "--wait"]) == 0
+    assert capsys.readouterr().out == "numpy: ASSOC_HULL_FAST=0 asks for it\n"
+    assert main(["info"]) == 2
+    assert "give one, or --engine" in capsys.readouterr().err
