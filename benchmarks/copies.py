@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.table import ArrayColumn
+from assoc_hull.graph.table import Column
 from assoc_hull.model.index import build_index
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.tables import Association, CurveIntersections, HullState, curve_node, row_node
@@ -38,7 +38,7 @@ def copies_of(net: HullState, count: int) -> HullState:
         source, target = getattr(net, name), getattr(state, name)
         target.resize(count * source.count)
         for title, column in source.columns.items():
-            copy = _array_copy if isinstance(column, ArrayColumn) else _list_copy
+            copy = _array_copy if isinstance(column, Column) else _list_copy
             for number in range(count):
                 copy(net, target.columns[title], column, (name, title), number)
     _settings(net, state, count)
@@ -57,7 +57,7 @@ def _array_copy(
     elif which in PLACES:
         block[..., 0] += number * STEP
     elif which == ("lines", "offset"):
-        block += number * STEP * net.lines.normal.data[:, 0]
+        block += number * STEP * net.lines.normal[:, 0]
 
 
 def _list_copy(

@@ -57,10 +57,10 @@ def _points(state: HullState, journal: Journal) -> tuple[IntArray, FloatArray]:
     table = state.rows
     rows, old = journal.before(table.xyz)
     marked, was_alive = journal.before(table.alive)
-    watched = (table.sort.data[rows] == Sort.CROSSING) & (table.role.data[rows] == Role.WATCHED)
-    differs = table.alive.data[rows] & ~watched & bits_differ(old, table.xyz.data[rows])
+    watched = (table.sort[rows] == Sort.CROSSING) & (table.role[rows] == Role.WATCHED)
+    differs = table.alive[rows] & ~watched & bits_differ(old, table.xyz[rows])
     differs &= ~np.isin(rows, marked[~was_alive.astype(bool)])
-    step = table.xyz.data[rows[differs]] - old[differs]
+    step = table.xyz[rows[differs]] - old[differs]
     return rows[differs], np.sqrt((step * step).sum(axis=1))
 
 

@@ -51,7 +51,7 @@ def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:
     if work.pending.fresh:
         curves = curves[np.sort(np.unique(curves, return_index=True)[1])]
     key = state.curves.key.data
-    after = {curve: state.curves.spline.data[curve] for curve in curves.tolist()}
+    after = {curve: state.curves.spline[curve] for curve in curves.tolist()}
     keys = tuple(key[curve] for curve in curves.tolist())
     return EditReport(
         work.name,
@@ -81,8 +81,8 @@ def _largest(state: HullState, changed: IntArray, moved: FloatArray) -> Movement
         return None
     best = int(np.nanargmax(moved[points]))
     row = int(changed[points][best]) >> 1
-    place = tuple(state.rows.xyz.data[row].tolist())
-    return Movement(state.rows.key.data[row], float(moved[points][best]), place)
+    place = tuple(state.rows.xyz[row].tolist())
+    return Movement(state.rows.key[row], float(moved[points][best]), place)
 
 
 def _largest_normal(work: Work, changed: IntArray, moved: FloatArray) -> Movement | None:
@@ -91,13 +91,13 @@ def _largest_normal(work: Work, changed: IntArray, moved: FloatArray) -> Movemen
     rows = changed[((changed & 1) == 0) & (moved > 0.0)] >> 1
     places = work.journal.net(state.rows.xyz)
     known = np.isin(rows, places.rows)
-    rows = rows[known & state.rows.alive.data[np.where(known, rows, 0)]]
+    rows = rows[known & state.rows.alive[np.where(known, rows, 0)]]
     if not len(rows):
         return None
-    away = state.rows.xyz.data[rows] - places.old[np.searchsorted(places.rows, rows)]
+    away = state.rows.xyz[rows] - places.old[np.searchsorted(places.rows, rows)]
     distance = along_normal(state, rows, away)
     if not np.isfinite(distance).any():
         return None
     best = int(np.nanargmax(distance))
-    x, y, z = state.rows.xyz.data[rows[best]].tolist()
-    return Movement(state.rows.key.data[int(rows[best])], float(distance[best]), (x, y, z))
+    x, y, z = state.rows.xyz[rows[best]].tolist()
+    return Movement(state.rows.key[int(rows[best])], float(distance[best]), (x, y, z))

@@ -87,7 +87,7 @@ class Work:
         """Curves evaluated in any pass or made in this edit, but for those removed since."""
         fresh = np.array(self.pending.fresh, np.int64)
         curves = np.concatenate([self.evaluated(), fresh]) if len(fresh) else self.evaluated()
-        alive: IntArray = curves[self.state.curves.alive.data[curves]]
+        alive: IntArray = curves[self.state.curves.alive[curves]]
         return alive
 
     def go(self, rows: IntArray, curves: IntArray) -> None:
@@ -131,7 +131,7 @@ class Work:
         """Give the nodes to evaluate although nothing they read has changed; each only once."""
         rows, table = np.array(sorted(self.pending.computed), np.int64), self.state.rows
         self.pending.computed.clear()
-        rows = rows[table.alive.data[rows] & (table.driver.data[rows] >= 0)]
+        rows = rows[table.alive[rows] & (table.driver[rows] >= 0)]
         return np.concatenate([curve_node(curves), row_node(rows)])
 
     def renew(self) -> None:

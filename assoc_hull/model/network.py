@@ -68,8 +68,8 @@ class HullNetwork:
         found = np.empty(len(nodes), np.int64)
         found[odd] = 4 * self.index.level[number[odd]]
         rows = number[~odd]
-        driver = self.state.rows.driver.data[rows]
-        own = self.state.rows.curve.data[rows, 0]
+        driver = self.state.rows.driver[rows]
+        own = self.state.rows.curve[rows, 0]
         riding = driver < 0
         of = np.where(riding, own, driver)
         found[~odd] = 4 * self.index.level[of] + np.where(riding, -1, 1)
@@ -124,16 +124,16 @@ class HullNetwork:
     def name(self, node: int) -> str:
         """Name a node by the key of its object."""
         if node < 0:
-            return str(self.state.formed.definition.data[-1 - (node >> 1)].key)
+            return str(self.state.formed.definition[-1 - (node >> 1)].key)
         table = self.state.curves if node & 1 else self.state.rows
-        return str(table.key.data[node >> 1])
+        return str(table.key[node >> 1])
 
     def evaluate(self, nodes: IntArray, journal: Journal) -> Evaluation:
         """Evaluate curves, computed points, or riding and generated ones, as the nodes are."""
         numbers = nodes >> 1
         if nodes[0] & 1:
             return self._curves(numbers, journal)
-        if self.state.rows.driver.data[numbers[0]] >= 0:
+        if self.state.rows.driver[numbers[0]] >= 0:
             return self._computed(numbers, journal)
         rides = unmade_rows(self.state, numbers)
         if rides.all():
@@ -149,22 +149,22 @@ class HullNetwork:
     def _computed(self, rows: IntArray, journal: Journal) -> Evaluation:
         """Points computed from their driver: its meeting with the other line's plane."""
         table = self.state.rows
-        side = (table.curve.data[rows, 0] != table.driver.data[rows]).astype(np.int64)
-        return self._publish(rows, table.spot.data[rows, side], journal)
+        side = (table.curve[rows, 0] != table.driver[rows]).astype(np.int64)
+        return self._publish(rows, table.spot[rows, side], journal)
 
     def _riding(self, rows: IntArray, journal: Journal) -> Evaluation:
         """Adopted points ride: base + linear blend of the displacements of their anchors."""
         table = self.state.rows
-        anchor = table.anchor.data[rows]
-        shift = table.xyz.data[anchor] - table.anchor_from.data[rows]
+        anchor = table.anchor[rows]
+        shift = table.xyz[anchor] - table.anchor_from[rows]
         shift = np.where((anchor >= 0)[:, :, None], shift, 0.0)
-        weight = table.anchor_weight.data[rows][:, None]
-        value = table.base.data[rows] + ((1.0 - weight) * shift[:, 0] + weight * shift[:, 1])
+        weight = table.anchor_weight[rows][:, None]
+        value = table.base[rows] + ((1.0 - weight) * shift[:, 0] + weight * shift[:, 1])
         return self._publish(rows, value, journal)
 
     def _generated(self, rows: IntArray, journal: Journal) -> Evaluation:
         """Points of generated curves, as the definitions have them; one batch of curves."""
-        owners = set(self.state.rows.curve.data[rows, 0].tolist())
+        owners = set(self.state.rows.curve[rows, 0].tolist())
         every, value = points_given(
             self.state,
             [made for curve, made in attached_curves(self.state).items() if curve in owners],
@@ -174,7 +174,7 @@ class HullNetwork:
 
     def _publish(self, rows: IntArray, value: FloatArray, journal: Journal) -> Evaluation:
         """Write the points that differ by a bit from what is published."""
-        old = self.state.rows.xyz.data[rows]
+        old = self.state.rows.xyz[rows]
         value = np.ascontiguousarray(value)
         differs = bits_differ(old, value)
         journal.put(self.state.rows.xyz, rows[differs], value[differs])
@@ -188,7 +188,8 @@ class HullNetwork:
         key = curves.tobytes()
         old = [table.spline.data[curve] for curve in numbers]
         met = [table.meets.data[curve] for curve in numbers]
-        last: LastIntersections | None = recall.get(key)
+        recalled = recall.get(key)
+        last = recalled if isinstance(recalled, LastIntersections) else None
         known = last if last is not None and last.holds(old, met) else None
         batch = loft_curves(self.state, curves, recall)
         splines = batch.single()
@@ -233,7 +234,7 @@ class HullNetwork:
             ]
             actual = np.flatnonzero(row >= 0)
             owner = np.array(numbers, np.int64)[found.curve[actual]]
-            part = 2 * row[actual] + (self.state.rows.curve.data[row[actual], 0] != owner)
+            part = 2 * row[actual] + (self.state.rows.curve[row[actual], 0] != owner)
             actual = None if len(actual) == len(row) else actual
         spot, place = PickedRows(found.xyz, actual), PickedRows(found.parameter, actual)
         return LastIntersections(splines, meets, batch, found, row, actual, part, spot, place)

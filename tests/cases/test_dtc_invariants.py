@@ -69,7 +69,7 @@ def test_an_edit_lofts_only_what_it_must(dtc: ah.Hull) -> None:
                 assert len(heard) > 1 or not besides
                 assert all(now[key] == step.before.curves[key] for key in besides)
                 seeds = dtc.document.history[-1].seeds.tolist()
-                moved = {dtc.state.rows.key.data[node >> 1] for node in seeds}
+                moved = {dtc.state.rows.key[node >> 1] for node in seeds}
                 assert wanted <= closure(dtc, moved)
             heard.clear()
 

@@ -149,8 +149,8 @@ def test_any_edits_leave_a_hull_that_can_be_made_again(edits: list[list[Act]]) -
 def detached(state: HullState) -> dict[str, bytes]:
     """Give the own points of detached lines, by name of the line."""
     return {
-        str(state.lines.name.data[state.line_of(each.curve)]):
-            state.rows.xyz.data[list(each.rows)].tobytes()
+        str(state.lines.name[state.line_of(each.curve)]):
+            state.rows.xyz[list(each.rows)].tobytes()
         for each in state.generated if not each.attached
     }  # fmt: skip
 

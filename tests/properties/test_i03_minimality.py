@@ -108,7 +108,7 @@ def test_a_second_pass_lofts_only_what_births_deaths_and_mends_touch(
 def _curves_of(hull: ah.Hull, rows: tuple[str, ...]) -> set[str]:
     table = hull.state.rows
     numbers = [table.key.data.index(key) for key in rows]
-    return {hull.state.curves.key.data[c] for c in table.curve.data[numbers].ravel().tolist()}
+    return {hull.state.curves.key[c] for c in table.curve[numbers].ravel().tolist()}
 
 
 @settings(max_examples=20)
@@ -122,7 +122,7 @@ def test_a_move_stays_within_the_closure_of_the_role_table(
         if report is None or not quiet(report):
             continue
         step = hull.document.history[-1]
-        seeds = {hull.state.rows.key.data[node >> 1] for node in step.seeds.tolist()}
+        seeds = {hull.state.rows.key[node >> 1] for node in step.seeds.tolist()}
         assert set(report.relofted) <= closure(hull, seeds)
 
 

@@ -24,7 +24,7 @@ from assoc_hull.errors import AssocHullError, TooFewPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.network import Evaluation
-from assoc_hull.graph.table import ArrayColumn
+from assoc_hull.graph.table import Column
 from assoc_hull.model import network
 from assoc_hull.model.kinds import State
 from assoc_hull.model.network import HullNetwork
@@ -202,7 +202,7 @@ def reach_of(hull: ah.Hull, change: Change) -> Reach:
 def shared(hull: ah.Hull) -> list[ah.Point]:
     """Give the shared crossings of sections and waterlines."""
     points = [p for p in live_points(hull, "crossing") if p.crossing_role == "shared"]
-    return [p for p in points if p.free == ("y",) and not hull.state.rows.contact.data[p.row]]
+    return [p for p in points if p.free == ("y",) and not hull.state.rows.contact[p.row]]
 
 
 def pull_wide(hull: ah.Hull) -> Change:
@@ -258,7 +258,7 @@ def tables(hull: ah.Hull) -> tuple[object, ...]:
     """Give every bit of the tables, of lists the very objects, with revisions and history."""
     state, document = hull.state, hull.document
     columns = [
-        column.data.tobytes() if isinstance(column, ArrayColumn) else [id(x) for x in column.data]
+        column.data.tobytes() if isinstance(column, Column) else [id(x) for x in column.data]
         for table in (state.rows, state.curves, state.lines, state.groups, state.settings)
         for column in table.columns.values()
     ]
@@ -335,13 +335,13 @@ def keeps_going(
         change(edit)
     report, state = edit.report, hull.state
     assert report is not None
-    key = state.curves.key.data[node >> 1]
+    key = state.curves.key[node >> 1]
     assert report.failed
     reach = readers_of(hull, node >> 1)
     assert state.failed == (node >> 1,)
     assert {name for name in report.blocked if name in old} == reach
     for curve in state.live("curves").tolist():
-        name, handle = state.curves.key.data[curve], ah.Curve.of(state, curve)
+        name, handle = state.curves.key[curve], ah.Curve.of(state, curve)
         assert handle.state == (
             "failed" if name == key else "blocked" if name in reach else "clean"
         )
@@ -359,11 +359,9 @@ def readers_of(hull: ah.Hull, curve: int) -> set[str]:
     """Walk the role table from the points computed from a curve."""
     rows = hull.state.rows
     driven = {
-        rows.key.data[row]
-        for row in hull.state.live("rows").tolist()
-        if rows.driver.data[row] == curve
+        rows.key[row] for row in hull.state.live("rows").tolist() if rows.driver[row] == curve
     }
-    return closure(hull, driven) - {hull.state.curves.key.data[curve]}
+    return closure(hull, driven) - {hull.state.curves.key[curve]}
 
 
 def next_edits_work(hull: ah.Hull, failed: int) -> None:
@@ -373,7 +371,7 @@ def next_edits_work(hull: ah.Hull, failed: int) -> None:
         for point in live_points(hull, "crossing")
         if point.crossing_role == "shared"
         and point.free == ("y",)
-        and failed not in hull.state.rows.curve.data[point.row].tolist()
+        and failed not in hull.state.rows.curve[point.row].tolist()
     ]
     with hull.edit("elsewhere", "keep_going", "report") as edit:
         edit.move(far[0], y=far[0].y + 0.001)
@@ -431,7 +429,7 @@ def turn_about(nodes: set[int]) -> tuple[list[int], list[int]]:
 def blocked(hull: ah.Hull) -> set[str]:
     """Keys of the curves that are not up to date."""
     table = hull.state.curves
-    return {table.key.data[i] for i in np.flatnonzero(table.state.data == State.BLOCKED)}
+    return {table.key[i] for i in np.flatnonzero(table.state.data == State.BLOCKED)}
 
 
 def break_off(hull: ah.Hull, change: Change) -> None:

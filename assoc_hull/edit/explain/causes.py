@@ -247,12 +247,12 @@ def _is_watched(state: HullState, node: int) -> bool:
     if node & 1 or node < 0:
         return False
     row = node >> 1
-    crossing = state.rows.sort.data[row] == Sort.CROSSING
-    return bool(crossing and state.rows.role.data[row] == Role.WATCHED)
+    crossing = state.rows.sort[row] == Sort.CROSSING
+    return bool(crossing and state.rows.role[row] == Role.WATCHED)
 
 
 def _watched(state: HullState, steps: Sequence[Step], book: AddressBook, node: int) -> Why:
-    curves = state.rows.curve.data[node >> 1].tolist()
+    curves = state.rows.curve[node >> 1].tolist()
     causes = [why_after(state, steps, 2 * curve + 1) for curve in curves]
     causes.sort(key=lambda each: -each.step)
     last = causes[0]
@@ -266,12 +266,12 @@ def _key(state: HullState, node: int) -> str:
     if node < 0:
         return str(_form(state, node).key)
     table = state.curves if node & 1 else state.rows
-    return str(table.key.data[node >> 1]) if node >> 1 < table.count else _GONE
+    return str(table.key[node >> 1]) if node >> 1 < table.count else _GONE
 
 
 def _form(state: HullState, node: int) -> FormDefinition:
     number = int(form_of(np.array([node]))[0])
-    found: FormDefinition = state.formed.definition.data[number]
+    found: FormDefinition = state.formed.definition[number]
     return found
 
 
@@ -283,7 +283,7 @@ def _name(book: AddressBook, node: int) -> str:
         return _GONE
     if node & 1:
         return book.curve_name(node >> 1)
-    if not table.alive.data[node >> 1]:
+    if not table.alive[node >> 1]:
         return _key(book.state, node)
     return book.address(node >> 1)
 
@@ -296,7 +296,7 @@ def _state(state: HullState, node: int) -> State:
     if node < 0:
         return State.CLEAN
     table = state.curves if node & 1 else state.rows
-    return State(int(table.state.data[node >> 1])) if node >> 1 < table.count else State.CLEAN
+    return State(int(table.state[node >> 1])) if node >> 1 < table.count else State.CLEAN
 
 
 def _without_alike(causes: Sequence[CauseTree], made: Collection[int]) -> list[CauseTree]:
@@ -338,7 +338,7 @@ class _NamedTraces:
         if node >= 0:
             return tuple(_name(self.book, each) for each in quiet)
         reached = self.step.cause.reader[self.step.cause.source == node] >> 1
-        curve = self.state.rows.curve.data[:, 0]
+        curve = self.state.rows.curve[:, 0]
         moved = set(curve[np.setdiff1d(reached, np.array(quiet, np.int64) >> 1)].tolist())
         still = dict.fromkeys(curve[each >> 1] for each in quiet if curve[each >> 1] not in moved)
         return tuple(self.book.curve_name(int(each)) for each in still)

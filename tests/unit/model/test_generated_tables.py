@@ -52,7 +52,7 @@ def test_generated_points_hold_no_values_in_a_definition(made: HullState) -> Non
     """They are derived; those of a detached curve are the designer's own."""
     record: Any = definition(made)
     by_key = {each["key"]: each for each in record["points"]}
-    keys = [made.rows.key.data[row] for row in attached_rows(made).tolist()]
+    keys = [made.rows.key[row] for row in attached_rows(made).tolist()]
     assert len(keys) > 100
     assert not any("value" in by_key[key] for key in keys)
     values: Any = published(made)
@@ -192,7 +192,7 @@ def test_a_hull_with_definitions_goes_through_a_pipe(made: HullState) -> None:
 def test_a_generated_curve_that_is_not_there_is_found(hull: ah.Hull) -> None:
     """By check and by who opens a file, if other hands have written it."""
     table = hull.state.produced
-    table.curve.data[1] = table.curve.data[1].evolve(curve=10**6, attached=False)
+    table.curve.data[1] = table.curve[1].evolve(curve=10**6, attached=False)
     assert "tables" in {each.kind for each in hull.check()}
     with pytest.raises(ValueError, match="does not exist"):
         require_sound_tables(hull.state)
