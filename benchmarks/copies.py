@@ -11,7 +11,8 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import Column
 from assoc_hull.model.index import build_index
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import Association, CurveIntersections, HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import Association, CurveIntersections, HullState
 
 __all__ = ["copies_of"]
 
@@ -110,9 +111,9 @@ def _loft(state: HullState) -> None:
     network = HullNetwork(state, index)
     for level in range(int(index.level.max()) + 1):
         curves = np.flatnonzero(index.level == level)
-        network.evaluate(curve_node(curves), journal)
+        network.evaluate(Node.curve(curves), journal)
         driven = [index.drives[curve] for curve in curves.tolist() if curve in index.drives]
         if driven:
-            network.evaluate(row_node(np.sort(np.concatenate(driven))), journal)
+            network.evaluate(Node.point(np.sort(np.concatenate(driven))), journal)
     if network.realigned:
         raise AssertionError("a copy has other crossings than the net")

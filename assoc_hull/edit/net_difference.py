@@ -8,7 +8,8 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.network import bits_differ
-from assoc_hull.model.tables import HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 
 __all__ = ["net_difference"]
 
@@ -39,17 +40,17 @@ def net_difference(
         Each node once, points first; nan where the edit itself set the point. Points that
         the edit made are left out, and watched ones, which have no value.
     """
-    odd = (nodes & 1).astype(bool)
+    odd = Node.is_curve(nodes)
     rows, away = _points(state, journal)
-    away[~np.isin(row_node(rows), nodes)] = np.nan
+    away[~np.isin(Node.point(rows), nodes)] = np.nan
     curves = [
         curve
-        for curve in np.unique(nodes[odd] >> 1).tolist()
+        for curve in np.unique(Node.number(nodes[odd])).tolist()
         if curve not in before or not _same(before[curve], state.spline(curve))
     ]
-    widest = np.array([np.max(moved[nodes == 2 * curve + 1]) for curve in curves], np.float64)
+    widest = np.array([np.max(moved[nodes == Node.curve(curve)]) for curve in curves], np.float64)
     numbers = np.array(curves, np.int64)
-    return np.concatenate([row_node(rows), curve_node(numbers)]), np.concatenate([away, widest])
+    return np.concatenate([Node.point(rows), Node.curve(numbers)]), np.concatenate([away, widest])
 
 
 def _points(state: HullState, journal: Journal) -> tuple[IntArray, FloatArray]:

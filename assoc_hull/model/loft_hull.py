@@ -17,7 +17,8 @@ from assoc_hull.model.gaps import gap_at, watched_on
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import CurveIntersections, HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = ["attach_curves", "loft_all", "set_limits"]
 
@@ -42,13 +43,13 @@ def loft_all(state: HullState, journal: Journal) -> IntArray:
         network = HullNetwork(state, index)
         riding = np.unique(np.concatenate([np.zeros(0, np.int64), *_riding_on(state, batch)]))
         if len(riding):
-            network.evaluate(row_node(riding), journal)
-        network.evaluate(curve_node(batch), journal)
+            network.evaluate(Node.point(riding), journal)
+        network.evaluate(Node.curve(batch), journal)
         missing.append(attach_curves(state, batch, journal))
         driven = np.concatenate([np.zeros(0, np.int64), *_driven_by(index.drives, batch)])
         driven = np.setdiff1d(driven, missing[-1])
         if len(driven):
-            network.evaluate(row_node(driven), journal)
+            network.evaluate(Node.point(driven), journal)
     return np.unique(np.concatenate(missing))
 
 

@@ -23,8 +23,9 @@ from assoc_hull.model.align_intersections import Alignment, align_curve
 from assoc_hull.model.generated_curves import attached_curves, points_given, unmade_rows
 from assoc_hull.model.index import Index
 from assoc_hull.model.lofting import loft_curves, remember
+from assoc_hull.model.node import Node
 from assoc_hull.model.plane_intersections import LastIntersections, PartnerIntersections, cut_curves
-from assoc_hull.model.tables import CurveIntersections, HullState, curve_node, form_of, row_node
+from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = ["HullNetwork", "bits_differ"]
 
@@ -64,7 +65,7 @@ class HullNetwork:
 
     def level(self, nodes: IntArray) -> IntArray:
         """Give the level of each node."""
-        number, odd = nodes >> 1, (nodes & 1).astype(bool)
+        number, odd = Node.number(nodes), Node.is_curve(nodes)
         found = np.empty(len(nodes), np.int64)
         found[odd] = 4 * self.index.level[number[odd]]
         rows = number[~odd]
@@ -89,21 +90,22 @@ class HullNetwork:
         return self.index.answer(
             ("reached", seeds.tobytes()),
             self.state.rows.reader.writes,
-            lambda: int((closure(self, seeds) & 1).sum()),
+            lambda: int(Node.is_curve(closure(self, seeds)).sum()),
         )
 
     def _find_readers(self, nodes: IntArray) -> Readers:
-        odd, forms = (nodes & 1).astype(np.bool_), nodes < 0
-        points, curves = nodes[~odd & ~forms], nodes[odd]
+        forms = nodes[Node.is_form(nodes)]
+        points, curves = nodes[Node.is_point(nodes)], nodes[Node.is_curve(nodes)]
         pairs: list[tuple[IntArray, IntArray]] = []
         if len(points):
-            reader = self.state.rows.reader.data.take(points >> 1, axis=0)
+            rows = Node.number(points)
+            reader = self.state.rows.reader.data.take(rows, axis=0)
             both = reader >= 0
-            pairs.append((curve_node(reader[both]), np.repeat(points, 2)[both.ravel()]))
-            pairs += self._listed(points, points >> 1, self.index.riders)
-            pairs += self._listed(points, points >> 1, self.index.makes)
-        pairs += self._listed(curves, curves >> 1, self.index.drives)
-        pairs += self._listed(nodes[forms], form_of(nodes[forms]), self.index.forms)
+            pairs.append((Node.curve(reader[both]), np.repeat(points, 2)[both.ravel()]))
+            pairs += self._listed(points, rows, self.index.riders)
+            pairs += self._listed(points, rows, self.index.makes)
+        pairs += self._listed(curves, Node.number(curves), self.index.drives)
+        pairs += self._listed(forms, Node.form_number(forms), self.index.forms)
         if len(pairs) == 1:
             return Readers(*pairs[0])
         return Readers(
@@ -119,19 +121,19 @@ class HullNetwork:
             return []
         pairs = zip(nodes.tolist(), numbers.tolist(), strict=True)
         hits = [(node, table[number]) for node, number in pairs if number in table]
-        return [(row_node(out), np.full(len(out), node)) for node, out in hits]
+        return [(Node.point(out), np.full(len(out), node)) for node, out in hits]
 
     def name(self, node: int) -> str:
         """Name a node by the key of its object."""
-        if node < 0:
-            return str(self.state.formed.definition[-1 - (node >> 1)].key)
-        table = self.state.curves if node & 1 else self.state.rows
-        return str(table.key[node >> 1])
+        if Node.is_form(node):
+            return str(self.state.formed.definition[Node.form_number(node)].key)
+        table = self.state.curves if Node.is_curve(node) else self.state.rows
+        return str(table.key[Node.number(node)])
 
     def evaluate(self, nodes: IntArray, journal: Journal) -> Evaluation:
         """Evaluate curves, computed points, or riding and generated ones, as the nodes are."""
-        numbers = nodes >> 1
-        if nodes[0] & 1:
+        numbers = Node.number(nodes)
+        if Node.is_curve(int(nodes[0])):
             return self._curves(numbers, journal)
         if self.state.rows.driver[numbers[0]] >= 0:
             return self._computed(numbers, journal)
@@ -180,7 +182,7 @@ class HullNetwork:
         journal.put(self.state.rows.xyz, rows[differs], value[differs])
         step = value[differs] - old[differs]
         moved = np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
-        return Evaluation(row_node(rows[differs]), moved)
+        return Evaluation(Node.point(rows[differs]), moved)
 
     def _curves(self, curves: IntArray, journal: Journal) -> Evaluation:
         """Loft, meet the partners' planes, keep the identity of each meeting."""
@@ -207,7 +209,7 @@ class HullNetwork:
             last.at.release()
         remember(recall, key, now)
         differs = moved != 0.0
-        return Evaluation(curve_node(curves[differs]), moved[differs])
+        return Evaluation(Node.curve(curves[differs]), moved[differs])
 
     def _attach(
         self,

@@ -56,10 +56,6 @@ __all__ = [
     "Rows",
     "copy_into",
     "copy_state",
-    "curve_node",
-    "form_node",
-    "form_of",
-    "row_node",
     "state_of",
 ]
 
@@ -214,26 +210,6 @@ def _no_rows() -> IntArray:
     rows = np.zeros(0, np.int64)
     freeze(rows)
     return rows
-
-
-def row_node(row: IntArray) -> IntArray:
-    """Give the engine's node of a point: even numbers."""
-    return 2 * np.asarray(row, np.int64)
-
-
-def curve_node(curve: IntArray) -> IntArray:
-    """Give the engine's node of a curve: odd numbers."""
-    return 2 * np.asarray(curve, np.int64) + 1
-
-
-def form_node(definition: IntArray) -> IntArray:
-    """Give the engine's node of a definition: even numbers below zero."""
-    return -2 - 2 * np.asarray(definition, np.int64)
-
-
-def form_of(node: IntArray) -> IntArray:
-    """Give the number of the definition that a node below zero stands for."""
-    return -1 - (np.asarray(node, np.int64) >> 1)
 
 
 @attrs.frozen(eq=False)

@@ -28,6 +28,7 @@ from assoc_hull.graph.table import Column
 from assoc_hull.model import network
 from assoc_hull.model.kinds import State
 from assoc_hull.model.network import HullNetwork
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 from tests.cases import places
 from tests.independent import closure, curve_bits, snapshot
@@ -108,7 +109,7 @@ def _in_network(name: str, argument: int) -> Callable[[int, BaseException], mock
         def fail(*given: object, **named: object) -> object:
             curves = given[argument]
             assert isinstance(curves, np.ndarray)
-            if node & 1 and node >> 1 in curves.tolist():
+            if Node.is_curve(node) and Node.number(node) in curves.tolist():
                 raise error
             return original(*given, **named)
 
@@ -124,7 +125,7 @@ def _in_check(name: str) -> Callable[[int, BaseException], mock._patch[object]]:
         original = getattr(update, name)
 
         def fail(state: HullState, curves: IntArray, *rest: object) -> object:
-            if node & 1 and node >> 1 in curves.tolist():
+            if Node.is_curve(node) and Node.number(node) in curves.tolist():
                 raise error
             return original(state, curves, *rest)
 
@@ -180,7 +181,11 @@ class Reach:
             return list(self.changed)
         if stage in _CHECKS:
             return list(self.touched)
-        return [node for node in self.evaluated if node & 1 or stage in ("evaluate", "evaluated")]
+        return [
+            node
+            for node in self.evaluated
+            if Node.is_curve(node) or stage in ("evaluate", "evaluated")
+        ]
 
 
 def reach_of(hull: ah.Hull, change: Change) -> Reach:
@@ -335,10 +340,10 @@ def keeps_going(
         change(edit)
     report, state = edit.report, hull.state
     assert report is not None
-    key = state.curves.key[node >> 1]
+    key = state.curves.key[Node.number(node)]
     assert report.failed
-    reach = readers_of(hull, node >> 1)
-    assert state.failed == (node >> 1,)
+    reach = readers_of(hull, Node.number(node))
+    assert state.failed == (Node.number(node),)
     assert {name for name in report.blocked if name in old} == reach
     for curve in state.live("curves").tolist():
         name, handle = state.curves.key[curve], ah.Curve.of(state, curve)
@@ -348,7 +353,7 @@ def keeps_going(
         kept = name == key or name in reach
         assert curve_bits(state, curve) == (old if kept else wanted)[name]
     assert {finding.kind for finding in hull.check()} >= {"failed"}
-    next_edits_work(hull, node >> 1)
+    next_edits_work(hull, Node.number(node))
     hull.undo()
     assert attrs.evolve(whole(hull), revisions=before.revisions, undone=()) == attrs.evolve(
         before, undone=()
@@ -414,7 +419,9 @@ def test_a_sample_of_80_nodes_of_series_60(series60_70: ah.Hull) -> None:
         for node in sorted(sample & set(reach.of(stage))):
             with failing_at(stage, node), hull.edit("failing", "keep_going", "report") as edit:
                 change(edit)
-            assert blocked(hull) == (readers_of(hull, node >> 1) if hull.state.failed else set())
+            assert blocked(hull) == (
+                readers_of(hull, Node.number(node)) if hull.state.failed else set()
+            )
             hull.undo()
     assert hull.fingerprint == before.fingerprint
     hull.document.undone.clear()

@@ -29,7 +29,8 @@ from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.definition.verify import verify
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 from tests.strategies import (
     Move,
     Net,
@@ -203,7 +204,7 @@ ORIGINAL_READERS = HullNetwork.readers
 def all_edges(document: Document) -> list[tuple[int, int]]:
     """Every (source, reader) of the network."""
     state = document.state
-    nodes = np.concatenate([row_node(state.live("rows")), curve_node(state.live("curves"))])
+    nodes = np.concatenate([Node.point(state.live("rows")), Node.curve(state.live("curves"))])
     found = HullNetwork(state, document.index).readers(nodes)
     return sorted(set(zip(found.source.tolist(), found.reader.tolist(), strict=True)))
 

@@ -28,6 +28,7 @@ from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
 __all__ = [
@@ -75,9 +76,9 @@ def line_changes(state: HullState, step: Step | None) -> tuple[LineChange, ...]:
     """
     if step is None:
         return ()
-    # nodes of points are even, see `row_node`; a point whose movement is not known counts for none
-    known = ((step.changed & 1) == 0) & np.isfinite(step.moved)
-    rows, away = step.changed[known] >> 1, step.moved[known]
+    # a point whose movement is not known counts for none
+    known = Node.is_point(step.changed) & np.isfinite(step.moved)
+    rows, away = Node.number(step.changed[known]), step.moved[known]
     alive = state.rows.alive[rows]
     found = _Movements(state, AddressBook(state), step, rows[alive], away[alive])
     curves: dict[int, list[int]] = {}

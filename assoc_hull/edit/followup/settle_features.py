@@ -25,6 +25,7 @@ from assoc_hull.model.address import address
 from assoc_hull.model.feature_geometry import line_numbers, places_off, rounded_gap, rounding_of
 from assoc_hull.model.features import Feature
 from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
 __all__ = ["settle_features"]
@@ -99,7 +100,7 @@ def _affected(work: Work, rows: IntArray) -> list[int]:
     """Give the numbers of the features that own a point which changed."""
     changed = np.concatenate([rows[:0], *(part.changed for part in work.passes)])
     hand = np.array([row for row, _ in work.pending.by_hand], np.int64)
-    every = np.concatenate([rows, changed[(changed & 1) == 0] >> 1, hand])
+    every = np.concatenate([rows, Node.number(changed[Node.is_point(changed)]), hand])
     point, owner = _owners(work.state)
     found: list[int] = np.unique(owner[np.isin(point, every)]).tolist()
     return found

@@ -25,7 +25,8 @@ from assoc_hull.model.form_definition import GeneratedCurve
 from assoc_hull.model.forms.line_layout import layout_at
 from assoc_hull.model.generated_curves import forms_of, line_offset
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.tables import HullState, form_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 
 __all__ = ["form_changes", "take_up_forms"]
 
@@ -83,7 +84,7 @@ def _write(maker: Maker, pending: Pending) -> IntArray:
     maker.definitions([pending.forms.get(each.use, each) for each in state.definitions])
     numbers = [n for n in state.live("formed").tolist()
                if table.definition[n].use in pending.forms]  # fmt: skip
-    return form_node(np.array(numbers, np.int64))
+    return Node.form(np.array(numbers, np.int64))
 
 
 def _other_pieces(state: HullState) -> list[GeneratedCurve]:

@@ -13,7 +13,8 @@ from assoc_hull.model.gaps import gap_at, watched_on
 from assoc_hull.model.index import Index
 from assoc_hull.model.loft_hull import attach_curves, set_limits
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import CurveIntersections, HullState, curve_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = [
     "enter_line_plane",
@@ -36,7 +37,7 @@ def enter_line_plane(edit: Transaction, line: int, stay: IntArray = _NO_POINTS) 
     edit.document.refresh()
     mine = np.array(state.lines.curves[line], np.int64)
     network = HullNetwork(state, edit.document.index)
-    network.evaluate(curve_node(mine), journal)
+    network.evaluate(Node.curve(mine), journal)
     partners = partner_curves(state, edit.document.index, line)
     _add_meets(edit, partners, line)
     attach_curves(state, partners, journal, line)
@@ -86,7 +87,7 @@ def _hold_shape(edit: Transaction, network: HullNetwork, mine: IntArray, stay: I
         touched, _ = mend_gaps(edit.maker, wide, on)
         if not len(touched):
             return
-        network.evaluate(curve_node(touched), edit.journal)
+        network.evaluate(Node.curve(touched), edit.journal)
 
 
 def partner_curves(state: HullState, index: Index, line: int) -> IntArray:

@@ -24,7 +24,8 @@ from assoc_hull.model.generated_curves import unmade_rows
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import State
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 
 __all__ = [
     "from_definition",
@@ -213,7 +214,7 @@ def _all_nodes(state: HullState) -> IntArray:
     made |= ~unmade_rows(state, rows)
     rows = rows[made & (table.state[rows] == State.CLEAN)]
     curves = curves[state.curves.state[curves] == State.CLEAN]
-    return np.concatenate([row_node(rows), curve_node(curves)])
+    return np.concatenate([Node.point(rows), Node.curve(curves)])
 
 
 def _by_level(network: HullNetwork, nodes: IntArray) -> list[IntArray]:

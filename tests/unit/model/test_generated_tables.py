@@ -22,7 +22,8 @@ from assoc_hull.model.generated_curves import (
     generated_on,
     points_given,
 )
-from assoc_hull.model.tables import HullState, copy_state, form_node, form_of
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState, copy_state
 from tests.formed import STATIONS, formed, formed_definitions
 
 
@@ -71,10 +72,10 @@ def test_the_table_of_attached_curves(made: HullState) -> None:
 def test_nodes_of_definitions_lie_below_nil() -> None:
     """And lead back to the number."""
     numbers = np.arange(5)
-    nodes = form_node(numbers)
-    assert (nodes < 0).all()
-    assert (nodes % 2 == 0).all()
-    assert form_of(nodes).tolist() == numbers.tolist()
+    nodes = Node.form(numbers)
+    assert Node.is_form(nodes).all()
+    assert not (Node.is_point(nodes) | Node.is_curve(nodes)).any()
+    assert Node.form_number(nodes).tolist() == numbers.tolist()
 
 
 def test_canonical_text_and_hull_file_give_it_back(hull: ah.Hull, tmp_path: Path) -> None:
