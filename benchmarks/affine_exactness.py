@@ -119,7 +119,7 @@ def map_row(hull: ah.Hull, name: str) -> float:
     parent = parent_of(state)
     now = {key: getattr(parent, key) for key in ratios}
     asked = {key: now[key] * ratio for key, ratio in ratios.items()}
-    xyz: FloatArray = state.rows.xyz.data[state.live("rows")]
+    xyz: FloatArray = state.rows.xyz[state.live("rows")]
     xyz = xyz[xyz[:, 2] <= parent.draught]
     scale = [
         asked[key] / now[key] if key in asked else 1.0 for key in ("length", "breadth", "draught")
@@ -148,10 +148,10 @@ def off_image(hull: ah.Hull, found: Variation[ah.Hull]) -> FloatArray:
     Curves of the parent that the variant has no more are left out.
     """
     before, after = hull.state, found.hull.state
-    curve_of = {str(before.curves.key.data[c]): c for c in before.live("curves").tolist()}
+    curve_of = {str(before.curves.key[c]): c for c in before.live("curves").tolist()}
     away = list[float]()
     for curve in after.live("curves").tolist():
-        old = curve_of.get(str(after.curves.key.data[curve]))
+        old = curve_of.get(str(after.curves.key[curve]))
         if old is not None:
             # the image of closely spaced chords: far finer than what is looked for
             image = found.map(sample(before.spline(old), 64)[1])

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.table import ArrayColumn
+from assoc_hull.graph.table import Column
 from assoc_hull.model.index import build_index
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import Association, CurveIntersections, HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import Association, CurveIntersections, HullState
 
 __all__ = ["copies_of"]
 
@@ -38,7 +39,7 @@ def copies_of(net: HullState, count: int) -> HullState:
         source, target = getattr(net, name), getattr(state, name)
         target.resize(count * source.count)
         for title, column in source.columns.items():
-            copy = _array_copy if isinstance(column, ArrayColumn) else _list_copy
+            copy = _array_copy if isinstance(column, Column) else _list_copy
             for number in range(count):
                 copy(net, target.columns[title], column, (name, title), number)
     _settings(net, state, count)
@@ -57,7 +58,7 @@ def _array_copy(
     elif which in PLACES:
         block[..., 0] += number * STEP
     elif which == ("lines", "offset"):
-        block += number * STEP * net.lines.normal.data[:, 0]
+        block += number * STEP * net.lines.normal[:, 0]
 
 
 def _list_copy(
@@ -110,9 +111,9 @@ def _loft(state: HullState) -> None:
     network = HullNetwork(state, index)
     for level in range(int(index.level.max()) + 1):
         curves = np.flatnonzero(index.level == level)
-        network.evaluate(curve_node(curves), journal)
+        network.evaluate(Node.curve(curves), journal)
         driven = [index.drives[curve] for curve in curves.tolist() if curve in index.drives]
         if driven:
-            network.evaluate(row_node(np.sort(np.concatenate(driven))), journal)
+            network.evaluate(Node.point(np.sort(np.concatenate(driven))), journal)
     if network.realigned:
         raise AssertionError("a copy has other crossings than the net")

@@ -40,7 +40,7 @@ class Dragging:
     def __init__(self, state: HullState) -> None:
         self.document = Document(state)
         self.rows = section_rows(state)[list(MOVED)]
-        self.start = state.rows.xyz.data[self.rows].copy()
+        self.start = state.rows.xyz[self.rows].copy()
         self.count = 0
 
     def __call__(self) -> EditReport:

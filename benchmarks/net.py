@@ -51,7 +51,7 @@ def _watch(state: HullState) -> None:
     """Let the crossings of waterlines and buttocks define neither."""
     journal = Journal()
     maker = Maker(state, journal)
-    family = state.lines.group.data[state.curves.line.data]
+    family = state.lines.group[state.curves.line.data]
     curve = state.rows.curve.data
     sections = state.groups.name.data.index("sections")
     of_two = (curve[:, 1] >= 0) & (family[curve] != sections).all(axis=1)
@@ -59,7 +59,7 @@ def _watch(state: HullState) -> None:
     maker.roles(rows, np.full(len(rows), int(Role.WATCHED)))
     journal.put(state.rows.override, rows, int(Role.WATCHED))
     for number in np.flatnonzero(family != sections).tolist():
-        defining: IntArray = state.curves.rows.data[number]
+        defining: IntArray = state.curves.rows[number]
         maker.define(number, defining[~np.isin(defining, rows)])
     loft_all(state, journal)
     set_limits(state, journal)
@@ -68,6 +68,6 @@ def _watch(state: HullState) -> None:
 def section_rows(state: HullState, number: int = MIDSHIP) -> IntArray:
     """Give the placed points of a section, upward."""
     title = state.lines.name.data.index(f"sections {number}")
-    (curve,) = state.lines.curves.data[title]
-    rows: IntArray = state.curves.rows.data[curve]
+    (curve,) = state.lines.curves[title]
+    rows: IntArray = state.curves.rows[curve]
     return rows

@@ -97,7 +97,7 @@ def _among_copies(alone: Dragging, count: int, rounds: int) -> list[Figure]:
     tracemalloc.stop()
     jobs = {"alone": _bounded(alone), "many": _bounded(many)}
     times = side_by_side(jobs, rounds, {"alone": 20, "many": 20})
-    crossings = int((many.document.state.rows.curve.data[:, 1] >= 0).sum())
+    crossings = int((many.document.state.rows.curve[:, 1] >= 0).sum())
     name = f"among {count} copies"
     return [
         Figure(f"{name}: crossings in the hull", crossings, ""),

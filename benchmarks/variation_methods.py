@@ -146,7 +146,7 @@ def _spilled(state: HullState, curves: IntArray, task: Task, layer: Layer) -> tu
 
 def _widths(state: HullState, curves: IntArray) -> FloatArray:
     """Give the length of the ship that each section stands for."""
-    x = state.lines.offset.data[state.curves.line.data[curves]]
+    x = state.lines.offset[state.curves.line[curves]]
     every = np.unique(x)
     edges = np.concatenate([every[:1], 0.5 * (every[1:] + every[:-1]), every[-1:]])
     found: FloatArray = np.diff(edges)[np.searchsorted(every, x)]

@@ -66,7 +66,7 @@ class Task:
 def tasks(state: HullState) -> list[Task]:
     """Give the tasks that a hull has the places for."""
     parent = parent_of(state)
-    x = state.rows.xyz.data[state.live("rows")][:, 0]
+    x = state.rows.xyz[state.live("rows")][:, 0]
     reach = float(x.min()), float(x.max())
     length, draught, found = parent.length, parent.draught, []
     if parent.has("boss"):

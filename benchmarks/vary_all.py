@@ -133,29 +133,29 @@ def _row(hull: ah.Hull, name: str, sense: float, parent: dict[str, LineFairness]
 def _moved(before: HullState, found: Variation) -> tuple[int, int, int, float]:
     """Count the points outside the region that are not what they were."""
     after = found.hull.state
-    row_of = {str(after.rows.key.data[row]): row for row in after.live("rows").tolist()}
+    row_of = {str(after.rows.key[row]): row for row in after.live("rows").tolist()}
     drives = {
         line for line in before.live("lines").tolist()
-        if before.lines.boundary.data[line] >= 0
-        or str(before.lines.name.data[line]) in found.report.drivers
+        if before.lines.boundary[line] >= 0
+        or str(before.lines.name[line]) in found.report.drivers
     }  # fmt: skip
     live = before.live("rows")
-    outside = live[~_inside(before.rows.xyz.data[live], found)]
+    outside = live[~_inside(before.rows.xyz[live], found)]
     count, drift = [0, 0, 0], 0.0
     for row in outside.tolist():
-        other = row_of.get(str(before.rows.key.data[row]))
-        old = before.rows.xyz.data[row]
-        if other is not None and (after.rows.xyz.data[other] == old).all():
+        other = row_of.get(str(before.rows.key[row]))
+        old = before.rows.xyz[row]
+        if other is not None and (after.rows.xyz[other] == old).all():
             continue
-        curves = [each for each in before.rows.curve.data[row].tolist() if each >= 0]
-        readers = set(before.rows.reader.data[row].tolist()) - {-1}
+        curves = [each for each in before.rows.curve[row].tolist() if each >= 0]
+        readers = set(before.rows.reader[row].tolist()) - {-1}
         mine = {curve for curve in curves if before.line_of(curve) in drives} & readers
-        computed = other is not None and after.rows.driver.data[other] >= 0
-        if before.rows.role.data[row] == 3 and not readers:
+        computed = other is not None and after.rows.driver[other] >= 0
+        if before.rows.role[row] == 3 and not readers:
             continue  # watched: it defines nothing, and has no value
         count[2 if computed else 0 if mine else 1] += 1
         if computed and other is not None:
-            drift = max(drift, float(np.sqrt(((after.rows.xyz.data[other] - old) ** 2).sum())))
+            drift = max(drift, float(np.sqrt(((after.rows.xyz[other] - old) ** 2).sum())))
     return count[0], count[1], count[2], drift
 
 

@@ -15,14 +15,14 @@ def as_digitised(hull: Hull, seed: int, noise: float, leave_out: tuple[str, ...]
     draw, state = np.random.default_rng(seed), hull.state
     text = ["line,piece,x,y,z"]
     for line in state.live("lines").tolist():
-        name, group = state.lines.name.data[line], int(state.lines.group.data[line])
+        name, group = state.lines.name[line], int(state.lines.group[line])
         if name in leave_out:
             continue
-        spacing = 0.15 if state.groups.name.data[group] == "sections" else 0.5
-        for piece, curve in enumerate(state.lines.curves.data[line]):
-            xyz, ahead = _along(state.curves.spline.data[curve], spacing, draw)
-            if state.lines.planar.data[line]:
-                across = np.cross(ahead, state.lines.normal.data[line])
+        spacing = 0.15 if state.groups.name[group] == "sections" else 0.5
+        for piece, curve in enumerate(state.lines.curves[line]):
+            xyz, ahead = _along(state.curves.spline[curve], spacing, draw)
+            if state.lines.planar[line]:
+                across = np.cross(ahead, state.lines.normal[line])
                 across /= np.linalg.norm(across, axis=1)[:, None]
                 off = draw.normal(0.0, noise, (len(xyz), 1))
                 off[[0, -1]] = 0.0

@@ -145,14 +145,14 @@ def _register(state: HullState, made: dict[str, _Made]) -> None:
     contacts = np.flatnonzero(table.alive.data & table.contact.data)
     maker.roles(contacts, np.full(len(contacts), int(Role.DRIVES_B)))
     for line in state.live("lines").tolist():
-        curve, name = state.lines.curves.data[line][0], state.lines.name.data[line]
-        rows = state.curves.rows.data[curve]
-        gone = np.isin(rows, contacts) & (table.curve.data[rows, 0] == curve)
+        curve, name = state.lines.curves[line][0], state.lines.name[line]
+        rows = state.curves.rows[curve]
+        gone = np.isin(rows, contacts) & (table.curve[rows, 0] == curve)
         maker.define(curve, rows[~gone])
         if name in made:
-            mine = rows[table.sort.data[rows] == Sort.PLACED]
+            mine = rows[table.sort[rows] == Sort.PLACED]
             journal.put(table.sort, mine, int(Sort.ADOPTED))
-            key = str(state.curves.key.data[curve])
+            key = str(state.curves.key[curve])
             curves.append(made[name].curve.evolve(key=key, curve=curve, rows=tuple(mine.tolist())))
     maker.definitions(formed_definitions())
     maker.generated(curves)

@@ -157,9 +157,9 @@ def gap_between(one: Root, other: Root) -> float:
 
 def _plane(state: HullState, curve: int) -> tuple[FloatArray, float] | None:
     line = state.line_of(curve)
-    if not state.lines.planar.data[line]:
+    if not state.lines.planar[line]:
         return None
-    return state.lines.normal.data[line], float(state.lines.offset.data[line])
+    return state.lines.normal[line], float(state.lines.offset[line])
 
 
 def _meet(state: HullState, curve: int, other: int) -> tuple[Root, ...]:
@@ -175,43 +175,43 @@ def trouble(hull: ah.Hull, kept: bool = False) -> Iterator[str]:
     """
     state, rows = hull.state, hull.state.rows
     for row in state.live("rows").tolist():
-        if rows.sort.data[row] != Sort.CROSSING:
+        if rows.sort[row] != Sort.CROSSING:
             continue
-        curves = rows.curve.data[row].tolist()
-        if rows.role.data[row] == Role.WATCHED:
+        curves = rows.curve[row].tolist()
+        if rows.role[row] == Role.WATCHED:
             yield from _watched(state, row, curves, kept)
         else:
             yield from _on_curves(state, row, curves)
 
 
 def _on_curves(state: HullState, row: int, curves: list[int]) -> Iterator[str]:
-    place, key = state.rows.xyz.data[row], state.rows.key.data[row]
+    place, key = state.rows.xyz[row], state.rows.key[row]
     for curve, other in (curves, curves[::-1]):
         plane = _plane(state, curve)
         exact = plane is not None and np.abs(plane[0]).max() == 1.0
         if plane and abs(float(place @ plane[0]) - plane[1]) > (0.0 if exact else _ROUNDED):
-            yield f"{key} lies out of the plane of {state.curves.key.data[curve]}"
+            yield f"{key} lies out of the plane of {state.curves.key[curve]}"
         near = [np.linalg.norm(each.place - place) for each in _meet(state, curve, other)]
         away = min(near, default=np.inf)
         if away > 1e-9:
             away = distance(state.spline(curve), place)
         if away > 1e-9:
-            yield f"{key} lies {away:.2e} m off {state.curves.key.data[curve]}"
+            yield f"{key} lies {away:.2e} m off {state.curves.key[curve]}"
 
 
 def _watched(state: HullState, row: int, curves: list[int], kept: bool) -> Iterator[str]:
-    key, limit = state.rows.key.data[row], float(state.rows.limit.data[row])
+    key, limit = state.rows.key[row], float(state.rows.limit[row])
     found: list[Root] = []
     for side, (curve, other) in enumerate((curves, curves[::-1])):
-        spot = state.rows.spot.data[row, side]
+        spot = state.rows.spot[row, side]
         near = sorted(_meet(state, curve, other), key=lambda each: np.abs(each.place - spot).max())
         if not near or np.abs(near[0].place - spot).max() > 1e-8:
-            yield f"{key} is not where {state.curves.key.data[curve]} meets the plane"
+            yield f"{key} is not where {state.curves.key[curve]} meets the plane"
             return
         found.append(near[0])
     gap = gap_between(found[0], found[1])
-    if abs(gap - float(state.rows.gap.data[row])) > 1e-8:
-        yield f"{key} has a gap of {gap:.6f} m and says {state.rows.gap.data[row]:.6f}"
+    if abs(gap - float(state.rows.gap[row])) > 1e-8:
+        yield f"{key} has a gap of {gap:.6f} m and says {state.rows.gap[row]:.6f}"
     if gap > limit + 1e-12 and not kept:
         yield f"{key} has a gap of {gap:.6f} m, its limit is {limit:.6f}"
 
@@ -234,7 +234,7 @@ def lost_meetings(hull: ah.Hull) -> Iterator[str]:
                 apart = float(np.linalg.norm(first.place - second.place))
                 gap = gap_between(first, second)
                 if apart <= _PLACE and gap <= 2.0 * state.tolerances.adoption:
-                    names = f"{state.curves.key.data[one]} and {state.curves.key.data[other]}"
+                    names = f"{state.curves.key[one]} and {state.curves.key[other]}"
                     yield f"{names} meet at {first.place.round(4).tolist()}, gap {gap:.5f}"
 
 
@@ -250,7 +250,7 @@ def _associated(state: HullState) -> Iterator[tuple[int, int]]:
 
 
 def _group(state: HullState, curve: int) -> str:
-    return str(state.groups.name.data[int(state.lines.group.data[state.line_of(curve)])])
+    return str(state.groups.name[int(state.lines.group[state.line_of(curve)])])
 
 
 def _taken(state: HullState) -> dict[tuple[int, int], list[FloatArray]]:
@@ -258,11 +258,11 @@ def _taken(state: HullState) -> dict[tuple[int, int], list[FloatArray]]:
     found: dict[tuple[int, int], list[FloatArray]] = {}
     rows = state.rows
     for row in state.live("rows").tolist():
-        a, b = rows.curve.data[row].tolist()
+        a, b = rows.curve[row].tolist()
         if b >= 0:
-            watched = rows.role.data[row] == Role.WATCHED
+            watched = rows.role[row] == Role.WATCHED
             for side, pair in enumerate(((a, b), (b, a))):
-                place = rows.spot.data[row, side] if watched else rows.xyz.data[row]
+                place = rows.spot[row, side] if watched else rows.xyz[row]
                 found.setdefault(pair, []).append(place)
     return found
 
@@ -296,11 +296,11 @@ class Snapshot:
 def snapshot(hull: ah.Hull) -> Snapshot:
     """Note everything that locality and minimality are about."""
     state, rows = hull.state, hull.state.rows
-    curves = {state.curves.key.data[i]: i for i in state.live("curves").tolist()}
-    points = {rows.key.data[i]: i for i in state.live("rows").tolist() if _has_value(state, i)}
+    curves = {state.curves.key[i]: i for i in state.live("curves").tolist()}
+    points = {rows.key[i]: i for i in state.live("rows").tolist() if _has_value(state, i)}
     return Snapshot(
         {key: curve_bits(state, i) for key, i in curves.items()},
-        {key: rows.xyz.data[i].tobytes() for key, i in points.items()},
+        {key: rows.xyz[i].tobytes() for key, i in points.items()},
         {key: _recipe(state, i) for key, i in curves.items()},
         {key: state.revision_curve.get(i, 0) for key, i in curves.items()},
         {key: state.revision_row.get(i, 0) for key, i in points.items()},
@@ -308,19 +308,19 @@ def snapshot(hull: ah.Hull) -> Snapshot:
 
 
 def _has_value(state: HullState, row: int) -> bool:
-    crossing = state.rows.sort.data[row] == Sort.CROSSING
-    return not (crossing and state.rows.role.data[row] == Role.WATCHED)
+    crossing = state.rows.sort[row] == Sort.CROSSING
+    return not (crossing and state.rows.role[row] == Role.WATCHED)
 
 
 def _recipe(state: HullState, curve: int) -> tuple[object, ...]:
     """What a curve is made from, but for the places of its points."""
-    rows, side = state.curves.rows.data[curve], state.curves.side.data[curve]
+    rows, side = state.curves.rows[curve], state.curves.side[curve]
     table = state.rows
     return (
-        tuple(table.key.data[row] for row in rows.tolist()),
-        table.kind.data[rows, side].tobytes(),
-        table.direction.data[rows, side].tobytes(),
-        repr(state.curves.ends.data[curve]),
+        tuple(table.key[row] for row in rows.tolist()),
+        table.kind[rows, side].tobytes(),
+        table.direction[rows, side].tobytes(),
+        repr(state.curves.ends[curve]),
     )
 
 
@@ -335,8 +335,8 @@ def relofted(before: Snapshot, hull: ah.Hull) -> set[str]:
     return {
         key
         for curve in state.live("curves").tolist()
-        if before.recipes.get(key := state.curves.key.data[curve]) != after.recipes[key]
-        or any(keys[row] in moved for row in state.curves.rows.data[curve].tolist())
+        if before.recipes.get(key := state.curves.key[curve]) != after.recipes[key]
+        or any(keys[row] in moved for row in state.curves.rows[curve].tolist())
     }
 
 
@@ -348,9 +348,9 @@ def closure(hull: ah.Hull, points: set[str]) -> set[str]:
     riding: dict[int, list[int]] = {}
     for row in live:
         driven.setdefault(_driver(state, row), []).append(row)
-        for anchor in rows.anchor.data[row].tolist():
+        for anchor in rows.anchor[row].tolist():
             riding.setdefault(anchor, []).append(row)
-    front = [row for row in live if rows.key.data[row] in points]
+    front = [row for row in live if rows.key[row] in points]
     seen, curves = set[int](), set[int]()
     while front:
         row = front.pop()
@@ -361,22 +361,22 @@ def closure(hull: ah.Hull, points: set[str]) -> set[str]:
         for curve in _defined_by(state, row) - curves:
             curves.add(curve)
             front += driven.get(curve, [])
-    return {state.curves.key.data[curve] for curve in curves}
+    return {state.curves.key[curve] for curve in curves}
 
 
 def _defined_by(state: HullState, row: int) -> set[int]:
     """Which curves a point defines, from its sort and role alone."""
-    a, b = state.rows.curve.data[row].tolist()
-    if state.rows.sort.data[row] != Sort.CROSSING:
+    a, b = state.rows.curve[row].tolist()
+    if state.rows.sort[row] != Sort.CROSSING:
         return {a}
-    role = Role(int(state.rows.role.data[row]))
+    role = Role(int(state.rows.role[row]))
     return {Role.SHARED: {a, b}, Role.DRIVES_A: {a}, Role.DRIVES_B: {b}, Role.WATCHED: set()}[role]
 
 
 def _driver(state: HullState, row: int) -> int:
     """Which curve a point is computed from, from its sort and role alone; -1 if from none."""
-    a, b = state.rows.curve.data[row].tolist()
-    if state.rows.sort.data[row] != Sort.CROSSING:
+    a, b = state.rows.curve[row].tolist()
+    if state.rows.sort[row] != Sort.CROSSING:
         return -1
     drivers: dict[Role, int] = {Role.DRIVES_A: b, Role.DRIVES_B: a}
-    return drivers.get(Role(int(state.rows.role.data[row])), -1)
+    return drivers.get(Role(int(state.rows.role[row])), -1)

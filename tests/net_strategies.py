@@ -184,10 +184,7 @@ def live_points(hull: ah.Hull, *sorts: str) -> list[Point]:
     """Give the points of some sorts by key; of crossings those on the line of higher rank."""
     rows = hull.state.rows
     order = sorted(hull.state.live("rows").tolist(), key=rows.key.data.__getitem__)
-    points = [
-        Point(hull.state, row, rows.key.data[row], int(rows.curve.data[row, 1] >= 0))
-        for row in order
-    ]
+    points = [Point(hull.state, row, rows.key[row], int(rows.curve[row, 1] >= 0)) for row in order]
     return [point for point in points if point.sort in sorts]
 
 
@@ -305,7 +302,7 @@ def _unpin(hull: ah.Hull, edit: Edit, act: Act) -> None:
 def _shift_line(hull: ah.Hull, edit: Edit, act: Act) -> None:
     line = _pick(_lines(hull), act.which)
     if line is not None:
-        edit.shift_line(line, float(hull.state.lines.offset.data[line.number]) + 5.0 * act.amount)
+        edit.shift_line(line, float(hull.state.lines.offset[line.number]) + 5.0 * act.amount)
 
 
 def _renew_roles(hull: ah.Hull, edit: Edit, act: Act) -> None:

@@ -80,8 +80,8 @@ def curves_by_line(state: HullState) -> dict[Name, list[SplineBatch]]:
 def line_of(state: HullState, curve: int) -> Name:
     """Give group and name of the line of a curve."""
     line = state.line_of(curve)
-    group = state.groups.name.data[state.lines.group.data[line]]
-    return str(group), str(state.lines.name.data[line])
+    group = state.groups.name[state.lines.group[line]]
+    return str(group), str(state.lines.name[line])
 
 
 def _pairs(
@@ -108,8 +108,8 @@ def facts(hull: Hull) -> dict[str, object]:
     state = hull.state
     live = state.live("lines").tolist()
     kinds = {
-        (str(state.lines.name.data[i]), BoundaryKind(int(state.lines.boundary.data[i])).name)
-        for i in live if state.lines.boundary.data[i] >= 0
+        (str(state.lines.name[i]), BoundaryKind(int(state.lines.boundary[i])).name)
+        for i in live if state.lines.boundary[i] >= 0
     }  # fmt: skip
     rows = state.live("rows")
     return {
@@ -120,8 +120,8 @@ def facts(hull: Hull) -> dict[str, object]:
         "boundaries": kinds,
         "features": sorted((each.kind, each.name) for each in state.features),
         "roles": Counter(each.role for each in hull.crossings.values()),
-        "sorts": Counter(state.rows.sort.data[rows].tolist()),
-        "kinds": Counter(map(tuple, state.rows.kind.data[rows].tolist())),
+        "sorts": Counter(state.rows.sort[rows].tolist()),
+        "kinds": Counter(map(tuple, state.rows.kind[rows].tolist())),
         "volume": hull.hydrostatics().volume,
     }
 

@@ -94,9 +94,9 @@ class Floats:
         """The hull whose points have moved by a plain or complex amount."""
         assert isinstance(parameter, ShapeParameter)
         curve, state = self.body.net.curve, self.body.state
-        row = np.concatenate([state.curves.rows.data[each] for each in curve.tolist()])
+        row = np.concatenate([state.curves.rows[each] for each in curve.tolist()])
         data = curve_data(state, curve)
-        points: Any = amount * parameter.moves(state)[0] + state.rows.xyz.data[: state.rows.count]
+        points: Any = amount * parameter.moves(state)[0] + state.rows.xyz[: state.rows.count]
         plain = np.isrealobj(points)
         batch = loft(attrs.evolve(data, xyz=points[row])) if plain else as_batch(data, points[row])
         return TangentFlotation(self.body, batch, points)

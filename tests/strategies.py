@@ -239,10 +239,10 @@ def pinned_edits(
 
 def free_axis(state: HullState, row: int) -> int | None:
     """Give the one coordinate along which a crossing of two plane lines is free."""
-    lines = [state.line_of(curve) for curve in state.rows.curve.data[row].tolist()]
-    if not state.lines.planar.data[lines].all():
+    lines = [state.line_of(curve) for curve in state.rows.curve[row].tolist()]
+    if not state.lines.planar[lines].all():
         return None
-    free = np.flatnonzero((state.lines.normal.data[lines] == 0.0).all(axis=0))
+    free = np.flatnonzero((state.lines.normal[lines] == 0.0).all(axis=0))
     return int(free[0]) if len(free) == 1 else None
 
 
@@ -260,7 +260,7 @@ def apply_edit(document: Document, edit: PinnedEdit) -> bool:
     """Carry an edit out; False if nothing changed: it was refused, or moved by nothing."""
     state, rows = document.state, movable(document.state)
     wanted = {rows[move.which % len(rows)]: move.distance for move in edit.moves}
-    values = state.rows.xyz.data[list(wanted)].copy()
+    values = state.rows.xyz[list(wanted)].copy()
     for value, (row, distance) in zip(values, wanted.items(), strict=True):
         value[free_axis(state, row)] += distance
     try:

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.graph.table import ArrayColumn
+from assoc_hull.graph.table import Column
 
 __all__ = ["made_once", "packed", "twin"]
 
@@ -30,9 +30,11 @@ def _frozen(array: np.typing.NDArray[Any]) -> np.typing.NDArray[Any]:
     return array
 
 
-def _column(store: np.typing.NDArray[Any], fill: Any, count: int, writes: int) -> ArrayColumn:
+def _column(
+    kind: type[Column[Any]], store: np.typing.NDArray[Any], fill: float, count: int, writes: int
+) -> Column[Any]:
     """Make a column whose rows in use are a view of its store, as it must be."""
-    column = ArrayColumn(store.dtype, store.shape[1:], fill)
+    column = kind(store.dtype, store.shape[1:], fill)
     column.store, column.data, column.writes = store, _frozen(store[:count]), writes
     return column
 
@@ -50,8 +52,9 @@ class _Pickler(pickle.Pickler):
         if isinstance(value, ah.Hull):
             assert not value.history, "the history stays behind"
             return _hull, (value.state, value.adoption)
-        if type(value) is ArrayColumn:
-            return _column, (value.store, value.fill, len(value.data), value.writes)
+        if isinstance(value, Column):
+            what = type(value), value.store, value.fill, len(value.data), value.writes
+            return _column, what
         if type(value) is np.ndarray and not value.flags.writeable:
             return _frozen, (value.copy(),)
         return NotImplemented

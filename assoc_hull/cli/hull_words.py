@@ -158,7 +158,7 @@ def hull_facts(hull: Hull) -> dict[str, Any]:
 
 def _sorts(hull: Hull) -> dict[str, int]:
     """Count the points by sort; from the tables, because handles on all would take long."""
-    table = hull.state.rows.sort.data[hull.state.live("rows")]
+    table = hull.state.rows.sort[hull.state.live("rows")]
     return dict(Counter(Sort(number).name.lower() for number in table.tolist()))
 
 

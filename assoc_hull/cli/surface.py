@@ -127,7 +127,7 @@ def every_fourth(hull: Hull) -> list[str]:
     found: list[str] = []
     for family in _FAMILIES:
         lines = [
-            (float(state.lines.offset.data[line]), str(state.lines.name.data[line]))
+            (float(state.lines.offset[line]), str(state.lines.name[line]))
             for line in state.live("lines").tolist()
             if state.family(line).name == family
         ]

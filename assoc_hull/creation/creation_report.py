@@ -215,10 +215,10 @@ def _between(
 def _sections(state: HullState, body: Flotation, plane: FloatingPlanes) -> list[SectionFigures]:
     made: dict[int, list[GeneratedCurve]] = {}
     for each in state.generated:
-        if each.what == "section" and state.curves.alive.data[each.curve]:
+        if each.what == "section" and state.curves.alive[each.curve]:
             made.setdefault(state.line_of(each.curve), []).append(each)
-    lines = sorted(made, key=lambda line: float(state.lines.offset.data[line]))
-    x = np.array([float(state.lines.offset.data[line]) for line in lines])
+    lines = sorted(made, key=lambda line: float(state.lines.offset[line]))
+    x = np.array([float(state.lines.offset[line]) for line in lines])
     wanted = forms_of(state).value("sectional_area", x)
     stations = body.stations(plane)
     found = []
@@ -226,16 +226,15 @@ def _sections(state: HullState, body: Flotation, plane: FloatingPlanes) -> list[
         curves = [each.curve for each in made[line]]
         near = np.abs(stations.x - place) <= _ON
         turns = sum(
-            int(inflections(state.spline(each), state.lines.normal.data[line])[0][0])
-            for each in curves
+            int(inflections(state.spline(each), state.lines.normal[line])[0][0]) for each in curves
         )
         found.append(
             SectionFigures(
-                state.lines.name.data[line], place,
+                state.lines.name[line], place,
                 " | ".join(each.layout for each in made[line]),
                 all(each.attached for each in made[line]),
                 want, float(stations.area[0, near].sum()),
-                sum(len(state.curves.rows.data[each]) for each in curves), turns,
+                sum(len(state.curves.rows[each]) for each in curves), turns,
             )
         )  # fmt: skip
     return found

@@ -175,17 +175,15 @@ def straighten_waterline(edit: Transaction, forms: Forms, line: int) -> None:
     the one in which the line was cut.
     """
     state = edit.state
-    z = float(state.lines.offset.data[line])
+    z = float(state.lines.offset[line])
     layout = layout_at(forms, "waterline", z)
-    curves = [curve for curve in state.lines.curves.data[line] if state.curves.alive.data[curve]]
+    curves = [curve for curve in state.lines.curves[line] if state.curves.alive[curve]]
     if not layout or len(curves) != 1:
         return
     curve = curves[0]
     ends = end_points(state, curves)[0]
     marks, kind, direction, _ = marks_for(forms, "waterline", layout, z, ends)
-    made = GeneratedCurve(
-        state.curves.key.data[curve], curve, "waterline", layout, (), tuple(marks)
-    )
+    made = GeneratedCurve(state.curves.key[curve], curve, "waterline", layout, (), tuple(marks))
     places = generated_points(forms, [made], np.array([line_offset(state, curve)]), ends[None])[0]
     specs = [
         PointSpec(curve, xyz, Sort.ADOPTED, int(each), way)
@@ -202,8 +200,8 @@ def straighten_waterline(edit: Transaction, forms: Forms, line: int) -> None:
 def _drop_near_crossings(edit: Transaction, curve: int, places: FloatArray) -> None:
     """Let no crossing define a waterline that lies nearly where a point of the flat does."""
     state = edit.state
-    rows: IntArray = state.curves.rows.data[curve]
-    step = state.rows.xyz.data[rows][:, None] - places[None]
+    rows: IntArray = state.curves.rows[curve]
+    step = state.rows.xyz[rows][:, None] - places[None]
     near = np.sqrt((step * step).sum(axis=2)).min(axis=1) < state.tolerances.adopted_spacing
     # The ends lie on boundary curves: without them the line would not reach these.
     near[[0, -1]] = False
@@ -261,7 +259,7 @@ def _adopt_points(state: HullState, design: Design, drawn: Sequence[DrawnCurve])
     maker.definitions(design.definitions)
     names = {name: number for number, name in enumerate(state.groups.name.data)}
     lines = {
-        (int(state.lines.group.data[line]), state.lines.name.data[line]): line
+        (int(state.lines.group[line]), state.lines.name[line]): line
         for line in state.live("lines").tolist()
     }
     parts: dict[int, list[DrawnCurve]] = {}
@@ -271,8 +269,8 @@ def _adopt_points(state: HullState, design: Design, drawn: Sequence[DrawnCurve])
     made = []
     for line, several in parts.items():
         for each, curve in zip(several, _upward_curves(maker, line), strict=True):
-            rows_of = state.curves.rows.data[curve].tolist()
-            made.append(each.generated(state.curves.key.data[curve], curve, rows_of))
+            rows_of = state.curves.rows[curve].tolist()
+            made.append(each.generated(state.curves.key[curve], curve, rows_of))
     rows = np.array(sorted(row for each in made for row in each.rows), np.int64)
     maker.journal.put(state.rows.sort, rows, int(Sort.ADOPTED))
     maker.generated(made)
@@ -281,12 +279,12 @@ def _adopt_points(state: HullState, design: Design, drawn: Sequence[DrawnCurve])
 def _upward_curves(maker: Maker, line: int) -> list[int]:
     """Give the curves of a line from below, and let their order and their keys be this one."""
     state = maker.state
-    curves: tuple[int, ...] = state.lines.curves.data[line]
+    curves: tuple[int, ...] = state.lines.curves[line]
     # Height of the first point: curves of one section do not overlap.
-    foot = [float(state.rows.xyz.data[state.curves.rows.data[curve][0], 2]) for curve in curves]
+    foot = [float(state.rows.xyz[state.curves.rows[curve][0], 2]) for curve in curves]
     ordered = [curve for _, curve in sorted(zip(foot, curves, strict=True))]
     if tuple(ordered) != curves:
-        keys = sorted(state.curves.key.data[curve] for curve in curves)
+        keys = sorted(state.curves.key[curve] for curve in curves)
         maker.journal.set(state.curves.key, ordered, keys)
         maker.journal.set(state.lines.curves, [line], [tuple(ordered)])
     return ordered

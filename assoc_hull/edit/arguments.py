@@ -61,11 +61,11 @@ def direction_in(state: HullState, curve: int, value: object, name: str) -> Floa
     if length == 0.0:
         raise BadInputError(f"{name} has no length", "in an edit", "give a direction")
     line = state.line_of(curve)
-    if state.lines.planar.data[line]:
-        off = float((found * state.lines.normal.data[line]).sum()) / length
+    if state.lines.planar[line]:
+        off = float((found * state.lines.normal[line]).sum()) / length
         if abs(off) > 1e-9:
             raise BadInputError(
-                f"{name} leaves the plane of {state.lines.name.data[line]} (sine {off:.3g})",
+                f"{name} leaves the plane of {state.lines.name[line]} (sine {off:.3g})",
                 "in an edit",
                 "give a vector in that plane",
             )
@@ -115,7 +115,7 @@ class GivenObjects:
             place = self.place(group)
         except UnknownNameError:
             return str(group)  # the edit names the groups there are in its own error
-        name = str(self.tables.groups.name.data[place.group])
+        name = str(self.tables.groups.name[place.group])
         if place.line >= 0:
             raise BadInputError(
                 f"{shown_name(getattr(group, 'name', group))!r} lies in the group {name!r}",
@@ -136,7 +136,7 @@ class GivenObjects:
         found = self._found(curve, Curve, "curve")
         if found.curve >= 0:
             return found.curve
-        found_pieces = self.tables.lines.curves.data[found.line] if found.line >= 0 else ()
+        found_pieces = self.tables.lines.curves[found.line] if found.line >= 0 else ()
         pieces: tuple[int, ...] = tuple(found_pieces)
         if len(pieces) != 1:
             known = tuple(f"{curve} [{i + 1}]" for i in range(len(pieces)))
@@ -170,7 +170,7 @@ class GivenObjects:
             name = each.name if isinstance(each, Group) else each
             if isinstance(name, str) and name in names:
                 live = tables.live("lines")
-                found += live[tables.lines.group.data[live] == names.index(name)].tolist()
+                found += live[tables.lines.group[live] == names.index(name)].tolist()
             else:
                 found.append(self.line(name))
         return found

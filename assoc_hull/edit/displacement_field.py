@@ -153,7 +153,7 @@ def _context(state: HullState, across_flats: bool) -> FieldContext:
         free &= ~on_flat(state)
     rows = np.flatnonzero(free)
     return FieldContext(
-        state, hull_normals(state), rows, flat_distance(state, state.rows.xyz.data[rows])
+        state, hull_normals(state), rows, flat_distance(state, state.rows.xyz[rows])
     )
 
 
@@ -165,7 +165,7 @@ def _boundary_lines(state: HullState, kind: BoundaryKind) -> IntArray:
 def _of_lines(state: HullState, lines: IntArray) -> BoolArray:
     """Tell which points lie on curves of the given lines."""
     curve = state.rows.curve.data
-    line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], -1)
+    line = np.where(curve >= 0, state.curves.line[np.maximum(curve, 0)], -1)
     found = np.isin(line, lines)
     return np.asarray(found[:, 0] | found[:, 1])
 
@@ -173,9 +173,9 @@ def _of_lines(state: HullState, lines: IntArray) -> BoolArray:
 def on_profile(state: HullState) -> BoolArray:
     """Tell which points lie in the centre plane: they move with the profile only."""
     ends = _boundary_lines(state, BoundaryKind.END)
-    centre = np.abs(state.lines.normal.data[ends, 1]) == 1.0
-    on_line = _of_lines(state, ends[state.lines.planar.data[ends] & centre])
-    return np.asarray(on_line | (np.abs(state.rows.xyz.data[:, 1]) < 1e-9))
+    centre = np.abs(state.lines.normal[ends, 1]) == 1.0
+    on_line = _of_lines(state, ends[state.lines.planar[ends] & centre])
+    return np.asarray(on_line | (np.abs(state.rows.xyz[:, 1]) < 1e-9))
 
 
 def on_flat(state: HullState) -> BoolArray:
@@ -225,9 +225,9 @@ def move_normal(ground: FieldContext, rows: IntArray, amount: FloatArray) -> Poi
 def row_spacing(state: HullState, place: FloatArray) -> float:
     """Give the median distance, seen along x, of the nearest points from a place, m."""
     rows = state.live("rows")
-    step = state.rows.xyz.data[rows] - place
+    step = state.rows.xyz[rows] - place
     near = rows[np.argsort((step * step).sum(axis=1), kind="stable")[:24]]
-    curves = np.unique(state.rows.curve.data[near].ravel())
+    curves = np.unique(state.rows.curve[near].ravel())
     gaps: list[float] = []
     for curve in curves[curves >= 0].tolist():
         spline: SplineBatch = state.spline(curve)
@@ -333,7 +333,7 @@ class PullField:
 
     def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
         """Give the displacements for a part of the whole pull."""
-        xyz = ground.state.rows.xyz.data[ground.free]
+        xyz = ground.state.rows.xyz[ground.free]
         step = xyz - self.place
         girth = np.sqrt(step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
         amount = (
@@ -353,7 +353,7 @@ class PullField:
 
     def left(self, state: HullState, done: float) -> float:
         """Give the part of the pull that the point lacks, whatever part was `done`."""
-        if not state.rows.alive.data[self.row]:
+        if not state.rows.alive[self.row]:
             return 1.0 - done
         return 1.0 - self.reached(state) / self.amount
 
@@ -362,10 +362,10 @@ class PullField:
 
         A watched crossing has no value: it lies where its first curve passes.
         """
-        watched = state.rows.role.data[self.row] == Role.WATCHED
-        crossing = state.rows.sort.data[self.row] == Sort.CROSSING
+        watched = state.rows.role[self.row] == Role.WATCHED
+        crossing = state.rows.sort[self.row] == Sort.CROSSING
         table = state.rows
-        now = table.spot.data[self.row, 0] if watched and crossing else table.xyz.data[self.row]
+        now = table.spot[self.row, 0] if watched and crossing else table.xyz[self.row]
         return float(((now - self.place) * self.normal).sum())
 
 
@@ -380,11 +380,11 @@ def unreached(
     if not isinstance(pull, PullField) or pull.row in pinned:
         return
     where = address(state, pull.row)
-    if not state.rows.alive.data[pull.row]:
+    if not state.rows.alive[pull.row]:
         yield f"{where} was pulled and has gone: pull by less, or another point"
         return
-    driver = int(state.rows.driver.data[pull.row])
-    if driver >= 0 and state.curves.state.data[driver] != State.CLEAN:
+    driver = int(state.rows.driver[pull.row])
+    if driver >= 0 and state.curves.state[driver] != State.CLEAN:
         return
     reached = pull.reached(state)
     if abs(reached - pull.amount) > _NEARLY * abs(pull.amount):
@@ -396,7 +396,7 @@ def unreached(
 
 def _what_held(state: HullState, pull: PullField) -> str:
     """Say why a point did not come where it was pulled, and what to do."""
-    driver = int(state.rows.driver.data[pull.row])
+    driver = int(state.rows.driver[pull.row])
     if driver < 0 and _slides(state, pull):
         return (
             ": it is free almost along the hull only, so it stays and dents the hull; make it "
@@ -411,9 +411,9 @@ def _what_held(state: HullState, pull: PullField) -> str:
 
 def _slides(state: HullState, pull: PullField) -> bool:
     """Tell whether fields leave the pulled point alone, as the hull was or as it is now."""
-    if state.rows.sort.data[pull.row] != Sort.CROSSING:
+    if state.rows.sort[pull.row] != Sort.CROSSING:
         return False
-    if state.rows.role.data[pull.row] == Role.WATCHED:
+    if state.rows.role[pull.row] == Role.WATCHED:
         return False
     normal = np.stack([pull.normal, hull_normals(state)[pull.row]])
     along = free_normals(state, np.array([pull.row, pull.row]), normal)

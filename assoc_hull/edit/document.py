@@ -179,7 +179,7 @@ class Document:
         rows = distinct(np.concatenate([none, *(step.rows for step in steps)]))
         curves = curves[curves < self.state.curves.count]  # those of steps taken back are no more
         rows = rows[rows < self.state.rows.count]
-        lines = distinct(self.state.curves.line.data[curves])
+        lines = distinct(self.state.curves.line[curves])
         freeze(curves, rows, lines)
         return Changed(curves, rows, lines, any(step.structural for step in steps))
 

@@ -161,12 +161,12 @@ class _Published:
         """Take what is there; splines are frozen, so that later edits leave them alone."""
         curves = lofted_curves(state)
         splines = {curve: state.spline(curve) for curve in curves.tolist()}
-        line = state.curves.line.data[curves]
-        across = state.lines.planar.data[line] & (np.abs(state.lines.normal.data[line, 0]) == 1.0)
-        across &= state.lines.boundary.data[line] < 0
+        line = state.curves.line[curves]
+        across = state.lines.planar[line] & (np.abs(state.lines.normal[line, 0]) == 1.0)
+        across &= state.lines.boundary[line] < 0
         # An end plate in a plane of its own is a boundary curve: it is no section.
         mine = curves[across]
-        x = state.lines.offset.data[line[across]] * state.lines.normal.data[line[across], 0]
+        x = state.lines.offset[line[across]] * state.lines.normal[line[across], 0]
         stations, station_of = np.unique(x, return_inverse=True)
         return cls(splines, state.particulars.draught, mine, station_of, stations)
 
@@ -245,7 +245,7 @@ class _QuickWay:
         try:
             if how == "move":
                 # An adopted point becomes a placed one: another structure.
-                adopted = state.rows.sort.data[row] == Sort.ADOPTED
+                adopted = state.rows.sort[row] == Sort.ADOPTED
                 freedom = PointFreedom.of(state, row)
                 return None if adopted else cls(numbers, state, row, freedom, None, None)
             pull = pull_field(state, row, 1.0, radius, across_flats=across_flats)
@@ -261,13 +261,13 @@ class _QuickWay:
             if self.freedom is not None:
                 return np.array([self.row]), self.freedom.place(asked)[None]
             if self.pull is None or self.ground is None or asked["d"] == 0.0:
-                return np.array([self.row]), table.xyz.data[[self.row]]
+                return np.array([self.row]), table.xyz[[self.row]]
             shift = attrs.evolve(self.pull, amount=asked["d"]).shift(self.ground, 1.0)
             if sub_step_count(self.state, shift) > 1:
                 return None
         except (AssocHullError, ArithmeticError):
             return None
-        return shift.rows, table.xyz.data[shift.rows] + shift.delta
+        return shift.rows, table.xyz[shift.rows] + shift.delta
 
     @contextlib.contextmanager
     def tried(
@@ -280,7 +280,7 @@ class _QuickWay:
         numbers, table = self.numbers, self.state.rows
         moved = write_points(numbers.values, rows, places)
         # What a field has moved does not ride in the same edit.
-        held = moved[table.sort.data[moved] == Sort.ADOPTED] if self.pull else moved[:0]
+        held = moved[table.sort[moved] == Sort.ADOPTED] if self.pull else moved[:0]
         run = numbers.run(moved, held)
         try:
             yield run if run.sound and self._has_arrived(amount) else None
@@ -330,9 +330,9 @@ class Drag:
         row, _ = GivenObjects(state).point(point)
         self._name = address(state, row)
         self._asked = {"radius": radius, "across_flats": across_flats}
-        self.start: FloatArray = state.rows.xyz.data[row].copy()
-        computed = state.rows.sort.data[row] == Sort.CROSSING
-        computed &= state.rows.role.data[row] != Role.SHARED
+        self.start: FloatArray = state.rows.xyz[row].copy()
+        computed = state.rows.sort[row] == Sort.CROSSING
+        computed &= state.rows.role[row] != Role.SHARED
         self.free = () if computed else free_axes(state, row)
         normal = hull_normals(state)[row]
         self.normal: FloatArray | None = normal.copy() if (normal != 0.0).any() else None
@@ -511,13 +511,13 @@ class Drag:
         if step is None:
             return self._nothing(())
         state = self._document.state
-        curves = step.curves[state.curves.alive.data[step.curves]]
-        rows = step.rows[state.rows.alive.data[step.rows]]
+        curves = step.curves[state.curves.alive[step.curves]]
+        rows = step.rows[state.rows.alive[step.rows]]
         born, gone = _come_and_gone(step, state)
         known = rows[~np.isin(rows, born)]
         key = state.rows.key.data
         spline = joined([state.spline(curve) for curve in curves.tolist()])
-        xyz = state.rows.xyz.data[known]
+        xyz = state.rows.xyz[known]
         freeze(curves, known, xyz)
         return Live(
             (), curves, spline, tuple(key[row] for row in born.tolist()),

@@ -13,7 +13,7 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.run_update import UpdatePass
 from assoc_hull.model.kinds import State
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import curve_node
+from assoc_hull.model.node import Node
 
 __all__ = ["blocked_nodes", "note_states"]
 
@@ -21,7 +21,7 @@ __all__ = ["blocked_nodes", "note_states"]
 def blocked_nodes(network: HullNetwork, failed: tuple[int, ...]) -> IntArray:
     """Give all nodes made from failed curves, at any distance, ascending."""
     found = np.zeros(0, np.int64)
-    front = curve_node(np.array(failed, np.int64))
+    front = Node.curve(np.array(failed, np.int64))
     while len(front):
         front = np.setdiff1d(network.readers(front).reader, found)
         found = np.union1d(found, front)
@@ -31,8 +31,9 @@ def blocked_nodes(network: HullNetwork, failed: tuple[int, ...]) -> IntArray:
 def note_states(network: HullNetwork, result: UpdatePass, journal: Journal) -> None:
     """Write which curves have failed, which are well again, and what is blocked now."""
     state = network.state
-    broken = {node >> 1 for node in result.failed if node & 1}
-    mended = set((result.evaluated[(result.evaluated & 1) == 1] >> 1).tolist()) - broken
+    broken = {Node.number(node) for node in result.failed if Node.is_curve(node)}
+    curves = result.evaluated[Node.is_curve(result.evaluated)]
+    mended = set(Node.number(curves).tolist()) - broken
     failed = tuple(sorted((set(state.failed) | broken) - mended))
     if failed == state.failed:
         return
@@ -41,7 +42,7 @@ def note_states(network: HullNetwork, result: UpdatePass, journal: Journal) -> N
     journal.set(state.settings.failed, [0], [failed])
     journal.put(state.curves.state, sorted(mended), int(State.CLEAN))
     for nodes, value in ((np.setdiff1d(before, after), State.CLEAN), (after, State.BLOCKED)):
-        odd = (nodes & 1).astype(bool)
-        journal.put(state.curves.state, nodes[odd] >> 1, int(value))
-        journal.put(state.rows.state, nodes[~odd] >> 1, int(value))
+        odd = Node.is_curve(nodes)
+        journal.put(state.curves.state, Node.number(nodes[odd]), int(value))
+        journal.put(state.rows.state, Node.number(nodes[~odd]), int(value))
     journal.put(state.curves.state, sorted(broken), int(State.FAILED))

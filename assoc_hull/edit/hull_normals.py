@@ -15,7 +15,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.interpolation import interpolate_linear
-from assoc_hull.graph.table import ListColumn
+from assoc_hull.graph.table import ValueColumn
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.index import Objects
 from assoc_hull.model.kinds import Sort
@@ -64,10 +64,10 @@ def turn_outward(state: HullState, normal: FloatArray, tangent: FloatArray) -> F
 def _references(state: HullState, tangent: FloatArray) -> FloatArray:
     """Give the direction out of the hull in the plane of each curve, (rows, 2, 3)."""
     curve = state.rows.curve.data
-    line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], 0)
-    known = (curve >= 0) & state.lines.planar.data[line]
-    known &= state.lines.boundary.data[line] < 0
-    plane = np.where(known[:, :, None], state.lines.normal.data[line], 0.0)
+    line = np.where(curve >= 0, state.curves.line[np.maximum(curve, 0)], 0)
+    known = (curve >= 0) & state.lines.planar[line]
+    known &= state.lines.boundary[line] < 0
+    plane = np.where(known[:, :, None], state.lines.normal[line], 0.0)
     out = np.cross(plane, tangent)
     sense = np.where(known, _course(state)[np.maximum(curve, 0)], 0.0)
     return np.asarray(out * sense[:, :, None])
@@ -178,7 +178,7 @@ def curve_tangents(state: HullState) -> FloatArray:
     return found
 
 
-def _joined(column: ListColumn, curves: list[int]) -> IntArray:
+def _joined(column: ValueColumn[IntArray], curves: list[int]) -> IntArray:
     """Put the arrays that a column holds for curves one behind the other."""
     return np.concatenate([column.data[curve] for curve in curves])
 
@@ -186,7 +186,7 @@ def _joined(column: ListColumn, curves: list[int]) -> IntArray:
 def _present(state: HullState, curve: int) -> SplineBatch:
     """Give the spline through a curve's points as they are, in mid-transaction too."""
     spline = state.spline(curve)
-    same = len(spline.knot) == len(state.curves.rows.data[curve])
+    same = len(spline.knot) == len(state.curves.rows[curve])
     return spline if same else loft_curves(state, np.array([curve]))
 
 
@@ -199,7 +199,7 @@ def _interpolate(state: HullState, normal: FloatArray) -> None:
     knot = np.concatenate([spline.knot for spline in splines])
     curve = np.repeat(np.arange(len(curves)), [len(spline.knot) for spline in splines])
     rows = _joined(state.curves.rows, curves)
-    own = state.rows.sort.data[rows] != Sort.CROSSING
+    own = state.rows.sort[rows] != Sort.CROSSING
     meets = [state.curves.meets.data[each] for each in curves]
     meeting = np.repeat(np.arange(len(curves)), [len(each.row) for each in meets])
     where = np.concatenate([curve[~own], meeting])
@@ -236,7 +236,7 @@ def free_normals(state: HullState, rows: IntArray, normal: FloatArray) -> FloatA
 
 
 def _plane(state: HullState, rows: IntArray, side: int) -> _Planes:
-    curve = state.rows.curve.data[rows, side]
-    line = state.curves.line.data[np.maximum(curve, 0)]
-    planar = (curve >= 0) & state.lines.planar.data[line]
-    return _Planes(np.where(planar[:, None], state.lines.normal.data[line], 0.0), planar)
+    curve = state.rows.curve[rows, side]
+    line = state.curves.line[np.maximum(curve, 0)]
+    planar = (curve >= 0) & state.lines.planar[line]
+    return _Planes(np.where(planar[:, None], state.lines.normal[line], 0.0), planar)

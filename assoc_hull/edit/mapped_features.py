@@ -81,7 +81,7 @@ def carry_features(state: HullState, space: SpaceMap, within: float) -> CarriedF
         return CarriedFeatures((), frozenset(), within)
     start = np.cumsum([0, *(len(each.points) for each in features)])
     rows = [row for each in features for row in each.points]
-    old = state.rows.xyz.data[rows]
+    old = state.rows.xyz[rows]
     new = space.places(old)
     middle = np.array([each.centre or old[at] for each, at in zip(features, start, strict=False)])
     image, slope = space.places(middle), space.jacobians(middle)

@@ -136,7 +136,7 @@ def _samples(
     """Give places along lines, and where a mapping, asked once for all, sends them."""
     if not lines:
         return
-    curves = [state.lines.curves.data[line] for line in lines]
+    curves = [state.lines.curves[line] for line in lines]
     splines = [state.spline(curve) for part in curves for curve in part]
     start, before = sample(SplineBatch.join(splines), 4)
     after = space.places(np.array(before))
@@ -146,8 +146,8 @@ def _samples(
 
 
 def _is_centre(state: HullState, line: int) -> bool:
-    across = abs(float(state.lines.normal.data[line, 1])) == 1.0
-    return across and float(state.lines.offset.data[line]) == 0.0
+    across = abs(float(state.lines.normal[line, 1])) == 1.0
+    return across and float(state.lines.offset[line]) == 0.0
 
 
 def _centre_kept(state: HullState, line: int, level: float) -> float:
@@ -161,7 +161,7 @@ def _centre_kept(state: HullState, line: int, level: float) -> float:
 def _refuse_centre(state: HullState, line: int, away: float) -> None:
     if _is_centre(state, line) and away > IN_PLANE:
         raise BadInputError(
-            f"the mapping moves {state.lines.name.data[line]} {away:.3g} m out of the centre plane",
+            f"the mapping moves {state.lines.name[line]} {away:.3g} m out of the centre plane",
             "in transform", "keep y = 0 where y = 0: only one side of a hull is stored",
         )  # fmt: skip
 
@@ -174,10 +174,10 @@ def _oblique(
     Sections, waterlines and buttocks have planes of one direction, and boundary curves
     need none. Under a map with the Jacobian J a normal n goes to one along cof(J) n.
     """
-    if state.family(line).axis is not None or state.lines.boundary.data[line] >= 0:
+    if state.family(line).axis is not None or state.lines.boundary[line] >= 0:
         return None
     slope = space.jacobians(before[:1])[0]
-    old = state.lines.normal.data[line]
+    old = state.lines.normal[line]
     cofactor = np.array([np.cross(slope[1], slope[2]), np.cross(slope[2], slope[0]),
                          np.cross(slope[0], slope[1])])  # fmt: skip
     new = (cofactor * old).sum(axis=1)
@@ -194,11 +194,11 @@ def _check_order(state: HullState, planes: TransformedPlanes) -> None:
     groups = state.lines.group.data
     for group in np.unique(groups[live]).tolist():
         mine = live[(groups[live] == group) & planes.planar[live]]
-        mine = mine[state.lines.boundary.data[mine] < 0]
+        mine = mine[state.lines.boundary[mine] < 0]
         normals = {tuple(row) for row in planes.normal[mine].tolist()}
         for normal in sorted(normals):
             some = mine[(planes.normal[mine] == normal).all(axis=1)]
-            some = some[np.argsort(state.lines.offset.data[some], kind="stable")]
+            some = some[np.argsort(state.lines.offset[some], kind="stable")]
             step = np.diff(planes.offset[some])
             if len(step) and step.min() <= _APART:
                 one, other = some[int(step.argmin()) : int(step.argmin()) + 2].tolist()
@@ -227,8 +227,8 @@ def snap_into_planes(
         Their places.
     """
     out = np.array(xyz)
-    curve = state.rows.curve.data[rows]
-    line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], -1)
+    curve = state.rows.curve[rows]
+    line = np.where(curve >= 0, state.curves.line[np.maximum(curve, 0)], -1)
     held = (line >= 0) & planes.planar[line]
     along = (np.abs(planes.normal[line]) == 1.0).any(axis=2)
     for side in (0, 1):

@@ -8,7 +8,8 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.network import bits_differ
-from assoc_hull.model.tables import HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 
 __all__ = ["net_difference"]
 
@@ -39,17 +40,17 @@ def net_difference(
         Each node once, points first; nan where the edit itself set the point. Points that
         the edit made are left out, and watched ones, which have no value.
     """
-    odd = (nodes & 1).astype(bool)
+    odd = Node.is_curve(nodes)
     rows, away = _points(state, journal)
-    away[~np.isin(row_node(rows), nodes)] = np.nan
+    away[~np.isin(Node.point(rows), nodes)] = np.nan
     curves = [
         curve
-        for curve in np.unique(nodes[odd] >> 1).tolist()
+        for curve in np.unique(Node.number(nodes[odd])).tolist()
         if curve not in before or not _same(before[curve], state.spline(curve))
     ]
-    widest = np.array([np.max(moved[nodes == 2 * curve + 1]) for curve in curves], np.float64)
+    widest = np.array([np.max(moved[nodes == Node.curve(curve)]) for curve in curves], np.float64)
     numbers = np.array(curves, np.int64)
-    return np.concatenate([row_node(rows), curve_node(numbers)]), np.concatenate([away, widest])
+    return np.concatenate([Node.point(rows), Node.curve(numbers)]), np.concatenate([away, widest])
 
 
 def _points(state: HullState, journal: Journal) -> tuple[IntArray, FloatArray]:
@@ -57,10 +58,10 @@ def _points(state: HullState, journal: Journal) -> tuple[IntArray, FloatArray]:
     table = state.rows
     rows, old = journal.before(table.xyz)
     marked, was_alive = journal.before(table.alive)
-    watched = (table.sort.data[rows] == Sort.CROSSING) & (table.role.data[rows] == Role.WATCHED)
-    differs = table.alive.data[rows] & ~watched & bits_differ(old, table.xyz.data[rows])
+    watched = (table.sort[rows] == Sort.CROSSING) & (table.role[rows] == Role.WATCHED)
+    differs = table.alive[rows] & ~watched & bits_differ(old, table.xyz[rows])
     differs &= ~np.isin(rows, marked[~was_alive.astype(bool)])
-    step = table.xyz.data[rows[differs]] - old[differs]
+    step = table.xyz[rows[differs]] - old[differs]
     return rows[differs], np.sqrt((step * step).sum(axis=1))
 
 

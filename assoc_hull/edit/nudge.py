@@ -142,7 +142,7 @@ def write_nudge(
     rows = rows[by.move[rows].any(axis=1)]
     lines = np.flatnonzero(by.level != 0.0)
     journal.put(state.lines.offset, lines, planes.offset[lines])
-    places = snap_into_planes(state, planes, rows, state.rows.xyz.data[rows] + by.move[rows])
+    places = snap_into_planes(state, planes, rows, state.rows.xyz[rows] + by.move[rows])
     journal.put(state.rows.xyz, rows, places)
     _turn_points(state, journal, by.turn)
     _turn_ends(state, journal, by.turn)
@@ -168,17 +168,17 @@ def _turn_points(state: HullState, journal: Journal, turn: FloatArray) -> None:
     table = state.rows
     turned = table.alive.data & turn.any(axis=(1, 2))
     rows = np.flatnonzero(turned & table.direction.data.any(axis=(1, 2)))
-    old = table.direction.data[rows]
+    old = table.direction[rows]
     journal.put(table.direction, rows, old + np.einsum("nij,nsj->nsi", turn[rows], old))
 
 
 def _turn_ends(state: HullState, journal: Journal, turn: FloatArray) -> None:
     """Turn the tangents that are given at the ends of curves."""
     for curve in state.live("curves").tolist():
-        ends: Ends = state.curves.ends.data[curve]
+        ends: Ends = state.curves.ends[curve]
         if EndKind.TANGENT not in ends.kind:
             continue
-        rows = state.curves.rows.data[curve][[0, -1]]
+        rows = state.curves.rows[curve][[0, -1]]
         old = np.array(ends.vector)
         tangent = np.array(ends.kind) == EndKind.TANGENT
         new = old + np.where(tangent[:, None], np.einsum("nij,nj->ni", turn[rows], old), 0.0)

@@ -13,7 +13,8 @@ from assoc_hull.edit.update_passes import Work
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.network import Readers
 from assoc_hull.model.gaps import along_normal
-from assoc_hull.model.tables import HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 
 __all__ = ["step_of"]
 
@@ -21,9 +22,9 @@ __all__ = ["step_of"]
 def step_of(work: Work, rows: IntArray, away: FloatArray) -> Step:
     """Put the finished step together."""
     parts, fresh = work.passes, np.array(work.pending.fresh, np.int64)
-    changed, moved = [row_node(rows), curve_node(fresh)], [away, np.full(len(fresh), np.nan)]
+    changed, moved = [Node.point(rows), Node.curve(fresh)], [away, np.full(len(fresh), np.nan)]
     for part in parts:
-        told = np.isfinite(part.moved) | ((part.changed & 1) == 1)
+        told = np.isfinite(part.moved) | Node.is_curve(part.changed)
         changed.append(part.changed[told])
         moved.append(part.moved[told])
     nodes, distance = np.concatenate(changed), np.concatenate(moved)
@@ -40,7 +41,7 @@ def step_of(work: Work, rows: IntArray, away: FloatArray) -> Step:
         np.concatenate([part.cause.source for part in parts]),
     )
     report = _report(work, nodes, distance)
-    seeds = np.concatenate([row_node(rows), work.forms])
+    seeds = np.concatenate([Node.point(rows), work.forms])
     body = StepBody(work.journal, cause, nodes, distance, seeds, report)
     return Step(work.name, work.pending.structural, body=body)
 
@@ -51,7 +52,7 @@ def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:
     if work.pending.fresh:
         curves = curves[np.sort(np.unique(curves, return_index=True)[1])]
     key = state.curves.key.data
-    after = {curve: state.curves.spline.data[curve] for curve in curves.tolist()}
+    after = {curve: state.curves.spline[curve] for curve in curves.tolist()}
     keys = tuple(key[curve] for curve in curves.tolist())
     return EditReport(
         work.name,
@@ -76,28 +77,28 @@ def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:
 
 
 def _largest(state: HullState, changed: IntArray, moved: FloatArray) -> Movement | None:
-    points = ((changed & 1) == 0) & np.isfinite(moved)
+    points = Node.is_point(changed) & np.isfinite(moved)
     if not points.any():
         return None
     best = int(np.nanargmax(moved[points]))
-    row = int(changed[points][best]) >> 1
-    place = tuple(state.rows.xyz.data[row].tolist())
-    return Movement(state.rows.key.data[row], float(moved[points][best]), place)
+    row = Node.number(int(changed[points][best]))
+    place = tuple(state.rows.xyz[row].tolist())
+    return Movement(state.rows.key[row], float(moved[points][best]), place)
 
 
 def _largest_normal(work: Work, changed: IntArray, moved: FloatArray) -> Movement | None:
     """Find the largest movement along the normal of the hull, as its curves lie after the edit."""
     state = work.state
-    rows = changed[((changed & 1) == 0) & (moved > 0.0)] >> 1
+    rows = Node.number(changed[Node.is_point(changed) & (moved > 0.0)])
     places = work.journal.net(state.rows.xyz)
     known = np.isin(rows, places.rows)
-    rows = rows[known & state.rows.alive.data[np.where(known, rows, 0)]]
+    rows = rows[known & state.rows.alive[np.where(known, rows, 0)]]
     if not len(rows):
         return None
-    away = state.rows.xyz.data[rows] - places.old[np.searchsorted(places.rows, rows)]
+    away = state.rows.xyz[rows] - places.old[np.searchsorted(places.rows, rows)]
     distance = along_normal(state, rows, away)
     if not np.isfinite(distance).any():
         return None
     best = int(np.nanargmax(distance))
-    x, y, z = state.rows.xyz.data[rows[best]].tolist()
-    return Movement(state.rows.key.data[int(rows[best])], float(distance[best]), (x, y, z))
+    x, y, z = state.rows.xyz[rows[best]].tolist()
+    return Movement(state.rows.key[int(rows[best])], float(distance[best]), (x, y, z))

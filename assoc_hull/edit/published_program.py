@@ -111,7 +111,7 @@ def _structure(state: HullState, index: Index) -> Hashable:
         curves.line, lines.alive, lines.planar, lines.normal, lines.offset, state.featured.alive,
     )  # fmt: skip
     objects = (
-        index, state.settings.failed.data[0], *curves.rows.data, *curves.side.data,
+        index, state.settings.failed[0], *curves.rows.data, *curves.side.data,
         *curves.ends.data, *state.featured.feature.data, *state.produced.curve.data,
     )  # fmt: skip
     return tuple(column.writes for column in columns), Objects(objects)
@@ -128,9 +128,7 @@ def _numbers(state: HullState) -> Hashable:
 def _published(state: HullState, program: Program) -> Values | None:
     """Read the numbers of the tables; None if the program is not of their structure."""
     values = Values.blank(program, state)
-    met: list[CurveIntersections] = [
-        state.curves.meets.data[curve] for curve in program.number.tolist()
-    ]
+    met: list[CurveIntersections] = [state.curves.meets[curve] for curve in program.number.tolist()]
     splines = [state.spline(curve) for curve in program.number.tolist()]
     if not _same_meetings(program, met):
         return None
@@ -150,7 +148,7 @@ def _published(state: HullState, program: Program) -> Values | None:
     batch = SplineBatch.join(splines)
     values.folds[:] = np.bincount(curve_folds(batch).curve, minlength=program.curves)
     values.lowest[:] = np.minimum.reduceat(batch.xyz[:, 1], batch.start[:-1])
-    values.gap[:] = state.rows.gap.data[program.watch]
+    values.gap[:] = state.rows.gap[program.watch]
     freeze(*(getattr(values, each.name) for each in attrs.fields(Values)))
     return values
 

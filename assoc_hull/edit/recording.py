@@ -17,7 +17,7 @@ import contextlib
 import inspect
 from collections.abc import Callable, Iterator, Sequence
 from functools import wraps
-from typing import Any, Concatenate, ParamSpec, Protocol, Self, TypeVar
+from typing import Concatenate, ParamSpec, Protocol, Self, TypeVar
 
 import attrs
 import numpy as np
@@ -29,10 +29,13 @@ from assoc_hull.model.address import AddressBook, address
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 
-__all__ = ["ANY_FUNCTION", "Recording", "Script", "recorded", "said"]
+__all__ = ["ANY_FUNCTION", "Recording", "Said", "Script", "recorded", "said"]
 
 ANY_FUNCTION = "<a function>"
 """Stands where a function was given: nothing tells it, so the edit cannot be repeated."""
+
+Said = None | bool | int | float | str | list["Said"]
+"""A value as JSON can say it."""
 
 _DEEPEST = 8
 
@@ -53,12 +56,12 @@ class Script:
         How it was to be carried out, as `assoc_hull.hull.Hull.edit` takes it.
     """
 
-    edits: tuple[dict[str, Any], ...] = ()
+    edits: tuple[dict[str, Said], ...] = ()
     policy: str = FailurePolicy.ALL_OR_NOTHING.value
     gaps: str = "refuse"
 
     @classmethod
-    def of(cls, edits: Sequence[dict[str, Any]], settings: Settings) -> Self:
+    def of(cls, edits: Sequence[dict[str, Said]], settings: Settings) -> Self:
         """Put a script together."""
         gaps = "refuse" if settings.refuse_gaps else "report"
         return cls(tuple(edits), settings.policy.value, gaps)
@@ -83,7 +86,7 @@ def _all_values(value: object) -> Iterator[object]:
 class Recording(Protocol):
     """An edit that keeps what it was asked for."""
 
-    def _note(self, change: dict[str, Any]) -> None:
+    def _note(self, change: dict[str, Said]) -> None:
         """Keep a modification."""
 
 
@@ -106,7 +109,7 @@ def recorded(method: Callable[Concatenate[R, P], T]) -> Callable[Concatenate[R, 
     return asked
 
 
-def said(value: object, depth: int = 0) -> Any:
+def said(value: object, depth: int = 0) -> Said:
     """Give a value as JSON can say it, and as the same argument accepts it."""
     if depth > _DEEPEST:
         return ANY_FUNCTION  # no argument is nested so deeply: it will be refused
@@ -119,7 +122,8 @@ def said(value: object, depth: int = 0) -> Any:
     if isinstance(value, Group | Line | Curve):
         return _named(value)
     if isinstance(value, np.ndarray | np.generic):
-        return value.tolist()
+        plain: Said = value.tolist()
+        return plain
     if isinstance(value, list | tuple):
         return [said(each, depth + 1) for each in value]
     if getattr(value, "document", None) is not None:
@@ -138,9 +142,7 @@ def _named(thing: Group | Line | Curve) -> str:
     name = book.curve_name(thing.number) if curve else book.line_name(thing.number)
     with contextlib.suppress(AssocHullError):
         found = book.resolve(name)
-        numbers = (
-            {found.line, *thing.tables.lines.curves.data[found.line]} if curve else {found.line}
-        )
+        numbers = {found.line, *thing.tables.lines.curves[found.line]} if curve else {found.line}
         if thing.number in numbers:
             return name
     return thing.id

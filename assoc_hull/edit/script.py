@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal
+from typing import Literal
 
 import attrs
 
@@ -32,7 +32,7 @@ __all__ = [
     "settings_of",
 ]
 
-Changes = Callable[[Edit], object] | Sequence[Mapping[str, Any]]
+Changes = Callable[[Edit], object] | Sequence[Mapping[str, object]]
 PolicyName = Literal["all_or_nothing", "keep_going"]
 GapsName = Literal["refuse", "report"]
 

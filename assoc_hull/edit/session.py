@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from types import TracebackType
-from typing import Any, Literal, Self
+from typing import Literal, Self
 
 from numpy.typing import ArrayLike
 
@@ -29,7 +29,7 @@ from assoc_hull.edit.modifications import reshape as _reshape
 from assoc_hull.edit.modifications import roles as _renew
 from assoc_hull.edit.modifications import roles as _set_role
 from assoc_hull.edit.pending_changes import Settings
-from assoc_hull.edit.recording import recorded
+from assoc_hull.edit.recording import Said, recorded
 from assoc_hull.edit.recut import transform as _transform
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.space_map import Jacobian, PointMapping, space_map
@@ -127,7 +127,7 @@ class Edit:
         """Whether the ``with`` block is open."""
         return self._held.active
 
-    def _note(self, change: dict[str, Any]) -> None:
+    def _note(self, change: dict[str, Said]) -> None:
         """Keep a modification that was asked for, as data."""
         self._held.script.append(change)
 

@@ -13,7 +13,8 @@ from assoc_hull.errors import DamagedFileError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.network import Readers, distinct
 from assoc_hull.model.change import TableChange, apply_change
-from assoc_hull.model.tables import HullState, form_of
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 
 __all__ = ["Rerun", "Step", "StepBody", "Writes"]
 
@@ -165,15 +166,14 @@ class Step:
     @property
     def rows(self) -> IntArray:
         """Points that changed."""
-        chosen = ((self.changed & 1) == 0) & (self.changed >= 0)
-        return distinct(self.changed[chosen] >> 1)
+        return distinct(Node.number(self.changed[Node.is_point(self.changed)]))
 
     @property
     def forms(self) -> IntArray:
         """Numbers of the definitions that the edit set."""
-        return form_of(distinct(self.seeds[self.seeds < 0]))
+        return Node.form_number(distinct(self.seeds[Node.is_form(self.seeds)]))
 
     @property
     def curves(self) -> IntArray:
         """Curves that changed."""
-        return distinct(self.changed[(self.changed & 1) == 1] >> 1)
+        return distinct(Node.number(self.changed[Node.is_curve(self.changed)]))

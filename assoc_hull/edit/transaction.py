@@ -16,7 +16,7 @@ import numpy as np
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.garbage_collection import PausedCollector
 from assoc_hull.edit.pending_changes import Pending, Settings
-from assoc_hull.edit.recording import Script
+from assoc_hull.edit.recording import Said, Script
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.update import update
@@ -61,7 +61,7 @@ class Transaction:
         self.look = look
         self.journal = Journal()
         self.pending = Pending()
-        self.script: list[dict[str, Any]] = []
+        self.script: list[dict[str, Said]] = []
         self.report: EditReport | None = None
         self._step: Step | None = None
         self._depth, self._thread = 0, 0
@@ -98,7 +98,7 @@ class Transaction:
             raise BadInputError("a coordinate is not finite", f"in {what}", "give finite numbers")
         for row, value in zip(rows.tolist(), values, strict=True):
             if row in self.pending.values:
-                key = self.state.rows.key.data[row]
+                key = self.state.rows.key[row]
                 raise BadInputError(
                     "a point is written twice in one transaction",
                     f"{key}, in {what}",
@@ -117,12 +117,12 @@ class Transaction:
         moved = set(self.pending.values)
         for field in self.pending.fields:
             set_by, place = field.exact()
-            moved |= set(set_by[(place != self.state.rows.xyz.data[set_by]).any(axis=1)].tolist())
+            moved |= set(set_by[(place != self.state.rows.xyz[set_by]).any(axis=1)].tolist())
         for row in rows.tolist():
             if row in moved:
                 raise BadInputError(
                     "a point is moved and its line or role is changed in one transaction",
-                    str(self.state.rows.key.data[row]),
+                    str(self.state.rows.key[row]),
                     "use two transactions",
                 )
 

@@ -138,11 +138,11 @@ def _set_values(
 ) -> tuple[IntArray, FloatArray]:
     """Write the new places that differ from the old by a bit; give them with the distances."""
     rows = np.array(sorted(pending.values), np.int64)
-    rows = rows[state.rows.alive.data[rows]]
+    rows = rows[state.rows.alive[rows]]
     if not len(rows):
         return rows, np.zeros(0)
     value = np.array([pending.values[row] for row in rows.tolist()]) + 0.0
-    old = state.rows.xyz.data[rows]
+    old = state.rows.xyz[rows]
     differs = bits_differ(old, value)
     journal.put(state.rows.xyz, rows[differs], value[differs])
     step = value[differs] - old[differs]
@@ -152,7 +152,7 @@ def _set_values(
 def _link_riders(state: HullState, journal: Journal, pending: Pending) -> None:
     """Link adopted points to their neighbours, which may be others than before."""
     curves = np.array(sorted(pending.curves | set(pending.fresh)), np.int64)
-    link_adopted_points(state, curves[state.curves.alive.data[curves]], journal)
+    link_adopted_points(state, curves[state.curves.alive[curves]], journal)
 
 
 def _run_fields(work: Work, rows: IntArray, origin: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -178,11 +178,11 @@ def _run_fields(work: Work, rows: IntArray, origin: FloatArray) -> tuple[IntArra
         before = state.rows.xyz.data.copy()
         if detach_rows(Maker(state, work.journal), work.pending, shift.rows):
             work.renew()
-        work.journal.put(state.rows.xyz, shift.rows, state.rows.xyz.data[shift.rows] + shift.delta)
+        work.journal.put(state.rows.xyz, shift.rows, state.rows.xyz[shift.rows] + shift.delta)
         if step == steps - 1:
             land_points(state, work.journal, fields)
         shifted = np.flatnonzero(bits_differ(before, state.rows.xyz.data))
-        adopted = state.rows.sort.data[shifted] == Sort.ADOPTED
+        adopted = state.rows.sort[shifted] == Sort.ADOPTED
         work.pending.held |= set(shifted[adopted].tolist())
         touched |= set(shifted.tolist())
         seeds = np.union1d(shifted, rows) if step == 0 else shifted
@@ -196,8 +196,8 @@ def _run_fields(work: Work, rows: IntArray, origin: FloatArray) -> tuple[IntArra
     work.pending.held.clear()
     every = np.array(sorted(touched), np.int64)
     every = every[every < len(origin)]
-    every = every[bits_differ(state.rows.xyz.data[every], origin[every])]
-    moved = state.rows.xyz.data[every] - origin[every]
+    every = every[bits_differ(state.rows.xyz[every], origin[every])]
+    moved = state.rows.xyz[every] - origin[every]
     return every, np.sqrt((moved * moved).sum(axis=1))
 
 
@@ -239,7 +239,7 @@ def _settle(work: Work) -> None:
 def _relink(work: Work) -> None:
     """Let adopted points that were carried ride from where they and their neighbours are now."""
     held, curves = work.pending.held, np.array(sorted(work.pending.relink), np.int64)
-    curves = curves[work.state.curves.alive.data[curves]]
+    curves = curves[work.state.curves.alive[curves]]
     link_adopted_points(work.state, curves, work.journal)
     if len(curves):
         work.renew()
@@ -256,7 +256,7 @@ def _follow_up(work: Work) -> None:
         act()
     _link_riders(work.state, work.journal, pending)
     work.renew()
-    live = [curve for curve in sorted(pending.curves) if work.state.curves.alive.data[curve]]
+    live = [curve for curve in sorted(pending.curves) if work.state.curves.alive[curve]]
     work.go(_NONE, np.array(live, np.int64))
     _settle(work)
 
@@ -306,9 +306,9 @@ def _run_nudge(work: Work, by: Nudge) -> None:
     rows, moved = write_nudge(state, work.journal, by, carried.features)
     pending.features = attrs.evolve(carried, features=moved)
     live = state.live("rows")
-    pending.held |= set(live[state.rows.sort.data[live] == Sort.ADOPTED].tolist())
+    pending.held |= set(live[state.rows.sort[live] == Sort.ADOPTED].tolist())
     pending.relink |= set(curves.tolist())
-    pending.computed |= set(live[state.rows.driver.data[live] >= 0].tolist())
+    pending.computed |= set(live[state.rows.driver[live] >= 0].tolist())
     work.renew()
     work.go(rows, curves)
     _settle(work)
@@ -322,7 +322,7 @@ def _check(work: Work) -> tuple[str, ...]:
     if len(wide.rows) and not any(field.strict for field in work.pending.fields):
         touched, moved = mend_gaps(Maker(work.state, work.journal), wide.mend)
         if len(touched):
-            work.mended += [work.state.curves.key.data[curve] for curve in touched.tolist()]
+            work.mended += [work.state.curves.key[curve] for curve in touched.tolist()]
             work.renew()
             work.go(moved, touched)
             _settle(work)
@@ -331,7 +331,7 @@ def _check(work: Work) -> tuple[str, ...]:
     if len(wide.rows) and work.pending.forms and widen_limits(work, wide):
         wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     work.wide = wide
-    clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
+    clean = curves[work.state.curves.state[curves] == State.CLEAN]
     batch = splines_of(work.state, clean)
     findings = find_unbounded(work.state, clean, batch)
     findings += find_folds(work.state, clean, batch, work.network.before)
@@ -351,7 +351,7 @@ def _gap_text(work: Work, index: int) -> str:
     wide = work.wide
     assert wide is not None
     row = int(wide.rows[index])
-    x, y, z = work.state.rows.spot.data[row, 0].tolist()
+    x, y, z = work.state.rows.spot[row, 0].tolist()
     return (
         f"{address(work.state, row)}: the two curves pass {1e3 * wide.gap[index]:.1f} mm apart "
         f"at ({x:.3f}, {y:.3f}, {z:.3f}) m, over the limit of {1e3 * wide.limit[index]:.1f} mm; "

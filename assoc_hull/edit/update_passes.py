@@ -14,7 +14,8 @@ from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.run_update import UpdatePass, run_update
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 
 __all__ = ["Work"]
 
@@ -77,7 +78,7 @@ class Work:
     def evaluated(self) -> IntArray:
         """Curves evaluated in any pass, in order, each once."""
         nodes = np.concatenate([_NONE, *(part.evaluated for part in self.passes)])
-        curves: IntArray = nodes[(nodes & 1) == 1] >> 1
+        curves = Node.number(nodes[Node.is_curve(nodes)])
         if len(self.passes) == 1:
             return curves  # in one pass no node stands twice
         once: IntArray = curves[np.sort(np.unique(curves, return_index=True)[1])]
@@ -87,18 +88,18 @@ class Work:
         """Curves evaluated in any pass or made in this edit, but for those removed since."""
         fresh = np.array(self.pending.fresh, np.int64)
         curves = np.concatenate([self.evaluated(), fresh]) if len(fresh) else self.evaluated()
-        alive: IntArray = curves[self.state.curves.alive.data[curves]]
+        alive: IntArray = curves[self.state.curves.alive[curves]]
         return alive
 
     def go(self, rows: IntArray, curves: IntArray) -> None:
         """Run one pass from points that were set and curves whose recipe changed."""
         if self.pending.stopped():
             raise RefusedEditError(self.name, ("it was stopped",))
-        seeds = row_node(rows)
+        seeds = Node.point(rows)
         if not self.passes:
             seeds = np.concatenate([seeds, self.forms])
-            self.planned = self.network.reached(np.concatenate([seeds, curve_node(curves)]))
-        held = row_node(np.array(sorted(self.pending.held), np.int64))
+            self.planned = self.network.reached(np.concatenate([seeds, Node.curve(curves)]))
+        held = Node.point(np.array(sorted(self.pending.held), np.int64))
         blocked = blocked_nodes(self.network, self.state.failed)
         result = run_update(
             self.network, seeds, self.journal, self.settings.policy,
@@ -124,15 +125,15 @@ class Work:
         What the tables held would be neither what the definitions say nor what was drawn.
         """
         for node, why in result.failed.items():
-            if not node & 1:
+            if not Node.is_curve(node):
                 raise RefusedEditError(self.name, (why,))
 
     def _also(self, curves: IntArray) -> IntArray:
         """Give the nodes to evaluate although nothing they read has changed; each only once."""
         rows, table = np.array(sorted(self.pending.computed), np.int64), self.state.rows
         self.pending.computed.clear()
-        rows = rows[table.alive.data[rows] & (table.driver.data[rows] >= 0)]
-        return np.concatenate([curve_node(curves), row_node(rows)])
+        rows = rows[table.alive[rows] & (table.driver[rows] >= 0)]
+        return np.concatenate([Node.curve(curves), Node.point(rows)])
 
     def renew(self) -> None:
         """Derive the look-ups anew after crossings or points came or went."""

@@ -8,7 +8,7 @@ stand in `assoc_hull.graph.graph_text`.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from assoc_hull.errors import UnknownNameError
 
@@ -95,7 +95,7 @@ def nodes_within(
 def subgraph(
     graph: G,
     nodes: Collection[str],
-    edge: Callable[[Mapping[str, Any]], bool] | None = None,
+    edge: Callable[[Mapping[str, object]], bool] | None = None,
 ) -> G:
     """Keep these nodes and the edges among them; names that are no nodes are passed over.
 

@@ -12,7 +12,7 @@ import io
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assoc_hull.arguments import choice
 
@@ -83,7 +83,7 @@ def _graphml(graph: Any_Graph) -> Iterable[str]:
     return [stream.getvalue().decode().rstrip("\n")]
 
 
-def _plain(data: Mapping[str, Any]) -> dict[str, Any]:
+def _plain(data: Mapping[str, object]) -> dict[str, object]:
     """Keep what GraphML can say: texts, numbers and truth values; no value is left out."""
     return {
         name: value if isinstance(value, int | float) else _xml(_worded(value))
@@ -110,7 +110,7 @@ def _json(graph: Any_Graph) -> Iterable[str]:
 def _dot(graph: Any_Graph) -> Iterator[str]:
     yield "digraph hull {"
     for node, data in graph.nodes(data=True):
-        shape = _SHAPES.get(data.get("kind", ""), "ellipse")
+        shape = _SHAPES.get(str(data.get("kind", "")), "ellipse")
         shown = {"label": data.get("name", node), "shape": shape, "style": _style(data)}
         yield f"  {_quoted(node)} [{_listed(shown | dict(data))}];"
     for tail, head, data in graph.edges(data=True):
@@ -119,19 +119,19 @@ def _dot(graph: Any_Graph) -> Iterator[str]:
     yield "}"
 
 
-def _style(data: Mapping[str, Any]) -> str:
+def _style(data: Mapping[str, object]) -> str:
     """Dash points through which no curve is made, round the corners of curves."""
     if data.get("kind") == "curve":
         return "rounded"
     return "dashed" if data.get("role") == "derived" else "solid"
 
 
-def _label(data: Mapping[str, Any]) -> str:
+def _label(data: Mapping[str, object]) -> str:
     """Say of what kind an edge is, and whether it has a twin that runs back."""
     return ", ".join(str(data[name]) for name in ("kind", "way") if data.get(name))
 
 
-def _listed(data: Mapping[str, Any]) -> str:
+def _listed(data: Mapping[str, object]) -> str:
     return ", ".join(
         f"{name}={_quoted(_worded(value))}" for name, value in data.items() if value is not None
     )

@@ -6,9 +6,11 @@ undo and forward by redo. Nothing is ever computed again.
 Examples
 --------
 >>> from assoc_hull.graph.journal import Journal
->>> from assoc_hull.graph.table import Table
->>> table = Table(height=(float, ()))
->>> journal = Journal()
+>>> from assoc_hull.graph.table import NumberColumn, Table, numbers
+>>> @attrs.frozen(eq=False)
+... class Towers(Table):
+...     height: NumberColumn[np.float64] = numbers(np.float64)
+>>> table, journal = Towers(), Journal()
 >>> journal.grow(table, 2)
 array([0, 1])
 >>> journal.put(table.height, [0, 1], [3.0, 4.0])
@@ -21,33 +23,45 @@ array([0, 1])
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Protocol
+from typing import Generic, Protocol, TypeVar, overload
 
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assoc_hull.graph.table import ArrayColumn, ListColumn, Table
+from assoc_hull.graph.table import AnyColumn, Column, Table, ValueColumn
 
-__all__ = ["ColumnChange", "Journal", "PickedRows", "same_value"]
+__all__ = ["ArrayChange", "Journal", "PickedRows", "ValueChange", "same_value"]
+
+S = TypeVar("S", bound=np.generic, covariant=True)
+V = TypeVar("V")
 
 
 @attrs.frozen(eq=False)
-class ColumnChange:
-    """What a journal did to one column, all its writes taken together.
+class ArrayChange(Generic[S]):
+    """What a journal did to one column of numbers, all its writes taken together.
 
     Attributes
     ----------
     rows : (k,) int
         The rows that were written, ascending, each once.
-    old, new : array (k, ...) or list
+    old, new : array (k, ...)
         What stood there before the first write, and after the last; rows that the table did
         not have held its fill value.
     """
 
     rows: NDArray[np.int64]
-    old: Any
-    new: Any
+    old: NDArray[S]
+    new: NDArray[S]
+
+
+@attrs.frozen(eq=False)
+class ValueChange(Generic[V]):
+    """The same of a column of values."""
+
+    rows: NDArray[np.int64]
+    old: list[V]
+    new: list[V]
 
 
 class _Entry(Protocol):
@@ -63,10 +77,10 @@ class _Entry(Protocol):
 
 @attrs.frozen(eq=False)
 class _ArrayEntry:
-    column: ArrayColumn
+    column: Column[np.generic]
     index: NDArray[np.int64]
-    old: NDArray[Any]
-    new: NDArray[Any]
+    old: NDArray[np.generic]
+    new: NDArray[np.generic]
     was: int
 
     def restamp(self) -> None:
@@ -91,11 +105,11 @@ class PickedRows:
     What was picked is at hand as long as it is `taken`, and is picked again when it is not.
     """
 
-    whole: NDArray[Any]
+    whole: NDArray[np.generic]
     pick: NDArray[np.int64] | None = None
-    taken: NDArray[Any] | None = None
+    taken: NDArray[np.generic] | None = None
 
-    def values(self) -> NDArray[Any]:
+    def values(self) -> NDArray[np.generic]:
         """Give what was picked."""
         if self.taken is not None:
             return self.taken
@@ -114,7 +128,7 @@ class PickedRows:
 class _PartEntry:
     """Writes to parts of rows; the arrays may be shared with whoever wrote them."""
 
-    column: ArrayColumn
+    column: Column[np.generic]
     part: NDArray[np.int64]
     old: PickedRows
     new: PickedRows
@@ -136,11 +150,11 @@ class _PartEntry:
 
 
 @attrs.frozen(eq=False)
-class _ListEntry:
-    column: ListColumn
+class _ListEntry(Generic[V]):
+    column: ValueColumn[V]
     index: Sequence[int]
-    old: Sequence[object]
-    new: Sequence[object]
+    old: Sequence[V]
+    new: Sequence[V]
 
     def undo(self) -> None:
         for index, value in zip(self.index, self.old, strict=True):
@@ -184,7 +198,9 @@ def same_value(old: object, new: object) -> bool:
     return old is new or bool(old == new)
 
 
-def _scatter(parts: NDArray[Any], part: NDArray[np.int64], values: NDArray[Any]) -> None:
+def _scatter(
+    parts: NDArray[np.generic], part: NDArray[np.int64], values: NDArray[np.generic]
+) -> None:
     """Write rows; whole rows are moved in one piece, which numpy does three times as fast."""
     if parts.ndim == 1:
         parts[part] = values
@@ -193,12 +209,12 @@ def _scatter(parts: NDArray[Any], part: NDArray[np.int64], values: NDArray[Any])
     parts.view(row)[:, 0][part] = values.view(row)[:, 0]
 
 
-def _same_bits(one: NDArray[Any], other: NDArray[Any]) -> bool:
+def _same_bits(one: NDArray[np.generic], other: NDArray[np.generic]) -> bool:
     """Tell whether two contiguous arrays of floats or whole numbers agree to the last bit."""
     return one.shape == other.shape and bool((one.view(np.int64) == other.view(np.int64)).all())
 
 
-def _net_array(column: ArrayColumn, entries: Sequence[_ArrayEntry | _PartEntry]) -> ColumnChange:
+def _net_array(column: Column[S], entries: Sequence[_ArrayEntry | _PartEntry]) -> ArrayChange[S]:
     """Run the writes to an array backward over a copy of what they touched."""
     width = int(np.prod(column.store.shape[1:2])) if column.store.ndim > 1 else 1
     parts = [e.index if isinstance(e, _ArrayEntry) else e.part // width for e in entries]
@@ -212,16 +228,16 @@ def _net_array(column: ArrayColumn, entries: Sequence[_ArrayEntry | _PartEntry])
         else:
             place = np.searchsorted(rows, entry.part // width) * width + entry.part % width
             flat[place] = entry.old.values()
-    return ColumnChange(rows, old, new)
+    return ArrayChange(rows, old, new)
 
 
-def _net_list(column: ListColumn, entries: Sequence[_ListEntry]) -> ColumnChange:
-    old: dict[int, object] = {}
+def _net_list(column: ValueColumn[V], entries: Sequence[_ListEntry[V]]) -> ValueChange[V]:
+    old: dict[int, V] = {}
     for entry in reversed(entries):
         old.update(zip(entry.index, entry.old, strict=True))
     rows = np.array(sorted(old), np.int64)
     numbers = rows.tolist()
-    return ColumnChange(rows, [old[row] for row in numbers], [column.data[row] for row in numbers])
+    return ValueChange(rows, [old[row] for row in numbers], [column.data[row] for row in numbers])
 
 
 @attrs.define(eq=False)
@@ -230,7 +246,7 @@ class Journal:
 
     entries: list[_Entry] = attrs.field(factory=list)
 
-    def put(self, column: ArrayColumn, index: ArrayLike, values: ArrayLike) -> None:
+    def put(self, column: Column[np.generic], index: ArrayLike, values: ArrayLike) -> None:
         """Write `values` to the rows `index` (each named once) of an array column."""
         rows = np.asarray(index, np.int64)
         if not len(rows):
@@ -245,12 +261,12 @@ class Journal:
 
     def put_parts(
         self,
-        column: ArrayColumn,
+        column: Column[np.generic],
         part: NDArray[np.int64],
         new: PickedRows,
         before: PickedRows | None,
     ) -> None:
-        """Write to parts of rows, as `ArrayColumn.parts` numbers them, each named once.
+        """Write to parts of rows, as `Column.parts` numbers them, each named once.
 
         `before` may be what is thought to stand there now: if it does, to the last bit, it is
         kept for going back, not a copy.
@@ -265,7 +281,7 @@ class Journal:
         _scatter(parts, part, new.values())
         column.written()
 
-    def set(self, column: ListColumn, index: Iterable[int], values: Iterable[object]) -> None:
+    def set(self, column: ValueColumn[V], index: Iterable[int], values: Iterable[V]) -> None:
         """Write one object each to the rows `index` of a list column."""
         rows, new = tuple(index), tuple(values)
         data = column.data
@@ -281,26 +297,36 @@ class Journal:
         entry.redo()
         return np.arange(entry.old, entry.new)
 
-    def before(self, column: ArrayColumn) -> tuple[NDArray[np.int64], NDArray[Any]]:
+    def before(self, column: Column[S]) -> tuple[NDArray[np.int64], NDArray[S]]:
         """Give the rows of a column that `put` wrote, ascending, and what stood there first."""
         mine = [
             entry
             for entry in self.entries
             if isinstance(entry, _ArrayEntry) and entry.column is column
         ]
-        index = np.concatenate([np.zeros(0, np.int64), *(entry.index for entry in mine)])
-        old = np.concatenate([column.store[:0], *(entry.old for entry in mine)])
-        rows, first = np.unique(index, return_index=True)
-        return rows, old[first]
+        rows = np.unique(np.concatenate([np.zeros(0, np.int64), *(entry.index for entry in mine)]))
+        old = column.store.take(rows, axis=0)
+        for entry in reversed(mine):
+            old[np.searchsorted(rows, entry.index)] = entry.old
+        return rows, old
 
-    def net(self, column: ArrayColumn | ListColumn) -> ColumnChange:
+    @overload
+    def net(self, column: Column[S]) -> ArrayChange[S]: ...
+
+    @overload
+    def net(self, column: ValueColumn[V]) -> ValueChange[V]: ...
+
+    def net(self, column: Column[S] | ValueColumn[V]) -> ArrayChange[S] | ValueChange[V]:
         """Give what all writes to a column did together; true until the next write to it.
 
         Examples
         --------
         >>> from assoc_hull.graph.journal import Journal
-        >>> from assoc_hull.graph.table import Table
-        >>> table, journal = Table(height=(float, ())), Journal()
+        >>> from assoc_hull.graph.table import NumberColumn, Table, numbers
+        >>> @attrs.frozen(eq=False)
+        ... class Towers(Table):
+        ...     height: NumberColumn[np.float64] = numbers(np.float64)
+        >>> table, journal = Towers(), Journal()
         >>> table.resize(2)
         >>> journal.put(table.height, [1], [5.0])
         >>> journal.put(table.height, [1], [7.0])
@@ -309,7 +335,7 @@ class Journal:
         ([1], [0.0], [7.0])
         """
         mine = [each for each in self.entries if getattr(each, "column", None) is column]
-        if isinstance(column, ListColumn):
+        if isinstance(column, ValueColumn):
             return _net_list(column, [each for each in mine if isinstance(each, _ListEntry)])
         written = [each for each in mine if isinstance(each, _ArrayEntry | _PartEntry)]
         return _net_array(column, written)
@@ -319,9 +345,9 @@ class Journal:
         grown = [e for e in self.entries if isinstance(e, _GrowEntry) and e.table is table]
         return (grown[0].old if grown else table.count), table.count
 
-    def columns(self) -> list[ArrayColumn | ListColumn]:
+    def columns(self) -> list[AnyColumn]:
         """Give every column that was written, each once, in the order of the first writes."""
-        found: list[ArrayColumn | ListColumn] = []
+        found: list[AnyColumn] = []
         for entry in self.entries:
             column = getattr(entry, "column", None)
             if column is not None and not any(column is each for each in found):
@@ -334,8 +360,11 @@ class Journal:
         Examples
         --------
         >>> from assoc_hull.graph.journal import Journal
-        >>> from assoc_hull.graph.table import Table
-        >>> table, journal = Table(height=(float, (), 2.0)), Journal()
+        >>> from assoc_hull.graph.table import NumberColumn, Table, numbers
+        >>> @attrs.frozen(eq=False)
+        ... class Towers(Table):
+        ...     height: NumberColumn[np.float64] = numbers(np.float64, 2.0)
+        >>> table, journal = Towers(), Journal()
         >>> table.resize(1)
         >>> journal.put(table.height, [0], [2.0])
         >>> journal.idle()

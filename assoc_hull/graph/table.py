@@ -1,38 +1,72 @@
 """Tables of columns of one length; they are written through a journal only.
 
+A table is a frozen attrs class, and its columns are declared in the body of the class: what each
+holds, how many to a row, and what a new row has. `column[row]` reads; `column.data` is all of it.
+
 Examples
 --------
->>> from assoc_hull.graph.table import Table
->>> table = Table(height=(float, ()), name=(object, ""))
+>>> import attrs
+>>> import numpy as np
+>>> from assoc_hull.graph.table import NumberColumn, Table, ValueColumn, numbers, values
+>>> @attrs.frozen(eq=False)
+... class Towers(Table):
+...     height: NumberColumn[np.float64] = numbers(np.float64)
+...     name: ValueColumn[str] = values("")
+>>> table = Towers()
 >>> table.resize(2)
->>> table.height.data.tolist(), table.name.data
-([0.0, 0.0], ['', ''])
+>>> table.height.data.tolist(), table.name[0]
+([0.0, 0.0], '')
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from types import EllipsisType
+from typing import Generic, SupportsIndex, TypeVar, overload
 
+import attrs
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import NDArray
 
-__all__ = ["ArrayColumn", "ListColumn", "Table"]
+__all__ = [
+    "AnyColumn",
+    "Column",
+    "MatrixColumn",
+    "NumberColumn",
+    "Table",
+    "ValueColumn",
+    "VectorColumn",
+    "matrices",
+    "numbers",
+    "values",
+    "values_given",
+    "vectors",
+]
 
 _WRITES = itertools.count(1)
 """No two writes of any column have one number, so a number may come back with its content."""
 
+# As an array is, a column of numbers is one of more general numbers as well.
+S = TypeVar("S", bound=np.generic, covariant=True)
+V = TypeVar("V")
 
-class ArrayColumn:
+_Row = int | np.integer
+_Several = slice | Sequence[int] | NDArray[np.generic] | EllipsisType | None
+"""What names one row; and several: a slice, their numbers, or a mask."""
+
+_Part = tuple[_Row | _Several, ...]
+
+
+class Column(Generic[S]):
     """A growing numpy array, one entry a row; `data` is a read-only view of the rows in use.
 
     `writes` is the number of the last write: what was derived from the column is true as long as
     it stands. A journal that takes everything back brings back the number as well.
     """
 
-    def __init__(self, dtype: DTypeLike, shape: tuple[int, ...], fill: float | bool = 0) -> None:
-        self.store: NDArray[Any] = np.full((16, *shape), fill, dtype)
+    def __init__(self, dtype: type[S] | np.dtype[S], shape: tuple[int, ...], fill: float) -> None:
+        self.store: NDArray[S] = np.full((16, *shape), fill, dtype)
         self.fill = fill
         self.data = self.store[:0]
         self.writes = 0
@@ -55,61 +89,147 @@ class ArrayColumn:
         self.data.setflags(write=False)
         self.written()
 
-    def parts(self) -> NDArray[Any]:
+    def parts(self) -> NDArray[S]:
         """Give the first two axes as one, to be written to: row r, part p is at r * parts + p."""
         return self.store.reshape(-1, *self.store.shape[2:])
 
+    def __getitem__(self, rows: _Several | _Part) -> NDArray[S]:
+        return self.data[rows]
 
-class ListColumn:
-    """A growing list of immutable objects, one entry a row."""
 
-    def __init__(self, fill: object = None) -> None:
-        self.data: list[Any] = []
+class NumberColumn(Column[S]):
+    """One number a row."""
+
+    @overload
+    def __getitem__(self, rows: _Row) -> S: ...
+
+    @overload
+    def __getitem__(self, rows: _Several | _Part) -> NDArray[S]: ...
+
+    def __getitem__(self, rows: _Row | _Several | _Part) -> S | NDArray[S]:
+        return self.data[rows]
+
+
+class VectorColumn(Column[S]):
+    """Several numbers a row: the coordinates of a place, or one for each side."""
+
+    @overload
+    def __getitem__(self, rows: tuple[_Row, _Row]) -> S: ...  # type: ignore[overload-overlap]  # all numbers
+
+    @overload
+    def __getitem__(self, rows: _Row | _Several | _Part) -> NDArray[S]: ...
+
+    def __getitem__(self, rows: _Row | _Several | _Part) -> S | NDArray[S]:
+        return self.data[rows]
+
+
+class MatrixColumn(Column[S]):
+    """Several vectors a row."""
+
+    @overload
+    def __getitem__(self, rows: tuple[_Row, _Row, _Row]) -> S: ...  # type: ignore[overload-overlap]  # same
+
+    @overload
+    def __getitem__(self, rows: _Row | _Several | _Part) -> NDArray[S]: ...
+
+    def __getitem__(self, rows: _Row | _Several | _Part) -> S | NDArray[S]:
+        return self.data[rows]
+
+
+class ValueColumn(Generic[V]):
+    """A growing list of values that never change, one entry a row.
+
+    Without a fill value, a new row is written before anyone reads it.
+    """
+
+    def __init__(self, fill: V | None) -> None:
+        self.data: list[V] = []
         self.fill = fill
 
     def resize(self, count: int) -> None:
         """Bring the column to `count` rows; new ones hold the fill value."""
         del self.data[count:]
-        self.data.extend([self.fill] * (count - len(self.data)))
+        fresh = [self.fill] * (count - len(self.data))
+        self.data.extend(fresh)  # type: ignore[arg-type]  # None stands where nothing is written yet
+
+    @overload
+    def __getitem__(self, row: SupportsIndex) -> V: ...
+
+    @overload
+    def __getitem__(self, row: slice) -> list[V]: ...
+
+    def __getitem__(self, row: SupportsIndex | slice) -> V | list[V]:
+        return self.data[row]
 
 
+AnyColumn = Column[np.generic] | ValueColumn[object]
+"""A column taken by its name, which does not tell what it holds."""
+
+
+# --------------------------------------------------------------------------------------
+# How columns are declared.
+
+
+def numbers(dtype: type[S], fill: float = 0) -> NumberColumn[S]:
+    """Declare a column of one number a row."""
+    return attrs.field(factory=lambda: NumberColumn(dtype, (), fill), init=False)
+
+
+def vectors(dtype: type[S], size: int, fill: float = 0) -> VectorColumn[S]:
+    """Declare a column of `size` numbers a row."""
+    return attrs.field(factory=lambda: VectorColumn(dtype, (size,), fill), init=False)
+
+
+def matrices(dtype: type[S], shape: tuple[int, int], fill: float = 0) -> MatrixColumn[S]:
+    """Declare a column of vectors, as many and as long as `shape` says."""
+    return attrs.field(factory=lambda: MatrixColumn(dtype, shape, fill), init=False)
+
+
+def values(fill: V) -> ValueColumn[V]:
+    """Declare a column of values; new rows hold `fill`."""
+    return attrs.field(factory=lambda: ValueColumn(fill), init=False)
+
+
+def values_given() -> ValueColumn[V]:
+    """Declare a column of values that have to be given for every new row."""
+    return attrs.field(factory=lambda: ValueColumn[V](None), init=False)
+
+
+@attrs.frozen(eq=False)
 class Table:
-    """Columns of one length, by name.
+    """Columns of one length.
 
-    Parameters
+    Attributes
     ----------
-    **columns : (dtype, shape), (dtype, shape, fill), or (object, fill)
-        What each column holds per row.
+    columns : dict of str to column
+        The columns by their names, in the order of their declaration.
     """
 
-    def __init__(self, **columns: tuple[Any, ...]) -> None:
-        self.count = 0
-        self.columns: dict[str, ArrayColumn | ListColumn] = {}
-        for name, spec in columns.items():
-            column = ListColumn(spec[1]) if spec[0] is object else ArrayColumn(*spec)
-            self.columns[name] = column
-            setattr(self, name, column)
+    columns: dict[str, AnyColumn] = attrs.field(factory=dict, init=False, repr=False)
 
-    def __getattr__(self, name: str) -> Any:
-        raise AttributeError(f"this table has no column {name!r}")
+    def __attrs_post_init__(self) -> None:
+        names = [each.name for each in attrs.fields(type(self)) if each.name != "columns"]
+        self.columns.update((name, getattr(self, name)) for name in names)
+
+    @property
+    def count(self) -> int:
+        """How many rows there are."""
+        return len(next(iter(self.columns.values())).data)
 
     def stamps(self) -> dict[str, int]:
-        """Give the number of the last write of every array column."""
+        """Give the number of the last write of every column of numbers."""
         return {
-            name: each.writes
-            for name, each in self.columns.items()
-            if isinstance(each, ArrayColumn)
+            name: each.writes for name, each in self.columns.items() if isinstance(each, Column)
         }
 
     def restamp(self, stamps: Mapping[str, int]) -> None:
         """Say that the columns are again as they were when they had these numbers."""
         for name, each in stamps.items():
             column = self.columns[name]
-            assert isinstance(column, ArrayColumn)
+            assert isinstance(column, Column)
             column.writes = each
 
     def resize(self, count: int) -> None:
         """Bring every column to `count` rows."""
-        self.count = count
         for column in self.columns.values():
             column.resize(count)

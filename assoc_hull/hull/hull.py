@@ -168,7 +168,7 @@ class Hull:
     def crossings(self) -> Mapping[str, Crossing]:
         """All crossings by address."""
         book, table = AddressBook(self.state), self.state.rows
-        live = [row for row in self.state.live("rows").tolist() if table.curve.data[row, 1] >= 0]
+        live = [row for row in self.state.live("rows").tolist() if table.curve[row, 1] >= 0]
         return NamedMapping("crossing", {book.address(i): Crossing.of(self.state, i) for i in live})
 
     @property

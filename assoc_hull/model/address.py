@@ -74,8 +74,8 @@ class AddressBook:
         found: defaultdict[str, list[int]] = defaultdict(list)
         table = self.state.lines
         for line in self.state.live("lines").tolist():
-            group = self.state.groups.name.data[int(table.group.data[line])]
-            for name in {table.name.data[line], f"{group}/{table.name.data[line]}"}:
+            group = self.state.groups.name[int(table.group[line])]
+            for name in {table.name[line], f"{group}/{table.name[line]}"}:
                 found[name].append(line)
         return dict(found)
 
@@ -86,43 +86,42 @@ class AddressBook:
         curve = table.curve.data
         found = np.isin(curve[:, 0], a) & np.isin(curve[:, 1], b) & table.alive.data
         rows = np.flatnonzero(found)
-        return dict(zip(table.birth.data[rows].tolist(), rows.tolist(), strict=True))
+        return dict(zip(table.birth[rows].tolist(), rows.tolist(), strict=True))
 
     @cached_property
     def keys(self) -> dict[str, ResolvedAddress]:
         """Everything alive by its key or label."""
         state = self.state
         found = {
-            state.groups.name.data[group]: ResolvedAddress(group)
+            state.groups.name[group]: ResolvedAddress(group)
             for group in state.live("groups").tolist()
         }
         found |= {
-            state.lines.key.data[line]: self._line_place(line)
-            for line in state.live("lines").tolist()
+            state.lines.key[line]: self._line_place(line) for line in state.live("lines").tolist()
         }
         found |= {
-            state.curves.key.data[curve]: self._curve_place(curve)
+            state.curves.key[curve]: self._curve_place(curve)
             for curve in state.live("curves").tolist()
         }
         for row in state.live("rows").tolist():
-            found[state.rows.key.data[row]] = self._row_place(row, self.usual_side(row))
-            label = state.rows.label.data[row]
+            found[state.rows.key[row]] = self._row_place(row, self.usual_side(row))
+            label = state.rows.label[row]
             if label:
-                found.setdefault(label, found[state.rows.key.data[row]])
+                found.setdefault(label, found[state.rows.key[row]])
         return found
 
     def line_name(self, line: int) -> str:
         """Give the name of a line, with its group where another group has the same."""
-        name = str(self.state.lines.name.data[line])
+        name = str(self.state.lines.name[line])
         if len(self.lines.get(name, ())) <= 1:
             return name
-        return f"{self.state.groups.name.data[int(self.state.lines.group.data[line])]}/{name}"
+        return f"{self.state.groups.name[int(self.state.lines.group.data[line])]}/{name}"
 
     def curve_name(self, curve: int) -> str:
         """Give the name of a curve: that of its line, with a number if it is one of several."""
         line = self.state.line_of(curve)
         if line < 0:
-            return str(self.state.curves.key.data[curve])
+            return str(self.state.curves.key[curve])
         pieces = self._pieces(line)
         if len(pieces) < 2 or curve not in pieces:
             return self.line_name(line)
@@ -133,7 +132,7 @@ class AddressBook:
         at = self.usual_side(row) if side is None else side
         short = self._short(row, at)
         if short is None:
-            return str(self.state.rows.key.data[row])
+            return str(self.state.rows.key[row])
         return short
 
     def resolve(self, text: str) -> ResolvedAddress:
@@ -207,13 +206,13 @@ class AddressBook:
     def _short(self, row: int, side: int) -> str | None:
         """Give the address of a point in names, None if these do not lead to it."""
         table, names = self.state.rows, tuple[str, ...]()
-        a, b = table.curve.data[row].tolist()
+        a, b = table.curve[row].tolist()
         lines = self.state.curves.line.data
         if a < 0 or lines[a] < 0 or (b >= 0 and lines[b] < 0):
             return None
         if b < 0:
             names = (self.line_name(int(lines[a])),)
-            sort = Sort(int(table.sort.data[row]))
+            sort = Sort(int(table.sort[row]))
             if sort is Sort.CROSSING:
                 return None
             rows = self._own_rows(int(lines[a]), sort)
@@ -222,7 +221,7 @@ class AddressBook:
             text = f"{names[0]} @ {sort.name.lower()} {rows.index(row) + 1}"
         else:
             first, second = (a, b) if side == 0 else (b, a)
-            birth = int(table.birth.data[row])
+            birth = int(table.birth[row])
             number = f" #{birth}" if birth > 1 else ""
             names = (self.line_name(int(lines[first])), self.line_name(int(lines[second])))
             text = f"{names[0]} x {names[1]}{number}"
@@ -251,13 +250,13 @@ class AddressBook:
         numbers = set(self.lines[line])
         table = self.state.rows
         for row in self.state.live("rows").tolist():
-            for side, curve in enumerate(table.curve.data[row].tolist()):
+            for side, curve in enumerate(table.curve[row].tolist()):
                 if curve >= 0 and self.state.line_of(curve) in numbers:
                     yield self.address(row, side)
 
     def _pieces(self, line: int) -> list[int]:
         alive = self.state.curves.alive.data
-        return [curve for curve in self.state.lines.curves.data[line] if alive[curve]]
+        return [curve for curve in self.state.lines.curves[line] if alive[curve]]
 
     def _own_rows(self, line: int, sort: Sort) -> list[int]:
         """Give the placed or adopted points of a line, in order along it."""
@@ -265,23 +264,23 @@ class AddressBook:
         return [
             row
             for curve in self._pieces(line)
-            for row in self.state.curves.rows.data[curve].tolist()
-            if table.sort.data[row] == sort and table.alive.data[row]
+            for row in self.state.curves.rows[curve].tolist()
+            if table.sort[row] == sort and table.alive[row]
         ]
 
     def usual_side(self, row: int) -> int:
         """Give the side from which a point is named: the line of higher rank first."""
-        return int(self.state.rows.curve.data[row, 1] >= 0)
+        return int(self.state.rows.curve[row, 1] >= 0)
 
     def _line_place(self, line: int) -> ResolvedAddress:
-        return ResolvedAddress(int(self.state.lines.group.data[line]), line)
+        return ResolvedAddress(int(self.state.lines.group[line]), line)
 
     def _curve_place(self, curve: int) -> ResolvedAddress:
         line = self.state.line_of(curve)
         return attrs.evolve(self._line_place(line), curve=curve)
 
     def _row_place(self, row: int, side: int) -> ResolvedAddress:
-        curve = int(self.state.rows.curve.data[row, side])
+        curve = int(self.state.rows.curve[row, side])
         return attrs.evolve(self._curve_place(curve), row=row, side=side)
 
 

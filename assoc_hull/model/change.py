@@ -16,7 +16,7 @@ Examples
 >>> document = Document(wigley())
 >>> before, table = fingerprint(document.state), document.state.rows
 >>> with Transaction(document, "move") as edit:
-...     edit.write(np.array([9]), table.xyz.data[[9]] * [1.0, 1.01, 1.0], "the move")
+...     edit.write(np.array([9]), table.xyz[[9]] * [1.0, 1.01, 1.0], "the move")
 >>> change = change_of(document.state, document.history[-1].journal)
 >>> apply_change(document.state, change, forward=False)
 >>> fingerprint(document.state) == before
@@ -26,16 +26,16 @@ True
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import Any, Self
+from collections.abc import Collection, Iterator
+from typing import Self, TypeVar
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.journal import Journal, same_value
-from assoc_hull.graph.table import ArrayColumn
+from assoc_hull.graph.journal import ArrayChange, Journal, same_value
+from assoc_hull.graph.table import AnyColumn, Column, ValueColumn
 from assoc_hull.model.kinds import State
 from assoc_hull.model.lofting import loft_curves
 from assoc_hull.model.tables import TABLES, CurveIntersections, HullState
@@ -136,7 +136,7 @@ def crossing_positions(
     table = state.rows
     now = EarlierPositions({}, table.curve.data, table.spot.data, table.parameter.data)
     when = then or now
-    meets = [when.meets.get(curve, state.curves.meets.data[curve]) for curve in curves.tolist()]
+    meets = [when.meets.get(curve, state.curves.meets[curve]) for curve in curves.tolist()]
     met = _join(meets)
     stray_owner, row, side = _strays(when, curves, met[0], met[3])
     owner = np.concatenate([met[0], stray_owner])
@@ -155,7 +155,9 @@ def crossing_positions(
     )
 
 
-def _join(meets: list[CurveIntersections]) -> tuple[Any, ...]:
+def _join(
+    meets: list[CurveIntersections],
+) -> tuple[IntArray, IntArray, IntArray, IntArray, FloatArray]:
     """Concatenate intersections: owner, line, sign, row, and (n, 4), m, parameter and place."""
     whole = np.zeros(0, np.int64)
     owner = np.repeat(np.arange(len(meets)), [len(each.line) for each in meets])
@@ -197,7 +199,7 @@ def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
         )  # fmt: skip
     actual = places.row >= 0
     row, table = places.row[actual], state.rows
-    side = (table.curve.data[row, 0] != places.curve[places.owner[actual]]).astype(np.int64)
+    side = (table.curve[row, 0] != places.curve[places.owner[actual]]).astype(np.int64)
     part = 2 * row + side
     table.parameter.parts()[part] = places.at[actual, 0]
     table.spot.parts()[part] = places.at[actual, 1:]
@@ -212,7 +214,9 @@ _PLACES = ("curves.meets", "rows.spot", "rows.parameter")
 _OWN_WAY = (*_PLACES, "curves.spline", "settings.births")
 """Columns that are not kept as they are: places on curves, splines, and counts of births."""
 
-Births = dict[tuple[str, str], tuple[int, int]]
+_S = TypeVar("_S", bound=np.generic)
+
+BirthCounts = dict[tuple[str, str], tuple[int, int]]
 
 
 @attrs.frozen(eq=False)
@@ -244,8 +248,8 @@ class TableChange:
 
     sizes: dict[str, tuple[int, int]]
     bits: dict[str, tuple[IntArray, NDArray[np.uint8]]]
-    objects: dict[str, tuple[IntArray, list[Any], list[Any]]]
-    births: Births
+    objects: dict[str, tuple[IntArray, list[object], list[object]]]
+    births: BirthCounts
     moved: tuple[IntArray, NDArray[np.uint8]]
     before: CrossingPositions
     after: CrossingPositions
@@ -271,7 +275,7 @@ def _table(name: str) -> str:
     return name.partition(".")[0]
 
 
-def _columns(state: HullState) -> Iterator[tuple[str, Any]]:
+def _columns(state: HullState) -> Iterator[tuple[str, AnyColumn]]:
     for table in TABLES:
         for name, column in getattr(state, table).columns.items():
             yield f"{table}.{name}", column
@@ -283,58 +287,59 @@ def change_of(state: HullState, journal: Journal) -> TableChange:
     columns = {name: column for name, column in _columns(state) if id(column) in written}
     sizes = {name: journal.sizes(getattr(state, name)) for name in TABLES}
     bits: dict[str, tuple[IntArray, NDArray[np.uint8]]] = {}
-    objects: dict[str, tuple[IntArray, list[Any], list[Any]]] = {}
+    objects: dict[str, tuple[IntArray, list[object], list[object]]] = {}
     for name, column in columns.items():
         if name in _OWN_WAY:
             continue
-        net = journal.net(column)
-        if isinstance(column, ArrayColumn):
+        if isinstance(column, Column):
+            net = journal.net(column)
             found = _bytes(net.old) ^ _bytes(net.new)
             odd = found.any(axis=1)
             # A row may have been written with the bits that it had, or taken back.
             if odd.any():
                 bits[name] = net.rows[odd], found[odd]
         else:
+            held = journal.net(column)
             chosen = [
                 i
-                for i, (a, b) in enumerate(zip(net.old, net.new, strict=True))
+                for i, (a, b) in enumerate(zip(held.old, held.new, strict=True))
                 if not same_value(a, b)
             ]
             if chosen:
                 objects[name] = (
-                    net.rows[chosen], [net.old[i] for i in chosen], [net.new[i] for i in chosen]
+                    held.rows[chosen], [held.old[i] for i in chosen], [held.new[i] for i in chosen]
                 )  # fmt: skip
     moved, before, after = _places(state, journal, columns)
     lofted, kept = _shapes(state, journal, columns)
     return TableChange(
         {name: size for name, size in sizes.items() if size[0] != size[1]}, bits, objects,
-        _births(journal, columns), moved, before, after, lofted, kept,
+        _births(state, journal, columns), moved, before, after, lofted, kept,
     )  # fmt: skip
 
 
-def _bytes(values: NDArray[Any]) -> NDArray[np.uint8]:
+def _bytes(values: NDArray[np.generic]) -> NDArray[np.uint8]:
     """Give each row as bytes, (k, bytes)."""
     width = values.itemsize * math.prod(values.shape[1:])
     return np.frombuffer(values.tobytes(), np.uint8).reshape(len(values), width)
 
 
-def _differ(old: NDArray[Any], new: NDArray[Any]) -> NDArray[np.bool_]:
+def _differ(old: NDArray[np.generic], new: NDArray[np.generic]) -> NDArray[np.bool_]:
     """Tell for each row whether a bit differs."""
     found: NDArray[np.bool_] = (_bytes(old) != _bytes(new)).any(axis=1)
     return found
 
 
-def _births(journal: Journal, columns: dict[str, Any]) -> Births:
+def _births(state: HullState, journal: Journal, columns: Collection[str]) -> BirthCounts:
     if "settings.births" not in columns:
         return {}
-    net = journal.net(columns["settings.births"])
+    net = journal.net(state.settings.births)
     old, new = net.old[0] or {}, net.new[0]
     pairs = sorted(pair for pair in {*old, *new} if old.get(pair) != new.get(pair))
     return {pair: (old.get(pair, 0), new.get(pair, 0)) for pair in pairs}
 
 
 def _places(
-    state: HullState, journal: Journal, columns: dict[str, Any]
+    state: HullState, journal: Journal, columns: Collection[str]
 ) -> tuple[tuple[IntArray, NDArray[np.uint8]], CrossingPositions, CrossingPositions]:
     """Compare the places on all curves that may have others than before."""
     then, curves = _columns_before(state, journal, columns)
@@ -348,39 +353,45 @@ def _places(
 
 
 def _columns_before(
-    state: HullState, journal: Journal, columns: dict[str, Any]
+    state: HullState, journal: Journal, columns: Collection[str]
 ) -> tuple[EarlierPositions, IntArray]:
     """Give the columns of places before, and the curves that may have other places now."""
     table, touched = state.rows, [np.zeros(0, np.int64)]
-    was = {name: getattr(table, name).data for name in ("curve", "spot", "parameter")}
-    for name, now in was.items():
-        if f"rows.{name}" not in columns:
-            continue
-        net = journal.net(columns[f"rows.{name}"])
-        was[name] = now.copy()
-        was[name][net.rows] = net.old
-        odd = np.stack([_differ(net.old[:, side], net.new[:, side]) for side in (0, 1)], axis=1)
-        touched += [each[net.rows][odd] for each in (table.curve.data, was["curve"])]
-    meets = {}
+    nets = journal.net(table.curve), journal.net(table.spot), journal.net(table.parameter)
+    curve = _column_before(table.curve, nets[0])
+    for net in nets:
+        if len(net.rows):
+            odd = np.stack([_differ(net.old[:, side], net.new[:, side]) for side in (0, 1)], axis=1)
+            touched += [each[net.rows][odd] for each in (table.curve.data, curve)]
+    meets: dict[int, CurveIntersections] = {}
     if "curves.meets" in columns:
-        net = journal.net(columns["curves.meets"])
-        meets = dict(zip(net.rows.tolist(), net.old, strict=True))
-        touched.append(net.rows)
+        met = journal.net(state.curves.meets)
+        meets = dict(zip(met.rows.tolist(), met.old, strict=True))
+        touched.append(met.rows)
     curves = np.unique(np.concatenate(touched))
-    then = EarlierPositions(meets, was["curve"], was["spot"], was["parameter"])
-    return then, curves[curves >= 0]
+    spot, parameter = _column_before(table.spot, nets[1]), _column_before(table.parameter, nets[2])
+    return EarlierPositions(meets, curve, spot, parameter), curves[curves >= 0]
+
+
+def _column_before(column: Column[_S], net: ArrayChange[_S]) -> NDArray[_S]:
+    """Give a column as it was before what a journal did to it."""
+    if not len(net.rows):
+        return column.data
+    found = column.data.copy()
+    found[net.rows] = net.old
+    return found
 
 
 def _shapes(
-    state: HullState, journal: Journal, columns: dict[str, Any]
+    state: HullState, journal: Journal, columns: Collection[str]
 ) -> tuple[IntArray, tuple[dict[int, SplineBatch], dict[int, SplineBatch]]]:
     """Give the curves that were lofted, and the splines that are no loft of their points."""
     if "curves.spline" not in columns:
         return np.zeros(0, np.int64), ({}, {})
-    net, now = journal.net(columns["curves.spline"]), state.curves.state.data
+    net, now = journal.net(state.curves.spline), state.curves.state.data
     was = now.copy()
     if "curves.state" in columns:
-        states = journal.net(columns["curves.state"])
+        states = journal.net(state.curves.state)
         was[states.rows] = states.old
     kept = tuple(
         {
@@ -408,10 +419,14 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
     alive = state.curves.alive.data.copy()
     columns = dict(_columns(state))
     for name, (rows, bits) in change.bits.items():
-        _flip(columns[name], rows, bits)
+        column = columns[name]
+        assert isinstance(column, Column), name
+        _flip(column, rows, bits)
     for name, (rows, old, new) in change.objects.items():
+        held = columns[name]
+        assert isinstance(held, ValueColumn), name
         for row, value in zip(rows.tolist(), new if forward else old, strict=True):
-            columns[name].data[row] = value
+            held.data[row] = value
     if change.births:
         state.settings.births.data[0] = _counted(state, change.births, forward)
     # the crossings know their curves now, as both of these need it
@@ -424,8 +439,8 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
     curves = curves[curves < state.curves.count]
     shape_curves(state, curves, change.kept[forward])
     for curve in state.live("curves").tolist():
-        if state.curves.spline.data[curve] is None:
-            raise ValueError(f"the curve {state.curves.key.data[curve]!r} would have no shape")
+        if state.curves.spline[curve] is None:
+            raise ValueError(f"the curve {state.curves.key[curve]!r} would have no shape")
 
 
 def _resize(state: HullState, change: TableChange, which: int) -> None:
@@ -433,14 +448,14 @@ def _resize(state: HullState, change: TableChange, which: int) -> None:
         getattr(state, name).resize(sizes[which])
 
 
-def _flip(column: ArrayColumn, rows: IntArray, bits: NDArray[np.uint8]) -> None:
+def _flip(column: Column[np.generic], rows: IntArray, bits: NDArray[np.uint8]) -> None:
     values = column.store.take(rows, axis=0)
     flipped = _bytes(values) ^ bits
     column.store[rows] = flipped.view(column.store.dtype).reshape(values.shape)
     column.written()
 
 
-def _counted(state: HullState, births: Births, forward: bool) -> dict[tuple[str, str], int]:
+def _counted(state: HullState, births: BirthCounts, forward: bool) -> dict[tuple[str, str], int]:
     found = {**state.births, **{pair: counts[forward] for pair, counts in births.items()}}
     return {pair: count for pair, count in found.items() if count}
 
@@ -458,7 +473,7 @@ def shape_curves(state: HullState, curves: IntArray, kept: dict[int, SplineBatch
 
     Dead curves are left as they are; `kept` are the splines of curves that could not be made.
     """
-    chosen = state.curves.alive.data[curves] & (state.curves.state.data[curves] == State.CLEAN)
+    chosen = state.curves.alive[curves] & (state.curves.state[curves] == State.CLEAN)
     made = curves[chosen]
     if len(made):
         batch = loft_curves(state, made)

@@ -92,7 +92,7 @@ def line_numbers(state: HullState) -> dict[str, int]:
 def host_curve(state: HullState, feature: Feature) -> int:
     """Give the curve of its lines that a feature of one curve lies on; -1 if there is none."""
     keys = state.lines.key.data
-    curves = state.rows.curve.data[feature.points[0]].tolist()
+    curves = state.rows.curve[feature.points[0]].tolist()
     for curve in (each for each in curves if each >= 0):
         if keys[state.line_of(curve)] in feature.lines:
             return int(curve)

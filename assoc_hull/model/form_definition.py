@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
-from typing import Any
+from typing import TypedDict, Unpack
 
 import attrs
 
@@ -239,6 +239,18 @@ class FormDefinition:
         return attrs.evolve(self, values={**self.values, **changes})
 
 
+class _Changes(TypedDict, total=False):
+    """Attributes of a `GeneratedCurve`."""
+
+    key: str
+    curve: int
+    what: str
+    layout: str
+    rows: tuple[int, ...]
+    marks: tuple[Mark, ...]
+    attached: bool
+
+
 @attrs.frozen
 class GeneratedCurve:
     """A curve whose points, except its ends, are computed from definitions.
@@ -274,6 +286,6 @@ class GeneratedCurve:
         """Whether the points depend on where the ends of the curve lie: those of sections do."""
         return self.what == "section"
 
-    def evolve(self, **changes: Any) -> GeneratedCurve:
+    def evolve(self, **changes: Unpack[_Changes]) -> GeneratedCurve:
         """Give the same with other attributes."""
         return attrs.evolve(self, **changes)

@@ -31,7 +31,7 @@ def watched_on(state: HullState, curves: IntArray) -> IntArray:
     first = np.ones(len(rows), np.bool_)
     np.not_equal(rows[1:], rows[:-1], out=first[1:])
     rows = rows[first]
-    found: IntArray = rows[(table.sort.data[rows] == Sort.CROSSING) & table.alive.data[rows]]
+    found: IntArray = rows[(table.sort[rows] == Sort.CROSSING) & table.alive[rows]]
     return found
 
 
@@ -48,8 +48,7 @@ def tangents(
     if not len(curves):
         return np.zeros((0, 3))
     numbers, local = _numbered(curves)
-    spline = state.curves.spline.data
-    batch = SplineBatch.join([spline[curve] for curve in numbers])
+    batch = SplineBatch.join([state.spline(curve) for curve in numbers])
     slope = derivative(batch, local, parameters, guess=guess)
     found: FloatArray = (slope.T / _length(slope)).T
     return found
@@ -95,7 +94,7 @@ def along_normal(state: HullState, rows: IntArray, away: FloatArray) -> FloatArr
     is what leads across the curve; nan for a point whose curves are not there.
     """
     table, found = state.rows, np.full(len(rows), np.nan)
-    curve, at = table.curve.data[rows], table.parameter.data[rows]
+    curve, at = table.curve[rows], table.parameter[rows]
     held = (curve >= 0) & np.isfinite(at)
     for side in (0, 1):
         held[:, side] &= _is_lofted(state, curve[:, side], held[:, side])

@@ -34,7 +34,7 @@ __all__ = [
     "unmade_rows",
 ]
 
-_Known = tuple[list[object], Mapping[int, GeneratedCurve], IntArray, IntArray]
+_Known = tuple[list[GeneratedCurve | None], Mapping[int, GeneratedCurve], IntArray, IntArray]
 
 
 def attached_curves(state: HullState) -> Mapping[int, GeneratedCurve]:
@@ -118,20 +118,20 @@ def forms_with(state: HullState, definitions: Sequence[FormDefinition]) -> Forms
 
 def line_offset(state: HullState, curve: int) -> float:
     """Give where the plane of a curve's line stands, m along its axis; nan for a space curve."""
-    return float(state.lines.offset.data[state.line_of(curve)])
+    return float(state.lines.offset[state.line_of(curve)])
 
 
 def part_in_line(state: HullState, curve: int) -> int:
     """Give the number of a curve among the live ones of its line, from 0."""
-    mine: Sequence[int] = state.lines.curves.data[state.line_of(curve)]
-    live = [each for each in mine if state.curves.alive.data[each]]
+    mine: Sequence[int] = state.lines.curves[state.line_of(curve)]
+    live = [each for each in mine if state.curves.alive[each]]
     return live.index(curve)
 
 
 def end_points(state: HullState, curves: Sequence[int]) -> FloatArray:
     """Give the first and the last defining point of curves, (m, 2, 3), m."""
-    rows = [state.curves.rows.data[curve][[0, -1]] for curve in curves]
-    found: FloatArray = state.rows.xyz.data[np.array(rows, np.int64).reshape(-1, 2)]
+    rows = [state.curves.rows[curve][[0, -1]] for curve in curves]
+    found: FloatArray = state.rows.xyz[np.array(rows, np.int64).reshape(-1, 2)]
     return found
 
 

@@ -70,7 +70,7 @@ def _families(state: HullState, curves: IntArray) -> list[str]:
 def _at(state: HullState, family: str, position: float) -> IntArray:
     """Give the curves of a family in the plane at a position."""
     curves = state.live("curves")
-    there = state.lines.offset.data[state.curves.line.data[curves]] == position
+    there = state.lines.offset[state.curves.line[curves]] == position
     mine = np.array([name == family for name in _families(state, curves)], bool)
     found: IntArray = curves[there & mine]
     return found
@@ -109,7 +109,7 @@ def _marks(state: HullState, z: float, apart: float) -> _Marks:
     curves = state.live("curves")
     wanted = [name in ("sections", "boundary") for name in _families(state, curves)]
     owner, xyz = _meet(state, curves[np.array(wanted, bool)], _Z, z)
-    kind = state.lines.boundary.data[state.curves.line.data[owner]].astype(np.int64)
+    kind = state.lines.boundary[state.curves.line[owner]].astype(np.int64)
     order = np.lexsort((-xyz[:, 1], xyz[:, 0]))
     kept: list[int] = []
     for item in order.tolist():

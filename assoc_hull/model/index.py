@@ -92,7 +92,7 @@ class Index:
     makes: dict[int, IntArray]
     forms: dict[int, IntArray]
     guess: np.typing.NDArray[np.int32]
-    recall: dict[bytes, Any] = attrs.field(factory=dict)
+    recall: dict[Hashable, object] = attrs.field(factory=dict)
     _answers: dict[Hashable, tuple[Hashable, Any]] = attrs.field(factory=dict, init=False)
 
     def answer(self, question: Hashable, stamp: Hashable, find: Callable[[], T]) -> T:
@@ -103,7 +103,7 @@ class Index:
         question : hashable
             What is asked: a drag asks the same again and again.
         stamp : hashable
-            How often the columns it depends on were written, as `ArrayColumn.writes` says.
+            How often the columns it depends on were written, as `Column.writes` says.
         find : callable
             Finds the answer; what it gives must not be changed.
         """
@@ -147,10 +147,10 @@ def driven_levels(state: HullState) -> IntArray:
     """
     rows = state.rows
     driver = np.where(rows.alive.data, rows.driver.data, -1)
-    reader = np.where(rows.reader.data[:, 0] >= 0, rows.reader.data[:, 0], rows.reader.data[:, 1])
+    reader = np.where(rows.reader[:, 0] >= 0, rows.reader[:, 0], rows.reader[:, 1])
     link = np.flatnonzero((driver >= 0) & (reader >= 0))
     return levels(
-        state.curves.count, driver[link], reader[link], lambda c: str(state.curves.key.data[c])
+        state.curves.count, driver[link], reader[link], lambda c: str(state.curves.key[c])
     )
 
 
@@ -165,7 +165,7 @@ def _riders(state: HullState) -> dict[int, IntArray]:
     found: defaultdict[int, list[int]] = defaultdict(list)
     riding = state.rows.alive.data & (state.rows.anchor.data >= 0).any(axis=1)
     for row in np.flatnonzero(riding).tolist():
-        for anchor in sorted(set(state.rows.anchor.data[row].tolist()) - {-1}):
+        for anchor in sorted(set(state.rows.anchor[row].tolist()) - {-1}):
             found[anchor].append(row)
     return {anchor: np.array(riders, np.int64) for anchor, riders in found.items()}
 
@@ -173,13 +173,13 @@ def _riders(state: HullState) -> dict[int, IntArray]:
 def _generating(state: HullState) -> tuple[dict[int, IntArray], dict[int, IntArray]]:
     """Give the generated points by the ends, and by the definitions, that they are made of."""
     ends, forms = defaultdict[int, list[int]](list), defaultdict[int, list[int]](list)
-    number = {state.formed.definition.data[i].use: i for i in state.live("formed").tolist()}
+    number = {state.formed.definition[i].use: i for i in state.live("formed").tolist()}
     for curve, made in attached_curves(state).items():
         for use in definitions_read(made):
             if use in number:
                 forms[number[use]] += made.rows
         if made.reads_ends:
-            for row in set(state.curves.rows.data[curve][[0, -1]].tolist()):
+            for row in set(state.curves.rows[curve][[0, -1]].tolist()):
                 ends[row] += made.rows
     return tuple(  # type: ignore[return-value]
         {each: np.array(sorted(rows), np.int64) for each, rows in found.items()}
@@ -203,13 +203,13 @@ def _partners(state: HullState) -> dict[int, tuple[PlaneSet, ...]]:
 
 def _planes(state: HullState, group: int) -> tuple[PlaneSet, ...]:
     """Group a family's planes by normal; boundary curves cut nothing, they are contacts."""
-    if state.groups.family.data[group] == "boundary":
+    if state.groups.family[group] == "boundary":
         return ()
     lines = state.lines
     mine = np.flatnonzero(lines.alive.data & lines.planar.data & (lines.group.data == group))
     found: list[PlaneSet] = []
-    for normal in sorted({tuple(row) for row in lines.normal.data[mine].tolist()}):
-        chosen = mine[(lines.normal.data[mine] == normal).all(axis=1)]
-        chosen = chosen[np.argsort(lines.offset.data[chosen], kind="stable")]
-        found.append(PlaneSet(np.array(normal), lines.offset.data[chosen].copy(), chosen))
+    for normal in sorted({tuple(row) for row in lines.normal[mine].tolist()}):
+        chosen = mine[(lines.normal[mine] == normal).all(axis=1)]
+        chosen = chosen[np.argsort(lines.offset[chosen], kind="stable")]
+        found.append(PlaneSet(np.array(normal), lines.offset[chosen].copy(), chosen))
     return tuple(found)

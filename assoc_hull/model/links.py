@@ -25,7 +25,7 @@ __all__ = [
 
 def generates(state: HullState, line_a: int, line_b: int) -> tuple[bool, bool]:
     """Tell whether line a generates points on line b, and b on a."""
-    names = [state.groups.name.data[int(state.lines.group.data[line])] for line in (line_a, line_b)]
+    names = [state.groups.name[int(state.lines.group[line])] for line in (line_a, line_b)]
     for link in state.associations:
         if [link.a, link.b] == names:
             return True, link.two_way
@@ -60,8 +60,8 @@ class PointsOnCurve:
 
 def defines(state: HullState, row: int, side: int) -> bool:
     """Tell whether a point defines the curve on one of its sides."""
-    curve = int(state.rows.curve.data[row, side])
-    return curve >= 0 and bool((state.rows.reader.data[row] == curve).any())
+    curve = int(state.rows.curve[row, side])
+    return curve >= 0 and bool((state.rows.reader[row] == curve).any())
 
 
 def point_positions(state: HullState, row: IntArray, side: IntArray) -> FloatArray:
@@ -71,10 +71,10 @@ def point_positions(state: HullState, row: IntArray, side: IntArray) -> FloatArr
     curve where that curve passes.
     """
     table = state.rows
-    spot = table.spot.data[row, side]
-    watched = (table.sort.data[row] == Sort.CROSSING) & (table.role.data[row] == Role.WATCHED)
+    spot = table.spot[row, side]
+    watched = (table.sort[row] == Sort.CROSSING) & (table.role[row] == Role.WATCHED)
     own = watched & np.isfinite(spot).all(axis=1)
-    found: FloatArray = np.where(own[:, None], spot, table.xyz.data[row])
+    found: FloatArray = np.where(own[:, None], spot, table.xyz[row])
     return found
 
 
@@ -94,24 +94,24 @@ def points_on(state: HullState, curve: int) -> PointsOnCurve:
     """
     table = state.rows
     row = np.flatnonzero(table.alive.data & (table.curve.data == curve).any(axis=1))
-    side = (table.curve.data[row, 0] != curve).astype(np.int64)
-    defining = (table.reader.data[row] == curve).any(axis=1)
-    at = table.parameter.data[row, side].copy()
+    side = (table.curve[row, 0] != curve).astype(np.int64)
+    defining = (table.reader[row] == curve).any(axis=1)
+    at = table.parameter[row, side].copy()
     _put_knots(state, curve, row, at)
     lost = np.flatnonzero(~np.isfinite(at))
-    if len(lost) and state.curves.spline.data[curve] is not None:
+    if len(lost) and state.curves.spline[curve] is not None:
         at[lost] = closest_points(
             state.spline(curve), 0, point_positions(state, row[lost], side[lost])
         )[0]
-    keys = [table.key.data[each] for each in row.tolist()]
+    keys = [table.key[each] for each in row.tolist()]
     order = np.array(sorted(range(len(row)), key=lambda i: (at[i], keys[i])), np.int64)
     return PointsOnCurve(row[order], side[order], at[order], defining[order])
 
 
 def _put_knots(state: HullState, curve: int, row: IntArray, at: FloatArray) -> None:
     """Write the knots of the defining points, unless the curve has failed since."""
-    rows: IntArray = state.curves.rows.data[curve]
-    spline: SplineBatch | None = state.curves.spline.data[curve]
+    rows: IntArray = state.curves.rows[curve]
+    spline: SplineBatch | None = state.curves.spline[curve]
     if spline is None or len(spline.knot) != len(rows):
         return
     knot = dict(zip(rows.tolist(), spline.knot.tolist(), strict=True))
@@ -145,11 +145,11 @@ def free_axes(state: HullState, row: int) -> tuple[str, ...]:
     >>> free_axes(state, resolve_address(state, "WL 2.5 x ST 7").row)
     ('y',)
     """
-    curves = [curve for curve in state.rows.curve.data[row].tolist() if curve >= 0]
+    curves = [curve for curve in state.rows.curve[row].tolist() if curve >= 0]
     lines = [state.line_of(curve) for curve in curves]
-    normals = [state.lines.normal.data[line] for line in lines if state.lines.planar.data[line]]
+    normals = [state.lines.normal[line] for line in lines if state.lines.planar[line]]
     if len(normals) == 2:
-        along = np.abs(np.cross(*normals))
+        along = np.abs(np.cross(normals[0], normals[1]))
         if along.max() > _PARALLEL:
             return (AXES[int(along.argmax())],)
     if normals:
@@ -173,19 +173,19 @@ def latent_curves(state: HullState, curve: int) -> IntArray:
     A curve in a parallel plane is none: the two can never meet.
     """
     table = state.rows
-    group = int(state.lines.group.data[state.line_of(curve)])
+    group = int(state.lines.group[state.line_of(curve)])
     live = state.live("curves")
-    owner = state.lines.group.data[state.curves.line.data[live]]
+    owner = state.lines.group[state.curves.line[live]]
     reach = live[np.isin(owner, generates_on(state, group)) & ~_parallel(state, curve, live)]
     met = table.alive.data & (table.curve.data == curve).any(axis=1)
-    found: IntArray = np.setdiff1d(reach, table.curve.data[met])
+    found: IntArray = np.setdiff1d(reach, table.curve[met])
     return found
 
 
 def _parallel(state: HullState, curve: int, others: IntArray) -> np.typing.NDArray[np.bool_]:
     """Tell which curves lie in planes parallel to that of a curve."""
-    mine, theirs = state.line_of(curve), state.curves.line.data[others]
-    across = np.cross(state.lines.normal.data[mine], state.lines.normal.data[theirs])
-    both = state.lines.planar.data[mine] & state.lines.planar.data[theirs]
+    mine, theirs = state.line_of(curve), state.curves.line[others]
+    across = np.cross(state.lines.normal[mine], state.lines.normal[theirs])
+    both = state.lines.planar[mine] & state.lines.planar[theirs]
     found: np.typing.NDArray[np.bool_] = both & (np.abs(across).max(axis=1) <= _PARALLEL)
     return found

@@ -17,7 +17,8 @@ from assoc_hull.model.gaps import gap_at, watched_on
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import CurveIntersections, HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = ["attach_curves", "loft_all", "set_limits"]
 
@@ -42,13 +43,13 @@ def loft_all(state: HullState, journal: Journal) -> IntArray:
         network = HullNetwork(state, index)
         riding = np.unique(np.concatenate([np.zeros(0, np.int64), *_riding_on(state, batch)]))
         if len(riding):
-            network.evaluate(row_node(riding), journal)
-        network.evaluate(curve_node(batch), journal)
+            network.evaluate(Node.point(riding), journal)
+        network.evaluate(Node.curve(batch), journal)
         missing.append(attach_curves(state, batch, journal))
         driven = np.concatenate([np.zeros(0, np.int64), *_driven_by(index.drives, batch)])
         driven = np.setdiff1d(driven, missing[-1])
         if len(driven):
-            network.evaluate(row_node(driven), journal)
+            network.evaluate(Node.point(driven), journal)
     return np.unique(np.concatenate(missing))
 
 
@@ -57,8 +58,8 @@ def _driven_by(drives: dict[int, IntArray], curves: IntArray) -> list[IntArray]:
 
 
 def _riding_on(state: HullState, curves: IntArray) -> list[IntArray]:
-    parts = [state.curves.rows.data[curve] for curve in curves.tolist()]
-    return [part[(state.rows.anchor.data[part] >= 0).any(axis=1)] for part in parts]
+    parts = [state.curves.rows[curve] for curve in curves.tolist()]
+    return [part[(state.rows.anchor[part] >= 0).any(axis=1)] for part in parts]
 
 
 def attach_curves(
@@ -76,7 +77,7 @@ def attach_curves(
     expected = _expected(state, curves, line)
     missing: list[int] = []
     for curve in curves.tolist():
-        meets: CurveIntersections = state.curves.meets.data[curve]
+        meets: CurveIntersections = state.curves.meets[curve]
         mine = np.full(len(meets.line), True) if line is None else meets.line == line
         row = np.where(mine, -1, meets.row)
         for other, rows in sorted(expected[curve].items()):
@@ -96,12 +97,12 @@ def _expected(
     wanted = table.alive.data & (table.sort.data == Sort.CROSSING)
     wanted &= np.isin(table.curve.data, curves).any(axis=1)
     if line is not None:
-        wanted &= np.isin(table.curve.data, state.lines.curves.data[line]).any(axis=1)
+        wanted &= np.isin(table.curve.data, state.lines.curves[line]).any(axis=1)
     for row in np.flatnonzero(wanted).tolist():
-        a, b = table.curve.data[row].tolist()
+        a, b = table.curve[row].tolist()
         if a in found:
             found[a][state.line_of(b)].append(row)
-        if b in found and not table.contact.data[row]:
+        if b in found and not table.contact[row]:
             found[b][state.line_of(a)].append(row)
     return found
 
@@ -117,9 +118,9 @@ def _match(
     """Give the meetings with one plane to the crossings, nearest first."""
     spots = np.flatnonzero(meets.line == line)
     table = state.rows
-    place = {row: table.spot.data[row, int(table.curve.data[row, 0] != curve)] for row in rows}
+    place = {row: table.spot[row, int(table.curve[row, 0] != curve)] for row in rows}
     pairs = sorted(
-        (float(np.abs(meets.xyz[spot] - place[row]).max()), table.key.data[row], spot, row)
+        (float(np.abs(meets.xyz[spot] - place[row]).max()), table.key[row], spot, row)
         for spot in spots.tolist()
         for row in rows
     )
@@ -132,7 +133,7 @@ def _match(
 
 
 def _defines(state: HullState, row: int, curve: int) -> bool:
-    return bool((state.rows.reader.data[row] == curve).any())
+    return bool((state.rows.reader[row] == curve).any())
 
 
 def _write(
@@ -142,8 +143,8 @@ def _write(
     rows = meets.row[actual]
     if not len(rows):
         return
-    side = (state.rows.curve.data[rows, 0] != curve).astype(np.int64)
-    spot, at = state.rows.spot.data[rows].copy(), state.rows.parameter.data[rows].copy()
+    side = (state.rows.curve[rows, 0] != curve).astype(np.int64)
+    spot, at = state.rows.spot[rows].copy(), state.rows.parameter[rows].copy()
     spot[np.arange(len(rows)), side] = meets.xyz[actual]
     at[np.arange(len(rows)), side] = meets.parameter[actual]
     journal.put(state.rows.spot, rows, spot)
@@ -159,4 +160,4 @@ def set_limits(state: HullState, journal: Journal, rows: IntArray | None = None)
     journal.put(state.rows.gap, watched, gap)
     least = 2.0 * state.tolerances.adoption
     journal.put(state.rows.limit, watched, np.maximum(least, 1.5 * gap))
-    journal.put(state.rows.xyz, watched, state.rows.spot.data[watched, 0])
+    journal.put(state.rows.xyz, watched, state.rows.spot[watched, 0])

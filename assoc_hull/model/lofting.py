@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from operator import is_
-from typing import Any
+from typing import overload
 
 import attrs
 import numpy as np
@@ -47,7 +47,7 @@ def same_objects(one: Sequence[object], other: Sequence[object]) -> bool:
     return len(one) == len(other) and all(map(is_, one, other))
 
 
-def remember(recall: dict[Any, Any], key: object, value: object) -> None:
+def remember(recall: dict[Hashable, object], key: Hashable, value: object) -> None:
     """Keep something, and let go of what was not kept again for the longest time."""
     recall.pop(key, None)
     recall[key] = value
@@ -56,7 +56,7 @@ def remember(recall: dict[Any, Any], key: object, value: object) -> None:
 
 
 def curve_data(
-    state: HullState, curves: IntArray, recall: dict[Any, Any] | None = None
+    state: HullState, curves: IntArray, recall: dict[Hashable, object] | None = None
 ) -> CurveData:
     """Gather the defining points, kinds and end conditions of curves.
 
@@ -79,8 +79,8 @@ def curve_data(
     side = [table.side.data[curve] for curve in numbers]
     ends = [table.ends.data[curve] for curve in numbers]
     key = ("recipe", curves.tobytes())
-    plan: _Plan | None = None if recall is None else recall.get(key)
-    if plan is None or not (
+    plan = None if recall is None else recall.get(key)
+    if not isinstance(plan, _Plan) or not (
         same_objects(plan.rows, rows)
         and same_objects(plan.side, side)
         and same_objects(plan.ends, ends)
@@ -123,12 +123,20 @@ class _Names(Sequence[str]):
     def __len__(self) -> int:
         return len(self.curves)
 
-    def __getitem__(self, place: Any) -> Any:
-        return str(self.state.curves.key.data[int(self.curves[place])])
+    @overload
+    def __getitem__(self, place: int) -> str: ...
+
+    @overload
+    def __getitem__(self, place: slice) -> Sequence[str]: ...
+
+    def __getitem__(self, place: int | slice) -> str | Sequence[str]:
+        if isinstance(place, slice):
+            return _Names(self.state, self.curves[place])
+        return self.state.curves.key[int(self.curves[place])]
 
 
 def loft_curves(
-    state: HullState, curves: IntArray, recall: dict[Any, Any] | None = None
+    state: HullState, curves: IntArray, recall: dict[Hashable, object] | None = None
 ) -> SplineBatch:
     """Loft curves from their defining points, in one batch; `recall` as for `curve_data`.
 

@@ -8,7 +8,7 @@ birth for that pair, a placed or adopted point's from its curve and first place.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from typing import Any
+from typing import Protocol, TypeVar
 
 import attrs
 import numpy as np
@@ -17,13 +17,21 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, freeze
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.table import ListColumn, Table
+from assoc_hull.graph.table import ValueColumn
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.tables import Association, Ends, HullState
+from assoc_hull.model.tables import Association, Ends, Featured, Formed, HullState, Produced
 
 __all__ = ["CrossingSpec", "Maker", "PointSpec"]
+
+
+class _HasKey(Protocol):
+    @property
+    def key(self) -> str: ...
+
+
+K = TypeVar("K", bound=_HasKey)
 
 
 @attrs.frozen(eq=False)
@@ -112,10 +120,8 @@ class Maker:
         key: str | None = None,
     ) -> int:
         """Add a line without curves."""
-        table, title = self.state.lines, self.state.groups.name.data[group]
-        taken = [
-            table.name.data[i] for i in self.state.live("lines") if table.group.data[i] == group
-        ]
+        table, title = self.state.lines, self.state.groups.name[group]
+        taken = [table.name[i] for i in self.state.live("lines") if table.group[i] == group]
         if name in taken:
             raise NameTakenError(f"line of {title}", name)
         number = int(self.journal.grow(table, 1)[0])
@@ -146,8 +152,8 @@ class Maker:
         """Add a curve to a line; its points come by `define`."""
         table = self.state.curves
         number = int(self.journal.grow(table, 1)[0])
-        before = self.state.lines.curves.data[line]
-        key = self._fresh(table.key.data, f"{self.state.lines.key.data[line]}/{len(before) + 1}")
+        before = self.state.lines.curves[line]
+        key = self._fresh(table.key.data, f"{self.state.lines.key[line]}/{len(before) + 1}")
         self.journal.set(table.key, [number], [key])
         self.journal.put(table.line, [number], [line])
         self.journal.put(table.alive, [number], [True])
@@ -202,7 +208,7 @@ class Maker:
     def roles(self, rows: IntArray, roles: IntArray) -> None:
         """Give crossings their roles, with the links that follow from them."""
         table = self.state.rows
-        curve = table.curve.data[rows]
+        curve = table.curve[rows]
         first = (roles == Role.SHARED) | (roles == Role.DRIVES_A)
         second = (roles == Role.SHARED) | (roles == Role.DRIVES_B)
         reader = np.where(np.column_stack([first, second]), curve, -1)
@@ -221,7 +227,7 @@ class Maker:
         taken, keys = set(table.key.data), []
         for spec in specs:
             x, y, z = np.asarray(spec.xyz, np.float64).tolist()
-            wish = f"{self.state.curves.key.data[spec.curve]} @ ({x:.4f}, {y:.4f}, {z:.4f})"
+            wish = f"{self.state.curves.key[spec.curve]} @ ({x:.4f}, {y:.4f}, {z:.4f})"
             keys.append(self._fresh(taken, wish))
             taken.add(keys[-1])
         self.journal.set(table.key, rows.tolist(), keys)
@@ -238,7 +244,7 @@ class Maker:
     def define(self, curve: int, rows: ArrayLike) -> None:
         """Say which points define a curve, in order."""
         chosen = np.array(rows, np.int64)
-        side = (self.state.rows.curve.data[chosen, 0] != curve).astype(np.int64)
+        side = (self.state.rows.curve[chosen, 0] != curve).astype(np.int64)
         freeze(chosen, side)
         self.journal.set(self.state.curves.rows, [curve], [chosen])
         self.journal.set(self.state.curves.side, [curve], [side])
@@ -261,7 +267,9 @@ class Maker:
         """Let these curves and no others come from definitions, or have come before."""
         self._keyed(self.state.produced, self.state.produced.curve, wanted)
 
-    def _keyed(self, table: Table, column: ListColumn, wanted: Iterable[Any]) -> None:
+    def _keyed(
+        self, table: Featured | Formed | Produced, column: ValueColumn[K], wanted: Iterable[K]
+    ) -> None:
         """Bring a table of objects with keys to these objects; a key keeps its row."""
         there = {
             column.data[number].key: number for number in np.flatnonzero(table.alive.data).tolist()

@@ -23,8 +23,9 @@ from assoc_hull.model.align_intersections import Alignment, align_curve
 from assoc_hull.model.generated_curves import attached_curves, points_given, unmade_rows
 from assoc_hull.model.index import Index
 from assoc_hull.model.lofting import loft_curves, remember
+from assoc_hull.model.node import Node
 from assoc_hull.model.plane_intersections import LastIntersections, PartnerIntersections, cut_curves
-from assoc_hull.model.tables import CurveIntersections, HullState, curve_node, form_of, row_node
+from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = ["HullNetwork", "bits_differ"]
 
@@ -64,12 +65,12 @@ class HullNetwork:
 
     def level(self, nodes: IntArray) -> IntArray:
         """Give the level of each node."""
-        number, odd = nodes >> 1, (nodes & 1).astype(bool)
+        number, odd = Node.number(nodes), Node.is_curve(nodes)
         found = np.empty(len(nodes), np.int64)
         found[odd] = 4 * self.index.level[number[odd]]
         rows = number[~odd]
-        driver = self.state.rows.driver.data[rows]
-        own = self.state.rows.curve.data[rows, 0]
+        driver = self.state.rows.driver[rows]
+        own = self.state.rows.curve[rows, 0]
         riding = driver < 0
         of = np.where(riding, own, driver)
         found[~odd] = 4 * self.index.level[of] + np.where(riding, -1, 1)
@@ -89,21 +90,22 @@ class HullNetwork:
         return self.index.answer(
             ("reached", seeds.tobytes()),
             self.state.rows.reader.writes,
-            lambda: int((closure(self, seeds) & 1).sum()),
+            lambda: int(Node.is_curve(closure(self, seeds)).sum()),
         )
 
     def _find_readers(self, nodes: IntArray) -> Readers:
-        odd, forms = (nodes & 1).astype(np.bool_), nodes < 0
-        points, curves = nodes[~odd & ~forms], nodes[odd]
+        forms = nodes[Node.is_form(nodes)]
+        points, curves = nodes[Node.is_point(nodes)], nodes[Node.is_curve(nodes)]
         pairs: list[tuple[IntArray, IntArray]] = []
         if len(points):
-            reader = self.state.rows.reader.data.take(points >> 1, axis=0)
+            rows = Node.number(points)
+            reader = self.state.rows.reader.data.take(rows, axis=0)
             both = reader >= 0
-            pairs.append((curve_node(reader[both]), np.repeat(points, 2)[both.ravel()]))
-            pairs += self._listed(points, points >> 1, self.index.riders)
-            pairs += self._listed(points, points >> 1, self.index.makes)
-        pairs += self._listed(curves, curves >> 1, self.index.drives)
-        pairs += self._listed(nodes[forms], form_of(nodes[forms]), self.index.forms)
+            pairs.append((Node.curve(reader[both]), np.repeat(points, 2)[both.ravel()]))
+            pairs += self._listed(points, rows, self.index.riders)
+            pairs += self._listed(points, rows, self.index.makes)
+        pairs += self._listed(curves, Node.number(curves), self.index.drives)
+        pairs += self._listed(forms, Node.form_number(forms), self.index.forms)
         if len(pairs) == 1:
             return Readers(*pairs[0])
         return Readers(
@@ -119,21 +121,21 @@ class HullNetwork:
             return []
         pairs = zip(nodes.tolist(), numbers.tolist(), strict=True)
         hits = [(node, table[number]) for node, number in pairs if number in table]
-        return [(row_node(out), np.full(len(out), node)) for node, out in hits]
+        return [(Node.point(out), np.full(len(out), node)) for node, out in hits]
 
     def name(self, node: int) -> str:
         """Name a node by the key of its object."""
-        if node < 0:
-            return str(self.state.formed.definition.data[-1 - (node >> 1)].key)
-        table = self.state.curves if node & 1 else self.state.rows
-        return str(table.key.data[node >> 1])
+        if Node.is_form(node):
+            return str(self.state.formed.definition[Node.form_number(node)].key)
+        table = self.state.curves if Node.is_curve(node) else self.state.rows
+        return str(table.key[Node.number(node)])
 
     def evaluate(self, nodes: IntArray, journal: Journal) -> Evaluation:
         """Evaluate curves, computed points, or riding and generated ones, as the nodes are."""
-        numbers = nodes >> 1
-        if nodes[0] & 1:
+        numbers = Node.number(nodes)
+        if Node.is_curve(int(nodes[0])):
             return self._curves(numbers, journal)
-        if self.state.rows.driver.data[numbers[0]] >= 0:
+        if self.state.rows.driver[numbers[0]] >= 0:
             return self._computed(numbers, journal)
         rides = unmade_rows(self.state, numbers)
         if rides.all():
@@ -149,22 +151,22 @@ class HullNetwork:
     def _computed(self, rows: IntArray, journal: Journal) -> Evaluation:
         """Points computed from their driver: its meeting with the other line's plane."""
         table = self.state.rows
-        side = (table.curve.data[rows, 0] != table.driver.data[rows]).astype(np.int64)
-        return self._publish(rows, table.spot.data[rows, side], journal)
+        side = (table.curve[rows, 0] != table.driver[rows]).astype(np.int64)
+        return self._publish(rows, table.spot[rows, side], journal)
 
     def _riding(self, rows: IntArray, journal: Journal) -> Evaluation:
         """Adopted points ride: base + linear blend of the displacements of their anchors."""
         table = self.state.rows
-        anchor = table.anchor.data[rows]
-        shift = table.xyz.data[anchor] - table.anchor_from.data[rows]
+        anchor = table.anchor[rows]
+        shift = table.xyz[anchor] - table.anchor_from[rows]
         shift = np.where((anchor >= 0)[:, :, None], shift, 0.0)
-        weight = table.anchor_weight.data[rows][:, None]
-        value = table.base.data[rows] + ((1.0 - weight) * shift[:, 0] + weight * shift[:, 1])
+        weight = table.anchor_weight[rows][:, None]
+        value = table.base[rows] + ((1.0 - weight) * shift[:, 0] + weight * shift[:, 1])
         return self._publish(rows, value, journal)
 
     def _generated(self, rows: IntArray, journal: Journal) -> Evaluation:
         """Points of generated curves, as the definitions have them; one batch of curves."""
-        owners = set(self.state.rows.curve.data[rows, 0].tolist())
+        owners = set(self.state.rows.curve[rows, 0].tolist())
         every, value = points_given(
             self.state,
             [made for curve, made in attached_curves(self.state).items() if curve in owners],
@@ -174,13 +176,13 @@ class HullNetwork:
 
     def _publish(self, rows: IntArray, value: FloatArray, journal: Journal) -> Evaluation:
         """Write the points that differ by a bit from what is published."""
-        old = self.state.rows.xyz.data[rows]
+        old = self.state.rows.xyz[rows]
         value = np.ascontiguousarray(value)
         differs = bits_differ(old, value)
         journal.put(self.state.rows.xyz, rows[differs], value[differs])
         step = value[differs] - old[differs]
         moved = np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
-        return Evaluation(row_node(rows[differs]), moved)
+        return Evaluation(Node.point(rows[differs]), moved)
 
     def _curves(self, curves: IntArray, journal: Journal) -> Evaluation:
         """Loft, meet the partners' planes, keep the identity of each meeting."""
@@ -188,7 +190,8 @@ class HullNetwork:
         key = curves.tobytes()
         old = [table.spline.data[curve] for curve in numbers]
         met = [table.meets.data[curve] for curve in numbers]
-        last: LastIntersections | None = recall.get(key)
+        recalled = recall.get(key)
+        last = recalled if isinstance(recalled, LastIntersections) else None
         known = last if last is not None and last.holds(old, met) else None
         batch = loft_curves(self.state, curves, recall)
         splines = batch.single()
@@ -206,7 +209,7 @@ class HullNetwork:
             last.at.release()
         remember(recall, key, now)
         differs = moved != 0.0
-        return Evaluation(curve_node(curves[differs]), moved[differs])
+        return Evaluation(Node.curve(curves[differs]), moved[differs])
 
     def _attach(
         self,
@@ -233,7 +236,7 @@ class HullNetwork:
             ]
             actual = np.flatnonzero(row >= 0)
             owner = np.array(numbers, np.int64)[found.curve[actual]]
-            part = 2 * row[actual] + (self.state.rows.curve.data[row[actual], 0] != owner)
+            part = 2 * row[actual] + (self.state.rows.curve[row[actual], 0] != owner)
             actual = None if len(actual) == len(row) else actual
         spot, place = PickedRows(found.xyz, actual), PickedRows(found.parameter, actual)
         return LastIntersections(splines, meets, batch, found, row, actual, part, spot, place)

@@ -42,7 +42,7 @@ def generated_by(state: HullState) -> Iterator[tuple[str, str, tuple[str, ...]]]
     for made in state.generated:
         if not made.attached:
             continue
-        rows = tuple(str(state.rows.key.data[row]) for row in made.rows)
+        rows = tuple(str(state.rows.key[row]) for row in made.rows)
         for use in sorted(definitions_read(made)):
             if use in uses:
                 yield uses[use], made.key, rows
@@ -70,10 +70,10 @@ ONE_WAY, TWO_WAY = "one-way", "two-way"
 
 def point_id(state: HullState, row: int, side: int) -> str:
     """Name the node of a point on one of its curves: its key, and the curve it lies on."""
-    key = str(state.rows.key.data[row])
-    if state.rows.sort.data[row] != Sort.CROSSING:
+    key = str(state.rows.key[row])
+    if state.rows.sort[row] != Sort.CROSSING:
         return key
-    return f"{key} on {state.curves.key.data[int(state.rows.curve.data[row, side])]}"
+    return f"{key} on {state.curves.key[int(state.rows.curve.data[row, side])]}"
 
 
 def object_graph(state: HullState) -> networkx.MultiDiGraph[str]:
@@ -136,7 +136,7 @@ def _add_groups(
 ) -> None:
     names = state.groups.name.data
     for group in order.groups.tolist():
-        family = state.groups.family.data[group]
+        family = state.groups.family[group]
         found.add_node(names[group], kind="group", name=names[group], family=family)
     for group in order.groups.tolist():
         for other in order.groups.tolist():
@@ -149,10 +149,10 @@ def _add_lines(
     found: networkx.MultiDiGraph[str], state: HullState, order: CanonicalOrder, book: AddressBook
 ) -> None:
     for line in order.lines.tolist():
-        key, group = state.lines.key.data[line], int(state.lines.group.data[line])
+        key, group = state.lines.key[line], int(state.lines.group[line])
         found.add_node(key, kind="line", name=book.line_name(line))
         if group >= 0:
-            found.add_edge(key, state.groups.name.data[group], kind="membership")
+            found.add_edge(key, state.groups.name[group], kind="membership")
 
 
 def _add_curves(
@@ -162,12 +162,12 @@ def _add_curves(
     for curve in order.curves.tolist():
         found.add_node(
             keys[curve], kind="curve", name=book.curve_name(curve), role="curve",
-            state=State(int(state.curves.state.data[curve])).name.lower(),
+            state=State(int(state.curves.state[curve])).name.lower(),
             revision=state.revision_curve.get(curve, 0),
         )  # fmt: skip
         line = state.line_of(curve)
         if line >= 0:
-            found.add_edge(keys[curve], state.lines.key.data[line], kind="membership")
+            found.add_edge(keys[curve], state.lines.key[line], kind="membership")
 
 
 def _add_latent(found: networkx.MultiDiGraph[str], state: HullState, order: CanonicalOrder) -> None:
@@ -185,13 +185,13 @@ def _add_points(
     found: networkx.MultiDiGraph[str], state: HullState, order: CanonicalOrder, book: AddressBook
 ) -> None:
     for row, side in _points(state, order):
-        crossing = state.rows.sort.data[row] == Sort.CROSSING
+        crossing = state.rows.sort[row] == Sort.CROSSING
         found.add_node(
             point_id(state, row, side), kind="point", name=book.address(row, side),
-            sort=Sort(int(state.rows.sort.data[row])).name.lower(),
+            sort=Sort(int(state.rows.sort[row])).name.lower(),
             role="defining" if defines(state, row, side) else "derived",
-            crossing_role=Role(int(state.rows.role.data[row])).text if crossing else "",
-            state=State(int(state.rows.state.data[row])).name.lower(),
+            crossing_role=Role(int(state.rows.role[row])).text if crossing else "",
+            state=State(int(state.rows.state[row])).name.lower(),
             revision=state.revision_row.get(row, 0),
         )  # fmt: skip
 
@@ -205,7 +205,7 @@ def _add_links(
     found: networkx.MultiDiGraph[str], state: HullState, order: CanonicalOrder, reach: Reach
 ) -> None:
     keys, curves = state.curves.key.data, state.rows.curve.data
-    groups = state.lines.group.data[state.curves.line.data]
+    groups = state.lines.group[state.curves.line.data]
     for row, side in _points(state, order):
         here, mine, parent = point_id(state, row, side), curves[row, side], curves[row, 1 - side]
         found.add_edge(here, keys[mine], kind="container")
@@ -255,7 +255,7 @@ def dependencies(state: HullState, points: bool = False) -> networkx.DiGraph[str
     book, order = AddressBook(state), canonical_order(state)
     for curve in order.curves.tolist():
         name = book.curve_name(curve)
-        found.add_node(state.curves.key.data[curve], kind="curve", name=name)
+        found.add_node(state.curves.key[curve], kind="curve", name=name)
     if points:
         _add_rows(found, state, order, book)
     else:
@@ -267,13 +267,13 @@ def dependencies(state: HullState, points: bool = False) -> networkx.DiGraph[str
 def _add_drives(found: networkx.DiGraph[str], state: HullState, order: CanonicalOrder) -> None:
     keys, table = state.curves.key.data, state.rows
     for row in order.rows.tolist():
-        driver = int(table.driver.data[row])
-        for reader in table.reader.data[row].tolist():
+        driver = int(table.driver[row])
+        for reader in table.reader[row].tolist():
             if driver < 0 or reader < 0:
                 continue
             tail, head = keys[driver], keys[reader]
             through = found.edges[tail, head]["through"] if found.has_edge(tail, head) else []
-            found.add_edge(tail, head, kind="drives", through=[*through, table.key.data[row]])
+            found.add_edge(tail, head, kind="drives", through=[*through, table.key[row]])
 
 
 def _add_rows(
@@ -281,15 +281,15 @@ def _add_rows(
 ) -> None:
     keys, table = state.curves.key.data, state.rows
     for row in order.rows.tolist():
-        readers = [reader for reader in table.reader.data[row].tolist() if reader >= 0]
+        readers = [reader for reader in table.reader[row].tolist() if reader >= 0]
         if not readers:
             continue
-        key = table.key.data[row]
+        key = table.key[row]
         found.add_node(key, kind="point", name=book.address(row))
         for reader in readers:
             found.add_edge(key, keys[reader], kind="defines")
-        if table.driver.data[row] >= 0:
-            found.add_edge(keys[int(table.driver.data[row])], key, kind="gives")
-        for anchor in table.anchor.data[row].tolist():
+        if table.driver[row] >= 0:
+            found.add_edge(keys[int(table.driver[row])], key, kind="gives")
+        for anchor in table.anchor[row].tolist():
             if anchor >= 0:
-                found.add_edge(table.key.data[anchor], key, kind="carries")
+                found.add_edge(table.key[anchor], key, kind="carries")

@@ -97,9 +97,9 @@ class Handle:
     def alive(self) -> bool:
         """Whether the object is still there."""
         table = getattr(self.tables, self._table)
-        if self.number >= table.count or not table.alive.data[self.number]:
+        if self.number >= table.count or not table.alive[self.number]:
             return False
-        return self._table == "groups" or bool(table.key.data[self.number] == self.id)
+        return self._table == "groups" or bool(table.key[self.number] == self.id)
 
     @property
     def row(self) -> int:
@@ -151,7 +151,7 @@ class Point(Handle):
     @property
     def name(self) -> str:
         """The label that was given, else the address, for instance ``WL 0.5 x ST 7``."""
-        label = self.tables.rows.label.data[self.row]
+        label = self.tables.rows.label[self.row]
         return str(label) if label else AddressBook(self.tables).address(self.row, self.side)
 
     @property
@@ -181,12 +181,12 @@ class Point(Handle):
     @property
     def kind(self) -> str:
         """How its curve passes: ``"smooth"``, ``"tangent"`` or ``"knuckle"``."""
-        return PointKind(int(self.tables.rows.kind.data[self.row, self.side])).name.lower()
+        return PointKind(int(self.tables.rows.kind[self.row, self.side])).name.lower()
 
     @property
     def sort(self) -> str:
         """``"crossing"``, ``"placed"`` or ``"adopted"``."""
-        return Sort(int(self.tables.rows.sort.data[self.row])).name.lower()
+        return Sort(int(self.tables.rows.sort[self.row])).name.lower()
 
     @property
     def role(self) -> str:
@@ -201,14 +201,14 @@ class Point(Handle):
     @property
     def crossing(self) -> Crossing | None:
         """The crossing this point belongs to, if it does."""
-        if self.tables.rows.sort.data[self.row] != Sort.CROSSING:
+        if self.tables.rows.sort[self.row] != Sort.CROSSING:
             return None
         return Crossing(self.tables, self.number, self.id)
 
     @property
     def container_curve(self) -> Curve:
         """The curve it lies on."""
-        return _curve(self.tables, int(self.tables.rows.curve.data[self.row, self.side]))
+        return _curve(self.tables, int(self.tables.rows.curve[self.row, self.side]))
 
     @property
     def parent_curve(self) -> Curve | None:
@@ -218,7 +218,7 @@ class Point(Handle):
     @property
     def friend_point(self) -> Point | None:
         """The same crossing on the parent curve; None for a placed or adopted point."""
-        if self.tables.rows.curve.data[self.row, 1 - self.side] < 0:
+        if self.tables.rows.curve[self.row, 1 - self.side] < 0:
             return None
         return Point(self.tables, self.number, self.id, 1 - self.side)
 
@@ -230,13 +230,13 @@ class Point(Handle):
     @property
     def driver(self) -> Curve | None:
         """The curve it is computed from, if it is."""
-        driver = int(self.tables.rows.driver.data[self.row])
+        driver = int(self.tables.rows.driver[self.row])
         return None if driver < 0 else _curve(self.tables, driver)
 
     @property
     def state(self) -> str:
         """``"clean"``, ``"failed"`` or ``"blocked"``."""
-        return State(int(self.tables.rows.state.data[self.row])).name.lower()
+        return State(int(self.tables.rows.state[self.row])).name.lower()
 
     @property
     def revision(self) -> int:
@@ -274,23 +274,23 @@ class Crossing(Handle):
     @property
     def role(self) -> str:
         """``"shared"``, ``"drives a"``, ``"drives b"`` or ``"watched"``."""
-        return Role(int(self.tables.rows.role.data[self.row])).text
+        return Role(int(self.tables.rows.role[self.row])).text
 
     @property
     def override(self) -> str | None:
         """The role the designer gave it in place of the rule's, if so."""
-        role = int(self.tables.rows.override.data[self.row])
+        role = int(self.tables.rows.override[self.row])
         return None if role < 0 else Role(role).text
 
     @property
     def sign(self) -> int:
         """+1 where a passes to the positive side of b's plane, else -1; 0 if neither."""
-        return int(self.tables.rows.sign.data[self.row])
+        return int(self.tables.rows.sign[self.row])
 
     @property
     def birth(self) -> int:
         """Number of its birth for this pair of lines, from 1."""
-        return int(self.tables.rows.birth.data[self.row])
+        return int(self.tables.rows.birth[self.row])
 
     @property
     def gap(self) -> float | None:
@@ -303,7 +303,7 @@ class Crossing(Handle):
         return self._length("limit")
 
     def _length(self, column: str) -> float | None:
-        if self.tables.rows.role.data[self.row] != Role.WATCHED:
+        if self.tables.rows.role[self.row] != Role.WATCHED:
             return None
         value = float(getattr(self.tables.rows, column).data[self.number])
         return value if np.isfinite(value) else None
@@ -311,7 +311,7 @@ class Crossing(Handle):
     @property
     def state(self) -> str:
         """``"clean"``, ``"failed"`` or ``"blocked"``."""
-        return State(int(self.tables.rows.state.data[self.row])).name.lower()
+        return State(int(self.tables.rows.state[self.row])).name.lower()
 
 
 # --------------------------------------------------------------------------------------
@@ -378,7 +378,7 @@ class Curve(Handle):
     @property
     def touch_objects(self) -> GeneratedPoints:
         """The points it has generated on other curves, and the curves it may come to meet."""
-        group = self.tables.lines.group.data[self.tables.line_of(self.row)]
+        group = self.tables.lines.group[self.tables.line_of(self.row)]
         # a one-way association generates points on the lines of the other group only
         reach = set(generates_on(self.tables, int(group)).tolist())
         friends = [point.friend_point for point in self.points]
@@ -455,7 +455,7 @@ class Curve(Handle):
     @property
     def state(self) -> str:
         """``"clean"``, ``"failed"`` or ``"blocked"``."""
-        return State(int(self.tables.curves.state.data[self.row])).name.lower()
+        return State(int(self.tables.curves.state[self.row])).name.lower()
 
     @property
     def revision(self) -> int:
@@ -476,22 +476,18 @@ class Line(Handle):
     @property
     def name(self) -> str:
         """Its name, unique in its group."""
-        return str(self.tables.lines.name.data[self.row])
+        return str(self.tables.lines.name[self.row])
 
     @property
     def group(self) -> Group:
         """The group it belongs to."""
-        return Group.of(self.tables, int(self.tables.lines.group.data[self.row]))
+        return Group.of(self.tables, int(self.tables.lines.group[self.row]))
 
     @property
     def plane(self) -> Plane | None:
         """The plane it lies in, ``normal . P = offset``; None for a space curve."""
         table, row = self.tables.lines, self.row
-        return (
-            Plane(table.normal.data[row], table.offset.data[row])
-            if table.planar.data[row]
-            else None
-        )
+        return Plane(table.normal[row], table.offset[row]) if table.planar[row] else None
 
     @property
     def position(self) -> float | None:
@@ -501,19 +497,19 @@ class Line(Handle):
     @property
     def boundary(self) -> str | None:
         """What it does to lines that meet it: ``"end"``, ``"flat"``, ``"knuckle"`` or None."""
-        kind = int(self.tables.lines.boundary.data[self.row])
+        kind = int(self.tables.lines.boundary[self.row])
         return None if kind < 0 else BoundaryKind(kind).name.lower()
 
     @property
     def note(self) -> str:
         """What was assumed when it was made; empty if nothing."""
-        return str(self.tables.lines.note.data[self.row])
+        return str(self.tables.lines.note[self.row])
 
     @property
     def curves(self) -> tuple[Curve, ...]:
         """Its curves."""
         alive = self.tables.curves.alive.data
-        numbers = self.tables.lines.curves.data[self.row]
+        numbers = self.tables.lines.curves[self.row]
         return tuple(Curve.of(self.tables, curve) for curve in numbers if alive[curve])
 
     @property
@@ -553,23 +549,23 @@ class Group(Handle):
     @property
     def name(self) -> str:
         """Its name."""
-        return str(self.tables.groups.name.data[self.row])
+        return str(self.tables.groups.name[self.row])
 
     @property
     def family(self) -> str:
         """The family of its lines, for instance ``"waterlines"``."""
-        return str(self.tables.groups.family.data[self.row])
+        return str(self.tables.groups.family[self.row])
 
     @property
     def lines(self) -> Mapping[str, Line]:
         """Its lines by name, by position; read-only."""
         table = self.tables.lines
         live = self.tables.live("lines")
-        mine = live[table.group.data[live] == self.row]
+        mine = live[table.group[live] == self.row]
         # space curves have no position and come last
         place = np.where(table.planar.data, table.offset.data, np.inf).tolist()
-        order = sorted(mine.tolist(), key=lambda i: (place[i], table.key.data[i]))
-        return NamedMapping("line", {table.name.data[i]: Line.of(self.tables, i) for i in order})
+        order = sorted(mine.tolist(), key=lambda i: (place[i], table.key[i]))
+        return NamedMapping("line", {table.name[i]: Line.of(self.tables, i) for i in order})
 
 
 # --------------------------------------------------------------------------------------
@@ -633,9 +629,9 @@ class FeatureHandle:
         table, mine = self.tables.rows, set(self.feature.lines)
         found = []
         for row in self.feature.points:
-            first = int(table.curve.data[row, 0])
-            side = 0 if self.tables.lines.key.data[self.tables.line_of(first)] in mine else 1
-            found.append(Point(self.tables, row, str(table.key.data[row]), side))
+            first = int(table.curve[row, 0])
+            side = 0 if self.tables.lines.key[self.tables.line_of(first)] in mine else 1
+            found.append(Point(self.tables, row, str(table.key[row]), side))
         return tuple(found)
 
     def __repr__(self) -> str:
@@ -650,7 +646,7 @@ def features_by_name(state: HullState) -> NamedMapping[FeatureHandle]:
     features = state.features
     count = Counter(each.name for each in features)
     title = {
-        state.lines.key.data[line]: state.groups.name.data[int(state.lines.group.data[line])]
+        state.lines.key[line]: state.groups.name[int(state.lines.group[line])]
         for line in state.live("lines").tolist()
     }
     return NamedMapping(
@@ -696,7 +692,7 @@ def handle(state: HullState, text: str) -> Group | Line | Curve | Point:
     """
     place = resolve_address(state, text)
     if place.row >= 0:
-        return Point(state, place.row, state.rows.key.data[place.row], place.side)
+        return Point(state, place.row, state.rows.key[place.row], place.side)
     if place.curve >= 0:
         return Curve.of(state, place.curve)
     if place.line >= 0:
@@ -725,12 +721,10 @@ def numbers_of(thing: Group | Line | Curve | Point | Crossing) -> ResolvedAddres
     row = number if isinstance(thing, Point | Crossing) else -1
     side = thing.side if isinstance(thing, Point) else 0
     if isinstance(thing, Line):
-        return ResolvedAddress(int(state.lines.group.data[number]), number)
-    curve = number if row < 0 else int(state.rows.curve.data[row, side])
+        return ResolvedAddress(int(state.lines.group[number]), number)
+    curve = number if row < 0 else int(state.rows.curve[row, side])
     line = state.line_of(curve)
-    return ResolvedAddress(
-        int(state.lines.group.data[line]), line, curve, row, side if row >= 0 else -1
-    )
+    return ResolvedAddress(int(state.lines.group[line]), line, curve, row, side if row >= 0 else -1)
 
 
 class Points(Mapping[str, Point]):

@@ -140,8 +140,8 @@ def cut_curves(
     PartnerIntersections
         With the arrays `line` and `sign` of `known`, the very objects, where these agree.
     """
-    lines = state.curves.line.data[curves]
-    groups = state.lines.group.data[lines]
+    lines = state.curves.line[curves]
+    groups = state.lines.group[lines]
     pieces: list[_Piece] = []
     for group in sorted(set(groups.tolist())):
         partners = index.partners.get(group, ())
@@ -196,13 +196,13 @@ def _merge(
         line = _all([piece.planes.lines.take(piece.met.plane) for piece in pieces], order)
         sign = _all([piece.met.sign for piece in pieces], order)
         bounds = np.searchsorted(curve, np.arange(count + 1)).tolist()
-        flat = np.flatnonzero((state.lines.normal.data[lines] == 1.0).take(curve, axis=0))
+        flat = np.flatnonzero((state.lines.normal[lines] == 1.0).take(curve, axis=0))
         own = flat, curve.take(flat // 3)
     segment = _all([piece.segment for piece in pieces], order)
     parameter = _all([piece.met.t for piece in pieces], order)
     xyz = np.concatenate([piece.met.xyz for piece in pieces], out=np.empty((len(curve), 3)))
     xyz = xyz if order is None else xyz.take(order, axis=0)
-    xyz.reshape(-1)[own[0]] = state.lines.offset.data[lines].take(own[1])
+    xyz.reshape(-1)[own[0]] = state.lines.offset[lines].take(own[1])
     freeze(line, sign, parameter, xyz)
     return PartnerIntersections(
         curve, line, sign, segment, parameter, xyz, bounds, pieces, order, own

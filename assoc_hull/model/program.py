@@ -278,10 +278,10 @@ def compile_program(state: HullState, index: Index) -> Program | None:
     local[number] = np.arange(count)
     edges = np.flatnonzero(np.diff(level)) + 1
     begins = np.concatenate([[0], edges, [count]]).astype(np.int64)
-    start, row = _listed(state.curves.rows.data[each] for each in number.tolist())
-    part = 2 * row + np.concatenate([state.curves.side.data[each] for each in number.tolist()])
-    table, lines = state.rows, state.curves.line.data[number]
-    ends = [state.curves.ends.data[each] for each in number.tolist()]
+    start, row = _listed(state.curves.rows[each] for each in number.tolist())
+    part = 2 * row + np.concatenate([state.curves.side[each] for each in number.tolist()])
+    table, lines = state.rows, state.curves.line[number]
+    ends = [state.curves.ends[each] for each in number.tolist()]
     planes = _Planes.of(state, index, number)
     meets = _Meetings.of(state, number, planes)
     if meets is None:
@@ -295,7 +295,7 @@ def compile_program(state: HullState, index: Index) -> Program | None:
     # Generated curves, and the ends that these are made between, are read from definitions.
     unsure[local[np.array(list(attached_curves(state)), np.int64)]] = 1
     unsure_row[list(index.makes)] = 1
-    normal = state.lines.normal.data[lines]
+    normal = state.lines.normal[lines]
     flat = (normal == 1.0).any(axis=1)
     program = Program(
         number=number, local=local[:-1].copy(), level=begins, start=start, row=row,
@@ -304,8 +304,8 @@ def compile_program(state: HullState, index: Index) -> Program | None:
         end_kind=np.array([end.kind for end in ends], np.int8),
         end_vector=np.array([end.vector for end in ends], np.float64),
         own_axis=np.where(flat, np.argmax(normal == 1.0, axis=1), -1),
-        own_offset=np.where(flat, state.lines.offset.data[lines], 0.0),
-        reader=local[np.where(table.alive.data[:, None], table.reader.data, -1)],
+        own_offset=np.where(flat, state.lines.offset[lines], 0.0),
+        reader=local[np.where(table.alive[:, None], table.reader.data, -1)],
         **dict(zip(_RIDING, _riders(state, index, local, count), strict=True)),
         anchor=table.anchor.data.copy(), weight=table.anchor_weight.data.copy(),
         normal=planes.normal, axis=planes.axis, first=planes.first, offset=planes.offset,
@@ -313,7 +313,7 @@ def compile_program(state: HullState, index: Index) -> Program | None:
         **_paired("cell_start", "cell", _cells(planes, meets)),
         meet_start=meets.start, meet_curve=meets.curve, meet_plane=meets.plane,
         meet_row=meets.row, meet_sign=meets.sign, drive_start=drives[0], drive=drives[1],
-        watch=watch, watch_a=watch_a, watch_b=watch_b, limit=table.limit.data[watch],
+        watch=watch, watch_a=watch_a, watch_b=watch_b, limit=table.limit[watch],
         **_paired("watch_start", "watched", meets.pairs_by_curve(watch_a, watch_b)),
         pair_a=pair_a, pair_b=pair_b,
         **_paired("pair_start", "paired", meets.pairs_by_curve(pair_a, pair_b)),
@@ -350,7 +350,7 @@ class _Planes:
     def of(cls, state: HullState, index: Index, number: IntArray) -> _Planes:
         names, place = state.groups.name.data, dict[int, int]()
         found = {id(each): each for sets in index.partners.values() for each in sets}
-        group = {key: int(state.lines.group.data[each.lines[0]]) for key, each in found.items()}
+        group = {key: int(state.lines.group[each.lines[0]]) for key, each in found.items()}
         ordered = sorted(found, key=lambda key: (names[group[key]], tuple(found[key].normal)))
         for rank, key in enumerate(ordered):
             place[key] = rank
@@ -358,7 +358,7 @@ class _Planes:
         first, line = _listed(each.lines.tolist() for each in each_set)
         of_line = np.full(state.lines.count, -1)
         of_line[line] = np.arange(len(line))
-        groups = state.lines.group.data[state.curves.line.data[number]].tolist()
+        groups = state.lines.group[state.curves.line[number]].tolist()
         set_start, sets = _listed(
             [place[id(each)] for each in index.partners.get(mine, ())] for mine in groups
         )
@@ -389,9 +389,7 @@ class _Meetings:
     @classmethod
     def of(cls, state: HullState, number: IntArray, planes: _Planes) -> _Meetings | None:
         """Read the tables; None if these and the planes are of two states."""
-        found: list[CurveIntersections] = [
-            state.curves.meets.data[curve] for curve in number.tolist()
-        ]
+        found: list[CurveIntersections] = [state.curves.meets[curve] for curve in number.tolist()]
         start, line = _listed(each.line.tolist() for each in found)
         curve = np.repeat(np.arange(len(number)), np.diff(start))
         plane = planes.of_line[line]
@@ -400,7 +398,7 @@ class _Meetings:
         row = np.concatenate([np.zeros(0, np.int64), *(each.row for each in found)])
         sign = np.concatenate([np.zeros(0, np.int8), *(each.sign for each in found)])
         held = np.flatnonzero(row >= 0)
-        side = state.rows.curve.data[row[held], 0] != number[curve[held]]
+        side = state.rows.curve[row[held], 0] != number[curve[held]]
         known = np.full(2 * state.rows.count, -1)
         known[2 * row[held] + side] = held
         return cls(start, curve, line, plane, row, sign, known)
@@ -435,7 +433,7 @@ def _riders(
     table = state.rows
     start, rider = _listed(index.riders.get(row, ()) for row in range(table.count))
     riding = np.flatnonzero(table.alive.data & (table.anchor.data >= 0).any(axis=1))
-    return start, rider, *_grouped(local[table.curve.data[riding, 0]], riding, count)
+    return start, rider, *_grouped(local[table.curve[riding, 0]], riding, count)
 
 
 def _drives(
@@ -444,8 +442,8 @@ def _drives(
     """Give the meetings that points are computed from, and curves that lack one of these."""
     table = state.rows
     driven = np.flatnonzero(table.alive.data & (table.driver.data >= 0))
-    driver = table.driver.data[driven]
-    meeting = meets.known[2 * driven + (table.curve.data[driven, 0] != driver)]
+    driver = table.driver[driven]
+    meeting = meets.known[2 * driven + (table.curve[driven, 0] != driver)]
     there = meeting >= 0
     return meets.by_curve(meeting[there]), local[driver[~there]]
 
@@ -459,14 +457,14 @@ def _watches(
     rows = np.flatnonzero(watched & (table.role.data == Role.WATCHED))
     one, other = meets.known[2 * rows], meets.known[2 * rows + 1]
     both = (one >= 0) & (other >= 0)
-    lacking = local[table.curve.data[rows[~both]].ravel()]
+    lacking = local[table.curve[rows[~both]].ravel()]
     return rows[both], one[both], other[both], lacking[lacking >= 0]
 
 
 def _latent_pairs(state: HullState, number: IntArray, meets: _Meetings) -> IntArray:
     """Give the latent meetings of two curves with one another's planes, (k, 2)."""
     latent = np.flatnonzero(meets.row < 0)
-    mine = state.curves.line.data[number[meets.curve[latent]]]
+    mine = state.curves.line[number[meets.curve[latent]]]
     by_lines: dict[tuple[int, int], list[int]] = {}
     for each, own, met in zip(
         latent.tolist(), mine.tolist(), meets.line[latent].tolist(), strict=True
@@ -492,8 +490,8 @@ def _senses(
     table = state.rows
     owner = np.repeat(np.arange(len(start) - 1), np.diff(start))
     hit = meets.known[part]
-    contact = table.contact.data[row]
-    needed = (table.sort.data[row] == Sort.CROSSING) & ~(contact & ((part & 1 == 1) | (hit < 0)))
+    contact = table.contact[row]
+    needed = (table.sort[row] == Sort.CROSSING) & ~(contact & ((part & 1 == 1) | (hit < 0)))
     return hit[needed & (hit >= 0)], owner[needed & (hit < 0)]
 
 

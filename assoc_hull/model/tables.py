@@ -18,7 +18,19 @@ import numpy as np
 from assoc_hull.arguments import checked, choice, flag, integer, places, positive, shown, word
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.table import ArrayColumn, ListColumn, Table
+from assoc_hull.graph.table import (
+    Column,
+    MatrixColumn,
+    NumberColumn,
+    Table,
+    ValueColumn,
+    VectorColumn,
+    matrices,
+    numbers,
+    values,
+    values_given,
+    vectors,
+)
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.kinds import FAMILIES, Family
@@ -28,17 +40,22 @@ __all__ = [
     "DECKS",
     "TABLES",
     "Association",
+    "Births",
     "CurveIntersections",
+    "Curves",
     "Ends",
+    "Featured",
+    "Formed",
+    "Groups",
     "HasState",
+    "HullSettings",
     "HullState",
+    "Lines",
     "Particulars",
+    "Produced",
+    "Rows",
     "copy_into",
     "copy_state",
-    "curve_node",
-    "form_node",
-    "form_of",
-    "row_node",
     "state_of",
 ]
 
@@ -195,28 +212,9 @@ def _no_rows() -> IntArray:
     return rows
 
 
-def row_node(row: IntArray) -> IntArray:
-    """Give the engine's node of a point: even numbers."""
-    return 2 * np.asarray(row, np.int64)
-
-
-def curve_node(curve: IntArray) -> IntArray:
-    """Give the engine's node of a curve: odd numbers."""
-    return 2 * np.asarray(curve, np.int64) + 1
-
-
-def form_node(definition: IntArray) -> IntArray:
-    """Give the engine's node of a definition: even numbers below zero."""
-    return -2 - 2 * np.asarray(definition, np.int64)
-
-
-def form_of(node: IntArray) -> IntArray:
-    """Give the number of the definition that a node below zero stands for."""
-    return -1 - (np.asarray(node, np.int64) >> 1)
-
-
-def _rows() -> Table:
-    """Make the table of points; columns of two values have one per side of the row.
+@attrs.frozen(eq=False)
+class Rows(Table):
+    """Points; columns of two values have one per side of the row.
 
     ``curve``: the curves that a point lies on; ``reader``: those that are made through it;
     ``driver``: the one that it is computed from. ``xyz`` is its one value, ``spot`` and
@@ -225,83 +223,109 @@ def _rows() -> Table:
     ``gap`` and ``limit`` are of watched crossings. An adopted point rides from ``base`` with the
     points ``anchor``, which lay at ``anchor_from`` then; the second one counts ``anchor_weight``.
     """
-    return Table(
-        key=(object, ""),
-        alive=(bool, ()),
-        sort=(np.int8, ()),
-        xyz=(float, (3,)),
-        kind=(np.int8, (2,)),
-        direction=(float, (2, 3)),
-        curve=(np.int64, (2,), -1),
-        role=(np.int8, ()),
-        override=(np.int8, (), -1),
-        reader=(np.int64, (2,), -1),
-        driver=(np.int64, (), -1),
-        contact=(bool, ()),
-        sign=(np.int8, ()),
-        birth=(np.int64, ()),
-        limit=(float, (), np.nan),
-        gap=(float, (), np.nan),
-        spot=(float, (2, 3), np.nan),
-        parameter=(float, (2,), np.nan),
-        anchor=(np.int64, (2,), -1),
-        anchor_from=(float, (2, 3)),
-        anchor_weight=(float, ()),
-        base=(float, (3,)),
-        state=(np.int8, ()),
-        label=(object, ""),
-    )
+
+    key: ValueColumn[str] = values("")
+    alive: NumberColumn[np.bool_] = numbers(np.bool_)
+    sort: NumberColumn[np.int8] = numbers(np.int8)
+    xyz: VectorColumn[np.float64] = vectors(np.float64, 3)
+    kind: VectorColumn[np.int8] = vectors(np.int8, 2)
+    direction: MatrixColumn[np.float64] = matrices(np.float64, (2, 3))
+    curve: VectorColumn[np.int64] = vectors(np.int64, 2, -1)
+    role: NumberColumn[np.int8] = numbers(np.int8)
+    override: NumberColumn[np.int8] = numbers(np.int8, -1)
+    reader: VectorColumn[np.int64] = vectors(np.int64, 2, -1)
+    driver: NumberColumn[np.int64] = numbers(np.int64, -1)
+    contact: NumberColumn[np.bool_] = numbers(np.bool_)
+    sign: NumberColumn[np.int8] = numbers(np.int8)
+    birth: NumberColumn[np.int64] = numbers(np.int64)
+    limit: NumberColumn[np.float64] = numbers(np.float64, np.nan)
+    gap: NumberColumn[np.float64] = numbers(np.float64, np.nan)
+    spot: MatrixColumn[np.float64] = matrices(np.float64, (2, 3), np.nan)
+    parameter: VectorColumn[np.float64] = vectors(np.float64, 2, np.nan)
+    anchor: VectorColumn[np.int64] = vectors(np.int64, 2, -1)
+    anchor_from: MatrixColumn[np.float64] = matrices(np.float64, (2, 3))
+    anchor_weight: NumberColumn[np.float64] = numbers(np.float64)
+    base: VectorColumn[np.float64] = vectors(np.float64, 3)
+    state: NumberColumn[np.int8] = numbers(np.int8)
+    label: ValueColumn[str] = values("")
 
 
-def _curves() -> Table:
-    """Make the table of curves; ``rows`` and ``side`` are their defining points in order."""
-    return Table(
-        key=(object, ""),
-        alive=(bool, ()),
-        line=(np.int64, (), -1),
-        rows=(object, _no_rows()),
-        side=(object, _no_rows()),
-        ends=(object, Ends()),
-        spline=(object, None),
-        meets=(object, CurveIntersections.none()),
-        state=(np.int8, ()),
-    )
+@attrs.frozen(eq=False)
+class Curves(Table):
+    """Curves; ``rows`` and ``side`` are their defining points in order."""
+
+    key: ValueColumn[str] = values("")
+    alive: NumberColumn[np.bool_] = numbers(np.bool_)
+    line: NumberColumn[np.int64] = numbers(np.int64, -1)
+    rows: ValueColumn[IntArray] = values(_no_rows())
+    side: ValueColumn[IntArray] = values(_no_rows())
+    ends: ValueColumn[Ends] = values(Ends())
+    spline: ValueColumn[SplineBatch | None] = values(None)
+    meets: ValueColumn[CurveIntersections] = values(CurveIntersections.none())
+    state: NumberColumn[np.int8] = numbers(np.int8)
 
 
-def _lines() -> Table:
-    return Table(
-        key=(object, ""),
-        alive=(bool, ()),
-        name=(object, ""),
-        group=(np.int64, (), -1),
-        planar=(bool, ()),
-        normal=(float, (3,)),
-        offset=(float, (), np.nan),
-        boundary=(np.int8, (), -1),
-        curves=(object, ()),
-        note=(object, ""),
-    )
+@attrs.frozen(eq=False)
+class Lines(Table):
+    """Lines, their planes, and the curves that they consist of."""
+
+    key: ValueColumn[str] = values("")
+    alive: NumberColumn[np.bool_] = numbers(np.bool_)
+    name: ValueColumn[str] = values("")
+    group: NumberColumn[np.int64] = numbers(np.int64, -1)
+    planar: NumberColumn[np.bool_] = numbers(np.bool_)
+    normal: VectorColumn[np.float64] = vectors(np.float64, 3)
+    offset: NumberColumn[np.float64] = numbers(np.float64, np.nan)
+    boundary: NumberColumn[np.int8] = numbers(np.int8, -1)
+    curves: ValueColumn[tuple[int, ...]] = values(())
+    note: ValueColumn[str] = values("")
 
 
-def _featured() -> Table:
-    return Table(alive=(bool, ()), feature=(object, None))
+@attrs.frozen(eq=False)
+class Groups(Table):
+    """Groups of lines."""
+
+    name: ValueColumn[str] = values("")
+    family: ValueColumn[str] = values("")
+    alive: NumberColumn[np.bool_] = numbers(np.bool_)
 
 
-def _formed() -> Table:
-    return Table(alive=(bool, ()), definition=(object, None))
+@attrs.frozen(eq=False)
+class Featured(Table):
+    """Features, held whole."""
+
+    alive: NumberColumn[np.bool_] = numbers(np.bool_)
+    feature: ValueColumn[Feature] = values_given()
 
 
-def _produced() -> Table:
-    return Table(alive=(bool, ()), curve=(object, None))
+@attrs.frozen(eq=False)
+class Formed(Table):
+    """Definitions by form parameters, held whole."""
+
+    alive: NumberColumn[np.bool_] = numbers(np.bool_)
+    definition: ValueColumn[FormDefinition] = values_given()
 
 
-def _settings() -> Table:
-    return Table(
-        associations=(object, ()),
-        births=(object, None),
-        failed=(object, ()),
-        particulars=(object, None),
-    )
+@attrs.frozen(eq=False)
+class Produced(Table):
+    """Curves whose points come from definitions."""
+
+    alive: NumberColumn[np.bool_] = numbers(np.bool_)
+    curve: ValueColumn[GeneratedCurve] = values_given()
+
+
+Births = Mapping[tuple[str, str], int]
+"""How many crossings each pair of lines has ever had, by the keys of the lines."""
+
+
+@attrs.frozen(eq=False)
+class HullSettings(Table):
+    """What belongs to the hull as a whole; one row."""
+
+    associations: ValueColumn[tuple[Association, ...]] = values(())
+    births: ValueColumn[Births] = values_given()
+    failed: ValueColumn[tuple[int, ...]] = values(())
+    particulars: ValueColumn[Particulars] = values_given()
 
 
 @attrs.define(eq=False)
@@ -314,15 +338,15 @@ class HullState:
         Principal dimensions, m.
     tolerances : Tolerances
         Part of the definition.
-    rows, curves, lines, groups : Table
+    rows, curves, lines, groups : Rows, Curves, Lines, Groups
         The objects.
-    featured : Table
+    featured : Featured
         One row per feature, which it holds whole: see `features`.
-    formed : Table
+    formed : Formed
         One row per definition by form parameters, which it holds whole: see `definitions`.
-    produced : Table
+    produced : Produced
         One row per curve whose points come from definitions: see `generated`.
-    settings : Table
+    settings : HullSettings
         One row: the associations (`associations`) and how many crossings of each pair of
         lines were ever born (`births`), so that a dead id never comes back; the name may
         change, so the particulars lie here too.
@@ -335,16 +359,14 @@ class HullState:
 
     _given: Particulars = attrs.field(alias="particulars")
     tolerances: Tolerances = attrs.field(factory=Tolerances)
-    rows: Any = attrs.field(factory=_rows)
-    curves: Any = attrs.field(factory=_curves)
-    lines: Any = attrs.field(factory=_lines)
-    groups: Any = attrs.field(
-        factory=lambda: Table(name=(object, ""), family=(object, ""), alive=(bool, ()))
-    )
-    featured: Any = attrs.field(factory=_featured)
-    formed: Any = attrs.field(factory=_formed)
-    produced: Any = attrs.field(factory=_produced)
-    settings: Any = attrs.field(factory=_settings)
+    rows: Rows = attrs.field(factory=Rows)
+    curves: Curves = attrs.field(factory=Curves)
+    lines: Lines = attrs.field(factory=Lines)
+    groups: Groups = attrs.field(factory=Groups)
+    featured: Featured = attrs.field(factory=Featured)
+    formed: Formed = attrs.field(factory=Formed)
+    produced: Produced = attrs.field(factory=Produced)
+    settings: HullSettings = attrs.field(factory=HullSettings)
     revision_row: dict[int, int] = attrs.field(factory=dict)
     revision_curve: dict[int, int] = attrs.field(factory=dict)
     kept: dict[str, Any] = attrs.field(factory=dict, init=False, repr=False)
@@ -358,65 +380,62 @@ class HullState:
     @property
     def particulars(self) -> Particulars:
         """Name and principal dimensions, m."""
-        found: Particulars = self.settings.particulars.data[0]
-        return found
+        return self.settings.particulars[0]
 
     @property
     def associations(self) -> tuple[Association, ...]:
         """The declared associations."""
-        found: tuple[Association, ...] = self.settings.associations.data[0]
-        return found
+        return self.settings.associations[0]
 
     @property
     def features(self) -> tuple[Feature, ...]:
         """The features that are alive, by key."""
         table = self.featured
-        found = [table.feature.data[number] for number in self.live("featured").tolist()]
+        found = [table.feature[number] for number in self.live("featured").tolist()]
         return tuple(sorted(found, key=lambda each: each.key))
 
     @property
     def definitions(self) -> tuple[FormDefinition, ...]:
         """The definitions by form parameters, by key."""
         table = self.formed
-        found = [table.definition.data[number] for number in self.live("formed").tolist()]
+        found = [table.definition[number] for number in self.live("formed").tolist()]
         return tuple(sorted(found, key=lambda each: each.key))
 
     @property
     def generated(self) -> tuple[GeneratedCurve, ...]:
         """The curves whose points come from definitions, detached ones too, by key."""
         table = self.produced
-        found = [table.curve.data[number] for number in self.live("produced").tolist()]
+        found = [table.curve[number] for number in self.live("produced").tolist()]
         return tuple(sorted(found, key=lambda each: each.key))
 
     @property
     def failed(self) -> tuple[int, ...]:
         """Curves that could not be lofted and keep their last good shape."""
-        found: tuple[int, ...] = self.settings.failed.data[0]
-        return found
+        return self.settings.failed[0]
 
     @property
-    def births(self) -> Mapping[tuple[str, str], int]:
+    def births(self) -> Births:
         """How many crossings each pair of lines has ever had, by the keys of the lines."""
-        found: Mapping[tuple[str, str], int] = self.settings.births.data[0]
-        return found
+        return self.settings.births[0]
 
     def family(self, line: int) -> Family:
         """Give the family of a line."""
-        return FAMILIES[self.groups.family.data[int(self.lines.group.data[line])]]
+        return FAMILIES[self.groups.family[int(self.lines.group[line])]]
 
     def line_of(self, curve: int) -> int:
         """Give the line that a curve belongs to."""
-        return int(self.curves.line.data[curve])
+        return int(self.curves.line[curve])
 
     def rank(self, curve: int) -> tuple[int, str, str]:
         """Give the rank of a curve: by family, then by the keys of line and curve."""
         line = self.line_of(curve)
-        keys = self.lines.key.data[line], self.curves.key.data[curve]
+        keys = self.lines.key[line], self.curves.key[curve]
         return (self.family(line).rank, *keys)
 
     def spline(self, curve: int) -> SplineBatch:
         """Give the published spline of a curve, a batch of one."""
-        found: SplineBatch = self.curves.spline.data[curve]
+        found = self.curves.spline[curve]
+        assert found is not None, "a published curve has a shape"
         return found
 
     def curves_of(self, line: int) -> list[int]:
@@ -424,8 +443,8 @@ class HullState:
         curves = self.curves
         return [
             curve
-            for curve in self.lines.curves.data[line]
-            if curves.alive.data[curve] and curves.spline.data[curve] is not None
+            for curve in self.lines.curves[line]
+            if curves.alive[curve] and curves.spline[curve] is not None
         ]
 
     def live(self, table: str) -> IntArray:
@@ -456,8 +475,8 @@ def _copy(given: Table, found: Table) -> None:
     found.resize(given.count)
     for name, column in given.columns.items():
         other = found.columns[name]
-        if isinstance(column, ArrayColumn) and isinstance(other, ArrayColumn):
+        if isinstance(column, Column) and isinstance(other, Column):
             other.store[: given.count] = column.data
             other.written()
-        elif isinstance(column, ListColumn):
+        elif isinstance(column, ValueColumn) and isinstance(other, ValueColumn):
             other.data[:] = column.data

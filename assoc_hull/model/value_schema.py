@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping
-from typing import Any, cast
+from typing import cast
 
 import attrs
 
@@ -43,7 +43,7 @@ __all__ = [
     "tuple_of",
 ]
 
-Schema = dict[str, Any]
+Schema = dict[str, object]
 
 _LARGEST_COUNT = 2**53
 _LARGEST = 1e12

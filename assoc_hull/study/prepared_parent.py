@@ -143,7 +143,7 @@ class StudyParent:
             carry_net(edit, NetMap(space, self.lines, laid.planes, laid.features, laid.particulars))
         live = document.state.live("rows")
         live = live[live < state.rows.count]
-        step = document.state.rows.xyz.data[live] - state.rows.xyz.data[live]
+        step = document.state.rows.xyz[live] - state.rows.xyz[live]
         return Variant(document, certificate, float(np.sqrt((step * step).sum(axis=1).max())))
 
     def measured(self, variant: Variant) -> FloatArray:

@@ -77,14 +77,14 @@ def went_along(before: FloatArray, state: HullState) -> tuple[str, ...]:
     """
     lines = np.array([
         line for line in state.live("lines").tolist()
-        if state.family(line).axis in (1, 2) and state.lines.boundary.data[line] < 0
+        if state.family(line).axis in (1, 2) and state.lines.boundary[line] < 0
     ], np.int64)  # fmt: skip
-    moved = np.abs(state.lines.offset.data[lines] - before[lines])
+    moved = np.abs(state.lines.offset[lines] - before[lines])
     gone = lines[moved > IN_PLANE]
     if not len(gone):
         return ()
     farthest = int(lines[np.nanargmax(moved)])
-    name, level = state.lines.name.data[farthest], float(state.lines.offset.data[farthest])
+    name, level = state.lines.name[farthest], float(state.lines.offset[farthest])
     told = f"{len(gone)} waterlines and buttocks went along and kept their names"
     return (f"{told}: {name} is at {level:.6g} m",)
 

@@ -67,10 +67,10 @@ def shared_rows(hull: ah.Hull, pair: tuple[str, str]) -> IntArray:
     rows, half = hull.state.rows, hull.particulars.breadth / 2.0
     live = rows.alive.data & (rows.sort.data == Sort.CROSSING) & (rows.role.data == Role.SHARED)
     live &= ~rows.contact.data & ~on_flat(hull.state)
-    live &= (np.abs(rows.xyz.data[:, 1] - half) > 1e-9) & (rows.xyz.data[:, 2] > 1e-9)
+    live &= (np.abs(rows.xyz[:, 1] - half) > 1e-9) & (rows.xyz[:, 2] > 1e-9)
     names = {curve: family(hull, curve) for curve in hull.state.live("curves").tolist()}
     shared = np.flatnonzero(live)
-    curves = rows.curve.data[shared].tolist()
+    curves = rows.curve[shared].tolist()
     found = [
         row
         for row, (a, b) in zip(shared.tolist(), curves, strict=True)
@@ -81,13 +81,13 @@ def shared_rows(hull: ah.Hull, pair: tuple[str, str]) -> IntArray:
 
 def at_ends(hull: ah.Hull, rows: IntArray) -> BoolArray:
     """Tell which crossings lie within 5 % of the length from either end."""
-    x, length = hull.state.rows.xyz.data[rows, 0], hull.particulars.length
+    x, length = hull.state.rows.xyz[rows, 0], hull.particulars.length
     return np.asarray((x < 0.05 * length) | (x > 0.95 * length))
 
 
 def at_bilge(hull: ah.Hull, rows: IntArray) -> BoolArray:
     """Tell which lie amidships in the lower quarter, outside two thirds of the half-breadth."""
-    xyz, ship = hull.state.rows.xyz.data[rows], hull.particulars
+    xyz, ship = hull.state.rows.xyz[rows], hull.particulars
     middle = np.abs(xyz[:, 0] - 0.5 * ship.length) < 0.25 * ship.length
     return np.asarray(middle & (xyz[:, 2] < 0.25 * ship.depth) & (xyz[:, 1] > ship.breadth / 3.0))
 
@@ -135,10 +135,8 @@ def reshape(
     """Re-shape the curve of a family through a crossing that is moved along its freedom."""
 
     def act(edit: Edit, row: int) -> None:
-        curve = next(
-            int(c) for c in hull.state.rows.curve.data[row] if family(hull, int(c)) == name
-        )
-        place = hull.state.rows.xyz.data[row]
+        curve = next(int(c) for c in hull.state.rows.curve[row] if family(hull, int(c)) == name)
+        place = hull.state.rows.xyz[row]
         target = place + amount * normal_step(hull, row)
         axis, reach = (2, 8.0) if name == "sections" else (0, 20.0)
         span = (float(place[axis] - reach), float(place[axis] + reach))
@@ -152,7 +150,7 @@ def reshape_mixed(hull: ah.Hull, at: list[int], amount: float, fade: tuple[float
     turn = {row: i % 2 for i, row in enumerate(at)}
 
     def act(edit: Edit, row: int) -> None:
-        curve = int(hull.state.rows.curve.data[row, turn[row]])
+        curve = int(hull.state.rows.curve[row, turn[row]])
         reshape(hull, family(hull, curve), amount, fade)(edit, row)
 
     return act
@@ -187,7 +185,7 @@ def run(
             with hull.edit(kind) as edit:
                 act(edit, row)
         except ah.errors.RefusedEditError as error:
-            refused.append(f"{hull.state.rows.key.data[row]}: {error}")
+            refused.append(f"{hull.state.rows.key[row]}: {error}")
             continue
         report = edit.report
         assert report is not None

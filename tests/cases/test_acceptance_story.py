@@ -96,7 +96,7 @@ def consistent(hull: ah.Hull) -> None:
     assert hull.verify() == ()
     rows = hull.state.rows
     watched = rows.alive.data & (rows.sort.data == Sort.CROSSING) & (rows.role.data == Role.WATCHED)
-    assert (rows.gap.data[watched] <= rows.limit.data[watched]).all()
+    assert (rows.gap[watched] <= rows.limit[watched]).all()
 
 
 def test_step_1_all_lines_that_cross_a_re_shaped_waterline_follow(hull: ah.Hull) -> None:

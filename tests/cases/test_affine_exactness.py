@@ -108,12 +108,12 @@ def test_a_depth_moves_no_point_of_a_net_below_the_draught(
     asked = 0.96 * parent.measure(only=["depth"])["depth"]
     varied = parent.vary(set={"depth": asked}).hull
     before, after = parent.state, varied.state
-    row_of = {str(after.rows.key.data[row]): row for row in after.live("rows").tolist()}
+    row_of = {str(after.rows.key[row]): row for row in after.live("rows").tolist()}
     rows = before.live("rows")
-    given = (before.rows.driver.data[rows] < 0) & (before.rows.role.data[rows] != Role.WATCHED)
-    wet = before.rows.xyz.data[rows, 2] <= parent.particulars.draught
+    given = (before.rows.driver[rows] < 0) & (before.rows.role[rows] != Role.WATCHED)
+    wet = before.rows.xyz[rows, 2] <= parent.particulars.draught
     low = rows[given & wet].tolist()
-    there = [row_of[str(before.rows.key.data[row])] for row in low]
+    there = [row_of[str(before.rows.key[row])] for row in low]
     assert len(low) > 100
-    assert np.array_equal(before.rows.xyz.data[low], after.rows.xyz.data[there])
+    assert np.array_equal(before.rows.xyz[low], after.rows.xyz[there])
     assert varied.measure(only=["depth"])["depth"] == pytest.approx(asked, abs=1e-6)

@@ -142,7 +142,7 @@ def test_watched_gaps_stay_within_5_mm_and_2_mm_at_p95(bulk_carrier: ah.Hull) ->
     """The families agree wherever no crossing ties them."""
     rows = bulk_carrier.state.rows
     watched = rows.alive.data & (rows.sort.data == Sort.CROSSING) & (rows.role.data == Role.WATCHED)
-    gap = rows.gap.data[watched]
+    gap = rows.gap[watched]
     print(f"\nwatched gaps: p95 {1e3 * np.percentile(gap, 95):.2f}, max {1e3 * gap.max():.2f} mm")
     assert np.isfinite(gap).all()
     assert gap.max() <= 5e-3

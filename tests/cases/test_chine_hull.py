@@ -83,12 +83,12 @@ def knuckles_of(state: HullState) -> dict[str, list[str]]:
     """Per line of the net, on which boundary curves its knuckle points lie; "" for none."""
     rows, found = state.rows, dict[str, list[str]]()
     for row in state.live("rows").tolist():
-        for side, curve in enumerate(rows.curve.data[row].tolist()):
-            if curve < 0 or rows.kind.data[row, side] != PointKind.KNUCKLE:
+        for side, curve in enumerate(rows.curve[row].tolist()):
+            if curve < 0 or rows.kind[row, side] != PointKind.KNUCKLE:
                 continue
-            other = int(rows.curve.data[row, 1 - side])
-            name = "" if other < 0 else state.lines.name.data[state.line_of(other)]
-            found.setdefault(state.lines.name.data[state.line_of(curve)], []).append(name)
+            other = int(rows.curve[row, 1 - side])
+            name = "" if other < 0 else state.lines.name[state.line_of(other)]
+            found.setdefault(state.lines.name[state.line_of(curve)], []).append(name)
     return found
 
 

@@ -32,8 +32,8 @@ def test_the_flats_are_found(read_back: tuple[HullState, SliceReport]) -> None:
         axis, level = (2, 0.0) if border.name == "flat of bottom" else (1, form.BREADTH / 2.0)
         assert np.abs(border.places[:, axis] - level).max() < NOISE
         line = state.lines.name.data.index(border.name)
-        assert state.lines.normal.data[line].tolist() == np.eye(3)[axis].tolist()
-        assert abs(float(state.lines.offset.data[line]) - level) < NOISE
+        assert state.lines.normal[line].tolist() == np.eye(3)[axis].tolist()
+        assert abs(float(state.lines.offset[line]) - level) < NOISE
 
 
 def bottom_off(places: FloatArray) -> FloatArray:
@@ -80,16 +80,16 @@ def test_borders_generate_the_tangent_points(read_back: tuple[HullState, SliceRe
     rows, live = state.rows, state.live("rows")
     names = {border.name: border for border in report.borders}
     count = dict.fromkeys(names, 0)
-    for row in live[rows.contact.data[live]].tolist():
-        on = [state.lines.name.data[state.line_of(c)] for c in rows.curve.data[row].tolist()]
+    for row in live[rows.contact[live]].tolist():
+        on = [state.lines.name[state.line_of(c)] for c in rows.curve[row].tolist()]
         if on[0] not in names:
             continue
         count[on[0]] += 1
-        line = state.line_of(int(rows.curve.data[row, 0]))
-        normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
-        assert rows.kind.data[row, 1] == PointKind.TANGENT
-        assert abs(float(rows.xyz.data[row] @ normal) - offset) < 1e-9
-        assert abs(float(rows.direction.data[row, 1] @ normal)) < 1e-9
+        line = state.line_of(int(rows.curve[row, 0]))
+        normal, offset = state.lines.normal[line], float(state.lines.offset[line])
+        assert rows.kind[row, 1] == PointKind.TANGENT
+        assert abs(float(rows.xyz[row] @ normal) - offset) < 1e-9
+        assert abs(float(rows.direction[row, 1] @ normal)) < 1e-9
     assert count == {name: border.taken for name, border in names.items()}
     hull = Hull(state)
     assert hull.check() == ()
@@ -100,10 +100,10 @@ def test_lines_are_flat_in_the_flat(read_back: tuple[HullState, SliceReport]) ->
     """Above the border a section of the parallel body is straight, to 0.3 mm."""
     state, _ = read_back
     line = state.lines.name.data.index("ST 10")
-    [curve] = state.lines.curves.data[line]
+    [curve] = state.lines.curves[line]
     z = np.linspace(3.0, 26.0, 50)
     wanted = np.column_stack([np.full(50, 150.0), np.full(50, form.BREADTH / 2.0), z])
-    away = closest_points(state.curves.spline.data[curve], 0, wanted)[2]
+    away = closest_points(state.spline(curve), 0, wanted)[2]
     assert away.max() < 3e-4
 
 

@@ -27,7 +27,7 @@ def test_watched_gaps_are_4_mm_at_p95_and_nothing_is_found(dtc: ah.Hull) -> None
 def test_at_most_600_points_are_adopted(dtc: ah.Hull) -> None:
     """Points that no crossing holds, of all curves."""
     rows, live = dtc.state.rows, dtc.state.live("rows")
-    assert int((rows.sort.data[live] == Sort.ADOPTED).sum()) <= 600
+    assert int((rows.sort[live] == Sort.ADOPTED).sum()) <= 600
 
 
 def test_only_steep_crossings_define_a_curve(dtc: ah.Hull) -> None:
@@ -37,13 +37,13 @@ def test_only_steep_crossings_define_a_curve(dtc: ah.Hull) -> None:
     """
     state = dtc.state
     rows, live = state.rows, state.live("rows")
-    crossing = live[(rows.curve.data[live] >= 0).all(axis=1) & ~rows.contact.data[live]]
+    crossing = live[(rows.curve[live] >= 0).all(axis=1) & ~rows.contact[live]]
     seen = 0
     for side, driven in ((0, Role.DRIVES_A), (1, Role.DRIVES_B)):
-        mine = crossing[np.isin(rows.role.data[crossing], [Role.SHARED, driven])]
-        planes = np.array([state.line_of(c) for c in rows.curve.data[mine, 1 - side].tolist()])
-        along = tangents(state, rows.curve.data[mine, side], rows.parameter.data[mine, side])
-        sine = np.abs((along * state.lines.normal.data[planes]).sum(axis=1))
+        mine = crossing[np.isin(rows.role[crossing], [Role.SHARED, driven])]
+        planes = np.array([state.line_of(c) for c in rows.curve[mine, 1 - side].tolist()])
+        along = tangents(state, rows.curve[mine, side], rows.parameter[mine, side])
+        sine = np.abs((along * state.lines.normal[planes]).sum(axis=1))
         assert np.degrees(np.arcsin(sine)).min() > 14.0
         seen += len(mine)
     assert seen > 2000
@@ -53,12 +53,10 @@ def test_adopted_points_keep_clear_of_crossings(dtc: ah.Hull) -> None:
     """A drag of 50 mm at a crossing shall not fold the curve at the point beside it."""
     state, rows = dtc.state, dtc.state.rows
     for curve in state.live("curves").tolist():
-        own = state.curves.rows.data[curve]
-        knot = state.curves.spline.data[curve].knot
-        both = (rows.curve.data[own] >= 0).all(axis=1) & ~rows.contact.data[own]
-        smooth = (rows.sort.data[own] == Sort.ADOPTED) & (
-            rows.kind.data[own, 0] == PointKind.SMOOTH
-        )
+        own = state.curves.rows[curve]
+        knot = state.curves.spline[curve].knot
+        both = (rows.curve[own] >= 0).all(axis=1) & ~rows.contact[own]
+        smooth = (rows.sort[own] == Sort.ADOPTED) & (rows.kind[own, 0] == PointKind.SMOOTH)
         smooth[[0, -1]] = False
         if both.any() and smooth.any():
             beside = np.abs(knot[smooth][:, None] - knot[both]).min(axis=1)

@@ -76,7 +76,7 @@ def test_the_places_are_of_all_pairs_and_at_the_ends(dtc: ah.Hull) -> None:
         assert len(mine) == PLACES // 3
         assert places.at_ends(dtc, mine).any()
     turn = np.arange(PLACES) % 2
-    names = [places.family(dtc, c) for c in dtc.state.rows.curve.data[at, turn].tolist()]
+    names = [places.family(dtc, c) for c in dtc.state.rows.curve[at, turn].tolist()]
     assert {name: names.count(name) for name in names} == dict.fromkeys(names, PLACES // 3)
 
 
@@ -156,7 +156,7 @@ def _largest_part(hull: ah.Hull) -> float:
     """Give the largest watched gap of all, as a part of its limit."""
     rows = hull.state.rows
     watched = rows.alive.data & np.isfinite(rows.gap.data)
-    return float((rows.gap.data[watched] / rows.limit.data[watched]).max())
+    return float((rows.gap[watched] / rows.limit[watched]).max())
 
 
 def test_gaps_do_not_drift_over_200_pulls(session: Session) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.model.definition.records import definition
+from assoc_hull.model.node import Node
 from tests.cases.walk import walk
 from tests.independent import closure, relofted, snapshot
 from tests.properties.test_i01_consistency import assert_consistent
@@ -69,7 +70,7 @@ def test_an_edit_lofts_only_what_it_must(dtc: ah.Hull) -> None:
                 assert len(heard) > 1 or not besides
                 assert all(now[key] == step.before.curves[key] for key in besides)
                 seeds = dtc.document.history[-1].seeds.tolist()
-                moved = {dtc.state.rows.key.data[node >> 1] for node in seeds}
+                moved = {dtc.state.rows.key[Node.number(node)] for node in seeds}
                 assert wanted <= closure(dtc, moved)
             heard.clear()
 

@@ -26,7 +26,7 @@ UNITS = [(1.0, "in"), (1.0, "ft")]
 
 def places(state: HullState, scale: float) -> FloatArray:
     """The points of a hull at 100 m, sorted."""
-    xyz: FloatArray = state.rows.xyz.data[state.live("rows")] / scale
+    xyz: FloatArray = state.rows.xyz[state.live("rows")] / scale
     return xyz[np.lexsort(xyz.T)]
 
 

@@ -75,7 +75,7 @@ def test_an_adopted_line_has_no_more_inflections_than_the_spline_through_its_off
             ]
             tables = hull.state.rows
             direction = np.array(
-                [tables.direction.data[p.row, p.side] for p in own if p.role == "defining"]
+                [tables.direction[p.row, p.side] for p in own if p.role == "defining"]
             )
             source = loft(CurveData.single(xyz, kinds, direction))
             normal = np.eye(3)[axis]
@@ -89,7 +89,7 @@ def test_cut_lines_move_no_given_line_by_more_than_1_mm(
     """Adding 14 waterlines, 16 sections and 12 buttocks is no change of shape."""
     before = adopted[cb].state
     count = before.curves.count
-    keys = before.curves.key.data[:count]
+    keys = before.curves.key[:count]
     after = [whole[cb].state.curves.key.data.index(key) for key in keys]
     old = SplineBatch.join([before.spline(i) for i in range(count)])
     new = SplineBatch.join([whole[cb].state.spline(i) for i in after])
@@ -111,7 +111,7 @@ def test_watched_gaps_stay_within_6_mm_and_3_mm_at_p95(whole: dict[float, Hull],
     """The families of the adopted net agree wherever no crossing ties them."""
     rows = whole[cb].state.rows
     watched = rows.alive.data & (rows.sort.data == Sort.CROSSING) & (rows.role.data == Role.WATCHED)
-    gap = rows.gap.data[watched]
+    gap = rows.gap[watched]
     assert np.isfinite(gap).all()
     assert gap.max() <= 6e-3
     assert np.percentile(gap, 95) <= 3e-3

@@ -83,10 +83,10 @@ def test_a_pull_gives_its_normal_displacement_within_1_percent(series60_70: ah.H
     """Measured along the outward normal at the pulled point."""
     for row in places.places(series60_70, places.PAIRS, 6, 3):
         normal = hull_normals(series60_70.state)[row]
-        before = series60_70.state.rows.xyz.data[row].copy()
+        before = series60_70.state.rows.xyz[row].copy()
         with series60_70.edit("pull") as edit:
             edit.pull(Point.of(series60_70.state, row), 0.02, (20.0, 8.0))
-        moved = float((series60_70.state.rows.xyz.data[row] - before) @ normal)
+        moved = float((series60_70.state.rows.xyz[row] - before) @ normal)
         series60_70.undo()
         assert moved == pytest.approx(0.02, rel=0.01)
 

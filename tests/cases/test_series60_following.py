@@ -75,7 +75,7 @@ def test_the_relofted_set_is_the_closure_of_the_role_table(series60_70: ah.Hull,
 def test_why_names_what_moved_each_curve_back_to_the_edit(series60_70: ah.Hull, kind: str) -> None:
     """Causes are points that lie on the curve and moved; the chain ends at one the edit set."""
     hull, state = series60_70, series60_70.state
-    number = {state.curves.key.data[curve]: curve for curve in state.live("curves").tolist()}
+    number = {state.curves.key[curve]: curve for curve in state.live("curves").tolist()}
     for row in at(hull, kind, 6):
         start = state.rows.xyz.data.copy()
         with edited(hull, kind, row) as report:
@@ -83,7 +83,7 @@ def test_why_names_what_moved_each_curve_back_to_the_edit(series60_70: ah.Hull, 
                 continue
             for key in report.relofted:
                 why = hull.why(Curve.of(state, number[key]))
-                own = {state.rows.key.data[r] for r in state.curves.rows.data[number[key]].tolist()}
+                own = {state.rows.key[r] for r in state.curves.rows[number[key]].tolist()}
                 assert why.edit == kind
                 assert why.causes
                 assert {cause.object for cause in why.causes} <= own & _moved(hull, start)
@@ -93,8 +93,8 @@ def test_why_names_what_moved_each_curve_back_to_the_edit(series60_70: ah.Hull, 
 
 def _moved(hull: ah.Hull, start: FloatArray) -> set[str]:
     rows = hull.state.rows
-    differs = (rows.xyz.data[: len(start)] != start).any(axis=1)
-    return {rows.key.data[row] for row in np.flatnonzero(differs).tolist()}
+    differs = (rows.xyz[: len(start)] != start).any(axis=1)
+    return {rows.key[row] for row in np.flatnonzero(differs).tolist()}
 
 
 def _free_shared(hull: ah.Hull) -> IntArray:
@@ -119,7 +119,7 @@ def test_every_line_with_a_shared_crossing_in_reach_of_a_pull_has_moved(
     """Both lines of each such crossing, and the crossing by what the field says there."""
     hull, state = series60_70, series60_70.state
     for row in at(hull, "a pull"):
-        start, place = state.rows.xyz.data.copy(), state.rows.xyz.data[row].copy()
+        start, place = state.rows.xyz.data.copy(), state.rows.xyz[row].copy()
         free, bits = _free_shared(hull), snapshot(hull).curves
         with edited(hull, "a pull", row) as report:
             if report is None:
@@ -131,9 +131,9 @@ def test_every_line_with_a_shared_crossing_in_reach_of_a_pull_has_moved(
             after = snapshot(hull).curves
             assert len(reach) > 3
             for each in reach.tolist():
-                assert (state.rows.xyz.data[each] != start[each]).any()
-                for curve in state.rows.curve.data[each].tolist():
-                    key = state.curves.key.data[curve]
+                assert (state.rows.xyz[each] != start[each]).any()
+                for curve in state.rows.curve[each].tolist():
+                    key = state.curves.key[curve]
                     assert bits[key] != after[key]
 
 
@@ -148,19 +148,17 @@ def test_every_line_with_a_shared_crossing_on_a_reshaped_stretch_has_moved(
     for row in at(hull, kind):
         start, bits = state.rows.xyz.data.copy(), snapshot(hull).curves
         free = _free_shared(hull)
-        curve = next(
-            int(c) for c in state.rows.curve.data[row] if places.family(hull, int(c)) == name
-        )
+        curve = next(int(c) for c in state.rows.curve[row] if places.family(hull, int(c)) == name)
         with edited(hull, kind, row) as report:
             if report is None:
                 continue
-            free = np.intersect1d(_taken(hull, report, free), state.curves.rows.data[curve])
+            free = np.intersect1d(_taken(hull, report, free), state.curves.rows[curve])
             free = free[np.abs(start[free, axis] - start[row, axis]) < reach]
             after = snapshot(hull).curves
             assert row in free
             for each in free.tolist():
-                for partner in state.rows.curve.data[each].tolist():
-                    key = state.curves.key.data[partner]
+                for partner in state.rows.curve[each].tolist():
+                    key = state.curves.key[partner]
                     assert bits[key] != after[key]
 
 
@@ -169,13 +167,13 @@ def test_every_drag_puts_its_point_where_it_was_asked(series60_70: ah.Hull, amou
     """To 1e-9 m, at all 24 places."""
     hull, table = series60_70, series60_70.state.rows
     for row in places.places(hull, places.PAIRS, 24, SEED):
-        target = table.xyz.data[row] + amount * places.normal_step(hull, row)
+        target = table.xyz[row] + amount * places.normal_step(hull, row)
         try:
             with hull.edit("drag") as edit:
                 places.drag(hull, amount)(edit, row)
         except ah.errors.RefusedEditError:
             continue
-        assert np.abs(table.xyz.data[row] - target).max() < 1e-9
+        assert np.abs(table.xyz[row] - target).max() < 1e-9
         hull.undo()
 
 
@@ -185,13 +183,13 @@ def test_every_pull_gives_its_normal_displacement(series60_70: ah.Hull, amount: 
     hull, table = series60_70, series60_70.state.rows
     normal = hull_normals(hull.state)
     for row in places.places(hull, places.PAIRS, 24, SEED):
-        start = table.xyz.data[row].copy()
+        start = table.xyz[row].copy()
         try:
             with hull.edit("pull") as edit:
                 places.pull(hull, amount)(edit, row)
         except ah.errors.RefusedEditError:
             continue
-        moved = float((table.xyz.data[row] - start) @ normal[row])
+        moved = float((table.xyz[row] - start) @ normal[row])
         hull.undo()
         assert moved == pytest.approx(amount, rel=0.01)
 

@@ -32,7 +32,7 @@ def verdict_in(told: str) -> str:
 def wrong_volume(path: Path) -> str:
     """Tell how the volume at the design draught leaves the box of the hull's points; "" if not."""
     state = read_hull_json(path)
-    xyz = np.asarray(state.rows.xyz.data[: state.rows.count])
+    xyz = np.asarray(state.rows.xyz[: state.rows.count])
     draught = state.particulars.draught
     try:
         volume = hydrostatics(Hull(state), on_error="report", estimate=False).volume

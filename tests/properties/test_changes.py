@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.table import ArrayColumn
+from assoc_hull.graph.table import Column
 from assoc_hull.model.change import apply_change, change_of
 from assoc_hull.model.definition.fingerprint import FingerprintCache, fingerprint, is_shape
 from assoc_hull.model.tables import TABLES, HullState
@@ -18,7 +18,7 @@ def picture(state: HullState) -> dict[str, object]:
     found: dict[str, object] = {}
     for table in TABLES:
         for name, column in getattr(state, table).columns.items():
-            if isinstance(column, ArrayColumn):
+            if isinstance(column, Column):
                 found[f"{table}.{name}"] = column.data.tobytes()
             else:
                 found[f"{table}.{name}"] = [
@@ -31,7 +31,7 @@ def _plain(state: HullState, table: str, name: str, value: object, row: int) -> 
     if isinstance(value, np.ndarray):
         return value.tolist()
     if name == "spline":
-        if value is None or not state.curves.alive.data[row]:
+        if value is None or not state.curves.alive[row]:
             return None  # nothing reads the spline of a curve that has gone
         return [getattr(value, each).tobytes() for each in ("knot", "xyz", "leave", "arrive")]
     if name == "meets":

@@ -18,6 +18,7 @@ from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.forms.generate_points import generated_points
 from assoc_hull.model.generated_curves import attached_curves
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState, copy_state
 from tests.formed import formed
 from tests.independent import closure, relofted, snapshot
@@ -113,7 +114,7 @@ def test_what_is_lofted_is_what_a_new_hull_has_otherwise(acts: list[Act]) -> Non
     moved = {key for key, bits in snapshot(again).points.items() if before.points.get(key) != bits}
     generated = {key for key in moved if " @ " in key}
     assert wanted <= closure(hull, generated)
-    assert report.planned >= len(heard[0].evaluated[heard[0].evaluated & 1 == 1])
+    assert report.planned >= len(heard[0].evaluated[Node.is_curve(heard[0].evaluated)])
     for part in heard:
         assert len(set(part.evaluated.tolist())) == len(part.evaluated)
 
@@ -149,8 +150,8 @@ def test_any_edits_leave_a_hull_that_can_be_made_again(edits: list[list[Act]]) -
 def detached(state: HullState) -> dict[str, bytes]:
     """Give the own points of detached lines, by name of the line."""
     return {
-        str(state.lines.name.data[state.line_of(each.curve)]):
-            state.rows.xyz.data[list(each.rows)].tobytes()
+        str(state.lines.name[state.line_of(each.curve)]):
+            state.rows.xyz[list(each.rows)].tobytes()
         for each in state.generated if not each.attached
     }  # fmt: skip
 

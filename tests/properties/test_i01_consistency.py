@@ -116,7 +116,7 @@ def test_the_root_finder_sees_what_is_tampered_with() -> None:
     rows = hull.state.rows
     row = next(c.row for c in hull.crossings.values() if movable(c) and not at_boundary(c))
     rows.xyz.store[row, int(np.flatnonzero(_free(hull, row))[0])] += 2e-9
-    assert any(hull.state.rows.key.data[row] in text for text in trouble(hull))
+    assert any(hull.state.rows.key[row] in text for text in trouble(hull))
     rows.alive.store[row] = False
     assert len(list(lost_meetings(hull))) == 1
 

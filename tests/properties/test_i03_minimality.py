@@ -14,6 +14,7 @@ from assoc_hull.edit import update_passes as work
 from assoc_hull.edit.report import EditReport
 from assoc_hull.graph import run_update as engine
 from assoc_hull.graph.run_update import UpdatePass
+from assoc_hull.model.node import Node
 from tests.cases import places
 from tests.independent import closure, relofted, snapshot
 from tests.net_strategies import (
@@ -100,15 +101,15 @@ def test_a_second_pass_lofts_only_what_births_deaths_and_mends_touch(
         keys = hull.state.curves.key.data
         for part in heard[1:]:
             pushed = set(part.cause.reader.tolist())
-            seeds = [n for n in part.evaluated.tolist() if n & 1 and n not in pushed]
+            seeds = [n for n in part.evaluated.tolist() if Node.is_curve(n) and n not in pushed]
             touched = set(report.mended) | _curves_of(hull, (*report.born, *report.gone))
-            assert {keys[node >> 1] for node in seeds} <= touched
+            assert {keys[Node.number(node)] for node in seeds} <= touched
 
 
 def _curves_of(hull: ah.Hull, rows: tuple[str, ...]) -> set[str]:
     table = hull.state.rows
     numbers = [table.key.data.index(key) for key in rows]
-    return {hull.state.curves.key.data[c] for c in table.curve.data[numbers].ravel().tolist()}
+    return {hull.state.curves.key[c] for c in table.curve[numbers].ravel().tolist()}
 
 
 @settings(max_examples=20)
@@ -122,7 +123,7 @@ def test_a_move_stays_within_the_closure_of_the_role_table(
         if report is None or not quiet(report):
             continue
         step = hull.document.history[-1]
-        seeds = {hull.state.rows.key.data[node >> 1] for node in step.seeds.tolist()}
+        seeds = {hull.state.rows.key[Node.number(node)] for node in step.seeds.tolist()}
         assert set(report.relofted) <= closure(hull, seeds)
 
 

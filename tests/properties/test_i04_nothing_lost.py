@@ -42,28 +42,24 @@ def decided(hull: ah.Hull) -> Placed:
     live = state.live("rows").tolist()
     curve = state.curves.key.data
     return Placed(
+        {rows.key[i]: rows.xyz[i].tobytes() for i in live if rows.sort[i] == Sort.PLACED},
         {
-            rows.key.data[i]: rows.xyz.data[i].tobytes()
-            for i in live
-            if rows.sort.data[i] == Sort.PLACED
-        },
-        {
-            (rows.key.data[i], curve[int(rows.curve.data[i, side])]): (
-                int(rows.kind.data[i, side]),
-                rows.direction.data[i, side].tobytes(),
+            (rows.key[i], curve[int(rows.curve[i, side])]): (
+                int(rows.kind[i, side]),
+                rows.direction[i, side].tobytes(),
             )
             for i in live
             for side in (0, 1)
-            if rows.kind.data[i, side] and rows.curve.data[i, side] >= 0
+            if rows.kind[i, side] and rows.curve[i, side] >= 0
         },
         {
             (curve[i], end): repr((ends.kind[at], ends.vector[at]))
             for i in state.live("curves").tolist()
-            for ends in [state.curves.ends.data[i]]
+            for ends in [state.curves.ends[i]]
             for at, end in enumerate(("start", "finish"))
         },
-        {state.lines.key.data[i]: state.lines.name.data[i] for i in state.live("lines").tolist()},
-        {rows.key.data[i]: int(rows.override.data[i]) for i in live if rows.override.data[i] >= 0},
+        {state.lines.key[i]: state.lines.name[i] for i in state.live("lines").tolist()},
+        {rows.key[i]: int(rows.override[i]) for i in live if rows.override[i] >= 0},
     )
 
 
@@ -173,9 +169,9 @@ def _gone(hull: ah.Hull) -> set[object]:
         alive = table.alive.data.tolist()
         gone |= {key for key, lives in zip(table.key.data, alive, strict=True) if not lives}
     for row in np.flatnonzero(~rows.alive.data).tolist():
-        curve_lives = state.curves.alive.data[int(rows.curve.data[row, 0])]
-        if rows.sort.data[row] == Sort.CROSSING or not curve_lives:
-            gone.add(rows.key.data[row])
+        curve_lives = state.curves.alive[int(rows.curve[row, 0])]
+        if rows.sort[row] == Sort.CROSSING or not curve_lives:
+            gone.add(rows.key[row])
     return gone
 
 
@@ -199,11 +195,7 @@ def test_a_role_changes_only_by_its_own_edit(hull: ah.Hull, edits: list[Task]) -
 def _roles(hull: ah.Hull) -> dict[str, Role]:
     rows = hull.state.rows
     live = hull.state.live("rows").tolist()
-    return {
-        rows.key.data[i]: Role(int(rows.role.data[i]))
-        for i in live
-        if rows.sort.data[i] == Sort.CROSSING
-    }
+    return {rows.key[i]: Role(int(rows.role[i])) for i in live if rows.sort[i] == Sort.CROSSING}
 
 
 def test_placed_points_stay_to_the_last_bit_where_the_hull_is_pulled() -> None:

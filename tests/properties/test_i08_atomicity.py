@@ -23,10 +23,11 @@ from assoc_hull.errors import AssocHullError, TooFewPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.network import Evaluation
-from assoc_hull.graph.table import ArrayColumn
+from assoc_hull.graph.table import Column
 from assoc_hull.model import network
 from assoc_hull.model.kinds import State
 from assoc_hull.model.network import HullNetwork
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 from tests.cases import places
 from tests.independent import closure, curve_bits, snapshot
@@ -107,7 +108,7 @@ def _in_network(name: str, argument: int) -> Callable[[int, BaseException], mock
         def fail(*given: object, **named: object) -> object:
             curves = given[argument]
             assert isinstance(curves, np.ndarray)
-            if node & 1 and node >> 1 in curves.tolist():
+            if Node.is_curve(node) and Node.number(node) in curves.tolist():
                 raise error
             return original(*given, **named)
 
@@ -123,7 +124,7 @@ def _in_check(name: str) -> Callable[[int, BaseException], mock._patch[object]]:
         original = getattr(update, name)
 
         def fail(state: HullState, curves: IntArray, *rest: object) -> object:
-            if node & 1 and node >> 1 in curves.tolist():
+            if Node.is_curve(node) and Node.number(node) in curves.tolist():
                 raise error
             return original(state, curves, *rest)
 
@@ -184,7 +185,11 @@ class Reach:
             return list(self.changed)
         if stage in _CHECKS:
             return list(self.touched)
-        return [node for node in self.evaluated if node & 1 or stage in ("evaluate", "evaluated")]
+        return [
+            node
+            for node in self.evaluated
+            if Node.is_curve(node) or stage in ("evaluate", "evaluated")
+        ]
 
 
 def reach_of(hull: ah.Hull, change: Change) -> Reach:
@@ -206,7 +211,7 @@ def reach_of(hull: ah.Hull, change: Change) -> Reach:
 def shared(hull: ah.Hull) -> list[ah.Point]:
     """Give the shared crossings of sections and waterlines."""
     points = [p for p in live_points(hull, "crossing") if p.crossing_role == "shared"]
-    return [p for p in points if p.free == ("y",) and not hull.state.rows.contact.data[p.row]]
+    return [p for p in points if p.free == ("y",) and not hull.state.rows.contact[p.row]]
 
 
 def pull_wide(hull: ah.Hull) -> Change:
@@ -262,7 +267,7 @@ def tables(hull: ah.Hull) -> tuple[object, ...]:
     """Give every bit of the tables, of lists the very objects, with revisions and history."""
     state, document = hull.state, hull.document
     columns = [
-        column.data.tobytes() if isinstance(column, ArrayColumn) else [id(x) for x in column.data]
+        column.data.tobytes() if isinstance(column, Column) else [id(x) for x in column.data]
         for table in (state.rows, state.curves, state.lines, state.groups, state.settings)
         for column in table.columns.values()
     ]
@@ -339,20 +344,20 @@ def keeps_going(
         change(edit)
     report, state = edit.report, hull.state
     assert report is not None
-    key = state.curves.key.data[node >> 1]
+    key = state.curves.key[Node.number(node)]
     assert report.failed
-    reach = readers_of(hull, node >> 1)
-    assert state.failed == (node >> 1,)
+    reach = readers_of(hull, Node.number(node))
+    assert state.failed == (Node.number(node),)
     assert {name for name in report.blocked if name in old} == reach
     for curve in state.live("curves").tolist():
-        name, handle = state.curves.key.data[curve], ah.Curve.of(state, curve)
+        name, handle = state.curves.key[curve], ah.Curve.of(state, curve)
         assert handle.state == (
             "failed" if name == key else "blocked" if name in reach else "clean"
         )
         kept = name == key or name in reach
         assert curve_bits(state, curve) == (old if kept else wanted)[name]
     assert {finding.kind for finding in hull.check()} >= {"failed"}
-    next_edits_work(hull, node >> 1)
+    next_edits_work(hull, Node.number(node))
     hull.undo()
     assert attrs.evolve(whole(hull), revisions=before.revisions, undone=()) == attrs.evolve(
         before, undone=()
@@ -363,11 +368,9 @@ def readers_of(hull: ah.Hull, curve: int) -> set[str]:
     """Walk the role table from the points computed from a curve."""
     rows = hull.state.rows
     driven = {
-        rows.key.data[row]
-        for row in hull.state.live("rows").tolist()
-        if rows.driver.data[row] == curve
+        rows.key[row] for row in hull.state.live("rows").tolist() if rows.driver[row] == curve
     }
-    return closure(hull, driven) - {hull.state.curves.key.data[curve]}
+    return closure(hull, driven) - {hull.state.curves.key[curve]}
 
 
 def next_edits_work(hull: ah.Hull, failed: int) -> None:
@@ -377,7 +380,7 @@ def next_edits_work(hull: ah.Hull, failed: int) -> None:
         for point in live_points(hull, "crossing")
         if point.crossing_role == "shared"
         and point.free == ("y",)
-        and failed not in hull.state.rows.curve.data[point.row].tolist()
+        and failed not in hull.state.rows.curve[point.row].tolist()
     ]
     with hull.edit("elsewhere", "keep_going", "report") as edit:
         edit.move(far[0], y=far[0].y + 0.001)
@@ -420,7 +423,9 @@ def test_a_sample_of_80_nodes_of_series_60(series60_70: ah.Hull) -> None:
         for node in sorted(sample & set(reach.of(stage))):
             with failing_at(stage, node), hull.edit("failing", "keep_going", "report") as edit:
                 change(edit)
-            assert blocked(hull) == (readers_of(hull, node >> 1) if hull.state.failed else set())
+            assert blocked(hull) == (
+                readers_of(hull, Node.number(node)) if hull.state.failed else set()
+            )
             hull.undo()
     assert hull.fingerprint == before.fingerprint
     hull.document.undone.clear()
@@ -435,7 +440,7 @@ def turn_about(nodes: set[int]) -> tuple[list[int], list[int]]:
 def blocked(hull: ah.Hull) -> set[str]:
     """Keys of the curves that are not up to date."""
     table = hull.state.curves
-    return {table.key.data[i] for i in np.flatnonzero(table.state.data == State.BLOCKED)}
+    return {table.key[i] for i in np.flatnonzero(table.state.data == State.BLOCKED)}
 
 
 def break_off(hull: ah.Hull, change: Change) -> None:

@@ -35,7 +35,7 @@ def crossings(hull: ah.Hull) -> set[str]:
     """Keys of all live crossings."""
     rows = hull.state.rows
     live = hull.state.live("rows").tolist()
-    return {rows.key.data[row] for row in live if rows.sort.data[row] == Sort.CROSSING}
+    return {rows.key[row] for row in live if rows.sort[row] == Sort.CROSSING}
 
 
 def assert_reported(before: set[str], ever: set[str], hull: ah.Hull, report: EditReport) -> None:
@@ -51,13 +51,13 @@ def assert_branches(hull: ah.Hull) -> None:
     state = hull.state
     pairs: dict[tuple[int, int], list[int]] = {}
     for row in state.live("rows").tolist():
-        a, b = state.rows.curve.data[row].tolist()
-        if state.rows.sort.data[row] == Sort.CROSSING and not state.rows.contact.data[row]:
+        a, b = state.rows.curve[row].tolist()
+        if state.rows.sort[row] == Sort.CROSSING and not state.rows.contact[row]:
             pairs.setdefault((a, b), []).append(row)
-            assert sign_at(state, row, a, b) == state.rows.sign.data[row]
+            assert sign_at(state, row, a, b) == state.rows.sign[row]
     for (a, b), rows in pairs.items():
         along = [order_along(state, rows, curve, other) for curve, other in ((a, b), (b, a))]
-        assert along[0] in (along[1], along[1][::-1]), [state.rows.key.data[row] for row in rows]
+        assert along[0] in (along[1], along[1][::-1]), [state.rows.key[row] for row in rows]
 
 
 def sign_at(state: HullState, row: int, curve: int, other: int) -> int:
@@ -71,11 +71,11 @@ def root_at(
 ) -> tuple[Root, np.typing.NDArray[np.float64]]:
     """Where a curve meets the plane of another at a crossing, and the normal of the plane."""
     line = state.line_of(other)
-    normal = state.lines.normal.data[line]
-    found = roots(state.spline(curve), normal, float(state.lines.offset.data[line]))
+    normal = state.lines.normal[line]
+    found = roots(state.spline(curve), normal, float(state.lines.offset[line]))
     place = place_on(state, row, curve)
     nearest = min(found, key=lambda each: float(np.abs(each.place - place).max()))
-    assert float(np.abs(nearest.place - place).max()) < 1e-6, state.rows.key.data[row]
+    assert float(np.abs(nearest.place - place).max()) < 1e-6, state.rows.key[row]
     return nearest, normal
 
 
@@ -87,14 +87,14 @@ def senses(hull: ah.Hull) -> dict[tuple[str, str], int]:
     """
     state, rows, found = hull.state, hull.state.rows, dict[tuple[str, str], int]()
     for row in state.live("rows").tolist():
-        if rows.sort.data[row] != Sort.CROSSING or rows.contact.data[row]:
+        if rows.sort[row] != Sort.CROSSING or rows.contact[row]:
             continue
-        a, b = rows.curve.data[row].tolist()
+        a, b = rows.curve[row].tolist()
         for curve, other in ((a, b), (b, a)):
             root, normal = root_at(state, row, curve, other)
             sine = float(root.tangent @ normal)
             if abs(sine) > 1e-3:
-                found[rows.key.data[row], state.curves.key.data[curve]] = 1 if sine > 0 else -1
+                found[rows.key[row], state.curves.key[curve]] = 1 if sine > 0 else -1
     return found
 
 
@@ -106,23 +106,23 @@ def assert_senses_kept(hull: ah.Hull, born: dict[tuple[str, str], int]) -> None:
     for (key, name), sense in senses(hull).items():
         row, curve = number[key], curves[name]
         assert born.setdefault((key, name), sense) == sense, f"{key} is passed by {name} as {sense}"
-        meets = state.curves.meets.data[curve]
+        meets = state.curves.meets[curve]
         assert meets.sign[meets.row == row].tolist() == [sense], f"{key} on {name}"
-        if state.rows.curve.data[row, 0] == curve:
-            assert state.rows.sign.data[row] == sense, f"{key} on {name}"
+        if state.rows.curve[row, 0] == curve:
+            assert state.rows.sign[row] == sense, f"{key} on {name}"
 
 
 def place_on(state: HullState, row: int, curve: int) -> np.typing.NDArray[np.float64]:
     """Where a crossing lies on one of its curves."""
-    side = int(state.rows.curve.data[row, 0] != curve)
-    watched = state.rows.role.data[row] == Role.WATCHED
-    return np.array(state.rows.spot.data[row, side] if watched else state.rows.xyz.data[row])
+    side = int(state.rows.curve[row, 0] != curve)
+    watched = state.rows.role[row] == Role.WATCHED
+    return np.array(state.rows.spot[row, side] if watched else state.rows.xyz[row])
 
 
 def order_along(state: HullState, rows: list[int], curve: int, other: int) -> list[int]:
     """Give crossings of one pair of curves in order along one of them."""
     line = state.line_of(other)
-    plane = state.lines.normal.data[line], float(state.lines.offset.data[line])
+    plane = state.lines.normal[line], float(state.lines.offset[line])
     places = [root.place for root in roots(state.spline(curve), *plane)]
 
     def at(row: int) -> int:
@@ -142,8 +142,8 @@ def orders(hull: ah.Hull) -> Orders:
     state, found = hull.state, Orders()
     pairs: dict[tuple[int, int], list[int]] = {}
     for row in state.live("rows").tolist():
-        a, b = state.rows.curve.data[row].tolist()
-        if state.rows.sort.data[row] == Sort.CROSSING and not state.rows.contact.data[row]:
+        a, b = state.rows.curve[row].tolist()
+        if state.rows.sort[row] == Sort.CROSSING and not state.rows.contact[row]:
             pairs.setdefault((a, b), []).append(row)
     name, key = state.curves.key.data, state.rows.key.data
     for (a, b), rows in pairs.items():
@@ -312,7 +312,7 @@ def along(hull: ah.Hull) -> dict[str, float]:
         for each in hull.crossings.values()
         if (each.a.line.name, each.b.line.name) == DENTED
     }
-    assert all(rows.alive.data[rows.key.data.index(key)] for key in found)
+    assert all(rows.alive[rows.key.data.index(key)] for key in found)
     return dict(sorted(found.items(), key=lambda item: item[1]))
 
 
@@ -392,7 +392,7 @@ def test_crossings_slide_and_keep_their_ids() -> None:
         assert (report.born, report.gone) == ((), ())
         assert of_pair(hull) == ids
         rows = [hull.state.rows.key.data.index(key) for key in sorted(ids)]
-        places.append(hull.state.rows.spot.data[rows, 0, 0].tolist())
+        places.append(hull.state.rows.spot[rows, 0, 0].tolist())
     assert all(one != other for one, other in pairwise(places))
     assert_branches(hull)
 
@@ -408,7 +408,7 @@ def test_a_driven_crossing_vanishes_and_its_curve_goes_on() -> None:
     assert gone
     keys = hull.state.rows.key.data
     for curve in hull.state.live("curves").tolist():
-        assert not {keys[row] for row in hull.state.curves.rows.data[curve]} & set(gone)
+        assert not {keys[row] for row in hull.state.curves.rows[curve]} & set(gone)
     assert hull.verify() == ()
     assert list(trouble(hull, kept=True)) == []
 

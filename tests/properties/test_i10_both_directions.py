@@ -120,7 +120,7 @@ def assert_both_directions(hull: ah.Hull, count: int, seed: int) -> None:
     owned = {point for feature in hull.state.features for point in feature.points}
     rows = [row for row in places.places(hull, places.PAIRS, count, seed) if row not in owned]
     assert len(rows) > count / 2
-    keys = [hull.state.rows.key.data[row] for row in rows]
+    keys = [hull.state.rows.key[row] for row in rows]
     start, found = hull.fingerprint, set[str]()
     home = {
         key: {axis: getattr(hull.points[key], axis) for axis in hull.points[key].free}

@@ -125,7 +125,7 @@ def assert_drags_agree(hull: ah.Hull, rng: np.random.Generator, count: int) -> i
     for number in range(count):
         row = int(rng.choice(rows))
         how = ("pull", "move")[number % 2]
-        one, other = drags(hull, str(state.rows.key.data[row]), how)
+        one, other = drags(hull, str(state.rows.key[row]), how)
         if how == "move" and not one.free:
             continue
         for size in rng.normal(0.0, 0.02, 3).tolist():

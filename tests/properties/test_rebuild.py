@@ -29,7 +29,8 @@ from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.definition.verify import verify
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 from tests.strategies import (
     Move,
     Net,
@@ -203,14 +204,14 @@ ORIGINAL_READERS = HullNetwork.readers
 def all_edges(document: Document) -> list[tuple[int, int]]:
     """Every (source, reader) of the network."""
     state = document.state
-    nodes = np.concatenate([row_node(state.live("rows")), curve_node(state.live("curves"))])
+    nodes = np.concatenate([Node.point(state.live("rows")), Node.curve(state.live("curves"))])
     found = HullNetwork(state, document.index).readers(nodes)
     return sorted(set(zip(found.source.tolist(), found.reader.tolist(), strict=True)))
 
 
 def nudge(document: Document, row: int, axis: int) -> bool:
     """Move one point by a centimetre along an axis; False if that is refused."""
-    value = document.state.rows.xyz.data[row] + 0.01 * np.eye(3)[axis]
+    value = document.state.rows.xyz[row] + 0.01 * np.eye(3)[axis]
     try:
         with Transaction(document, "nudge", Settings(refuse_gaps=False)) as edit:
             edit.write(np.array([row]), value[None], "nudge")
@@ -225,8 +226,8 @@ def nudges(state: HullState) -> list[tuple[int, int]]:
     stored = np.asarray(point_columns(state, order)["stored"])
     found = []
     for row in order.rows[stored].tolist():
-        lines = [state.line_of(c) for c in state.rows.curve.data[row].tolist() if c >= 0]
-        free = (state.lines.normal.data[lines] == 0.0).all(axis=0)
+        lines = [state.line_of(c) for c in state.rows.curve[row].tolist() if c >= 0]
+        free = (state.lines.normal[lines] == 0.0).all(axis=0)
         found += [(row, axis) for axis in np.flatnonzero(free).tolist()]
     return found
 
@@ -308,9 +309,7 @@ def test_verify_sees_every_number_that_is_tampered_with() -> None:
     leave[2, 1] = np.nextafter(leave[2, 1], 9.0)
     state.curves.spline.data[curve] = attrs.evolve(spline, leave=leave)
     found = verify(state)
-    assert [(each.key, each.field) for each in found] == [
-        (state.curves.key.data[curve], "spline.leave")
-    ]
+    assert [(each.key, each.field) for each in found] == [(state.curves.key[curve], "spline.leave")]
     assert 0.0 < found[0].amount < 1e-15
     assert verify(state, relative=1e-12) == []
 

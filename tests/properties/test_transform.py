@@ -61,7 +61,7 @@ def test_a_transformed_net_is_sound(
         carry_out(hull, task)
     before, table = hull.fingerprint, hull.state.rows
     live = hull.state.live("rows")
-    placed = live[table.sort.data[live] == Sort.PLACED]
+    placed = live[table.sort[live] == Sort.PLACED]
     names = sorted(hull.lines)
     try:
         with hull.edit("transform") as edit:
@@ -69,8 +69,8 @@ def test_a_transformed_net_is_sound(
     except AssocHullError:
         assert hull.fingerprint == before
         return
-    assert table.alive.data[placed].all()
-    assert (table.sort.data[placed] == Sort.PLACED).all()
+    assert table.alive[placed].all()
+    assert (table.sort[placed] == Sort.PLACED).all()
     assert sorted(hull.lines) == names
     assert list(trouble(hull)) == []
     assert list(lost_meetings(hull)) == []
@@ -105,15 +105,15 @@ def test_affine_maps_of_all_groups_are_exact(
 ) -> None:
     """Shared crossings and own points go where the mapping sends them, to 1e-9 m; roles stay."""
     table, live = hull.state.rows, hull.state.live("rows")
-    held = live[(table.sort.data[live] != Sort.CROSSING) | (table.role.data[live] == Role.SHARED)]
-    riding = (table.anchor.data[held] >= 0).any(axis=1)
+    held = live[(table.sort[live] != Sort.CROSSING) | (table.role[live] == Role.SHARED)]
+    riding = (table.anchor[held] >= 0).any(axis=1)
     held = held[~riding]
-    old, roles = table.xyz.data[held].copy(), table.role.data[live].copy()
+    old, roles = table.xyz[held].copy(), table.role[live].copy()
     groups = [name for name, group in hull.groups.items() if group.lines]
     try:
         with hull.edit("affine") as edit:
             edit.transform(scale=scale, drivers=groups)
     except AssocHullError:
         return
-    assert np.abs(table.xyz.data[held] - old * scale).max() <= 1e-9
-    assert (table.role.data[live] == roles).all()
+    assert np.abs(table.xyz[held] - old * scale).max() <= 1e-9
+    assert (table.role[live] == roles).all()

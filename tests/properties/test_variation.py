@@ -91,10 +91,10 @@ def test_a_varied_net_is_sound_and_stays_associative(
         carry_out(hull, task)
     start, steps = hull.fingerprint, len(hull.history)
     rows, live = hull.state.rows, hull.state.live("rows")
-    placed = [row for row in live.tolist() if rows.sort.data[row] == Sort.PLACED]
+    placed = [row for row in live.tolist() if rows.sort[row] == Sort.PLACED]
     names = sorted(hull.lines)
     varied = wish.carry_out(hull)
-    assert rows.alive.data[placed].all()
+    assert rows.alive[placed].all()
     assert sorted(hull.lines) == names
     if varied:
         sound(hull)

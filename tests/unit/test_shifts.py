@@ -77,8 +77,8 @@ def test_sections_keep_their_shape_to_the_last_bit(parent: ah.Hull, fuller: Shif
     """All that is no computed point keeps y and z, and moves along the ship by delta(x)."""
     rows = parent.state.rows
     live = parent.state.live("rows")
-    own = live[(rows.driver.data[live] < 0) & (rows.role.data[live] != 3)]
-    before, after = rows.xyz.data[own], fuller.hull.state.rows.xyz.data[own]
+    own = live[(rows.driver[live] < 0) & (rows.role[live] != 3)]
+    before, after = rows.xyz[own], fuller.hull.state.rows.xyz[own]
     assert len(own) > 1000
     assert (before[:, 1:] == after[:, 1:]).all()
     moved = before[:, 0] + fuller.report.shift.moved(before[:, 0])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.graph.table import ArrayColumn
+from assoc_hull.graph.table import Column
 from tests.twins import made_once, packed, twin
 
 POINT = "WL 2.5 x ST 3"
@@ -39,12 +39,12 @@ def test_what_was_read_only_is_so_still() -> None:
     """Columns in use and splines; and a column shows what is written to its store."""
     state = twin(packed(small())).state
     for column in state.rows.columns.values():
-        if isinstance(column, ArrayColumn):
+        if isinstance(column, Column):
             assert not column.data.flags.writeable
             assert np.shares_memory(column.data, column.store)
     for curve in state.live("curves").tolist():
         assert not state.spline(curve).xyz.flags.writeable
-        assert not state.curves.rows.data[curve].flags.writeable
+        assert not state.curves.rows[curve].flags.writeable
 
 
 def test_a_history_is_not_lost_unseen() -> None:

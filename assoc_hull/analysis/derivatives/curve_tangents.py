@@ -70,7 +70,7 @@ class CurveTangents:
 
 def defining_rows(state: HullState, curves: IntArray) -> IntArray:
     """Give the rows of the points that define curves, one curve after the other."""
-    return np.concatenate([state.curves.rows.data[each] for each in curves.tolist()])
+    return np.concatenate([state.curves.rows[each] for each in curves.tolist()])
 
 
 def curve_tangents(

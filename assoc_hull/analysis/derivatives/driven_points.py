@@ -52,10 +52,10 @@ class DrivenPoints:
         table, number = state.rows, np.full(state.curves.count + 1, -1)
         number[net.curve] = np.arange(len(net.curve))
         row = state.live("rows")
-        row = row[table.driver.data[row] >= 0]
-        side = (table.curve.data[row, 0] != table.driver.data[row]).astype(np.int64)
-        driver, reader = (number[table.curve.data[row, each]] for each in (side, 1 - side))
-        place, normal = table.parameter.data[row, side], net.normal[reader]
+        row = row[table.driver[row] >= 0]
+        side = (table.curve[row, 0] != table.driver[row]).astype(np.int64)
+        driver, reader = (number[table.curve[row, each]] for each in (side, 1 - side))
+        place, normal = table.parameter[row, side], net.normal[reader]
         good = (driver >= 0) & (reader >= 0) & np.isfinite(place) & np.isfinite(normal).all(axis=1)
         segment, u = locate_parameters(net.batch, driver[good], place[good])
         return cls(row[good], segment, u, normal[good])

@@ -201,11 +201,11 @@ class PointMove(ShapeParameter):
         row = resolve_address(state, self.address).row
         if row < 0:
             raise BadInputError(f"{self.address!r} names no point", _WHERE, "ask hull.points")
-        if not (state.rows.reader.data[row] >= 0).any():
+        if not (state.rows.reader[row] >= 0).any():
             raise PointRoleError(self.address, "watched", None, "move one that defines a curve")
-        driver = int(state.rows.driver.data[row])
+        driver = int(state.rows.driver[row])
         if self.follow and driver >= 0:
-            title = str(state.lines.name.data[state.line_of(driver)])
+            title = str(state.lines.name[state.line_of(driver)])
             raise PointRoleError(self.address, "driven", title, "move a point of its driver")
         found = np.zeros((state.rows.count, 3))
         found[row] = _along(state, row, self._axis(state, row))
@@ -224,8 +224,8 @@ class PointMove(ShapeParameter):
 
 def _along(state: HullState, row: int, axis: int) -> FloatArray:
     """Give the direction in all planes of a point's lines whose component along an axis is 1."""
-    lines = [state.line_of(each) for each in state.rows.curve.data[row].tolist() if each >= 0]
-    normals = [state.lines.normal.data[line] for line in lines if state.lines.planar.data[line]]
+    lines = [state.line_of(each) for each in state.rows.curve[row].tolist() if each >= 0]
+    normals = [state.lines.normal[line] for line in lines if state.lines.planar[line]]
     one: FloatArray = np.zeros(3)
     one[axis] = 1.0
     if not normals:
@@ -275,8 +275,8 @@ class Deformation(TitledParameter, ShapeParameter):
         WrongTypeError, BadInputError
             No function, or one that gives something else than is wanted.
         """
-        xyz = state.rows.xyz.data[: state.rows.count]
-        used = np.isfinite(xyz).all(axis=1)
+        xyz = state.rows.xyz[: state.rows.count]
+        used = np.asarray(np.isfinite(xyz).all(axis=1))
         turn = None if self.gradient is None else self._called(self.gradient, xyz, used, (3, 3))
         return self._called(self.field, xyz, used, (3,)), turn
 

@@ -333,10 +333,10 @@ def hull_fairness(
         return FairnessTable((), (), ())
     curves = np.array(chosen, np.int64)
     batch = SplineBatch.join([state.spline(curve) for curve in chosen])
-    line = state.curves.line.data[curves]
-    flat = state.lines.planar.data[line][:, None]
-    pieces = SplinePieces(batch, np.where(flat, state.lines.normal.data[line], np.nan))
-    names = [str(state.lines.name.data[each]) for each in line.tolist()]
+    line = state.curves.line[curves]
+    flat = state.lines.planar[line][:, None]
+    pieces = SplinePieces(batch, np.where(flat, state.lines.normal[line], np.nan))
+    names = [str(state.lines.name[each]) for each in line.tolist()]
     titles = [Curve.of(state, curve).name for curve in chosen]
     records = criteria(
         pieces,
@@ -345,7 +345,7 @@ def hull_fairness(
         allowed=_wanted(allowed, names, state),
         offsets=_watched(state, curves),
     )
-    keys = tuple(str(state.curves.key.data[curve]) for curve in chosen)
+    keys = tuple(str(state.curves.key[curve]) for curve in chosen)
     return FairnessTable(records, keys, tuple(names))
 
 
@@ -370,7 +370,7 @@ def _lines(state: HullState, lines: object) -> list[int]:
         return live
     if isinstance(lines, str) or not isinstance(lines, Iterable):
         raise WrongTypeError(f"lines is {shown(lines)}", _WHERE, "give a list of names")
-    names = [str(state.lines.name.data[line]) for line in live]
+    names = [str(state.lines.name[line]) for line in live]
     found = []
     for each in lines:
         if not isinstance(each, str):
@@ -384,7 +384,7 @@ def _lines(state: HullState, lines: object) -> list[int]:
 def _wanted(allowed: int | Mapping[str, int], names: Sequence[str], state: HullState) -> IntArray:
     if not isinstance(allowed, Mapping):
         return np.full(len(names), _count(allowed))
-    known = {str(state.lines.name.data[line]) for line in state.live("lines").tolist()}
+    known = {str(state.lines.name[line]) for line in state.live("lines").tolist()}
     for each in allowed:
         if each not in known:
             raise UnknownNameError("line", str(each), tuple(known))
@@ -395,7 +395,7 @@ def _knuckles(state: HullState, curves: Sequence[int]) -> NDArray[np.bool_]:
     """Tell for each segment but the last of all whether it ends at a knuckle of its curve."""
     kind, found = state.rows.kind.data, []
     for curve in curves:
-        rows, side = state.curves.rows.data[curve], state.curves.side.data[curve]
+        rows, side = state.curves.rows[curve], state.curves.side[curve]
         bent = kind[rows, side] == PointKind.KNUCKLE
         bent[-1] = False
         found.append(bent[1:])
@@ -405,12 +405,12 @@ def _knuckles(state: HullState, curves: Sequence[int]) -> NDArray[np.bool_]:
 def _watched(state: HullState, curves: IntArray) -> OffsetDeviations:
     """Give the gaps of watched crossings as offsets of both lines, over their limits."""
     rows = watched_on(state, curves)
-    gap, limit = state.rows.gap.data[rows], state.rows.limit.data[rows]
+    gap, limit = state.rows.gap[rows], state.rows.limit[rows]
     told = np.isfinite(gap) & (limit > 0.0)
     rows, gap, limit = rows[told], gap[told], limit[told]
     place = np.full(state.curves.count, -1)
     place[curves] = np.arange(len(curves))
-    owner = place[state.rows.curve.data[rows]]
+    owner = place[state.rows.curve[rows]]
     mine = owner >= 0
     return OffsetDeviations(
         owner[mine], np.repeat(gap[:, None], 2, axis=1)[mine],

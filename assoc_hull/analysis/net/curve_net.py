@@ -202,20 +202,20 @@ def gather_net(state: HullState) -> CurveNet:
     """Take all live curves and their crossings from the tables."""
     keys = state.curves.key.data
     curves = np.array(sorted(state.live("curves").tolist(), key=lambda c: str(keys[c])), np.int64)
-    lines = state.curves.line.data[curves]
+    lines = state.curves.line[curves]
     table = state.lines
-    normal, boundary = table.normal.data[lines], table.boundary.data[lines]
+    normal, boundary = table.normal[lines], table.boundary[lines]
     family = tuple(state.family(line).name for line in lines.tolist())
-    flat = table.planar.data[lines]
+    flat = table.planar[lines]
     end = boundary == BoundaryKind.END
     across = flat & (np.abs(normal[:, 0]) == 1.0) & (end | (np.array(family) == "sections"))
-    offset = table.offset.data[lines]
+    offset = table.offset[lines]
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
     row, meets, place = _crossings(state, curves, batch)
     return CurveNet(
         batch,
         curves,
-        tuple(str(table.name.data[line]) for line in lines.tolist()),
+        tuple(str(table.name[line]) for line in lines.tolist()),
         family,
         end,
         boundary == BoundaryKind.FLAT,
@@ -225,7 +225,7 @@ def gather_net(state: HullState) -> CurveNet:
         np.where(flat[:, None], normal, np.nan),
         meets,
         place,
-        state.rows.role.data[row] == Role.WATCHED,
+        state.rows.role[row] == Role.WATCHED,
         row,
         state.tolerances.factor,
     )
@@ -241,14 +241,14 @@ def _crossings(
     number = np.full(state.curves.count + 1, -1, np.int64)
     number[curves] = np.arange(len(curves))
     table = state.rows
-    place = table.parameter.data[: table.count].copy()
+    place = table.parameter[: table.count].copy()
     # Where a line ends on another it has no intersection, but a defining point: a knot.
-    row = np.concatenate([state.curves.rows.data[curve] for curve in curves.tolist()])
-    side = np.concatenate([state.curves.side.data[curve] for curve in curves.tolist()])
+    row = np.concatenate([state.curves.rows[curve] for curve in curves.tolist()])
+    side = np.concatenate([state.curves.side[curve] for curve in curves.tolist()])
     place[row, side] = batch.knot
     rows = state.live("rows")
-    rows = rows[table.sort.data[rows] == Sort.CROSSING]
-    both = number[table.curve.data[rows]]
+    rows = rows[table.sort[rows] == Sort.CROSSING]
+    both = number[table.curve[rows]]
     place = place[rows]
     good = (both >= 0).all(axis=1) & np.isfinite(place).all(axis=1)
     return rows[good], both[good], place[good]
@@ -517,12 +517,12 @@ def _points(
     state: HullState, net: CurveNet, data: CurveData, without: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
     """Tell which defining points stay."""
-    row = np.concatenate([state.curves.rows.data[curve] for curve in net.curve.tolist()])
+    row = np.concatenate([state.curves.rows[curve] for curve in net.curve.tolist()])
     own = np.repeat(np.arange(net.batch.count), np.diff(data.start))
     gone = np.zeros(state.curves.count + 1, bool)
     gone[net.curve[without]] = True
     gone[-1] = False
-    crossed = gone[state.rows.curve.data[row]].any(axis=1)
+    crossed = gone[state.rows.curve[row]].any(axis=1)
     fixed = data.kind != PointKind.SMOOTH
     fixed[data.start[:-1]] = fixed[data.start[1:] - 1] = True
     keep: NDArray[np.bool_] = (fixed | ~crossed) & ~without[own]

@@ -233,12 +233,12 @@ def departures(state: HullState, sections: Sequence[DefinedSection]) -> tuple[De
 
     Sections whose line the net lacks are left out.
     """
-    names = {state.lines.name.data[line]: line for line in state.live("lines").tolist()}
+    names = {state.lines.name[line]: line for line in state.live("lines").tolist()}
     found = []
     for each in sections:
         if each.name not in names:
             continue
-        curves = state.lines.curves.data[names[each.name]]
+        curves = state.lines.curves[names[each.name]]
         batch = SplineBatch.join([state.spline(curve) for curve in curves])
         away = [closest_points(batch, k, each.points)[2] for k in range(batch.count)]
         area = float(line_integral(batch, (1, 0), (1, 2), along=1).sum())

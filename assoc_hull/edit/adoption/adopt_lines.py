@@ -139,8 +139,7 @@ class AdoptionReport:
 
 def report_lines(net: ReferenceNet) -> tuple[LineReport, ...]:
     """Compare the curves of a net with the lines it was adopted from."""
-    curves = net.state.curves
-    splines = SplineBatch.join([curves.spline.data[i] for i in range(len(net.sources))])
+    splines = SplineBatch.join([net.state.spline(i) for i in range(len(net.sources))])
     normals = np.array(
         [np.full(3, np.nan) if each.normal is None else each.normal for each in net.sources]
     )
@@ -163,12 +162,12 @@ def _away(net: ReferenceNet, splines: SplineBatch) -> list[FloatArray]:
 
 def _line(net: ReferenceNet, number: int, away: FloatArray, given: int, found: int) -> LineReport:
     state, source = net.state, net.sources[number]
-    crossings, adopted, placed = _sorts(state, state.curves.rows.data[number])
+    crossings, adopted, placed = _sorts(state, state.curves.rows[number])
     points, tolerance = _measured(net, number)
     worst = int(np.argmax(away))
     x, y, z = points[worst].tolist()
     return LineReport(
-        state.curves.key.data[number], source.group, source.name, len(source.points),
+        state.curves.key[number], source.group, source.name, len(source.points),
         crossings + adopted + placed, crossings, adopted, placed, float(away[worst]),
         float(np.median(away)), float(np.percentile(away, 95.0)), (x, y, z),
         float(tolerance[worst]), float((away / tolerance).max()), given, found,
@@ -189,7 +188,7 @@ def _measured(net: ReferenceNet, number: int) -> tuple[FloatArray, FloatArray]:
 
 def _sorts(state: HullState, rows: IntArray) -> tuple[int, int, int]:
     """Count the points of a curve: crossings, adopted and placed ones."""
-    sort = state.rows.sort.data[rows]
+    sort = state.rows.sort[rows]
     adopted, placed = int((sort == Sort.ADOPTED).sum()), int((sort == Sort.PLACED).sum())
     return len(rows) - adopted - placed, adopted, placed
 
@@ -380,7 +379,7 @@ def _write(maker: Maker, net: ReferenceNet, thinned: ThinnedNet) -> list[str]:
 
 def _left_note(net: ReferenceNet, left: OmittedPoint) -> str:
     x, y, z = net.sources[left.curve].points[left.point].tolist()
-    name = net.state.lines.name.data[net.state.line_of(left.curve)]
+    name = net.state.lines.name[net.state.line_of(left.curve)]
     near = np.broadcast_to(net.sources[left.curve].tolerance, len(net.sources[left.curve].points))
     over = (
         f"{name} passes the given point ({x:.3f}, {y:.3f}, {z:.3f}) m {1e3 * left.away:.1f} mm "
@@ -416,17 +415,17 @@ def _loft(maker: Maker) -> list[str]:
         if not len(missing):
             return notes
         for row in missing.tolist():
-            notes.append(f"{maker.state.rows.key.data[row]}: not reached, left out")
+            notes.append(f"{maker.state.rows.key[row]}: not reached, left out")
             _release(maker, row)
 
 
 def _release(maker: Maker, row: int) -> None:
     """Take out a crossing; the curve it defined keeps an adopted point at its place."""
     table = maker.state.rows
-    curves = [curve for curve in table.reader.data[row].tolist() if curve >= 0]
-    xyz = table.xyz.data[row].copy()
+    curves = [curve for curve in table.reader[row].tolist() if curve >= 0]
+    xyz = table.xyz[row].copy()
     for curve in curves:
         point = maker.points([PointSpec(curve, xyz, Sort.ADOPTED)])[0]
-        rows = maker.state.curves.rows.data[curve]
+        rows = maker.state.curves.rows[curve]
         maker.define(curve, np.where(rows == row, point, rows))
     maker.remove_rows([row])

@@ -106,7 +106,7 @@ def _meeting(meeting: LineIntersection, state: HullState, factor: float) -> Line
 def _in_planes(state: HullState, curves: tuple[int, int], place: FloatArray) -> FloatArray:
     """Put a place exactly into the planes of two curves, as it is at 100 m."""
     lines = tuple(
-        line for line in map(state.line_of, curves) if state.lines.planar.data[line]
+        line for line in map(state.line_of, curves) if state.lines.planar[line]
     )  # fmt: skip
     return snap_to_coordinate_planes(state, lines, place)
 

@@ -93,8 +93,8 @@ def write_kinds(maker: Maker, net: ReferenceNet) -> None:
     """Give all defining points the kinds and directions of the lines: adoption knows one side."""
     table, curves = maker.state.rows, maker.state.curves
     for curve, source in enumerate(net.sources):
-        rows, side = curves.rows.data[curve], curves.side.data[curve]
-        kind, direction = table.kind.data[rows].copy(), table.direction.data[rows].copy()
+        rows, side = curves.rows[curve], curves.side[curve]
+        kind, direction = table.kind[rows].copy(), table.direction[rows].copy()
         at = np.arange(len(rows))
         kind[at, side], direction[at, side] = source.kind, source.direction
         maker.journal.put(table.kind, rows, kind)

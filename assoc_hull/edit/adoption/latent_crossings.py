@@ -32,7 +32,7 @@ def make_latent_crossings(state: HullState) -> tuple[str, ...]:
     for curve, spot in sorted(latent, key=lambda each: (str(keys[each[0]]), each[1])):
         if _meets_at_once(state, curve, spot):
             row = make_crossing(maker, curve, spot, set(), watch=True)
-            born += [] if row is None else [str(state.rows.key.data[row])]
+            born += [] if row is None else [str(state.rows.key[row])]
     return tuple(sorted(born))
 
 
@@ -42,13 +42,13 @@ def _meets_at_once(state: HullState, curve: int, spot: int) -> bool:
     Within the tolerance of adoption two places are one, too, but where both lines end: there each
     ends on the third line by itself, and a crossing would leave a sliver of a cell.
     """
-    meets = state.curves.meets.data[curve]
+    meets = state.curves.meets[curve]
     if meets.row[spot] >= 0:
         return False
     line, place = state.line_of(curve), meets.xyz[spot]
     ending = bool(at_ends(state, curve, place[None])[0])
-    for other in state.lines.curves.data[int(meets.line[spot])]:
-        theirs = state.curves.meets.data[other]
+    for other in state.lines.curves[int(meets.line[spot])]:
+        theirs = state.curves.meets[other]
         free = theirs.xyz[(theirs.line == line) & (theirs.row < 0)]
         away = np.abs(free - place).max(axis=1, initial=0.0)
         both_end = ending & at_ends(state, other, free)

@@ -102,8 +102,8 @@ def snap_to_coordinate_planes(
     """Put a place exactly into the coordinate planes of lines."""
     out = np.array(xyz)
     for line in lines:
-        exact = state.lines.normal.data[line] == 1.0
-        out[exact] = state.lines.offset.data[line]
+        exact = state.lines.normal[line] == 1.0
+        out[exact] = state.lines.offset[line]
     return out
 
 
@@ -133,7 +133,7 @@ def find_contacts(
     known = _Boundaries.of(state, reference)
     for curve in range(reference.count):
         line = state.line_of(curve)
-        if state.lines.boundary.data[line] >= 0:
+        if state.lines.boundary[line] >= 0:
             continue
         boundaries = _boundaries_of(state, line)
         start, stop = int(reference.start[curve]), int(reference.start[curve + 1])
@@ -153,15 +153,15 @@ def find_contacts(
 
 def _boundaries_of(state: HullState, line: int) -> list[tuple[int, BoundaryKind]]:
     """Give the boundary curves associated with the group of a line, with their kinds."""
-    group = state.groups.name.data[int(state.lines.group.data[line])]
+    group = state.groups.name[int(state.lines.group[line])]
     linked = {pair.a for pair in state.associations if pair.b == group}
     linked |= {pair.b for pair in state.associations if pair.a == group}
     names = state.groups.name.data
     return [
-        (curve, BoundaryKind(int(state.lines.boundary.data[other])))
+        (curve, BoundaryKind(int(state.lines.boundary[other])))
         for curve in state.live("curves").tolist()
-        if state.lines.boundary.data[other := state.line_of(curve)] >= 0
-        and names[int(state.lines.group.data[other])] in linked
+        if state.lines.boundary[other := state.line_of(curve)] >= 0
+        and names[int(state.lines.group[other])] in linked
     ]
 
 
@@ -186,10 +186,10 @@ class _Boundaries:
         key = (boundary, line)
         if key not in self._met:
             lines = self.state.lines
-            offset = np.array([float(lines.offset.data[line])])
+            offset = np.array([float(lines.offset[line])])
             curve = self.reference.curve(boundary)
             self._met[key] = intersect_planes(
-                curve, lines.normal.data[line], offset, self.state.tolerances.factor
+                curve, lines.normal[line], offset, self.state.tolerances.factor
             )
         return self._met[key]
 
@@ -212,7 +212,7 @@ def _nearest(
     best: tuple[float, int, float, FloatArray, int] | None = None
     for boundary in boundaries:
         met, own = known.meet(boundary, line), state.line_of(boundary)
-        planes = (own, line) if state.lines.planar.data[own] else (line,)
+        planes = (own, line) if state.lines.planar[own] else (line,)
         for i in range(len(met.t)):
             away = float(np.linalg.norm(met.xyz[i] - place))
             if away < reach and (best is None or away < best[0]):
@@ -238,9 +238,9 @@ def find_line_intersections(state: HullState, reference: SplineBatch) -> list[Li
     for link in state.associations:
         first, second = names.index(link.a), names.index(link.b)
         pair = sorted(
-            (first, second), key=lambda g: (FAMILIES[state.groups.family.data[g]].rank, names[g])
+            (first, second), key=lambda g: (FAMILIES[state.groups.family[g]].rank, names[g])
         )
-        if "boundary" in {state.groups.family.data[group] for group in pair}:
+        if "boundary" in {state.groups.family[group] for group in pair}:
             continue
         found += _pair_up(state, reference, pair[0], pair[1])
     return found
@@ -298,16 +298,16 @@ def _meet(
 ) -> defaultdict[tuple[int, int], list[_Root]]:
     """Meet all curves of one group with all planes of another, by (line, other line)."""
     found: defaultdict[tuple[int, int], list[_Root]] = defaultdict(list)
-    groups = state.lines.group.data[state.curves.line.data[: reference.count]]
+    groups = state.lines.group[state.curves.line[: reference.count]]
     curves = np.flatnonzero(groups == mine)
     lines = np.flatnonzero(state.lines.planar.data & (state.lines.group.data == other))
-    lines = lines[np.argsort(state.lines.offset.data[lines], kind="stable")]
+    lines = lines[np.argsort(state.lines.offset[lines], kind="stable")]
     if not len(curves) or not len(lines):
         return found
     batch = SplineBatch.join([reference.curve(curve) for curve in curves.tolist()])
-    for normal in sorted({tuple(row) for row in state.lines.normal.data[lines].tolist()}):
-        chosen = lines[(state.lines.normal.data[lines] == normal).all(axis=1)]
-        offsets, factor = state.lines.offset.data[chosen].copy(), state.tolerances.factor
+    for normal in sorted({tuple(row) for row in state.lines.normal[lines].tolist()}):
+        chosen = lines[(state.lines.normal[lines] == normal).all(axis=1)]
+        offsets, factor = state.lines.offset[chosen].copy(), state.tolerances.factor
         met = intersect_planes(batch, np.array(normal), offsets, factor)
         for root in _roots(batch, curves, met, np.array(normal)):
             line = int(chosen[root[0]])

@@ -338,7 +338,7 @@ def _collect(work: ThinningState) -> None:
 def _angle_on_boundary(net: ReferenceNet, contact: Contact) -> float:
     line = net.state.line_of(contact.curve)
     slope = derivative(net.reference, np.array([contact.boundary]), np.array([contact.at]))[0]
-    cosine = abs(float(slope @ net.state.lines.normal.data[line])) / float(np.linalg.norm(slope))
+    cosine = abs(float(slope @ net.state.lines.normal[line])) / float(np.linalg.norm(slope))
     return float(np.degrees(np.arcsin(min(1.0, cosine))))
 
 
@@ -384,10 +384,7 @@ def _generates(state: HullState, meeting: LineIntersection) -> tuple[bool, bool]
 
 def _between(state: HullState, a: int, b: int) -> tuple[bool, bool]:
     """Tell whether the group of one curve generates on that of another, and back."""
-    names = [
-        state.groups.name.data[int(state.lines.group.data[state.line_of(curve)])]
-        for curve in (a, b)
-    ]
+    names = [state.groups.name[int(state.lines.group[state.line_of(curve)])] for curve in (a, b)]
     found = [False, False]
     for link in state.associations:
         if [link.a, link.b] == names:

@@ -233,7 +233,7 @@ def loft_orders(
             np.array([each.kind for each in ends], np.int8),
             np.array([each.vector for each in ends], np.float64),
         ),
-        [net.state.curves.key.data[curve] for curve in curves],
+        [net.state.curves.key[curve] for curve in curves],
     )
 
 

@@ -56,5 +56,5 @@ def row_finding(
     >>> str(row_finding(state, AddressBook(state), 0, "gap", "is wide"))
     'gap: ST 1 x profile at (5.000, 0.000, 0.000) m is wide'
     """
-    x, y, z = state.rows.xyz.data[row].tolist()
+    x, y, z = state.rows.xyz[row].tolist()
     return Finding(kind, book.address(row), (x, y, z), amount, message)

@@ -58,7 +58,7 @@ def find_off_features(state: HullState, book: AddressBook) -> Iterator[Finding]:
 
 
 def _off(state: HullState, book: AddressBook, feature: Feature) -> Iterator[Finding]:
-    off = places_off(feature, state.rows.xyz.data[list(feature.points)])
+    off = places_off(feature, state.rows.xyz[list(feature.points)])
     worst = int(np.argmax(off))
     if off[worst] > feature.gap + rounding_of(state):
         text = (
@@ -164,14 +164,14 @@ def _left_out(look: str, error: Exception) -> Finding:
 def _broken(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Curves that could not be made, and all that is made from them."""
     for curve in state.live("curves").tolist():
-        kind = State(int(state.curves.state.data[curve]))
+        kind = State(int(state.curves.state[curve]))
         if kind is not State.CLEAN:
             yield attrs.evolve(
                 _of_curve(state, book, curve), kind=kind.name.lower(), message=_BROKEN[kind]
             )
     rows = state.live("rows")
-    for row in rows[state.rows.state.data[rows] != State.CLEAN].tolist():
-        kind = State(int(state.rows.state.data[row]))
+    for row in rows[state.rows.state[rows] != State.CLEAN].tolist():
+        kind = State(int(state.rows.state[row]))
         yield row_finding(state, book, row, kind.name.lower(), _BROKEN[kind])
 
 
@@ -183,8 +183,8 @@ _BROKEN = {
 
 def _of_curve(state: HullState, book: AddressBook, curve: int) -> Finding:
     """Make a finding, without kind and message, at the first defining point of a curve."""
-    rows = state.curves.rows.data[curve]
-    place = tuple(state.rows.xyz.data[int(rows[0])].tolist()) if len(rows) else None
+    rows = state.curves.rows[curve]
+    place = tuple(state.rows.xyz[int(rows[0])].tolist()) if len(rows) else None
     return Finding("", book.curve_name(curve), place, None, "")
 
 
@@ -192,10 +192,10 @@ def _gaps(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Watched crossings whose curves pass each other farther apart than they may."""
     rows = watched_on(state, state.live("curves"))
     # crossings without places, and damaged splines, are reported by other looks
-    rows = rows[np.isfinite(state.rows.parameter.data[rows]).all(axis=1)]
+    rows = rows[np.isfinite(state.rows.parameter[rows]).all(axis=1)]
     lofted = np.array([bounded(spline) for spline in state.curves.spline.data], bool)
-    rows = rows[lofted[state.rows.curve.data[rows]].all(axis=1)]
-    gap, limit = gap_at(state, rows), state.rows.limit.data[rows]
+    rows = rows[lofted[state.rows.curve[rows]].all(axis=1)]
+    gap, limit = gap_at(state, rows), state.rows.limit[rows]
     for i in np.flatnonzero(gap > limit).tolist():
         text = (
             f"its curves pass {1e3 * gap[i]:.2f} mm apart, over the limit of "

@@ -58,8 +58,8 @@ def find_links(state: HullState, book: AddressBook) -> Iterator[Finding]:
 
 def expected_links(state: HullState, rows: IntArray) -> tuple[IntArray, IntArray]:
     """Give the readers (k, 2) and drivers (k,), curves, that follow from the roles; -1 for none."""
-    curve, role = state.rows.curve.data[rows], state.rows.role.data[rows]
-    crossing = state.rows.sort.data[rows] == Sort.CROSSING
+    curve, role = state.rows.curve[rows], state.rows.role[rows]
+    crossing = state.rows.sort[rows] == Sort.CROSSING
     first = ~crossing | (role == Role.SHARED) | (role == Role.DRIVES_A)
     second = crossing & ((role == Role.SHARED) | (role == Role.DRIVES_B))
     reader = np.where(np.column_stack([first, second]), curve, -1)
@@ -71,11 +71,11 @@ def _roles(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Friends that disagree: readers and driver are not what the role says."""
     rows = state.live("rows")
     reader, driver = expected_links(state, rows)
-    wrong = (state.rows.reader.data[rows] != reader).any(axis=1)
-    wrong |= state.rows.driver.data[rows] != driver
+    wrong = (state.rows.reader[rows] != reader).any(axis=1)
+    wrong |= state.rows.driver[rows] != driver
     for row in rows[wrong].tolist():
-        crossing = state.rows.sort.data[row] == Sort.CROSSING
-        role = Role(int(state.rows.role.data[row]))
+        crossing = state.rows.sort[row] == Sort.CROSSING
+        role = Role(int(state.rows.role[row]))
         what = role_words(role) if crossing else f"is {_sort(state, row)}"
         text = f"{what}, and its links say otherwise: set its role again"
         yield row_finding(state, book, row, "links", text)
@@ -87,16 +87,16 @@ def role_words(role: Role) -> str:
 
 
 def _sort(state: HullState, row: int) -> str:
-    return Sort(int(state.rows.sort.data[row])).name.lower()
+    return Sort(int(state.rows.sort[row])).name.lower()
 
 
 def _listed(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Points that a curve is made through and that do not say so, or are gone."""
     reader = state.rows.reader.data
     for curve in state.live("curves").tolist():
-        for row in state.curves.rows.data[curve].tolist():
-            if not state.rows.alive.data[row]:
-                key = state.rows.key.data[row]
+        for row in state.curves.rows[curve].tolist():
+            if not state.rows.alive[row]:
+                key = state.rows.key[row]
                 text = f"is made through {key}, which has gone: undo the edit"
                 yield Finding("links", book.curve_name(curve), None, None, text)
             elif not (reader[row] == curve).any():
@@ -109,17 +109,17 @@ def _orphan_points(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Points on no curve, or on one that is gone or does not know them."""
     alive = state.curves.alive.data
     for row in state.live("rows").tolist():
-        curves = state.rows.curve.data[row].tolist()
+        curves = state.rows.curve[row].tolist()
         if curves[0] < 0 or not all(alive[curve] for curve in curves if curve >= 0):
-            key = state.rows.key.data[row]
+            key = state.rows.key[row]
             yield Finding("orphan", key, None, None, "lies on no curve that exists: delete it")
             continue
-        for anchor in state.rows.anchor.data[row].tolist():
-            if anchor >= 0 and not state.rows.alive.data[anchor]:
-                text = f"rides with {state.rows.key.data[anchor]}, which has gone: undo the edit"
+        for anchor in state.rows.anchor[row].tolist():
+            if anchor >= 0 and not state.rows.alive[anchor]:
+                text = f"rides with {state.rows.key[anchor]}, which has gone: undo the edit"
                 yield row_finding(state, book, row, "orphan", text)
-        for curve in state.rows.reader.data[row].tolist():
-            if curve >= 0 and row not in state.curves.rows.data[curve]:
+        for curve in state.rows.reader[row].tolist():
+            if curve >= 0 and row not in state.curves.rows[curve]:
                 text = (
                     f"should define {book.curve_name(curve)}, which does not know it: undo the edit"
                 )
@@ -129,38 +129,38 @@ def _orphan_points(state: HullState, book: AddressBook) -> Iterator[Finding]:
 def _orphan_curves(state: HullState, book: AddressBook) -> Iterator[Finding]:
     for curve in state.live("curves").tolist():
         line = state.line_of(curve)
-        if line < 0 or not state.lines.alive.data[line]:
-            key = state.curves.key.data[curve]
+        if line < 0 or not state.lines.alive[line]:
+            key = state.curves.key[curve]
             text = "belongs to no line that exists: undo the edit"
             yield Finding("orphan", key, None, None, text)
-        elif curve not in state.lines.curves.data[line]:
+        elif curve not in state.lines.curves[line]:
             text = f"is not among the curves of {book.line_name(line)}: undo the edit"
-            yield Finding("orphan", state.curves.key.data[curve], None, None, text)
+            yield Finding("orphan", state.curves.key[curve], None, None, text)
 
 
 def _orphan_lines(state: HullState, book: AddressBook) -> Iterator[Finding]:
     for line in state.live("lines").tolist():
-        group = int(state.lines.group.data[line])
-        if group < 0 or not state.groups.alive.data[group]:
-            key = state.lines.key.data[line]
+        group = int(state.lines.group[line])
+        if group < 0 or not state.groups.alive[group]:
+            key = state.lines.key[line]
             text = "belongs to no group that exists: undo the edit"
             yield Finding("orphan", key, None, None, text)
-        elif not any(state.curves.alive.data[curve] for curve in state.lines.curves.data[line]):
+        elif not any(state.curves.alive[curve] for curve in state.lines.curves[line]):
             yield Finding("orphan", book.line_name(line), None, None, "has no curves: remove it")
 
 
 def _twins(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Crossings that only one of the two curves knows of."""
     known = {
-        curve: set(state.curves.meets.data[curve].row.tolist())
+        curve: set(state.curves.meets[curve].row.tolist())
         for curve in state.live("curves").tolist()
     }
     for row in crossings_of(state):
-        contact = bool(state.rows.contact.data[row])
-        for side, curve in enumerate(state.rows.curve.data[row].tolist()):
+        contact = bool(state.rows.contact[row])
+        for side, curve in enumerate(state.rows.curve[row].tolist()):
             if curve not in known or (contact and side == 1):
                 continue  # a contact is no intersection of the line that ends there
-            reads = bool((state.rows.reader.data[row] == curve).any())
+            reads = bool((state.rows.reader[row] == curve).any())
             if row not in known[curve] and not (contact and reads):
                 name = book.curve_name(curve)
                 text = f"is not among the meetings of {name}, its twin is missing: undo the edit"
@@ -170,9 +170,9 @@ def _twins(state: HullState, book: AddressBook) -> Iterator[Finding]:
 def crossings_of(state: HullState) -> list[int]:
     """Give the crossings that lie on two curves of lines."""
     rows = state.live("rows")
-    curves = state.rows.curve.data[rows]
-    both = (curves >= 0).all(axis=1) & (state.curves.line.data[curves] >= 0).all(axis=1)
-    found: list[int] = rows[both & (state.rows.sort.data[rows] == Sort.CROSSING)].tolist()
+    curves = state.rows.curve[rows]
+    both = (curves >= 0).all(axis=1) & (state.curves.line[curves] >= 0).all(axis=1)
+    found: list[int] = rows[both & (state.rows.sort[rows] == Sort.CROSSING)].tolist()
     return found
 
 
@@ -180,8 +180,8 @@ def _alone(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Crossings that lie on one curve only."""
     table = state.rows
     for row in state.live("rows").tolist():
-        a, b = table.curve.data[row].tolist()
-        if table.sort.data[row] == Sort.CROSSING and a >= 0 and b < 0:
+        a, b = table.curve[row].tolist()
+        if table.sort[row] == Sort.CROSSING and a >= 0 and b < 0:
             text = f"crosses {book.curve_name(a)} and no other curve: its twin is missing"
             yield row_finding(state, book, row, "twin", f"{text}: undo the edit")
 
@@ -190,12 +190,12 @@ def _foreign(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Meetings of curves that are crossings which have gone, or lie elsewhere."""
     table = state.rows
     for curve in state.live("curves").tolist():
-        rows, name = state.curves.meets.data[curve].row, book.curve_name(curve)
+        rows, name = state.curves.meets[curve].row, book.curve_name(curve)
         for row in rows[rows >= 0].tolist():
-            if not table.alive.data[row]:
-                text = f"meets a curve at {table.key.data[row]}, which has gone: undo the edit"
+            if not table.alive[row]:
+                text = f"meets a curve at {table.key[row]}, which has gone: undo the edit"
                 yield Finding("twin", name, None, None, text)
-            elif not (table.curve.data[row] == curve).any():
+            elif not (table.curve[row] == curve).any():
                 text = f"is among the meetings of {name} and does not lie on it: undo the edit"
                 yield row_finding(state, book, row, "twin", text)
 
@@ -223,7 +223,7 @@ def find_associations(state: HullState, book: AddressBook) -> Iterator[Finding]:
 
 def _declared(state: HullState) -> Iterator[Finding]:
     """Associations of groups that do not exist, of one with itself, or declared twice."""
-    groups = {state.groups.name.data[group] for group in state.live("groups").tolist()}
+    groups = {state.groups.name[group] for group in state.live("groups").tolist()}
     seen = set[frozenset[str]]()
     for link in state.associations:
         name, pair = f"{link.a} - {link.b}", frozenset((link.a, link.b))
@@ -240,14 +240,14 @@ def _undeclared(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Crossings of lines that are not associated, or driven against the association."""
     declared: dict[tuple[int, int], tuple[bool, bool]] = {}
     for row in crossings_of(state):
-        curves = state.rows.curve.data[row].tolist()
+        curves = state.rows.curve[row].tolist()
         lines = (state.line_of(curves[0]), state.line_of(curves[1]))
-        groups = tuple(int(state.lines.group.data[line]) for line in lines)
+        groups = tuple(int(state.lines.group[line]) for line in lines)
         pair = (groups[0], groups[1])
         if pair not in declared:
             declared[pair] = generates(state, *lines)
-        text = _against(declared[pair], Role(int(state.rows.role.data[row])))
-        if text and (declared[pair] == (False, False) or state.rows.override.data[row] < 0):
+        text = _against(declared[pair], Role(int(state.rows.role[row])))
+        if text and (declared[pair] == (False, False) or state.rows.override[row] < 0):
             yield row_finding(state, book, row, "association", text)
 
 
@@ -270,7 +270,7 @@ def _unmade(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Curves of associated groups that meet and have no crossing there."""
     open_, seen = _latent_meetings(state), set[tuple[int, int]]()
     for (curve, line), places in sorted(open_.items()):
-        for other in state.lines.curves.data[line]:
+        for other in state.lines.curves[line]:
             back = open_.get((other, state.line_of(curve)))
             pair = (min(curve, other), max(curve, other))
             if back is None or pair in seen:
@@ -288,7 +288,7 @@ def _latent_meetings(state: HullState) -> dict[tuple[int, int], FloatArray]:
     """Give the places (k, 3), m, at which curves meet planes of lines without a crossing."""
     found: dict[tuple[int, int], FloatArray] = {}
     for curve in state.live("curves").tolist():
-        meets = state.curves.meets.data[curve]
+        meets = state.curves.meets[curve]
         latent = (meets.row < 0) & np.isfinite(meets.xyz).all(axis=1)
         for line in np.unique(meets.line[latent]).tolist():
             found[curve, line] = meets.xyz[latent & (meets.line == line)]
@@ -321,10 +321,10 @@ def find_roles(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """
     may = _may_define(state)
     rows = state.live("rows")
-    free = (state.rows.sort.data[rows] == Sort.CROSSING) & ~state.rows.contact.data[rows]
-    free &= state.rows.override.data[rows] < 0
+    free = (state.rows.sort[rows] == Sort.CROSSING) & ~state.rows.contact[rows]
+    free &= state.rows.override[rows] < 0
     for row in rows[free].tolist():
-        for curve in state.rows.reader.data[row].tolist():
+        for curve in state.rows.reader[row].tolist():
             if may.get((row, curve)) == {False}:
                 text = (
                     f"defines {book.curve_name(curve)}, and the role rule would not choose it "
@@ -342,7 +342,7 @@ def _may_define(state: HullState) -> dict[tuple[int, int], set[bool]]:
     found: dict[tuple[int, int], set[bool]] = {}
     for curve in state.live("curves").tolist():
         on = points_on(state, curve)
-        if len(on.row) < 2 or not bounded(state.curves.spline.data[curve]):
+        if len(on.row) < 2 or not bounded(state.curves.spline[curve]):
             continue
         candidates = _candidates(state, curve, on)
         for row, sure, likely in zip(
@@ -365,14 +365,14 @@ def _candidates(state: HullState, curve: int, on: PointsOnCurve) -> Candidates:
 
     An adopted point that is not fixed gets angle 0, so the rule never chooses it.
     """
-    other = state.rows.curve.data[on.row, 1 - on.side]
+    other = state.rows.curve[on.row, 1 - on.side]
     crossing = other >= 0
-    fixed = (state.rows.sort.data[on.row] == Sort.PLACED) | state.rows.contact.data[on.row]
-    fixed |= state.rows.kind.data[on.row, on.side] != 0
+    fixed = (state.rows.sort[on.row] == Sort.PLACED) | state.rows.contact[on.row]
+    fixed |= state.rows.kind[on.row, on.side] != 0
     fixed[[0, -1]] = True
     tangent = tangents(state, np.full(len(on.row), curve), on.parameter)
-    lines = state.curves.line.data[np.where(crossing, other, 0)]
-    sine = np.abs((tangent * state.lines.normal.data[lines]).sum(axis=1))
+    lines = state.curves.line[np.where(crossing, other, 0)]
+    sine = np.abs((tangent * state.lines.normal[lines]).sum(axis=1))
     angle = np.degrees(np.arcsin(np.minimum(sine, 1.0)))
     keep = crossing | fixed
     return Candidates(on.parameter, np.where(keep, angle, 0.0), tangent, fixed)

@@ -48,7 +48,7 @@ def find_shape(state: HullState, book: AddressBook) -> Iterator[Finding]:
     lofted = list[int]()
     for curve in state.live("curves").tolist():
         yield from _close(state, book, curve)
-        spline = state.curves.spline.data[curve]
+        spline = state.curves.spline[curve]
         if not bounded(spline):
             yield _unbounded(state, book, curve)
             continue
@@ -59,7 +59,7 @@ def find_shape(state: HullState, book: AddressBook) -> Iterator[Finding]:
 
 def _unbounded_points(state: HullState, book: AddressBook) -> Iterator[Finding]:
     rows = state.live("rows")
-    for row in rows[~np.isfinite(state.rows.xyz.data[rows]).all(axis=1)].tolist():
+    for row in rows[~np.isfinite(state.rows.xyz[rows]).all(axis=1)].tolist():
         yield row_finding(state, book, row, "not finite", "has no finite place: undo the edit")
 
 
@@ -85,8 +85,8 @@ def _folds(book: AddressBook, curve: int, spline: SplineBatch) -> Iterator[Findi
 
 def _close(state: HullState, book: AddressBook, curve: int) -> Iterator[Finding]:
     """Neighbouring points of one curve, so near that their chord has no direction."""
-    rows = state.curves.rows.data[curve]
-    step = np.diff(state.rows.xyz.data[rows], axis=0)
+    rows = state.curves.rows[curve]
+    step = np.diff(state.rows.xyz[rows], axis=0)
     away = np.sqrt((step * step).sum(axis=1))
     for i in np.flatnonzero(away < state.tolerances.coincident).tolist():
         other = book.address(int(rows[i + 1]))
@@ -105,7 +105,7 @@ def _off_curves(state: HullState, book: AddressBook, curves: list[int]) -> Itera
     number[curves] = np.arange(len(curves))
     rows, curve = _points_of(state, number)
     batch = SplineBatch.join([state.spline(each) for each in curves])
-    away = closest_points_each(batch, number[curve], state.rows.xyz.data[rows])[2]
+    away = closest_points_each(batch, number[curve], state.rows.xyz[rows])[2]
     for i in np.flatnonzero(away > state.tolerances.consistent).tolist():
         text = f"lies {away[i]:.3g} m off {book.curve_name(int(curve[i]))}: undo the edit"
         yield row_finding(state, book, int(rows[i]), "off curve", text, float(away[i]))
@@ -114,11 +114,9 @@ def _off_curves(state: HullState, book: AddressBook, curves: list[int]) -> Itera
 def _points_of(state: HullState, number: IntArray) -> tuple[IntArray, IntArray]:
     """Give the points that should lie on curves that have a number, with their curves."""
     rows = state.live("rows")
-    watched = (state.rows.sort.data[rows] == Sort.CROSSING) & (
-        state.rows.role.data[rows] == Role.WATCHED
-    )
-    rows = rows[np.isfinite(state.rows.xyz.data[rows]).all(axis=1) & ~watched]
-    curve = state.rows.curve.data[rows]
+    watched = (state.rows.sort[rows] == Sort.CROSSING) & (state.rows.role[rows] == Role.WATCHED)
+    rows = rows[np.isfinite(state.rows.xyz[rows]).all(axis=1) & ~watched]
+    curve = state.rows.curve[rows]
     known = (curve >= 0) & (curve < len(number))
     known[known] = number[curve[known]] >= 0
     known[:, 1] &= curve[:, 1] != curve[:, 0]
@@ -130,12 +128,12 @@ def _off_planes(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Points out of the plane of a curve they lie on: exact where it is a coordinate plane."""
     rows = state.live("rows")
     for side in (0, 1):
-        mine = rows[state.rows.curve.data[rows, side] >= 0]
-        lines = state.curves.line.data[state.rows.curve.data[mine, side]]
-        mine, lines = mine[state.lines.planar.data[lines]], lines[state.lines.planar.data[lines]]
-        normal = state.lines.normal.data[lines]
-        terms = state.rows.xyz.data[mine] * normal
-        off = np.abs(terms[:, 0] + terms[:, 1] + terms[:, 2] - state.lines.offset.data[lines])
+        mine = rows[state.rows.curve[rows, side] >= 0]
+        lines = state.curves.line[state.rows.curve[mine, side]]
+        mine, lines = mine[state.lines.planar[lines]], lines[state.lines.planar[lines]]
+        normal = state.lines.normal[lines]
+        terms = state.rows.xyz[mine] * normal
+        off = np.abs(terms[:, 0] + terms[:, 1] + terms[:, 2] - state.lines.offset[lines])
         exact = (np.abs(normal) == 1.0).any(axis=1)
         wrong = off > np.where(exact, 0.0, state.tolerances.consistent)
         for i in np.flatnonzero(wrong).tolist():
@@ -178,15 +176,15 @@ def turned_crossings(state: HullState, curves: IntArray) -> TurnedCrossings:
     """
     if not len(curves):
         return TurnedCrossings(curves, curves, np.zeros(0))
-    table, defining = state.rows, [state.curves.rows.data[curve] for curve in curves.tolist()]
+    table, defining = state.rows, [state.curves.rows[curve] for curve in curves.tolist()]
     row, owner = np.concatenate(defining), np.repeat(curves, [len(each) for each in defining])
     part = _parts(state, row, owner)
     met, place = _met(state, curves)
-    contact, hit = table.contact.data[row], _positions(met, part)
-    needed = (table.sort.data[row] == Sort.CROSSING) & ~(contact & ((part & 1 == 1) | (hit < 0)))
+    contact, hit = table.contact[row], _positions(met, part)
+    needed = (table.sort[row] == Sort.CROSSING) & ~(contact & ((part & 1 == 1) | (hit < 0)))
     row, owner, hit = row[needed], owner[needed], hit[needed]
     apart, found = np.full(len(row), np.inf), hit >= 0
-    apart[found] = np.abs(place[hit[found]] - table.xyz.data[row[found]]).max(axis=1, initial=0.0)
+    apart[found] = np.abs(place[hit[found]] - table.xyz[row[found]]).max(axis=1, initial=0.0)
     wrong = apart > state.tolerances.coincident
     return TurnedCrossings(row[wrong], owner[wrong], apart[wrong])
 
@@ -203,13 +201,13 @@ def _positions(known: IntArray, wanted: IntArray) -> IntArray:
 
 def _parts(state: HullState, row: IntArray, curve: IntArray) -> IntArray:
     """Give one number for point and curve: twice the point, plus the side of the curve."""
-    found: IntArray = 2 * row + (state.rows.curve.data[row, 0] != curve)
+    found: IntArray = 2 * row + (state.rows.curve[row, 0] != curve)
     return found
 
 
 def _met(state: HullState, curves: IntArray) -> tuple[IntArray, FloatArray]:
     """Give the crossings that curves have intersections at, as `_parts`, and their places, m."""
-    meets: list[CurveIntersections] = [state.curves.meets.data[curve] for curve in curves.tolist()]
+    meets: list[CurveIntersections] = [state.curves.meets[curve] for curve in curves.tolist()]
     row = np.concatenate([each.row for each in meets])
     owner = np.repeat(curves, [len(each.row) for each in meets])
     actual = row >= 0
@@ -233,7 +231,7 @@ def find_turned(state: HullState, curves: IntArray) -> tuple[str, ...]:
 def find_sense(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Give the findings on the sense of crossings of a whole hull."""
     live = state.live("curves")
-    lofted = [state.curves.spline.data[curve] is not None for curve in live.tolist()]
+    lofted = [state.curves.spline[curve] is not None for curve in live.tolist()]
     for row, curve, apart in _each(turned_crossings(state, live[lofted])):
         text = f"{_text(state, book, row, curve, apart)}: undo the edit, or move the points beside"
         yield row_finding(state, book, row, "sense", text, apart)
@@ -245,10 +243,10 @@ def _each(found: TurnedCrossings) -> Iterator[tuple[int, int, float]]:
 
 def _text(state: HullState, book: AddressBook, row: int, curve: int, apart: float) -> str:
     """Say how a curve passes at a crossing, and where it passes as it did."""
-    a, b = state.rows.curve.data[row].tolist()
+    a, b = state.rows.curve[row].tolist()
     partner = state.line_of(b if curve == a else a)
-    x, y, z = state.rows.xyz.data[row].tolist()
-    sine = float((_slope(state, row, curve) * state.lines.normal.data[partner]).sum())
+    x, y, z = state.rows.xyz[row].tolist()
+    sine = float((_slope(state, row, curve) * state.lines.normal[partner]).sum())
     angle = float(np.degrees(np.arcsin(np.clip(sine, -1.0, 1.0))))
     there = f"{apart:.3g} m away" if np.isfinite(apart) else "nowhere near"
     return (
@@ -261,7 +259,7 @@ def _text(state: HullState, book: AddressBook, row: int, curve: int, apart: floa
 def _slope(state: HullState, row: int, curve: int) -> FloatArray:
     """Give the unit tangent of a curve where it goes on from a point, at its end as it comes."""
     spline: SplineBatch = state.spline(curve)
-    place: FloatArray = state.rows.xyz.data[row]
+    place: FloatArray = state.rows.xyz[row]
     knot = int(np.argmin(np.abs(spline.xyz - place).max(axis=1)))
     slope: FloatArray = spline.arrive[knot] if knot == len(spline.knot) - 1 else spline.leave[knot]
     size = float(np.sqrt((slope * slope).sum()))

@@ -57,7 +57,7 @@ def find_tables(state: HullState, _: AddressBook) -> Iterator[Finding]:
         yield from _beyond(state, table, column, _flat(state, table, column), target)
     live = state.live("curves").tolist()
     for part, target in (("row", "rows"), ("line", "lines")):
-        meets = [getattr(state.curves.meets.data[number], part) for number in live]
+        meets = [getattr(state.curves.meets[number], part) for number in live]
         yield from _beyond(state, "curves", f"meets.{part}", _joined(live, meets), target)
     for table, column, known in _CODES:
         numbers, values = _flat(state, table, column)
@@ -106,7 +106,7 @@ def _beyond(
 
 def _families(state: HullState) -> Iterator[Finding]:
     for group in state.live("groups").tolist():
-        family = state.groups.family.data[group]
+        family = state.groups.family[group]
         if family not in FAMILIES:
             text = f"is of the family {family!r}, which does not exist: {REMEDY}"
             yield Finding("tables", _key(state, "groups", group), None, None, text)
@@ -116,7 +116,7 @@ def _generated(state: HullState) -> Iterator[Finding]:
     """Tell generated curves that are not there, or lack points."""
     curves, rows = set(state.live("curves").tolist()), set(state.live("rows").tolist())
     for made in state.generated:
-        there = made.curve in curves and state.curves.key.data[made.curve] == made.key
+        there = made.curve in curves and state.curves.key[made.curve] == made.key
         if not there or (made.attached and not rows.issuperset(made.rows)):
             text = f"comes from definitions, but it or a point of it is not there: {REMEDY}"
             yield Finding("tables", made.key, None, None, text)

@@ -105,8 +105,8 @@ def find_folds(
 def curve_title(state: HullState, curve: int) -> str:
     """Name a curve by its line, with its number where the line has several."""
     line = state.line_of(curve)
-    pieces = state.lines.curves.data[line]
-    name = str(state.lines.name.data[line])
+    pieces = state.lines.curves[line]
+    name = str(state.lines.name[line])
     return name if len(pieces) < 2 else f"{name} [{pieces.index(curve) + 1}]"
 
 
@@ -155,15 +155,15 @@ def _held_at_contact(state: HullState, rows: IntArray) -> np.typing.NDArray[np.b
 
     Such a contact needs no intersection on the boundary curve.
     """
-    made = state.rows.reader.data[rows, 0] == state.rows.curve.data[rows, 0]
-    return np.asarray(state.rows.contact.data[rows] & made)
+    made = state.rows.reader[rows, 0] == state.rows.curve[rows, 0]
+    return np.asarray(state.rows.contact[rows] & made)
 
 
 def find_unmet(state: HullState, curves: IntArray) -> tuple[str, ...]:
     """Say which crossings of curves have no meeting on a curve that they need one on."""
     table = state.rows
     rows = np.flatnonzero(table.alive.data & np.isin(table.curve.data, curves).any(axis=1))
-    rows = rows[table.sort.data[rows] == Sort.CROSSING]
+    rows = rows[table.sort[rows] == Sort.CROSSING]
     findings: list[str] = []
     for side in (0, 1):
         owner = table.curve.data[rows, side]
@@ -194,7 +194,7 @@ def measure_gaps(
     gap = gap_at(state, rows, known)
     journal.put(state.rows.gap, rows, gap)
     # a watched crossing is published where it lies on curve a
-    journal.put(state.rows.xyz, rows, state.rows.spot.data[rows, 0])
+    journal.put(state.rows.xyz, rows, state.rows.spot[rows, 0])
     limit = state.rows.limit.data.take(rows)
     wide = gap > limit
     mend = _to_mend(state, rows, gap / limit) if wide.any() else rows[:0]
@@ -211,7 +211,7 @@ def _watched(state: HullState, curves: IntArray, index: Index) -> IntArray:
 
 def _to_mend(state: HullState, rows: IntArray, part: FloatArray) -> IntArray:
     """Give `WideGaps.mend` from the gaps in parts of their limits, (n,)."""
-    giving = state.rows.curve.data[rows, 1]
+    giving = state.rows.curve[rows, 1]
     chosen = (part > 0.5) & np.isin(giving, giving[part > 1.0])
     keys = state.rows.key.data
     order = sorted(np.flatnonzero(chosen).tolist(), key=lambda i: (-part[i], keys[rows[i]]))
@@ -221,9 +221,9 @@ def _to_mend(state: HullState, rows: IntArray, part: FloatArray) -> IntArray:
 
 def plane_normals(state: HullState, curves: IntArray) -> FloatArray:
     """Give the unit normals of the planes of curves, (m, 3); nan for space curves."""
-    lines = state.curves.line.data[curves]
+    lines = state.curves.line[curves]
     normal: FloatArray = np.where(
-        state.lines.planar.data[lines][:, None], state.lines.normal.data[lines], np.nan
+        state.lines.planar[lines][:, None], state.lines.normal[lines], np.nan
     )
     return normal
 

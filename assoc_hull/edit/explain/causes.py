@@ -23,8 +23,9 @@ from assoc_hull.model.address import AddressBook
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.generated_curves import attached_rows
 from assoc_hull.model.kinds import Role, Sort, State
+from assoc_hull.model.node import Node
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, handle
-from assoc_hull.model.tables import HullState, form_node, form_of
+from assoc_hull.model.tables import HullState
 
 __all__ = [
     "Thing",
@@ -227,8 +228,10 @@ def node_of(state: HullState, thing: Thing | FormDefinition | str) -> int:
     definition = definition_meant(state, thing)
     if definition is not None:
         formed = state.formed.definition.data
-        number = next(n for n in state.live("formed").tolist() if formed[n].key == definition.key)
-        return int(form_node(np.array([number]))[0])
+        number: int = next(
+            n for n in state.live("formed").tolist() if formed[n].key == definition.key
+        )
+        return Node.form(number)
     found = handle(state, thing) if isinstance(thing, str) else thing
     if not isinstance(found, Thing):
         what = f"the object is {shown(found)}"
@@ -237,23 +240,23 @@ def node_of(state: HullState, thing: Thing | FormDefinition | str) -> int:
         raise ForeignPointError(f"{type(found).__name__.lower()} {found.id!r}")
     number = found.row
     if isinstance(found, Line) and found.curves:
-        return 2 * found.curves[0].row + 1
+        return Node.curve(found.curves[0].row)
     if isinstance(found, Group | Line):
         raise BadInputError(f"{found.name!r} is no point or curve", "in why", "name one of them")
-    return 2 * number + isinstance(found, Curve)
+    return Node.curve(number) if isinstance(found, Curve) else Node.point(number)
 
 
 def _is_watched(state: HullState, node: int) -> bool:
-    if node & 1 or node < 0:
+    if not Node.is_point(node):
         return False
-    row = node >> 1
-    crossing = state.rows.sort.data[row] == Sort.CROSSING
-    return bool(crossing and state.rows.role.data[row] == Role.WATCHED)
+    row = Node.number(node)
+    crossing = state.rows.sort[row] == Sort.CROSSING
+    return bool(crossing and state.rows.role[row] == Role.WATCHED)
 
 
 def _watched(state: HullState, steps: Sequence[Step], book: AddressBook, node: int) -> Why:
-    curves = state.rows.curve.data[node >> 1].tolist()
-    causes = [why_after(state, steps, 2 * curve + 1) for curve in curves]
+    curves = state.rows.curve[Node.number(node)].tolist()
+    causes = [why_after(state, steps, Node.curve(curve)) for curve in curves]
     causes.sort(key=lambda each: -each.step)
     last = causes[0]
     return Why(
@@ -263,29 +266,28 @@ def _watched(state: HullState, steps: Sequence[Step], book: AddressBook, node: i
 
 
 def _key(state: HullState, node: int) -> str:
-    if node < 0:
+    if Node.is_form(node):
         return str(_form(state, node).key)
-    table = state.curves if node & 1 else state.rows
-    return str(table.key.data[node >> 1]) if node >> 1 < table.count else _GONE
+    table, number = state.curves if Node.is_curve(node) else state.rows, Node.number(node)
+    return str(table.key[number]) if number < table.count else _GONE
 
 
 def _form(state: HullState, node: int) -> FormDefinition:
-    number = int(form_of(np.array([node]))[0])
-    found: FormDefinition = state.formed.definition.data[number]
-    return found
+    return state.formed.definition[Node.form_number(node)]
 
 
 def _name(book: AddressBook, node: int) -> str:
-    if node < 0:
+    if Node.is_form(node):
         return f"the definition {_form(book.state, node).name!r}"
-    table = book.state.curves if node & 1 else book.state.rows
-    if node >> 1 >= table.count:
+    curve, number = Node.is_curve(node), Node.number(node)
+    table = book.state.curves if curve else book.state.rows
+    if number >= table.count:
         return _GONE
-    if node & 1:
-        return book.curve_name(node >> 1)
-    if not table.alive.data[node >> 1]:
+    if curve:
+        return book.curve_name(number)
+    if not table.alive[number]:
         return _key(book.state, node)
-    return book.address(node >> 1)
+    return book.address(number)
 
 
 def _still(state: HullState, node: int) -> str:
@@ -293,10 +295,10 @@ def _still(state: HullState, node: int) -> str:
 
 
 def _state(state: HullState, node: int) -> State:
-    if node < 0:
+    if Node.is_form(node):
         return State.CLEAN
-    table = state.curves if node & 1 else state.rows
-    return State(int(table.state.data[node >> 1])) if node >> 1 < table.count else State.CLEAN
+    table, number = state.curves if Node.is_curve(node) else state.rows, Node.number(node)
+    return State(int(table.state[number])) if number < table.count else State.CLEAN
 
 
 def _without_alike(causes: Sequence[CauseTree], made: Collection[int]) -> list[CauseTree]:
@@ -335,16 +337,17 @@ class _NamedTraces:
     def _stopped(self, node: int) -> tuple[str, ...]:
         """Name where a change stopped; for a definition, the curves of which it moved no point."""
         quiet = self.tracer.cut_off(node)
-        if node >= 0:
+        if not Node.is_form(node):
             return tuple(_name(self.book, each) for each in quiet)
-        reached = self.step.cause.reader[self.step.cause.source == node] >> 1
-        curve = self.state.rows.curve.data[:, 0]
-        moved = set(curve[np.setdiff1d(reached, np.array(quiet, np.int64) >> 1)].tolist())
-        still = dict.fromkeys(curve[each >> 1] for each in quiet if curve[each >> 1] not in moved)
-        return tuple(self.book.curve_name(int(each)) for each in still)
+        reached = Node.number(self.step.cause.reader[self.step.cause.source == node])
+        still = Node.number(np.array(quiet, np.int64))
+        curve = self.state.rows.curve[:, 0]
+        moved = set(curve[np.setdiff1d(reached, still)].tolist())
+        left = dict.fromkeys(each for each in curve[still].tolist() if each not in moved)
+        return tuple(self.book.curve_name(each) for each in left)
 
     def _what(self, trace: CauseTree) -> str:
-        if trace.node < 0:
+        if Node.is_form(trace.node):
             return f"{_SET}: {self._values(trace.node)}"
         if trace.seed:
             return _CARRIED if self.step.report.carried else _SET

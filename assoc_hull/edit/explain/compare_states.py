@@ -128,7 +128,7 @@ def _lines(state: HullState) -> dict[str, Pieces]:
     for line in state.live("lines").tolist():
         splines = [state.spline(curve) for curve in state.curves_of(line)]
         if splines:
-            found[str(state.lines.key.data[line])] = book.line_name(line), splines
+            found[str(state.lines.key[line])] = book.line_name(line), splines
     return found
 
 
@@ -146,7 +146,7 @@ def _differences(pairs: Sequence[tuple[Pieces, Pieces]]) -> Iterator[LineDiffere
 
 def _numbers(state: HullState) -> dict[str, float | None]:
     """Give the principal numbers of a state."""
-    ship, sort = state.particulars, state.rows.sort.data[state.live("rows")]
+    ship, sort = state.particulars, state.rows.sort[state.live("rows")]
     found: dict[str, float | None] = {
         name: getattr(ship, name) for name in ("length", "breadth", "depth", "draught")
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from assoc_hull.arguments import choice, integer, shown
 from assoc_hull.edit.document import Document
@@ -86,10 +86,10 @@ def graph_of(
 def _linked(found: networkx.MultiDiGraph[str], kind: OnlyName) -> networkx.MultiDiGraph[str]:
     """Keep links of one kind, what they join, and for crossings both curves and friends."""
 
-    def chosen(data: Mapping[str, Any]) -> bool:
+    def chosen(data: Mapping[str, object]) -> bool:
         return data["kind"] == "touch latent" if kind == "latent" else data.get("way") == kind
 
-    def kept(data: Mapping[str, Any]) -> bool:
+    def kept(data: Mapping[str, object]) -> bool:
         return "way" not in data or chosen(data)
 
     nodes = set[str]()
@@ -162,11 +162,11 @@ def changed_by(document: Document, number: int) -> frozenset[str]:
         )  # fmt: skip
     step = document.history[number - 1 if number > 0 else number]
     state = document.state
-    curves = {str(state.curves.key.data[curve]) for curve in step.curves.tolist()}
-    curves |= {str(state.formed.definition.data[form].key) for form in step.forms.tolist()}
+    curves = {str(state.curves.key[curve]) for curve in step.curves.tolist()}
+    curves |= {str(state.formed.definition[form].key) for form in step.forms.tolist()}
     return frozenset(curves.union(*(_names(state, row) for row in step.rows.tolist())))
 
 
 def _names(state: HullState, row: int) -> set[str]:
-    sides = [side for side in (0, 1) if state.rows.curve.data[row, side] >= 0]
-    return {str(state.rows.key.data[row])} | {point_id(state, row, side) for side in sides}
+    sides = [side for side in (0, 1) if state.rows.curve[row, side] >= 0]
+    return {str(state.rows.key[row])} | {point_id(state, row, side) for side in sides}

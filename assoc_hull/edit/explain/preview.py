@@ -8,7 +8,7 @@ read: the report, which lines change and how far, the volume, and why an object 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import cast
 
 import attrs
 import numpy as np
@@ -28,6 +28,7 @@ from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
 __all__ = [
@@ -75,13 +76,13 @@ def line_changes(state: HullState, step: Step | None) -> tuple[LineChange, ...]:
     """
     if step is None:
         return ()
-    # nodes of points are even, see `row_node`; a point whose movement is not known counts for none
-    known = ((step.changed & 1) == 0) & np.isfinite(step.moved)
-    rows, away = step.changed[known] >> 1, step.moved[known]
-    alive = state.rows.alive.data[rows]
+    # a point whose movement is not known counts for none
+    known = Node.is_point(step.changed) & np.isfinite(step.moved)
+    rows, away = Node.number(step.changed[known]), step.moved[known]
+    alive = state.rows.alive[rows]
     found = _Movements(state, AddressBook(state), step, rows[alive], away[alive])
     curves: dict[int, list[int]] = {}
-    for curve in step.curves[state.curves.alive.data[step.curves]].tolist():
+    for curve in step.curves[state.curves.alive[step.curves]].tolist():
         curves.setdefault(state.line_of(curve), []).append(curve)
     return tuple(found.of_line(line, curves[line]) for line in sorted(curves, key=found.order))
 
@@ -99,20 +100,20 @@ class _Movements:
     def order(self, line: int) -> tuple[int, str, float, str]:
         """Give what lines are sorted by."""
         table = self.state.lines
-        place = float(table.offset.data[line]) if table.planar.data[line] else 0.0
+        place = float(table.offset[line]) if table.planar[line] else 0.0
         return self.state.family(line).rank, self._group(line), place, self.book.line_name(line)
 
     def _group(self, line: int) -> str:
-        return str(self.state.groups.name.data[int(self.state.lines.group.data[line])])
+        return str(self.state.groups.name[int(self.state.lines.group[line])])
 
     def of_line(self, line: int, curves: list[int]) -> LineChange:
         """Tell the movement of a line: of the points on its curves, or of these themselves."""
         name, group = self.book.line_name(line), self._group(line)
-        mine = np.isin(self.state.rows.curve.data[self.rows], curves).any(axis=1)
+        mine = np.isin(self.state.rows.curve[self.rows], curves).any(axis=1)
         if mine.any():
             best = int(np.argmax(np.where(mine, self.away, -1.0)))
             row = int(self.rows[best])
-            x, y, z = self.state.rows.xyz.data[row].tolist()
+            x, y, z = self.state.rows.xyz[row].tolist()
             return LineChange(
                 group, name, float(self.away[best]), self.book.address(row), (x, y, z)
             )
@@ -216,7 +217,8 @@ def preview(
     WrongTypeError, UnknownNameError, AbsentParameterError, ForeignPointError
         What was asked for is not there, or is of another kind.
     """
-    asked: list[Any] = all_of(why, object, "why", "in preview")
+    # whatever is neither a thing of the hull nor an address, `node_of` refuses
+    asked = cast("list[Thing | str]", all_of(why, object, "why", "in preview"))
     flag(shapes, "shapes", "in preview")
     flag(measure, "measure", "in preview")
     document.require_ended("preview")
@@ -271,7 +273,7 @@ def _look(
 
 def _shapes(state: HullState, step: Step | None) -> Shapes:
     curves = np.zeros(0, np.int64) if step is None else np.sort(step.curves)
-    curves = curves[state.curves.alive.data[curves]]
+    curves = curves[state.curves.alive[curves]]
     freeze(curves)
     return Shapes(curves, joined([state.spline(curve) for curve in curves.tolist()]))
 

@@ -56,9 +56,9 @@ def _detours(xyz: FloatArray, place: FloatArray) -> FloatArray:
 
 def insert_defining_point(maker: Maker, curve: int, row: int) -> None:
     """Let a point define a curve, between the two points it lies between."""
-    rows: IntArray = maker.state.curves.rows.data[curve]
-    place = maker.state.rows.xyz.data[row]
-    index = insertion_index(maker.state.rows.xyz.data[rows], place)
+    rows: IntArray = maker.state.curves.rows[curve]
+    place = maker.state.rows.xyz[row]
+    index = insertion_index(maker.state.rows.xyz[rows], place)
     maker.define(curve, np.insert(rows, index, row))
 
 
@@ -72,8 +72,8 @@ def insert_defining_point(maker: Maker, curve: int, row: int) -> None:
 def link_adopted_points(state: HullState, curves: IntArray, journal: Journal) -> None:
     """Link the adopted points of curves to their driven neighbours as these lie now."""
     for curve in curves.tolist():
-        rows: IntArray = state.curves.rows.data[curve]
-        rides = state.rows.sort.data[rows] == Sort.ADOPTED
+        rows: IntArray = state.curves.rows[curve]
+        rides = state.rows.sort[rows] == Sort.ADOPTED
         rides &= ~np.isin(rows, kept_rows(state))
         adopted, others = np.flatnonzero(rides), np.flatnonzero(~rides)
         if not len(adopted):
@@ -89,7 +89,7 @@ def link_adopted_points(state: HullState, curves: IntArray, journal: Journal) ->
             ]
         )
         anchor = np.where(pair >= 0, rows[np.maximum(pair, 0)], -1)
-        driven = (anchor >= 0) & (state.rows.driver.data[anchor] >= 0)
+        driven = (anchor >= 0) & (state.rows.driver[anchor] >= 0)
         anchor = np.where(driven, anchor, -1)
         journal.put(state.rows.anchor, rows[adopted], anchor)
         journal.put(state.rows.anchor_weight, rows[adopted], _weights(state, rows, adopted, pair))
@@ -100,7 +100,7 @@ def _weights(
     state: HullState, rows: IntArray, adopted: IntArray, pair: IntArray
 ) -> np.typing.NDArray[np.float64]:
     """Give the part of the way from the first to the second neighbour, by chords, (k,)."""
-    step = np.diff(state.rows.xyz.data[rows], axis=0)
+    step = np.diff(state.rows.xyz[rows], axis=0)
     chord = np.concatenate([[0.0], np.cumsum(np.sqrt((step * step).sum(axis=1)))])
     low, high = chord[np.maximum(pair[:, 0], 0)], chord[np.maximum(pair[:, 1], 0)]
     whole = np.where(high > low, high - low, 1.0)
@@ -114,9 +114,9 @@ def rebase_adopted_points(state: HullState, rows: IntArray, journal: Journal) ->
     """Make the present places of adopted points, and of their neighbours, those they ride from."""
     if not len(rows):
         return
-    anchor = state.rows.anchor.data[rows]
-    at = np.where((anchor >= 0)[:, :, None], state.rows.xyz.data[anchor], 0.0)
-    journal.put(state.rows.base, rows, state.rows.xyz.data[rows])
+    anchor = state.rows.anchor[rows]
+    at = np.where((anchor >= 0)[:, :, None], state.rows.xyz[anchor], 0.0)
+    journal.put(state.rows.base, rows, state.rows.xyz[rows])
     journal.put(state.rows.anchor_from, rows, at)
 
 
@@ -138,13 +138,13 @@ def mend_gaps(
     Gives the curves whose recipe changed, and the points that were moved.
     """
     state, curves, moved = maker.state, set[int](), set[int]()
-    giving = state.rows.curve.data[rows, 1] if on is None else on
+    giving = state.rows.curve[rows, 1] if on is None else on
     for row, curve in zip(rows.tolist(), giving.tolist(), strict=True):
-        pair: list[int] = state.rows.curve.data[row].tolist()
+        pair: list[int] = state.rows.curve[row].tolist()
         # where a fixed point beside the crossing holds one curve, the other gives way
         other = pair[1 - pair.index(curve)]
         for yielding in (curve,) if on is not None else (curve, other):
-            place = state.rows.spot.data[row, 1 - pair.index(yielding)].copy()
+            place = state.rows.spot[row, 1 - pair.index(yielding)].copy()
             point = _hold(maker, yielding, place)
             if point is not None:
                 curves.add(yielding)
@@ -160,14 +160,14 @@ def _hold(maker: Maker, curve: int, place: FloatArray) -> int | None:
     state = maker.state
     if curve in attached_curves(state):
         return None
-    defining: IntArray = state.curves.rows.data[curve]
-    away = np.sqrt(((state.rows.xyz.data[defining] - place) ** 2).sum(axis=1))
+    defining: IntArray = state.curves.rows[curve]
+    away = np.sqrt(((state.rows.xyz[defining] - place) ** 2).sum(axis=1))
     nearest = int(away.argmin())
     if away[nearest] >= state.tolerances.factor * _NEAR:
         point = maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0]
         insert_defining_point(maker, curve, int(point))
         return -1
-    if state.rows.sort.data[defining[nearest]] != Sort.ADOPTED:
+    if state.rows.sort[defining[nearest]] != Sort.ADOPTED:
         return None
     maker.journal.put(state.rows.xyz, [defining[nearest]], [place])
     return int(defining[nearest])

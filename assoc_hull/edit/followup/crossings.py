@@ -62,7 +62,7 @@ def latent_intersections(state: HullState, curves: IntArray) -> list[tuple[int, 
 
     Each is a curve, and the index of the intersection on it.
     """
-    met = [state.curves.meets.data[curve].row for curve in curves.tolist()]
+    met = [state.curves.meets[curve].row for curve in curves.tolist()]
     if not met or np.concatenate(met).min(initial=0) >= 0:
         return []
     return [
@@ -86,32 +86,32 @@ def settle_crossings(
     keys = maker.state.curves.key.data
     for alignment in sorted(alignments, key=lambda each: str(keys[each.curve])):
         for row in alignment.gone.tolist():
-            if maker.state.rows.alive.data[row] and not _holds(maker.state, row, alignment.curve):
-                gone.append(maker.state.rows.key.data[row])
+            if maker.state.rows.alive[row] and not _holds(maker.state, row, alignment.curve):
+                gone.append(maker.state.rows.key[row])
                 curves |= _remove(maker, row)
     for curve, spot in sorted(latent, key=lambda each: (str(keys[each[0]]), each[1])):
         row = make_crossing(maker, curve, spot, edited)
         if row is not None:
-            born.append(maker.state.rows.key.data[row])
-            curves |= {int(each) for each in maker.state.rows.reader.data[row] if each >= 0}
+            born.append(maker.state.rows.key[row])
+            curves |= {int(each) for each in maker.state.rows.reader[row] if each >= 0}
     return CrossingChange(tuple(sorted(born)), tuple(sorted(gone)), tuple(sorted(curves)))
 
 
 def _holds(state: HullState, row: int, curve: int) -> bool:
     """Tell whether a curve is made through a crossing: then it is there by construction."""
-    return bool((state.rows.reader.data[row] == curve).any())
+    return bool((state.rows.reader[row] == curve).any())
 
 
 def _remove(maker: Maker, row: int) -> set[int]:
     """Take a crossing out of the curves it defines and of the intersections of both."""
     state = maker.state
     touched: set[int] = set()
-    for curve in state.rows.reader.data[row].tolist():
+    for curve in state.rows.reader[row].tolist():
         if curve >= 0:
-            rows = state.curves.rows.data[curve]
+            rows = state.curves.rows[curve]
             maker.define(curve, rows[rows != row])
             touched.add(curve)
-    for curve in state.rows.curve.data[row].tolist():
+    for curve in state.rows.curve[row].tolist():
         if curve >= 0:
             make_latent(maker, curve, row)
     maker.remove_rows([row])
@@ -120,7 +120,7 @@ def _remove(maker: Maker, row: int) -> set[int]:
 
 def make_latent(maker: Maker, curve: int, row: int) -> None:
     """Make the intersection of a curve at a crossing latent."""
-    meets: CurveIntersections = maker.state.curves.meets.data[curve]
+    meets: CurveIntersections = maker.state.curves.meets[curve]
     if (meets.row == row).any():
         left = np.where(meets.row == row, -1, meets.row)
         maker.journal.set(maker.state.curves.meets, [curve], [attrs.evolve(meets, row=left)])
@@ -135,13 +135,13 @@ def make_crossing(
     `watch`, it defines neither curve, whatever the role rule says.
     """
     state = maker.state
-    meets: CurveIntersections = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets[curve]
     if meets.row[spot] >= 0 or runs_along_tangency(state, curve, spot):
         return None
     best: tuple[float, int, int] | None = None
     least = 0.0
-    for other in state.lines.curves.data[int(meets.line[spot])]:
-        theirs: CurveIntersections = state.curves.meets.data[other]
+    for other in state.lines.curves[int(meets.line[spot])]:
+        theirs: CurveIntersections = state.curves.meets[other]
         free = np.flatnonzero((theirs.line == state.line_of(curve)) & (theirs.row < 0))
         for there in free.tolist():
             gap, apart = intersection_gap(state, (curve, spot), (other, there))
@@ -163,7 +163,7 @@ def intersection_gap(
     """
     places, slopes = [], []
     for curve, spot in (one, other):
-        meets: CurveIntersections = state.curves.meets.data[curve]
+        meets: CurveIntersections = state.curves.meets[curve]
         places.append(meets.xyz[spot])
         slopes.append(_tangent(state, curve, float(meets.parameter[spot])))
     normal = crossing_normals(slopes[0][None], slopes[1][None])[0]
@@ -187,8 +187,8 @@ def _write_crossing(
     """Make a crossing of two intersections, with the role the rule gives it now."""
     state = maker.state
     (a, spot_a), (b, spot_b) = sorted((one, other), key=lambda each: state.rank(each[0]))
-    meets_a: CurveIntersections = state.curves.meets.data[a]
-    meets_b: CurveIntersections = state.curves.meets.data[b]
+    meets_a: CurveIntersections = state.curves.meets[a]
+    meets_b: CurveIntersections = state.curves.meets[b]
     at = float(meets_a.parameter[spot_a]), float(meets_b.parameter[spot_b])
     line_a, line_b = state.line_of(a), state.line_of(b)
     role = Role.WATCHED if watch else _role(state, (a, b), (line_a, line_b), at)
@@ -198,12 +198,12 @@ def _write_crossing(
         maker.crossings([CrossingSpec(a, b, value, role, int(meets_a.sign[spot_a]), spots)])[0]
     )
     for curve, spot in ((a, spot_a), (b, spot_b)):
-        meets: CurveIntersections = state.curves.meets.data[curve]
+        meets: CurveIntersections = state.curves.meets[curve]
         marked = meets.row.copy()
         marked[spot] = row
         maker.journal.set(state.curves.meets, [curve], [attrs.evolve(meets, row=marked)])
     for curve in (a, b):
-        if (state.rows.reader.data[row] == curve).any():
+        if (state.rows.reader[row] == curve).any():
             insert_defining_point(maker, curve, row)
     # at birth the gap may be at its limit already: it has half as much again
     maker.journal.put(state.rows.limit, [row], [max(2.0 * state.tolerances.adoption, 1.5 * gap)])
@@ -228,20 +228,20 @@ def _role(
 
 def _spot(state: HullState, row: int, side: int) -> FloatArray:
     """Give where a crossing lies on a curve: its one value, unless it is watched."""
-    watched = state.rows.role.data[row] == Role.WATCHED
-    spot: FloatArray = state.rows.spot.data[row, side] if watched else state.rows.xyz.data[row]
+    watched = state.rows.role[row] == Role.WATCHED
+    spot: FloatArray = state.rows.spot[row, side] if watched else state.rows.xyz[row]
     return spot
 
 
 def role_by_rule(state: HullState, row: int) -> Role:
     """Give the role that the rule chooses for a crossing, the rest of its curves as it is."""
-    a, b = state.rows.curve.data[row].tolist()
+    a, b = state.rows.curve[row].tolist()
     places = [
         float(closest_points(state.spline(curve), 0, _spot(state, row, side)[None])[0][0])
         for side, curve in enumerate((a, b))
     ]
     lines = state.line_of(a), state.line_of(b)
-    if state.rows.contact.data[row]:
+    if state.rows.contact[row]:
         both_ways = generates(state, *lines)[1]
         shared = both_ways and _may_define(state, a, lines[1], places[0], row)
         return Role.SHARED if shared else Role.DRIVES_B
@@ -250,11 +250,11 @@ def role_by_rule(state: HullState, row: int) -> Role:
 
 def _may_define(state: HullState, curve: int, partner: int, at: float, row: int = -1) -> bool:
     """Apply the role rule to one crossing; what else defines the curve already stays."""
-    knots, rows = state.spline(curve).knot, state.curves.rows.data[curve]
+    knots, rows = state.spline(curve).knot, state.curves.rows[curve]
     least = _SAME * state.tolerances.factor
     if len(knots) == len(rows):
         # a point adopted where the crossing is stands in for it, and goes when it defines
-        adopted = state.rows.sort.data[rows] == Sort.ADOPTED
+        adopted = state.rows.sort[rows] == Sort.ADOPTED
         stands_in = adopted & (np.abs(knots - at) < least) & (row >= 0)
         knots = knots[(rows != row) & ~stands_in]
     if float(np.abs(knots - at).min()) < least:
@@ -264,7 +264,7 @@ def _may_define(state: HullState, curve: int, partner: int, at: float, row: int 
     slopes = tangents(state, np.full(len(places), curve), places)
     fixed = np.ones(len(places), bool)
     fixed[position] = False
-    sine = abs(float((slopes[position] * state.lines.normal.data[partner]).sum()))
+    sine = abs(float((slopes[position] * state.lines.normal[partner]).sum()))
     angle = np.full(len(places), 90.0)
     angle[position] = float(np.degrees(np.arcsin(min(1.0, sine))))
     return bool(choose(Candidates(places, angle, slopes, fixed), state.tolerances)[position])
@@ -286,15 +286,15 @@ def rejoin_crossings(maker: Maker, alignments: list[Alignment]) -> None:
     keys = state.rows.key.data
     rows = {row for each in alignments for row in each.row.tolist() if row >= 0}
     for row in sorted(rows, key=lambda each: str(keys[each])):
-        watched = state.rows.role.data[row] == Role.WATCHED
-        if watched and state.rows.alive.data[row] and state.rows.sort.data[row] == Sort.CROSSING:
+        watched = state.rows.role[row] == Role.WATCHED
+        if watched and state.rows.alive[row] and state.rows.sort[row] == Sort.CROSSING:
             _rejoin_crossing(maker, row)
 
 
 def _rejoin_crossing(maker: Maker, row: int) -> None:
     """Move a crossing on one of its curves, if that brings its two places together."""
     state = maker.state
-    here = [_intersection_of(state, curve, row) for curve in state.rows.curve.data[row].tolist()]
+    here = [_intersection_of(state, curve, row) for curve in state.rows.curve[row].tolist()]
     if here[0] is None or here[1] is None or _one_place(state, here[0], here[1]) is not None:
         return
     found: list[tuple[float, int, int, int]] = []
@@ -310,13 +310,13 @@ def _rejoin_crossing(maker: Maker, row: int) -> None:
 
 
 def _intersection_of(state: HullState, curve: int, row: int) -> _Intersection | None:
-    spots = np.flatnonzero(state.curves.meets.data[curve].row == row)
+    spots = np.flatnonzero(state.curves.meets[curve].row == row)
     return (curve, int(spots[0])) if len(spots) else None
 
 
 def _unclaimed_like(state: HullState, curve: int, spot: int) -> list[int]:
     """Give the intersections of a curve with the same plane and sign that are of no crossing."""
-    meets: CurveIntersections = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets[curve]
     like = (meets.line == meets.line[spot]) & (meets.sign == meets.sign[spot]) & (meets.row < 0)
     return list(np.flatnonzero(like).tolist())
 
@@ -330,12 +330,12 @@ def _one_place(state: HullState, one: _Intersection, other: _Intersection) -> fl
 
 def _attach(maker: Maker, row: int, side: int, spot: int, other: int) -> None:
     """Let another intersection of a curve be the crossing; the one it was becomes latent."""
-    table, curve = maker.state.rows, int(maker.state.rows.curve.data[row, side])
-    meets: CurveIntersections = maker.state.curves.meets.data[curve]
+    table, curve = maker.state.rows, int(maker.state.rows.curve[row, side])
+    meets: CurveIntersections = maker.state.curves.meets[curve]
     rows = meets.row.copy()
     rows[spot], rows[other] = -1, row
     maker.journal.set(maker.state.curves.meets, [curve], [attrs.evolve(meets, row=rows)])
-    place, at = table.spot.data[[row]].copy(), table.parameter.data[[row]].copy()
+    place, at = table.spot[[row]].copy(), table.parameter[[row]].copy()
     place[0, side], at[0, side] = meets.xyz[other], meets.parameter[other]
     maker.journal.put(table.spot, [row], place)
     maker.journal.put(table.parameter, [row], at)

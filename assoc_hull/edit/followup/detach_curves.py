@@ -8,14 +8,15 @@ and after it, where the update itself has changed the curve.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeVar
 
 import numpy as np
 
 from assoc_hull.edit.pending_changes import Pending
 from assoc_hull.errors import AssocHullError
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.table import ArrayColumn, ListColumn
+from assoc_hull.graph.table import Column, ValueColumn
 from assoc_hull.model.form_definition import GeneratedCurve
 from assoc_hull.model.generated_curves import attached_curves, points_given
 from assoc_hull.model.kinds import Sort
@@ -24,6 +25,8 @@ from assoc_hull.model.network import bits_differ
 from assoc_hull.model.tables import HullState
 
 __all__ = ["detach", "detach_rows", "detached_note", "edited", "off_definitions", "tidy", "whole"]
+
+V = TypeVar("V")
 
 _TOLD = 3
 """So many curves a note names."""
@@ -44,7 +47,7 @@ def edited(state: HullState, journal: Journal, pending: Pending) -> set[int]:
         What is asked for.
     """
     fresh = _changed(journal, state.produced.curve)
-    made_so = {state.produced.curve.data[number].curve for number in fresh}
+    made_so = {state.produced.curve[number].curve for number in fresh}
     known = {c: made for c, made in attached_curves(state).items() if c not in made_so}
     if not known:
         return set()
@@ -55,7 +58,7 @@ def edited(state: HullState, journal: Journal, pending: Pending) -> set[int]:
     )))  # fmt: skip
     found = {curve for curve, made in known.items() if marked.intersection(made.rows)}
     if pending.alone:
-        found |= {c for c in known if moved.intersection(state.curves.rows.data[c].tolist())}
+        found |= {c for c in known if moved.intersection(state.curves.rows[c].tolist())}
     recipes = _changed(journal, state.curves.ends) | _changed(journal, state.curves.alive)
     planes = _changed(journal, state.lines.offset) | _changed(journal, state.lines.normal)
     found |= {c for c in known if c in recipes or state.line_of(c) in planes}
@@ -71,30 +74,31 @@ def _moved(state: HullState, journal: Journal, pending: Pending) -> set[int]:
     return found | _changed(journal, state.rows.xyz)
 
 
-def _changed(journal: Journal, column: ArrayColumn | ListColumn) -> set[int]:
+def _changed(journal: Journal, column: Column[np.generic] | ValueColumn[V]) -> set[int]:
     """Give the rows of a column that differ from what they were before the transaction."""
     if not any(column is each for each in journal.columns()):
         return set()
-    net = journal.net(column)
-    if isinstance(column, ListColumn):
-        pairs = zip(net.rows.tolist(), net.old, net.new, strict=True)
+    if isinstance(column, ValueColumn):
+        held = journal.net(column)
+        pairs = zip(held.rows.tolist(), held.old, held.new, strict=True)
         return {row for row, old, new in pairs if old != new}
-    old, new = (np.asarray(part).reshape(len(net.rows), -1) for part in (net.old, net.new))
+    net = journal.net(column)
+    old, new = (part.reshape(len(net.rows), -1) for part in (net.old, net.new))
     differs = (old != new) & ~(_nan(old) & _nan(new))
     return set(net.rows[differs.any(axis=1)].tolist())
 
 
-def _nan(values: FloatArray) -> np.typing.NDArray[np.bool_]:
+def _nan(values: np.typing.NDArray[np.generic]) -> np.typing.NDArray[np.bool_]:
     return np.isnan(values) if values.dtype.kind == "f" else np.zeros(values.shape, np.bool_)
 
 
 def whole(state: HullState, made: GeneratedCurve) -> bool:
     """Tell whether just the points of a generated curve define it, in order, but for its ends."""
-    rows: IntArray = state.curves.rows.data[made.curve]
-    if not state.curves.alive.data[made.curve]:
+    rows: IntArray = state.curves.rows[made.curve]
+    if not state.curves.alive[made.curve]:
         return False
     own = np.array(made.rows, np.int64)
-    if (state.rows.sort.data[own] != Sort.ADOPTED).any():
+    if (state.rows.sort[own] != Sort.ADOPTED).any():
         return False
     mine = np.isin(rows, own)
     if not np.array_equal(rows[mine], own):
@@ -118,8 +122,8 @@ def _off(state: HullState, chosen: Sequence[GeneratedCurve]) -> set[int]:
         if len(chosen) == 1:
             return {chosen[0].curve}
         return set[int]().union(*(_off(state, [made]) for made in chosen))
-    odd = rows[bits_differ(state.rows.xyz.data[rows], places)]
-    return set(state.rows.curve.data[odd, 0].tolist())
+    odd = rows[bits_differ(state.rows.xyz[rows], places)]
+    return set(state.rows.curve[odd, 0].tolist())
 
 
 def detach(maker: Maker, pending: Pending, curves: Iterable[int]) -> None:
@@ -134,17 +138,17 @@ def detach(maker: Maker, pending: Pending, curves: Iterable[int]) -> None:
     for made in state.generated:
         if made.curve not in left:
             found.append(made)
-        elif state.curves.alive.data[made.curve]:
+        elif state.curves.alive[made.curve]:
             found.append(_pruned(state, made.evolve(attached=False)))
     maker.generated(found)
-    pending.detached += sorted(each for each in left if state.curves.alive.data[each])
+    pending.detached += sorted(each for each in left if state.curves.alive[each])
     pending.structural = True
 
 
 def _pruned(state: HullState, made: GeneratedCurve) -> GeneratedCurve:
     """Give a detached curve without the points that have gone."""
     alive = [
-        bool(state.rows.alive.data[row]) and int(state.rows.curve.data[row, 0]) == made.curve
+        bool(state.rows.alive[row]) and int(state.rows.curve[row, 0]) == made.curve
         for row in made.rows
     ]
     if all(alive):
@@ -157,7 +161,7 @@ def _pruned(state: HullState, made: GeneratedCurve) -> GeneratedCurve:
 def tidy(maker: Maker) -> None:
     """Drop generated curves that have gone, and points that detached ones have lost."""
     state = maker.state
-    there = [each for each in state.generated if state.curves.alive.data[each.curve]]
+    there = [each for each in state.generated if state.curves.alive[each.curve]]
     maker.generated(each if each.attached else _pruned(state, each) for each in there)
 
 
@@ -172,8 +176,8 @@ def detach_rows(maker: Maker, pending: Pending, rows: IntArray) -> bool:
 
 def detached_note(state: HullState, curves: Iterable[int]) -> list[str]:
     """Say in one note which lines were detached."""
-    lines = sorted({state.line_of(curve) for curve in curves if state.curves.alive.data[curve]})
-    names = [str(state.lines.name.data[line]) for line in lines]
+    lines = sorted({state.line_of(curve) for curve in curves if state.curves.alive[curve]})
+    names = [str(state.lines.name[line]) for line in lines]
     if not names:
         return []
     if len(names) == 1:

@@ -128,11 +128,11 @@ def find_features(
     """
     found: list[Feature] = []
     for line in state.live("lines").tolist():
-        if lines is not None and state.lines.key.data[line] not in lines:
+        if lines is not None and state.lines.key[line] not in lines:
             continue
         whole = _whole_line(state, line)
         mine: list[Feature] = [] if whole is None else [whole]
-        for curve in state.lines.curves.data[line]:
+        for curve in state.lines.curves[line]:
             allowed = loose_of(state) if tolerance is None else tolerance[curve]
             mine += _of_curve(state, line, int(curve), allowed)
         found += _told_apart(mine)
@@ -160,36 +160,36 @@ def _free(wish: str, mark: str, taken: set[str]) -> str:
 
 def _make(state: HullState, line: int, kind: str, rows: IntArray, **more: object) -> Feature:
     """Make a feature; its key is of the place of its first point, unless it is a whole line."""
-    title, key = str(state.lines.name.data[line]), str(state.lines.key.data[line])
+    title, key = str(state.lines.name[line]), str(state.lines.key[line])
     if kind in ("flat", "knuckle"):
         name, key = title, f"{key} {kind}"
     else:
-        x, y, z = (np.round(state.rows.xyz.data[rows[0]], 4) + 0.0).tolist()
-        whole = kind == "circle" and state.lines.boundary.data[line] >= 0
+        x, y, z = (np.round(state.rows.xyz[rows[0]], 4) + 0.0).tolist()
+        whole = kind == "circle" and state.lines.boundary[line] >= 0
         name = title if whole else f"{title} {kind}"
         key = f"{key} {kind} @ ({x:.4f}, {y:.4f}, {z:.4f})"
-    made = Feature(key, kind, name, (state.lines.key.data[line],), rows.tolist(), **more)  # type: ignore[arg-type]
+    made = Feature(key, kind, name, (state.lines.key[line],), rows.tolist(), **more)  # type: ignore[arg-type]
     # in whole nanometres: another machine's last bit must not show in it
-    off = float(places_off(made, state.rows.xyz.data[rows]).max())
+    off = float(places_off(made, state.rows.xyz[rows]).max())
     return attrs.evolve(made, gap=rounded_gap(state, off))
 
 
 def _whole_line(state: HullState, line: int) -> Feature | None:
     """Give the flat that a boundary curve borders, or the knuckle line that it is."""
-    boundary = state.lines.boundary.data[line]
-    parts = [state.curves.rows.data[curve] for curve in state.lines.curves.data[line]]
+    boundary = state.lines.boundary[line]
+    parts = [state.curves.rows[curve] for curve in state.lines.curves[line]]
     rows: IntArray = np.concatenate([np.zeros(0, np.int64), *parts])
     if boundary == BoundaryKind.KNUCKLE and len(rows) >= FEATURE_LEAST["knuckle"]:
         return _make(state, line, "knuckle", rows)
     if boundary != BoundaryKind.FLAT or len(rows) < 3:
         return None
-    normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
-    if not state.lines.planar.data[line]:
-        normal, offset, worst = fit_plane(state.rows.xyz.data[rows], loose_of(state))
+    normal, offset = state.lines.normal[line], float(state.lines.offset[line])
+    if not state.lines.planar[line]:
+        normal, offset, worst = fit_plane(state.rows.xyz[rows], loose_of(state))
         if worst > loose_of(state):
             return None
     side = flat_side(state, rows, normal, offset)
-    return _make(state, line, "flat", rows, normal=normal, offset=offset, side=side)
+    return _make(state, line, "flat", rows, normal=normal.tolist(), offset=offset, side=side)
 
 
 def _of_curve(state: HullState, line: int, curve: int, tolerance: float) -> Iterator[Feature]:
@@ -200,10 +200,10 @@ def _of_curve(state: HullState, line: int, curve: int, tolerance: float) -> Iter
         if found is not None:
             joined |= {found.points[0], found.points[-1]}
             yield found
-    rows, side = state.curves.rows.data[curve], state.curves.side.data[curve]
-    tangent = state.rows.kind.data[rows, side] == PointKind.TANGENT
+    rows, side = state.curves.rows[curve], state.curves.side[curve]
+    tangent = state.rows.kind[rows, side] == PointKind.TANGENT
     for row, at in zip(rows[tangent].tolist(), side[tangent].tolist(), strict=True):
-        along = state.rows.direction.data[row, at]
+        along = state.rows.direction[row, at]
         if row not in joined and along.any():
             unit = along / np.sqrt((along * along).sum())
             yield _make(state, line, "tangent", np.array([row]), direction=unit)
@@ -211,24 +211,24 @@ def _of_curve(state: HullState, line: int, curve: int, tolerance: float) -> Iter
 
 def _pieces(state: HullState, line: int, curve: int) -> Iterator[_Piece]:
     """Divide a curve at tangent points and knuckles; no pieces without tangent or held start."""
-    rows, side = state.curves.rows.data[curve], state.curves.side.data[curve]
-    kind = state.rows.kind.data[rows, side]
+    rows, side = state.curves.rows[curve], state.curves.side[curve]
+    kind = state.rows.kind[rows, side]
     if not (kind == PointKind.TANGENT).any() and not _held(state, curve, 0):
         return
     breaks = np.unique(np.concatenate([[0], np.flatnonzero(kind), [len(rows) - 1]])).tolist()
     for first, last in pairwise(breaks):
         mine = rows[first : last + 1]
         given = [
-            state.rows.direction.data[rows[i], side[i]] if kind[i] == PointKind.TANGENT else None
+            state.rows.direction[rows[i], side[i]] if kind[i] == PointKind.TANGENT else None
             for i in (first, last)
         ]
         ending = first == 0, last == len(rows) - 1
         held = ending[0] and _held(state, curve, 0), ending[1] and _held(state, curve, 1)
-        yield _Piece(line, mine, state.rows.xyz.data[mine], (given[0], given[1]), ending, held)
+        yield _Piece(line, mine, state.rows.xyz[mine], (given[0], given[1]), ending, held)
 
 
 def _held(state: HullState, curve: int, end: int) -> bool:
-    return bool(state.curves.ends.data[curve].kind[end] == EndKind.TANGENT)
+    return bool(state.curves.ends[curve].kind[end] == EndKind.TANGENT)
 
 
 def _straight(state: HullState, piece: _Piece) -> Feature | None:
@@ -252,10 +252,10 @@ def _straight(state: HullState, piece: _Piece) -> Feature | None:
 
 def _round(state: HullState, piece: _Piece, tolerance: float) -> Feature | None:
     """Give an arc between tangent points, or a circle that its mirror image closes."""
-    planar = state.lines.planar.data[piece.line]
+    planar = state.lines.planar[piece.line]
     if not (planar and len(piece.xyz) >= _LEAST and all(_tangent(state, piece))):
         return None
-    normal = state.lines.normal.data[piece.line]
+    normal = state.lines.normal[piece.line]
     factor, least = state.tolerances.factor, rounding_of(state)
     found = fit_circle_in_plane(piece.xyz, normal, factor=factor)
     both = all(each is not None for each in piece.tangents)
@@ -299,7 +299,7 @@ def followed_feature(
     if len(lines) < len(feature.lines):
         return None
     if feature.kind in ("flat", "knuckle"):
-        parts = [state.curves.rows.data[c] for line in lines for c in state.lines.curves.data[line]]
+        parts = [state.curves.rows[c] for line in lines for c in state.lines.curves[line]]
         rows: IntArray | None = np.concatenate([np.zeros(0, np.int64), *parts])
     else:
         rows = _between_ends(state, feature, lines, places or {})
@@ -313,8 +313,8 @@ def _between_ends(
 ) -> IntArray | None:
     """Give the points of the line between the ends of a feature, the ends included."""
     for line in lines:
-        for curve in state.lines.curves.data[line]:
-            rows: IntArray = state.curves.rows.data[curve]
+        for curve in state.lines.curves[line]:
+            rows: IntArray = state.curves.rows[curve]
             first = _stands(state, rows, feature.points[0], places)
             last = _stands(state, rows, feature.points[-1], places)
             if 0 <= first <= last:
@@ -325,8 +325,8 @@ def _between_ends(
 def _stands(state: HullState, rows: IntArray, row: int, places: Mapping[int, FloatArray]) -> int:
     """Give the index among a curve's points of a point, or of what took its place; -1 if none."""
     at = np.flatnonzero(rows == row)
-    if not len(at) and not state.rows.alive.data[row]:
-        away = state.rows.xyz.data[rows] - places.get(row, state.rows.xyz.data[row])
+    if not len(at) and not state.rows.alive[row]:
+        away = state.rows.xyz[rows] - places.get(row, state.rows.xyz[row])
         at = np.flatnonzero(dot(away, away) <= rounding_of(state) ** 2)
     return int(at[0]) if len(at) else -1
 
@@ -338,23 +338,23 @@ def feature_in_plane(state: HullState, feature: Feature, line: int) -> Feature |
     """
     if feature.kind == "tangent":
         return _turned(state, feature)
-    if feature.normal is None or not state.lines.planar.data[line]:
+    if feature.normal is None or not state.lines.planar[line]:
         return feature
-    normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
+    normal, offset = state.lines.normal[line], float(state.lines.offset[line])
     if feature.centre is None:
-        return attrs.evolve(feature, normal=normal, offset=offset)
+        return attrs.evolve(feature, normal=normal.tolist(), offset=offset)
     centre = np.array(feature.centre)
     beside = float((centre * normal).sum()) - offset
     if beside != 0.0:
         centre = centre - beside * normal
-    return attrs.evolve(feature, normal=normal, centre=centre.tolist())
+    return attrs.evolve(feature, normal=normal.tolist(), centre=centre.tolist())
 
 
 def _turned(state: HullState, feature: Feature) -> Feature | None:
     """Give a join the direction of its point; None if that is no tangent point any more."""
     row, curve = feature.points[0], host_curve(state, feature)
-    on = np.flatnonzero(state.rows.curve.data[row] == curve)
-    if curve < 0 or state.rows.kind.data[row, on[0]] != PointKind.TANGENT:
+    on = np.flatnonzero(state.rows.curve[row] == curve)
+    if curve < 0 or state.rows.kind[row, on[0]] != PointKind.TANGENT:
         return None
-    along = state.rows.direction.data[row, on[0]]
+    along = state.rows.direction[row, on[0]]
     return attrs.evolve(feature, direction=along / np.sqrt((along * along).sum()))

@@ -44,7 +44,7 @@ def attachable_curves(state: HullState, line: int) -> list[GeneratedCurve]:
     >>> attachable_curves(wigley(stations=5, waterlines=4), 0)
     []
     """
-    curves = [c for c in state.lines.curves.data[line] if state.curves.alive.data[c]]
+    curves = [c for c in state.lines.curves[line] if state.curves.alive[c]]
     known = {each.curve: each for each in state.generated}
     found = [known[curve] for curve in curves if curve in known]
     if found or not _is_section(state, line):
@@ -56,11 +56,11 @@ def attachable_curves(state: HullState, line: int) -> list[GeneratedCurve]:
 def _is_section(state: HullState, line: int) -> bool:
     """Tell whether a line is a section like those that are generated."""
     groups = {
-        int(state.lines.group.data[state.line_of(each.curve)])
+        int(state.lines.group[state.line_of(each.curve)])
         for each in state.generated
         if each.what == "section"
     }
-    return int(state.lines.group.data[line]) in groups
+    return int(state.lines.group[line]) in groups
 
 
 # --------------------------------------------------------------------------------------
@@ -138,15 +138,15 @@ def remake_points(maker: Maker, made: GeneratedCurve, recipe: CurveRecipe) -> Ge
         layout=recipe.layout, marks=recipe.marks, rows=tuple(rows.tolist()), attached=True
     )
     _thread(maker, made, new)
-    kinds = state.rows.kind.data[rows].copy()
+    kinds = state.rows.kind[rows].copy()
     kinds[:, 0] = recipe.kinds
-    directions = state.rows.direction.data[rows].copy()
+    directions = state.rows.direction[rows].copy()
     directions[:, 0] = np.array(recipe.directions, np.float64).reshape(-1, 3)
     journal.put(state.rows.kind, rows, kinds)
     journal.put(state.rows.direction, rows, directions)
     journal.put(state.rows.sort, rows, int(Sort.ADOPTED))
     journal.put(state.rows.anchor, rows, -1)
-    if state.curves.ends.data[made.curve] != recipe.ends:
+    if state.curves.ends[made.curve] != recipe.ends:
         journal.set(state.curves.ends, [made.curve], [recipe.ends])
     _place(maker, new, fresh)
     return new
@@ -159,7 +159,7 @@ def _rows(maker: Maker, made: GeneratedCurve, recipe: CurveRecipe) -> tuple[IntA
     known = {
         mark: row
         for mark, row in zip(made.marks, made.rows, strict=True)
-        if same and state.rows.alive.data[row]
+        if same and state.rows.alive[row]
     }
     missing = [mark for mark in recipe.marks if mark not in known]
     # a key is of the place where its point first lay: that must be known before the point is made
@@ -170,25 +170,25 @@ def _rows(maker: Maker, made: GeneratedCurve, recipe: CurveRecipe) -> tuple[IntA
     known |= dict(zip(missing, fresh.tolist(), strict=True))
     rows = np.array([known[mark] for mark in recipe.marks], np.int64)
     lost = np.setdiff1d(np.array(made.rows, np.int64), rows)
-    maker.remove_rows(lost[state.rows.alive.data[lost]])
+    maker.remove_rows(lost[state.rows.alive[lost]])
     return rows, fresh
 
 
 def _thread(maker: Maker, made: GeneratedCurve, new: GeneratedCurve) -> None:
     """Let the new points define the curve; only waterlines have others than their ends beside."""
     state = maker.state
-    old: IntArray = state.curves.rows.data[made.curve]
+    old: IntArray = state.curves.rows[made.curve]
     rows = np.array(new.rows, np.int64)
     rest = old[~np.isin(old, np.union1d(np.array(made.rows, np.int64), rows))]
     if made.what == "waterline":
         every = np.concatenate([rest, rows])
-        maker.define(made.curve, every[np.argsort(state.rows.xyz.data[every, 0], kind="stable")])
+        maker.define(made.curve, every[np.argsort(state.rows.xyz[every, 0], kind="stable")])
         return
     # ends that are no generated points stay: there a section meets profile and deck edge
     first, last = rest[rest == old[0]], rest[rest == old[-1]]
     left = rest[(rest != old[0]) & (rest != old[-1])]
     maker.define(made.curve, np.concatenate([first, rows, last]))
-    maker.remove_rows(left[state.rows.sort.data[left] == Sort.ADOPTED])
+    maker.remove_rows(left[state.rows.sort[left] == Sort.ADOPTED])
 
 
 def _place(maker: Maker, new: GeneratedCurve, fresh: IntArray) -> None:

@@ -88,13 +88,13 @@ def _meet_as_before(work: Work, curves: list[int]) -> None:
 
 def _has_passed(state: HullState, curve: int) -> bool:
     """Tell whether a line that others make has points in the wrong order, or too close."""
-    if state.curves.state.data[curve] != State.CLEAN or not _follows(state, curve):
+    if state.curves.state[curve] != State.CLEAN or not _follows(state, curve):
         return False
     spline, limits = state.spline(curve), state.tolerances
     if len(curve_folds(spline).curve):
         return True
     step = np.diff(spline.knot)
-    rows: IntArray = state.curves.rows.data[curve]
+    rows: IntArray = state.curves.rows[curve]
     loose = ~_fixed(state, curve, rows)
     near = step < max(limits.turn_spacing, limits.turn_spacing_part * float(np.median(step)))
     return bool((near & loose[1:] & loose[:-1]).any())
@@ -106,15 +106,15 @@ def _follows(state: HullState, curve: int) -> bool:
     if not len(mine):
         return False
     line = state.line_of(curve)
-    givers = {state.line_of(each) for each in set(state.rows.curve.data[mine, 0].tolist())}
-    groups = {int(state.lines.group.data[giver]): giver for giver in givers}
+    givers = {state.line_of(each) for each in set(state.rows.curve[mine, 0].tolist())}
+    groups = {int(state.lines.group[giver]): giver for giver in givers}
     return all(generates(state, giver, line) == (True, False) for giver in groups.values())
 
 
 def _crossings(state: HullState, curve: int) -> IntArray:
     """Give the crossings of a curve with those of lower rank, contacts left out."""
     table = state.rows
-    mine = table.alive.data & (table.curve.data[:, 1] == curve) & ~table.contact.data
+    mine = table.alive.data & (table.curve[:, 1] == curve) & ~table.contact.data
     found: IntArray = np.flatnonzero(mine & (table.sort.data == Sort.CROSSING))
     return found
 
@@ -122,11 +122,11 @@ def _crossings(state: HullState, curve: int) -> IntArray:
 def _fixed(state: HullState, curve: int, rows: IntArray) -> BoolArray:
     """Tell which points a curve cannot do without: ends, tangents, knuckles, placed ones."""
     table = state.rows
-    side = (table.curve.data[rows, 0] != curve).astype(np.int64)
-    found: BoolArray = table.kind.data[rows, side] != PointKind.SMOOTH
-    found |= (table.sort.data[rows] == Sort.PLACED) | np.isin(rows, kept_rows(state))
-    found |= table.contact.data[rows] | (table.override.data[rows] >= 0)
-    return found | np.isin(rows, state.curves.rows.data[curve][[0, -1]])
+    side = (table.curve[rows, 0] != curve).astype(np.int64)
+    found: BoolArray = table.kind[rows, side] != PointKind.SMOOTH
+    found |= (table.sort[rows] == Sort.PLACED) | np.isin(rows, kept_rows(state))
+    found |= table.contact[rows] | (table.override[rows] >= 0)
+    return found | np.isin(rows, state.curves.rows[curve][[0, -1]])
 
 
 def _renew(work: Work, curve: int) -> list[int]:
@@ -136,7 +136,7 @@ def _renew(work: Work, curve: int) -> list[int]:
     chosen = _choose(state, points)
     table, free = state.rows, points.crossing & ~points.fixed
     roles = np.where(chosen, int(Role.DRIVES_B), int(Role.WATCHED))
-    turned = free & (table.role.data[points.rows] != roles)
+    turned = free & (table.role[points.rows] != roles)
     maker.roles(points.rows[turned], roles[turned])
     driven, lost = points.rows[turned & chosen], points.rows[turned & ~chosen]
     work.journal.put(table.limit, driven, np.nan)
@@ -146,7 +146,7 @@ def _renew(work: Work, curve: int) -> list[int]:
     maker.remove_rows(points.rows[~chosen & ~points.crossing])
     link_adopted_points(state, np.array([curve]), work.journal)
     work.pending.computed |= set(driven.tolist())
-    name = state.lines.name.data[state.line_of(curve)]
+    name = state.lines.name[state.line_of(curve)]
     work.pending.notes.append(
         f"{name}: crossings that have passed one another stand in their new order"
         + (f"; {len(lost)} no longer define it" if len(lost) else "")
@@ -158,16 +158,16 @@ def _renew(work: Work, curve: int) -> list[int]:
 def _points(state: HullState, curve: int, before: SplineBatch) -> _Points:
     """Give all that may define a curve, in the order in which it lies along what it was."""
     table = state.rows
-    own: IntArray = state.curves.rows.data[curve]
+    own: IntArray = state.curves.rows[curve]
     watched = np.setdiff1d(_crossings(state, curve), own)
-    watched = watched[np.isfinite(table.parameter.data[watched]).all(axis=1)]
+    watched = watched[np.isfinite(table.parameter[watched]).all(axis=1)]
     rows = np.concatenate([own, watched])
-    xyz = np.concatenate([table.xyz.data[own], table.spot.data[watched, 0]])
+    xyz = np.concatenate([table.xyz[own], table.spot[watched, 0]])
     at = closest_points(before, 0, xyz)[0].copy()
     at[0], at[len(own) - 1] = -np.inf, np.inf
     order = np.argsort(at, kind="stable")
     rows, xyz = rows[order], xyz[order]
-    crossing = (table.sort.data[rows] == Sort.CROSSING) & ~table.contact.data[rows]
+    crossing = (table.sort[rows] == Sort.CROSSING) & ~table.contact[rows]
     return _Points(rows, xyz, crossing, _fixed(state, curve, rows))
 
 
@@ -180,8 +180,8 @@ def _choose(state: HullState, points: _Points) -> BoolArray:
     slope[1:-1] = points.xyz[2:] - points.xyz[:-2]
     slope[[0, -1]] = step[[0, -1]]
     slope /= np.maximum(np.sqrt((slope * slope).sum(axis=1)), 1e-12)[:, None]
-    giver = state.curves.line.data[state.rows.curve.data[points.rows, 0]]
-    sine = np.abs((slope * state.lines.normal.data[giver]).sum(axis=1))
+    giver = state.curves.line[state.rows.curve[points.rows, 0]]
+    sine = np.abs((slope * state.lines.normal[giver]).sum(axis=1))
     angle = np.degrees(np.arcsin(np.minimum(sine, 1.0)))
     angle = np.where(points.crossing, angle, state.tolerances.transversal_deg)
     return choose(Candidates(position, angle, slope, points.fixed), state.tolerances)
@@ -191,7 +191,7 @@ def limit_watched(work: Work) -> None:
     """Give crossings that have come to be watched their gaps, and limits as at a birth."""
     state = work.state
     watched = np.array(sorted(set(work.watched)), np.int64)
-    watched = watched[state.rows.role.data[watched] == Role.WATCHED]
+    watched = watched[state.rows.role[watched] == Role.WATCHED]
     if len(watched):
         gap = gap_at(state, watched)
         least = 2.0 * state.tolerances.adoption
@@ -206,7 +206,7 @@ def widen_limits(work: Work, wide: WideGaps) -> bool:
     close these lie; a hull made of the new definitions would have these gaps from the beginning.
     """
     state = work.state
-    curve = state.rows.curve.data[wide.rows, 1]
+    curve = state.rows.curve[wide.rows, 1]
     follows = np.array([_follows(state, each) for each in curve.tolist()], np.bool_)
     chosen = follows & (wide.gap <= state.tolerances.factor * _MOST)
     rows, gap = wide.rows[chosen], wide.gap[chosen]

@@ -25,6 +25,7 @@ from assoc_hull.model.address import address
 from assoc_hull.model.feature_geometry import line_numbers, places_off, rounded_gap, rounding_of
 from assoc_hull.model.features import Feature
 from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
 __all__ = ["settle_features"]
@@ -82,8 +83,8 @@ def settle_features(work: Work, rows: IntArray) -> None:
 def _fresh_lines(work: Work) -> set[str]:
     """Give the keys of lines that were cut, or cut again, in this edit."""
     state = work.state
-    curves = [curve for curve in work.pending.fresh if state.curves.alive.data[curve]]
-    return {str(state.lines.key.data[state.line_of(curve)]) for curve in curves}
+    curves = [curve for curve in work.pending.fresh if state.curves.alive[curve]]
+    return {str(state.lines.key[state.line_of(curve)]) for curve in curves}
 
 
 def _moved_by_hand(work: Work, rows: IntArray) -> _Hand:
@@ -99,7 +100,7 @@ def _affected(work: Work, rows: IntArray) -> list[int]:
     """Give the numbers of the features that own a point which changed."""
     changed = np.concatenate([rows[:0], *(part.changed for part in work.passes)])
     hand = np.array([row for row, _ in work.pending.by_hand], np.int64)
-    every = np.concatenate([rows, changed[(changed & 1) == 0] >> 1, hand])
+    every = np.concatenate([rows, Node.number(changed[Node.is_point(changed)]), hand])
     point, owner = _owners(work.state)
     found: list[int] = np.unique(owner[np.isin(point, every)]).tolist()
     return found
@@ -138,7 +139,7 @@ def _settle(work: Work, found: _Settling, old: Feature, hand: _Hand, *, whole: b
 
 def _held(state: HullState, feature: Feature, carried: CarriedFeatures | None) -> Feature | None:
     """Give a feature, None if its points are off it; after a mapping its gap may be wider."""
-    off = float(places_off(feature, state.rows.xyz.data[list(feature.points)]).max())
+    off = float(places_off(feature, state.rows.xyz[list(feature.points)]).max())
     if off <= feature.gap + rounding_of(state):
         return feature
     if carried is None:
@@ -154,8 +155,8 @@ def _by_hand(state: HullState, feature: Feature, hand: _Hand) -> str:
     for row, curve in sorted(hand):
         if curve < 0 or row not in feature.points:
             continue
-        if state.lines.key.data[state.line_of(curve)] in feature.lines:
-            return address(state, row) if state.rows.alive.data[row] else "a point of it"
+        if state.lines.key[state.line_of(curve)] in feature.lines:
+            return address(state, row) if state.rows.alive[row] else "a point of it"
     return ""
 
 
@@ -186,7 +187,7 @@ def _as_before(
     if old is None or old.kind != new.kind:
         return new
     again = feature_in_plane(state, attrs.evolve(old, points=new.points), lines[new.lines[0]])
-    off = places_off(again, state.rows.xyz.data[list(new.points)]) if again else np.ones(1)
+    off = places_off(again, state.rows.xyz[list(new.points)]) if again else np.ones(1)
     if again is None or off.max() > loose_of(state):
         return attrs.evolve(new, key=old.key)
     return attrs.evolve(again, gap=rounded_gap(state, float(off.max())))

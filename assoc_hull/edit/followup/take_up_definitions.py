@@ -21,11 +21,12 @@ from assoc_hull.edit.report import FormChange
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.form_definition import GeneratedCurve
 from assoc_hull.model.forms.line_layout import layout_at
 from assoc_hull.model.generated_curves import forms_of, line_offset
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.tables import HullState, form_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 
 __all__ = ["form_changes", "take_up_forms"]
 
@@ -67,13 +68,13 @@ def take_up_forms(state: HullState, journal: Journal, pending: Pending) -> IntAr
 
 
 def _refuse_both(state: HullState, pending: Pending, left: set[int]) -> None:
-    asked = {int(state.rows.curve.data[row, 0]) for row in pending.values}
+    asked = {int(state.rows.curve[row, 0]) for row in pending.values}
     for curve in sorted(left | asked | {each for _, each in pending.by_hand if each >= 0}):
         line = state.line_of(curve)
         if line in pending.attach:
             raise BadInputError(
                 "a line is edited by hand and returned to its definitions in one edit",
-                f"at {state.lines.name.data[line]}", "use two edits",
+                f"at {state.lines.name[line]}", "use two edits",
             )  # fmt: skip
 
 
@@ -82,8 +83,8 @@ def _write(maker: Maker, pending: Pending) -> IntArray:
     state, table = maker.state, maker.state.formed
     maker.definitions([pending.forms.get(each.use, each) for each in state.definitions])
     numbers = [n for n in state.live("formed").tolist()
-               if table.definition.data[n].use in pending.forms]  # fmt: skip
-    return form_node(np.array(numbers, np.int64))
+               if table.definition[n].use in pending.forms]  # fmt: skip
+    return Node.form(np.array(numbers, np.int64))
 
 
 def _other_pieces(state: HullState) -> list[GeneratedCurve]:
@@ -99,7 +100,7 @@ def _other_pieces(state: HullState) -> list[GeneratedCurve]:
 def _refuse_other_number(state: HullState, made: GeneratedCurve) -> None:
     """Refuse where a bulb comes to close at a section, or closes there no more."""
     line = state.line_of(made.curve)
-    curves = [each for each in state.lines.curves.data[line] if state.curves.alive.data[each]]
+    curves = [each for each in state.lines.curves[line] if state.curves.alive[each]]
     if curves.index(made.curve) + 1 < len(curves):
         return
     try:
@@ -110,7 +111,7 @@ def _refuse_other_number(state: HullState, made: GeneratedCurve) -> None:
         number = 2
     if number != len(curves):
         raise BadInputError(
-            f"{state.lines.name.data[line]} would come in {number} curves instead of {len(curves)}",
+            f"{state.lines.name[line]} would come in {number} curves instead of {len(curves)}",
             "in set_form", "remove the line first, and cut it again afterwards",
         )  # fmt: skip
 
@@ -136,11 +137,11 @@ def form_changes(state: HullState, journal: Journal) -> tuple[FormChange, ...]:
     column = state.formed.definition
     if not any(column is each for each in journal.columns()):
         return ()
-    net = journal.net(column)
+    net, (before, _) = journal.net(column), journal.sizes(state.formed)
     found = [
         (new.name, name, old.values.get(name), value)
-        for old, new in zip(net.old, net.new, strict=True)
-        if isinstance(old, FormDefinition) and isinstance(new, FormDefinition)
+        for row, old, new in zip(net.rows.tolist(), net.old, net.new, strict=True)
+        if row < before  # a new row held nothing before
         for name, value in new.values.items()
         if value != old.values.get(name)
     ]

@@ -72,19 +72,19 @@ class PlaneTangency:
 def is_tangency(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
     """Tell which points are crossings at a touch."""
     table = state.rows
-    crossing = table.alive.data[rows] & (table.sort.data[rows] == Sort.CROSSING)
-    return np.asarray(crossing & table.contact.data[rows] & (table.sign.data[rows] == 0))
+    crossing = table.alive[rows] & (table.sort[rows] == Sort.CROSSING)
+    return np.asarray(crossing & table.contact[rows] & (table.sign[rows] == 0))
 
 
 def tangency_rows(state: HullState, curve: int, line: int) -> list[int]:
     """Give the crossings at which a line touches a curve; one, or none."""
-    rows: IntArray = state.curves.rows.data[curve]
+    rows: IntArray = state.curves.rows[curve]
     rows = rows[is_tangency(state, rows)]
     return [row for row in rows.tolist() if state.line_of(_other(state, row, curve)) == line]
 
 
 def _other(state: HullState, row: int, curve: int) -> int:
-    a, b = state.rows.curve.data[row].tolist()
+    a, b = state.rows.curve[row].tolist()
     return int(b if a == curve else a)
 
 
@@ -106,14 +106,14 @@ def clear_at_tangencies(maker: Maker, touches: Sequence[PlaneTangency]) -> None:
     state = maker.state
     same = state.tolerances.factor * _SAME
     for each in touches:
-        rows: IntArray = state.curves.rows.data[each.curve]
-        near = ((state.rows.xyz.data[rows] - each.xyz) ** 2).sum(axis=1) <= same * same
+        rows: IntArray = state.curves.rows[each.curve]
+        near = ((state.rows.xyz[rows] - each.xyz) ** 2).sum(axis=1) <= same * same
         near[[0, -1]] = False
         gone = rows[near & ~is_tangency(state, rows)]
         if not len(gone):
             continue
         maker.define(each.curve, rows[~np.isin(rows, gone)])
-        adopted = state.rows.sort.data[gone] == Sort.ADOPTED
+        adopted = state.rows.sort[gone] == Sort.ADOPTED
         maker.remove_rows(gone[adopted])
         left = gone[~adopted]
         maker.roles(left, np.full(len(left), int(Role.DRIVES_B)))
@@ -124,18 +124,16 @@ def runs_along_tangency(state: HullState, curve: int, spot: int) -> bool:
 
     From it to the next one, or to the touch, the curve hardly leaves the plane.
     """
-    meets: CurveIntersections = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets[curve]
     line = int(meets.line[spot])
-    rows = np.concatenate([state.curves.rows.data[each] for each in state.lines.curves.data[line]])
+    rows = np.concatenate([state.curves.rows[each] for each in state.lines.curves[line]])
     rows = rows[is_tangency(state, rows)]
     if not len(rows):
         return False
-    passed = [
-        parameter_at_tangency(state, curve, state.rows.xyz.data[row]) for row in rows.tolist()
-    ]
+    passed = [parameter_at_tangency(state, curve, state.rows.xyz[row]) for row in rows.tolist()]
     here, along = float(meets.parameter[spot]), meets.line == line
     others = [*np.delete(meets.parameter[along], int(along[:spot].sum())).tolist(), *passed]
-    plane = state.lines.normal.data[line], float(state.lines.offset.data[line])
+    plane = state.lines.normal[line], float(state.lines.offset[line])
     return any(stays_near_plane(state, curve, (here, at), plane) for at in others if at is not None)
 
 

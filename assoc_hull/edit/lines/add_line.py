@@ -196,17 +196,17 @@ def add_line(
     cut = new_plane(state, ready_group(edit, group, position), position)
     marks = find_marks(state, cut.group, cut.normal, cut.offset)
     edit.pending.structural = True
-    family = FAMILIES[state.groups.family.data[cut.group]]
+    family = FAMILIES[state.groups.family[cut.group]]
     if title is None:
         title = _free_name(state, cut.group, f"{family.prefix} {cut.title}")
     line = edit.maker.line(cut.group, title, (cut.normal, cut.offset), key=cut.key)
     for piece in ordered_pieces(edit, line, marks):
         make_piece(edit, line, distinct_marks(state, piece), keep or state.tolerances.keep)
     enter_line_plane(edit, line)
-    curves, table = np.array(state.lines.curves.data[line], np.int64), state.rows
+    curves, table = np.array(state.lines.curves[line], np.int64), state.rows
     on = table.alive.data & np.isin(table.curve.data, curves).any(axis=1)
     met = np.flatnonzero(on & (table.sort.data == Sort.CROSSING))
-    edit.pending.born += sorted(table.key.data[row] for row in met.tolist())
+    edit.pending.born += sorted(table.key[row] for row in met.tolist())
     return line
 
 
@@ -218,12 +218,12 @@ def ordered_pieces(edit: Transaction, line: int, marks: Marks) -> list[Marks]:
     """
     state = edit.state
     axis = 2 if state.family(line).axis == 0 else 0
-    trails = through_facets(state, marks, state.lines.normal.data[line])
+    trails = through_facets(state, marks, state.lines.normal[line])
     if trails is None:
         ordered = nearest_order(marks.xyz, marks.boundary == BoundaryKind.END, axis)
         return with_guides(state, line, [marks.take(piece) for piece in ordered])
     rings = [_opened(marks.xyz, ring) for ring in trails.rings if len(ring) >= _RING]
-    name = state.lines.name.data[line]
+    name = state.lines.name[line]
     for ring in trails.rings:
         x, y, z = marks.xyz[ring].mean(axis=0).tolist()
         done = "begins and ends between two crossings" if len(ring) >= _RING else "is left out"
@@ -249,9 +249,7 @@ def _run_on(along: FloatArray, trails: list[IntArray]) -> list[IntArray]:
 
 
 def _free_name(state: HullState, group: int, wish: str) -> str:
-    taken = {
-        state.lines.name.data[i] for i in state.live("lines") if state.lines.group.data[i] == group
-    }
+    taken = {state.lines.name[i] for i in state.live("lines") if state.lines.group[i] == group}
     return wish if wish not in taken else f"{wish} m"
 
 
@@ -329,7 +327,7 @@ def _rounded(edit: Transaction, curve: int, marks: Marks, rows: list[int]) -> li
     data = CurveData.single(marks.xyz, *_kinds(state, line, marks))
     if not len(curve_folds(loft(data))) and not marks.ring:
         return rows
-    heading = headings(state, marks, state.lines.normal.data[line])
+    heading = headings(state, marks, state.lines.normal[line])
     turns = turning_points(data, heading)
     if marks.ring:
         close = ring_closing_point(marks.xyz, heading)
@@ -340,8 +338,8 @@ def _rounded(edit: Transaction, curve: int, marks: Marks, rows: list[int]) -> li
 
 
 def _in_plane(state: HullState, line: int, place: FloatArray) -> FloatArray:
-    exact = state.lines.normal.data[line] == 1.0
-    return np.where(exact, state.lines.offset.data[line], place)
+    exact = state.lines.normal[line] == 1.0
+    return np.where(exact, state.lines.offset[line], place)
 
 
 def _rows(
@@ -371,13 +369,13 @@ def _kinds(
     """
     kind = np.zeros(len(marks.curve), np.int8)
     flat = marks.boundary == BoundaryKind.FLAT
-    flat &= state.lines.planar.data[state.curves.line.data[marks.curve]]
+    flat &= state.lines.planar[state.curves.line[marks.curve]]
     kind[flat] = PointKind.TANGENT
     kind[marks.boundary == BoundaryKind.KNUCKLE] = PointKind.KNUCKLE
     direction = np.zeros((len(marks.curve), 3))
     for i in np.flatnonzero(flat).tolist():
-        border = state.lines.normal.data[state.line_of(int(marks.curve[i]))]
-        along = np.cross(border, state.lines.normal.data[line])
+        border = state.lines.normal[state.line_of(int(marks.curve[i]))]
+        along = np.cross(border, state.lines.normal[line])
         chord = marks.xyz[min(i + 1, len(kind) - 1)] - marks.xyz[max(i - 1, 0)]
         direction[i] = along if float(along @ chord) >= 0.0 else -along
     kind[_leaving(marks.xyz[:, 1] == 0.0)] = PointKind.KNUCKLE
@@ -413,9 +411,9 @@ def _pick(
     spline = loft(CurveData.single(marks.xyz, kind[given], direction[given]))
     slope = derivative(spline, np.zeros(len(marks.curve), np.int64), spline.knot)
     tangent = slope / np.sqrt((slope * slope).sum(axis=1))[:, None]
-    normal = state.lines.normal.data[state.curves.line.data[marks.curve]]
+    normal = state.lines.normal[state.curves.line[marks.curve]]
     sine = np.minimum(np.abs((tangent * normal).sum(axis=1)), 1.0)
-    theirs = tangents(state, marks.curve, marks.at) * state.lines.normal.data[line]
+    theirs = tangents(state, marks.curve, marks.at) * state.lines.normal[line]
     slide = state.tolerances.factor * _SLIDE / np.maximum(np.abs(theirs.sum(axis=1)), 0.1)
     fixed = _held(state, marks.curve, marks.boundary)
     fixed[[0, -1]] = True
@@ -427,7 +425,7 @@ def _pick(
 
 def _held(state: HullState, curve: IntArray, boundary: IntArray) -> np.typing.NDArray[np.bool_]:
     """Tell at which curves a new line is always made: boundary curves, and space curves."""
-    planar = state.lines.planar.data[state.curves.line.data[curve]]
+    planar = state.lines.planar[state.curves.line[curve]]
     return np.asarray((boundary >= 0) | ~planar)
 
 
@@ -455,7 +453,7 @@ def _roles(state: HullState, line: int, marks: Marks, keep: float) -> list[Role]
 def _old_may(state: HullState, line: int, marks: Marks, keep: float) -> np.typing.NDArray[np.bool_]:
     """Tell which old curves their mark may define: transversal, with room, moved within `keep`."""
     slope = tangents(state, marks.curve, marks.at)
-    sine = np.minimum(np.abs(slope @ state.lines.normal.data[line]), 1.0)
+    sine = np.minimum(np.abs(slope @ state.lines.normal[line]), 1.0)
     may: np.typing.NDArray[np.bool_] = (
         np.degrees(np.arcsin(sine)) >= state.tolerances.transversal_deg
     )

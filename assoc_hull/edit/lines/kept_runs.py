@@ -167,11 +167,11 @@ def release_points(maker: Maker, stays: KeptRuns, left: KeptRuns) -> set[int]:
     """Take what does not stay after all out of the curves that it defines; tell which these are."""
     state = maker.state
     lost = np.setdiff1d(stays.rows(), left.rows())
-    lost = lost[state.rows.sort.data[lost] == Sort.CROSSING]
+    lost = lost[state.rows.sort[lost] == Sort.CROSSING]
     maker.roles(lost, np.full(len(lost), int(Role.WATCHED)))
-    curves, changed = np.unique(state.rows.curve.data[lost]), set[int]()
+    curves, changed = np.unique(state.rows.curve[lost]), set[int]()
     for curve in curves[curves >= 0].tolist():
-        rows: IntArray = state.curves.rows.data[curve]
+        rows: IntArray = state.curves.rows[curve]
         if np.isin(rows, lost).any():
             maker.define(curve, rows[~np.isin(rows, lost)])
             changed.add(curve)
@@ -185,9 +185,9 @@ def assign_runs(maker: Maker, stays: KeptRuns, pieces: Sequence[tuple[int, Marks
         owner = stays.of(state, piece)
         for run in [run for number, run in enumerate(stays.runs) if (owner == number).any()]:
             for row in run.every() if new != run.curve else []:
-                pair = table.curve.data[row].tolist()
+                pair = table.curve[row].tolist()
                 put(table.curve, [row], [[new if each == run.curve else each for each in pair]])
-                reader = table.reader.data[row].tolist()
+                reader = table.reader[row].tolist()
                 put(table.reader, [row], [[new if each == run.curve else each for each in reader]])
 
 
@@ -195,8 +195,8 @@ def restore_roles(maker: Maker, stays: KeptRuns) -> None:
     """Let crossings that stay be computed as they were, once both their lines are there."""
     state = maker.state
     for row in sorted(stays.roles.keys() & set(stays.rows().tolist())):
-        lines = [state.line_of(curve) for curve in state.rows.curve.data[row].tolist()]
-        if state.lines.alive.data[lines].all():
+        lines = [state.line_of(curve) for curve in state.rows.curve[row].tolist()]
+        if state.lines.alive[lines].all():
             maker.roles(np.array([row]), np.array([stays.roles[row]]))
 
 
@@ -210,9 +210,9 @@ def compute_kept_crossings(maker: Maker, stays: KeptRuns) -> set[int]:
     """
     table = maker.state.rows
     rows = np.array(sorted(stays.roles.keys() & set(stays.rows().tolist())), np.int64)
-    rows = rows[table.driver.data[rows] >= 0]
-    side = (table.curve.data[rows, 0] != table.driver.data[rows]).astype(np.int64)
-    value = np.ascontiguousarray(table.spot.data[rows, side])
-    differs = bits_differ(table.xyz.data[rows], value)
+    rows = rows[table.driver[rows] >= 0]
+    side = (table.curve[rows, 0] != table.driver[rows]).astype(np.int64)
+    value = np.ascontiguousarray(table.spot[rows, side])
+    differs = bits_differ(table.xyz[rows], value)
     maker.journal.put(table.xyz, rows[differs], value[differs])
-    return set(table.reader.data[rows[differs]].ravel().tolist()) - {-1}
+    return set(table.reader[rows[differs]].ravel().tolist()) - {-1}

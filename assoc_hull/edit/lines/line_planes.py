@@ -108,7 +108,7 @@ def new_plane(state: HullState, group: str, position: ArrayLike, own: int = -1) 
         is taken.
     """
     index = state.groups.name.data.index(group)
-    family = FAMILIES[state.groups.family.data[index]]
+    family = FAMILIES[state.groups.family[index]]
     if family.name == _DIAGONALS:
         cut = _inclined(index, group, position)
     elif family.axis is None:
@@ -148,18 +148,18 @@ def shifted_plane(state: HullState, line: int, position: ArrayLike) -> CuttingPl
     BadInputError
         As `new_plane`.
     """
-    group = str(state.groups.name.data[int(state.lines.group.data[line])])
-    if not state.lines.planar.data[line]:
+    group = str(state.groups.name[int(state.lines.group[line])])
+    if not state.lines.planar[line]:
         raise BadInputError(
-            f"{state.lines.name.data[line]} is a curve in space and has no plane", "in shift_line",
+            f"{state.lines.name[line]} is a curve in space and has no plane", "in shift_line",
             "transform it, or remove it and cut a new line",
         )  # fmt: skip
     if state.family(line).name != _DIAGONALS:
         return new_plane(state, group, position, line)
     height = number(position, "position", f"for a line of {group}")
-    normal = state.lines.normal.data[line].copy()
+    normal = state.lines.normal[line].copy()
     offset = height * float(normal[2])
-    cut = CuttingPlane(int(state.lines.group.data[line]), normal, offset, f"{height:g}", None)
+    cut = CuttingPlane(int(state.lines.group[line]), normal, offset, f"{height:g}", None)
     _refuse_taken(state, group, cut, line)
     return cut
 
@@ -169,7 +169,7 @@ def _refuse_taken(state: HullState, group: str, cut: CuttingPlane, own: int) -> 
     mine = lines.alive.data & (lines.group.data == cut.group) & lines.planar.data
     mine &= np.arange(len(mine)) != own
     mine &= np.abs(lines.normal.data - cut.normal).max(axis=1) < SAME_PLANE
-    near = np.abs(lines.offset.data[mine] - cut.offset)
+    near = np.abs(lines.offset[mine] - cut.offset)
     if len(near) and near.min() < SAME_PLANE:
         remedy = "choose another position"
         raise BadInputError(f"there is a line at {cut.title} m already", f"in {group}", remedy)
@@ -201,14 +201,14 @@ def checked_in_planes(
         A place is farther off a plane than `IN_PLANE`.
     """
     out = np.array(xyz, np.float64)
-    planar = [line for line in lines if state.lines.planar.data[line]]
-    for line in sorted(planar, key=lambda each: float(state.lines.normal.data[each].max())):
-        normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
+    planar = [line for line in lines if state.lines.planar[line]]
+    for line in sorted(planar, key=lambda each: float(state.lines.normal[each].max())):
+        normal, offset = state.lines.normal[line], float(state.lines.offset[line])
         terms = out * normal
         away = terms[..., 0] + terms[..., 1] + terms[..., 2] - offset
         most = float(np.abs(away).max())
         if most > IN_PLANE:
-            name = state.lines.name.data[line]
+            name = state.lines.name[line]
             what = f"the place lies {most:.3g} m off the plane of {name}"
             raise BadInputError(what, where, "give a place in that plane")
         if (normal == 1.0).any():
@@ -238,12 +238,12 @@ def completed_in_planes(
     for axis, value in given.items():
         out[axis] = value
     table = state.lines
-    planar = [line for line in lines if table.planar.data[line]]
-    oblique = [line for line in planar if table.normal.data[line].max() < 1.0]
-    held = {int(table.normal.data[line].argmax()) for line in planar if line not in oblique}
+    planar = [line for line in lines if table.planar[line]]
+    oblique = [line for line in planar if table.normal[line].max() < 1.0]
+    held = {int(table.normal[line].argmax()) for line in planar if line not in oblique}
     open_axes = [axis for axis in range(3) if axis not in given and axis not in held]
     if len(oblique) == len(open_axes) == 1:
-        normal, axis = table.normal.data[oblique[0]], open_axes[0]
+        normal, axis = table.normal[oblique[0]], open_axes[0]
         rest = sum(float(normal[i] * out[i]) for i in range(3) if i != axis)
-        out[axis] = (float(table.offset.data[oblique[0]]) - rest) / float(normal[axis])
+        out[axis] = (float(table.offset[oblique[0]]) - rest) / float(normal[axis])
     return out

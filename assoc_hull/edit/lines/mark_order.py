@@ -124,16 +124,16 @@ def headings(state: HullState, marks: Marks, normal: FloatArray) -> FloatArray:
 
 def _normals(state: HullState, curve: int) -> tuple[FloatArray, FloatArray]:
     """Give the hull's outward normal at a curve's crossings with other lines, along it."""
-    meets: CurveIntersections = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets[curve]
     known = meets.row >= 0
-    known[known] = ~state.rows.contact.data[meets.row[known]]
+    known[known] = ~state.rows.contact[meets.row[known]]
     rows, at = meets.row[known], meets.parameter[known]
     if not len(rows):
         return at, np.zeros((0, 3))
-    side = (state.rows.curve.data[rows, 0] == curve).astype(np.int64)
-    others = state.rows.curve.data[rows, side]
+    side = (state.rows.curve[rows, 0] == curve).astype(np.int64)
+    others = state.rows.curve[rows, side]
     own = tangents(state, np.full(len(rows), curve), at)
-    theirs = tangents(state, others, state.rows.parameter.data[rows, side])
+    theirs = tangents(state, others, state.rows.parameter[rows, side])
     across = crossing_normals(own, theirs)
     outward = np.cross(_left_of(state, curve), own)
     inward = (across * outward).sum(axis=1) < 0.0
@@ -146,7 +146,7 @@ def _left_of(state: HullState, curve: int) -> FloatArray:
     line = state.line_of(curve)
     sense = float(forward(state, np.array([curve]))[0])
     upward = state.family(line).axis == 0
-    found: FloatArray = state.lines.normal.data[line] * (-sense if upward else sense)
+    found: FloatArray = state.lines.normal[line] * (-sense if upward else sense)
     return found
 
 
@@ -213,21 +213,21 @@ def through_facets(state: HullState, marks: Marks, normal: FloatArray) -> Trails
 
 def _facets(state: HullState, marks: Marks) -> _Facets | None:
     """Give facets by how many planes of each family lie below them; None without planes."""
-    lines = state.curves.line.data[marks.curve]
+    lines = state.curves.line[marks.curve]
     plain = marks.boundary < 0
-    groups = np.unique(state.lines.group.data[lines[plain]])
+    groups = np.unique(state.lines.group[lines[plain]])
     live = state.live("lines")
-    planes = live[np.isin(state.lines.group.data[live], groups) & state.lines.planar.data[live]]
-    normals = sorted({tuple(row) for row in state.lines.normal.data[planes].tolist()})
+    planes = live[np.isin(state.lines.group[live], groups) & state.lines.planar[live]]
+    normals = sorted({tuple(row) for row in state.lines.normal[planes].tolist()})
     if not normals:
         return None
     come, go = [], []
     sense = marks.sign * forward(state, marks.curve)
     for normal in normals:
-        family = planes[(state.lines.normal.data[planes] == normal).all(axis=1)]
-        offsets = np.unique(state.lines.offset.data[family])
+        family = planes[(state.lines.normal[planes] == normal).all(axis=1)]
+        offsets = np.unique(state.lines.offset[family])
         own = plain & np.isin(lines, family)
-        height = np.where(own, state.lines.offset.data[lines], marks.xyz @ np.array(normal))
+        height = np.where(own, state.lines.offset[lines], marks.xyz @ np.array(normal))
         below = np.searchsorted(offsets, height)
         # sections run upward, other lines forward: the signs of their passages are opposite
         upward = sense * (-1 if normal[0] == 1.0 else 1) > 0

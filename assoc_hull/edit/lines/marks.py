@@ -53,7 +53,7 @@ def with_tangencies(
 
     Those of boundary curves on which lines end become marks at which the line turns.
     """
-    normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
+    normal, offset = state.lines.normal[line], float(state.lines.offset[line])
     kept = np.ones(len(marks.curve), bool)
     for each in touches:
         kept &= ~((marks.curve == each.curve) & ~without_double_roots(state, marks.xyz, each.xyz))
@@ -61,7 +61,7 @@ def with_tangencies(
     found = marks.take(np.flatnonzero(kept))
     ends = [
         each for each in touches
-        if state.lines.boundary.data[state.line_of(each.curve)] == BoundaryKind.END
+        if state.lines.boundary[state.line_of(each.curve)] == BoundaryKind.END
     ]  # fmt: skip
     return found.join(_as_marks(state, ends)) if ends else found
 
@@ -174,7 +174,7 @@ def _linked(state: HullState, group: int) -> list[int]:
 
 
 def _rank(state: HullState, group: int) -> int:
-    return FAMILIES[state.groups.family.data[group]].rank
+    return FAMILIES[state.groups.family[group]].rank
 
 
 def _sources(state: HullState, group: int) -> list[int]:
@@ -211,24 +211,24 @@ def _meet(
 ) -> Marks:
     """Meet every curve of some groups with a new plane."""
     curves = state.live("curves")
-    curves = curves[np.isin(state.lines.group.data[state.curves.line.data[curves]], groups)]
+    curves = curves[np.isin(state.lines.group[state.curves.line[curves]], groups)]
     if not len(curves):
         return _no_marks()
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
     met = intersect_planes(batch, normal, np.array([position]), state.tolerances.factor)
     owner = curves[met.curve]
-    lines = state.curves.line.data[owner]
+    lines = state.curves.line[owner]
     root = np.arange(len(owner)) - np.searchsorted(met.curve, met.curve)
     # the coordinate of the met line's own plane to the last bit, not to rounding
     xyz = met.xyz.copy()
-    own = (state.lines.normal.data[lines] == 1.0) & state.lines.planar.data[lines][:, None]
-    xyz[own] = np.broadcast_to(state.lines.offset.data[lines][:, None], xyz.shape)[own]
+    own = (state.lines.normal[lines] == 1.0) & state.lines.planar[lines][:, None]
+    xyz[own] = np.broadcast_to(state.lines.offset[lines][:, None], xyz.shape)[own]
     return Marks(
         owner,
         met.t.copy(),
         xyz,
         met.sign.astype(np.int64),
-        state.lines.boundary.data[lines].astype(np.int64),
+        state.lines.boundary[lines].astype(np.int64),
         root,
         np.full(len(owner), guide),
     )
@@ -244,7 +244,7 @@ def _misses(state: HullState, group: int, normal: FloatArray, position: float) -
     reach = np.concatenate([state.spline(curve).xyz @ normal for curve in curves.tolist()])
     nearest = max(0.0, float(reach.min() - position), float(position - reach.max()))
     return NoMeetingError(
-        f"the plane at {position:g} m of {state.groups.name.data[group]}",
+        f"the plane at {position:g} m of {state.groups.name[group]}",
         nearest,
         f"choose a position between {reach.min():.3f} and {reach.max():.3f} m",
     )
@@ -274,8 +274,8 @@ def with_guides(state: HullState, line: int, pieces: list[Marks]) -> list[Marks]
     `pieces` are in order along the line; each guide goes between the marks of the nearest one, or
     is left out where it lies farther than `one_place` from all.
     """
-    normal, offset = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
-    guides = find_guides(state, int(state.lines.group.data[line]), normal, offset)
+    normal, offset = state.lines.normal[line].copy(), float(state.lines.offset[line])
+    guides = find_guides(state, int(state.lines.group[line]), normal, offset)
     if not len(guides.curve) or not pieces:
         return pieces
     shapes = SplineBatch.join([loft(CurveData.single(piece.xyz)) for piece in pieces])
@@ -346,12 +346,12 @@ def required_marks(
 
 def _unmet(state: HullState, marks: Marks, spline: SplineBatch) -> BoolArray:
     """Tell at which marks of plane lines a line has no intersection near with their planes."""
-    lines = state.curves.line.data[marks.curve]
-    planar = state.lines.planar.data[lines] & (marks.boundary < 0)
+    lines = state.curves.line[marks.curve]
+    planar = state.lines.planar[lines] & (marks.boundary < 0)
     unmet: BoolArray = planar.copy()
-    for normal in sorted({tuple(row) for row in state.lines.normal.data[lines[planar]].tolist()}):
-        mine = np.flatnonzero(planar & (state.lines.normal.data[lines] == normal).all(axis=1))
-        offsets, plane = np.unique(state.lines.offset.data[lines[mine]], return_inverse=True)
+    for normal in sorted({tuple(row) for row in state.lines.normal[lines[planar]].tolist()}):
+        mine = np.flatnonzero(planar & (state.lines.normal[lines] == normal).all(axis=1))
+        offsets, plane = np.unique(state.lines.offset[lines[mine]], return_inverse=True)
         met = intersect_planes(spline, np.array(normal), offsets, state.tolerances.factor)
         unmet[mine[_paired(state, marks.take(mine), plane, spline, met)]] = False
     return unmet

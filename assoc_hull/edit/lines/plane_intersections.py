@@ -13,7 +13,8 @@ from assoc_hull.model.gaps import gap_at, watched_on
 from assoc_hull.model.index import Index
 from assoc_hull.model.loft_hull import attach_curves, set_limits
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import CurveIntersections, HullState, curve_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = [
     "enter_line_plane",
@@ -34,15 +35,15 @@ def enter_line_plane(edit: Transaction, line: int, stay: IntArray = _NO_POINTS) 
     """
     state, journal = edit.state, edit.journal
     edit.document.refresh()
-    mine = np.array(state.lines.curves.data[line], np.int64)
+    mine = np.array(state.lines.curves[line], np.int64)
     network = HullNetwork(state, edit.document.index)
-    network.evaluate(curve_node(mine), journal)
+    network.evaluate(Node.curve(mine), journal)
     partners = partner_curves(state, edit.document.index, line)
     _add_meets(edit, partners, line)
     attach_curves(state, partners, journal, line)
     attach_curves(state, mine, journal)
     for curve in mine.tolist():
-        meets: CurveIntersections = state.curves.meets.data[curve]
+        meets: CurveIntersections = state.curves.meets[curve]
         for spot in np.flatnonzero(meets.row < 0).tolist():
             make_crossing(edit.maker, curve, spot, set(), watch=True)
     _hold_shape(edit, network, mine, stay)
@@ -55,18 +56,18 @@ def intersect_groups(edit: Transaction, a: str, b: str) -> None:
     state = edit.state
     edit.document.refresh()
     names = state.groups.name.data
-    owner = state.lines.group.data[state.curves.line.data]
+    owner = state.lines.group[state.curves.line.data]
     for mine, theirs in ((a, b), (b, a)):
         curves = state.live("curves")
         curves = curves[owner[curves] == names.index(mine)]
         lines = state.live("lines")
-        lines = lines[state.lines.group.data[lines] == names.index(theirs)]
-        for line in lines[state.lines.boundary.data[lines] < 0].tolist():
+        lines = lines[state.lines.group[lines] == names.index(theirs)]
+        for line in lines[state.lines.boundary[lines] < 0].tolist():
             _add_meets(edit, curves, line)
     first = state.live("curves")
     born: list[int] = []
     for curve in first[owner[first] == names.index(a)].tolist():
-        meets: CurveIntersections = state.curves.meets.data[curve]
+        meets: CurveIntersections = state.curves.meets[curve]
         for spot in np.flatnonzero(meets.row < 0).tolist():
             row = make_crossing(edit.maker, curve, spot, set(), watch=True)
             born += [] if row is None else [row]
@@ -81,12 +82,12 @@ def _hold_shape(edit: Transaction, network: HullNetwork, mine: IntArray, stay: I
         wide = rows[gap_at(state, rows) > 0.5 * state.tolerances.adoption]
         if not len(wide):
             return
-        sides = np.isin(state.rows.curve.data[wide], mine)
-        on = state.rows.curve.data[wide][np.arange(len(wide)), sides.argmax(axis=1)]
+        sides = np.isin(state.rows.curve[wide], mine)
+        on = state.rows.curve[wide][np.arange(len(wide)), sides.argmax(axis=1)]
         touched, _ = mend_gaps(edit.maker, wide, on)
         if not len(touched):
             return
-        network.evaluate(curve_node(touched), edit.journal)
+        network.evaluate(Node.curve(touched), edit.journal)
 
 
 def partner_curves(state: HullState, index: Index, line: int) -> IntArray:
@@ -97,7 +98,7 @@ def partner_curves(state: HullState, index: Index, line: int) -> IntArray:
         if any((each.lines == line).any() for each in planes)
     ]
     curves = state.live("curves")
-    owner = state.lines.group.data[state.curves.line.data[curves]]
+    owner = state.lines.group[state.curves.line[curves]]
     found: IntArray = curves[np.isin(owner, groups)]
     return found
 
@@ -108,13 +109,13 @@ def _add_meets(edit: Transaction, curves: IntArray, line: int) -> None:
     if not len(curves):
         return
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
-    plane = state.lines.normal.data[line].copy(), state.lines.offset.data[[line]].copy()
+    plane = state.lines.normal[line].copy(), state.lines.offset[[line]].copy()
     met = intersect_planes(batch, *plane, state.tolerances.factor)
     for local, curve in enumerate(curves.tolist()):
         mine = met.curve == local
         if not mine.any():
             continue
-        old: CurveIntersections = state.curves.meets.data[curve]
+        old: CurveIntersections = state.curves.meets[curve]
         xyz = _in_own_plane(state, curve, met.xyz[mine])
         new = CurveIntersections(
             np.concatenate([old.line, np.full(int(mine.sum()), line)]),
@@ -131,9 +132,9 @@ def _add_meets(edit: Transaction, curves: IntArray, line: int) -> None:
 def _in_own_plane(state: HullState, curve: int, xyz: FloatArray) -> FloatArray:
     line = state.line_of(curve)
     out = np.array(xyz)
-    if state.lines.planar.data[line]:
-        exact = state.lines.normal.data[line] == 1.0
-        out[:, exact] = state.lines.offset.data[line]
+    if state.lines.planar[line]:
+        exact = state.lines.normal[line] == 1.0
+        out[:, exact] = state.lines.offset[line]
     return out
 
 
@@ -141,7 +142,7 @@ def _sorted(
     state: HullState, index: Index, curve: int, meets: CurveIntersections
 ) -> CurveIntersections:
     """Bring meetings into the order in which the update finds them."""
-    group = int(state.lines.group.data[state.line_of(curve)])
+    group = int(state.lines.group[state.line_of(curve)])
     place = {
         int(line): i
         for i, line in enumerate(

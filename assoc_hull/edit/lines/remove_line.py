@@ -38,9 +38,9 @@ def remove_line(edit: Transaction, line: int) -> None:
     if len(state.live("lines")) < 2:
         raise TooFewPointsError("the hull without its last line", 0)
     edit.pending.structural = True
-    mine = np.array(state.lines.curves.data[line], np.int64)
+    mine = np.array(state.lines.curves[line], np.int64)
     crossings, own = _crossings_and_points(state, mine)
-    edit.pending.gone += sorted(state.rows.key.data[row] for row in crossings.tolist())
+    edit.pending.gone += sorted(state.rows.key[row] for row in crossings.tolist())
     replace_crossings(edit, crossings, mine)
     edit.maker.remove_rows(np.concatenate([crossings, own]))
     remove_line_plane(edit, line)
@@ -62,16 +62,16 @@ def replace_crossings(edit: Transaction, crossings: IntArray, going: IntArray) -
     state, touched = edit.state, dict[int, list[int]]()
     edit.refuse_moved(crossings)
     for row in crossings.tolist():
-        for side, curve in enumerate(state.rows.curve.data[row].tolist()):
+        for side, curve in enumerate(state.rows.curve[row].tolist()):
             make_latent(edit.maker, curve, row)
-            if state.rows.reader.data[row, side] != curve or curve in going:
+            if state.rows.reader[row, side] != curve or curve in going:
                 continue
             point = PointSpec(
-                curve, state.rows.xyz.data[row].copy(), Sort.ADOPTED,
-                int(state.rows.kind.data[row, side]), state.rows.direction.data[row, side].copy(),
+                curve, state.rows.xyz[row].copy(), Sort.ADOPTED,
+                int(state.rows.kind[row, side]), state.rows.direction[row, side].copy(),
             )  # fmt: skip
             new = int(edit.maker.points([point])[0])
-            rows: IntArray = state.curves.rows.data[curve]
+            rows: IntArray = state.curves.rows[curve]
             edit.maker.define(curve, np.where(rows == row, new, rows))
             touched.setdefault(curve, []).append(new)
     for curve in sorted(touched):
@@ -93,15 +93,15 @@ def prune_points(edit: Transaction, curve: int, points: IntArray) -> None:
     """
     state = edit.state
     published = state.spline(curve)
-    rows: IntArray = state.curves.rows.data[curve]
+    rows: IntArray = state.curves.rows[curve]
     known = np.array(published.knot)
     if len(known) != len(rows):
-        known = np.array(closest_points(published, 0, state.rows.xyz.data[rows])[0])
+        known = np.array(closest_points(published, 0, state.rows.xyz[rows])[0])
     inner = rows[1:-1]
     inner = inner[np.isin(inner, points)]
-    for row in inner[state.rows.kind.data[inner, 0] == 0].tolist():
+    for row in inner[state.rows.kind[inner, 0] == 0].tolist():
         data = curve_data(state, np.array([curve]))
-        place = int(np.flatnonzero(state.curves.rows.data[curve] == row)[0])
+        place = int(np.flatnonzero(state.curves.rows[curve] == row)[0])
         if data.start[1] < 4:
             return
         trial = loft(
@@ -117,6 +117,6 @@ def prune_points(edit: Transaction, curve: int, points: IntArray) -> None:
         at = np.delete(known, place)
         if float(quick_deviation(published, trial, at)[0]) <= state.tolerances.prune:
             known = at
-            kept: IntArray = state.curves.rows.data[curve]
+            kept: IntArray = state.curves.rows[curve]
             edit.maker.define(curve, kept[kept != row])
             edit.maker.remove_rows([row])

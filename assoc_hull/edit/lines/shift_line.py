@@ -155,7 +155,7 @@ def match_pieces(
     go over to the curve of their piece.
     """
     state = edit.state
-    old = [int(curve) for curve in state.lines.curves.data[line]]
+    old = [int(curve) for curve in state.lines.curves[line]]
     rows = [_rows_of(piece, known) for piece in pieces]
     kept = _keep(state, old, rows)
     for curve in old:
@@ -166,7 +166,7 @@ def match_pieces(
         curve = kept.get(i, -1)
         if curve < 0:
             curve = edit.maker.curve(line, Ends())
-            edit.pending.born.append(state.curves.key.data[curve])
+            edit.pending.born.append(state.curves.key[curve])
         _take_over(edit, curve, piece, known)
         found.append((curve, piece))
     edit.journal.set(state.lines.curves, [line], [tuple(curve for curve, _ in found)])
@@ -182,7 +182,7 @@ def _keep(state: HullState, old: list[int], rows: list[list[int]]) -> dict[int, 
     """Pair pieces with curves by the number of crossings they share, the most first."""
     shared = [
         (
-            -int(np.isin(state.rows.curve.data[np.array(part, np.int64)], curve).any(axis=1).sum()),
+            -int(np.isin(state.rows.curve[np.array(part, np.int64)], curve).any(axis=1).sum()),
             j,
             i,
         )
@@ -201,7 +201,7 @@ def _end(edit: Transaction, curve: int) -> None:
     """Unmake a curve that has no piece any more."""
     edit.journal.put(edit.state.curves.alive, [curve], False)
     edit.pending.curves.discard(curve)
-    edit.pending.gone.append(edit.state.curves.key.data[curve])
+    edit.pending.gone.append(edit.state.curves.key[curve])
 
 
 def _take_over(
@@ -215,7 +215,7 @@ def _take_over(
         row = known.get((other, root))
         if row is None:
             continue
-        pair = state.rows.curve.data[row].tolist()
+        pair = state.rows.curve[row].tolist()
         side = int(state.line_of(pair[1]) == line)
         pair[side] = curve
         edit.journal.put(state.rows.curve, [row], [pair])
@@ -240,10 +240,10 @@ def gather_crossings(
     if not rows or not pieces:
         return
     shapes = SplineBatch.join([loft(CurveData.single(piece.xyz)) for _, piece in pieces])
-    spots = state.rows.spot.data[rows, 0]
+    spots = state.rows.spot[rows, 0]
     away = np.array([closest_points(shapes, i, spots)[2] for i in range(len(pieces))])
     for row, nearest in zip(rows, away.argmin(axis=0).tolist(), strict=True):
-        pair = state.rows.curve.data[row].tolist()
+        pair = state.rows.curve[row].tolist()
         pair[int(state.line_of(pair[1]) == line)] = pieces[nearest][0]
         edit.journal.put(state.rows.curve, [row], [pair])
 
@@ -268,10 +268,10 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
     state = edit.state
     cut = shifted_plane(state, line, position)
     position = cut.offset
-    if position == float(state.lines.offset.data[line]):
+    if position == float(state.lines.offset[line]):
         return
     marks = find_marks(state, cut.group, cut.normal, position)
-    mine = np.array(state.lines.curves.data[line], np.int64)
+    mine = np.array(state.lines.curves[line], np.int64)
     crossings, placed = crossings_and_placed(state, mine)
     known = _followed(state, line, crossings, position)
     edit.refuse_moved(placed)
@@ -306,7 +306,7 @@ def recut_line(
         Runs of the line that stay as they are.
     """
     state = edit.state
-    mine = np.array(state.lines.curves.data[line], np.int64)
+    mine = np.array(state.lines.curves[line], np.int64)
     every, placed = crossings_and_placed(state, mine)
     parts = ordered_pieces(edit, line, marks)
     left = stays.on(state, [distinct_marks(state, part) for part in parts])
@@ -343,8 +343,8 @@ def _report(edit: Transaction, before: IntArray, curves: IntArray) -> None:
 def _drop_adopted(edit: Transaction, mine: IntArray, stay: IntArray) -> None:
     """Take the line's own adopted points out: they held the shape of another place."""
     table = edit.state.rows
-    own = table.alive.data & np.isin(table.curve.data[:, 0], mine)
-    own = np.flatnonzero(own & (table.sort.data == Sort.ADOPTED))
+    on = table.alive.data & np.isin(table.curve[:, 0], mine)
+    own = np.flatnonzero(on & (table.sort.data == Sort.ADOPTED))
     edit.maker.remove_rows(np.setdiff1d(own, stay))
 
 
@@ -360,14 +360,14 @@ def _followed(
     state: HullState, line: int, crossings: IntArray, position: float
 ) -> dict[tuple[int, int], int]:
     """Follow each crossing along the other curve; give it by that curve and its new root."""
-    normal, start = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
+    normal, start = state.lines.normal[line].copy(), float(state.lines.offset[line])
     others = _partners_of(state, line, crossings)
     batch = SplineBatch.join([state.spline(curve) for curve in others])
     known: dict[tuple[int, int], int] = {}
     for other, path in zip(
         others, track_intersections_of_each(batch, normal, start, position), strict=True
     ):
-        meets: CurveIntersections = state.curves.meets.data[other]
+        meets: CurveIntersections = state.curves.meets[other]
         rows = meets.row[meets.line == line].tolist()
         known |= {(other, new): rows[old] for old, new in path.items() if rows[old] >= 0}
     return known
@@ -375,8 +375,8 @@ def _followed(
 
 def _partners_of(state: HullState, line: int, crossings: IntArray) -> list[int]:
     """Give the curves on the other side of a line's crossings, ascending."""
-    pairs = state.rows.curve.data[crossings]
-    mine = state.curves.line.data[pairs] == line
+    pairs = state.rows.curve[crossings]
+    mine = state.curves.line[pairs] == line
     return sorted(set(pairs[~mine].tolist()))
 
 
@@ -385,7 +385,7 @@ def _bring_along(edit: Transaction, line: int, known: dict[tuple[int, int], int]
     if not known:
         return
     state = edit.state
-    plane = state.lines.normal.data[line], state.lines.offset.data[[line]]
+    plane = state.lines.normal[line], state.lines.offset[[line]]
     others = sorted({other for other, _ in known})
     met = intersect_planes(SplineBatch.join([state.spline(curve) for curve in others]), *plane)
     first = np.searchsorted(met.curve, np.arange(len(others))).tolist()
@@ -402,9 +402,9 @@ def _carry(edit: Transaction, curves: IntArray, placed: IntArray) -> None:
     state = edit.state
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
     for row in placed.tolist():
-        exact = state.lines.normal.data[state.line_of(int(curves[0]))] == 1.0  # the plane's axis
-        start = state.rows.xyz.data[row].copy()
-        start[exact] = state.lines.offset.data[state.line_of(int(curves[0]))]
+        exact = state.lines.normal[state.line_of(int(curves[0]))] == 1.0  # the plane's axis
+        start = state.rows.xyz[row].copy()
+        start[exact] = state.lines.offset[state.line_of(int(curves[0]))]
         feet = [closest_points(batch, i, start[None]) for i in range(batch.count)]
         best = int(np.argmin([float(foot[2][0]) for foot in feet]))
         place, curve = feet[best][1][0].copy(), int(curves[best])
@@ -419,10 +419,10 @@ def _carry(edit: Transaction, curves: IntArray, placed: IntArray) -> None:
 def _drop_lost(edit: Transaction, mine: IntArray, kept: IntArray) -> None:
     """Remove crossings that were followed, but that the new curve does not reach."""
     state = edit.state
-    met = [state.curves.meets.data[curve].row for curve in mine.tolist()]
-    made = [state.curves.rows.data[curve] for curve in mine.tolist()]
+    met = [state.curves.meets[curve].row for curve in mine.tolist()]
+    made = [state.curves.rows[curve] for curve in mine.tolist()]
     lost = np.setdiff1d(kept, np.concatenate([*met, *made]))
     for row in lost.tolist():
-        for curve in state.rows.curve.data[row].tolist():
+        for curve in state.rows.curve[row].tolist():
             make_latent(edit.maker, curve, row)
     edit.maker.remove_rows(lost)

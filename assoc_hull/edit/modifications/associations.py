@@ -53,7 +53,7 @@ def _check_pair(edit: Transaction, a: str, b: str) -> None:
     if a == b:
         raise BadInputError(f"the group {a!r} with itself", "in associate", "name two groups")
     for name in (a, b):
-        if name in names and edit.state.groups.family.data[names.index(name)] == "boundary":
+        if name in names and edit.state.groups.family[names.index(name)] == "boundary":
             raise BadInputError(
                 f"lines are made to end and turn on the curves of {name!r}",
                 "in an association of a hull that has lines",
@@ -64,9 +64,9 @@ def _check_pair(edit: Transaction, a: str, b: str) -> None:
 def _turn(edit: Transaction, row: int, giver: str) -> None:
     """Let a crossing define the curve of the other group only."""
     state = edit.state
-    names = [_group(state, curve) for curve in state.rows.curve.data[row].tolist()]
+    names = [_group(state, curve) for curve in state.rows.curve[row].tolist()]
     taker = 1 - names.index(giver)
-    role = Role(int(state.rows.role.data[row]))
+    role = Role(int(state.rows.role[row]))
     defines = {
         Role.SHARED: (True, True),
         Role.DRIVES_A: (True, False),
@@ -79,14 +79,14 @@ def _turn(edit: Transaction, row: int, giver: str) -> None:
 
 
 def _group(state: HullState, curve: int) -> str:
-    return str(state.groups.name.data[int(state.lines.group.data[state.line_of(curve)])])
+    return str(state.groups.name[int(state.lines.group[state.line_of(curve)])])
 
 
 def _crossings(state: HullState, a: str, b: str) -> IntArray:
     table = state.rows
     rows = np.flatnonzero(table.alive.data & (table.sort.data == Sort.CROSSING))
     keep = [
-        {_group(state, curve) for curve in table.curve.data[row].tolist()} == {a, b}
+        {_group(state, curve) for curve in table.curve[row].tolist()} == {a, b}
         for row in rows.tolist()
     ]
     found: IntArray = rows[np.array(keep, bool)]
@@ -122,5 +122,5 @@ def _remove_planes(edit: Transaction, group: str, other: str) -> None:
     state, names = edit.state, edit.state.groups.name.data
     planes = np.flatnonzero(state.lines.group.data == names.index(other))
     curves = state.live("curves")
-    owner = state.lines.group.data[state.curves.line.data[curves]]
+    owner = state.lines.group[state.curves.line[curves]]
     remove_planes(edit, planes, curves[owner == names.index(group)])

@@ -46,7 +46,7 @@ def set_end(
     BadInputError
         An unknown end, both conditions, or a vector that is not three finite numbers.
     """
-    where = f"in set_end of {edit.state.curves.key.data[curve]}"
+    where = f"in set_end of {edit.state.curves.key[curve]}"
     choice(end, "end", ("start", "finish"), where)
     if tangent is not None and curvature is not None:
         raise BadInputError("both a tangent and a curvature", where, "give one of the two")
@@ -55,16 +55,16 @@ def set_end(
         kind, vector = EndKind.TANGENT, direction_in(edit.state, curve, tangent, "tangent")
     elif curvature is not None:
         kind, vector = EndKind.CURVATURE, direction_in(edit.state, curve, curvature, "curvature")
-    old: Ends = edit.state.curves.ends.data[curve]
+    old: Ends = edit.state.curves.ends[curve]
     at = 0 if end == "start" else 1
     x, y, z = vector.tolist()
     given = (int(kind), (x, y, z))
     kept = (old.kind[1 - at], old.vector[1 - at])
     first, last = (given, kept) if at == 0 else (kept, given)
     new = Ends((first[0], last[0]), (first[1], last[1]))
-    if new == old and edit.state.curves.state.data[curve] == State.CLEAN:
+    if new == old and edit.state.curves.state[curve] == State.CLEAN:
         return
     edit.journal.set(edit.state.curves.ends, [curve], [new])
-    edit.pending.by_hand.add((int(edit.state.curves.rows.data[curve][-at]), curve))
+    edit.pending.by_hand.add((int(edit.state.curves.rows[curve][-at]), curve))
     edit.pending.curves.add(curve)
     edit.pending.moved_curves.add(curve)

@@ -155,11 +155,11 @@ def drive_others(edit: Transaction, curve: int) -> None:
     """
     state, table = edit.state, edit.state.rows
     mine = table.alive.data & (table.sort.data == Sort.CROSSING) & ~table.contact.data
-    mine &= (table.curve.data[:, 0] == curve) & (table.override.data < 0)
+    mine &= (table.curve[:, 0] == curve) & (table.override.data < 0)
     for row in np.flatnonzero(mine).tolist():
-        other = int(table.curve.data[row, 1])
+        other = int(table.curve[row, 1])
         one_way = generates(state, state.line_of(curve), state.line_of(other)) == (True, False)
-        if one_way and table.role.data[row] != Role.DRIVES_B:
+        if one_way and table.role[row] != Role.DRIVES_B:
             room = _make_room(edit, other, row)
             change_role(edit, row, Role.DRIVES_B if room else Role.WATCHED)
 
@@ -167,14 +167,14 @@ def drive_others(edit: Transaction, curve: int) -> None:
 def _make_room(edit: Transaction, curve: int, row: int) -> bool:
     """Take out what a curve adopted beside a crossing; tell whether nothing else is too close."""
     state = edit.state
-    rows: IntArray = state.curves.rows.data[curve]
+    rows: IntArray = state.curves.rows[curve]
     if row in rows.tolist():
         return True
-    step = np.diff(state.rows.xyz.data[rows], axis=0)
+    step = np.diff(state.rows.xyz[rows], axis=0)
     least = state.tolerances.spacing * float(np.median(np.sqrt((step * step).sum(axis=1))))
-    away = state.rows.xyz.data[rows] - state.rows.spot.data[row, 0]
+    away = state.rows.xyz[rows] - state.rows.spot[row, 0]
     near = np.sqrt((away * away).sum(axis=1)) < least
-    adopted = (state.rows.sort.data[rows] == Sort.ADOPTED) & ~np.isin(rows, kept_rows(state))
+    adopted = (state.rows.sort[rows] == Sort.ADOPTED) & ~np.isin(rows, kept_rows(state))
     gone = rows[near & adopted]
     if len(gone):
         edit.maker.define(curve, rows[~np.isin(rows, gone)])
@@ -204,7 +204,7 @@ def reattach(edit: Transaction, line: int) -> None:
         the definitions know nothing of.
     """
     state = edit.state
-    name = str(state.lines.name.data[line])
+    name = str(state.lines.name[line])
     if not state.definitions:
         what = "the hull has no definitions"
         raise BadInputError(what, "in reattach", "make it of definitions: see ah.create")
@@ -228,13 +228,13 @@ def reattach(edit: Transaction, line: int) -> None:
 
 def _refuse_others(state: HullState, made: GeneratedCurve) -> None:
     """Refuse where a point defines the curve that the definitions know nothing of."""
-    rows: IntArray = state.curves.rows.data[made.curve]
+    rows: IntArray = state.curves.rows[made.curve]
     if made.what == "waterline":
         return  # definitions give only the ends of its flat: other points may stand beside them
     for row in rows[1:-1].tolist():
         if row in made.rows:
             continue
-        sort = Sort(int(state.rows.sort.data[row]))
+        sort = Sort(int(state.rows.sort[row]))
         if sort is Sort.PLACED:
             raise BadInputError(
                 f"{address(state, row)} was placed there", "in reattach",

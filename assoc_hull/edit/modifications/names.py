@@ -38,12 +38,12 @@ def rename(edit: Transaction, what: ResolvedAddress, name: object) -> None:
         _rename_point(edit, what.row, line_name(name))
     elif what.line < 0:
         raise BadInputError(
-            f"the group {state.groups.name.data[what.group]!r} keeps its name",
+            f"the group {state.groups.name[what.group]!r} keeps its name",
             "in rename",
             "associations and the keys of its lines are made of it; rename its lines",
         )
-    elif what.curve >= 0 and len(state.lines.curves.data[what.line]) > 1:
-        title = state.lines.name.data[what.line]
+    elif what.curve >= 0 and len(state.lines.curves[what.line]) > 1:
+        title = state.lines.name[what.line]
         remedy = f"a curve has the name of its line; rename {title!r}"
         raise BadInputError(f"one of several curves of {title!r}", "in rename", remedy)
     else:
@@ -52,15 +52,15 @@ def rename(edit: Transaction, what: ResolvedAddress, name: object) -> None:
 
 def _rename_line(edit: Transaction, line: int, name: str) -> None:
     state = edit.state
-    group = state.lines.group.data[line]
+    group = state.lines.group[line]
     others = {
-        state.lines.name.data[other]
+        state.lines.name[other]
         for other in state.live("lines").tolist()
-        if state.lines.group.data[other] == group and other != line
+        if state.lines.group[other] == group and other != line
     }
     if name in others | _fixed(state) | _labels(state, -1):
-        raise NameTakenError(f"line of {state.groups.name.data[int(group)]}", name)
-    _rename_features(edit, str(state.lines.key.data[line]), state.lines.name.data[line], name)
+        raise NameTakenError(f"line of {state.groups.name[int(group)]}", name)
+    _rename_features(edit, str(state.lines.key[line]), state.lines.name[line], name)
     edit.journal.set(state.lines.name, [line], [name])
 
 
@@ -76,7 +76,7 @@ def _rename_features(edit: Transaction, key: str, old: str, new: str) -> None:
 
 def _rename_point(edit: Transaction, row: int, name: str) -> None:
     state = edit.state
-    lines = {state.lines.name.data[line] for line in state.live("lines").tolist()}
+    lines = {state.lines.name[line] for line in state.live("lines").tolist()}
     if name in lines | _fixed(state) | _labels(state, row):
         raise NameTakenError("line or point", name)
     edit.journal.set(state.rows.label, [row], [name])
@@ -90,7 +90,7 @@ def _fixed(state: HullState) -> set[str]:
 def _labels(state: HullState, but: int) -> set[str]:
     """Give the names of points, without one."""
     rows = state.live("rows").tolist()
-    return {state.rows.label.data[row] for row in rows if row != but} - {""}
+    return {state.rows.label[row] for row in rows if row != but} - {""}
 
 
 def rename_hull(edit: Transaction, name: object) -> None:

@@ -66,9 +66,9 @@ def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
     """
     state, freedom = edit.state, PointFreedom.of(edit.state, row)
     edit.write(np.array([row]), freedom.place(to)[None], f"move of {freedom.name}")
-    curves = state.rows.curve.data[row]
+    curves = state.rows.curve[row]
     edit.pending.moved_curves |= set(curves[curves >= 0].tolist())
-    if state.rows.sort.data[row] == Sort.ADOPTED:
+    if state.rows.sort[row] == Sort.ADOPTED:
         pin(edit, row)
 
 
@@ -98,7 +98,7 @@ class PointFreedom:
     def of(cls, state: HullState, row: int) -> Self:
         """Read the tables; a driven or watched point raises a PointRoleError."""
         _refuse_computed(state, row)
-        curves = [curve for curve in state.rows.curve.data[row].tolist() if curve >= 0]
+        curves = [curve for curve in state.rows.curve[row].tolist() if curve >= 0]
         lines = [state.line_of(curve) for curve in curves]
         return cls(state, row, address(state, row), free_axes(state, row), lines)
 
@@ -107,19 +107,19 @@ class PointFreedom:
         if set(to) != set(self.axes):
             raise FreedomError(self.name, tuple(to), self.axes)
         given = {_AXES[axis]: value for axis, value in to.items()}
-        now = self.state.rows.xyz.data[self.row]
+        now = self.state.rows.xyz[self.row]
         place = completed_in_planes(self.state, self.lines, now, given)
         return checked_in_planes(self.state, self.lines, place, f"in a move of {self.name}")
 
 
 def _refuse_computed(state: HullState, row: int) -> None:
-    if state.rows.sort.data[row] != Sort.CROSSING:
+    if state.rows.sort[row] != Sort.CROSSING:
         return
-    role = Role(int(state.rows.role.data[row]))
+    role = Role(int(state.rows.role[row]))
     if role is Role.SHARED:
         return
-    driver = int(state.rows.driver.data[row])
-    title = None if driver < 0 else str(state.lines.name.data[state.line_of(driver)])
+    driver = int(state.rows.driver[row])
+    title = None if driver < 0 else str(state.lines.name[state.line_of(driver)])
     kind = "watched" if role is Role.WATCHED else "driven"
     ways = (
         _WAYS_OUT if driver not in attached_curves(state) else f"{_BY_DEFINITION}, or {_WAYS_OUT}"
@@ -143,16 +143,16 @@ def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
         Another point of the curve lies there.
     """
     state = edit.state
-    name = str(state.lines.name.data[state.line_of(curve)])
+    name = str(state.lines.name[state.line_of(curve)])
     given = one_place(place, f"the place of a point of {name}")
     xyz = checked_in_planes(state, [state.line_of(curve)], given, "in insert")
-    rows: IntArray = state.curves.rows.data[curve]
-    away = np.sqrt(((state.rows.xyz.data[rows] - xyz) ** 2).sum(axis=1))
+    rows: IntArray = state.curves.rows[curve]
+    away = np.sqrt(((state.rows.xyz[rows] - xyz) ** 2).sum(axis=1))
     if away.min() < state.tolerances.coincident:
         x, y, z = xyz.tolist()
         raise CoincidentPointsError(name, (x, y, z), float(away.min()), state.tolerances.coincident)
     row = int(edit.maker.points([PointSpec(curve, xyz, Sort.PLACED)])[0])
-    index = insertion_index(state.rows.xyz.data[rows], xyz)
+    index = insertion_index(state.rows.xyz[rows], xyz)
     edit.maker.define(curve, np.insert(rows, index, row))
     edit.pending.by_hand.add((row, curve))
     _changed(edit, curve)
@@ -177,14 +177,14 @@ def delete(edit: Transaction, row: int) -> None:
         The curve would be left with fewer than two points.
     """
     state = edit.state
-    if state.rows.sort.data[row] == Sort.CROSSING:
+    if state.rows.sort[row] == Sort.CROSSING:
         raise PointRoleError(
             address(state, row), "a crossing", None, "remove the line, or the association"
         )
-    curve = int(state.rows.curve.data[row, 0])
-    rows: IntArray = state.curves.rows.data[curve]
+    curve = int(state.rows.curve[row, 0])
+    rows: IntArray = state.curves.rows[curve]
     if len(rows) < 3:
-        raise TooFewPointsError(str(state.lines.name.data[state.line_of(curve)]), len(rows) - 1)
+        raise TooFewPointsError(str(state.lines.name[state.line_of(curve)]), len(rows) - 1)
     if row in rows[[0, -1]]:
         raise PointRoleError(
             address(state, row), "an end of its curve", None, "move it, or remove the line"
@@ -218,24 +218,24 @@ def set_kind(
         An unknown kind, a direction of no length, or a point that does not define the curve.
     """
     state = edit.state
-    curve = int(state.rows.curve.data[row, side])
+    curve = int(state.rows.curve[row, side])
     where = f"at {address(state, row)}"
     if word(kind, "kind") not in {each.name.lower() for each in PointKind}:
         raise BadInputError(f"the kind {kind!r}", where, "use smooth, tangent or knuckle")
-    rows: IntArray = state.curves.rows.data[curve]
+    rows: IntArray = state.curves.rows[curve]
     if row not in rows.tolist():
         raise BadInputError("the point does not define the curve", where, "set its role first")
     given = np.zeros(3)
-    old = PointKind(int(state.rows.kind.data[row, side]))
+    old = PointKind(int(state.rows.kind[row, side]))
     if kind == "tangent":
         if direction is None and old is PointKind.TANGENT:
-            direction = state.rows.direction.data[row, side]
+            direction = state.rows.direction[row, side]
         elif direction is None:
-            direction = _direction(state, curve, state.rows.xyz.data[row])
+            direction = _direction(state, curve, state.rows.xyz[row])
         given = direction_in(state, curve, direction, "direction")
-    if old is PointKind[kind.upper()] and (given == state.rows.direction.data[row, side]).all():
+    if old is PointKind[kind.upper()] and (given == state.rows.direction[row, side]).all():
         return
-    kinds, directions = state.rows.kind.data[row].copy(), state.rows.direction.data[row].copy()
+    kinds, directions = state.rows.kind[row].copy(), state.rows.direction[row].copy()
     kinds[side], directions[side] = PointKind[kind.upper()], given
     edit.journal.put(state.rows.kind, [row], kinds[None])
     edit.journal.put(state.rows.direction, [row], directions[None])
@@ -269,8 +269,8 @@ def unpin(edit: Transaction, row: int) -> None:
 
 def _resort(edit: Transaction, row: int, old: Sort, new: Sort) -> None:
     state = edit.state
-    if state.rows.sort.data[row] != old:
-        sort = Sort(int(state.rows.sort.data[row])).name.lower()
+    if state.rows.sort[row] != old:
+        sort = Sort(int(state.rows.sort[row])).name.lower()
         raise PointRoleError(
             address(state, row),
             f"a {sort} point",
@@ -280,4 +280,4 @@ def _resort(edit: Transaction, row: int, old: Sort, new: Sort) -> None:
     edit.journal.put(state.rows.sort, [row], int(new))
     edit.journal.put(state.rows.anchor, [row], -1)
     edit.pending.structural = True
-    link_adopted_points(state, state.rows.curve.data[row, :1], edit.journal)
+    link_adopted_points(state, state.rows.curve[row, :1], edit.journal)

@@ -80,7 +80,7 @@ def pull_field(
     across_flats: bool,
 ) -> PullField:
     """Give the field of a pull; it raises as `pull`."""
-    place = state.rows.xyz.data[row].copy()
+    place = state.rows.xyz[row].copy()
     if radius is None:
         reach = (3.0 * row_spacing(state, place), 3.0 * row_spacing(state, place))
     else:
@@ -89,7 +89,7 @@ def pull_field(
     border = _border_distance(ground, row)
     if border is None:
         raise PointRoleError(
-            state.rows.key.data[row],
+            state.rows.key[row],
             "on a flat or on the profile, or its normal is not known",
             None,
             "move the border curve, or pull with across_flats=True",
@@ -104,13 +104,13 @@ def curves_to_hold(state: HullState, row: int) -> list[tuple[int, FloatArray]]:
     With each comes the place on it, (3,), m, where it needs one to be pulled at.
     """
     found: list[tuple[int, FloatArray]] = []
-    if state.rows.sort.data[row] != Sort.CROSSING:
+    if state.rows.sort[row] != Sort.CROSSING:
         return found
-    for side, curve in enumerate(state.rows.curve.data[row].tolist()):
-        carries = state.rows.role.data[row] == Role.WATCHED or state.rows.driver.data[row] == curve
-        place = state.rows.spot.data[row, side].copy()
-        rows: IntArray = state.curves.rows.data[curve]
-        step = state.rows.xyz.data[rows] - place
+    for side, curve in enumerate(state.rows.curve[row].tolist()):
+        carries = state.rows.role[row] == Role.WATCHED or state.rows.driver[row] == curve
+        place = state.rows.spot[row, side].copy()
+        rows: IntArray = state.curves.rows[curve]
+        step = state.rows.xyz[rows] - place
         near = float(np.sqrt((step * step).sum(axis=1)).min())
         if carries and near >= state.tolerances.factor * _NEAR:
             found.append((curve, place))
@@ -134,7 +134,7 @@ def _border_distance(ground: FieldContext, row: int) -> float | None:
     if not (ground.normal[row] != 0.0).any():
         return None
     state = ground.state
-    computed = state.rows.driver.data[row] >= 0 or np.isfinite(state.rows.gap.data[row])
+    computed = state.rows.driver[row] >= 0 or np.isfinite(state.rows.gap[row])
     if not computed and not (ground.free == row).any():
         return None
-    return float(flat_distance(state, state.rows.xyz.data[[row]])[0])
+    return float(flat_distance(state, state.rows.xyz[[row]])[0])

@@ -105,10 +105,10 @@ class ReshapeField:
         if self.radius is None:
             return PointDisplacements(self.rows, own, np.zeros(0, np.int64))
         others = ground.free[~np.isin(ground.free, self.rows)]
-        others = others[~(ground.state.rows.reader.data[others] == self.curve).any(axis=1)]
+        others = others[~(ground.state.rows.reader[others] == self.curve).any(axis=1)]
         others = others[~_defines(ground.state, others, _givers(ground.state, self.curve))]
         distance = ground.flat_distance[np.searchsorted(ground.free, others)]
-        amount, at = self._amount(ground.state.rows.xyz.data[others])
+        amount, at = self._amount(ground.state.rows.xyz[others])
         amount = part * amount
         if not self.across_flats:
             own_distance = np.interp(at, self.old.knot, self.flat)
@@ -180,17 +180,16 @@ class ReshapeField:
 def _givers(state: HullState, curve: int) -> IntArray:
     """Give the groups that generate points on a curve's group and take none from it."""
     names = state.groups.name.data
-    mine = names[int(state.lines.group.data[state.line_of(curve)])]
+    mine = names[int(state.lines.group[state.line_of(curve)])]
     given = [link.a for link in state.associations if link.b == mine and not link.two_way]
     return np.array([names.index(name) for name in given], np.int64)
 
 
 def _defines(state: HullState, rows: IntArray, groups: IntArray) -> np.typing.NDArray[np.bool_]:
     """Tell which points define a curve of one of the groups."""
-    reader = state.rows.reader.data[rows]
-    group = state.lines.group.data[state.curves.line.data[reader]]
-    found: np.typing.NDArray[np.bool_] = (np.isin(group, groups) & (reader >= 0)).any(axis=1)
-    return found
+    reader = state.rows.reader[rows]
+    group = state.lines.group[state.curves.line[reader]]
+    return np.asarray((np.isin(group, groups) & (reader >= 0)).any(axis=1))
 
 
 # --------------------------------------------------------------------------------------
@@ -286,8 +285,8 @@ def reshape(
     shape = _checked(state, curve, points, span, axis)
     radius = _radius(state, fade, shape)
     old = state.spline(curve)
-    if not np.array_equal(old.xyz, state.rows.xyz.data[state.curves.rows.data[curve]]):
-        where = f"in reshape of {state.lines.name.data[state.line_of(curve)]}"
+    if not np.array_equal(old.xyz, state.rows.xyz[state.curves.rows[curve]]):
+        where = f"in reshape of {state.lines.name[state.line_of(curve)]}"
         raise BadInputError("its points have changed in this edit", where, "use two edits")
     design = _design(old, shape, span, axis, _free_ends(state, curve))
     flat = flat_distance(state, old.xyz)
@@ -296,8 +295,8 @@ def reshape(
     new = _designed(state, curve, old, design, moved)
     rows = _own_rows(state, curve, old, design, across_flats=across_flats)
     goals = _goals(state, curve, rows, old.xyz + moved, new)
-    start = state.rows.xyz.data[rows].copy()
-    normals = hull_normals(state)[state.curves.rows.data[curve]]
+    start = state.rows.xyz[rows].copy()
+    normals = hull_normals(state)[state.curves.rows[curve]]
     made = _place(edit, curve, design.shape, rows, goals)
     edit.pending.fields.append(
         ReshapeField(
@@ -313,7 +312,7 @@ def _checked(
     state: HullState, curve: int, points: ArrayLike, span: tuple[float, float], axis: int
 ) -> FloatArray:
     """Check the points against the span and the plane of the curve."""
-    name = state.lines.name.data[state.line_of(curve)]
+    name = state.lines.name[state.line_of(curve)]
     shape = places(points, f"the new shape of {name}")
     off = (shape[:, axis] <= span[0]) | (shape[:, axis] >= span[1])
     if off.any():
@@ -327,21 +326,21 @@ def _checked(
 
 def _free_ends(state: HullState, curve: int) -> tuple[bool, bool]:
     """Tell whether each end may move: it does not if it lies on the profile."""
-    rows: IntArray = state.curves.rows.data[curve]
+    rows: IntArray = state.curves.rows[curve]
     fixed = on_profile(state)[rows[[0, -1]]]
     return not fixed[0], not fixed[1]
 
 
 def _slide(state: HullState, curve: int, old: SplineBatch, moved: FloatArray) -> FloatArray:
     """Let displaced ends slide along the curve into the plane of their boundary curve."""
-    rows: IntArray = state.curves.rows.data[curve][[0, -1]]
+    rows: IntArray = state.curves.rows[curve][[0, -1]]
     slopes = np.array([old.leave[0], old.arrive[-1]])
     out = moved.copy()
     for i, row in enumerate(rows.tolist()):
-        other = state.line_of(int(state.rows.curve.data[row, 0]))
-        if not state.rows.contact.data[row] or not state.lines.planar.data[other]:
+        other = state.line_of(int(state.rows.curve[row, 0]))
+        if not state.rows.contact[row] or not state.lines.planar[other]:
             continue
-        normal = state.lines.normal.data[other]
+        normal = state.lines.normal[other]
         along = float(slopes[i] @ normal)
         # a curve that runs along the plane would slide far
         if abs(along) > 0.1 * float(np.sqrt((slopes[i] * slopes[i]).sum())):
@@ -408,7 +407,7 @@ def _designed(
             data.end_kind.copy(),
             data.end_vector.copy(),
         ),
-        [f"the new shape of {state.curves.key.data[curve]}"],
+        [f"the new shape of {state.curves.key[curve]}"],
     )
 
 
@@ -416,10 +415,10 @@ def _own_rows(
     state: HullState, curve: int, old: SplineBatch, design: _Design, *, across_flats: bool
 ) -> IntArray:
     """Give the curve's own points that take the new shape: shared and adopted ones."""
-    rows: IntArray = state.curves.rows.data[curve]
+    rows: IntArray = state.curves.rows[curve]
     inside = (old.knot >= design.at[0]) & (old.knot <= design.at[-1])
-    shared = state.rows.role.data[rows] == Role.SHARED
-    sort = state.rows.sort.data[rows]
+    shared = state.rows.role[rows] == Role.SHARED
+    sort = state.rows.sort[rows]
     mine = inside & ((sort == Sort.ADOPTED) | ((sort == Sort.CROSSING) & shared))
     mine &= ~on_profile(state)[rows]
     if not across_flats:
@@ -432,15 +431,15 @@ def _goals(
     state: HullState, curve: int, rows: IntArray, displaced: FloatArray, new: SplineBatch
 ) -> FloatArray:
     """Give where own points go, (k, 3), m: crossings where the new shape meets their plane."""
-    order: IntArray = state.curves.rows.data[curve]
+    order: IntArray = state.curves.rows[curve]
     index = {row: i for i, row in enumerate(order.tolist())}
     goals = np.array([displaced[index[row]] for row in rows.tolist()]).reshape(-1, 3)
     for i, row in enumerate(rows.tolist()):
-        if state.rows.sort.data[row] == Sort.CROSSING:
+        if state.rows.sort[row] == Sort.CROSSING:
             goals[i] = _nearest_intersection(state, curve, row, goals[i], new)
     line = state.line_of(curve)
-    if state.lines.planar.data[line]:
-        goals[:, state.lines.normal.data[line] == 1.0] = state.lines.offset.data[line]
+    if state.lines.planar[line]:
+        goals[:, state.lines.normal[line] == 1.0] = state.lines.offset[line]
     return goals
 
 
@@ -448,11 +447,11 @@ def _nearest_intersection(
     state: HullState, curve: int, row: int, place: FloatArray, new: SplineBatch
 ) -> FloatArray:
     """Give the intersection of the new shape with the other line's plane nearest to a place."""
-    pair = state.rows.curve.data[row]
+    pair = state.rows.curve[row]
     other = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))
-    if not state.lines.planar.data[other]:
+    if not state.lines.planar[other]:
         return place
-    normal, offset = state.lines.normal.data[other].copy(), state.lines.offset.data[[other]].copy()
+    normal, offset = state.lines.normal[other].copy(), state.lines.offset[[other]].copy()
     met = intersect_planes(new, normal, offset)
     ends = new.xyz[[0, -1]]
     found = np.concatenate([met.xyz, ends[np.abs(ends @ normal - offset) < 1e-9]])
@@ -478,8 +477,8 @@ def _radius(state: HullState, fade: Fade, shape: FloatArray) -> tuple[float, flo
 def _station_spacing(state: HullState) -> float:
     """Give the median spacing of lines across the ship, m; Lpp / 20 of fewer than two."""
     lines = state.live("lines")
-    across = lines[state.lines.planar.data[lines] & (state.lines.normal.data[lines, 0] == 1.0)]
-    offsets = np.sort(state.lines.offset.data[across])
+    across = lines[state.lines.planar[lines] & (state.lines.normal[lines, 0] == 1.0)]
+    offsets = np.sort(state.lines.offset[across])
     return (
         float(np.median(np.diff(offsets))) if len(offsets) > 1 else state.particulars.length / 20.0
     )
@@ -505,8 +504,8 @@ def _place(
             pin(edit, int(rows[near]))
             continue
         row = int(edit.maker.points([PointSpec(curve, point, Sort.PLACED)])[0])
-        order: IntArray = state.curves.rows.data[curve]
-        index = insertion_index(state.rows.xyz.data[order], point)
+        order: IntArray = state.curves.rows[curve]
+        index = insertion_index(state.rows.xyz[order], point)
         edit.maker.define(curve, np.insert(order, index, row))
         edit.pending.structural = True
         edit.pending.curves.add(curve)
@@ -518,7 +517,7 @@ def _adopted_near(
     state: HullState, rows: IntArray, goals: FloatArray, point: FloatArray
 ) -> int | None:
     """Give the index of the nearest adopted point, if it is near enough."""
-    mine = np.flatnonzero(state.rows.sort.data[rows] == Sort.ADOPTED)
+    mine = np.flatnonzero(state.rows.sort[rows] == Sort.ADOPTED)
     if not len(mine):
         return None
     step = goals[mine] - point
@@ -539,13 +538,13 @@ def _at_crossing(state: HullState, curve: int, point: FloatArray) -> bool:
         & (table.sort.data == Sort.CROSSING)
     )
     least = state.tolerances.factor * _NEAR
-    near = rows[np.abs(table.xyz.data[rows] - point).max(axis=1) < least]
+    near = rows[np.abs(table.xyz[rows] - point).max(axis=1) < least]
     for row in near.tolist():
-        pair = table.curve.data[row]
+        pair = table.curve[row]
         line = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))
-        if not state.lines.planar.data[line]:
+        if not state.lines.planar[line]:
             continue
-        away = float(state.lines.normal.data[line] @ point) - float(state.lines.offset.data[line])
+        away = float(state.lines.normal[line] @ point) - float(state.lines.offset[line])
         if abs(away) < 1e-9:
             return True
     return False

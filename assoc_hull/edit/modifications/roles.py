@@ -54,7 +54,7 @@ def set_role(edit: Transaction, row: int, role: str | None) -> None:
         An unknown role, or a crossing that the same edit moves.
     """
     state = edit.state
-    if state.rows.sort.data[row] != Sort.CROSSING:
+    if state.rows.sort[row] != Sort.CROSSING:
         raise PointRoleError(address(state, row), "no crossing", None, "only crossings have roles")
     known = {each.text: each for each in Role}
     if role is not None and word(role, "role") not in known:
@@ -68,7 +68,7 @@ def set_role(edit: Transaction, row: int, role: str | None) -> None:
             "leave one of the two out, or use two transactions",
         )
     new = role_by_rule(state, row) if role is None else known[role]
-    contact = bool(state.rows.contact.data[row])
+    contact = bool(state.rows.contact[row])
     if contact and new in (Role.DRIVES_A, Role.WATCHED):
         raise PointRoleError(
             address(state, row), "a contact with a boundary curve", None,
@@ -81,18 +81,18 @@ def set_role(edit: Transaction, row: int, role: str | None) -> None:
 def change_role(edit: Transaction, row: int, new: Role) -> None:
     """Give a crossing another role, with the points of its curves that follow from it."""
     state = edit.state
-    old = Role(int(state.rows.role.data[row]))
+    old = Role(int(state.rows.role[row]))
     if new is old:
         return
     edit.refuse_moved(np.array([row]))
     if old is Role.WATCHED:
         # its curves pass it in two places: the value is that of the curve that gives it now
         side = int(new is Role.DRIVES_A)
-        edit.journal.put(state.rows.xyz, [row], state.rows.spot.data[row, side][None])
+        edit.journal.put(state.rows.xyz, [row], state.rows.spot[row, side][None])
     edit.maker.roles(np.array([row]), np.array([int(new)]))
-    reader = state.rows.reader.data[row]
-    for side, curve in enumerate(state.rows.curve.data[row].tolist()):
-        rows: IntArray = state.curves.rows.data[curve]
+    reader = state.rows.reader[row]
+    for side, curve in enumerate(state.rows.curve[row].tolist()):
+        rows: IntArray = state.curves.rows[curve]
         inside = row in rows.tolist()
         if reader[side] == curve and not inside:
             _drop_stand_in(edit, curve, row)
@@ -115,9 +115,9 @@ def change_role(edit: Transaction, row: int, new: Role) -> None:
 
 def _leave_stand_in(edit: Transaction, curve: int, row: int) -> None:
     """Let an adopted point hold the shape where the crossing did, if the curve needs it."""
-    place = edit.state.rows.xyz.data[row].copy()
+    place = edit.state.rows.xyz[row].copy()
     point = int(edit.maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
-    rows: IntArray = edit.state.curves.rows.data[curve]
+    rows: IntArray = edit.state.curves.rows[curve]
     edit.maker.define(curve, np.where(rows == row, point, rows))
     prune_points(edit, curve, np.array([point]))
 
@@ -125,10 +125,10 @@ def _leave_stand_in(edit: Transaction, curve: int, row: int) -> None:
 def _drop_stand_in(edit: Transaction, curve: int, row: int) -> None:
     """Take out an adopted point that held the shape where the crossing now does."""
     state: HullState = edit.state
-    rows: IntArray = state.curves.rows.data[curve]
-    step = state.rows.xyz.data[rows] - state.rows.xyz.data[row]
+    rows: IntArray = state.curves.rows[curve]
+    step = state.rows.xyz[rows] - state.rows.xyz[row]
     near = np.sqrt((step * step).sum(axis=1)) < state.tolerances.factor * _SAME
-    gone = rows[near & (state.rows.sort.data[rows] == Sort.ADOPTED)]
+    gone = rows[near & (state.rows.sort[rows] == Sort.ADOPTED)]
     if len(gone):
         edit.maker.define(curve, rows[~np.isin(rows, gone)])
         edit.maker.remove_rows(gone)
@@ -154,13 +154,13 @@ def renew_roles(edit: Transaction, lines: Sequence[int]) -> int:
         How many roles changed.
     """
     state = edit.state
-    curves = [curve for line in lines for curve in state.lines.curves.data[line]]
+    curves = [curve for line in lines for curve in state.lines.curves[line]]
     table = state.rows
     mine = table.alive.data & (table.sort.data == Sort.CROSSING) & (table.override.data < 0)
     mine &= np.isin(table.curve.data, curves).any(axis=1)
-    rows = sorted(np.flatnonzero(mine).tolist(), key=lambda row: str(table.key.data[row]))
+    rows = sorted(np.flatnonzero(mine).tolist(), key=lambda row: str(table.key[row]))
     new = {row: role_by_rule(state, row) for row in rows}
-    changed = [row for row in rows if int(new[row]) != int(table.role.data[row])]
+    changed = [row for row in rows if int(new[row]) != int(table.role[row])]
     for row in changed:
         change_role(edit, row, new[row])
     return len(changed)

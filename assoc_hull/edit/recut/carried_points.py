@@ -162,16 +162,16 @@ class TransformationState:
 
     def piece(self, line: int, place: FloatArray) -> int:
         """Give the curve of a line whose carried points come nearest to a place."""
-        curves = self.state.lines.curves.data[line]
+        curves = self.state.lines.curves[line]
         away = [
-            float(((self.image[self.state.curves.rows.data[curve]] - place) ** 2).sum(1).min())
+            float(((self.image[self.state.curves.rows[curve]] - place) ** 2).sum(1).min())
             for curve in curves
         ]
         return int(curves[int(np.argmin(away))])
 
     def end(self, curve: int, side: int) -> int:
         """Give the point at which a curve comes to begin (0) or end (1)."""
-        rows: IntArray = self.state.curves.rows.data[curve]
+        rows: IntArray = self.state.curves.rows[curve]
         return self.new_ends.get((curve, side), int(rows[-side]))
 
     def drives(self, curve: int) -> bool:
@@ -182,7 +182,7 @@ class TransformationState:
         """Tell whether a point lies on a follower that is cut wholly anew, and does not stay."""
         if row in self.held:
             return False
-        curves = self.state.rows.curve.data[row].tolist()
+        curves = self.state.rows.curve[row].tolist()
         return any(self.state.line_of(curve) in self.anew for curve in curves if curve >= 0)
 
     def touched(self, line: int) -> tuple[PlaneTangency, ...]:
@@ -192,7 +192,7 @@ class TransformationState:
 
     def other(self, row: int, curve: int) -> int:
         """Give the curve on the other side of a crossing, -1 if there is none."""
-        one, two = self.state.rows.curve.data[row].tolist()
+        one, two = self.state.rows.curve[row].tolist()
         return int(two if one == curve else one)
 
 
@@ -209,15 +209,15 @@ def carry_points(
     state = maker.state
     live = state.live("rows")
     image = state.rows.xyz.data.copy()
-    image[live] = space.places(state.rows.xyz.data[live])
-    slope = space.jacobians(state.rows.xyz.data[live])
+    image[live] = space.places(state.rows.xyz[live])
+    slope = space.jacobians(state.rows.xyz[live])
     _refuse_folds(state, live, slope)
     still = np.zeros(state.rows.count, bool)
-    still[live] = (slope == np.eye(3)).all(axis=(1, 2)) & (
-        image[live] == state.rows.xyz.data[live]
-    ).all(axis=1)
+    still[live] = (slope == np.eye(3)).all(axis=(1, 2)) & (image[live] == state.rows.xyz[live]).all(
+        axis=1
+    )
     table = state.rows
-    line = np.where(table.curve.data >= 0, state.curves.line.data[table.curve.data], -1)
+    line = np.where(table.curve.data >= 0, state.curves.line[table.curve.data], -1)
     direct = np.ones(table.count, bool)
     drives = np.ones(table.count, bool)
     for side in (0, 1):
@@ -246,7 +246,7 @@ def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:
     )
     worst = int(volume.argmin())
     if not volume[worst] > 0.0:
-        x, y, z = state.rows.xyz.data[live[worst]].tolist()
+        x, y, z = state.rows.xyz[live[worst]].tolist()
         raise BadInputError(
             f"the mapping folds: its Jacobian determinant is {volume[worst]:.3g}",
             f"at ({x:.3f}, {y:.3f}, {z:.3f}) m in transform", "make it smaller or smoother",
@@ -273,10 +273,10 @@ def curve_data_through(
     np.cumsum([len(part.row) for part in parts], out=start[1:])
     row = np.array([each for part in parts for each in part.row], np.int64)
     owner = np.repeat(np.array(curves, np.int64), np.diff(start))
-    side = (state.rows.curve.data[row, 0] != owner).astype(np.int64)
-    kind = np.where(row >= 0, state.rows.kind.data[row, side], 0).astype(np.int8)
-    direction = np.where((row >= 0)[:, None], state.rows.direction.data[row, side], 0.0)
-    ends = [state.curves.ends.data[curve] for curve in curves]
+    side = (state.rows.curve[row, 0] != owner).astype(np.int64)
+    kind = np.where(row >= 0, state.rows.kind[row, side], 0).astype(np.int8)
+    direction = np.where((row >= 0)[:, None], state.rows.direction[row, side], 0.0)
+    ends = [state.curves.ends[curve] for curve in curves]
     return CurveData(
         start,
         np.array([place for part in parts for place in part.place]),
@@ -315,19 +315,19 @@ def carry_directions(work: TransformationState, journal: Journal) -> set[int]:
     state, table = work.state, work.state.rows
     flats, changed = flat_borders(state, work.planes), set[int]()
     for side in (0, 1):
-        given = table.alive.data & (table.direction.data[:, side] != 0.0).any(axis=1)
+        given = table.alive.data & (table.direction[:, side] != 0.0).any(axis=1)
         rows = np.flatnonzero(given)
         if not len(rows):
             continue
-        curve = table.curve.data[rows]
-        old = table.direction.data[rows, side]
-        new = _turned(work.space.jacobians(table.xyz.data[rows]), old)
+        curve = table.curve[rows]
+        old = table.direction[rows, side]
+        new = _turned(work.space.jacobians(table.xyz[rows]), old)
         moved = (new != old).any(axis=1)
-        line = np.where(curve >= 0, state.curves.line.data[curve], -1)
+        line = np.where(curve >= 0, state.curves.line[curve], -1)
         normal = np.where((line >= 0)[:, :, None], work.planes.normal[line], 0.0)
         border = np.where(np.isin(line[:, 1 - side], flats)[:, None], normal[:, 1 - side], 0.0)
         new = _lay(_lay(new, normal[:, side]), border)
-        both = table.direction.data[rows[moved]].copy()
+        both = table.direction[rows[moved]].copy()
         both[:, side] = new[moved]
         journal.put(table.direction, rows[moved], both)
         changed |= set(curve[moved, side].tolist())
@@ -353,7 +353,7 @@ def _end(
     work: TransformationState, curve: int, at: int, slope: FloatArray
 ) -> tuple[float, float, float]:
     """Give the vector of one end condition under the mapping, of the slope (1, 3, 3) there."""
-    ends: Ends = work.state.curves.ends.data[curve]
+    ends: Ends = work.state.curves.ends[curve]
     if ends.kind[at] == EndKind.FREE or (slope[0] == np.eye(3)).all():
         return ends.vector[at]
     spline = work.state.spline(curve)

@@ -100,7 +100,7 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
     edit.write(rows, work.value[rows], "carrying a net")
     pending.features = _features(work, by)
     adopted = state.live("rows")
-    pending.held |= set(adopted[state.rows.sort.data[adopted] == Sort.ADOPTED].tolist())
+    pending.held |= set(adopted[state.rows.sort[adopted] == Sort.ADOPTED].tolist())
     curves = set(state.live("curves").tolist())
     pending.curves |= curves
     pending.relink |= curves
@@ -110,8 +110,8 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
 def _given(state: HullState) -> IntArray:
     """Give the points whose places are given: not computed from a curve, and not only watched."""
     table, live = state.rows, state.live("rows")
-    watched = (table.sort.data[live] == Sort.CROSSING) & (table.role.data[live] == Role.WATCHED)
-    rows: IntArray = live[(table.driver.data[live] < 0) & ~watched]
+    watched = (table.sort[live] == Sort.CROSSING) & (table.role[live] == Role.WATCHED)
+    rows: IntArray = live[(table.driver[live] < 0) & ~watched]
     return rows
 
 
@@ -124,8 +124,8 @@ def _features(work: TransformationState, by: NetMap) -> CarriedFeatures:
 
 def _refuse_bent(state: HullState, planes: TransformedPlanes) -> None:
     for line, away in sorted(planes.bent.items()):
-        if state.lines.boundary.data[line] < 0:
+        if state.lines.boundary[line] < 0:
             raise BadInputError(
-                f"{state.lines.name.data[line]} leaves its plane by {away:.3g} m",
+                f"{state.lines.name[line]} leaves its plane by {away:.3g} m",
                 "in carrying a net point by point", "let it follow instead of driving",
             )  # fmt: skip

@@ -65,7 +65,7 @@ def aligned_pairs(
     `local` is the number of the driver in `roots`. Gives the old ones by their place in the
     driver's `meets`, the new ones by theirs in `roots`, and pairs of places in these two.
     """
-    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    meets: CurveIntersections = work.state.curves.meets[curve]
     old = np.flatnonzero(meets.line == line)
     new = np.flatnonzero(roots.curve == local)
     touch = work.touches.get((curve, line))
@@ -79,7 +79,7 @@ def double_root_crossings(state: HullState, curve: int, line: int) -> set[int]:
 
     An intersection of sign 0 is none of these: a line may end squarely on it.
     """
-    meets: CurveIntersections = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets[curve]
     return set(tangency_rows(state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
 
 
@@ -88,9 +88,9 @@ def has_changed_ends(
 ) -> bool:
     """Tell whether a follower would end on a boundary curve more or fewer times, or far off."""
     state = work.state
-    if state.lines.boundary.data[state.line_of(curve)] != BoundaryKind.END:
+    if state.lines.boundary[state.line_of(curve)] != BoundaryKind.END:
         return False
-    meets: CurveIntersections = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets[curve]
     if bool(double_root_crossings(state, curve, line)) != ((curve, line) in work.touches):
         return True
     old, new, pairs = aligned_pairs(work, curve, line, local, roots)
@@ -121,7 +121,7 @@ def recognise_crossings(
     work: TransformationState, curve: int, line: int, local: int, roots: ImageIntersections
 ) -> None:
     """Store in `work.anew` which crossings of a line are which intersections of a driver."""
-    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    meets: CurveIntersections = work.state.curves.meets[curve]
     old, _, pairs = aligned_pairs(work, curve, line, local, roots)
     for one, other in pairs:
         row = int(meets.row[old[one]])
@@ -159,9 +159,9 @@ def hand_over_ends(
     for local in some.tolist():
         curve = int(curves[local])
         # Lines end on curves of this kind only.
-        if work.state.lines.boundary.data[work.state.line_of(curve)] != BoundaryKind.END:
+        if work.state.lines.boundary[work.state.line_of(curve)] != BoundaryKind.END:
             continue
-        meets: CurveIntersections = work.state.curves.meets.data[curve]
+        meets: CurveIntersections = work.state.curves.meets[curve]
         # A touch has no intersection that it could be matched by.
         if double_root_crossings(work.state, curve, line) or any(
             touched == curve for touched, _ in work.touches
@@ -195,8 +195,8 @@ def hand_over_ends(
 
 def _end_of(work: TransformationState, line: int, row: int) -> tuple[int, int] | None:
     """Give the piece of a line that begins (0) or ends (1) at a crossing; None if none does."""
-    for curve in work.state.lines.curves.data[line]:
-        rows: IntArray = work.state.curves.rows.data[curve]
+    for curve in work.state.lines.curves[line]:
+        rows: IntArray = work.state.curves.rows[curve]
         for side in (0, 1):
             if int(rows[-side]) == row:
                 return int(curve), side
@@ -228,7 +228,7 @@ def find_kept_runs(work: TransformationState) -> None:
     both = {
         row for line, rows in found.items() for row in rows
         if all(row in found.get(state.line_of(curve), rows)
-               for curve in state.rows.curve.data[row].tolist() if curve >= 0)
+               for curve in state.rows.curve[row].tolist() if curve >= 0)
     }  # fmt: skip
     work.held |= both
     for line, runs in spans.items():
@@ -240,8 +240,8 @@ def find_kept_runs(work: TransformationState) -> None:
 def _spans(work: TransformationState, line: int) -> list[KeptRun]:
     """Give the runs of a line that the mapping leaves where they are."""
     found = list[KeptRun]()
-    for curve in work.state.lines.curves.data[line]:
-        rows: IntArray = work.state.curves.rows.data[curve]
+    for curve in work.state.lines.curves[line]:
+        rows: IntArray = work.state.curves.rows[curve]
         knot = work.state.spline(curve).knot
         edge = np.diff(np.concatenate([[False], work.still[rows], [False]]).astype(np.int64))
         for first, last in zip(
@@ -255,9 +255,9 @@ def _spans(work: TransformationState, line: int) -> list[KeptRun]:
 
 def _passed(work: TransformationState, curve: int, span: tuple[float, float]) -> IntArray:
     """Give the crossings within a span (chord parameters, m) that do not define it, and stay."""
-    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    meets: CurveIntersections = work.state.curves.meets[curve]
     inside = (meets.parameter >= span[0]) & (meets.parameter <= span[1]) & (meets.row >= 0)
-    rows = np.setdiff1d(meets.row[inside], work.state.curves.rows.data[curve])
+    rows = np.setdiff1d(meets.row[inside], work.state.curves.rows[curve])
     found: IntArray = rows[work.still[rows]]
     return found
 
@@ -274,9 +274,9 @@ def _roles(state: HullState, rows: set[int], line: int) -> dict[int, int]:
     """Give the roles of crossings on a line that are computed from a curve."""
     table = state.rows
     return {
-        row: int(table.role.data[row]) for row in sorted(rows)
-        if table.driver.data[row] >= 0
-        and line in [state.line_of(curve) for curve in table.curve.data[row].tolist()]
+        row: int(table.role[row]) for row in sorted(rows)
+        if table.driver[row] >= 0
+        and line in [state.line_of(curve) for curve in table.curve[row].tolist()]
     }  # fmt: skip
 
 
@@ -294,7 +294,7 @@ def take_out_lines(edit: Transaction, work: TransformationState, *, may_go: bool
     keys = state.lines.key.data
     # those of lower rank come back first, as the others are cut from them too
     for line in sorted(work.anew, key=lambda each: (state.family(each).rank, str(keys[each]))):
-        mine = np.array(state.lines.curves.data[line], np.int64)
+        mine = np.array(state.lines.curves[line], np.int64)
         stays = work.stays[line]
         crossings, placed = (
             np.setdiff1d(rows, stays.rows()) for rows in crossings_and_placed(state, mine)
@@ -332,9 +332,9 @@ def bring_back_line(
     """
     state, put = edit.state, edit.journal.put
     edit.document.refresh()
-    normal, offset = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
+    normal, offset = state.lines.normal[line].copy(), float(state.lines.offset[line])
     try:
-        marks = find_marks(state, int(state.lines.group.data[line]), normal, offset)
+        marks = find_marks(state, int(state.lines.group[line]), normal, offset)
     except NoMeetingError as error:
         if not may_go:
             raise
@@ -347,27 +347,27 @@ def bring_back_line(
         left = set(zip(marks.curve.tolist(), marks.root.tolist(), strict=True))
         known = {mark: row for mark, row in known.items() if mark not in every - left}
     put(state.lines.alive, [line], True)
-    put(state.curves.alive, state.lines.curves.data[line], True)
+    put(state.curves.alive, state.lines.curves[line], True)
     recut_line(edit, line, marks, _still_there(edit, line, known), stays)
 
 
 def _let_go(edit: Transaction, line: int, error: NoMeetingError) -> None:
     """Remove a line that was taken out for good, unless it holds what the designer placed."""
     state = edit.state
-    mine = np.array(state.lines.curves.data[line], np.int64)
+    mine = np.array(state.lines.curves[line], np.int64)
     crossings, placed = crossings_and_placed(state, mine)
     if len(placed):
         raise error
     on = state.rows.alive.data & np.isin(state.rows.curve.data, mine).any(axis=1)
-    edit.pending.gone += sorted(str(state.rows.key.data[row]) for row in crossings.tolist())
+    edit.pending.gone += sorted(str(state.rows.key[row]) for row in crossings.tolist())
     edit.maker.remove_rows(np.flatnonzero(on))
     edit.pending.curves -= set(mine.tolist())
-    edit.pending.notes.append(f"{state.lines.name.data[line]} is gone: {error}")
+    edit.pending.notes.append(f"{state.lines.name[line]} is gone: {error}")
 
 
 def _bounds(state: HullState, touch: PlaneTangency) -> bool:
     """Tell whether a tangency is of a boundary curve that lines end on."""
-    kind = state.lines.boundary.data[state.line_of(touch.curve)]
+    kind = state.lines.boundary[state.line_of(touch.curve)]
     return bool(kind == BoundaryKind.END)
 
 
@@ -376,10 +376,10 @@ def _still_there(
 ) -> dict[tuple[int, int], int]:
     """Leave out crossings with curves that, lofted, meet the plane fewer times than their image."""
     table = edit.state.lines
-    plane = table.normal.data[line].copy(), table.offset.data[[line]].copy()
+    plane = table.normal[line].copy(), table.offset[[line]].copy()
     count = {curve: intersect_planes(edit.state.spline(curve), *plane).count for curve, _ in known}
     rows = edit.state.rows
     return {
         (curve, root): row for (curve, root), row in known.items()
-        if root < count[curve] and rows.alive.data[row]
+        if root < count[curve] and rows.alive[row]
     }  # fmt: skip

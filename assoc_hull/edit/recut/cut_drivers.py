@@ -62,12 +62,12 @@ def bend_lines(work: TransformationState) -> None:
     state = work.state
     for line in _bent(work):
         for row in _crossings(work, line).tolist():
-            a, b = (state.line_of(c) for c in state.rows.curve.data[row].tolist())
-            role = int(state.rows.role.data[row])
-            if state.lines.boundary.data[a] >= 0:
+            a, b = (state.line_of(c) for c in state.rows.curve[row].tolist())
+            role = int(state.rows.role[row])
+            if state.lines.boundary[a] >= 0:
                 _share(work, row)
             elif b == line and a not in work.planes.bent:
-                _refuse(work, line, int(state.rows.curve.data[row, 0]))
+                _refuse(work, line, int(state.rows.curve[row, 0]))
             elif role == Role.DRIVES_A or (role == Role.DRIVES_B and b in work.planes.bent):
                 work.gone.add(row)
             else:
@@ -77,13 +77,13 @@ def bend_lines(work: TransformationState) -> None:
 def _bent(work: TransformationState) -> list[int]:
     """Give the lines that become space curves, except boundary curves, by key."""
     lines = work.state.lines
-    inner = [line for line in work.planes.bent if lines.boundary.data[line] < 0]
-    return sorted(inner, key=lambda line: str(lines.key.data[line]))
+    inner = [line for line in work.planes.bent if lines.boundary[line] < 0]
+    return sorted(inner, key=lambda line: str(lines.key[line]))
 
 
 def _crossings(work: TransformationState, line: int) -> IntArray:
     table = work.state.rows
-    mine = np.isin(table.curve.data, work.state.lines.curves.data[line]).any(axis=1)
+    mine = np.isin(table.curve.data, work.state.lines.curves[line]).any(axis=1)
     found: IntArray = np.flatnonzero(table.alive.data & mine & (table.sort.data == Sort.CROSSING))
     return found
 
@@ -94,23 +94,23 @@ def _share(work: TransformationState, row: int) -> None:
     An adopted point of the boundary curve in the same place gives way, with its kind.
     """
     table, put = work.state.rows, work.maker.journal.put
-    if table.role.data[row] == Role.SHARED:
+    if table.role[row] == Role.SHARED:
         return
-    boundary = int(table.curve.data[row, 0])
-    rows: IntArray = work.state.curves.rows.data[boundary]
-    step = table.xyz.data[rows] - table.xyz.data[row]
+    boundary = int(table.curve[row, 0])
+    rows: IntArray = work.state.curves.rows[boundary]
+    step = table.xyz[rows] - table.xyz[row]
     least = work.state.tolerances.factor * _SAME
     near = rows[np.sqrt((step * step).sum(axis=1)) < least]
     for other in near.tolist():
-        if table.sort.data[other] != Sort.ADOPTED:
-            _refuse(work, work.state.line_of(int(table.curve.data[row, 1])), boundary)
-        side = int(table.curve.data[other, 0] != boundary)
-        kind, direction = table.kind.data[row].copy(), table.direction.data[row].copy()
-        kind[0], direction[0] = table.kind.data[other, side], table.direction.data[other, side]
+        if table.sort[other] != Sort.ADOPTED:
+            _refuse(work, work.state.line_of(int(table.curve[row, 1])), boundary)
+        side = int(table.curve[other, 0] != boundary)
+        kind, direction = table.kind[row].copy(), table.direction[row].copy()
+        kind[0], direction[0] = table.kind[other, side], table.direction[other, side]
         put(table.kind, [row], [kind])
         put(table.direction, [row], [direction])
         work.gone.add(other)
-    work.extra.setdefault(boundary, []).append((float(table.parameter.data[row, 0]), row))
+    work.extra.setdefault(boundary, []).append((float(table.parameter[row, 0]), row))
     work.maker.roles(np.array([row]), np.array([int(Role.SHARED)]))
 
 
@@ -129,13 +129,13 @@ def drop_bent_planes(edit: Transaction, work: TransformationState) -> None:
     table = edit.state.rows
     for line in sorted(work.planes.bent):
         remove_line_plane(edit, line)
-        if edit.state.lines.boundary.data[line] < 0:
+        if edit.state.lines.boundary[line] < 0:
             rows = _crossings(work, line)
-            watched = rows[table.role.data[rows] == Role.WATCHED]
+            watched = rows[table.role[rows] == Role.WATCHED]
             work.gone |= set(watched.tolist())
             if len(watched):
                 edit.pending.notes.append(
-                    f"{edit.state.lines.name.data[line]}: {len(watched)} watched crossings are "
+                    f"{edit.state.lines.name[line]}: {len(watched)} watched crossings are "
                     "watched no more: a curve in space has no plane to measure them by"
                 )
 
@@ -167,7 +167,7 @@ def cut_drivers(work: TransformationState, index: Index) -> CurveImages:
     """
     state = work.state
     mine = [curve for curve in state.live("curves").tolist() if work.drives(curve)]
-    curves = np.array(sorted(mine, key=lambda c: str(state.curves.key.data[c])), np.int64)
+    curves = np.array(sorted(mine, key=lambda c: str(state.curves.key[c])), np.int64)
     batch = SplineBatch.join([state.spline(c) for c in curves.tolist()])
     image = CurveImages.of(work.space, batch, tuple(curves.tolist()))
     slid: dict[int, float] = {}
@@ -187,7 +187,7 @@ def _followers(work: TransformationState) -> list[int]:
     state = work.state
     live = state.live("lines")
     chosen = live[~work.driver[live] & work.planes.planar[live]]
-    return sorted(chosen.tolist(), key=lambda line: str(state.lines.key.data[line]))
+    return sorted(chosen.tolist(), key=lambda line: str(state.lines.key[line]))
 
 
 def _partners(work: TransformationState, index: Index, line: int, curves: IntArray) -> IntArray:
@@ -197,7 +197,7 @@ def _partners(work: TransformationState, index: Index, line: int, curves: IntArr
         for group, planes in index.partners.items()
         if any((each.lines == line).any() for each in planes)
     ]
-    owner = work.state.lines.group.data[work.state.curves.line.data[curves]]
+    owner = work.state.lines.group[work.state.curves.line[curves]]
     return np.flatnonzero(np.isin(owner, groups))
 
 
@@ -211,7 +211,7 @@ def _cut_with(
     """
     planes, table = work.planes, work.state.lines
     normal, offset = planes.normal[line], float(planes.offset[line])
-    new = image.changed(normal, float(table.offset.data[line]), offset, IN_PLANE)
+    new = image.changed(normal, float(table.offset[line]), offset, IN_PLANE)
     needed = [
         local for local in some.tolist()
         if new[local] or _off(work, curves[local], line)
@@ -232,7 +232,7 @@ def _cut_with(
 
 def _off(work: TransformationState, curve: int, line: int) -> bool:
     """Tell whether a crossing of a curve with a line has left its plane."""
-    meets: CurveIntersections = work.state.curves.meets.data[int(curve)]
+    meets: CurveIntersections = work.state.curves.meets[int(curve)]
     rows = meets.row[(meets.line == line) & (meets.row >= 0)]
     return not bool(work.direct[rows].all())
 
@@ -246,7 +246,7 @@ def _match(
     slid: dict[int, float],
 ) -> None:
     """Match the intersections of one image with one plane to the crossings there."""
-    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    meets: CurveIntersections = work.state.curves.meets[curve]
     old, new, pairs = aligned_pairs(work, curve, line, local, roots)
     if (curve, line) in work.touches:
         for row in tangency_rows(work.state, curve, line):
@@ -272,7 +272,7 @@ def _add_intersection(
 
     At the border of a flat and at a knuckle line the follower gets a contact.
     """
-    if work.state.lines.boundary.data[work.state.line_of(curve)] < 0:
+    if work.state.lines.boundary[work.state.line_of(curve)] < 0:
         work.come.append((line, roots.xyz[at]))
     else:
         _add_contact(work, curve, line, roots, at)
@@ -286,9 +286,9 @@ def _add_contact(
     border = state.line_of(curve)
     kind = PointKind.KNUCKLE
     end = work.ends.get((curve, at))
-    if state.lines.boundary.data[border] == BoundaryKind.END:
+    if state.lines.boundary[border] == BoundaryKind.END:
         kind = PointKind.SMOOTH
-    elif state.lines.boundary.data[border] == BoundaryKind.FLAT:
+    elif state.lines.boundary[border] == BoundaryKind.FLAT:
         kind = PointKind.TANGENT if work.planes.planar[border] else PointKind.SMOOTH
     sign = int(roots.sign[at])
     piece = work.piece(line, xyz) if end is None else end[0]
@@ -298,7 +298,7 @@ def _add_contact(
     work.contacts.append((line, row))
     if end is not None:
         work.new_ends[end] = row
-    meets: CurveIntersections = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets[curve]
     before = np.flatnonzero(meets.line == line)
     where = int(before[0]) if len(before) else len(meets.line)
     where += int((meets.parameter[before] < roots.t[at]).sum())
@@ -318,7 +318,7 @@ def _order(
     """Order the points of a driver as its image passes them; leave out those in one place."""
     state = work.state
     more = work.extra.get(curve, [])
-    rows = np.append(state.curves.rows.data[curve], [row for _, row in more]).astype(np.int64)
+    rows = np.append(state.curves.rows[curve], [row for _, row in more]).astype(np.int64)
     knots = np.append(knots, [t for t, _ in more])
     apart = {row for row in rows.tolist() if work.apart(row)}
     for row in rows[~work.known[rows]].tolist():
@@ -353,13 +353,13 @@ def _settle(work: TransformationState, curve: int, row: int) -> None:
     A crossing that is computed from a follower starts there too.
     """
     table = work.state.rows
-    if table.contact.data[row] and not work.direct[row]:
+    if table.contact[row] and not work.direct[row]:
         raise BadInputError(
             f"{address(work.state, row)}: the boundary leaves the plane of the line, and never "
             "met it in one place", "in transform",
             "remove the line before, or let the planes of followers follow",
         )  # fmt: skip
-    if table.driver.data[row] >= 0 or work.other(row, curve) < 0:
+    if table.driver[row] >= 0 or work.other(row, curve) < 0:
         work.known[row] = True
     else:
         work.gone.add(row)
@@ -378,9 +378,9 @@ def _doubled(
     found: set[int] = set()
     for i in np.flatnonzero(step < work.state.tolerances.coincident).tolist():
         for row in (order[i], order[i + 1]):
-            first, other = table.curve.data[row].tolist()
+            first, other = table.curve[row].tolist()
             beside = order[i + 1] if row == order[i] else order[i]
-            free = not table.contact.data[row] or table.sort.data[beside] == Sort.ADOPTED
+            free = not table.contact[row] or table.sort[beside] == Sort.ADOPTED
             if row in slid and first == curve and other >= 0 and free:
                 found.add(row)
                 break
@@ -398,8 +398,8 @@ def _crowded(state: HullState, work: TransformationState, order: list[int]) -> s
     found: set[int] = set()
     for i in np.flatnonzero(step < state.tolerances.factor * _NEAR).tolist():
         for one, other in ((order[i], order[i + 1]), (order[i + 1], order[i])):
-            adopted = state.rows.sort.data[one] == Sort.ADOPTED
-            if adopted and not state.rows.kind.data[one, 0] and work.slid[other]:
+            adopted = state.rows.sort[one] == Sort.ADOPTED
+            if adopted and not state.rows.kind[one, 0] and work.slid[other]:
                 found.add(one)
     return found
 

@@ -66,9 +66,9 @@ def settle_stand_ins(work: TransformationState) -> None:
         own, crossing = _own(work, curve), _settled(work, curve)
         if not len(own) or not len(crossing):
             continue
-        side = (state.rows.curve.data[crossing, 0] != curve).astype(np.int64)
-        spot = state.rows.spot.data[crossing, side]
-        away = np.sqrt(((state.rows.xyz.data[own][:, None] - spot[None]) ** 2).sum(axis=2))
+        side = (state.rows.curve[crossing, 0] != curve).astype(np.int64)
+        spot = state.rows.spot[crossing, side]
+        away = np.sqrt(((state.rows.xyz[own][:, None] - spot[None]) ** 2).sum(axis=2))
         near = away.argmin(axis=1)
         mine = away.min(axis=1) <= state.tolerances.factor * _SAME
         work.value[own[mine]] = work.value[crossing[near[mine]]]
@@ -77,17 +77,17 @@ def settle_stand_ins(work: TransformationState) -> None:
 
 def _own(work: TransformationState, curve: int) -> IntArray:
     """Give the adopted points of a follower that are not settled, and that the mapping moves."""
-    rows: IntArray = work.state.curves.rows.data[curve]
-    adopted = work.state.rows.sort.data[rows] == Sort.ADOPTED
+    rows: IntArray = work.state.curves.rows[curve]
+    adopted = work.state.rows.sort[rows] == Sort.ADOPTED
     found: IntArray = rows[adopted & ~work.known[rows] & ~work.still[rows]]
     return found
 
 
 def _settled(work: TransformationState, curve: int) -> IntArray:
     """Give the crossings on a follower that do not define it and whose new places are known."""
-    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    meets: CurveIntersections = work.state.curves.meets[curve]
     rows = meets.row[meets.row >= 0]
-    rows = rows[work.known[rows] & ~(work.state.rows.reader.data[rows] == curve).any(axis=1)]
+    rows = rows[work.known[rows] & ~(work.state.rows.reader[rows] == curve).any(axis=1)]
     return np.array([row for row in rows.tolist() if row not in work.gone], np.int64)
 
 
@@ -102,7 +102,7 @@ def cut_kept(work: TransformationState) -> None:
     state = work.state
     wanted = {
         curve: rows
-        for curve in sorted(_curves(work), key=lambda c: str(state.curves.key.data[c]))
+        for curve in sorted(_curves(work), key=lambda c: str(state.curves.key[c]))
         if len(rows := _unknown(work, curve))
     }
     if not wanted:
@@ -111,7 +111,7 @@ def cut_kept(work: TransformationState) -> None:
     batch = SplineBatch.join([state.spline(curve) for curve in curves])
     image = CurveImages.of(work.space, batch, tuple(curves))
     lines = {state.line_of(work.other(row, c)) for c, rows in wanted.items() for row in rows}
-    for line in sorted(lines, key=lambda each: str(state.lines.key.data[each])):
+    for line in sorted(lines, key=lambda each: str(state.lines.key[each])):
         roots = image.meet(work.planes.normal[line], float(work.planes.offset[line]))
         for local, curve in enumerate(curves):
             if any(state.line_of(work.other(row, curve)) == line for row in wanted[curve]):
@@ -130,7 +130,7 @@ def _curves(work: TransformationState) -> list[int]:
 
 def _unknown(work: TransformationState, curve: int) -> list[int]:
     """Give the crossings of a follower with other followers that have no place yet."""
-    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    meets: CurveIntersections = work.state.curves.meets[curve]
     rows: IntArray = meets.row[meets.row >= 0]
     return [
         row for row in rows[~work.known[rows]].tolist()
@@ -144,7 +144,7 @@ def _settle(
     """Give crossings of a curve with a line their places where its image lies in its plane."""
     own = work.state.line_of(curve)
     off = plane_heights(roots.xyz[new], work.planes.normal[own]) - work.planes.offset[own]
-    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    meets: CurveIntersections = work.state.curves.meets[curve]
     old = np.flatnonzero(meets.line == line)
     carried = work.space.places(meets.xyz[old])
     for one, other in align_plane_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new]):
@@ -192,8 +192,8 @@ def cut_followers(work: TransformationState) -> None:
 
 def _crossings(work: TransformationState, curve: int) -> list[int]:
     """Give the crossings that define a curve and are still there."""
-    rows: IntArray = work.state.curves.rows.data[curve]
-    mine = rows[work.state.rows.sort.data[rows] == Sort.CROSSING]
+    rows: IntArray = work.state.curves.rows[curve]
+    mine = rows[work.state.rows.sort[rows] == Sort.CROSSING]
     return [row for row in mine.tolist() if row not in work.gone and not work.apart(row)]
 
 
@@ -206,9 +206,9 @@ def _check_cut(work: TransformationState, curve: int) -> None:
         if not boundary[state.line_of(work.other(row, curve))]
     ]  # fmt: skip
     given = [row for row in inner if _before(work, row, curve)]
-    own = len(state.curves.rows.data[curve]) - len(inner)
+    own = len(state.curves.rows[curve]) - len(inner)
     if (inner and not given) or own + len(given) < 2:
-        name = state.lines.name.data[state.line_of(curve)]
+        name = state.lines.name[state.line_of(curve)]
         raise BadInputError(
             f"{name} follows, but no driver defines it", "in transform",
             f"name {name} or its group as a driver too, or another group that crosses it; or "
@@ -224,8 +224,8 @@ def _before(work: TransformationState, row: int, curve: int) -> bool:
 
 def _carry_own(work: TransformationState, curve: int) -> None:
     """Give the own points of a follower whose plane is kept the places of their images."""
-    rows: IntArray = work.state.curves.rows.data[curve]
-    mine = rows[work.state.rows.sort.data[rows] != Sort.CROSSING]
+    rows: IntArray = work.state.curves.rows[curve]
+    mine = rows[work.state.rows.sort[rows] != Sort.CROSSING]
     if not _slides(work, curve):
         work.known[mine] = True
         return
@@ -237,9 +237,9 @@ def _carry_free_ends(work: TransformationState, rows: IntArray) -> None:
     """Carry ends that lie on no boundary curve: they go along with the crossing beside them."""
     for order in (rows, rows[::-1]):
         end = int(order[0])
-        if work.state.rows.sort.data[end] == Sort.CROSSING:
+        if work.state.rows.sort[end] == Sort.CROSSING:
             continue
-        beside = order[(work.state.rows.sort.data[order] == Sort.CROSSING) & work.known[order]]
+        beside = order[(work.state.rows.sort[order] == Sort.CROSSING) & work.known[order]]
         slip = work.value[beside[0]] - work.image[beside[0]] if len(beside) else np.zeros(3)
         place = (work.image[end] + slip)[None]
         work.value[end] = snap_into_planes(work.state, work.planes, np.array([end]), place)[0]
@@ -248,9 +248,9 @@ def _carry_free_ends(work: TransformationState, rows: IntArray) -> None:
 
 def _slides(work: TransformationState, curve: int) -> bool:
     """Tell whether another part of the hull comes to lie in the plane of a follower."""
-    rows: IntArray = work.state.curves.rows.data[curve]
-    own = work.state.rows.sort.data[rows] != Sort.CROSSING
-    new = any(curve in work.state.rows.curve.data[row] for _, row in work.contacts)
+    rows: IntArray = work.state.curves.rows[curve]
+    own = work.state.rows.sort[rows] != Sort.CROSSING
+    new = any(curve in work.state.rows.curve[row] for _, row in work.contacts)
     return new or bool(work.slid[rows].any() or (~work.direct[rows[own]]).any())
 
 
@@ -268,7 +268,7 @@ def _points(work: TransformationState, curve: int) -> DefiningPoints:
     work.watched -= set(order)
     loose = loose_points(work, curve, order)
     order = [row for row in order if row not in set(loose)]
-    new = [row for _, row in work.contacts if curve in state.rows.curve.data[row]]
+    new = [row for _, row in work.contacts if curve in state.rows.curve[row]]
     # Those that are ends stand in the order already.
     new = [row for row in new if row not in work.new_ends.values()]
     base = _base(work, curve, order)
@@ -281,7 +281,7 @@ def _points(work: TransformationState, curve: int) -> DefiningPoints:
     # Not before all stand in order: the sense follows from the neighbours.
     for row in new:
         _direct(work, curve, found, row)
-    own = [row for row in loose if state.rows.sort.data[row] == Sort.ADOPTED]
+    own = [row for row in loose if state.rows.sort[row] == Sort.ADOPTED]
     ties = [row for row in loose if row not in set(own)]
     # Before own points: where these slip to is less certain.
     tie_to_crossings(work, curve, found, ties)
@@ -301,8 +301,8 @@ def _smooth(
     return [
         row for row in found.row[1:-1]
         if row >= 0 and row not in ties and work.slid[row] and work.other(row, curve) >= 0
-        and work.drives(work.other(row, curve)) and not table.contact.data[row]
-        and table.role.data[row] == Role.SHARED
+        and work.drives(work.other(row, curve)) and not table.contact[row]
+        and table.role[row] == Role.SHARED
     ]  # fmt: skip
 
 
@@ -360,7 +360,7 @@ def _share(
     """
     state = work.state
     share = np.ones(len(rows))
-    for i in np.flatnonzero(state.rows.driver.data[rows] == curve).tolist():
+    for i in np.flatnonzero(state.rows.driver[rows] == curve).tolist():
         slope = derivative(spline, np.zeros(1, np.int64), at[[i]])[0]
         normal = work.planes.normal[state.line_of(work.other(int(rows[i]), curve))]
         sine = abs(float((slope * normal).sum())) / float(np.sqrt((slope * slope).sum()))
@@ -370,9 +370,9 @@ def _share(
 
 def _passed(work: TransformationState, curve: int) -> IntArray:
     """Give the crossings at which lines cut before a follower pass it without defining it."""
-    table, meets = work.state.rows, work.state.curves.meets.data[curve]
+    table, meets = work.state.rows, work.state.curves.meets[curve]
     rows = meets.row[meets.row >= 0]
-    rows = rows[work.known[rows] & ~(table.reader.data[rows] == curve).any(axis=1)]
+    rows = rows[work.known[rows] & ~(table.reader[rows] == curve).any(axis=1)]
     kept = [
         row
         for row in rows.tolist()
@@ -384,9 +384,9 @@ def _passed(work: TransformationState, curve: int) -> IntArray:
 def _direct(work: TransformationState, curve: int, found: DefiningPoints, row: int) -> None:
     """Give a new contact with the border of a flat its direction: along the flat."""
     table = work.state.rows
-    if table.kind.data[row, 1] != PointKind.TANGENT:
+    if table.kind[row, 1] != PointKind.TANGENT:
         return
-    flat, own = (work.planes.normal[work.state.line_of(c)] for c in table.curve.data[row].tolist())
+    flat, own = (work.planes.normal[work.state.line_of(c)] for c in table.curve[row].tolist())
     along = np.cross(flat, own)
     at = found.row.index(row)
     chord = found.place[min(at + 1, len(found.place) - 1)] - found.place[max(at - 1, 0)]
@@ -398,7 +398,7 @@ def _coming(work: TransformationState, curve: int) -> list[FloatArray]:
     """Give the new places (3,), m, at which drivers have come to meet the plane of a piece."""
     line = work.state.line_of(curve)
     places = [place for other, place in work.come if other == line]
-    if len(work.state.lines.curves.data[line]) == 1:
+    if len(work.state.lines.curves[line]) == 1:
         return places
     return [place for place in places if _piece(work, line, place) == curve]
 
@@ -406,7 +406,7 @@ def _coming(work: TransformationState, curve: int) -> list[FloatArray]:
 def _piece(work: TransformationState, line: int, place: FloatArray) -> int:
     """Give the piece of a line that makes the least detour through a place."""
     state, least = work.state, (np.inf, -1)
-    for curve in state.lines.curves.data[line]:
+    for curve in state.lines.curves[line]:
         known = _ordered(work, curve)
         if len(known) > 1:
             least = min(least, (least_detour(work.value[known], place), int(curve)))
@@ -415,7 +415,7 @@ def _piece(work: TransformationState, line: int, place: FloatArray) -> int:
 
 def _ordered(work: TransformationState, curve: int) -> list[int]:
     """Give the points of a curve that are known, in the order of before, with its new ends."""
-    rows: IntArray = work.state.curves.rows.data[curve]
+    rows: IntArray = work.state.curves.rows[curve]
     inner = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
     ends = [work.new_ends.get((curve, side)) for side in (0, 1)]
     return [row for row in (ends[0], *inner, ends[1]) if row is not None]
@@ -425,9 +425,9 @@ def _base(work: TransformationState, curve: int, order: list[int]) -> list[int]:
     """Give the points of a curve that keep their order: ends, and the group with most crossings."""
     state = work.state
     group = {
-        row: int(state.lines.group.data[state.line_of(work.other(row, curve))])
+        row: int(state.lines.group[state.line_of(work.other(row, curve))])
         for row in order
-        if work.other(row, curve) >= 0 and not state.rows.contact.data[row]
+        if work.other(row, curve) >= 0 and not state.rows.contact[row]
     }
     count = Counter(group.values())
     names = state.groups.name.data
@@ -436,14 +436,14 @@ def _base(work: TransformationState, curve: int, order: list[int]) -> list[int]:
     return [
         row for row in order
         if row in ends or group.get(row) == main
-        or (state.rows.contact.data[row] and not work.slid[row])
+        or (state.rows.contact[row] and not work.slid[row])
     ]  # fmt: skip
 
 
 def _give(work: TransformationState, curve: int) -> None:
     """Cut a follower with the planes of those that come after it, where these have to slide."""
     state = work.state
-    meets: CurveIntersections = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets[curve]
     rows = meets.row[meets.row >= 0]
     wanted = [
         row for row in rows[~work.known[rows]].tolist()
@@ -452,7 +452,7 @@ def _give(work: TransformationState, curve: int) -> None:
     if not wanted:
         return
     work.made[curve] = _points(work, curve)
-    spline = loft(curve_data_through(work, [curve]), [str(state.curves.key.data[curve])])
+    spline = loft(curve_data_through(work, [curve]), [str(state.curves.key[curve])])
     for line in sorted({state.line_of(work.other(row, curve)) for row in wanted}):
         _cut_one(work, curve, spline, line, set(wanted))
 
@@ -461,7 +461,7 @@ def _cut_one(
     work: TransformationState, curve: int, spline: SplineBatch, line: int, wanted: set[int]
 ) -> None:
     """Cut one follower with the plane of one after it, and match the crossings to the places."""
-    meets: CurveIntersections = work.state.curves.meets.data[curve]
+    meets: CurveIntersections = work.state.curves.meets[curve]
     old = np.flatnonzero(meets.line == line)
     met = intersect_planes(spline, work.planes.normal[line], work.planes.offset[[line]])
     pairs = align_plane_roots(meets.sign[old], work.space.places(meets.xyz[old]), met.sign, met.xyz)

@@ -235,17 +235,17 @@ def insert_by_detour(
 def _adopted(work: TransformationState, curve: int) -> IntArray:
     """Give the smooth adopted points of a follower, without its ends."""
     state = work.state
-    rows: IntArray = state.curves.rows.data[curve][1:-1]
-    smooth = state.rows.kind.data[rows, 0] == PointKind.SMOOTH
-    found: IntArray = rows[(state.rows.sort.data[rows] == Sort.ADOPTED) & smooth]
+    rows: IntArray = state.curves.rows[curve][1:-1]
+    smooth = state.rows.kind[rows, 0] == PointKind.SMOOTH
+    found: IntArray = rows[(state.rows.sort[rows] == Sort.ADOPTED) & smooth]
     return found
 
 
 def slide_own_points(work: TransformationState, curve: int) -> None:
     """Let the own points of a follower slip over the hull as the crossings beside them do."""
     state = work.state
-    rows: IntArray = state.curves.rows.data[curve]
-    own = rows[state.rows.sort.data[rows] != Sort.CROSSING]
+    rows: IntArray = state.curves.rows[curve]
+    own = rows[state.rows.sort[rows] != Sort.CROSSING]
     work.known[own[work.direct[own]]] = True
     mine = own[~work.known[own]]
     if not len(mine):
@@ -269,7 +269,7 @@ def _at_new_ends(
     work: TransformationState, curve: int, mine: IntArray, knot: dict[int, float]
 ) -> list[int]:
     """Give the own points beside ends that were handed over: they held another course."""
-    rows: IntArray = work.state.curves.rows.data[curve]
+    rows: IntArray = work.state.curves.rows[curve]
     inner = [knot[row] for row in rows.tolist() if work.known[row] and row not in work.gone]
     last = float(work.state.spline(curve).knot[-1])
     low, high = 0.0, last
@@ -282,7 +282,7 @@ def _at_new_ends(
 
 def _handed(work: TransformationState, curve: int, side: int) -> float:
     """Give how far an end is from where it would be had it not been handed over, m."""
-    rows: IntArray = work.state.curves.rows.data[curve]
+    rows: IntArray = work.state.curves.rows[curve]
     step = work.value[work.end(curve, side)] - work.image[int(rows[-side])]
     return float(np.sqrt((step * step).sum()))
 
@@ -291,7 +291,7 @@ def round_turns(work: TransformationState, curve: int, found: DefiningPoints) ->
     """Give a follower a point on either side of where it would fold: turn by over 90 degrees."""
     state = work.state
     knot = dict(
-        zip(state.curves.rows.data[curve].tolist(), state.spline(curve).knot.tolist(), strict=True)
+        zip(state.curves.rows[curve].tolist(), state.spline(curve).knot.tolist(), strict=True)
     )
     work.made[curve] = found
     turns = curve_folds(loft(curve_data_through(work, [curve]))).knot.tolist()
@@ -328,7 +328,7 @@ def loose_points(work: TransformationState, curve: int, order: list[int]) -> lis
         row: state.family(state.line_of(work.other(row, curve))).rank
         for row in order
         if work.other(row, curve) >= 0 and work.drives(work.other(row, curve))
-        and not state.rows.contact.data[row]
+        and not state.rows.contact[row]
     }  # fmt: skip
     least = min(rank.values(), default=0)
     own = set(_adopted(work, curve).tolist())
@@ -398,7 +398,7 @@ def choose_fair_points(
     for i, option in enumerate(options):
         if option.row < 0:
             continue
-        away = work.gone if work.state.rows.sort.data[option.row] == Sort.ADOPTED else work.watched
+        away = work.gone if work.state.rows.sort[option.row] == Sort.ADOPTED else work.watched
         (away.discard if i in taken else away.add)(option.row)
 
 
@@ -440,10 +440,10 @@ def _sound(work: TransformationState, curve: int, found: DefiningPoints) -> bool
     spline = loft(curve_data_through(work, [curve]))
     if len(curve_folds(spline)) > len(curve_folds(state.spline(curve))):
         return False
-    meets: CurveIntersections = state.curves.meets.data[curve]
+    meets: CurveIntersections = state.curves.meets[curve]
     here = [row for row in meets.row.tolist() if row >= 0 and row not in work.gone]
     lines = {row: state.line_of(work.other(row, curve)) for row in here}
-    driven = sorted({lines[row] for row in here if state.rows.driver.data[row] == curve})
+    driven = sorted({lines[row] for row in here if state.rows.driver[row] == curve})
     for line in driven:
         met = intersect_planes(spline, work.planes.normal[line], work.planes.offset[[line]])
         if met.count > sum(lines[row] == line for row in here):

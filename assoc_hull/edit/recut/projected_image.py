@@ -167,9 +167,9 @@ def gaps_across(
         Unit vectors across it there: the gap is given along these.
     """
     table = work.state.rows
-    own = (table.curve.data[rows, 0] != curve).astype(np.int64)
-    spot, every = table.spot.data[rows], np.arange(len(rows))
-    heard = (table.reader.data[rows] == curve).any(axis=1)
+    own = (table.curve[rows, 0] != curve).astype(np.int64)
+    spot, every = table.spot[rows], np.arange(len(rows))
+    heard = (table.reader[rows] == curve).any(axis=1)
     gap = ((spot[every, 1 - own] - spot[every, own]) * left).sum(axis=1)
     found: FloatArray = np.where(heard, 0.0, gap)
     return found
@@ -198,8 +198,8 @@ def _left(spline: SplineBatch, normal: FloatArray, t: FloatArray) -> FloatArray:
 def _known(work: TransformationState, curve: int) -> tuple[IntArray, FloatArray]:
     """Give the points of a follower that are known already, and their parameters on it before."""
     state, table = work.state, work.state.rows
-    meets: CurveIntersections = state.curves.meets.data[curve]
-    own: IntArray = state.curves.rows.data[curve]
+    meets: CurveIntersections = state.curves.meets[curve]
+    own: IntArray = state.curves.rows[curve]
     at = dict(zip(meets.row.tolist(), meets.parameter.tolist(), strict=True))
     at |= dict(zip(own.tolist(), state.spline(curve).knot.tolist(), strict=True))
     ends = {work.end(curve, 0), work.end(curve, 1)}
@@ -207,14 +207,14 @@ def _known(work: TransformationState, curve: int) -> tuple[IntArray, FloatArray]
     rows = [
         row for row in at
         if row >= 0 and work.known[row] and row not in work.gone
-        and (row in ends or not table.contact.data[row]) and _first(work, row, curve)
+        and (row in ends or not table.contact[row]) and _first(work, row, curve)
     ]  # fmt: skip
     return np.array(rows, np.int64), np.array([at[row] for row in rows])
 
 
 def _first(work: TransformationState, row: int, curve: int) -> bool:
     """Tell whether a point does not wait for its follower to be cut."""
-    if work.state.rows.sort.data[row] != Sort.CROSSING or row in work.kept:
+    if work.state.rows.sort[row] != Sort.CROSSING or row in work.kept:
         return bool(work.direct[row]) or row in work.kept
     other = work.other(row, curve)
     return work.drives(other) or work.state.rank(other) < work.state.rank(curve)

@@ -105,8 +105,8 @@ class _Ways:
     @classmethod
     def of(cls, work: TransformationState, rows: IntArray) -> _Ways:
         state = work.state
-        own = state.rows.curve.data[rows]
-        line = np.where(own >= 0, state.curves.line.data[own], -1)
+        own = state.rows.curve[rows]
+        line = np.where(own >= 0, state.curves.line[own], -1)
         plane = (own >= 0) & work.planes.planar[line]
         drives = (own >= 0) & (work.driver[line] | ~work.planes.planar[line])
         # along a driver the plane of the driver is kept: only that of the other line is sought
@@ -120,14 +120,14 @@ class _Ways:
         alone = np.flatnonzero(own[:, 1] < 0)
         straight[alone] = _across(state, rows[alone], work.planes.normal[line[alone, 0]])
         return cls(
-            rows, batch, curve, np.nan_to_num(state.rows.parameter.data[rows]), straight, barred,
+            rows, batch, curve, np.nan_to_num(state.rows.parameter[rows]), straight, barred,
             np.where(plane[..., None], work.planes.normal[line], 0.0),
             np.where(plane, work.planes.offset[line], 0.0),
         )  # fmt: skip
 
     def solved(self, work: TransformationState) -> FloatArray:
         """Give the images of the places that lie in the planes, (k, 3), m; by Newton's rule."""
-        start = work.state.rows.xyz.data[self.rows]
+        start = work.state.rows.xyz[self.rows]
         way, far = np.zeros((len(self.rows), 2)), np.inf
         for _ in range(_ROUNDS):
             place, along = self._places(start, way)
@@ -202,7 +202,7 @@ def _across(state: HullState, rows: IntArray, normal: FloatArray) -> FloatArray:
     They are those of what crosses the line beside them, by the distances along the line.
     """
     found, table = normal.copy(), state.rows
-    own = table.curve.data[rows, 0]
+    own = table.curve[rows, 0]
     for curve in np.unique(own).tolist():
         mine = np.flatnonzero(own == curve)
         at, along = _crossing_ways(state, curve)
@@ -214,7 +214,7 @@ def _across(state: HullState, rows: IntArray, normal: FloatArray) -> FloatArray:
 
 def _knots(state: HullState, curve: int, rows: IntArray) -> FloatArray:
     """Give where points that define a curve lie on it, (k,), m."""
-    through = state.curves.rows.data[curve]
+    through = state.curves.rows[curve]
     order = np.argsort(through, kind="stable")
     knot: FloatArray = state.spline(curve).knot[order[np.searchsorted(through[order], rows)]]
     return knot
@@ -222,11 +222,11 @@ def _knots(state: HullState, curve: int, rows: IntArray) -> FloatArray:
 
 def _crossing_ways(state: HullState, curve: int) -> tuple[FloatArray, FloatArray]:
     """Give where curves cross a given one, (m,), m, and their unit tangents there, (m, 3)."""
-    table, rows = state.rows, state.curves.rows.data[curve]
-    rows = rows[table.sort.data[rows] == Sort.CROSSING]
-    side = (table.curve.data[rows, 0] == curve).astype(np.int64)
-    other, at = table.curve.data[rows, side], table.parameter.data[rows, side]
-    mine = table.parameter.data[rows, 1 - side]
+    table, rows = state.rows, state.curves.rows[curve]
+    rows = rows[table.sort[rows] == Sort.CROSSING]
+    side = (table.curve[rows, 0] == curve).astype(np.int64)
+    other, at = table.curve[rows, side], table.parameter[rows, side]
+    mine = table.parameter[rows, 1 - side]
     good = (other >= 0) & np.isfinite(at) & np.isfinite(mine)
     other, at, mine = other[good], at[good], mine[good]
     if not len(other):

@@ -164,14 +164,14 @@ def _numbers_kept(state: HullState, space: SpaceMap, planes: TransformedPlanes) 
     lines = [
         line
         for line in state.live("lines").tolist()
-        if table.planar.data[line]
-        and planes.offset[line] != table.offset.data[line]
-        and any(letter.isdigit() for letter in str(table.name.data[line]))
+        if table.planar[line]
+        and planes.offset[line] != table.offset[line]
+        and any(letter.isdigit() for letter in str(table.name[line]))
     ]
     if not lines:
         return []
     first = lines[0]
-    away, name = float(planes.offset[first]), str(table.name.data[first])
+    away, name = float(planes.offset[first]), str(table.name[first])
     return [
         f"{len(lines)} lines that go by a number keep their names though the shift moved them: "
         f"the plane of {name} is at {away:.6g} m now; edit.rename gives another name"
@@ -195,7 +195,7 @@ def driving_lines(state: HullState, drivers: Sequence[int]) -> np.typing.NDArray
             "name groups or lines that carry the hull, for instance ['sections', 'profile']",
         )  # fmt: skip
     if state.failed:
-        keys = ", ".join(str(state.curves.key.data[curve]) for curve in state.failed)
+        keys = ", ".join(str(state.curves.key[curve]) for curve in state.failed)
         raise BadInputError(f"{keys} has failed", "in transform", "mend it before")
     found: np.typing.NDArray[np.bool_] = (driver | boundary) & state.lines.alive.data
     return found
@@ -211,14 +211,14 @@ def refuse_others(edit: Transaction) -> None:
 def _anything(state: HullState, work: TransformationState) -> bool:
     """Tell whether the mapping moves anything by a bit."""
     live = state.live("rows")
-    same = not bits_differ(work.value[live] + 0.0, state.rows.xyz.data[live] + 0.0).any()
+    same = not bits_differ(work.value[live] + 0.0, state.rows.xyz[live] + 0.0).any()
     lines = state.live("lines")
     planes, table = work.planes, state.lines
-    flat = table.planar.data[lines]
+    flat = table.planar[lines]
     return not (
         same
         and bool((planes.planar[lines] == flat).all())
-        and bool((planes.offset[lines[flat]] == table.offset.data[lines[flat]]).all())
+        and bool((planes.offset[lines[flat]] == table.offset[lines[flat]]).all())
     )
 
 
@@ -240,19 +240,17 @@ def _publish(edit: Transaction, work: TransformationState, turned: set[int]) -> 
     _remove(edit, work)
     live = state.live("rows")
     live = live[live < len(work.value)]
-    computed = state.rows.driver.data[live] >= 0
-    watched = (state.rows.sort.data[live] == Sort.CROSSING) & (
-        state.rows.role.data[live] == Role.WATCHED
-    )
+    computed = state.rows.driver[live] >= 0
+    watched = (state.rows.sort[live] == Sort.CROSSING) & (state.rows.role[live] == Role.WATCHED)
     apart = np.array([bool(work.anew) and work.apart(row) for row in live.tolist()], bool)
     rows = live[~computed & ~watched & ~apart]
     edit.write(rows, work.value[rows], "transform")
     adopted = state.live("rows")
-    adopted = adopted[state.rows.sort.data[adopted] == Sort.ADOPTED]
+    adopted = adopted[state.rows.sort[adopted] == Sort.ADOPTED]
     fresh = [row for _, row in work.contacts]
     # all that is computed: the plane of a line may move along a driver of which no bit changes
     pending.computed |= set(fresh) | work.driven | set(live[computed].tolist())
-    pending.born += sorted(str(state.rows.key.data[row]) for row in fresh)
+    pending.born += sorted(str(state.rows.key[row]) for row in fresh)
     pending.held |= set(adopted.tolist())
     pending.curves |= set(state.live("curves").tolist())
     pending.moved_curves |= {curve for curve in work.made if work.drives(curve)}
@@ -285,7 +283,7 @@ def _define(edit: Transaction, curve: int, chosen: DefiningPoints, gone: set[int
     made = iter(edit.maker.points(specs).tolist())
     rows = [row if row >= 0 else next(made) for row in chosen.row]
     rows = [row for row in rows if row not in gone]
-    if rows != edit.state.curves.rows.data[curve].tolist():
+    if rows != edit.state.curves.rows[curve].tolist():
         edit.maker.define(curve, rows)
 
 
@@ -307,26 +305,24 @@ def _remove(edit: Transaction, work: TransformationState) -> None:
     state, keys = edit.state, edit.state.rows.key.data
     rows = sorted(work.gone, key=lambda row: str(keys[row]))
     for row in rows:
-        for curve in state.rows.curve.data[row].tolist():
-            if curve >= 0 and state.rows.sort.data[row] == Sort.CROSSING:
+        for curve in state.rows.curve[row].tolist():
+            if curve >= 0 and state.rows.sort[row] == Sort.CROSSING:
                 make_latent(edit.maker, curve, row)
     edit.maker.remove_rows(rows)
-    edit.pending.gone += [
-        str(keys[row]) for row in rows if state.rows.sort.data[row] == Sort.CROSSING
-    ]
+    edit.pending.gone += [str(keys[row]) for row in rows if state.rows.sort[row] == Sort.CROSSING]
 
 
 def _tell(edit: Transaction, work: TransformationState, added: int, before: Particulars) -> None:
     """Put into the report what was carried and what was cut again."""
     state, pending = edit.state, edit.pending
     every = {*state.live("lines").tolist(), *work.anew}
-    lines = sorted(every, key=lambda line: str(state.lines.key.data[line]))
+    lines = sorted(every, key=lambda line: str(state.lines.key[line]))
     for line in lines:
-        key = str(state.lines.key.data[line])
+        key = str(state.lines.key[line])
         (pending.carried if work.driver[line] else pending.cut_again).append(key)
     for line, away in sorted(work.planes.bent.items()):
         pending.notes.append(
-            f"{state.lines.name.data[line]} is a curve in space now, {away:.3g} m out of its plane"
+            f"{state.lines.name[line]} is a curve in space now, {away:.3g} m out of its plane"
         )
     if added:
         pending.notes.append(f"{added} adopted points hold the drivers to their images")

@@ -92,13 +92,13 @@ def spline_lines(state: HullState) -> list[SplineLine]:
 
 
 def _line(state: HullState, book: AddressBook, line: int) -> SplineLine:
-    table, planar = state.lines, bool(state.lines.planar.data[line])
+    table, planar = state.lines, bool(state.lines.planar[line])
     return SplineLine(
-        str(state.groups.name.data[table.group.data[line]]),
+        str(state.groups.name[table.group[line]]),
         book.line_name(line),
         state.family(line).name,
-        table.normal.data[line].copy() if planar else np.full(3, np.nan),
-        float(table.offset.data[line]) if planar else float("nan"),
+        table.normal[line].copy() if planar else np.full(3, np.nan),
+        float(table.offset[line]) if planar else float("nan"),
         tuple(control_polygon(each) for each in splines_of(state, line)),
         tuple(curve_texts(state, line)),
     )

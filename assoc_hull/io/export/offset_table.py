@@ -116,8 +116,8 @@ def lines_in_planes(state: HullState, family: str, axis: int) -> LinesInPlanes:
     live = [i for i in state.live("lines").tolist() if state.family(i).name == family]
     table = state.lines
     found = [
-        (float(table.offset.data[i]), str(table.name.data[i]), splines_of(state, i))
-        for i in live if table.planar.data[i] and table.normal.data[i][axis] == 1.0
+        (float(table.offset[i]), str(table.name[i]), splines_of(state, i))
+        for i in live if table.planar[i] and table.normal[i][axis] == 1.0
     ]  # fmt: skip
     found.sort(key=lambda each: each[:2])
     return LinesInPlanes(
@@ -416,7 +416,7 @@ def _buttock_block(
 
 def _tell_boundary(state: HullState, book: ExportBook) -> None:
     live = [i for i in state.live("lines").tolist() if state.family(i).name == "boundary"]
-    names = [str(state.lines.name.data[i]) for i in live]
+    names = [str(state.lines.name[i]) for i in live]
     if names:
         what = f"{', '.join(names)}: a table holds their offsets at its stations only"
         book.leave_out("boundary", f"{len(names)} boundary curves", what, len(names))

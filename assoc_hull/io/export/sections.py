@@ -185,7 +185,7 @@ def _tell_parts(sections: list[LinePolylines], book: ExportBook) -> None:
 def _tell_tangents(state: HullState, book: ExportBook) -> None:
     rows = state.rows
     live = state.live("rows")
-    count = int((rows.kind.data[live] == PointKind.TANGENT).any(axis=1).sum())
+    count = int((rows.kind[live] == PointKind.TANGENT).any(axis=1).sum())
     if count:
         what = f"{count} points with a given direction are written as points like others"
         book.leave_out("tangents", "the lines", what, count)

@@ -85,19 +85,19 @@ def _lists(state: HullState) -> Iterator[str]:
     """Look at what curves and lines list."""
     curves, lines = state.live("curves").tolist(), state.live("lines").tolist()
     count = state.rows.count
-    meets = [state.curves.meets.data[curve] for curve in curves]
+    meets = [state.curves.meets[curve] for curve in curves]
     for what, parts, most in (
-        ("a point of a curve", [state.curves.rows.data[curve] for curve in curves], count),
+        ("a point of a curve", [state.curves.rows[curve] for curve in curves], count),
         ("a crossing of a curve", [each.row for each in meets], count),
         ("a line met by a curve", [each.line for each in meets], state.lines.count),
-        ("a curve of a line", [state.lines.curves.data[line] for line in lines],
+        ("a curve of a line", [state.lines.curves[line] for line in lines],
          state.curves.count),
     ):  # fmt: skip
         if not _within(parts, -1 if what == "a crossing of a curve" else 0, most):
             yield f"{what} does not exist"
     for curve in curves:
-        if state.curves.spline.data[curve] is None or len(state.curves.rows.data[curve]) < 2:
-            yield f"the curve {state.curves.key.data[curve]!r} has no shape"
+        if state.curves.spline[curve] is None or len(state.curves.rows[curve]) < 2:
+            yield f"the curve {state.curves.key[curve]!r} has no shape"
 
 
 def _within(parts: Iterable[Any], least: int, most: int) -> bool:
@@ -117,7 +117,7 @@ def _texts(state: HullState) -> Iterator[str]:
     for texts in (state.lines.name.data, state.lines.note.data, state.rows.label.data):
         if not _names(texts):
             yield "a name is no text"
-    if not all(state.lines.name.data[line] for line in state.live("lines").tolist()):
+    if not all(state.lines.name[line] for line in state.live("lines").tolist()):
         yield "a line has no name"
     if not set(state.groups.family.data) <= set(FAMILIES):
         yield "a family does not exist"
@@ -130,7 +130,7 @@ def _names(values: Collection[object]) -> bool:
 def _features(state: HullState) -> Iterator[str]:
     """Features own points and lie on lines that there are; keys and names stand once."""
     features, live = state.features, set(state.live("rows").tolist())
-    lines = {state.lines.key.data[line] for line in state.live("lines").tolist()}
+    lines = {state.lines.key[line] for line in state.live("lines").tolist()}
     if len({each.key for each in features}) < len(features):
         yield "a key of the features stands there twice"
     for each in features:
@@ -147,7 +147,7 @@ def _generated(state: HullState) -> Iterator[str]:
     if len({each.curve for each in made}) < len(made):
         yield "a generated curve stands there twice"
     for each in made:
-        if each.curve not in curves or state.curves.key.data[each.curve] != each.key:
+        if each.curve not in curves or state.curves.key[each.curve] != each.key:
             yield f"the generated curve {each.key!r} does not exist"
         if each.what not in GENERATED:
             yield f"the generated curve {each.key!r} is of no known sort"
@@ -157,7 +157,7 @@ def _generated(state: HullState) -> Iterator[str]:
 
 
 def _settings(state: HullState) -> Iterator[str]:
-    groups = {state.groups.name.data[group] for group in state.live("groups").tolist()}
+    groups = {state.groups.name[group] for group in state.live("groups").tolist()}
     for link in state.associations:
         if not {link.a, link.b} <= groups:
             yield f"{link.a!r} and {link.b!r} are associated, and are no groups"
@@ -167,12 +167,12 @@ def _settings(state: HullState) -> Iterator[str]:
         yield "a curve that failed does not exist"
     key, table = state.lines.key.data, state.rows
     rows = state.live("rows")
-    rows = rows[table.sort.data[rows] == Sort.CROSSING]
-    both = table.curve.data[rows]
+    rows = rows[table.sort[rows] == Sort.CROSSING]
+    both = table.curve[rows]
     if (both < 0).any():
         yield "a crossing lies on one curve only"
         return
-    for pair, birth in zip(state.curves.line.data[both].tolist(), table.birth.data[rows].tolist(),
+    for pair, birth in zip(state.curves.line[both].tolist(), table.birth[rows].tolist(),
                            strict=True):  # fmt: skip
         if not 0 < birth <= state.births.get((key[pair[0]], key[pair[1]]), 0):
             yield f"{key[pair[0]]!r} and {key[pair[1]]!r} bore fewer crossings than they have"

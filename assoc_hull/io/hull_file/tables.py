@@ -62,7 +62,7 @@ def feature_rows(state: HullState, numbers: IntArray) -> Iterator[tuple[Any, ...
     """Give rows of the table of features as rows of the file."""
     table = state.featured
     for i in numbers.tolist():
-        yield feature_row(i, bool(table.alive.data[i]), table.feature.data[i])
+        yield feature_row(i, bool(table.alive[i]), table.feature[i])
 
 
 def read_features(state: HullState, rows: Sequence[tuple[Any, ...]]) -> None:
@@ -130,14 +130,14 @@ def definition_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     """Give rows of the table of definitions as rows of the file."""
     table = state.formed
     for i in numbers.tolist():
-        yield definition_row(i, bool(table.alive.data[i]), table.definition.data[i])
+        yield definition_row(i, bool(table.alive[i]), table.definition[i])
 
 
 def generated_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     """Give rows of the table of generated curves as rows of the file."""
     table = state.produced
     for i in numbers.tolist():
-        yield generated_row(i, bool(table.alive.data[i]), table.curve.data[i])
+        yield generated_row(i, bool(table.alive[i]), table.curve[i])
 
 
 def definition_row(number: int, alive: bool, form: FormDefinition) -> Row:
@@ -311,31 +311,31 @@ def _write_gone(
 def _group_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     table = state.groups
     for i in numbers.tolist():
-        yield i, table.name.data[i], table.family.data[i], int(table.alive.data[i])
+        yield i, table.name[i], table.family[i], int(table.alive[i])
 
 
 def _line_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     table = state.lines
     for i in numbers.tolist():
         yield (
-            i, table.key.data[i], table.name.data[i], int(table.alive.data[i]),
-            int(table.group.data[i]), int(table.planar.data[i]), _real_blob(table.normal.data[i]),
-            _real_blob(table.offset.data[i]), int(table.boundary.data[i]),
-            json.dumps([int(curve) for curve in table.curves.data[i]]), table.note.data[i],
+            i, table.key[i], table.name[i], int(table.alive[i]),
+            int(table.group[i]), int(table.planar[i]), _real_blob(table.normal[i]),
+            _real_blob(table.offset[i]), int(table.boundary[i]),
+            json.dumps([int(curve) for curve in table.curves[i]]), table.note[i],
         )  # fmt: skip
 
 
 def _curve_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     table, places = state.curves, _place_blobs(crossing_positions(state, numbers))
     for i, place in zip(numbers.tolist(), places, strict=True):
-        ends, points = table.ends.data[i], np.zeros(len(table.rows.data[i]), _POINT)
-        points["row"], points["side"] = table.rows.data[i], table.side.data[i]
-        failed = table.state.data[i] != State.CLEAN and table.spline.data[i] is not None
+        ends, points = table.ends[i], np.zeros(len(table.rows[i]), _POINT)
+        points["row"], points["side"] = table.rows[i], table.side[i]
+        failed = table.state[i] != State.CLEAN and table.spline[i] is not None
         yield (
-            i, table.key.data[i], int(table.alive.data[i]), int(table.line.data[i]),
-            int(table.state.data[i]), state.revision_curve.get(i, 0),
+            i, table.key[i], int(table.alive[i]), int(table.line[i]),
+            int(table.state[i]), state.revision_curve.get(i, 0),
             json.dumps([[int(kind) for kind in ends.kind], ends.vector]),
-            points.tobytes(), place, pack_spline(table.spline.data[i]) if failed else None,
+            points.tobytes(), place, pack_spline(table.spline[i]) if failed else None,
         )  # fmt: skip
 
 
@@ -357,10 +357,10 @@ def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     whole = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _WHOLES}
     pairs = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _PAIRS}
     reals = {name: _blobs(getattr(table, name), numbers) for name in _REALS}
-    xyz = [_real_blob(each) for each in table.xyz.data[numbers]]
+    xyz = [_real_blob(each) for each in table.xyz[numbers]]
     for place, i in enumerate(numbers.tolist()):
         yield (
-            i, table.key.data[i], table.label.data[i],
+            i, table.key[i], table.label[i],
             *(whole[name][place] for name in ("alive", "sort", "role", "override")),
             *pairs["curve"][place], *pairs["kind"][place], *pairs["reader"][place],
             *(whole[name][place] for name in ("driver", "contact", "sign", "birth", "state")),

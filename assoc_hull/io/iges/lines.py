@@ -158,15 +158,15 @@ def _lines(state: HullState, families: Sequence[str]) -> Iterator[tuple[str, int
 
 def _name(state: HullState, family: str, line: int) -> str:
     """Name a line; one that no reader of lines would know goes by its family too."""
-    name = str(state.lines.name.data[line])
+    name = str(state.lines.name[line])
     plain = family not in OTHER_FAMILIES or name.lower() in BOUNDARIES
     return name if plain else f"{family}: {name}"
 
 
 def _place(state: HullState, line: int) -> tuple[float, str]:
-    planar = bool(state.lines.planar.data[line])
-    offset = float(state.lines.offset.data[line]) if planar else 0.0
-    return offset, str(state.lines.name.data[line])
+    planar = bool(state.lines.planar[line])
+    offset = float(state.lines.offset[line]) if planar else 0.0
+    return offset, str(state.lines.name[line])
 
 
 def _sides(points: FloatArray, half: bool) -> list[FloatArray]:

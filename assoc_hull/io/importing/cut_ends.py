@@ -105,9 +105,9 @@ def _last_section(state: HullState, draught: float, *, fore: bool) -> _LastSecti
         line = state.line_of(curve)
         xyz = sample(state.spline(curve), _FINE)[1]
         family = state.family(line).name
-        level = state.lines.planar.data[line] and abs(state.lines.normal.data[line][0]) == 1.0
+        level = state.lines.planar[line] and abs(state.lines.normal[line][0]) == 1.0
         if family == "sections" or (level and not fore):
-            name = str(state.lines.name.data[line]) or book.curve_name(curve)
+            name = str(state.lines.name[line]) or book.curve_name(curve)
             across.setdefault(float(xyz[:, 0].mean()), []).append((name, xyz))
         elif level:
             flats.append(float(xyz[:, 0].mean()))

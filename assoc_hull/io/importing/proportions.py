@@ -225,8 +225,8 @@ def _examine_draught(state: HullState, found: Findings) -> None:
     """Compare the draught with the line that is called the design waterline."""
     ship = state.particulars
     for line in state.live("lines").tolist():
-        name, height = str(state.lines.name.data[line]), float(state.lines.offset.data[line])
-        level = state.lines.planar.data[line] and state.lines.normal.data[line][2] == 1.0
+        name, height = str(state.lines.name[line]), float(state.lines.offset[line])
+        level = state.lines.planar[line] and state.lines.normal[line][2] == 1.0
         off = ship.draught - height
         if level and _DESIGN.fullmatch(name.strip()) and abs(off) > _DRAUGHT * ship.depth:
             what = (

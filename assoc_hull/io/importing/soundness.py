@@ -162,7 +162,7 @@ def _examine_borders(
     """Borders of flats have an allowance of their own, since all lines end in them tangent."""
     number = {key: i for i, key in enumerate(state.curves.key.data)}
     for line in filter(_is_beyond, lines):
-        boundary = int(state.lines.boundary.data[state.line_of(number[line.curve])])
+        boundary = int(state.lines.boundary[state.line_of(number[line.curve])])
         allowed = max(line.tolerance, _doubt_there(line, borders))
         part = line.tolerance_used * line.tolerance / allowed
         if boundary == BoundaryKind.FLAT and not part <= OVER:
@@ -191,7 +191,7 @@ def _doubt_there(line: LineReport, borders: Sequence[BoundaryCurve]) -> float:
 def _examine_gaps(state: HullState, found: Findings) -> None:
     """Watched crossings that gape: their limits grow with the gaps found at adoption."""
     rows = watched_on(state, state.live("curves"))
-    rows = rows[np.isfinite(state.rows.parameter.data[rows]).all(axis=1)]
+    rows = rows[np.isfinite(state.rows.parameter[rows]).all(axis=1)]
     if not len(rows):
         return
     gap, limit = gap_at(state, rows), _FAR * state.tolerances.adoption
@@ -201,7 +201,7 @@ def _examine_gaps(state: HullState, found: Findings) -> None:
             f"its lines pass each other {1e3 * gap[i]:.1f} mm apart, where {1e3 * limit:.3g} mm is "
             "the limit: one of the two is wrong; mend it, or leave it out"
         )
-        where = f"{book.address(int(rows[i]))} at {_at(state.rows.xyz.data[rows[i]])}"
+        where = f"{book.address(int(rows[i]))} at {_at(state.rows.xyz[rows[i]])}"
         found.fault("gap", where, what, float(gap[i]))
 
 
@@ -213,7 +213,7 @@ def _examine_misses(state: HullState, found: Findings) -> None:
     book, seen = AddressBook(state), set[tuple[int, int]]()
     latent = _latent_places(state)
     for (curve, line), places in sorted(latent.items()):
-        for other in state.lines.curves.data[line]:
+        for other in state.lines.curves[line]:
             back = latent.get((other, state.line_of(curve)))
             pair = (min(curve, other), max(curve, other))
             if back is None or pair in seen:
@@ -237,7 +237,7 @@ def _latent_places(state: HullState) -> dict[tuple[int, int], FloatArray]:
     """Give, by curve and line, the places (k, 3), m, where curves meet planes and cross nothing."""
     found: dict[tuple[int, int], FloatArray] = {}
     for curve in state.live("curves").tolist():
-        meets = state.curves.meets.data[curve]
+        meets = state.curves.meets[curve]
         free = (meets.row < 0) & np.isfinite(meets.xyz).all(axis=1)
         if free.any():
             free[free] = _through(state, curve, meets.take(free))
@@ -251,7 +251,7 @@ def _through(
 ) -> np.typing.NDArray[np.bool_]:
     """Tell where a curve passes through planes, (k,); along one that it runs in it is chance."""
     slope = tangents(state, np.full(len(meets.line), curve), meets.parameter)
-    sine = np.abs((slope * state.lines.normal.data[meets.line]).sum(axis=1))
+    sine = np.abs((slope * state.lines.normal[meets.line]).sum(axis=1))
     found: np.typing.NDArray[np.bool_] = sine >= _STEEP
     return found
 
@@ -308,7 +308,7 @@ def open_cells(state: HullState) -> str:
 
 def _is_enclosed(state: HullState) -> bool:
     """Tell whether the file has the lines that enclose half a hull."""
-    return {str(state.lines.name.data[line]) for line in state.live("lines").tolist()} >= _OUTER
+    return {str(state.lines.name[line]) for line in state.live("lines").tolist()} >= _OUTER
 
 
 def open_net_note(state: HullState) -> tuple[str, ...]:

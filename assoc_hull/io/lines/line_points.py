@@ -92,13 +92,13 @@ def splines_of(state: HullState, line: int) -> list[SplineBatch]:
     BadInputError
         A curve of it has failed, or holds a number that is not finite.
     """
-    curves = [c for c in state.lines.curves.data[line] if state.curves.alive.data[c]]
+    curves = [c for c in state.lines.curves[line] if state.curves.alive[c]]
     for curve in curves:
-        spline: SplineBatch | None = state.curves.spline.data[curve]
-        clean = int(state.curves.state.data[curve]) == State.CLEAN
+        spline: SplineBatch | None = state.curves.spline[curve]
+        clean = int(state.curves.state[curve]) == State.CLEAN
         if not clean or spline is None or not np.isfinite(spline.xyz).all():
             raise BadInputError(
-                "the line has a curve that failed", f"in {state.lines.name.data[line]}",
+                "the line has a curve that failed", f"in {state.lines.name[line]}",
                 "mend it first: check the hull",
             )  # fmt: skip
     return [state.spline(curve) for curve in curves]
@@ -142,12 +142,12 @@ def _is_of(state: HullState, line: int, family: str) -> bool:
 
 
 def _line(state: HullState, line: int, family: str, chord: float) -> LinePolylines:
-    planar = bool(state.lines.planar.data[line]) and family in AXES
-    offset = float(state.lines.offset.data[line]) if planar else float("nan")
+    planar = bool(state.lines.planar[line]) and family in AXES
+    offset = float(state.lines.offset[line]) if planar else float("nan")
     upward = 2 if family == "sections" else 0
     pieces = [_piece(spline, upward, chord) for spline in splines_of(state, line)]
     pieces.sort(key=lambda each: (each.points[:, 2].min(), each.points[:, 0].min()))
-    return LinePolylines(family, str(state.lines.name.data[line]), offset, tuple(pieces))
+    return LinePolylines(family, str(state.lines.name[line]), offset, tuple(pieces))
 
 
 def _piece(spline: SplineBatch, way: int, chord: float) -> CurvePolyline:

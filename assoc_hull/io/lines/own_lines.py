@@ -73,7 +73,7 @@ def hull_text(state: HullState) -> str:
         "particulars": attrs.asdict(ship),
         "tolerances": {k: v for k, v in attrs.asdict(known).items() if v != _DEFAULTS[k]},
         "groups": {
-            str(state.groups.name.data[i]): str(state.groups.family.data[i])
+            str(state.groups.name[i]): str(state.groups.family[i])
             for i in state.live("groups").tolist()
         },
         "associations": [[each.a, each.b, each.two_way] for each in state.associations],
@@ -100,27 +100,27 @@ _ESCAPED = {each: f"\\u{ord(each):04x}" for each in (" ", "^", "%", BETWEEN)}
 def _line(state: HullState, line: int) -> dict[str, Any]:
     table = state.lines
     found: dict[str, Any] = {
-        "name": str(table.name.data[line]),
-        "group": str(state.groups.name.data[table.group.data[line]]),
+        "name": str(table.name[line]),
+        "group": str(state.groups.name[table.group[line]]),
     }
-    if table.planar.data[line]:
-        found["plane"] = [*table.normal.data[line].tolist(), float(table.offset.data[line])]
-    if table.boundary.data[line] >= 0:
-        found["boundary"] = BoundaryKind(int(table.boundary.data[line])).name.lower()
+    if table.planar[line]:
+        found["plane"] = [*table.normal[line].tolist(), float(table.offset[line])]
+    if table.boundary[line] >= 0:
+        found["boundary"] = BoundaryKind(int(table.boundary[line])).name.lower()
     return found
 
 
 def curve_texts(state: HullState, line: int) -> list[str]:
     """Give the texts of the curves of a line, in their order."""
     number = {each: i for i, each in enumerate(state.live("lines").tolist())}
-    curves = [c for c in state.lines.curves.data[line] if state.curves.alive.data[c]]
+    curves = [c for c in state.lines.curves[line] if state.curves.alive[c]]
     return [_compact({"line": number[line], **_curve(state, curve, number)}) for curve in curves]
 
 
 def _curve(state: HullState, curve: int, number: Mapping[int, int]) -> dict[str, Any]:
-    rows, side = state.curves.rows.data[curve], state.curves.side.data[curve]
-    kind, direction = state.rows.kind.data[rows, side], state.rows.direction.data[rows, side]
-    ends: Ends = state.curves.ends.data[curve]
+    rows, side = state.curves.rows[curve], state.curves.side[curve]
+    kind, direction = state.rows.kind[rows, side], state.rows.direction[rows, side]
+    ends: Ends = state.curves.ends[curve]
     found: dict[str, Any] = {
         "points": state.spline(curve).xyz.tolist(), "of": list(_partners(state, curve, number))
     }  # fmt: skip
@@ -139,12 +139,12 @@ def _curve(state: HullState, curve: int, number: Mapping[int, int]) -> dict[str,
 def _partners(state: HullState, curve: int, number: Mapping[int, int]) -> Iterator[int]:
     """Give per point the number of the line that it is a crossing with, or what else it is."""
     table = state.rows
-    for row in state.curves.rows.data[curve].tolist():
-        if table.sort.data[row] == Sort.CROSSING:
-            one, other = table.curve.data[row].tolist()
+    for row in state.curves.rows[curve].tolist():
+        if table.sort[row] == Sort.CROSSING:
+            one, other = table.curve[row].tolist()
             yield number[state.line_of(one if other == curve else other)]
         else:
-            yield _PLACED if table.sort.data[row] == Sort.PLACED else _ADOPTED
+            yield _PLACED if table.sort[row] == Sort.PLACED else _ADOPTED
 
 
 def tell_losses(state: HullState, book: ExportBook) -> None:

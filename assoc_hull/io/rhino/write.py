@@ -100,16 +100,16 @@ def _add_lines(file: _File, state: HullState) -> None:
     lines = sorted(
         state.live("lines").tolist(),
         key=lambda i: (
-            FAMILIES[state.family(i).name].rank, bool(table.planar.data[i]),
-            float(np.nan_to_num(table.offset.data[i])), str(table.name.data[i]),
+            FAMILIES[state.family(i).name].rank, bool(table.planar[i]),
+            float(np.nan_to_num(table.offset[i])), str(table.name[i]),
         ),
     )  # fmt: skip
     for line in lines:
-        group = str(state.groups.name.data[table.group.data[line]])
+        group = str(state.groups.name[table.group[line]])
         layer = file.layer(group, state.family(line).name)
         for spline, text in zip(splines_of(state, line), curve_texts(state, line), strict=True):
             curve = control_polygon(spline)
-            file.add_curve(curve.knots, curve.points, str(table.name.data[line]), layer, text)
+            file.add_curve(curve.knots, curve.points, str(table.name[line]), layer, text)
             book.curves, book.points = book.curves + 1, book.points + len(curve.points)
     book.lines = len(lines)
 

@@ -15,13 +15,13 @@ array([], dtype=int64)
 from __future__ import annotations
 
 import json
-from typing import Any
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.graph.table import ValueColumn
 from assoc_hull.model.generated_curves import unmade_rows
 from assoc_hull.model.kinds import Role, Sort, State
 from assoc_hull.model.tables import HullState
@@ -41,7 +41,7 @@ __all__ = [
     "value_columns",
 ]
 
-Column = list[str] | NDArray[Any]
+Column = list[str] | NDArray[np.generic]
 
 
 @attrs.frozen(eq=False)
@@ -90,35 +90,35 @@ def _inverse(numbers: IntArray, count: int) -> IntArray:
     return place
 
 
-def _texts(column: Any, numbers: IntArray) -> list[str]:
-    return [column.data[number] for number in numbers.tolist()]
+def _texts(column: ValueColumn[str], numbers: IntArray) -> list[str]:
+    return [column[number] for number in numbers.tolist()]
 
 
 def line_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give what defines the lines."""
     table, numbers = state.lines, order.lines
-    planar = table.planar.data[numbers]
+    planar = table.planar[numbers]
     return {
         "key": _texts(table.key, numbers),
         "name": _texts(table.name, numbers),
         "note": _texts(table.note, numbers),
-        "group": _texts(state.groups.name, table.group.data[numbers]),
+        "group": _texts(state.groups.name, table.group[numbers]),
         "planar": planar,
-        "normal": np.where(planar[:, None], table.normal.data[numbers], 0.0),
-        "offset": np.where(planar, table.offset.data[numbers], 0.0),
-        "boundary": table.boundary.data[numbers],
+        "normal": np.where(planar[:, None], table.normal[numbers], 0.0),
+        "offset": np.where(planar, table.offset[numbers], 0.0),
+        "boundary": table.boundary[numbers],
     }
 
 
 def curve_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give what defines the curves; their points lie one curve behind the other."""
     table, numbers = state.curves, order.curves
-    ends = [table.ends.data[curve] for curve in numbers.tolist()]
-    rows = [table.rows.data[curve] for curve in numbers.tolist()]
+    ends = [table.ends[curve] for curve in numbers.tolist()]
+    rows = [table.rows[curve] for curve in numbers.tolist()]
     return {
         "key": _texts(table.key, numbers),
-        "line": order.line[table.line.data[numbers]],
-        "state": table.state.data[numbers],
+        "line": order.line[table.line[numbers]],
+        "state": table.state[numbers],
         "end_kind": np.array([end.kind for end in ends], np.int64).reshape(-1, 2),
         "end_vector": np.array([end.vector for end in ends], np.float64).reshape(-1, 2, 3),
         "count": np.array([len(part) for part in rows], np.int64),
@@ -132,7 +132,7 @@ def meet_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     ``owner`` is the place of the curve; ``line``, ``sign`` and ``row`` are definition,
     ``parameter`` (m) and ``xyz`` (m) are derived.
     """
-    parts = [state.curves.meets.data[curve] for curve in order.curves.tolist()]
+    parts = [state.curves.meets[curve] for curve in order.curves.tolist()]
     whole, reals = np.zeros(0, np.int64), np.zeros(0)
     owner, line, turn = meet_turn(state, order)
     return {
@@ -147,7 +147,7 @@ def meet_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
 
 def meet_turn(state: HullState, order: CanonicalOrder) -> tuple[IntArray, IntArray, IntArray]:
     """Give owner and line of the meetings as the curves list them, and the canonical order."""
-    parts = [state.curves.meets.data[curve].line for curve in order.curves.tolist()]
+    parts = [state.curves.meets[curve].line for curve in order.curves.tolist()]
     owner: IntArray = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
     line: IntArray = order.line[np.concatenate([np.zeros(0, np.int64), *parts])]
     return owner, line, np.lexsort((line, owner))
@@ -156,41 +156,41 @@ def meet_turn(state: HullState, order: CanonicalOrder) -> tuple[IntArray, IntArr
 def point_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give what defines the points; what is derived at a point is masked with nil."""
     table, rows = state.rows, order.rows
-    anchor = order.row[table.anchor.data[rows]]
-    riding = (anchor >= 0).any(axis=1)
-    crossing = table.sort.data[rows] == Sort.CROSSING
-    shared = crossing & (table.role.data[rows] == Role.SHARED)
+    anchor = order.row[table.anchor[rows]]
+    riding = np.asarray((anchor >= 0).any(axis=1))
+    crossing = table.sort[rows] == Sort.CROSSING
+    shared = crossing & (table.role[rows] == Role.SHARED)
     own = ~crossing & ~riding & unmade_rows(state, rows)
-    stored = shared | own | (table.state.data[rows] != State.CLEAN)
+    stored = shared | own | (table.state[rows] != State.CLEAN)
     watched = _watched(state, rows)
     return {
         "key": _texts(table.key, rows),
         "label": _texts(table.label, rows),
-        "sort": table.sort.data[rows],
-        "kind": table.kind.data[rows],
-        "direction": table.direction.data[rows],
-        "curve": order.curve[table.curve.data[rows]],
-        "role": np.where(crossing, table.role.data[rows], -1),
-        "override": table.override.data[rows],
-        "contact": table.contact.data[rows],
-        "sign": table.sign.data[rows],
-        "birth": table.birth.data[rows],
-        "state": table.state.data[rows],
+        "sort": table.sort[rows],
+        "kind": table.kind[rows],
+        "direction": table.direction[rows],
+        "curve": order.curve[table.curve[rows]],
+        "role": np.where(crossing, table.role[rows], -1),
+        "override": table.override[rows],
+        "contact": table.contact[rows],
+        "sign": table.sign[rows],
+        "birth": table.birth[rows],
+        "state": table.state[rows],
         "stored": stored,
-        "value": np.where(stored[:, None], table.xyz.data[rows], 0.0),
+        "value": np.where(stored[:, None], table.xyz[rows], 0.0),
         "watched": watched,
-        "limit": np.where(watched, table.limit.data[rows], 0.0),
+        "limit": np.where(watched, table.limit[rows], 0.0),
         "riding": riding,
         "anchor": anchor,
-        "base": np.where(riding[:, None], table.base.data[rows], 0.0),
-        "anchor_from": np.where(riding[:, None, None], table.anchor_from.data[rows], 0.0),
-        "anchor_weight": np.where(riding, table.anchor_weight.data[rows], 0.0),
+        "base": np.where(riding[:, None], table.base[rows], 0.0),
+        "anchor_from": np.where(riding[:, None, None], table.anchor_from[rows], 0.0),
+        "anchor_weight": np.where(riding, table.anchor_weight[rows], 0.0),
     }
 
 
 def _watched(state: HullState, rows: IntArray) -> NDArray[np.bool_]:
-    crossing = state.rows.sort.data[rows] == Sort.CROSSING
-    found: NDArray[np.bool_] = crossing & (state.rows.role.data[rows] == Role.WATCHED)
+    crossing = state.rows.sort[rows] == Sort.CROSSING
+    found: NDArray[np.bool_] = crossing & (state.rows.role[rows] == Role.WATCHED)
     return found
 
 
@@ -198,8 +198,8 @@ def value_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """Give the places of all points (k, 3), m, and the watched gaps (k,), m, nil elsewhere."""
     watched = _watched(state, order.rows)
     return {
-        "xyz": state.rows.xyz.data[order.rows],
-        "gap": np.where(watched, state.rows.gap.data[order.rows], 0.0),
+        "xyz": state.rows.xyz[order.rows],
+        "gap": np.where(watched, state.rows.gap[order.rows], 0.0),
     }
 
 
@@ -249,8 +249,8 @@ def retired_keys(state: HullState) -> dict[str, list[str]]:
     own = state.rows.sort.data != Sort.CROSSING
     found = {"lines": ~state.lines.alive.data, "curves": ~state.curves.alive.data}
     found["points"] = ~state.rows.alive.data & own
-    tables = {"lines": state.lines, "curves": state.curves, "points": state.rows}
+    keys = {"lines": state.lines.key, "curves": state.curves.key, "points": state.rows.key}
     return {
-        name: sorted(tables[name].key.data[number] for number in np.flatnonzero(dead).tolist())
+        name: sorted(keys[name][number] for number in np.flatnonzero(dead).tolist())
         for name, dead in found.items()
     }

@@ -20,14 +20,24 @@ import numpy as np
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, IntArray, PointKind
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.table import Table
+from assoc_hull.graph.table import ValueColumn
 from assoc_hull.model.definition.records import code_words
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import GENERATED, FormDefinition, GeneratedCurve
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.tables import Association, CurveIntersections, Ends, HullState, Particulars
+from assoc_hull.model.tables import (
+    Association,
+    CurveIntersections,
+    Curves,
+    Ends,
+    Groups,
+    HullState,
+    Lines,
+    Particulars,
+    Rows,
+)
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -75,13 +85,18 @@ class Keys:
         return table[key]
 
 
-def add_rows(table: Table, journal: Journal, count: int, **columns: Sequence[object]) -> IntArray:
+def add_rows(
+    table: Groups | Lines | Curves | Rows,
+    journal: Journal,
+    count: int,
+    **columns: Sequence[object],
+) -> IntArray:
     """Add live rows to a table, column by column; lists for columns of objects."""
     rows = journal.grow(table, count)
     numbers = rows.tolist()
     for name, values in columns.items():
-        column: Any = table.columns[name]
-        if isinstance(column.data, list):
+        column = table.columns[name]
+        if isinstance(column, ValueColumn):
             journal.set(column, numbers, values)
         elif count:
             journal.put(column, rows, np.array(values))
@@ -207,10 +222,10 @@ def _mark(mark: Sequence[float], where: str) -> tuple[int, float]:
 def _check(state: HullState, curve: int, rows: tuple[int, ...], where: str) -> None:
     """Require that the points of an attached curve define it in their order, all adopted."""
     chosen = np.array(rows, np.int64)
-    defining = state.curves.rows.data[curve]
+    defining = state.curves.rows[curve]
     if not np.array_equal(defining[np.isin(defining, chosen)], chosen):
         raise contradiction("its points do not define it in this order", where)
-    if (state.rows.sort.data[chosen] != Sort.ADOPTED).any():
+    if (state.rows.sort[chosen] != Sort.ADOPTED).any():
         raise contradiction("a point of it is not adopted", where)
 
 
@@ -278,7 +293,7 @@ def put_points(
     Maker(state, journal).roles(rows[crossing], role[crossing])
     alone = rows[~crossing]
     # A point on one curve alone always defines it, without a role that says so.
-    journal.put(state.rows.reader, alone, state.rows.curve.data[alone])
+    journal.put(state.rows.reader, alone, state.rows.curve[alone])
     _put_riding(state, journal, points, keys)
 
 
@@ -365,14 +380,14 @@ def put_defining(state: HullState, journal: Journal, curves: list[Record], keys:
 def _check_links(state: HullState, rows: IntArray, curves: IntArray) -> None:
     """Compare the points that curves list with those whose roles say that they define them."""
     side, row = np.nonzero(state.rows.reader.data.T >= 0)
-    by_role = sorted(zip(row.tolist(), state.rows.reader.data[row, side].tolist(), strict=True))
+    by_role = sorted(zip(row.tolist(), state.rows.reader[row, side].tolist(), strict=True))
     by_list = sorted(zip(rows.tolist(), curves.tolist(), strict=True))
     if by_role == by_list:
         return
     odd = sorted(set(by_role) ^ set(by_list)) or [
         pair for pair, after in pairwise(by_list) if pair == after
     ]
-    point, curve = state.rows.key.data[odd[0][0]], state.curves.key.data[odd[0][1]]
+    point, curve = state.rows.key[odd[0][0]], state.curves.key[odd[0][1]]
     raise contradiction(
         f"{point!r} does not define {curve!r} just once, as its role says", "in the curves"
     )
@@ -410,7 +425,7 @@ def put_meetings(
     """
     order = meet_order(state)
     for number, curve in enumerate(curves):
-        group = int(state.lines.group.data[state.line_of(number)])
+        group = int(state.lines.group[state.line_of(number)])
         place = {line: index for index, line in enumerate(order.get(group, []))}
         parts: list[tuple[int, int, list[list[Any]]]] = []
         for key, met in curve["meets"].items():
@@ -452,20 +467,20 @@ def check_meetings(state: HullState) -> None:
     table = state.rows
     met = np.zeros((table.count, 2), bool)
     for curve in state.live("curves").tolist():
-        meets: CurveIntersections = state.curves.meets.data[curve]
+        meets: CurveIntersections = state.curves.meets[curve]
         actual = np.flatnonzero(meets.row >= 0)
         rows = meets.row[actual]
-        side = (table.curve.data[rows, 0] != curve).astype(np.int64)
-        other = table.curve.data[rows, 1 - side]
-        fits = table.sort.data[rows] == Sort.CROSSING
-        fits &= (table.curve.data[rows, side] == curve) & (other >= 0)
-        fits &= state.curves.line.data[np.maximum(other, 0)] == meets.line[actual]
+        side = (table.curve[rows, 0] != curve).astype(np.int64)
+        other = table.curve[rows, 1 - side]
+        fits = table.sort[rows] == Sort.CROSSING
+        fits &= (table.curve[rows, side] == curve) & (other >= 0)
+        fits &= state.curves.line[np.maximum(other, 0)] == meets.line[actual]
         fits &= np.bincount(rows, minlength=table.count)[rows] == 1
         if not fits.all():
-            key = table.key.data[int(rows[~fits][0])]
+            key = table.key[int(rows[~fits][0])]
             raise contradiction(
                 f"{key!r} is no crossing there, or stands twice",
-                f"at {state.curves.key.data[curve]!r}",
+                f"at {state.curves.key[curve]!r}",
             )
         met[rows, side] = True
     _check_needed(state, met)
@@ -480,8 +495,8 @@ def _check_needed(state: HullState, met: np.typing.NDArray[np.bool_]) -> None:
     need[crossing & (table.role.data == Role.DRIVES_A), 1] = True
     need[crossing & (table.role.data == Role.WATCHED)] = True
     for row, side in np.argwhere(need & ~met).tolist():
-        curve = state.curves.key.data[int(table.curve.data[row, side])]
-        raise contradiction(f"{table.key.data[row]!r} has no meeting on {curve!r}", "in the curves")
+        curve = state.curves.key[int(table.curve[row, side])]
+        raise contradiction(f"{table.key[row]!r} has no meeting on {curve!r}", "in the curves")
 
 
 def put_places(
@@ -497,13 +512,13 @@ def put_places(
     BadInputError
         If they are not as many as the intersections, line by line.
     """
-    meets: CurveIntersections = state.curves.meets.data[curve]
-    keys = [state.lines.key.data[line] for line in meets.line.tolist()]
+    meets: CurveIntersections = state.curves.meets[curve]
+    keys = [state.lines.key[line] for line in meets.line.tolist()]
     counts = {key: len(places) for key, places in met.items()}
     if counts != {key: keys.count(key) for key in keys}:
         raise contradiction(
             f"there are places for {sum(counts.values())} meetings, and {len(keys)} meetings",
-            f"at {state.curves.key.data[curve]!r}",
+            f"at {state.curves.key[curve]!r}",
         )
     spots = np.array([spot for key in dict.fromkeys(keys) for spot in met[key]], np.float64)
     spots = spots.reshape(-1, 4)
@@ -517,8 +532,8 @@ def _write_spots(state: HullState, journal: Journal, curve: int, meets: CurveInt
     actual = meets.row >= 0
     rows: IntArray = meets.row[actual]
     table = state.rows
-    side = (table.curve.data[rows, 0] != curve).astype(np.int64)
-    spot, at = table.spot.data[rows].copy(), table.parameter.data[rows].copy()
+    side = (table.curve[rows, 0] != curve).astype(np.int64)
+    spot, at = table.spot[rows].copy(), table.parameter[rows].copy()
     spot[np.arange(len(rows)), side] = meets.xyz[actual]
     at[np.arange(len(rows)), side] = meets.parameter[actual]
     journal.put(table.spot, rows, spot)
@@ -669,12 +684,11 @@ def _check_births(state: HullState) -> None:
     """Require that no crossing has a higher number than were ever born of its two lines."""
     table, keys = state.rows, state.lines.key.data
     for row in np.flatnonzero(table.sort.data == Sort.CROSSING).tolist():
-        pair = tuple(keys[state.line_of(curve)] for curve in table.curve.data[row].tolist())
-        if table.birth.data[row] > state.births.get(pair, 0):
+        a, b = (keys[state.line_of(curve)] for curve in table.curve[row].tolist())
+        pair = a, b
+        if table.birth[row] > state.births.get(pair, 0):
             count = state.births.get(pair, 0)
-            raise contradiction(
-                f"its lines bore {count} crossings only", f"at {table.key.data[row]!r}"
-            )
+            raise contradiction(f"its lines bore {count} crossings only", f"at {table.key[row]!r}")
 
 
 def _retire(state: HullState, journal: Journal, gone: Record) -> None:

@@ -20,7 +20,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Collection, Iterator, Mapping
-from typing import Any
 
 import numpy as np
 
@@ -108,9 +107,7 @@ def fingerprint_parts(
 
 def _settings(state: HullState, order: CanonicalOrder) -> list[object]:
     """Give the parts of a definition that hold texts and counts only."""
-    names = [
-        (state.groups.name.data[i], state.groups.family.data[i]) for i in order.groups.tolist()
-    ]
+    names = [(state.groups.name[i], state.groups.family[i]) for i in order.groups.tolist()]
     return [names, association_records(state), birth_records(state), retired_keys(state)]
 
 
@@ -158,7 +155,7 @@ class FingerprintCache:
     def take(self) -> str:
         """Give the fingerprint of the tables as they are now; see `definition.fingerprint`."""
         digest = hashlib.sha256()
-        self._meets = [self.state.curves.meets.data[curve] for curve in self.order.curves.tolist()]
+        self._meets = [self.state.curves.meets[curve] for curve in self.order.curves.tolist()]
         self._splines = [self.state.spline(curve) for curve in self.order.curves.tolist()]
         for part in self._parts:
             digest.update(part if isinstance(part, bytes) else column_bytes(part[0], part[1]()))
@@ -179,16 +176,16 @@ class FingerprintCache:
         }
 
     def _xyz(self) -> FloatArray:
-        found: FloatArray = self.state.rows.xyz.data[self.order.rows]
+        found: FloatArray = self.state.rows.xyz[self.order.rows]
         return found
 
     def _gap(self) -> FloatArray:
-        return np.where(self._watched, self.state.rows.gap.data[self.order.rows], 0.0)
+        return np.where(self._watched, self.state.rows.gap[self.order.rows], 0.0)
 
-    def _met(self, name: str, width: int) -> Any:
+    def _met(self, name: str, width: int) -> FloatArray:
         return _join([getattr(each, name) for each in self._meets], width)[self._turn]
 
-    def _spline(self, name: str, width: int) -> Any:
+    def _spline(self, name: str, width: int) -> FloatArray:
         return _join([getattr(each, name) for each in self._splines], width)
 
 

@@ -145,7 +145,7 @@ def definition(state: HullState) -> dict[str, object]:
         "particulars": plain_fields(state.particulars),
         "tolerances": plain_fields(state.tolerances),
         "groups": [
-            {"name": state.groups.name.data[i], "family": state.groups.family.data[i]}
+            {"name": state.groups.name[i], "family": state.groups.family[i]}
             for i in order.groups.tolist()
         ],
         "associations": association_records(state),
@@ -267,13 +267,13 @@ class _Keys:
     order: CanonicalOrder
 
     def row(self, place: int) -> str:
-        return str(self.state.rows.key.data[self.order.rows[place]])
+        return str(self.state.rows.key[self.order.rows[place]])
 
     def curve(self, place: int) -> str:
-        return str(self.state.curves.key.data[self.order.curves[place]])
+        return str(self.state.curves.key[self.order.curves[place]])
 
     def line(self, place: int) -> str:
-        return str(self.state.lines.key.data[self.order.lines[place]])
+        return str(self.state.lines.key[self.order.lines[place]])
 
 
 def _shape(state: HullState, curve: int, *, with_xyz: bool = False) -> Record:
@@ -347,8 +347,8 @@ def published(state: HullState) -> dict[str, object]:
     met = _places_met(state, order)
     curves: Record = {}
     for number in order.curves.tolist():
-        key = state.curves.key.data[number]
-        if state.curves.state.data[number] == State.CLEAN:
+        key = state.curves.key[number]
+        if state.curves.state[number] == State.CLEAN:
             curves[key] = {**_shape(state, number), "meets": met.get(key, {})}
     return {"curves": curves, "points": dict(_values(state, order))}
 

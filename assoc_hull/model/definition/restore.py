@@ -24,7 +24,8 @@ from assoc_hull.model.generated_curves import unmade_rows
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import State
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import HullState, curve_node, row_node
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState
 
 __all__ = [
     "from_definition",
@@ -90,13 +91,13 @@ def put_published(state: HullState, journal: Journal, published: Record) -> None
     clean = [
         number
         for number in state.live("curves").tolist()
-        if state.curves.state.data[number] == State.CLEAN
+        if state.curves.state[number] == State.CLEAN
     ]
-    keys = {state.curves.key.data[number]: number for number in clean}
+    keys = {state.curves.key[number]: number for number in clean}
     _same("curves", set(keys), set(published["curves"]))
     for key, number in keys.items():
         shape = published["curves"][key]
-        spline = spline_of(shape, state.rows.xyz.data[state.curves.rows.data[number]], key)
+        spline = spline_of(shape, state.rows.xyz[state.curves.rows[number]], key)
         journal.set(state.curves.spline, [number], [spline])
         put_places(state, journal, number, shape["meets"])
 
@@ -110,7 +111,7 @@ def _put_values(state: HullState, journal: Journal, points: Record) -> None:
         ("gap", lists["watched"], state.rows.gap),
     ):
         rows = order.rows[needed]
-        keys = [state.rows.key.data[row] for row in rows.tolist()]
+        keys = [state.rows.key[row] for row in rows.tolist()]
         _same(f"points with a {name}", set(keys), {k for k, each in points.items() if name in each})
         if keys:
             journal.put(column, rows, [points[key][name] for key in keys])
@@ -201,19 +202,19 @@ def _rebuild(state: HullState, journal: Journal) -> list[str]:
     watched = watched_on(state, state.live("curves"))
     if len(watched):
         journal.put(state.rows.gap, watched, gap_at(state, watched))
-        journal.put(state.rows.xyz, watched, state.rows.spot.data[watched, 0])
-    return [str(state.curves.key.data[each.curve]) for each in network.realigned]
+        journal.put(state.rows.xyz, watched, state.rows.spot[watched, 0])
+    return [str(state.curves.key[each.curve]) for each in network.realigned]
 
 
 def _all_nodes(state: HullState) -> IntArray:
     """Give every curve, computed, riding and generated point that is up to date."""
     rows, curves = state.live("rows"), state.live("curves")
     table = state.rows
-    made = (table.driver.data[rows] >= 0) | (table.anchor.data[rows] >= 0).any(axis=1)
+    made = (table.driver[rows] >= 0) | (table.anchor[rows] >= 0).any(axis=1)
     made |= ~unmade_rows(state, rows)
-    rows = rows[made & (table.state.data[rows] == State.CLEAN)]
-    curves = curves[state.curves.state.data[curves] == State.CLEAN]
-    return np.concatenate([row_node(rows), curve_node(curves)])
+    rows = rows[made & (table.state[rows] == State.CLEAN)]
+    curves = curves[state.curves.state[curves] == State.CLEAN]
+    return np.concatenate([Node.point(rows), Node.curve(curves)])
 
 
 def _by_level(network: HullNetwork, nodes: IntArray) -> list[IntArray]:
@@ -226,6 +227,6 @@ def _by_level(network: HullNetwork, nodes: IntArray) -> list[IntArray]:
 def _settle_spots(state: HullState, journal: Journal) -> None:
     """Store the crossing itself as its place on a curve that has no intersection there."""
     rows = state.live("rows")
-    spot, xyz = state.rows.spot.data[rows], state.rows.xyz.data[rows]
-    unknown = np.isnan(spot) & (state.rows.curve.data[rows] >= 0)[:, :, None]
+    spot, xyz = state.rows.spot[rows], state.rows.xyz[rows]
+    unknown = np.isnan(spot) & (state.rows.curve[rows] >= 0)[:, :, None]
     journal.put(state.rows.spot, rows, np.where(unknown, xyz[:, None, :], spot))

@@ -89,7 +89,7 @@ def _points(state: HullState, other: HullState, relative: float) -> Iterator[Dif
         for place in np.flatnonzero(_odd(mine, theirs)).tolist():
             amount = _apart(np.atleast_1d(mine[place]), np.atleast_1d(theirs[place]), relative)
             if amount is not None:
-                yield Difference(state.rows.key.data[order.rows[place]], field, amount)
+                yield Difference(state.rows.key[order.rows[place]], field, amount)
 
 
 def _odd(one: FloatArray, other: FloatArray) -> np.typing.NDArray[np.bool_]:
@@ -112,7 +112,7 @@ def _links(state: HullState, other: HullState) -> Iterator[Difference]:
         two = theirs.curve[getattr(other.rows, field).data[theirs.rows]]
         odd = (one != two).any(axis=1) if one.ndim > 1 else one != two
         for place in np.flatnonzero(odd).tolist():
-            yield Difference(state.rows.key.data[mine.rows[place]], field, float("inf"))
+            yield Difference(state.rows.key[mine.rows[place]], field, float("inf"))
 
 
 def _curves(state: HullState) -> Iterator[tuple[tuple[str, str], FloatArray]]:
@@ -121,7 +121,7 @@ def _curves(state: HullState) -> Iterator[tuple[tuple[str, str], FloatArray]]:
     met = {name: np.asarray(part) for name, part in meet_columns(state, order).items()}
     first = np.searchsorted(met["owner"], np.arange(len(order.curves) + 1)).tolist()
     for place, number in enumerate(order.curves.tolist()):
-        key, spline = str(state.curves.key.data[number]), state.spline(number)
+        key, spline = str(state.curves.key[number]), state.spline(number)
         for name in ("knot", "xyz", "leave", "arrive"):
             yield (key, f"spline.{name}"), getattr(spline, name)
         for name in ("parameter", "xyz"):

@@ -74,7 +74,7 @@ def drive_links(hull: HasState | HullState) -> tuple[DriveLink, ...]:
     node: dict[int, CurveNode] = {}
     for curve in state.live("curves").tolist():
         line = state.line_of(curve)
-        offset = float(state.lines.offset.data[line])
+        offset = float(state.lines.offset[line])
         node[curve] = CurveNode(book.curve_name(curve), state.family(line).name, offset)
     counts: dict[tuple[int, int], list[int]] = {}
     for tail, head, shared in _links(state):
@@ -86,8 +86,8 @@ def _links(state: HullState) -> Iterator[tuple[int, int, int]]:
     """Give tail, head, and whether the crossing is shared, for each crossing that counts."""
     table = state.rows
     for row in state.live("rows").tolist():
-        driver = int(table.driver.data[row])
-        readers = table.reader.data[row][table.reader.data[row] >= 0].tolist()
+        driver = int(table.driver[row])
+        readers = table.reader[row][table.reader[row] >= 0].tolist()
         if driver >= 0:
             yield from ((driver, reader, 0) for reader in readers)
         elif len(readers) == 2:

@@ -216,37 +216,35 @@ def drawing(hull: Drawable) -> Drawing:
 def _crossings(state: HullState, book: AddressBook) -> PlotCrossings:
     """Take the crossings where both curves pass and their tangents differ."""
     table, rows = state.rows, state.live("rows")
-    rows = rows[
-        (table.curve.data[rows, 1] >= 0) & np.isfinite(table.parameter.data[rows]).all(axis=1)
-    ]
-    curve, at = table.curve.data[rows], table.parameter.data[rows]
+    rows = rows[(table.curve[rows, 1] >= 0) & np.isfinite(table.parameter[rows]).all(axis=1)]
+    curve, at = table.curve[rows], table.parameter[rows]
     normal = crossing_normals(*(tangents(state, curve[:, i], at[:, i]) for i in (0, 1)))
     known = (normal != 0.0).any(axis=1)
     rows, normal = rows[known], normal[known]
     name = {line: book.line_name(line) for line in state.live("lines").tolist()}
-    lines = state.curves.line.data[table.curve.data[rows]]
+    lines = state.curves.line[table.curve[rows]]
     return PlotCrossings(
-        tuple(table.key.data[row] for row in rows.tolist()),
+        tuple(table.key[row] for row in rows.tolist()),
         tuple((name[a], name[b]) for a, b in lines.tolist()),
-        table.spot.data[rows].mean(axis=1),
+        table.spot[rows].mean(axis=1),
         normal,
     )
 
 
 def _drawn(state: HullState, book: AddressBook, line: int) -> PlotLine:
     table, family = state.lines, state.family(line)
-    boundary = int(table.boundary.data[line])
+    boundary = int(table.boundary[line])
     splines = tuple(state.spline(curve) for curve in state.curves_of(line))
     chords = CHORDS if boundary < 0 else 4 * CHORDS
-    normal = table.normal.data[line].copy()
-    flat = bool(table.planar.data[line])
+    normal = table.normal[line].copy()
+    flat = bool(table.planar[line])
     return PlotLine(
         book.line_name(line),
-        short_name(str(table.name.data[line]), family.prefix),
+        short_name(str(table.name[line]), family.prefix),
         family.name,
         None if boundary < 0 else BoundaryKind(boundary),
         normal if flat else np.full(3, np.nan),
-        float(table.offset.data[line]) if flat else float("nan"),
+        float(table.offset[line]) if flat else float("nan"),
         splines,
         tuple(sample(spline, chords)[1] for spline in splines),
     )

@@ -118,7 +118,7 @@ def length_of(state: HullState) -> float:
     >>> length_of(ah.examples.wigley().state)
     100.0
     """
-    x = state.rows.xyz.data[state.live("rows"), 0]
+    x = state.rows.xyz[state.live("rows"), 0]
     stated, drawn = state.particulars.length, float(np.ptp(x))
     return stated if 0.5 * stated <= drawn <= 2.0 * stated else drawn
 

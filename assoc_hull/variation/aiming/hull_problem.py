@@ -244,6 +244,6 @@ def _same_structure(one: HullState, other: HullState) -> bool:
     same &= (one.rows.role.data == other.rows.role.data).all()
     same &= (one.rows.driver.data == other.rows.driver.data).all()
     return bool(same) and all(
-        np.array_equal(one.curves.rows.data[curve], other.curves.rows.data[curve])
+        np.array_equal(one.curves.rows[curve], other.curves.rows[curve])
         for curve in one.live("curves").tolist()
     )

@@ -117,9 +117,9 @@ def apply_map(
 
 def _names(state: HullState, lines: Sequence[int]) -> tuple[str, ...]:
     """Give the names of driving lines, with all boundary curves, in the order of their keys."""
-    boundary = state.live("lines")[state.lines.boundary.data[state.live("lines")] >= 0]
-    every = sorted({*lines, *boundary.tolist()}, key=lambda line: str(state.lines.key.data[line]))
-    return tuple(str(state.lines.name.data[line]) for line in every)
+    boundary = state.live("lines")[state.lines.boundary[state.live("lines")] >= 0]
+    every = sorted({*lines, *boundary.tolist()}, key=lambda line: str(state.lines.key[line]))
+    return tuple(str(state.lines.name[line]) for line in every)
 
 
 def carry_out(

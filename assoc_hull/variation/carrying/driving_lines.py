@@ -118,7 +118,7 @@ def find_kept_planes(state: HullState, space: SpaceMap) -> KeptPlanes:
     """
     curves = state.live("curves")
     start, xyz = sample(SplineBatch.join([state.spline(c) for c in curves.tolist()]), _SAMPLES)
-    line = np.repeat(state.curves.line.data[curves], np.diff(start))
+    line = np.repeat(state.curves.line[curves], np.diff(start))
     slope, image = space.jacobians(xyz), space.places(xyz)
     moved = np.abs(image - xyz) > IN_PLANE
     bent, gone = np.zeros((state.lines.count, 3), bool), np.zeros((state.lines.count, 3), bool)
@@ -151,9 +151,9 @@ def planes_go(state: HullState, space: SpaceMap) -> bool:
     """
     for line in state.live("lines").tolist():
         axis = state.family(line).axis
-        if axis is None or axis == 0 or state.lines.boundary.data[line] >= 0:
+        if axis is None or axis == 0 or state.lines.boundary[line] >= 0:
             continue
-        splines = [state.spline(curve) for curve in state.lines.curves.data[line]]
+        splines = [state.spline(curve) for curve in state.lines.curves[line]]
         xyz = space.places(sample(SplineBatch.join(splines), _SAMPLES)[1])
         if not mostly_in_one_plane(np.sort(xyz[:, axis])):
             return False
@@ -184,7 +184,7 @@ def default_drivers(
     chosen = list[int]()
     for line in state.live("lines").tolist():
         axis = state.family(line).axis
-        if axis is None or state.lines.boundary.data[line] >= 0:
+        if axis is None or state.lines.boundary[line] >= 0:
             continue
         may = stations == "number" if axis == 0 else follow
         if kept.plane[line, axis] and (may or kept.place[line, axis]):
@@ -260,8 +260,8 @@ def section_planes(state: HullState, layers: Iterable[Layer]) -> dict[int, float
     """
     lines = [
         line for line in state.live("lines").tolist()
-        if state.family(line).axis == 0 and state.lines.boundary.data[line] < 0
-        and state.lines.planar.data[line]
+        if state.family(line).axis == 0 and state.lines.boundary[line] < 0
+        and state.lines.planar[line]
     ]  # fmt: skip
-    after = stations_along(layers, state.lines.offset.data[lines])
+    after = stations_along(layers, state.lines.offset[lines])
     return dict(zip(lines, after.tolist(), strict=True))

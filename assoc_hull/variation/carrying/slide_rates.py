@@ -33,7 +33,7 @@ def curve_bending(state: HullState) -> FloatArray:
     found, curves = np.zeros(state.rows.count), state.live("curves").tolist()
     batch = SplineBatch.join([state.spline(curve) for curve in curves])
     bend = np.sqrt((curvature(batch) ** 2).sum(axis=1))
-    rows = np.concatenate([state.curves.rows.data[curve] for curve in curves])
+    rows = np.concatenate([state.curves.rows[curve] for curve in curves])
     np.maximum.at(found, rows, np.nan_to_num(bend))
     return found
 
@@ -69,9 +69,9 @@ class SlideSurface:
     def of(cls, state: HullState, lines: IntArray) -> SlideSurface:
         """Take it from the tables of a hull; `lines` (d,) are carried exactly."""
         curve = state.rows.curve.data
-        line = np.where(curve >= 0, state.curves.line.data[curve], -1)
-        held = (line >= 0) & state.lines.planar.data[line]
-        plane = np.where(held[..., None], state.lines.normal.data[line], 0.0)
+        line = np.where(curve >= 0, state.curves.line[curve], -1)
+        held = (line >= 0) & state.lines.planar[line]
+        plane = np.where(held[..., None], state.lines.normal[line], 0.0)
         drives = (line >= 0) & np.isin(line, lines)
         return cls(line, held, plane, curve_tangents(state), drives, np.array(hull_normals(state)))
 

@@ -82,14 +82,14 @@ def _given(state: HullState) -> dict[int, list[tuple[int, FloatArray]]]:
     """Give the directions that are given at points and ends of curves, each with its side."""
     table, found = state.rows, dict[int, list[tuple[int, FloatArray]]]()
     for side in (0, 1):
-        there = table.alive.data & table.direction.data[:, side].any(axis=1)
+        there = table.alive.data & table.direction[:, side].any(axis=1)
         for row in np.flatnonzero(there).tolist():
-            found.setdefault(row, []).append((side, table.direction.data[row, side]))
+            found.setdefault(row, []).append((side, table.direction[row, side]))
     for curve in state.live("curves").tolist():
-        ends: Ends = state.curves.ends.data[curve]
+        ends: Ends = state.curves.ends[curve]
         for at in (0, 1):
             if ends.kind[at] == EndKind.TANGENT:
-                row = int(state.curves.rows.data[curve][-at])
-                side = int(table.curve.data[row, 0] != curve)
+                row = int(state.curves.rows[curve][-at])
+                side = int(table.curve[row, 0] != curve)
                 found.setdefault(row, []).append((side, np.array(ends.vector[at])))
     return found

@@ -182,7 +182,7 @@ def velocities(
     rows = nudged(state)
     return Velocities(
         move, carried, turn, level, sizes, tuple(features), rows, curve_bending(state)[rows],
-        source[rows], state.rows.xyz.data[rows].copy(),
+        source[rows], state.rows.xyz[rows].copy(),
     )  # fmt: skip
 
 
@@ -236,7 +236,7 @@ def _sources(state: HullState, parent: HullState, here: LaidMap) -> FloatArray:
     old = live[live < parent.rows.count]
     places: FloatArray = state.rows.xyz.data
     found = places.copy()
-    source = parent.rows.xyz.data[old]
+    source = parent.rows.xyz[old]
     went = np.abs(here.map(source) - places[old]).max(axis=1) <= _SAME
     found[old[went]] = source[went]
     rest = np.setdiff1d(live, old[went])
@@ -285,7 +285,7 @@ def _levels(
     found[~(table.alive.data & table.planar.data)] = 0.0
     for line in np.flatnonzero(table.alive.data & table.planar.data & ~parallel).tolist():
         mine = carried[(ground.line == line).any(axis=1)]
-        found[line] = np.median((mine * table.normal.data[line]).sum(axis=1))
+        found[line] = np.median((mine * table.normal[line]).sum(axis=1))
     return found
 
 

@@ -164,7 +164,7 @@ class _Laid:
     def of(cls, parent: HullState, old: int, variant: HullState, new: int) -> _Laid:
         """Take a line of both hulls by its numbers."""
         plane = _plane(parent, old, variant, new)
-        back = np.zeros(3) if plane is None else plane * variant.lines.normal.data[new]
+        back = np.zeros(3) if plane is None else plane * variant.lines.normal[new]
         after = [_moved(spline, -back) for spline in _splines(variant, new)]
         return cls(_splines(parent, old), after, plane, back)
 
@@ -186,11 +186,11 @@ def _splines(state: HullState, line: int) -> list[SplineBatch]:
 def _plane(parent: HullState, old: int, variant: HullState, new: int) -> float | None:
     """Give how far a plane went along its normal, m; None if it turned, or there is none."""
     was, now = parent.lines, variant.lines
-    if not (was.planar.data[old] and now.planar.data[new]):
+    if not (was.planar[old] and now.planar[new]):
         return None
-    if np.abs(was.normal.data[old] - now.normal.data[new]).max() > _TURNED:
+    if np.abs(was.normal[old] - now.normal[new]).max() > _TURNED:
         return None
-    return float(now.offset.data[new] - was.offset.data[old])
+    return float(now.offset[new] - was.offset[old])
 
 
 def _moved(spline: SplineBatch, by: FloatArray) -> SplineBatch:
@@ -311,15 +311,15 @@ class _Side:
         """Count the points that define a line."""
         if name is None:
             return 0
-        rows = [self.state.curves.rows.data[c] for c in self.state.curves_of(self.lines[name])]
+        rows = [self.state.curves.rows[c] for c in self.state.curves_of(self.lines[name])]
         return len(np.unique(np.concatenate(rows)))
 
     def fair(self, name: str | None) -> LineFairness | None:
         return None if name is None else self.fairness[_key(self.state, self.lines[name])]
 
     def group(self, name: str) -> str:
-        group = int(self.state.lines.group.data[self.lines[name]])
-        return str(self.state.groups.name.data[group])
+        group = int(self.state.lines.group[self.lines[name]])
+        return str(self.state.groups.name[group])
 
 
 def _line(
@@ -345,7 +345,7 @@ def _by_name(state: HullState) -> dict[str, int]:
 
 
 def _key(state: HullState, line: int) -> str:
-    return str(state.lines.key.data[line])
+    return str(state.lines.key[line])
 
 
 def _pairs(

@@ -200,7 +200,7 @@ def measure_fairness(
     wanted = state.live("lines").tolist() if lines is None else [int(line) for line in lines]
     for line in wanted:
         # A negative number would count from the end of the table.
-        if not 0 <= line < table.count or not table.alive.data[line]:
+        if not 0 <= line < table.count or not table.alive[line]:
             what = f"there is no line {line}"
             raise BadInputError(what, "in measure_fairness", "give numbers of live lines")
     curves = [(line, curve) for line in wanted for curve in state.curves_of(line)]
@@ -217,8 +217,8 @@ def measure_fairness(
     owner = np.array([place[line] for line, _, _ in seen])
     found = _summed(batch, normals, owner, band)
     return {
-        str(table.key.data[line]): LineFairness(
-            str(table.key.data[line]), str(table.name.data[line]), views[line], *each
+        str(table.key[line]): LineFairness(
+            str(table.key[line]), str(table.name[line]), views[line], *each
         )
         for line, each in zip(wanted, found, strict=True)
     }
@@ -237,12 +237,12 @@ def _summed(
 
 def _views(state: HullState, line: int, like: Mapping[str, LineFairness]) -> FloatArray:
     """Give the normals of the planes in which a line is seen."""
-    parent = like.get(str(state.lines.key.data[line]))
+    parent = like.get(str(state.lines.key[line]))
     if parent is not None:
         return parent.views
-    if not state.lines.planar.data[line]:
+    if not state.lines.planar[line]:
         return _VIEWS
-    normal: FloatArray = state.lines.normal.data[line][None].copy()
+    normal: FloatArray = state.lines.normal[line][None].copy()
     return normal
 
 

@@ -92,7 +92,7 @@ def _addresses(state: HullState, rows: list[int]) -> tuple[str, ...]:
 
 
 def _counts(state: HullState) -> Mapping[str, int]:
-    sort = state.rows.sort.data[state.live("rows")]
+    sort = state.rows.sort[state.live("rows")]
     return MappingProxyType({each.name.lower(): int((sort == each).sum()) for each in Sort})
 
 

@@ -358,7 +358,7 @@ def pull_through(
     if pins is not None:
         wanted = np.concatenate([wanted, places(pins, "pins", "in pull_through")])
     data = curve_data(state, np.array([number]))
-    rows: list[int] = state.curves.rows.data[number].tolist()
+    rows: list[int] = state.curves.rows[number].tolist()
     stays = {each.row for each in all_of(fixed, Point, "fixed", "in pull_through")}
     motions = _motions(state, [-1 if row in stays else row for row in rows])
     if not len(motions):
@@ -388,10 +388,10 @@ def _motions(state: HullState, rows: Sequence[int]) -> FloatArray:
 def _directions(state: HullState, row: int) -> FloatArray:
     """Give orthogonal unit directions in which a point may move, (f, 3)."""
     table = state.rows
-    if row < 0 or (table.sort.data[row] == Sort.CROSSING and table.role.data[row] != Role.SHARED):
+    if row < 0 or (table.sort[row] == Sort.CROSSING and table.role[row] != Role.SHARED):
         return np.zeros((0, 3))
-    lines = [state.line_of(curve) for curve in table.curve.data[row].tolist() if curve >= 0]
-    normals = [state.lines.normal.data[line] for line in lines if state.lines.planar.data[line]]
+    lines = [state.line_of(curve) for curve in table.curve[row].tolist() if curve >= 0]
+    normals = [state.lines.normal[line] for line in lines if state.lines.planar[line]]
     if not normals:
         return np.eye(3)
     # the normals of the planes span what is forbidden; the rest of a full basis is free

@@ -387,8 +387,8 @@ def _between(state: HullState, feature: Feature) -> _Between | None:
     curve, normal = host_curve(state, feature), feature.normal
     if curve < 0 or normal is None or feature.centre is None or feature.radius is None:
         return None
-    rows = state.curves.rows.data[curve].tolist()
-    xyz = state.rows.xyz.data[rows]
+    rows = state.curves.rows[curve].tolist()
+    xyz = state.rows.xyz[rows]
     first, last = (rows.index(feature.points[i]) for i in (0, -1))
     # from the bottom up, whichever way the curve runs
     if xyz[first, 2] > xyz[last, 2]:

@@ -194,9 +194,9 @@ def _touches(work: TransformationState, curve: int, circle: SpaceCircle) -> list
     state, planes = work.state, work.planes
     line = state.lines
     lines = state.live("lines")
-    lines = lines[~work.driver[lines] & planes.planar[lines] & (line.boundary.data[lines] < 0)]
+    lines = lines[~work.driver[lines] & planes.planar[lines] & (line.boundary[lines] < 0)]
     found: list[PlaneTangency] = []
-    for each in sorted(lines.tolist(), key=lambda number: str(line.key.data[number])):
+    for each in sorted(lines.tolist(), key=lambda number: str(line.key[number])):
         place = tangent_point(circle, planes.normal[each], float(planes.offset[each]))
         if place is not None and _within(work, curve, place):
             found.append(PlaneTangency(curve, each, place))
@@ -205,7 +205,7 @@ def _touches(work: TransformationState, curve: int, circle: SpaceCircle) -> list
 
 def _within(work: TransformationState, curve: int, place: FloatArray) -> bool:
     """Tell whether a place of a circle is one of the curve, and none of its ends."""
-    rows = work.state.curves.rows.data[curve]
+    rows = work.state.curves.rows[curve]
     image = work.image[rows]
     step = np.sqrt(((image - place) ** 2).sum(axis=1))
     if min(step[0], step[-1]) <= _END:

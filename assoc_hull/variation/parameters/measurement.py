@@ -201,7 +201,7 @@ class DrawnCurves:
 
     def keys(self, curves: Iterable[int]) -> tuple[str, ...]:
         """Give the keys of curves."""
-        return tuple(str(self.state.curves.key.data[self.net.curve[i]]) for i in curves)
+        return tuple(str(self.state.curves.key[self.net.curve[i]]) for i in curves)
 
     def across(self, curves: Iterable[int], axis: int, value: float) -> PointsOnCurves:
         """Give where curves have an x (axis 0), y or z, m; `curve` counts in `curves`."""

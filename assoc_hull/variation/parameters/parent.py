@@ -130,7 +130,7 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
     """
     found = measure_all(state) if measures is None else measures
     ship = state.particulars
-    every = state.rows.xyz.data[state.live("rows")]
+    every = state.rows.xyz[state.live("rows")]
     places = dict[str, FloatArray]()
     for anchor in found.anchors.values():
         if anchor.value is not None:
@@ -236,7 +236,7 @@ def _terminals(state: HullState) -> dict[str, FloatArray]:
     found = list[FloatArray]()
     for curve in state.live("curves").tolist():
         if boundary[state.line_of(curve)]:
-            xyz = state.rows.xyz.data[state.curves.rows.data[curve]]
+            xyz = state.rows.xyz[state.curves.rows[curve]]
             if len(xyz) and bool((np.abs(xyz[:, 1]) <= _LEVEL).all()):
                 found.append(xyz)
     aft, fore = 0.0, length

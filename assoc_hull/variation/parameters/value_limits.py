@@ -142,7 +142,7 @@ _LARGEST = 1e6
 
 def hull_box(state: HullState, tolerance: float) -> FloatArray:
     """Give the box of a hull, both sides, grown by a tolerance: (2, 3), m."""
-    xyz = state.rows.xyz.data[state.live("rows")]
+    xyz = state.rows.xyz[state.live("rows")]
     low, high = xyz.min(axis=0) - tolerance, xyz.max(axis=0) + tolerance
     low[1] = -high[1]
     return np.array([low, high])

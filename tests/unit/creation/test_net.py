@@ -53,15 +53,15 @@ def test_every_line_of_the_design_is_there(plain_ship: Hull) -> None:
 def test_points_of_sections_are_adopted_ones_between_two_contacts(plain_ship: Hull) -> None:
     """Nothing is placed: the designer has not drawn yet. Ends are driven by the boundary."""
     state = plain_ship.state
-    assert not (state.rows.sort.data[state.live("rows")] == Sort.PLACED).any()
+    assert not (state.rows.sort[state.live("rows")] == Sort.PLACED).any()
     for each in state.generated:
-        rows = state.curves.rows.data[each.curve]
+        rows = state.curves.rows[each.curve]
         assert each.attached
         assert set(each.rows) <= set(rows.tolist())
         if each.what != "section":
             continue
         assert tuple(rows[1:-1].tolist()) == each.rows
-        assert (state.rows.role.data[rows[[0, -1]]] == Role.DRIVES_B).all()
+        assert (state.rows.role[rows[[0, -1]]] == Role.DRIVES_B).all()
 
 
 def test_points_are_driven_one_way(plain_ship: Hull) -> None:
@@ -70,8 +70,8 @@ def test_points_are_driven_one_way(plain_ship: Hull) -> None:
     drawn = {each.curve for each in plain_ship.state.generated if each.what != "waterline"}
     state = plain_ship.state
     for curve in drawn:
-        rows = state.curves.rows.data[curve]
-        sort = state.rows.sort.data[rows]
+        rows = state.curves.rows[curve]
+        sort = state.rows.sort[rows]
         inner = sort[1:-1]
         assert (inner == Sort.ADOPTED).all()
 
@@ -108,8 +108,8 @@ def test_waterlines_run_straight_along_the_flat(plain_ship: Hull) -> None:
     state = plain_ship.state
     made = {each.curve: each for each in state.generated if each.what == "waterline"}
     for curve in plain_ship.lines["WL 5.4"].curves:
-        number = next(i for i in made if state.curves.key.data[i] == curve.id)
-        aft, fore = state.rows.xyz.data[list(made[number].rows)]
+        number = next(i for i in made if state.curves.key[i] == curve.id)
+        aft, fore = state.rows.xyz[list(made[number].rows)]
         assert aft[1] == fore[1] == 9.0
         met = intersect_planes(
             state.spline(number), np.array([1.0, 0.0, 0.0]), np.linspace(aft[0], fore[0], 40)[1:-1]

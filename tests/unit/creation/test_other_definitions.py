@@ -46,7 +46,7 @@ def test_a_change_that_keeps_the_order_is_made_at_once(ship: Hull) -> None:
     with ship.edit("a little flare") as edit:
         edit.set_form("waterline angle", FP_y=16.2)
     assert not any("new order" in note for note in ship.history[-1].notes)
-    assert np.array_equal(ship.state.rows.role.data[: len(roles)], roles)
+    assert np.array_equal(ship.state.rows.role[: len(roles)], roles)
     assert ship.check() == ()
 
 

@@ -97,9 +97,9 @@ def fold(state: HullState) -> None:
 def fold_through(state: HullState) -> None:
     """A curve through a point that lies far beyond the next ones: its tangent turns back."""
     curve = curve_of(state)
-    row, beyond = state.curves.rows.data[curve][[4, 6]].tolist()
-    put(state, "rows", "xyz", row, state.rows.xyz.data[beyond] + [-1.0, 0.0, 0.0])
-    shape_curves(state, state.rows.curve.data[row], {})
+    row, beyond = state.curves.rows[curve][[4, 6]].tolist()
+    put(state, "rows", "xyz", row, state.rows.xyz[beyond] + [-1.0, 0.0, 0.0])
+    shape_curves(state, state.rows.curve[row], {})
 
 
 def widen(state: HullState) -> None:
@@ -108,9 +108,9 @@ def widen(state: HullState) -> None:
     with Edit(document, "watch") as edit:
         edit.set_role(POINT, "watched")
     with Edit(document, "fill out") as edit:
-        x, y, _ = state.rows.xyz.data[row_of(state, "WL 2.5 @ adopted 1")].tolist()
+        x, y, _ = state.rows.xyz[row_of(state, "WL 2.5 @ adopted 1")].tolist()
         edit.move("WL 2.5 @ adopted 1", x=x, y=y + 0.005)
-    put(state, "rows", "limit", row_of(state), 0.5 * state.rows.gap.data[row_of(state)])
+    put(state, "rows", "limit", row_of(state), 0.5 * state.rows.gap[row_of(state)])
 
 
 def spoil_number(state: HullState) -> None:
@@ -120,28 +120,28 @@ def spoil_number(state: HullState) -> None:
 
 def lift(state: HullState) -> None:
     """A point out of its plane, off its curves."""
-    xyz = state.rows.xyz.data[row_of(state)] + np.array([0.0, 0.0, 1e-6])
+    xyz = state.rows.xyz[row_of(state)] + np.array([0.0, 0.0, 1e-6])
     put(state, "rows", "xyz", row_of(state), xyz)
 
 
 def slide(state: HullState) -> None:
     """A point in its planes, off its curves."""
-    xyz = state.rows.xyz.data[row_of(state)] + np.array([0.0, 1e-6, 0.0])
+    xyz = state.rows.xyz[row_of(state)] + np.array([0.0, 1e-6, 0.0])
     put(state, "rows", "xyz", row_of(state), xyz)
 
 
 def double(state: HullState) -> None:
     """Two points of one curve at one place."""
     curve, maker = curve_of(state), Maker(state, Journal())
-    rows = state.curves.rows.data[curve]
-    xyz = state.rows.xyz.data[rows[3]] + np.array([1e-8, 0.0, 0.0])
+    rows = state.curves.rows[curve]
+    xyz = state.rows.xyz[rows[3]] + np.array([1e-8, 0.0, 0.0])
     point = maker.points([PointSpec(curve, xyz, Sort.PLACED)])[0]
     maker.define(curve, np.insert(rows, 4, point))
 
 
 def unlink(state: HullState) -> None:
     """A shared crossing that only one of its curves reads."""
-    reader = state.rows.reader.data[row_of(state)].copy()
+    reader = state.rows.reader[row_of(state)].copy()
     reader[0] = -1
     put(state, "rows", "reader", row_of(state), reader)
 
@@ -160,7 +160,7 @@ def drive_nothing(state: HullState) -> None:
 def lose(state: HullState) -> None:
     """A crossing that a curve it defines does not know."""
     curve = curve_of(state)
-    rows = state.curves.rows.data[curve]
+    rows = state.curves.rows[curve]
     Maker(state, Journal()).define(curve, rows[rows != row_of(state)])
 
 
@@ -207,8 +207,8 @@ def ungroup(state: HullState) -> None:
 def ride_away(state: HullState) -> None:
     """A point that rides with one that has gone."""
     curve, maker = curve_of(state), Maker(state, Journal())
-    rows = state.curves.rows.data[curve]
-    middle = state.rows.xyz.data[rows[3:5]].mean(axis=0)
+    rows = state.curves.rows[curve]
+    middle = state.rows.xyz[rows[3:5]].mean(axis=0)
     made = maker.points([PointSpec(curve, middle, Sort.ADOPTED) for _ in range(2)])
     maker.define(curve, np.insert(rows, 4, made[0]))
     put(state, "rows", "anchor", int(made[0]), (int(made[1]), -1))
@@ -228,7 +228,7 @@ def cut_off(state: HullState) -> None:
 def meet_wrongly(state: HullState) -> None:
     """A curve that lists a crossing of two others among its meetings."""
     curve = curve_of(state, "ST 9")
-    meets = state.curves.meets.data[curve]
+    meets = state.curves.meets[curve]
     row = meets.row.copy()
     row[np.flatnonzero(row >= 0)[0]] = row_of(state)
     put_object(state, "curves", "meets", curve, attrs.evolve(meets, row=row))
@@ -237,10 +237,10 @@ def meet_wrongly(state: HullState) -> None:
 def forget(state: HullState) -> None:
     """A crossing that neither table nor curve knows any more, of groups that are associated."""
     row = row_of(state)
-    for curve in state.rows.curve.data[row].tolist():
+    for curve in state.rows.curve[row].tolist():
         make_latent(Maker(state, Journal()), curve, row)
-        rows = state.curves.rows.data[curve]
-        point = PointSpec(curve, state.rows.xyz.data[row].copy(), Sort.ADOPTED)
+        rows = state.curves.rows[curve]
+        point = PointSpec(curve, state.rows.xyz[row].copy(), Sort.ADOPTED)
         made = Maker(state, Journal()).points([point])[0]
         Maker(state, Journal()).define(curve, np.where(rows == row, made, rows))
     put(state, "rows", "alive", row, False)
@@ -294,7 +294,7 @@ def lead_astray(state: HullState) -> None:
 def list_astray(state: HullState) -> None:
     """A curve through a point whose number no table has."""
     curve = curve_of(state)
-    rows = state.curves.rows.data[curve].copy()
+    rows = state.curves.rows[curve].copy()
     rows[4] = FAR
     put_object(state, "curves", "rows", curve, rows)
 
@@ -302,7 +302,7 @@ def list_astray(state: HullState) -> None:
 def meet_astray(state: HullState) -> None:
     """A meeting that is a crossing whose number no table has."""
     curve = curve_of(state)
-    meets = state.curves.meets.data[curve]
+    meets = state.curves.meets[curve]
     row = meets.row.copy()
     row[2] = FAR
     put_object(state, "curves", "meets", curve, attrs.evolve(meets, row=row))
@@ -340,7 +340,7 @@ def unknown_family(state: HullState) -> None:
 
 def share_key(state: HullState) -> None:
     """Two points of one key."""
-    key = state.rows.key.data[row_of(state)]
+    key = state.rows.key[row_of(state)]
     put_object(state, "rows", "key", row_of(state, "WL 5 x ST 7"), key)
 
 

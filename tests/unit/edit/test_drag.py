@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from pathlib import Path
 
+import attrs
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -20,7 +21,7 @@ from assoc_hull.errors import (
     WrongTypeError,
 )
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.table import Table
+from assoc_hull.graph.table import NumberColumn, Table, numbers
 from tests.twins import packed, twin
 
 POINT = "WL 2.5 x ST 7"
@@ -243,10 +244,18 @@ def test_shapes_are_all_curves_in_one_batch() -> None:
         )
 
 
+@attrs.frozen(eq=False)
+class Towers(Table):
+    """Two columns of numbers."""
+
+    height: NumberColumn[np.float64] = numbers(np.float64)
+    side: NumberColumn[np.float64] = numbers(np.float64)
+
+
 @given(st.lists(st.sampled_from(["put", "grow", "undo"]), max_size=12))
 def test_the_number_of_a_write_comes_back_with_its_content(acts: list[str]) -> None:
     """A number of writes that was seen before stands for the same content, at any time."""
-    table = Table(height=(float, ()), side=(float, ()))
+    table = Towers()
     seen = dict[int, bytes]()
     journal, marks = Journal(), [0]
     for turn, act in enumerate(acts):

@@ -290,7 +290,7 @@ def test_a_point_off_its_feature_is_a_finding() -> None:
     """A file that other hands wrote may hold one."""
     hull = round_box()
     row = hull.features["ST 2 arc"].points[12].number
-    place = hull.state.rows.xyz.data[row] * [1.0, 1.0, 1.1]
+    place = hull.state.rows.xyz[row] * [1.0, 1.0, 1.1]
     Journal().put(hull.state.rows.xyz, [row], place[None])
     told = [each for each in hull.check() if each.kind == "feature"]
     assert [each.object for each in told] == ["ST 2 @ placed 13"]
@@ -304,9 +304,9 @@ def test_a_point_that_took_the_place_of_an_end_is_the_end_now(box: ah.Hull) -> N
     arc = next(each for each in state.features if each.name == "ST 2 arc")
     end, numbers = arc.points[0], line_numbers(state)
     curve = host_curve(state, arc)
-    rows = state.curves.rows.data[curve]
+    rows = state.curves.rows[curve]
     maker = Maker(state, Journal())
-    place = state.rows.xyz.data[end] + [0.0, 0.5, 0.0]
+    place = state.rows.xyz[end] + [0.0, 0.5, 0.0]
     new = int(maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
     maker.define(curve, np.where(rows == end, new, rows))
     maker.remove_rows([end])

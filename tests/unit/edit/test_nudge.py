@@ -21,7 +21,7 @@ def by_field(hull: ah.Hull) -> Nudge:
     """Let a hull be wider by a tenth of a per cent."""
     state = hull.state
     move = state.rows.xyz.data * [0.0, 1e-3, 0.0]
-    normal = np.where(state.lines.planar.data[:, None], state.lines.normal.data, 0.0)
+    normal = np.where(state.lines.planar[:, None], state.lines.normal.data, 0.0)
     level = np.nan_to_num(state.lines.offset.data) * 1e-3 * normal[:, 1]
     turn = np.zeros((state.rows.count, 3, 3))
     size = attrs.evolve(state.particulars, breadth=1.001 * state.particulars.breadth)
@@ -65,7 +65,7 @@ def test_a_nudge_beside_other_modifications_is_refused() -> None:
     rows = np.array([nudged(hull.state)[0]])
     edit = Transaction(hull.document, "both")
     with edit:
-        edit.write(rows, hull.state.rows.xyz.data[rows], "a test")
+        edit.write(rows, hull.state.rows.xyz[rows], "a test")
         with pytest.raises(BadInputError, match="another modification in one edit"):
             nudge(edit, by_field(hull))
     assert hull.fingerprint == before

@@ -35,7 +35,7 @@ def test_normals_are_those_of_the_formula() -> None:
     """Within what a spline through 19 sections leaves: 3 degrees."""
     hull = valley_hull()
     rows = _inner(hull)
-    cosine = (hull_normals(hull.state)[rows] * _outward(hull.state.rows.xyz.data[rows])).sum(axis=1)
+    cosine = (hull_normals(hull.state)[rows] * _outward(hull.state.rows.xyz[rows])).sum(axis=1)
     assert len(rows) > 100
     assert cosine.min() > np.cos(np.radians(3.0))
 
@@ -68,8 +68,8 @@ def test_normals_of_thin_hollow_sections_point_out(turned: bool) -> None:
     hull = hollow(turned=turned)
     rows = hull.state.live("rows")
     normal = hull_normals(hull.state)[rows]
-    facing_deck = normal[:, 1] * hull.state.rows.xyz.data[rows, 1] + normal[:, 2] * (
-        hull.state.rows.xyz.data[rows, 2] - DEPTH
+    facing_deck = normal[:, 1] * hull.state.rows.xyz[rows, 1] + normal[:, 2] * (
+        hull.state.rows.xyz[rows, 2] - DEPTH
     )
     assert (facing_deck < 0.0).sum() > 5
     assert (normal[:, 1] > 0.5).all()
@@ -81,7 +81,7 @@ def test_a_pull_moves_a_thin_hollow_stern_one_way() -> None:
     before = hull.state.rows.xyz.data.copy()
     with hull.edit("pull") as edit:
         edit.pull("WL 4 x ST 2", 0.03, (15.0, 4.0))
-    moved = hull.state.rows.xyz.data[:, 1] - before[:, 1]
+    moved = hull.state.rows.xyz[:, 1] - before[:, 1]
     assert moved.min() > -1e-12
     assert (moved > 0.0).sum() > 5
 
@@ -112,7 +112,7 @@ def test_normals_of_closed_curves_point_away_from_their_inside(turned: bool) -> 
         associations=[ah.Association("sections", "waterlines")],
     )
     rows = hull.state.live("rows")
-    crossing = rows[(hull.state.rows.curve.data[rows] >= 0).all(axis=1)]
-    away = hull.state.rows.xyz.data[crossing] - [0.0, 3.0, 5.0]
+    crossing = rows[(hull.state.rows.curve[rows] >= 0).all(axis=1)]
+    away = hull.state.rows.xyz[crossing] - [0.0, 3.0, 5.0]
     assert len(crossing) > 30
     assert ((hull_normals(hull.state)[crossing] * away).sum(axis=1) > 0.0).all()

@@ -17,9 +17,16 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.levels import levels
 from assoc_hull.graph.network import Evaluation, Readers
 from assoc_hull.graph.run_update import FailurePolicy, UpdatePass, run_update
-from assoc_hull.graph.table import Table
+from assoc_hull.graph.table import NumberColumn, Table, numbers
 
 Formulas = dict[int, tuple[int, ...]]
+
+
+@attrs.frozen(eq=False)
+class Cells(Table):
+    """What the cells hold."""
+
+    value: NumberColumn[np.float64] = numbers(np.float64)
 
 
 @attrs.define(eq=False)
@@ -34,11 +41,11 @@ class Sheet:
     step: float = 0.0
     broken: set[int] = attrs.field(factory=set)
     batches: list[list[int]] = attrs.field(factory=list)
-    table: Table = attrs.field(init=False)
+    table: Cells = attrs.field(init=False)
     rank: IntArray = attrs.field(init=False)
 
     def __attrs_post_init__(self) -> None:
-        self.table = Table(value=(float, ()))
+        self.table = Cells()
         self.table.resize(self.count)
         source, reader = self.edges()
         self.rank = levels(self.count, source, reader, str)

@@ -168,5 +168,5 @@ def test_one_small_edit_changes_the_lines_of_its_objects_only() -> None:
 def values_of(hull: ah.Hull) -> dict[str, bytes]:
     """Place and gap of every point, by key."""
     rows, table = hull.state.live("rows"), hull.state.rows
-    numbers = np.column_stack([table.xyz.data[rows], table.gap.data[rows]])
-    return {table.key.data[row]: each.tobytes() for row, each in zip(rows, numbers, strict=True)}
+    numbers = np.column_stack([table.xyz[rows], table.gap[rows]])
+    return {table.key[row]: each.tobytes() for row, each in zip(rows, numbers, strict=True)}

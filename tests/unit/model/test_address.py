@@ -32,8 +32,8 @@ def rename(state: HullState, name: str, new: str) -> None:
 def add_second_birth(state: HullState) -> int:
     """A second crossing of WL 2.5 and ST 7."""
     row = resolve_address(state, "WL 2.5 x ST 7").row
-    a, b = state.rows.curve.data[row].tolist()
-    spec = CrossingSpec(a, b, state.rows.xyz.data[row], Role.WATCHED, -1)
+    a, b = state.rows.curve[row].tolist()
+    spec = CrossingSpec(a, b, state.rows.xyz[row], Role.WATCHED, -1)
     return int(Maker(state, Journal()).crossings([spec])[0])
 
 
@@ -42,12 +42,12 @@ def assert_round_trip(state: HullState) -> None:
     book, seen = AddressBook(state), set()
     for row in state.live("rows").tolist():
         for side in (0, 1):
-            if state.rows.curve.data[row, side] < 0:
+            if state.rows.curve[row, side] < 0:
                 continue
             found = book.resolve(text := book.address(row, side))
-            crossing = state.rows.curve.data[row, 1] >= 0
+            crossing = state.rows.curve[row, 1] >= 0
             assert found.row == row
-            assert found.side == side or (crossing and text == state.rows.key.data[row])
+            assert found.side == side or (crossing and text == state.rows.key[row])
             seen.add(text)
     assert len(seen) >= len(state.live("rows"))
 
@@ -62,7 +62,7 @@ def test_either_order_of_the_lines_leads_to_the_crossing(state: HullState) -> No
     one, other = resolve_address(state, "WL 2.5 x ST 7"), resolve_address(state, "ST 7 x WL 2.5")
     assert one.row == other.row
     assert (one.side, other.side) == (1, 0)
-    assert state.lines.name.data[one.line] == "WL 2.5"
+    assert state.lines.name[one.line] == "WL 2.5"
 
 
 def test_a_second_birth_is_told_apart(state: HullState) -> None:
@@ -84,11 +84,11 @@ def test_the_only_crossing_left_needs_no_number(state: HullState) -> None:
 @pytest.mark.parametrize("sort", [Sort.PLACED, Sort.ADOPTED])
 def test_own_points_are_counted_along_the_line(state: HullState, sort: Sort) -> None:
     """Placed and adopted points have numbers from the start of their line."""
-    curve = state.lines.curves.data[line_number(state, "WL 2.5")][0]
+    curve = state.lines.curves[line_number(state, "WL 2.5")][0]
     maker = Maker(state, Journal())
     specs = [PointSpec(curve, (x, 1.0, 2.5), sort) for x in (80.0, 20.0)]
     far, near = maker.points(specs).tolist()
-    rows = state.curves.rows.data[curve]
+    rows = state.curves.rows[curve]
     maker.define(curve, np.concatenate([rows[:2], [near], rows[2:-1], [far], rows[-1:]]))
     name = sort.name.lower()
     assert address(state, near) == f"WL 2.5 @ {name} 1"
@@ -130,7 +130,7 @@ def test_an_unknown_name_is_answered_with_near_ones(
 def test_keys_lines_curves_and_groups_are_addresses_too(state: HullState) -> None:
     """The deepest object that is named is given."""
     row = resolve_address(state, "WL 2.5 x ST 7").row
-    assert resolve_address(state, state.rows.key.data[row]).row == row
+    assert resolve_address(state, state.rows.key[row]).row == row
     assert resolve_address(state, "waterlines").group >= 0
     assert resolve_address(state, "waterlines/WL 2.5").line == line_number(state, "WL 2.5")
     assert (

@@ -26,9 +26,9 @@ def small() -> HullState:
 
 def on_line(state: HullState, place: int, kind: str = "straight", **more: Any) -> Feature:
     """A feature of the first points of some line."""
-    line = str(state.lines.key.data[place])
-    rows = state.curves.rows.data[state.lines.curves.data[place][0]][:3]
-    return Feature(f"{line} {kind}", kind, f"{kind} {place}", [line], rows, **more)
+    line = str(state.lines.key[place])
+    rows = state.curves.rows[state.lines.curves[place][0]][:3]
+    return Feature(f"{line} {kind}", kind, f"{kind} {place}", [line], rows.tolist(), **more)
 
 
 def give(state: HullState, *features: Feature) -> HullState:

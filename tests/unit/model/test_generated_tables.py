@@ -22,7 +22,8 @@ from assoc_hull.model.generated_curves import (
     generated_on,
     points_given,
 )
-from assoc_hull.model.tables import HullState, copy_state, form_node, form_of
+from assoc_hull.model.node import Node
+from assoc_hull.model.tables import HullState, copy_state
 from tests.formed import STATIONS, formed, formed_definitions
 
 
@@ -52,7 +53,7 @@ def test_generated_points_hold_no_values_in_a_definition(made: HullState) -> Non
     """They are derived; those of a detached curve are the designer's own."""
     record: Any = definition(made)
     by_key = {each["key"]: each for each in record["points"]}
-    keys = [made.rows.key.data[row] for row in attached_rows(made).tolist()]
+    keys = [made.rows.key[row] for row in attached_rows(made).tolist()]
     assert len(keys) > 100
     assert not any("value" in by_key[key] for key in keys)
     values: Any = published(made)
@@ -71,10 +72,10 @@ def test_the_table_of_attached_curves(made: HullState) -> None:
 def test_nodes_of_definitions_lie_below_nil() -> None:
     """And lead back to the number."""
     numbers = np.arange(5)
-    nodes = form_node(numbers)
-    assert (nodes < 0).all()
-    assert (nodes % 2 == 0).all()
-    assert form_of(nodes).tolist() == numbers.tolist()
+    nodes = Node.form(numbers)
+    assert Node.is_form(nodes).all()
+    assert not (Node.is_point(nodes) | Node.is_curve(nodes)).any()
+    assert Node.form_number(nodes).tolist() == numbers.tolist()
 
 
 def test_canonical_text_and_hull_file_give_it_back(hull: ah.Hull, tmp_path: Path) -> None:
@@ -192,7 +193,7 @@ def test_a_hull_with_definitions_goes_through_a_pipe(made: HullState) -> None:
 def test_a_generated_curve_that_is_not_there_is_found(hull: ah.Hull) -> None:
     """By check and by who opens a file, if other hands have written it."""
     table = hull.state.produced
-    table.curve.data[1] = table.curve.data[1].evolve(curve=10**6, attached=False)
+    table.curve.data[1] = table.curve[1].evolve(curve=10**6, attached=False)
     assert "tables" in {each.kind for each in hull.check()}
     with pytest.raises(ValueError, match="does not exist"):
         require_sound_tables(hull.state)

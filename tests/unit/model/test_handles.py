@@ -89,7 +89,7 @@ def test_free_coordinates_are_those_of_no_plane(
 ) -> None:
     """A crossing moves along the line in which its planes meet."""
     if "placed" in address:
-        mine = (state.rows.curve.data[:, 0] == 0) & (state.rows.curve.data[:, 1] < 0)
+        mine = (state.rows.curve[:, 0] == 0) & (state.rows.curve[:, 1] < 0)
         assert Point.of(state, int(np.flatnonzero(mine)[0])).free == free
         return
     assert point(state, address).free == free

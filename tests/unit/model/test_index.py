@@ -7,7 +7,7 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.model.index import Index, Objects, build_index
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.tables import row_node
+from assoc_hull.model.node import Node
 
 
 def index() -> Index:
@@ -48,7 +48,7 @@ def test_readers_follow_a_change_of_roles() -> None:
     hull = ah.examples.wigley()
     crossing = hull.crossings["WL 2.5 x ST 7"]
     assert crossing.role == "shared"
-    node = row_node(np.array([crossing.row]))
+    node = Node.point(np.array([crossing.row]))
 
     def readers() -> list[int]:
         network = HullNetwork(hull.state, hull.document.index)

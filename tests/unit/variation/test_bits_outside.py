@@ -16,7 +16,7 @@ def test_lines_that_come_to_end_elsewhere_keep_their_bits_outside(bulk_carrier: 
     found = bulk_carrier.vary(set={"shaft_height": 6.0})
     before, after = bulk_carrier.state, found.hull.state
     rows = before.live("rows")
-    place = before.rows.xyz.data[rows]
+    place = before.rows.xyz[rows]
     outside = np.ones(len(rows), bool)
     for region in found.report.regions:
         (left, right), (low, high) = region.x, region.z
@@ -24,13 +24,13 @@ def test_lines_that_come_to_end_elsewhere_keep_their_bits_outside(bulk_carrier: 
             (place[:, 0] >= left) & (place[:, 0] <= right)
             & (place[:, 2] >= low) & (place[:, 2] <= high)
         )  # fmt: skip
-    defining = (before.rows.reader.data[rows] >= 0).any(axis=1)
-    free = before.rows.driver.data[rows] < 0
+    defining = (before.rows.reader[rows] >= 0).any(axis=1)
+    free = before.rows.driver[rows] < 0
     kept = rows[outside & defining & free]
     assert len(kept) > 1000
-    there = {str(after.rows.key.data[row]): row for row in after.live("rows").tolist()}
-    same = [there[str(before.rows.key.data[row])] for row in kept.tolist()]
-    assert (after.rows.xyz.data[same] == before.rows.xyz.data[kept]).all()
+    there = {str(after.rows.key[row]): row for row in after.live("rows").tolist()}
+    same = [there[str(before.rows.key[row])] for row in kept.tolist()]
+    assert (after.rows.xyz[same] == before.rows.xyz[kept]).all()
     for name in ("WL 5", "WL 6"):
         ends = [hull.lines[name].points[0].position for hull in (bulk_carrier, found.hull)]
         assert abs(ends[0][0] - ends[1][0]) > 0.5

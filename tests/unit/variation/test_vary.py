@@ -46,7 +46,7 @@ def test_a_line_that_is_bent_where_no_slope_tells_keeps_no_plane(wigley: ah.Hull
 
     state = wigley.state
     kept = find_kept_planes(state, SpaceMap(lifted, slope))
-    lines = {str(state.lines.name.data[line]): line for line in state.live("lines").tolist()}
+    lines = {str(state.lines.name[line]): line for line in state.live("lines").tolist()}
     section, low = lines["ST 10"], lines["WL 2.5"]
     assert not kept.plane[section, 0]
     assert not kept.place[section, 0]

@@ -277,7 +277,7 @@ def test_they_are_those_of_a_whole_edit(shipped: Callable[[str], Hull]) -> None:
             edit.move(point, y=place + sign * step)
         plane = planes_of([floats.position], hull.particulars.length)
         values.append(values_at(flotation(hull.state), plane, floats.header))
-        places.append(rows.xyz.data[: rows.count].copy())
+        places.append(rows.xyz[: rows.count].copy())
         hull.undo()
     moved = Deformation("edit", lambda _: (places[0] - places[1]) / (2.0 * step), unit="m")
     wrt = [moved, PointMove(point, follow=True)]

@@ -46,7 +46,7 @@ def test_variation_is_the_comb_integral_without_unit(ship: ah.Hull, table: Fairn
         handle = ship.lines[line]
         [record] = table[line]
         curve = handle.curves[0]
-        normal = ship.state.lines.normal.data[handle.row]
+        normal = ship.state.lines.normal[handle.row]
         comb = comb_integrals(ship.state.spline(curve.row), normal)[0]
         assert record.variation == pytest.approx(record.length**3 * comb, rel=1e-9)
 
@@ -67,7 +67,7 @@ def test_gaps_of_watched_crossings_are_offsets(ship: ah.Hull, table: FairnessTab
     watched = state.rows.alive.data & np.isfinite(state.rows.gap.data)
     assert sum(each.offsets for each in table) == 2 * int(watched.sum())
     worst = max(each.deviation_max or 0.0 for each in table)
-    share = state.rows.gap.data[watched] / state.rows.limit.data[watched]
+    share = state.rows.gap[watched] / state.rows.limit[watched]
     assert worst == pytest.approx(share.max())
     assert table.failures["deviation"] == ()
 

@@ -70,7 +70,7 @@ def test_sections_of_the_net_stay_on_the_definition(body: MiddleBody, hull: ah.H
     uv = bilge.at(np.zeros(200, np.int64), np.linspace(0.0, bilge.length[0], 200))
     half = 0.5 * MIDSHIP.area(14.0)
     name = next(each for each in hull.lines if each.startswith("FR"))
-    x = float(hull.state.lines.offset.data[hull.lines[name].row])
+    x = float(hull.state.lines.offset[hull.lines[name].row])
     found = departures(hull.state, [DefinedSection(name, np.insert(uv, 0, x, axis=1), half)])
     assert found[0].distance < 1e-5
     assert found[0].net == pytest.approx(half, rel=1e-7)

@@ -62,8 +62,8 @@ def test_points_are_counted_by_sort() -> None:
     """Crossings, adopted and placed ones make up the defining points."""
     _, state, report = net()
     for row in report.lines:
-        rows = state.curves.rows.data[state.curves.key.data.index(row.curve)]
-        sort = state.rows.sort.data[rows].tolist()
+        rows = state.curves.rows[state.curves.key.data.index(row.curve)]
+        sort = state.rows.sort[rows].tolist()
         counts = [sort.count(each) for each in (Sort.CROSSING, Sort.ADOPTED, Sort.PLACED)]
         assert [row.crossings, row.adopted, row.placed] == counts
         assert row.defining == len(rows)

@@ -15,9 +15,9 @@ def adopted(points: FloatArray, **options: object) -> tuple[HullState, FloatArra
     """The net of one line, and the points that define it, in order."""
     source = LineSource.make("waterlines", "WL 1", points, **options)  # type: ignore[arg-type]
     state = adopt([source], SHIP, [])[0]
-    rows = state.curves.rows.data[0]
-    assert (state.rows.sort.data[rows] == Sort.ADOPTED).all()
-    return state, np.asarray(state.rows.xyz.data[rows])
+    rows = state.curves.rows[0]
+    assert (state.rows.sort[rows] == Sort.ADOPTED).all()
+    return state, np.asarray(state.rows.xyz[rows])
 
 
 def wave(count: int = 201) -> FloatArray:

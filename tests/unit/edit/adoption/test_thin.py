@@ -28,14 +28,14 @@ def beside(state: HullState, driven: bool = False) -> float:
     """
     least = np.inf
     for curve in state.live("curves").tolist():
-        rows = state.curves.rows.data[curve]
-        step = np.diff(state.rows.xyz.data[rows], axis=0)
+        rows = state.curves.rows[curve]
+        step = np.diff(state.rows.xyz[rows], axis=0)
         chord = np.sqrt((step * step).sum(axis=1))
-        own = (state.rows.sort.data[rows] == Sort.ADOPTED) & (
-            state.rows.kind.data[rows, 0] == PointKind.SMOOTH
+        own = (state.rows.sort[rows] == Sort.ADOPTED) & (
+            state.rows.kind[rows, 0] == PointKind.SMOOTH
         )
         own[[0, -1]] = False
-        computed = state.rows.driver.data[rows] >= 0
+        computed = state.rows.driver[rows] >= 0
         pair = (own[:-1] & (computed[1:] == driven)) | (own[1:] & (computed[:-1] == driven))
         least = min(least, chord[pair].min(initial=least))
     return float(least)

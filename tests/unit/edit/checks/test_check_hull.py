@@ -43,7 +43,7 @@ def test_a_sound_hull_has_no_findings(state: HullState) -> None:
     assert check(document.state) == ()
     row = row_of(state)
     with Transaction(document, "move") as edit:
-        edit.write(np.array([row]), state.rows.xyz.data[[row]] + [[0.0, 0.01, 0.0]], "move")
+        edit.write(np.array([row]), state.rows.xyz[[row]] + [[0.0, 0.01, 0.0]], "move")
     assert check(document.state) == ()
 
 
@@ -89,9 +89,9 @@ def test_lengths_are_given_in_metres(state: HullState) -> None:
     planted("a gap", state)
     finding = next(each for each in check(state) if each.kind == "gap")
     assert finding.amount is not None
-    assert finding.amount == pytest.approx(state.rows.gap.data[row_of(state)])
+    assert finding.amount == pytest.approx(state.rows.gap[row_of(state)])
     assert finding.amount > 0.0
-    limit = state.rows.limit.data[row_of(state)]
+    limit = state.rows.limit[row_of(state)]
     assert f"pass {1e3 * finding.amount:.2f} mm apart" in finding.message
     assert f"limit of {1e3 * limit:.2f} mm" in finding.message
 
@@ -99,10 +99,10 @@ def test_lengths_are_given_in_metres(state: HullState) -> None:
 def test_notes_tell_roles_the_rule_would_not_choose(state: HullState) -> None:
     """A crossing crowded by a placed point is noted, and is no finding."""
     curve, maker = curve_of(state), Maker(state, Journal())
-    rows = state.curves.rows.data[curve]
+    rows = state.curves.rows[curve]
     at = int(np.flatnonzero(rows == row_of(state))[0])
     place = state.spline(curve)
-    middle = state.rows.xyz.data[rows[at]] + 0.02 * (place.xyz[at + 1] - place.xyz[at])
+    middle = state.rows.xyz[rows[at]] + 0.02 * (place.xyz[at + 1] - place.xyz[at])
     maker.define(
         curve, np.insert(rows, at + 1, maker.points([PointSpec(curve, middle, Sort.PLACED)])[0])
     )

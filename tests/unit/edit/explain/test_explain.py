@@ -26,7 +26,7 @@ def document() -> Document:
     row = resolve_address(state, "WL 5 x ST 7").row
     Maker(state, Journal()).roles(np.array([row]), np.array([Role.DRIVES_B]))
     curve = resolve_address(state, "ST 7 [1]").curve
-    rows = state.curves.rows.data[curve]
+    rows = state.curves.rows[curve]
     Maker(state, Journal()).define(curve, rows[rows != row])
     return Document(state)
 
@@ -34,7 +34,7 @@ def document() -> Document:
 def move(document: Document, name: str, dy: float, address: str = POINT) -> None:
     """Move one point along y."""
     row = resolve_address(document.state, address).row
-    value = document.state.rows.xyz.data[[row]] + [[0.0, dy, 0.0]]
+    value = document.state.rows.xyz[[row]] + [[0.0, dy, 0.0]]
     with Transaction(document, name) as edit:
         edit.write(np.array([row]), value, name)
 

@@ -141,9 +141,7 @@ def test_shapes_are_those_the_edit_would_leave(hull: ah.Hull) -> None:
     assert report is not None
     after = hull.shapes()
     rows = np.searchsorted(after.curves, found.shapes.curves)
-    assert {hull.state.curves.key.data[each] for each in found.shapes.curves} == set(
-        report.relofted
-    )
+    assert {hull.state.curves.key[each] for each in found.shapes.curves} == set(report.relofted)
     want = np.concatenate([after.spline.part(row, row + 1).xyz for row in rows.tolist()])
     np.testing.assert_array_equal(found.shapes.spline.xyz, want)
     assert hull.preview([]).shapes is None

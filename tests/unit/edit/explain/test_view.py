@@ -43,7 +43,7 @@ def kinds(found: networkx.MultiDiGraph[str]) -> dict[str, int]:
 def test_every_object_is_a_node(document: Document) -> None:
     """Groups, lines, curves, and a point on each curve of a crossing."""
     state, found = document.state, object_graph(document.state)
-    points = int((state.rows.curve.data[state.live("rows")] >= 0).sum())
+    points = int((state.rows.curve[state.live("rows")] >= 0).sum())
     count = sum(len(state.live(name)) for name in ("groups", "lines", "curves"))
     assert found.number_of_nodes() == count + points
     assert all({"kind", "name"} <= set(data) for _, data in found.nodes(data=True))
@@ -52,7 +52,7 @@ def test_every_object_is_a_node(document: Document) -> None:
 def test_links_are_those_of_the_tables(document: Document) -> None:
     """Each point has one container; each crossing two friends, two parents, two touches."""
     state = document.state
-    crossings = int((state.rows.curve.data[state.live("rows"), 1] >= 0).sum())
+    crossings = int((state.rows.curve[state.live("rows"), 1] >= 0).sum())
     own = len(state.live("rows")) - crossings
     found = kinds(object_graph(state))
     assert found["container"] == 2 * crossings + own
@@ -77,7 +77,7 @@ def test_dependencies_are_acyclic_and_follow_roles(document: Document) -> None:
     found = dependencies(state)
     assert found.number_of_edges() == before + 1
     edge = found.edges["sections:35.000000/1", "waterlines:5.000000/1"]
-    assert edge == {"kind": "drives", "through": [state.rows.key.data[row]]}
+    assert edge == {"kind": "drives", "through": [state.rows.key[row]]}
     assert networkx.is_directed_acyclic_graph(found)
     whole = dependencies(state, points=True)
     assert networkx.is_directed_acyclic_graph(whole)
@@ -185,7 +185,7 @@ def test_a_filter_of_links_looks_at_the_whole_hull(document: Document) -> None:
 def move(document: Document, address: str = "WL 2.5 x ST 7") -> int:
     """Move a point by 10 mm; give its row."""
     row = resolve_address(document.state, address).row
-    value = document.state.rows.xyz.data[[row]] + [[0.0, 0.01, 0.0]]
+    value = document.state.rows.xyz[[row]] + [[0.0, 0.01, 0.0]]
     with Transaction(document, "move") as edit:
         edit.write(np.array([row]), value, "move")
     return row

@@ -42,7 +42,7 @@ def off(hull: ah.Hull) -> set[str]:
 def shape(hull: ah.Hull, line: str) -> list[bytes]:
     """Give the bits of the splines of a line."""
     state = hull.state
-    number = next(i for i in state.live("lines").tolist() if state.lines.name.data[i] == line)
+    number = next(i for i in state.live("lines").tolist() if state.lines.name[i] == line)
     return [state.spline(curve).xyz.tobytes() for curve in state.curves_of(number)]
 
 

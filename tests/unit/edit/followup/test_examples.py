@@ -36,7 +36,7 @@ def test_the_features_of_a_net_found_once_when_it() -> None:
 def test_a_feature_after_its_line_has_changed_its_points() -> None:
     """A feature after its line has changed: its points anew, its plane that of its line."""
     state = wigley(stations=5, waterlines=4)
-    line, rows = state.lines.key.data[4], state.curves.rows.data[state.lines.curves.data[4][0]]
+    line, rows = state.lines.key[4], state.curves.rows[state.lines.curves[4][0]]
     run = Feature("run", "straight", "run", (line,), rows[[0, 2]].tolist())
     found = followed_feature(state, run, line_numbers(state))
     assert found is not None

@@ -27,9 +27,9 @@ def _watched(state: HullState, near: bool) -> int:
 
 def _beside(state: HullState, row: int, side: int) -> bool:
     rows = state.rows
-    own = state.curves.rows.data[int(rows.curve.data[row, side])]
-    away = np.linalg.norm(rows.xyz.data[own] - rows.spot.data[row, 1 - side], axis=1)
-    return bool(away.min() < 0.15) and rows.sort.data[own[int(away.argmin())]] != Sort.ADOPTED
+    own = state.curves.rows[int(rows.curve[row, side])]
+    away = np.linalg.norm(rows.xyz[own] - rows.spot[row, 1 - side], axis=1)
+    return bool(away.min() < 0.15) and rows.sort[own[int(away.argmin())]] != Sort.ADOPTED
 
 
 @pytest.fixture(scope="module")
@@ -43,12 +43,12 @@ def test_the_curve_of_higher_rank_gives_way_unless_it_is_held(state: HullState, 
     """A crossing within 0.15 m of the place holds it; then the other curve gets the point."""
     row = _watched(state, held)
     gives = 0 if held else 1
-    curve = int(state.rows.curve.data[row, gives])
-    place = state.rows.spot.data[row, 1 - gives].copy()
+    curve = int(state.rows.curve[row, gives])
+    place = state.rows.spot[row, 1 - gives].copy()
     journal = Journal()
     curves, moved = mend_gaps(Maker(state, journal), np.array([row]))
-    own = state.curves.rows.data[curve]
+    own = state.curves.rows[curve]
     assert curves.tolist() == [curve]
     assert np.isin(moved, own).all()
-    assert (state.rows.xyz.data[own] == place).all(axis=1).any()
+    assert (state.rows.xyz[own] == place).all(axis=1).any()
     journal.undo()

@@ -16,20 +16,20 @@ def unlinked(hull: ah.Hull) -> list[str]:
     state, rows = hull.state, hull.state.rows
     wrong: list[str] = []
     for curve in state.live("curves").tolist():
-        order = state.curves.rows.data[curve].tolist()
+        order = state.curves.rows[curve].tolist()
         for place, row in enumerate(order):
-            if rows.sort.data[row] == Sort.ADOPTED:
+            if rows.sort[row] == Sort.ADOPTED:
                 sides = order[:place][::-1], order[place + 1 :]
-                if [_first_driven(hull, side) for side in sides] != rows.anchor.data[row].tolist():
-                    wrong.append(rows.key.data[row])
+                if [_first_driven(hull, side) for side in sides] != rows.anchor[row].tolist():
+                    wrong.append(rows.key[row])
     return wrong
 
 
 def _first_driven(hull: ah.Hull, rows: list[int]) -> int:
     """The nearest point that is not adopted, if it is driven; else -1."""
     table = hull.state.rows
-    other = next((row for row in rows if table.sort.data[row] != Sort.ADOPTED), -1)
-    return other if other >= 0 and table.driver.data[other] >= 0 else -1
+    other = next((row for row in rows if table.sort[row] != Sort.ADOPTED), -1)
+    return other if other >= 0 and table.driver[other] >= 0 else -1
 
 
 @settings(max_examples=25)

@@ -64,7 +64,7 @@ def test_removing_a_line_leaves_the_shape(hull: ah.Hull) -> None:
 def test_a_line_removed_and_added_again_is_another_line(hull: ah.Hull) -> None:
     """Keys never come back, names may."""
     old = hull.lines["WL 3.343"]
-    position = float(hull.state.lines.offset.data[old.number])
+    position = float(hull.state.lines.offset[old.number])
     with hull.edit("remove") as edit:
         edit.remove_line(old)
     with hull.edit("add") as edit:
@@ -123,7 +123,7 @@ def test_bad_lines(hull: ah.Hull, act: object, error: type[ah.AssocHullError], w
 
 def test_a_plane_that_is_taken(hull: ah.Hull) -> None:
     """Two lines of one group in one plane."""
-    position = float(hull.state.lines.offset.data[hull.lines["WL 3.343"].number])
+    position = float(hull.state.lines.offset[hull.lines["WL 3.343"].number])
     text = refused(hull, lambda edit: edit.add_line("waterlines", position), BadInputError)
     assert "already" in text
 

@@ -23,7 +23,7 @@ def place_of(hull: ah.Hull, point: ah.Point) -> FloatArray:
     """Where a point lies; a watched crossing where its first curve passes."""
     rows = hull.state.rows
     watched = point.crossing_role == "watched"
-    return np.array(rows.spot.data[point.row, 0] if watched else rows.xyz.data[point.row])
+    return np.array(rows.spot[point.row, 0] if watched else rows.xyz[point.row])
 
 
 def pulled(

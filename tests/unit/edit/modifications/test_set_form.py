@@ -30,7 +30,7 @@ def hull(made: HullState) -> ah.Hull:
 def area(hull: ah.Hull, line: str) -> float:
     """Give the area (m2) of a half section below the draught on its spline, by Gauss' rule."""
     state = hull.state
-    number = next(i for i in state.live("lines").tolist() if state.lines.name.data[i] == line)
+    number = next(i for i in state.live("lines").tolist() if state.lines.name[i] == line)
     spline = state.spline(state.curves_of(number)[0])
     shape = polynomial(spline)
     under = spline.knot[spline.xyz[:, 2] <= hull.particulars.draught + 1e-9]
@@ -246,8 +246,8 @@ def test_crossings_that_pass_one_another_change_places(hull: ah.Hull, angle: flo
     assert hull.crossings["BTK 4 x WL 1.58"].role == "watched"
     assert hull.crossings["BTK 4 x ST 15"].role == "drives b"
     (curve,) = hull.lines["BTK 4"].curves
-    rows = hull.state.curves.rows.data[curve.row]
-    assert (np.diff(hull.state.rows.xyz.data[rows, 0]) > 0.15).all()
+    rows = hull.state.curves.rows[curve.row]
+    assert (np.diff(hull.state.rows.xyz[rows, 0]) > 0.15).all()
     assert hull.check() == ()
     assert hull.verify() == ()
     hull.undo()

@@ -10,7 +10,7 @@ from assoc_hull.edit.mapped_planes import carry_planes
 from assoc_hull.edit.recut.carry_structure import NetMap, carry_net
 from assoc_hull.edit.space_map import PointMapping, SpaceMap
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.shipped.wigley import wigley_half_breadth
@@ -41,8 +41,8 @@ def carried(hull: ah.Hull, mapping: PointMapping, drivers: str) -> None:
     state, space = hull.state, SpaceMap(mapping)
     lines = state.lines
     driving = [line for line in state.live("lines").tolist()
-               if lines.boundary.data[line] >= 0
-               or str(state.lines.key.data[line]).startswith(drivers)]  # fmt: skip
+               if lines.boundary[line] >= 0
+               or str(state.lines.key[line]).startswith(drivers)]  # fmt: skip
     numbers = np.array(sorted(driving))
     planes = carry_planes(state, space, numbers, follow=False)
     with Transaction(hull.document, "carry") as edit:
@@ -68,19 +68,19 @@ def off_planes(state: HullState) -> float:
     """How far defining points lie off the planes of their lines, m."""
     rows, worst = state.live("rows"), 0.0
     for side in (0, 1):
-        curve = state.rows.curve.data[rows, side]
+        curve = state.rows.curve[rows, side]
         some = rows[curve >= 0]
-        line = state.curves.line.data[curve[curve >= 0]]
-        flat = state.lines.planar.data[line]
-        height = (state.rows.xyz.data[some] * state.lines.normal.data[line]).sum(axis=1)
-        away = np.abs(height - state.lines.offset.data[line])[flat]
+        line = state.curves.line[curve[curve >= 0]]
+        flat = state.lines.planar[line]
+        height = (state.rows.xyz[some] * state.lines.normal[line]).sum(axis=1)
+        away = np.abs(height - state.lines.offset[line])[flat]
         worst = max(worst, float(away.max(initial=0.0)))
     return worst
 
 
 def keys_of(state: HullState) -> list[str]:
     """Give the keys of all points."""
-    return sorted(str(state.rows.key.data[row]) for row in state.live("rows").tolist())
+    return sorted(str(state.rows.key[row]) for row in state.live("rows").tolist())
 
 
 @pytest.mark.parametrize(("mapping", "tolerance"), [(swell, 5e-3), (lift, 5e-3)], ids=["y", "z"])
@@ -93,7 +93,7 @@ def test_points_stay_in_their_planes_and_on_the_image(mapping: object, tolerance
     rows = state.live("rows")
     assert keys_of(state) == keys
     assert off_planes(state) <= 1e-9
-    x, y, z = state.rows.xyz.data[rows].T
+    x, y, z = state.rows.xyz[rows].T
     before = np.stack([x, y, z], axis=1)
     for _ in range(30):  # back by the mapping, whose displacement is small
         before += np.stack([x, y, z], axis=1) - mapping(0.04)(before)  # type: ignore[operator]
@@ -111,7 +111,7 @@ def test_places_depend_smoothly_on_the_mapping() -> None:
     def places(by: float) -> FloatArray:
         hull = net()
         carried(hull, lift(by), "sections")
-        found: FloatArray = hull.state.rows.xyz.data[hull.state.live("rows")]
+        found: FloatArray = hull.state.rows.xyz[hull.state.live("rows")]
         return found
 
     middle = places(0.2)
@@ -128,14 +128,14 @@ def test_a_bent_driver_and_a_second_modification_are_refused() -> None:
         carried(hull, lift(0.5), "waterlines")
     state, space = hull.state, SpaceMap(swell(0.01))
     planes = carry_planes(state, space, np.zeros(0, np.int64), follow=False)
-    row = state.live("rows")[state.rows.sort.data[state.live("rows")] == Sort.CROSSING][:1]
+    row = state.live("rows")[state.rows.sort[state.live("rows")] == Sort.CROSSING][:1]
     by = NetMap(space, np.zeros(0, np.int64), planes, state.features, state.particulars)
     with pytest.raises(ah.errors.BadInputError, match="another modification in one edit"):
         _both(hull, row, by)
     assert hull.fingerprint == before
 
 
-def _both(hull: ah.Hull, row: object, by: NetMap) -> None:
+def _both(hull: ah.Hull, row: IntArray, by: NetMap) -> None:
     with Transaction(hull.document, "both") as edit:
-        edit.write(row, hull.state.rows.xyz.data[row], "a test")  # type: ignore[arg-type]
+        edit.write(row, hull.state.rows.xyz[row], "a test")
         carry_net(edit, by)

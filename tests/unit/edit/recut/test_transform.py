@@ -132,14 +132,14 @@ def test_affine_with_all_groups_driving_is_exact(hull: ah.Hull, scale: list[floa
     """
     table = hull.state.rows
     live = hull.state.live("rows")
-    old, planes = table.xyz.data[live].copy(), hull.state.lines.offset.data.copy()
+    old, planes = table.xyz[live].copy(), hull.state.lines.offset.data.copy()
     normals = hull.state.lines.normal.data.copy()
     transformed(hull, lambda xyz: xyz * scale, groups(hull))
-    off = np.abs(table.xyz.data[live] - old * scale).max(axis=1)
-    held = (table.driver.data[live] < 0) & (
-        (table.sort.data[live] != Sort.CROSSING) | (table.role.data[live] == Role.SHARED)
+    off = np.abs(table.xyz[live] - old * scale).max(axis=1)
+    held = (table.driver[live] < 0) & (
+        (table.sort[live] != Sort.CROSSING) | (table.role[live] == Role.SHARED)
     )
-    assert table.alive.data[live].all()
+    assert table.alive[live].all()
     assert off[held].max() <= 1e-9
     along = np.abs(normals * scale).sum(axis=1)
     assert np.abs(hull.state.lines.offset.data - planes * along).max() <= 1e-9
@@ -148,10 +148,10 @@ def test_affine_with_all_groups_driving_is_exact(hull: ah.Hull, scale: list[floa
 def test_a_similarity_is_exact_everywhere(hull: ah.Hull) -> None:
     """With equal factors computed crossings are exact too: chord lengths scale as one."""
     table, live = hull.state.rows, hull.state.live("rows")
-    live = live[table.role.data[live] != Role.WATCHED]
-    old = table.xyz.data[live].copy()
+    live = live[table.role[live] != Role.WATCHED]
+    old = table.xyz[live].copy()
     transformed(hull, lambda xyz: xyz * 1.1, groups(hull))
-    assert np.abs(table.xyz.data[live] - 1.1 * old).max() <= 1e-9
+    assert np.abs(table.xyz[live] - 1.1 * old).max() <= 1e-9
 
 
 def off_formula(hull: ah.Hull, breadth: float, draught: float) -> float:
@@ -241,8 +241,8 @@ def test_contacts_come_with_the_flat(fresh_series60_70: ah.Hull) -> None:
     rows = hull.state.rows
     for key in born:
         row = rows.key.data.index(key)
-        assert rows.direction.data[row, 1].tolist() == [1.0, 0.0, 0.0]
-        assert rows.xyz.data[row, 1:].tolist() == [
+        assert rows.direction[row, 1].tolist() == [1.0, 0.0, 0.0]
+        assert rows.xyz[row, 1:].tolist() == [
             hull.groups["buttocks"].lines["BTK 0.84"].position,
             0.0,
         ]
@@ -354,8 +354,7 @@ def test_ends_and_directions_turn_with_the_mapping(wigley: ah.Hull) -> None:
         edit.set_end("ST 6", "start", curvature=(0, 0, 0.04))
     hull = transformed(hull, lambda xyz: xyz * [1.0, 2.0, 1.0], groups(hull))
     ends = {
-        name: hull.state.curves.ends.data[hull.lines[name].curves[0].row]
-        for name in ("ST 5", "ST 6")
+        name: hull.state.curves.ends[hull.lines[name].curves[0].row] for name in ("ST 5", "ST 6")
     }
     x, y, z = ends["ST 5"].vector[0]
     assert x == 0.0
@@ -510,7 +509,7 @@ def test_a_follower_that_the_hull_does_not_reach_any_more_goes_with_a_note() -> 
     state = hull.state
     drivers = [
         line for line in state.live("lines").tolist()
-        if state.lines.name.data[line].startswith(("ST", "profile"))
+        if state.lines.name[line].startswith(("ST", "profile"))
     ]  # fmt: skip
     with Transaction(hull.document, "lower") as edit:
         lower = SpaceMap(lambda xyz: xyz * [1.0, 1.0, 0.6])

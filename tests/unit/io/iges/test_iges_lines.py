@@ -51,7 +51,7 @@ def test_curves_come_back_as_they_are(ship: Hull, unit: str) -> None:
     assert (told, notes, len(found)) == (unit, (), report.curves)
     size = max(float(np.abs(each.points).max()) for each in found)
     for line in state.live("lines").tolist():
-        mine = [each for each in found if each.name == state.lines.name.data[line]]
+        mine = [each for each in found if each.name == state.lines.name[line]]
         for curve, given in zip(mine, splines_of(state, line), strict=True):
             t = np.sort(np.append(np.linspace(0.0, given.knot[-1], 40), given.knot))
             assert curve.domain == (0.0, given.knot[-1])
@@ -196,7 +196,7 @@ def test_lines_come_back_as_a_net(ship: Hull, tmp_path: Path, unit: str) -> None
     write_iges_lines(ship.state, path, unit=unit, half=unit == "m")
     found = read_lines(path)
     assert {line.name for line in found.lines} == {
-        str(ship.state.lines.name.data[line])
+        str(ship.state.lines.name[line])
         for line in ship.state.live("lines").tolist()
         if ship.state.family(line).name != "boundary"
     }

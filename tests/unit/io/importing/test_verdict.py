@@ -229,8 +229,8 @@ def test_lines_that_touch_do_not_miss_one_another(
     )
     place = np.array([[50.0, 5.0, 4.0]])
     places = {
-        (state.lines.curves.data[one][0], other): place,
-        (state.lines.curves.data[other][0], one): place + np.array([0.0, apart, 0.0]),
+        (state.lines.curves[one][0], other): place,
+        (state.lines.curves[other][0], one): place + np.array([0.0, apart, 0.0]),
     }
     monkeypatch.setattr(soundness, "_latent_places", lambda _: places)
     found = Findings()

@@ -63,4 +63,4 @@ def test_a_narrow_hole_is_joined_unasked(tmp_path: Path) -> None:
 def test_sections_are_cut_where_they_pass_the_centre_plane(tmp_path: Path) -> None:
     """4 mm beyond y = 0 are cut off at import, and the hull can be edited."""
     hull = read(tmp_path, workboat(0.0, beyond=0.004))
-    assert min(hull.state.rows.xyz.data[hull.state.live("rows"), 1]) >= 0.0
+    assert min(hull.state.rows.xyz[hull.state.live("rows"), 1]) >= 0.0

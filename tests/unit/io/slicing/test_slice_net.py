@@ -75,7 +75,7 @@ def test_the_net_is_the_hull(mesh: Triangles, off: Callable[[FloatArray], FloatA
         assert away <= band, line.line
         assert away <= 1.5 * report.tolerance, line.line  # bands in grazing planes are wide
         if line.group != "boundary":
-            normal = state.lines.normal.data[state.line_of(curve)]
+            normal = state.lines.normal[state.line_of(curve)]
             assert inflections(spline, normal)[0].tolist() == [0], line.line
             assert (line.inflections_given, line.inflections) == (0, 0), line.line
     assert [seen.count(name) for name in ("sections", "waterlines", "buttocks")] == [9, 5, 3]
@@ -139,8 +139,8 @@ def test_digitised_and_sliced_lines_make_the_same_kind_of_net() -> None:
     state, report = net_from_slices(read_lines(as_csv(given)))
     assert report.inflections == (0, 0)
     rows, live = state.rows, state.live("rows")
-    crossings = live[(rows.curve.data[live, 1] >= 0) & ~rows.contact.data[live]]
-    assert meshes.wigley_off(rows.xyz.data[crossings]).max() <= 3e-3
+    crossings = live[(rows.curve[live, 1] >= 0) & ~rows.contact[live]]
+    assert meshes.wigley_off(rows.xyz[crossings]).max() <= 3e-3
 
 
 def test_one_line_is_no_net() -> None:

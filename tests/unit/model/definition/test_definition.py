@@ -154,9 +154,9 @@ def test_keys_that_were_taken_out_stay_known() -> None:
     maker.remove_rows(maker.points([spec]))
     back = from_definition(records(state), published(state))
     assert fingerprint(back) == fingerprint(state)
-    where = back.curves.key.data.index(state.curves.key.data[curve])
-    key = back.rows.key.data[Maker(back, Journal()).points([attrs.evolve(spec, curve=where)])[0]]
-    assert key == state.rows.key.data[maker.points([spec])[0]]
+    where = back.curves.key.data.index(state.curves.key[curve])
+    key = back.rows.key[Maker(back, Journal()).points([attrs.evolve(spec, curve=where)])[0]]
+    assert key == state.rows.key[maker.points([spec])[0]]
     assert key.endswith("~2")
 
 
@@ -165,9 +165,7 @@ def test_a_point_that_rode_with_a_dead_one_keeps_its_value(document: Document) -
     state = document.state
     dead = Maker(state, Journal()).points([PointSpec(0, (0.0, 0.0, 0.0), Sort.PLACED)])
     state.rows.alive.store[dead] = False
-    alone = next(
-        row for row in state.live("rows").tolist() if state.rows.sort.data[row] == Sort.ADOPTED
-    )
+    alone = next(row for row in state.live("rows").tolist() if state.rows.sort[row] == Sort.ADOPTED)
     state.rows.anchor.store[alone] = (dead[0], -1)
     assert verify(state) == []
     assert fingerprint(from_definition(records(state))) == fingerprint(state)
@@ -192,20 +190,20 @@ def test_a_failed_curve_keeps_its_shape_and_blocks_its_readers() -> None:
     row = next(
         row
         for row in state.live("rows").tolist()
-        if state.rows.sort.data[row] == Sort.ADOPTED
-        and state.curves.key.data[state.rows.curve.data[row, 0]].startswith("sections:50")
+        if state.rows.sort[row] == Sort.ADOPTED
+        and state.curves.key[state.rows.curve[row, 0]].startswith("sections:50")
     )
-    value = state.rows.xyz.data[[row]] + np.array([0.0, 0.01, 0.0])
+    value = state.rows.xyz[[row]] + np.array([0.0, 0.01, 0.0])
     with (
         failing("waterlines:3.125000/1"),
         Transaction(document, "go on", Settings(FailurePolicy.KEEP_GOING, False)) as edit,
     ):
         edit.write(np.array([row]), value, "go on")
-    assert [state.curves.key.data[curve] for curve in state.failed] == ["waterlines:3.125000/1"]
+    assert [state.curves.key[curve] for curve in state.failed] == ["waterlines:3.125000/1"]
     assert verify(state) == []
     back = from_definition(records(state), published(state))
     assert fingerprint(back) == fingerprint(from_definition(records(state))) == fingerprint(state)
-    assert [back.curves.key.data[curve] for curve in back.failed] == ["waterlines:3.125000/1"]
+    assert [back.curves.key[curve] for curve in back.failed] == ["waterlines:3.125000/1"]
 
 
 def pick(records: list[Record], **wanted: str) -> Record:

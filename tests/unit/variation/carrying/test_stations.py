@@ -52,4 +52,4 @@ def test_every_plane_section_is_told_its_place() -> None:
     state = ah.examples.wigley().state
     found = section_planes(state, ())
     assert len(found) == len(ah.examples.wigley().groups["sections"].lines)
-    assert all(state.lines.offset.data[line] == x for line, x in found.items())
+    assert all(state.lines.offset[line] == x for line, x in found.items())

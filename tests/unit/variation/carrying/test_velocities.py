@@ -25,9 +25,9 @@ def kept() -> HullProblem:
 def off_planes(state: HullState, move: FloatArray, level: FloatArray) -> FloatArray:
     """Give how fast points leave the planes of their lines, (rows, 2)."""
     curve = state.rows.curve.data
-    line = np.where(curve >= 0, state.curves.line.data[curve], -1)
-    held = (line >= 0) & state.lines.planar.data[line] & state.rows.alive.data[:, None]
-    normal = np.where(held[..., None], state.lines.normal.data[line], 0.0)
+    line = np.where(curve >= 0, state.curves.line[curve], -1)
+    held = (line >= 0) & state.lines.planar[line] & state.rows.alive[:, None]
+    normal = np.where(held[..., None], state.lines.normal[line], 0.0)
     rate = np.where(held, level[line], 0.0)
     found: FloatArray = (move[:, None] * normal).sum(axis=2) - rate
     return found

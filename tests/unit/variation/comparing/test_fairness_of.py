@@ -115,7 +115,7 @@ def test_lines_left_alone_are_not_judged(hull: Hull) -> None:
 def test_a_dent_is_seen_in_the_lines_it_crosses(hull: Hull) -> None:
     """Moving one point inward by 0.3 m adds changes of sign and multiplies the comb."""
     state = hull.document.state
-    lines = [line for line in state.live("lines").tolist() if state.lines.planar.data[line]]
+    lines = [line for line in state.live("lines").tolist() if state.lines.planar[line]]
     parent = measure_fairness(state, lines)
     with hull.edit("dent") as edit:
         edit.move("WL 2.5 x ST 10", y=hull.half_breadth(50.0, 2.5) - 0.3)
