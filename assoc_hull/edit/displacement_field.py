@@ -8,13 +8,13 @@ delta = U U^T n d / |U^T n|^2. The update runs a `NormalField` in sub-steps wher
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import Protocol
 
 import attrs
 import numpy as np
 
-from assoc_hull.edit.hull_normals import free_normals, hull_normals, shape_stamp
+from assoc_hull.edit.hull_normals import free_normals, hull_normals, shape_columns
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.evaluation import sample
@@ -133,15 +133,8 @@ class NormalField(Protocol):
 
 def field_context(state: HullState, *, across_flats: bool = False) -> FieldContext:
     """Find the points that fields may move; kept as long as the hull stays as it is."""
-    stamp = shape_stamp(state), state.rows.role.writes, across_flats
-    known: tuple[Hashable, FieldContext] | None = state.kept.get(_KEPT)
-    if known is None or known[0] != stamp:
-        known = stamp, _context(state, across_flats)
-        state.kept[_KEPT] = known
-    return known[1]
-
-
-_KEPT = "field context"
+    depends_on = (*shape_columns(state), state.rows.role, across_flats)
+    return state.derived(("field context",), depends_on, lambda: _context(state, across_flats))
 
 
 def _context(state: HullState, across_flats: bool) -> FieldContext:

@@ -8,8 +8,6 @@ not from where they lie: near a stern post or in a hollow the skin may face the 
 
 from __future__ import annotations
 
-from collections.abc import Hashable
-
 import attrs
 import numpy as np
 
@@ -17,7 +15,6 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.interpolation import interpolate_linear
 from assoc_hull.graph.table import ValueColumn
 from assoc_hull.model.gaps import crossing_normals, tangents
-from assoc_hull.model.index import Objects
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.lofting import loft_curves
 from assoc_hull.model.tables import HullState
@@ -26,7 +23,7 @@ __all__ = [
     "curve_tangents",
     "free_normals",
     "hull_normals",
-    "shape_stamp",
+    "shape_columns",
     "turn_outward",
 ]
 
@@ -115,34 +112,18 @@ def hull_normals(state: HullState) -> FloatArray:
     An edit asks for them again and again: they are kept, read-only, until something changes that
     they are made from.
     """
-    stamp = shape_stamp(state)
-    known: tuple[Hashable, FloatArray] | None = state.kept.get(_KEPT)
-    if known is not None and known[0] == stamp:
-        return known[1]
-    normal = _normals(state)
-    freeze(normal)
-    state.kept[_KEPT] = stamp, normal
-    return normal
+    return state.derived(("hull normals",), shape_columns(state), lambda: _normals(state))
 
 
-_KEPT = "hull normals"
-
-
-def shape_stamp(state: HullState) -> Hashable:
-    """Give a value that differs when points, curves or planes have changed.
-
-    Arrays count their writes; what the curves hold is never written to, but replaced.
-    """
+def shape_columns(state: HullState) -> tuple[object, ...]:
+    """Give what the shape of a hull depends on: points, curves and planes."""
     rows, curves, lines = state.rows, state.curves, state.lines
-    held = (curves.spline, curves.rows, curves.side, curves.meets, curves.ends, lines.curves)
     return (
-        Objects([each for column in held for each in column.data]),
-        *(each.writes for each in (rows.alive, rows.sort, rows.kind, rows.direction, rows.curve)),
-        *(each.writes for each in (rows.parameter, rows.xyz, curves.alive, curves.line)),
-        *(each.writes for each in (lines.planar, lines.normal, lines.offset, lines.boundary)),
-        lines.alive.writes,
-        state.particulars,
-    )
+        curves.spline, curves.rows, curves.side, curves.meets, curves.ends, lines.curves,
+        rows.alive, rows.sort, rows.kind, rows.direction, rows.curve, rows.parameter, rows.xyz,
+        curves.alive, curves.line, lines.planar, lines.normal, lines.offset, lines.boundary,
+        lines.alive, state.particulars,
+    )  # fmt: skip
 
 
 def _normals(state: HullState) -> FloatArray:
@@ -153,6 +134,7 @@ def _normals(state: HullState) -> FloatArray:
     normal[crossing] = crossing_normals(tangent[crossing, 0], tangent[crossing, 1])
     normal = turn_outward(state, normal, tangent)
     _interpolate(state, normal)
+    freeze(normal)
     return normal
 
 

@@ -7,7 +7,6 @@ another and beside the tables, which are only read.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable
 
 import attrs
 import numpy as np
@@ -15,15 +14,14 @@ import numpy as np
 from assoc_hull.edit.document import Document
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.curve_order import curve_folds
-from assoc_hull.model.index import Index, Objects
+from assoc_hull.graph.derived import Objects
+from assoc_hull.model.index import Index
 from assoc_hull.model.program import Program, Values, compile_program
 from assoc_hull.model.program_engine import runner_of
 from assoc_hull.model.run_program import ProgramRun, RunProgram
 from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = ["LiveNumbers", "PublishedProgram", "published_program"]
-
-_KEPT = "program"
 
 
 @attrs.frozen(eq=False)
@@ -70,91 +68,53 @@ class LiveNumbers:
 def published_program(document: Document) -> PublishedProgram | None:
     """Give the program of the present state; None of a hull with curves that cannot be made."""
     state, index = document.state, document.index
-    known: _Known | None = state.kept.get(_KEPT)
-    structure, numbers = _structure(state, index), _numbers(state)
-    if known is None or known.structure != structure or known.numbers != numbers:
-        program = known.program if known and known.structure == structure else None
-        known = _Known.of(state, index, program, structure, numbers)
-        state.kept[_KEPT] = known
-    if known.program is None or known.values is None:
+    program = state.derived(
+        ("program",), _structure(state, index), lambda: compile_program(state, index), most=1
+    )
+    if program is None:
         return None
-    return PublishedProgram(known.program, known.values)
+    rows, curves = state.rows, state.curves
+    numbers = rows.xyz, rows.base, rows.anchor_from, rows.gap, curves.spline, curves.meets
+    values = state.derived(
+        ("published numbers",), (program, *numbers), lambda: _published(state, program), most=1
+    )
+    return PublishedProgram(program, values)
 
 
-@attrs.frozen(eq=False)
-class _Known:
-    """What was made last, and of what."""
-
-    structure: Hashable
-    numbers: Hashable
-    program: Program | None
-    values: Values | None
-
-    @classmethod
-    def of(
-        cls, state: HullState, index: Index, program: Program | None, *stamps: Hashable
-    ) -> _Known:
-        """Compile the structure, unless it is known, and read the numbers."""
-        values = None if program is None else _published(state, program)
-        if values is None:
-            program = compile_program(state, index)
-            values = None if program is None else _published(state, program)
-        return cls(stamps[0], stamps[1], program, values)
-
-
-def _structure(state: HullState, index: Index) -> Hashable:
-    """Give what the structure is made of: numbers of writes, and objects."""
+def _structure(state: HullState, index: Index) -> tuple[object, ...]:
+    """Give all that the structure is made of: columns, and objects in them."""
     rows, lines, curves = state.rows, state.lines, state.curves
-    columns = (
-        rows.alive, rows.sort, rows.kind, rows.direction, rows.curve, rows.role, rows.reader,
-        rows.driver, rows.contact, rows.limit, rows.anchor, rows.anchor_weight, curves.alive,
-        curves.line, lines.alive, lines.planar, lines.normal, lines.offset, state.featured.alive,
+    meets = [state.curves.meets[curve] for curve in state.live("curves").tolist()]
+    return (
+        index, rows.alive, rows.sort, rows.kind, rows.direction, rows.curve, rows.role,
+        rows.reader, rows.driver, rows.contact, rows.limit, rows.anchor, rows.anchor_weight,
+        curves.alive, curves.line, curves.rows, curves.side, curves.ends, lines.alive,
+        lines.planar, lines.normal, lines.offset, state.featured.alive, state.featured.feature,
+        state.produced.alive, state.produced.curve, state.settings.failed,
+        # An intersection that changes its crossing or its place in the order is another array.
+        Objects([part for each in meets for part in (each.line, each.sign, each.row)]),
     )  # fmt: skip
-    objects = (
-        index, state.settings.failed[0], *curves.rows.data, *curves.side.data,
-        *curves.ends.data, *state.featured.feature.data, *state.produced.curve.data,
-    )  # fmt: skip
-    return tuple(column.writes for column in columns), Objects(objects)
 
 
-def _numbers(state: HullState) -> Hashable:
-    """Give what the numbers are read from."""
-    rows = state.rows
-    columns = (rows.xyz, rows.base, rows.anchor_from, rows.gap)
-    objects = (*state.curves.spline.data, *state.curves.meets.data)
-    return tuple(column.writes for column in columns), Objects(objects)
-
-
-def _published(state: HullState, program: Program) -> Values | None:
-    """Read the numbers of the tables; None if the program is not of their structure."""
+def _published(state: HullState, program: Program) -> Values:
+    """Read the numbers of the tables."""
     values = Values.blank(program, state)
     met: list[CurveIntersections] = [state.curves.meets[curve] for curve in program.number.tolist()]
     splines = [state.spline(curve) for curve in program.number.tolist()]
-    if not _same_meetings(program, met):
-        return None
     values.at[:] = np.concatenate([each.parameter for each in met])
     values.place[:] = np.concatenate([each.xyz for each in met])
-    bounds = zip(program.start.tolist(), program.meet_start.tolist(), splines, strict=False)
-    spans = list(itertools.pairwise([*bounds, (len(program.row), len(program.meet_row), None)]))
-    for (a, first, spline), (b, stop, _) in spans:
-        if spline is None or len(spline.knot) != b - a:
-            return None
+    spans, meetings = (
+        itertools.pairwise(each.tolist()) for each in (program.start, program.meet_start)
+    )
+    for (a, b), (first, stop), spline in zip(spans, meetings, splines, strict=True):
         block = values.block[9 * a : 9 * b].reshape(9, b - a)
         block[:3], block[3:6], block[6:] = spline.xyz.T, spline.leave.T, spline.arrive.T
         values.knot[a:b] = spline.knot
-        values.segment[first:stop] = (spline.knot[1:-1]).searchsorted(
-            values.at[first:stop], "right"
-        )
+        inner = spline.knot[1:-1]
+        values.segment[first:stop] = inner.searchsorted(values.at[first:stop], "right")
     batch = SplineBatch.join(splines)
     values.folds[:] = np.bincount(curve_folds(batch).curve, minlength=program.curves)
     values.lowest[:] = np.minimum.reduceat(batch.xyz[:, 1], batch.start[:-1])
     values.gap[:] = state.rows.gap[program.watch]
     freeze(*(getattr(values, each.name) for each in attrs.fields(Values)))
     return values
-
-
-def _same_meetings(program: Program, met: list[CurveIntersections]) -> bool:
-    """Tell whether curves meet what they met when the program was compiled."""
-    rows = np.concatenate([each.row for each in met])
-    signs = np.concatenate([each.sign for each in met])
-    return np.array_equal(rows, program.meet_row) and np.array_equal(signs, program.meet_sign)

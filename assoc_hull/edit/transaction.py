@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from assoc_hull.edit.step import Step
 from assoc_hull.edit.update import update
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.graph.derived import Marked
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.index import Index
 from assoc_hull.model.make_objects import Maker
@@ -69,7 +70,7 @@ class Transaction:
         self._quiet = PausedCollector()
         self._over = False
         self._index: Index | None = None
-        self._kept: dict[str, Any] = {}
+        self._known: Marked = {}
 
     @property
     def active(self) -> bool:
@@ -151,7 +152,7 @@ class Transaction:
         if self.document.writer is not None:
             raise BadInputError("another edit is open", where, "end that one first")
         self._thread = threading.get_ident()
-        self._index, self._kept = self.document.known_index, dict(self.state.kept)
+        self._index, self._known = self.document.known_index, self.state.memory.mark()
         self.document.begin(self, keep=self.look is None)
         self.document.writer = self
         self._quiet.__enter__()
@@ -237,7 +238,6 @@ class Transaction:
         """Take everything back; what was derived from the tables before is true again."""
         structural, self.pending = self.pending.structural, Pending()
         self.journal.undo()
-        self.state.kept.clear()
-        self.state.kept.update(self._kept)
+        self.state.memory.restore(self._known)
         if structural:
             self.document.known_index = self._index

@@ -14,10 +14,10 @@ import numpy as np
 
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.graph.derived import Objects
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.generate_points import generated_points
-from assoc_hull.model.lofting import same_objects
 from assoc_hull.model.tables import HullState
 
 __all__ = [
@@ -34,17 +34,17 @@ __all__ = [
     "unmade_rows",
 ]
 
-_Known = tuple[list[GeneratedCurve | None], Mapping[int, GeneratedCurve], IntArray, IntArray]
+_Known = tuple[Mapping[int, GeneratedCurve], IntArray, IntArray]
 
 
 def attached_curves(state: HullState) -> Mapping[int, GeneratedCurve]:
     """Give the attached generated curves by the number of the curve, in that order."""
-    return _known(state)[1]
+    return _known(state)[0]
 
 
 def attached_rows(state: HullState) -> IntArray:
     """Give the points that are computed from definitions, ascending."""
-    return _known(state)[2]
+    return _known(state)[1]
 
 
 def kept_rows(state: HullState) -> IntArray:
@@ -52,7 +52,7 @@ def kept_rows(state: HullState) -> IntArray:
 
     They ride with no other point: what was drawn by hand keeps its shape.
     """
-    return _known(state)[3]
+    return _known(state)[2]
 
 
 def generated_on(state: HullState, curve: int) -> GeneratedCurve | None:
@@ -71,25 +71,18 @@ def unmade_rows(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]
 
 
 def _known(state: HullState) -> _Known:
-    """Read the table of generated curves; what was found last holds as long as its objects do.
-
-    Gives these objects, attached curves by number, their points, and those of all.
-    """
+    """Read the table of generated curves: attached curves by number, their points, those of all."""
     table = state.produced
-    objects = [
-        curve if alive else None
-        for curve, alive in zip(table.curve.data, table.alive.data.tolist(), strict=True)
-    ]
-    known: _Known | None = state.kept.get("attached")
-    if known is None or not same_objects(known[0], objects):
-        curves = {each.curve: each for each in objects if each is not None and each.attached}
-        rows = np.array(sorted(row for each in curves.values() for row in each.rows), np.int64)
-        every = [row for each in objects if isinstance(each, GeneratedCurve) for row in each.rows]
-        kept = np.array(sorted(every), np.int64)
-        freeze(rows, kept)
-        known = objects, dict(sorted(curves.items())), rows, kept
-        state.kept["attached"] = known
-    return known
+    return state.derived(("attached",), (table.curve, table.alive), lambda: _read(state))
+
+
+def _read(state: HullState) -> _Known:
+    found = [state.produced.curve[number] for number in state.live("produced").tolist()]
+    curves = {each.curve: each for each in found if each.attached}
+    rows = np.array(sorted(row for each in curves.values() for row in each.rows), np.int64)
+    kept = np.array(sorted(row for each in found for row in each.rows), np.int64)
+    freeze(rows, kept)
+    return dict(sorted(curves.items())), rows, kept
 
 
 # --------------------------------------------------------------------------------------
@@ -103,17 +96,9 @@ def forms_of(state: HullState) -> Forms:
 
 def forms_with(state: HullState, definitions: Sequence[FormDefinition]) -> Forms:
     """Give the curves of some definitions of a hull; those of the last two sets are kept."""
-    wanted = tuple(definitions), state.particulars
-    known = state.kept.setdefault("forms", [])
-    for number, (asked, found) in enumerate(known):
-        if asked == wanted:
-            known.insert(0, known.pop(number))
-            made: Forms = found
-            return made
-    forms = Forms.of(wanted[0], wanted[1])
-    known.insert(0, (wanted, forms))
-    del known[2:]
-    return forms
+    chosen, ship = tuple(definitions), state.particulars
+    key = ("forms", Objects(chosen), ship)
+    return state.derived(key, (), lambda: Forms.of(chosen, ship), most=2)
 
 
 def line_offset(state: HullState, curve: int) -> float:

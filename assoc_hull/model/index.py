@@ -7,8 +7,7 @@ shape only reads it.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Sequence
-from typing import Any, TypeVar
+from collections.abc import Hashable
 
 import attrs
 import numpy as np
@@ -17,28 +16,9 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.levels import levels
 from assoc_hull.model.forms.generate_points import definitions_read
 from assoc_hull.model.generated_curves import attached_curves
-from assoc_hull.model.lofting import same_objects
 from assoc_hull.model.tables import HullState
 
-__all__ = ["Index", "Objects", "PlaneSet", "build_index", "driven_levels"]
-
-T = TypeVar("T")
-
-_ANSWERS = 64
-"""So many answers are kept."""
-
-
-@attrs.frozen(eq=False)
-class Objects:
-    """Some objects, equal only to the very same ones: part of a stamp of `Index.answer`."""
-
-    items: Sequence[object]
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Objects) and same_objects(self.items, other.items)
-
-    def __hash__(self) -> int:
-        return hash(tuple(map(id, self.items)))
+__all__ = ["Index", "PlaneSet", "build_index", "driven_levels"]
 
 
 @attrs.frozen(eq=False)
@@ -81,8 +61,8 @@ class Index:
     guess : (r, 2) int32
         In which segment of its two curves each crossing was last found; never relied upon.
     recall : dict
-        What the update found for the batches it evaluated last, by their curves; used only
-        where the tables still hold the very same objects.
+        What the update left in the tables for the batches it evaluated last, by their curves;
+        used only where the tables still hold the very same objects.
     """
 
     partners: dict[int, tuple[PlaneSet, ...]]
@@ -93,30 +73,6 @@ class Index:
     forms: dict[int, IntArray]
     guess: np.typing.NDArray[np.int32]
     recall: dict[Hashable, object] = attrs.field(factory=dict)
-    _answers: dict[Hashable, tuple[Hashable, Any]] = attrs.field(factory=dict, init=False)
-
-    def answer(self, question: Hashable, stamp: Hashable, find: Callable[[], T]) -> T:
-        """Give what was found last for a question, if nothing it depends on was written since.
-
-        Parameters
-        ----------
-        question : hashable
-            What is asked: a drag asks the same again and again.
-        stamp : hashable
-            How often the columns it depends on were written, as `Column.writes` says.
-        find : callable
-            Finds the answer; what it gives must not be changed.
-        """
-        known = self._answers.get(question)
-        if known is not None and known[0] == stamp:
-            found: T = known[1]
-            return found
-        found = find()
-        self._answers.pop(question, None)
-        self._answers[question] = stamp, found
-        if len(self._answers) > _ANSWERS:
-            del self._answers[next(iter(self._answers))]
-        return found
 
 
 def build_index(state: HullState) -> Index:

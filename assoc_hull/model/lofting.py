@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
-from operator import is_
 from typing import overload
 
 import attrs
@@ -18,9 +17,10 @@ from assoc_hull.geometry.curves import (
     freeze,
 )
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.graph.derived import Objects
 from assoc_hull.model.tables import Ends, HullState
 
-__all__ = ["curve_data", "loft_curves", "remember", "same_objects"]
+__all__ = ["curve_data", "loft_curves", "remember"]
 
 _KEPT = 16
 """So many batches are recalled."""
@@ -28,11 +28,8 @@ _KEPT = 16
 
 @attrs.frozen(eq=False)
 class _Plan:
-    """Where the data of a batch of curves lie; true while the tables hold the same objects."""
+    """Where the data of a batch of curves lie."""
 
-    rows: list[IntArray]
-    side: list[IntArray]
-    ends: list[Ends]
     start: IntArray
     row: IntArray
     part: IntArray
@@ -40,11 +37,6 @@ class _Plan:
     end_vector: FloatArray
     nowhere: FloatArray
     """The directions where no point is given one."""
-
-
-def same_objects(one: Sequence[object], other: Sequence[object]) -> bool:
-    """Tell whether two sequences hold the very same objects."""
-    return len(one) == len(other) and all(map(is_, one, other))
 
 
 def remember(recall: dict[Hashable, object], key: Hashable, value: object) -> None:
@@ -55,9 +47,7 @@ def remember(recall: dict[Hashable, object], key: Hashable, value: object) -> No
         del recall[next(iter(recall))]
 
 
-def curve_data(
-    state: HullState, curves: IntArray, recall: dict[Hashable, object] | None = None
-) -> CurveData:
+def curve_data(state: HullState, curves: IntArray, *, keep: bool = False) -> CurveData:
     """Gather the defining points, kinds and end conditions of curves.
 
     Parameters
@@ -66,8 +56,8 @@ def curve_data(
         The tables.
     curves : (m,) int
         Numbers of the curves.
-    recall : dict or None
-        Keeps where the data of a batch lie until the next time.
+    keep : bool
+        Whether where the data of the batch lie is kept until the next time.
 
     Returns
     -------
@@ -78,16 +68,12 @@ def curve_data(
     rows = [table.rows.data[curve] for curve in numbers]
     side = [table.side.data[curve] for curve in numbers]
     ends = [table.ends.data[curve] for curve in numbers]
-    key = ("recipe", curves.tobytes())
-    plan = None if recall is None else recall.get(key)
-    if not isinstance(plan, _Plan) or not (
-        same_objects(plan.rows, rows)
-        and same_objects(plan.side, side)
-        and same_objects(plan.ends, ends)
-    ):
+    if keep:
+        held = Objects(rows), Objects(side), Objects(ends)
+        key = ("recipe", curves.tobytes())
+        plan = state.derived(key, held, lambda: _plan(rows, side, ends), most=_KEPT)
+    else:
         plan = _plan(rows, side, ends)
-        if recall is not None:
-            remember(recall, key, plan)
     points = state.rows
     kind = points.kind.data.reshape(-1).take(plan.part)
     directed = bool((kind == PointKind.TANGENT).any())
@@ -110,7 +96,7 @@ def _plan(rows: list[IntArray], side: list[IntArray], ends: list[Ends]) -> _Plan
     part = 2 * row + np.concatenate(side)
     nowhere = np.zeros((len(row), 3))
     freeze(start, row, part, kind, vector, nowhere)
-    return _Plan(rows, side, ends, start, row, part, kind, vector, nowhere)
+    return _Plan(start, row, part, kind, vector, nowhere)
 
 
 @attrs.frozen(eq=False)
@@ -135,14 +121,12 @@ class _Names(Sequence[str]):
         return self.state.curves.key[int(self.curves[place])]
 
 
-def loft_curves(
-    state: HullState, curves: IntArray, recall: dict[Hashable, object] | None = None
-) -> SplineBatch:
-    """Loft curves from their defining points, in one batch; `recall` as for `curve_data`.
+def loft_curves(state: HullState, curves: IntArray, *, keep: bool = False) -> SplineBatch:
+    """Loft curves from their defining points, in one batch; `keep` as for `curve_data`.
 
     Raises
     ------
     TooFewPointsError, CoincidentPointsError, BadInputError
         Naming the curve.
     """
-    return loft(curve_data(state, curves, recall), _Names(state, curves))
+    return loft(curve_data(state, curves, keep=keep), _Names(state, curves))

@@ -80,16 +80,16 @@ class HullNetwork:
         """Give the curves that points define, and the points computed from curves."""
         if len(nodes) > _MANY:
             return self._find_readers(nodes)
-        stamp = self.state.rows.reader.writes
-        return self.index.answer(
-            ("readers", nodes.tobytes()), stamp, lambda: self._find_readers(nodes)
+        depends_on = self.index, self.state.rows.reader
+        return self.state.derived(
+            ("readers", nodes.tobytes()), depends_on, lambda: self._find_readers(nodes)
         )
 
     def reached(self, seeds: IntArray) -> int:
         """Give how many curves are made from nodes, at any distance, these included."""
-        return self.index.answer(
+        return self.state.derived(
             ("reached", seeds.tobytes()),
-            self.state.rows.reader.writes,
+            (self.index, self.state.rows.reader),
             lambda: int(Node.is_curve(closure(self, seeds)).sum()),
         )
 
@@ -193,7 +193,7 @@ class HullNetwork:
         recalled = recall.get(key)
         last = recalled if isinstance(recalled, LastIntersections) else None
         known = last if last is not None and last.holds(old, met) else None
-        batch = loft_curves(self.state, curves, recall)
+        batch = loft_curves(self.state, curves, keep=True)
         splines = batch.single()
         found = cut_curves(self.state, self.index, curves, splines, known.found if known else None)
         for curve, spline in zip(numbers, old, strict=True):

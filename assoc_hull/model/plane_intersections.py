@@ -15,9 +15,9 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.plane_intersections import PlaneIntersections, intersect_planes
+from assoc_hull.graph.derived import same_objects
 from assoc_hull.graph.journal import PickedRows
 from assoc_hull.model.index import Index, PlaneSet
-from assoc_hull.model.lofting import same_objects
 from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = ["LastIntersections", "PartnerIntersections", "cut_curves"]

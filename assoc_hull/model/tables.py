@@ -9,8 +9,8 @@ or adopted point has a curve on side 0 only. Tables are written through a `Journ
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Protocol
+from collections.abc import Callable, Mapping
+from typing import Protocol, TypeVar
 
 import attrs
 import numpy as np
@@ -18,6 +18,7 @@ import numpy as np
 from assoc_hull.arguments import checked, choice, flag, integer, places, positive, shown, word
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.graph.derived import Derived, Key
 from assoc_hull.graph.table import (
     Column,
     MatrixColumn,
@@ -58,6 +59,8 @@ __all__ = [
     "copy_state",
     "state_of",
 ]
+
+T = TypeVar("T")
 
 
 class HasState(Protocol):
@@ -352,9 +355,9 @@ class HullState:
         change, so the particulars lie here too.
     revision_row, revision_curve : dict of int to int
         Revisions; outside the journal, as they never run backward.
-    kept : dict
-        What higher layers made of the tables, which they check before they use it again. It lies
-        here to go with the hull: a store by hull elsewhere would keep it for ever.
+    memory : Derived
+        What was made of the tables, see `derived`. It lies here to go with the hull: a store by
+        hull elsewhere would keep it for ever.
     """
 
     _given: Particulars = attrs.field(alias="particulars")
@@ -369,13 +372,19 @@ class HullState:
     settings: HullSettings = attrs.field(factory=HullSettings)
     revision_row: dict[int, int] = attrs.field(factory=dict)
     revision_curve: dict[int, int] = attrs.field(factory=dict)
-    kept: dict[str, Any] = attrs.field(factory=dict, init=False, repr=False)
+    memory: Derived = attrs.field(factory=Derived, init=False, repr=False)
 
     def __attrs_post_init__(self) -> None:
         if not self.settings.count:
             self.settings.resize(1)
             self.settings.births.data[0] = {}
             self.settings.particulars.data[0] = self._given
+
+    def derived(
+        self, key: Key, depends_on: tuple[object, ...], make: Callable[[], T], most: int = 64
+    ) -> T:
+        """Give what was made last for a key, or make it anew; see `assoc_hull.graph.derived`."""
+        return self.memory.give(key, depends_on, make, most)
 
     @property
     def particulars(self) -> Particulars:

@@ -47,8 +47,6 @@ _WHERE = "in form parameters"
 _MOST = 8
 """Number of positions of a hull that are kept, until a line changes."""
 
-_KEPT = "form parameters"
-
 
 def form_parameters(
     hull: HasState,
@@ -129,13 +127,12 @@ def _shape(
     header = header_of(hull, body, terms)
     require_numbers(draughts if draught is None else draught, body.limits)
     position = position_of(header, draught, draughts, 0.0, "moulded")
-    kept: dict[object, tuple[FloatingShape, dict[str, FormValue]]] = body.kept.setdefault(_KEPT, {})
-    key = (position, screw, header.rho, header.shell_factor, header.transom)
-    if key not in kept:
-        if len(kept) >= _MOST:
-            kept.pop(next(iter(kept)), None)
-        kept[key] = FloatingShape(body, header, position, state.particulars.depth, screw), {}
-    return kept[key]
+    key = ("form", position, screw, header.rho, header.shell_factor, header.transom)
+    depth = state.particulars.depth
+    # the values come into the dict as they are asked for; nothing else changes what is kept
+    return state.derived(
+        key, (body,), lambda: (FloatingShape(body, header, position, depth, screw), {}), _MOST
+    )
 
 
 # --------------------------------------------------------------------------------------

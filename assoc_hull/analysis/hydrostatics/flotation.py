@@ -7,9 +7,9 @@ from a hull to what is measured of it.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import attrs
 import numpy as np
@@ -56,8 +56,8 @@ from assoc_hull.geometry.floating.raked_strips import StripSpans, strip_spans
 from assoc_hull.geometry.floating.sections import sections_and_moments_below
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
+from assoc_hull.graph.derived import Objects
 from assoc_hull.model.definition.fingerprint import fingerprint
-from assoc_hull.model.index import Objects
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.tables import HullState, state_of
 
@@ -72,9 +72,6 @@ __all__ = [
     "flotation",
     "header_of",
 ]
-
-_KEPT = "flotation"
-"""Key under which the `Flotation` of a hull is kept with its tables."""
 
 _SAMPLES = 8
 """Points on each segment among which the lowest of the hull is looked for."""
@@ -98,8 +95,6 @@ class Flotation:
         The `PointKind` of each defining point of the net.
     ends : tuple of OpenEnd
         Ends that no line closes.
-    kept : dict
-        What others measured of it, to go when a line changes.
     """
 
     state: HullState
@@ -108,7 +103,6 @@ class Flotation:
     strips: Strips
     kinds: NDArray[np.int8]
     ends: tuple[OpenEnd, ...] = ()
-    kept: dict[object, Any] = attrs.field(factory=dict, init=False, repr=False)
     _route: dict[bytes, ImmersedIntegrals] = attrs.field(factory=dict, init=False, repr=False)
 
     @cached_property
@@ -240,10 +234,10 @@ def flotation(state: HullState) -> Flotation:
     >>> round(float(flotation(wigley()).measure(planes).volume[0]))  # 4/9 L B T
     2777
     """
-    stamp = _stamp(state)
-    known: tuple[Hashable, Flotation] | None = state.kept.get(_KEPT)
-    if known is not None and known[0] == stamp:
-        return known[1]
+    return state.derived(("flotation",), _depends_on(state), lambda: _flotation(state))
+
+
+def _flotation(state: HullState) -> Flotation:
     net = gather_net(state)
     stations = np.unique(net.x[np.isfinite(net.x) & ~net.end])
     if len(stations) < 2:
@@ -260,20 +254,18 @@ def flotation(state: HullState) -> Flotation:
     ends, closed = open_ends(net, layout, ship.length), ship.deck == "closed"
     strips: Strips = CoonsStrips.on(layout.cells, net.batch)
     strips = with_ends(strips, net, closed, ends) if ends else strips
-    found = Flotation(state, net, layout, strips, kinds, ends)
-    state.kept[_KEPT] = stamp, found
-    return found
+    return Flotation(state, net, layout, strips, kinds, ends)
 
 
-def _stamp(state: HullState) -> Hashable:
-    """Give what the surface depends on: splines and names themselves, write counts of the rest."""
+def _depends_on(state: HullState) -> tuple[object, ...]:
+    """Give what the surface depends on: splines, names and some columns."""
     made = [state.spline(curve) for curve in state.live("curves").tolist()]
     return (
         Objects([*made, state.particulars]),
-        state.rows.role.writes,
-        state.rows.alive.writes,
-        state.lines.boundary.writes,
-        state.lines.offset.writes,
+        state.rows.role,
+        state.rows.alive,
+        state.lines.boundary,
+        state.lines.offset,
         tuple(state.lines.name.data),
     )
 

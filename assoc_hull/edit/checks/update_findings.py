@@ -13,11 +13,12 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.curve_order import curve_folds
+from assoc_hull.graph.derived import Objects
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
 from assoc_hull.model.align_intersections import Alignment
 from assoc_hull.model.gaps import gap_at, watched_on
-from assoc_hull.model.index import Index, Objects
+from assoc_hull.model.index import Index
 from assoc_hull.model.kinds import BoundaryKind, Sort
 from assoc_hull.model.tables import CurveIntersections, HullState
 
@@ -187,7 +188,7 @@ def measure_gaps(
 
     `index` may say which crossings are watched and in which segments they lie.
     """
-    rows = watched_on(state, curves) if index is None else _watched(state, curves, index)
+    rows = watched_on(state, curves) if index is None else _watched(state, curves)
     if not len(rows):
         return WideGaps(rows, np.zeros(0), np.zeros(0), 0.0, rows)
     known = index.guess if index is not None and len(index.guess) == state.rows.count else None
@@ -201,12 +202,14 @@ def measure_gaps(
     return WideGaps(rows[wide], gap[wide], limit[wide], float(gap.max()), mend)
 
 
-def _watched(state: HullState, curves: IntArray, index: Index) -> IntArray:
+def _watched(state: HullState, curves: IntArray) -> IntArray:
     """Give the watched crossings of curves: the same as before while these meet the same."""
     met, table = state.curves.meets.data, state.rows
     rows = Objects([met[curve].row for curve in curves.tolist()])
-    stamp = rows, table.role.writes, table.sort.writes, table.alive.writes
-    return index.answer(("watched", curves.tobytes()), stamp, lambda: watched_on(state, curves))
+    depends_on = rows, table.role, table.sort, table.alive
+    return state.derived(
+        ("watched", curves.tobytes()), depends_on, lambda: watched_on(state, curves)
+    )
 
 
 def _to_mend(state: HullState, rows: IntArray, part: FloatArray) -> IntArray:

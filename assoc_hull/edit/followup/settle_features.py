@@ -108,13 +108,14 @@ def _affected(work: Work, rows: IntArray) -> list[int]:
 
 def _owners(state: HullState) -> tuple[IntArray, IntArray]:
     """Give each owned point with the number of its feature; kept until the features change."""
-    kept, features = state.kept.get("owners"), state.features
-    if kept is None or kept[0] != features:
-        points = [np.array(each.points, np.int64) for each in features]
-        point = np.concatenate([np.zeros(0, np.int64), *points])
-        owner = np.repeat(np.arange(len(features)), [len(part) for part in points])
-        kept = state.kept["owners"] = features, point, owner
-    return kept[1], kept[2]
+    table = state.featured
+    return state.derived(("owners",), (table.feature, table.alive), lambda: _find_owners(state))
+
+
+def _find_owners(state: HullState) -> tuple[IntArray, IntArray]:
+    points = [np.array(each.points, np.int64) for each in state.features]
+    owner = np.repeat(np.arange(len(points)), [len(part) for part in points])
+    return np.concatenate([np.zeros(0, np.int64), *points]), owner
 
 
 def _settle(work: Work, found: _Settling, old: Feature, hand: _Hand, *, whole: bool) -> None:
