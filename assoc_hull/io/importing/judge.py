@@ -46,7 +46,8 @@ def judge(
     if not drawn and not table:
         look(lambda: examine_ends(state, record, found), "the ends", found)
     borders = () if slices is None else slices.borders
-    examine_net(state, adoption, found, borders, drawn=drawn)
+    sized = frame is not None and frame.given_length is not None
+    examine_net(state, adoption, found, borders, drawn=drawn, sized=sized)
     look(lambda: examine_certainty(record, found), "the net", found)
     return found.verdict()
 

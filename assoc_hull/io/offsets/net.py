@@ -233,10 +233,16 @@ class _FlatBorder:
         return intersect_planes(self.border, np.eye(3)[axis], np.array([offset])).xyz
 
 
+_SAG = 0.5
+"""A smooth border that sinks by more (m) below its lowest point swings: those of Series 60 sink by
+.12 and .27 m between the stations that bound them."""
+
+
 def _border_kinds(side: FloatArray) -> list[int]:
     """Give the kinds of a border's points: smooth where the smooth curve passes levels once a side.
 
-    Else knuckles: a smooth curve through uneven points may turn back and pass a waterline twice.
+    Else knuckles: a smooth curve through uneven points may turn back and pass a waterline twice, or
+    sink between two corners of a level lower side and put sections on a flat where they have none.
     """
     smooth, knuckles = ([int(kind)] * len(side) for kind in (PointKind.SMOOTH, PointKind.KNUCKLE))
     # Clear of the lower side, which is nearly level, and of the ends at the deck.
@@ -244,7 +250,10 @@ def _border_kinds(side: FloatArray) -> list[int]:
     if low >= high:  # too low a flat to tell
         return knuckles
     levels = np.linspace(low, high, 40)
-    met = intersect_planes(loft(CurveData.single(side, smooth)), np.eye(3)[2], levels)
+    spline = loft(CurveData.single(side, smooth))
+    if float(side[:, 2].min() - sample(spline, _FINE)[1][:, 2].min()) > _SAG:
+        return knuckles
+    met = intersect_planes(spline, np.eye(3)[2], levels)
     once = np.bincount(met.plane, minlength=len(levels)) == 2
     return smooth if once.all() else knuckles
 
