@@ -33,7 +33,7 @@ def judge(
     slices: SliceReport | None, frame: ShipFrame | None,
     *, table: OffsetTable | None,
 ) -> Verdict:  # fmt: skip
-    """Look at all of a hull that was read from a file; `table`: its offsets, where it was a table."""
+    """Look at all of a hull that was read from a file; `table`: its offsets if it was a table."""
     found = Findings([*map(finding_of, notes.faults)])
     for note in notes.suspicions:
         _take_up(note, state, found)
