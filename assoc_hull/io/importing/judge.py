@@ -13,6 +13,7 @@ from assoc_hull.io.importing.stated import stated_in
 from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict, told_verdict
 from assoc_hull.io.lines.boundary_holes import HOLE
 from assoc_hull.io.lines.ship_frame import ShipFrame
+from assoc_hull.io.offsets.doctor import BLANK_INSIDE
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.reports import Note, OffsetReport
 from assoc_hull.io.slicing.net import LOFTED, SliceReport
@@ -54,6 +55,7 @@ def judge(
     if table is not None:
         look(lambda: examine_overshoots(state, table, found), "the sections", found)
     look(lambda: examine_certainty(record, found), "the net", found)
+    _put_causes_first(found)
     return found.verdict()
 
 
@@ -72,6 +74,15 @@ def _take_up(note: Note, state: HullState, found: Findings) -> None:
     # Of an open profile neither surface nor closed mesh can be made, and volumes leak there.
     broken = wild or note.kind == HOLE
     (found.faults if broken else found.suspicions).append(finding_of(note))
+
+
+def _put_causes_first(found: Findings) -> None:
+    """Make blanks between numbers the first faults where a section is open: they opened it."""
+    if not any(each.kind == "open net" for each in found.faults):
+        return
+    causes = [each for each in found.suspicions if each.what.startswith(BLANK_INSIDE)]
+    found.suspicions = [each for each in found.suspicions if each not in causes]
+    found.faults[:0] = causes
 
 
 def finding_of(note: Note) -> ImportFinding:

@@ -137,7 +137,10 @@ def _with_plumb_ends(table: OffsetTable, names: tuple[str, ...], book: Notebook)
         if not open_end or not _run_out_at(table, end, beside):
             continue
         y[end] = 0.0
-        what = f"without a half-breadth, and all waterlines run out there: blanks read as zeros, a plumb end at x = {table.x[end]:.6g} m"
+        what = (
+            "without a half-breadth, and all waterlines run out there: blanks read as zeros, a "
+            f"plumb end at x = {table.x[end]:.6g} m"
+        )
         book.assume("plumb end", f"station {names[end]}", what, float(table.x[end]))
     if _reaches_lowest(table.z, y):
         y[:, 0] = 0.0
@@ -418,6 +421,7 @@ def _examine(
         table.breadth,
         table.draught,
         scale.y,
+        sheet.printed_unit == "ft",
     )
     examine_offsets(patient, book)
     examine_lines(patient, book)
