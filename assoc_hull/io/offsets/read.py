@@ -165,7 +165,7 @@ def _reaches_lowest(z: FloatArray, y: FloatArray) -> bool:
 def _run_out_at(table: OffsetTable, end: int, beside: tuple[int, int, int]) -> bool:
     """Tell whether all waterlines of the three stations beside an end come to 0 at it."""
     y, x = table.half_breadth[list(beside)], table.x[list(beside)]
-    wide = (np.nan_to_num(y) > 0.0).all(axis=0)
+    wide = np.asarray((np.nan_to_num(y) > 0.0).all(axis=0))
     # From the lowest that has a breadth on, each goes on.
     first = int(np.argmax(wide))
     if first > 1 or not wide[first:].all():

@@ -30,7 +30,7 @@ def test_one_column_is_named_for_a_table_alone() -> None:
 @pytest.mark.parametrize(("comment", "unit"), [("inches", "in"), ("mm", "mm"), ("inch model", "")])
 def test_a_comment_that_is_a_unit_is_one(comment: str, unit: str) -> None:
     """It was ignored."""
-    assert (read_hints([comment]).units.y or "") == unit
+    assert (read_hints((comment,)).units.y or "") == unit
 
 
 def test_a_blank_cell_is_the_first_fault(tmp_path: Path) -> None:
