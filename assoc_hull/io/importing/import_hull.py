@@ -27,6 +27,7 @@ from assoc_hull.io.importing.stated import stated_places
 from assoc_hull.io.importing.verdict import ImportFinding, Verdict, grouped, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.offsets.complete_table import net_from_table
+from assoc_hull.io.offsets.knuckles import knuckle_notes
 from assoc_hull.io.offsets.place_table import place_table, table_particulars
 from assoc_hull.io.offsets.read import read_offsets
 from assoc_hull.io.offsets.table import OffsetTable
@@ -97,9 +98,8 @@ def import_hull(
     tell("checking", 0, 0)
     restored = own is not None and own.state is not None
     made = () if restored else make_latent_crossings(state)
-    table = report.table is not None
     verdict = judge(
-        state, path, report.notes, report.adoption, report.slices, report.frame, table=table
+        state, path, report.notes, report.adoption, report.slices, report.frame, table=report.table
     )
     require_sound(verdict, path.name, accept=wanted.accept, strict=wanted.strict)
     mine = (*report.adoption.notes, *(f"{key}: made, since both lines end there" for key in made))
@@ -159,6 +159,7 @@ def _scale(options: ImportOptions) -> float:
 def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, ImportReport]:
     options.refuse("it is for meshes, surfaces and digitised lines", path, options.ONLY_CUTS)
     table, notes, frame = _placed_table(path, options)
+    notes = attrs.evolve(notes, assumptions=(*notes.assumptions, *knuckle_notes(table)))
     deck = options.deck or DECKS[0]
     ship = table_particulars(table, frame, deck)
     try:

@@ -55,11 +55,12 @@ def examine_net(
     borders: Sequence[BoundaryCurve] = (),
     *,
     drawn: bool = True,
+    sized: bool = False,
 ) -> None:
     """Look at all lines of a hull, and at how they hang together.
 
     `borders` are those of flats that were drawn; `drawn` says that profile and deck edge are lines
-    of the file, and not made of its sections.
+    of the file, and not made of its sections; `sized`: the ship's length was given or stated.
     """
     for each in (
         lambda: _examine_lines(state, adoption.lines, found),
@@ -67,7 +68,7 @@ def examine_net(
         lambda: _examine_gaps(state, found),
         lambda: _examine_misses(state, found),
         lambda: _examine_centre(state, found),
-        lambda: _examine_checks(state, found),
+        lambda: _examine_checks(state, found, sized=sized),
         lambda: _examine_cells(state, found, drawn),
     ):
         look(each, "the net", found)
@@ -271,24 +272,27 @@ def _examine_centre(state: HullState, found: Findings) -> None:
             found.fault("centre plane", where, what, over)
 
 
-def _examine_checks(state: HullState, found: Findings) -> None:
-    found.faults.extend(_checked(state))
+def _examine_checks(state: HullState, found: Findings, *, sized: bool = False) -> None:
+    found.faults.extend(_checked(state, sized=sized))
 
 
-def _checked(state: HullState) -> Iterator[ImportFinding]:
+def _checked(state: HullState, *, sized: bool) -> Iterator[ImportFinding]:
     """Give the findings of `check`, each with its place."""
     for each in check(state):
         place = "" if each.place is None else f" at {_at(each.place)}"
         what = each.message
         if each.kind == "fold":  # what is imported has had no edit that could be undone
-            what = f"{what.partition(': ')[0]}: {_unfold(state)}"
+            what = f"{what.partition(': ')[0]}: {_unfold(state, sized=sized)}"
         yield ImportFinding(each.kind, f"{each.object}{place}", what, each.amount)
 
 
-def _unfold(state: HullState) -> str:
-    """Say what to do about a line that folds: details of a model are finer than a boat's."""
+def _unfold(state: HullState, *, sized: bool) -> str:
+    """Say what to do about a line that folds: details of a model are finer than a boat's.
+
+    A hull as long as was said is no model.
+    """
     remedy = "mend the line there, give it more points, or cut at other places"
-    if state.tolerances.factor == 1.0:
+    if sized or state.tolerances.factor == 1.0:
         return remedy
     return f"if this is the model of a ship give scale=, full scale over it; else {remedy}"
 

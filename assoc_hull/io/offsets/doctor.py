@@ -18,6 +18,7 @@ from assoc_hull.io.reports import Notebook
 from assoc_hull.tolerance import length_factor
 
 __all__ = [
+    "BLANK_INSIDE",
     "ExaminedTable",
     "examine_offsets",
     "lone_values",
@@ -25,6 +26,9 @@ __all__ = [
     "predicted_values",
     "wild_values",
 ]
+
+BLANK_INSIDE = "blank between numbers"
+"""How a cell without a number is told that parts a section in two."""
 
 # --------------------------------------------------------------------------------------
 # Wild and lone values. The worst wild value is set to its released value and the search repeated,
@@ -154,6 +158,8 @@ class ExaminedTable:
     draught : float or None, m
     printed : float
         Metres to one unit of the printed half-breadths.
+    eighths : bool
+        Half-breadths are printed in feet-inches-eighths.
     """
 
     stations: tuple[str, ...]
@@ -168,6 +174,7 @@ class ExaminedTable:
     breadth: float
     draught: float | None
     printed: float
+    eighths: bool = False
 
     def where(self, i: int, j: int) -> str:
         """Name a cell."""
@@ -175,12 +182,20 @@ class ExaminedTable:
 
     def says(self, value: float) -> str:
         """Write a half-breadth in m, and as printed where that differs."""
-        as_printed = f" (printed {value / self.printed:.6g})" if self.printed != 1.0 else ""
-        return f"{value:.6g} m{as_printed}"
+        if self.printed == 1.0:
+            return f"{value:.6g} m"
+        number = value / self.printed
+        return f"{value:.6g} m (printed {_eighths(number) if self.eighths else f'{number:.6g}'})"
 
     def amidships(self) -> Iterator[int]:
         """Give the stations within a tenth of the length from amidships."""
         yield from map(int, np.flatnonzero(np.abs(self.x / self.length - 0.5) <= 0.1))
+
+
+def _eighths(feet: float) -> str:
+    """Write feet as feet-inches-eighths."""
+    inches, eighths = divmod(round(96.0 * abs(feet)), 8)
+    return f"{'-' if feet < 0.0 else ''}{inches // 12}-{inches % 12}-{eighths}"
 
 
 def examine_offsets(patient: ExaminedTable, book: Notebook) -> None:
@@ -228,7 +243,7 @@ def _blanks(patient: ExaminedTable, book: Notebook) -> None:
             book.assume("blank", f"station {patient.stations[i]}", what, float(len(ended)))
         for j in blank:
             if j not in ended:
-                book.suspect("blank", patient.where(i, int(j)), "blank between numbers")
+                book.suspect("blank", patient.where(i, int(j)), f"{BLANK_INSIDE}: fill the cell")
 
 
 def _among_zeros(row: FloatArray, j: int) -> bool:

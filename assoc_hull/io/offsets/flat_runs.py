@@ -48,7 +48,10 @@ class StraightRuns:
     tangent: NDArray[np.bool_]
 
 
-def straight_runs_of(place: FloatArray, y: FloatArray, unit: float, spacing: float) -> StraightRuns:
+def straight_runs_of(
+    place: FloatArray, y: FloatArray, unit: float, spacing: float,
+    corner: NDArray[np.bool_] | None = None,
+) -> StraightRuns:  # fmt: skip
     """Find where a line is straight at its greatest offset.
 
     Parameters
@@ -61,6 +64,8 @@ def straight_runs_of(place: FloatArray, y: FloatArray, unit: float, spacing: flo
         One unit of the last printed digit.
     spacing : float, m
         Points closer to one another than this are one.
+    corner : (n,) bool or None
+        Where the line is known to turn: it comes onto a flat there at an angle.
     """
     on = y >= y.max() - unit
     beside = np.zeros(len(y), np.bool_)
@@ -73,6 +78,8 @@ def straight_runs_of(place: FloatArray, y: FloatArray, unit: float, spacing: flo
         for edge, before in ((first, slice(first - 1, None, -1)), (stop - 1, slice(stop, None))):
             if (edge == first and not first) or (edge != first and stop == len(y)):
                 continue  # it is the end of the line: points in a row are straight as they are
+            if corner is not None and corner[edge]:
+                continue
             at = _entry(place[before], y[edge] - y[before], float(place[edge]), 0.5 * unit, spacing)
             if at is None:
                 tangent[edge] = True

@@ -140,6 +140,7 @@ _WORD = (
 )
 _STATED = re.compile(
     rf"\bunits?\b[^.;]{{0,20}}?\b(?P<named>{_WORD}|in)(?:\s*[,/]\s*(?P<second>{_WORD}|in))?\b|"
+    rf"^\W*(?P<alone>{_WORD})\W*$|"
     rf"\bin (?:the unit )?(?P<plain>{_WORD})\b|(?P<parts>y/\(B/2\)|\bnormali[sz]ed\b)|"
     rf"\b(?P<told>half[- ]?breadths?|heights?|waterlines?)\s*[\[(:=]\s*(?P<of>{_WORD}|in)\b",
     re.IGNORECASE,
@@ -160,7 +161,7 @@ def _units(text: str) -> BlockUnits:
             marks = "[;.,]" if match["named"] else "[;.]"
             before = re.split(marks, line[end : match.start()])[-1] + (match["told"] or "")
             end = match.end()
-            unit = _unit(next(filter(None, match.group("named", "plain", "parts", "of"))))
+            unit = _unit(next(filter(None, match.group("named", "alone", "plain", "parts", "of"))))
             blocks = [block for block, words in _OF.items() if words.search(before)]
             if match["second"]:
                 found |= {"y": unit} | found

@@ -24,6 +24,7 @@ from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.io.lines.raw_lines import plane_name
 from assoc_hull.io.lines.slices import ASSOCIATIONS
 from assoc_hull.io.offsets.flat_runs import straight_runs_of
+from assoc_hull.io.offsets.knuckles import knuckles_of_table
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
@@ -123,7 +124,8 @@ def adopt_completed(
 ) -> tuple[HullState, AdoptionReport]:  # fmt: skip
     """Adopt a table with its completion at full size, as of `at_full_size`.
 
-    `straight`: lines off the flats run straight, too, where they have one greatest offset.
+    `straight`: lines off the flats run straight, too, where they have one greatest offset, and
+    sections turn where they have a knuckle.
     """
     factor, full = length_factor(table.length), at_full_size(table)
     flats = _FlatBorder(completion.side, full)
@@ -132,6 +134,8 @@ def adopt_completed(
     sources += [_closed_section(full, completion, flats, i) for i in wet]
     sources += [_closed_waterline(full, completion, flats, j) for j in range(1, len(full.z) - 1)]
     if straight:
+        corners = knuckles_of_table(full)
+        sources = [_with_knuckles(each, full, corners) for each in sources]
         sources = [_straight_at_greatest(each, full) for each in sources]
     own = sources if factor == 1.0 else _brought_back(sources, full, table, factor)
     state, report = adopt(
@@ -141,6 +145,29 @@ def adopt_completed(
     bare = [i for i in range(len(table.x)) if i not in wet]
     notes = tuple(f"station at x = {table.x[i]:g} m: no breadth, no section made" for i in bare)
     return state, attrs.evolve(report, notes=(*_printed(table), *notes, *report.notes))
+
+
+def _with_knuckles(line: LineSource, table: OffsetTable, knuckles: NDArray[np.bool_]) -> LineSource:
+    """Let a section turn at the offsets that are knuckles, also where a flat begins there."""
+    row = np.flatnonzero(table.x == line.points[0, 0])
+    if line.group != "sections" or not len(row):
+        return line
+    corner = _corners(line.points, table, knuckles, int(row[0]))
+    if not corner.any():
+        return line
+    kind, direction = line.kind.copy(), line.direction.copy()
+    kind[corner], direction[corner] = int(PointKind.KNUCKLE), 0.0
+    freeze(kind, direction)
+    return attrs.evolve(line, kind=kind, direction=direction)
+
+
+def _corners(
+    points: FloatArray, table: OffsetTable, knuckles: NDArray[np.bool_], i: int
+) -> NDArray[np.bool_]:
+    """Tell which points (n, 3) of the section at station i are knuckles of the table; no end is."""
+    found = np.isin(points[:, 2], table.z[knuckles[i]]) & (points[:, 1] > 0.0)
+    found[[0, -1]] = False
+    return np.asarray(found)
 
 
 def _straight_at_greatest(line: LineSource, table: OffsetTable) -> LineSource:
@@ -154,7 +181,8 @@ def _straight_at_greatest(line: LineSource, table: OffsetTable) -> LineSource:
     unit = float(table.rounding.max())
     if along == 0:
         unit = float(table.rounding[int(np.abs(table.z - line.points[0, 2]).argmin())])
-    points, tangent = _on_runs(line.points, along, 2.0 * unit * (1.0 + 1e-6), 1.0)
+    corner = line.kind == PointKind.KNUCKLE
+    points, tangent = _on_runs(line.points, along, 2.0 * unit * (1.0 + 1e-6), 1.0, corner)
     if not tangent.any():
         return line
     given = (points[:, None] == line.points[None]).all(axis=2)
@@ -233,10 +261,16 @@ class _FlatBorder:
         return intersect_planes(self.border, np.eye(3)[axis], np.array([offset])).xyz
 
 
+_SAG = 0.5
+"""A smooth border that sinks by more (m) below its lowest point swings: those of Series 60 sink by
+.12 and .27 m between the stations that bound them."""
+
+
 def _border_kinds(side: FloatArray) -> list[int]:
     """Give the kinds of a border's points: smooth where the smooth curve passes levels once a side.
 
-    Else knuckles: a smooth curve through uneven points may turn back and pass a waterline twice.
+    Else knuckles: a smooth curve through uneven points may turn back and pass a waterline twice, or
+    sink between two corners of a level lower side and put sections on a flat where they have none.
     """
     smooth, knuckles = ([int(kind)] * len(side) for kind in (PointKind.SMOOTH, PointKind.KNUCKLE))
     # Clear of the lower side, which is nearly level, and of the ends at the deck.
@@ -244,7 +278,10 @@ def _border_kinds(side: FloatArray) -> list[int]:
     if low >= high:  # too low a flat to tell
         return knuckles
     levels = np.linspace(low, high, 40)
-    met = intersect_planes(loft(CurveData.single(side, smooth)), np.eye(3)[2], levels)
+    spline = loft(CurveData.single(side, smooth))
+    if float(side[:, 2].min() - sample(spline, _FINE)[1][:, 2].min()) > _SAG:
+        return knuckles
+    met = intersect_planes(spline, np.eye(3)[2], levels)
     once = np.bincount(met.plane, minlength=len(levels)) == 2
     return smooth if once.all() else knuckles
 
@@ -417,9 +454,12 @@ def lines_of_table(table: OffsetTable) -> list[LineSource]:
     """
     factor = length_factor(table.length)
     profile = _keel_profile(table)
+    knuckles = knuckles_of_table(table)
     near = factor * _TOLERANCE
     found = [
-        _straightened(table, "sections", points, x, near)
+        _straightened(
+            table, "sections", points, x, near, corner=_corners(points, table, knuckles, i)
+        )
         for i, x in enumerate(table.x.tolist())
         for points in _open_sections(table, i)
     ]
@@ -449,9 +489,12 @@ def lines_of_table(table: OffsetTable) -> list[LineSource]:
 
 
 def _straightened(
-    table: OffsetTable, group: str, points: FloatArray, place: float, near: float, j: int = -1
-) -> LineSource:
+    table: OffsetTable, group: str, points: FloatArray, place: float, near: float, j: int = -1,
+    *, corner: NDArray[np.bool_] | None = None,
+) -> LineSource:  # fmt: skip
     """Make a section or waterline that runs straight on the flats, and leaves them tangent.
+
+    It turns at its corners, (n,) of the points.
 
     It is on a flat of side where neighbouring offsets are the greatest, to a unit of their
     rounding, as of `straight_runs_of`; on a flat of bottom up to an offset at the keel's height.
@@ -459,13 +502,16 @@ def _straightened(
     axis, along = (0, 2) if group == "sections" else (2, 0)
     unit = 2.0 * float(table.rounding.max() if j < 0 else table.rounding[j]) * (1.0 + 1e-6)
     factor = length_factor(table.length)
-    points, tangent = _on_runs(points, along, unit, factor)
+    corners = points[np.zeros(len(points), np.bool_) if corner is None else corner]
+    points, tangent = _on_runs(points, along, unit, factor, corner)
     direction = np.where(tangent[:, None], np.eye(3)[along], 0.0)
     same, y = factor * _SAME, points[:, 1]
     if group == "sections" and y[0] == 0.0 and y[1] > 0.0 and abs(np.diff(points[:2, 2])[0]) < same:
         tangent[1], direction[1] = True, (0.0, 1.0, 0.0)
     tangent[[0, -1]], direction[[0, -1]] = False, 0.0
     kind = np.where(tangent, int(PointKind.TANGENT), int(PointKind.SMOOTH))
+    turns = (points[:, None] == corners[None]).all(axis=2).any(axis=1)
+    kind[turns], direction[turns] = int(PointKind.KNUCKLE), 0.0
     if group == "sections" and _has_chine(points, same):
         kind[1], direction[1] = int(PointKind.KNUCKLE), 0.0
     if group == "sections" and len(points) > 2 and points[0, 1] == 0.0:
@@ -497,12 +543,16 @@ def _has_chine(points: FloatArray, same: float) -> bool:
 
 
 def _on_runs(
-    points: FloatArray, along: int, unit: float, factor: float
-) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """Put points in where a line (n, 3), m, comes onto its greatest offset; and tell those."""
+    points: FloatArray, along: int, unit: float, factor: float,
+    corner: NDArray[np.bool_] | None = None,
+) -> tuple[FloatArray, NDArray[np.bool_]]:  # fmt: skip
+    """Put points in where a line (n, 3), m, comes onto its greatest offset; and tell those.
+
+    At a corner, (n,), it comes onto it there and nowhere before.
+    """
     if (np.diff(points[:, along]) < 0.0).any():  # it turns back: no heights tell a flat there
         return points, np.zeros(len(points), np.bool_)
-    runs = straight_runs_of(points[:, along], points[:, 1], unit, factor * _APART)
+    runs = straight_runs_of(points[:, along], points[:, 1], unit, factor * _APART, corner)
     found = np.zeros((len(runs.y), 3))
     found[runs.given] = points
     new = ~runs.given

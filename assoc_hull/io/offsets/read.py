@@ -112,9 +112,71 @@ def build_table(
         station=sheet.stations[order].copy(),
         stated=hints.stated(),
     )
+    table = _with_plumb_ends(table, _named(sheet)[order], book)
     _refuse_size(table, sheet.block.source)
     _examine(table, sheet, scale, order, book)
     return table
+
+
+_RUNS_OUT = 0.15
+"""Waterlines run out at a blank station where the parabola through their last three offsets comes
+to the centre plane there, within this part of the last of them."""
+
+
+def _with_plumb_ends(table: OffsetTable, names: tuple[str, ...], book: Notebook) -> OffsetTable:
+    """Read a blank first or last station as zeros where all waterlines run out there, and tell it.
+
+    A raked or overhanging end, or one with heights of a keel, is left as it is.
+    """
+    count = len(table.x)
+    if count < 5 or table.keel is not None:
+        return table
+    y = table.half_breadth.copy()
+    for end, beside in ((0, (1, 2, 3)), (count - 1, (count - 2, count - 3, count - 4))):
+        open_end = np.isnan(y[end]).any() and not (np.nan_to_num(y[end]) > 0.0).any()
+        if not open_end or not _run_out_at(table, end, beside):
+            continue
+        y[end] = 0.0
+        what = (
+            "without a half-breadth, and all waterlines run out there: blanks read as zeros, a "
+            f"plumb end at x = {table.x[end]:.6g} m"
+        )
+        book.assume("plumb end", f"station {names[end]}", what, float(table.x[end]))
+    if _reaches_lowest(table.z, y):
+        y[:, 0] = 0.0
+        what = "blank, and all sections run down to it: read as zeros, the edge of the keel"
+        book.assume("keel", "the lowest waterline", what, float(table.z[0]))
+    return attrs.evolve(table, half_breadth=y)
+
+
+def _reaches_lowest(z: FloatArray, y: FloatArray) -> bool:
+    """Tell whether a lowest waterline without a half-breadth, of blanks, is the edge of a keel.
+
+    So it is where the straight line through the lowest two offsets of no station ends above it.
+    """
+    low, one, two = y[:, 0], y[:, 1], y[:, 2] if len(z) > 2 else y[:, 1]
+    hull = (np.nan_to_num(y) > 0.0).any(axis=1)
+    if not np.isnan(low[hull]).all() or not (one[hull] > 0.0).all() or not hull.any():
+        return False
+    rise = (two - one)[hull]
+    return bool((one[hull] * (z[min(2, len(z) - 1)] - z[1]) >= rise * (z[1] - z[0])).all())
+
+
+def _run_out_at(table: OffsetTable, end: int, beside: tuple[int, int, int]) -> bool:
+    """Tell whether all waterlines of the three stations beside an end come to 0 at it."""
+    y, x = table.half_breadth[list(beside)], table.x[list(beside)]
+    wide = np.asarray((np.nan_to_num(y) > 0.0).all(axis=0))
+    # From the lowest that has a breadth on, each goes on.
+    first = int(np.argmax(wide))
+    if first > 1 or not wide[first:].all():
+        return False
+    a, b, c = x - table.x[end]
+    left = (
+        y[0] * b * c / ((a - b) * (a - c))
+        + y[1] * a * c / ((b - a) * (b - c))
+        + y[2] * a * b / ((c - a) * (c - b))
+    )
+    return bool((np.abs(left[wide]) <= _RUNS_OUT * y[0, wide]).all())
 
 
 def _refuse_size(table: OffsetTable, source: str) -> None:
@@ -359,6 +421,7 @@ def _examine(
         table.breadth,
         table.draught,
         scale.y,
+        sheet.printed_unit == "ft",
     )
     examine_offsets(patient, book)
     examine_lines(patient, book)

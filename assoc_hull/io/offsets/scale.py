@@ -486,7 +486,8 @@ def station_places(
         raise BadInputError(
             "nothing says whether station 0 is at the aft or the forward perpendicular",
             source,
-            "give station_zero='ap' or 'fp', or a comment '# station 0 = FP'",
+            "give station_zero='ap' or 'fp', or a comment '# station 0 = FP'; for numbers of "
+            "frames frame_spacing= in m, with which frame 0 is at the AP",
         )
     if hints.frame_spacing is not None:
         return length - stations * hints.frame_spacing
@@ -509,7 +510,8 @@ def _divisions(stations: FloatArray, hints: OffsetHints, book: Notebook, source:
         f"the stations run from {stations.min():g} to {stations.max():g}, neither 0 to 10 nor "
         "0 to 20",
         source,
-        "add a column x_m, or a comment '# spacing: Lpp/<number of spacings>'",
+        "give station_spacings=, how many lie between the perpendiculars, or frame_spacing= in m "
+        "if they are frames; or a column x_m, or a comment '# spacing: Lpp/<number of spacings>'",
     )
 
 

@@ -451,8 +451,8 @@ def _check_ends(outline: HullOutline, ends: _Ends, where: str) -> None:
         raise BadInputError(
             f"the perpendiculars would stand at x = {ends.ap:.6g} and {ends.fp:.6g} m of the file, "
             f"and the hull runs from {low:.6g} to {high:.6g} m at full scale", f"in {where}",
-            f"{_other_unit(high - low, ends.fp - ends.ap)}give length= in m at full scale, ap= and "
-            "fp= as they are in the file, and origin= and scale= as they are",
+            f"{_other_unit(high - low, ends.fp - ends.ap, where)}give length= in m at full scale, "
+            "ap= and fp= as they are in the file, and origin= and scale= as they are",
         )  # fmt: skip
 
 
@@ -460,14 +460,17 @@ _NEAR = 0.03
 """Lpp and the length over all differ by so much, and units by ten times more."""
 
 
-def _other_unit(size: float, length: float) -> str:
-    """Ask for the unit in which a hull of this size (m) has Lpp, if there is one."""
+def _other_unit(size: float, length: float, where: str) -> str:
+    """Ask for the unit in which a hull of this size (m) has Lpp, if there is one.
+
+    Only a table has columns, of which one alone may be in another unit.
+    """
     if not length > 0.0:
         return ""  # a waterline that is a point has no length to compare with
     for unit in ("ft", "in", "cm", "mm"):
         if abs(size * METRES[unit] / length - 1.0) < _NEAR:
-            named = f"of a column named in m name it 'x_{unit}'"
-            return f"are these {_WORDS[unit]}? give unit='{unit}', {named}; else "
+            named = f" (or, if x alone is, name its column 'x_{unit}')" if "table" in where else ""
+            return f"are these {_WORDS[unit]}? give unit='{unit}'{named}; else "
     return ""
 
 

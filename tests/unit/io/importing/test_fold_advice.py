@@ -9,11 +9,16 @@ from assoc_hull.io.importing import soundness
 from assoc_hull.io.importing.verdict import Findings
 
 
-@pytest.mark.parametrize(("factor", "scale"), [(1.0, False), (0.06, True)])
+@pytest.mark.parametrize(
+    ("factor", "sized", "scale"), [(1.0, False, False), (0.06, False, True), (0.06, True, False)]
+)
 def test_a_fold_is_told_with_what_an_import_can_do(
-    factor: float, scale: bool, monkeypatch: pytest.MonkeyPatch
+    factor: float, sized: bool, scale: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Undo is no remedy of an import; of a hull under 100 m the scale of a model is asked for."""
+    """Undo is no remedy of an import; of a hull under 100 m the scale of a model is asked for.
+
+    Not where her length is known.
+    """
     fold = Finding(
         "fold", "BTK 1", (1.0, 2.0, 3.0), -0.3, "folds back (cosine -0.3): move the points, or undo"
     )
@@ -21,7 +26,7 @@ def test_a_fold_is_told_with_what_an_import_can_do(
     state = ah.examples.wigley().state
     state = attrs.evolve(state, tolerances=state.tolerances.scaled(factor))
     found = Findings()
-    soundness._examine_checks(state, found)
+    soundness._examine_checks(state, found, sized=sized)
     (told,) = found.faults
     assert "folds back (cosine -0.3): " in told.what
     assert "undo" not in told.what
