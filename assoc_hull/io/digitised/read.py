@@ -399,7 +399,8 @@ def read_lines(
     )  # fmt: skip
     if frame is None:
         return slices
-    _tell_bow(slices, book)
+    if frame.ends(factor) == (None, None):
+        _tell_bow(slices, book)
     signs = {"x_sign": float(turn[0].sum()), "z_sign": float(turn[2].sum())}
     # Places of a form are along its own axes.
     own = found.stated if axes is None else StatedPlaces()

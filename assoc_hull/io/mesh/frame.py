@@ -14,6 +14,7 @@ from assoc_hull.arguments import positive, word
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.surfaces.triangles import Triangles, boundary_edges
+from assoc_hull.io.mesh.axis_change import AxisChange
 from assoc_hull.io.reports import Notebook
 
 __all__ = [
@@ -298,12 +299,19 @@ def _find_unit(size: float, book: Notebook) -> str:
     return chosen
 
 
-def place_mesh(mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0) -> Triangles:
+Ends = tuple[float | None, float | None]
+"""AP and FP along the length of the file, m at full scale, None where they are not given."""
+
+
+def place_mesh(
+    mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0, ends: Ends = (None, None)
+) -> Triangles:
     """Turn a mesh (m, all triangles outward) into ship axes, centre plane at y = 0.
 
     `axes` is "auto", or which axes of the file are x, y and z, each with a sign: ``"-x-y+z"`` for a
     bow at negative x, ``"+x-z+y"`` for y up. `doubt` (m) is how far vertices may be off what they
-    stand for: a centre plane nearer to y = 0 than that is there.
+    stand for: a centre plane nearer to y = 0 than that is there. `ends` that are given tell where
+    the bow is, whatever the shape.
 
     Raises
     ------
@@ -312,11 +320,13 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0) -
     """
     if word(axes, "axes", "as an argument") != "auto":
         placed = _centred(_turned(mesh, axes_rows(axes)), book, doubt)
-        _tell_bow(placed, axes, book)
+        if ends == (None, None):
+            _tell_bow(placed, axes, book)
     else:
         moved = _turned(mesh, np.eye(3)[list(find_columns(mesh, book))])
         moved = _upright(_centred(moved, book, doubt), book)
-        placed = _bow_forward(moved, book)
+        told = _told_bow(moved, ends)
+        placed = _bow_forward(mesh, moved, book) if told == 0.0 else _as_told(moved, told, book)
     _report_proportions(placed, book)
     return placed
 
@@ -444,30 +454,77 @@ def _tell_bow(mesh: Triangles, axes: str, book: Notebook) -> None:
     if fore - aft > _BROADER * float(np.abs(mesh.xyz[:, 1]).max()):
         what = (
             f"with axes={axes!r} the fore end is {2.0 * fore:.4g} m broad near the deck, the aft "
-            f"end {2.0 * aft:.4g} m: if that is the stern turn the signs of x and y"
+            f"end {2.0 * aft:.4g} m: if that is the stern turn the signs of x and y, if not "
+            "origin=, or ap= with fp=, says so"
         )
         book.suspect("bow", _WHERE, what, fore - aft)
 
 
-def _bow_forward(mesh: Triangles, book: Notebook) -> Triangles:
-    """Turn a hull whose bow is at low x: the stern is the wider end at the deck."""
-    aft, fore = (_end_breadth(mesh, end) for end in (0.05, -0.05))
-    widest = float(np.abs(mesh.xyz[:, 1]).max())
-    if abs(aft - fore) < 0.05 * widest:
-        what = "the ends are alike; the bow is taken at high x"
-        if mirror_error(mesh, 0) > _ALIKE:
-            # LCB lies on the wrong side of midship if it is not.
-            book.suspect("bow", _WHERE, f"{what}: if it is not, give axes='-x-y+z'")
-        else:
-            book.assume("bow", _WHERE, what)
+_AT_END = 0.35
+"""A perpendicular within this part of the length of an end is at that end."""
+
+
+def _told_bow(mesh: Triangles, ends: Ends) -> float:
+    """Give 1 if the perpendiculars that are given put the bow at high x, -1 at low x, else 0."""
+    ap, fp = ends
+    if ap is not None and fp is not None:
+        return float(np.sign(fp - ap))
+    low, size = float(mesh.xyz[:, 0].min()), float(np.ptp(mesh.xyz[:, 0]))
+    for x, sign in ((ap, -1.0), (fp, 1.0)):
+        if x is not None:
+            part = (x - low) / size
+            return sign * (float(part > 1.0 - _AT_END) - float(part < _AT_END))
+    return 0.0
+
+
+def _as_told(mesh: Triangles, told: float, book: Notebook) -> Triangles:
+    """Bring the bow to where the given perpendiculars have it; the shape is not asked."""
+    if told > 0.0:
+        book.assume("bow", _WHERE, "at high x, by the perpendiculars given")
         return mesh
-    if aft > fore:
+    what = "the bow was at low x, by the perpendiculars given; turned"
+    book.repair("bow at negative x", _WHERE, what)
+    return _end_for_end(mesh)
+
+
+def _end_for_end(mesh: Triangles) -> Triangles:
+    return _to_port(_turned(mesh, np.diag([-1.0, -1.0, 1.0])))
+
+
+def _bow_forward(mesh: Triangles, upright: Triangles, book: Notebook) -> Triangles:
+    """Turn a hull whose bow is at low x: the stern is by far the broader end near the deck.
+
+    `mesh` is the hull as in the file. Ends that differ less are no evidence against the file.
+    """
+    aft, fore = (_end_breadth(upright, end) for end in (0.05, -0.05))
+    least = _BROADER * float(np.abs(upright.xyz[:, 1]).max())
+    seen = f"near the deck the half-breadth is {aft:.4g} m at low x, {fore:.4g} m at high x"
+    stay, turn = (_axes_text(mesh, each) for each in (upright, _end_for_end(upright)))
+    settle = f"axes={stay!r} puts the bow at high x, axes={turn!r} at low x, and origin= tells, too"
+    if aft - fore > least:
         what = f"at high x: near the deck half-breadth {fore:.4g} m there, {aft:.4g} m at low x"
         book.assume("bow", _WHERE, what, aft - fore)
-        return mesh
-    what = f"the bow was at low x (half-breadth {aft:.4g} m there, {fore:.4g} m at high x); turned"
-    book.repair("bow at negative x", _WHERE, what, fore - aft)
-    return _to_port(_turned(mesh, np.diag([-1.0, -1.0, 1.0])))
+    elif fore - aft > least:
+        book.repair("bow at negative x", _WHERE, (
+            f"the bow was at low x (half-breadth {aft:.4g} m there, {fore:.4g} m at high x); turned"
+        ), fore - aft)  # fmt: skip
+        what = f"turned end for end, since {seen}, and a stern is the broader end"
+        book.suspect("bow", _WHERE, f"{what}: {settle}", fore - aft)
+        return _end_for_end(upright)
+    elif mirror_error(upright, 0) > _ALIKE:
+        # LCB lies on the wrong side of midship if the bow is at the other end.
+        what = f"taken at high x, as in the file, but {seen}, which tells little"
+        book.suspect("bow", _WHERE, f"{what}: {settle}", fore - aft)
+    else:
+        book.assume("bow", _WHERE, "the ends are alike; the bow is taken at high x")
+    return upright
+
+
+def _axes_text(mesh: Triangles, placed: Triangles) -> str:
+    """Write the axes= that take a mesh as in the file to where it was placed."""
+    turn = AxisChange.between(mesh.xyz, placed.xyz).turn
+    at = np.abs(turn).argmax(axis=0).tolist()
+    return "".join(("-" if turn[row, i] < 0.0 else "+") + "xyz"[row] for i, row in enumerate(at))
 
 
 def _end_breadth(mesh: Triangles, end: float) -> float:

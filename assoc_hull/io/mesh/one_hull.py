@@ -13,6 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polylines.operations import self_crossings
 from assoc_hull.geometry.surfaces.triangles import Triangles, sheet_labels
 from assoc_hull.io.lines.several_hulls import (
@@ -20,6 +21,7 @@ from assoc_hull.io.lines.several_hulls import (
     HullChoice,
     Section,
     find_hulls,
+    largest_difference,
     refuse_asymmetric,
     refuse_missing,
     refuse_several,
@@ -44,6 +46,9 @@ _SECTIONS = 60
 
 _ROUNDING = 1e-4
 """Halves that differ by this part of the length differ by the rounding of their files."""
+
+_DECIMALS = 6
+"""Of a metre, in a centre plane that is told."""
 
 Place = Callable[[Triangles, Notebook], Triangles]
 
@@ -87,12 +92,59 @@ def place_one_hull(
         )
         if bare is not None:
             mesh, placed, notes = bare
+            sections = mesh_sections(placed)
+        _refuse_found_centre(mesh, placed, sections, notes, factor)
         for mine, theirs in zip(attrs.astuple(book, recurse=False),
                                 attrs.astuple(notes, recurse=False), strict=True):  # fmt: skip
             mine += theirs
         return mesh, placed
     picked = _picked(mesh, placed, motion, sections, found, centre, factor, choice, book)
     return picked, place(picked, book)
+
+
+def _refuse_found_centre(
+    mesh: Triangles, placed: Triangles, sections: list[Section], notes: Notebook, factor: float
+) -> None:
+    """Hold a centre plane halfway between the sides to the test of one that was given.
+
+    Where the sides differ the keel tells the centre plane, and it is that which is named.
+    """
+    report = notes.report()
+    whole = any(
+        each.kind == "half or whole" and "whole" in each.what for each in report.assumptions
+    )
+    noise = max(2.0 * facet_depth(placed), _ROUNDING * float(np.ptp(placed.xyz, axis=0).max()))
+    worst = largest_difference(sections, 0.0, np.inf)
+    if "centre plane" not in report.kinds("repairs") or not whole or worst.amount <= noise:
+        return
+    if any(len(self_crossings(cut[:, 0], cut[:, 1])) for _, cut in sections):
+        return  # a fold is told by itself, and no side is right there
+    keel = float(np.median([_lowest(part) for _, part in sections]))
+    worst = largest_difference(sections, keel, np.inf)
+    motion = AxisChange.between(mesh.xyz, placed.xyz)
+    column, _, _ = _axis_in_file(motion)
+    centre = round(_in_file(motion, keel, 1.0), _DECIMALS) / factor + 0.0
+    if worst.amount <= noise:
+        raise BadInputError(
+            f"halfway between its sides the hull is not symmetric, but about {'xyz'[column]} = "
+            f"{centre:.7g} of the file, where the keel lies", f"in {_WHERE}",
+            f"give centre={centre:.7g}, and look for what stands out at one side",
+        )  # fmt: skip
+    place = motion.back(np.array([[worst.x, keel, worst.z]]))[0] / factor
+    at = ", ".join(f"{'xyz'[i]} = {place[i]:.4g}" for i in range(3) if i != column)
+    raise BadInputError(
+        f"the sides of the hull differ by up to {1e3 * worst.amount:.4g} mm, at {at} of the file, "
+        f"about {'xyz'[column]} = {centre:.7g}, where the keel lies", f"in {_WHERE}",
+        "export the half that is right, alone, or mend the other; if the keel lies elsewhere give "
+        "its place as centre=",
+    )  # fmt: skip
+
+
+def _lowest(part: FloatArray) -> float:
+    """Give y of the lowest place of a section, of a flat bottom its middle."""
+    y, z = part.reshape(-1, 2).T
+    low = y[z <= z.min() + 1e-6 * np.ptp(z)]
+    return 0.5 * float(low.min() + low.max())
 
 
 def _refuse_crossing(placed: Triangles, motion: AxisChange, factor: float) -> None:

@@ -433,7 +433,7 @@ def _check_reach(outline: HullOutline, places: dict[str, float | None], where: s
             raise BadInputError(
                 f"{name} is x = {x:.6g} m, and the hull runs from x = {low:.6g} to {high:.6g} m "
                 "of the file at full scale, forward positive", f"in {where}",
-                f"give {name} {_UNITS_HINT}",
+                f"give {name} {_UNITS_HINT}, or axes= if the bow is at the other end",
             )  # fmt: skip
     ap, fp = places["ap"], places["fp"]
     if ap is not None and fp is not None and not ap < fp:
@@ -452,7 +452,8 @@ def _check_ends(outline: HullOutline, ends: _Ends, where: str) -> None:
             f"the perpendiculars would stand at x = {ends.ap:.6g} and {ends.fp:.6g} m of the file, "
             f"and the hull runs from {low:.6g} to {high:.6g} m at full scale", f"in {where}",
             f"{_other_unit(high - low, ends.fp - ends.ap, where)}give length= in m at full scale, "
-            "ap= and fp= as they are in the file, and origin= and scale= as they are",
+            "ap= and fp= as they are in the file, origin= and scale= as they are, and axes= if the "
+            "bow is at the other end",
         )  # fmt: skip
 
 

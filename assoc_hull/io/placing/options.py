@@ -127,6 +127,19 @@ class FrameOptions:
                 found[name] = sign * _place(value, name, axes.factor) + 0.0
         return attrs.evolve(self, **found)
 
+    def ends(self, factor: float) -> tuple[float | None, float | None]:
+        """Give AP and FP in the file, m, as far as they are given; `factor` is m over its unit."""
+        if self.origin is not None:
+            return (
+                0.0 if self.origin == ORIGINS[0] else None,
+                0.0 if self.origin == ORIGINS[2] else None,
+            )
+        ap, fp = (
+            None if value is None else _place(value, name, factor)
+            for name, value in (("ap", self.ap), ("fp", self.fp))
+        )
+        return ap, fp
+
     @property
     def mean_draught(self) -> float | None:
         """The draught given, m, else the mean of both draughts of a design trim."""

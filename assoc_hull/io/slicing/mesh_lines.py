@@ -26,7 +26,7 @@ BTK 2.5 ('deck edge', 'deck edge')
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -65,6 +65,7 @@ from assoc_hull.tolerance import length_factor
 
 __all__ = [
     "BOTTOM",
+    "DOUBLED",
     "cut_placed",
     "in_ship_axes",
     "read_mesh",
@@ -236,16 +237,79 @@ def slice_mesh(
     book = Notebook()
     scaled = scale_mesh(mesh, scale, unit, book)
     factor = float(np.ptp(scaled.xyz, axis=0).max()) / float(np.ptp(mesh.xyz, axis=0).max())
+    metres = float(f"{factor:.12g}")
+    ends = (frame or FrameOptions()).ends(metres)
     mended, turned = place_one_hull(
-        levelled(mend_mesh(scaled, book), book), lambda each, notes: place_mesh(each, axes, notes),
-        choice or HullChoice(), float(f"{factor:.12g}"), book, turned=axes != "auto",
+        levelled(mend_mesh(scaled, book), book),
+        lambda each, notes: place_mesh(each, axes, notes, ends=ends),
+        choice or HullChoice(), metres, book, turned=axes != "auto",
     )  # fmt: skip
     placed, found = in_ship_axes(turned, mended, factor, frame, book, "the mesh")
     wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
     small = length_factor(length or float(np.ptp(placed.xyz[:, 0])))
     limits = settled_gaps(gaps, small, "in slice_mesh")
     slices = cut_placed(placed, wanted, limits, name, book, tell, small)
-    return attrs.evolve(slices, frame=found)
+    _tell_doubled(slices, mended, placed, metres, book)
+    return attrs.evolve(slices, frame=found, report=book.report())
+
+
+DOUBLED = "doubles back"
+"""The kind of what is told of a line that a spike of the mesh makes turn back on itself."""
+
+_BACK = math.cos(math.radians(160.0))
+"""A line that turns by more than this at one point runs back beside itself."""
+
+
+def _tell_doubled(
+    slices: HullSlices, before: Triangles, placed: Triangles, factor: float, book: Notebook
+) -> None:
+    """Suspect the mesh where a line doubles back, by the vertex that stands out most beside it.
+
+    `before` is the mesh as in the file, m; a unit of the file is `factor` m.
+    """
+    found = [
+        (turn, line.name, place)
+        for line in slices.lines for piece in line.pieces
+        for turn, place in _turns(piece) if turn < _BACK
+    ]  # fmt: skip
+    if not found:
+        return
+    _, name, place = min(found, key=lambda each: each[0])
+    row, out = _spike(placed, place)
+    at = ", ".join(f"{value:.4g}" for value in (before.xyz[row] / factor).tolist())
+    what = (
+        f"a line cut from the mesh doubles back; beside it the vertex at ({at}) of the file lies "
+        f"{1e3 * out:.4g} mm off the middle of its neighbours: look at the mesh there"
+    )
+    book.suspect(DOUBLED, name, what, out)
+
+
+def _spike(mesh: Triangles, place: FloatArray) -> tuple[int, float]:
+    """Give that end of the edge at a place which lies farther off the middle of its neighbours, m.
+
+    Points of a line lie on edges of the mesh.
+    """
+    start, end = mesh.xyz[mesh.edges()].transpose(1, 0, 2)
+    along, away = end - start, place - start
+    part = (along * away).sum(axis=1) / np.maximum((along * along).sum(axis=1), 1e-300)
+    off = np.linalg.norm(away - np.clip(part, 0.0, 1.0)[:, None] * along, axis=1)
+    ends = []
+    for row in mesh.edges()[int(off.argmin())].tolist():
+        around = np.unique(mesh.face[(mesh.face == row).any(axis=1)])
+        middle = mesh.xyz[around[around != row]].mean(axis=0)
+        ends.append((float(np.linalg.norm(mesh.xyz[row] - middle)), row))
+    out, row = max(ends)
+    return row, out
+
+
+def _turns(piece: LinePiece) -> Iterator[tuple[float, FloatArray]]:
+    """Give the cosine of the turn at each inner point of a piece, of a ring at all, and where."""
+    points = piece.points
+    if piece.closed:
+        points = np.concatenate([points, points[1:2]])
+    step = np.diff(points, axis=0)
+    step /= np.maximum(np.linalg.norm(step, axis=1), 1e-300)[:, None]
+    yield from zip((step[1:] * step[:-1]).sum(axis=1).tolist(), points[1:-1], strict=True)
 
 
 def in_ship_axes(

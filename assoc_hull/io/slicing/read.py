@@ -8,7 +8,7 @@ from typing import Any
 import attrs
 
 from assoc_hull.arguments import choice
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import AssocHullError, BadInputError, CoincidentPointsError
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.digitised.text import is_digitised
 from assoc_hull.io.lines.several_hulls import HullChoice
@@ -20,7 +20,7 @@ from assoc_hull.io.read_file import as_utf8
 from assoc_hull.io.reports import Note, Tell, no_progress
 from assoc_hull.io.rhino.read import is_rhino
 from assoc_hull.io.slicing.cut_planes import Places
-from assoc_hull.io.slicing.mesh_lines import read_mesh, refuse_bottomless
+from assoc_hull.io.slicing.mesh_lines import DOUBLED, read_mesh, refuse_bottomless
 from assoc_hull.io.slicing.net import SliceReport, net_from_slices
 from assoc_hull.io.slicing.surface_lines import cad_kind, read_surface_lines
 from assoc_hull.io.units import check_particular
@@ -164,8 +164,21 @@ def read_slices(
         note = Note("join", "the lines", what, join)
         notes = attrs.evolve(slices.report, assumptions=(*slices.report.assumptions, note))
         slices = attrs.evolve(slices, report=notes)
-    state, report = net_from_slices(slices, _particulars(slices, deck), tolerance, tell=tell)
-    return state, report
+    try:
+        return net_from_slices(slices, _particulars(slices, deck), tolerance, tell=tell)
+    except CoincidentPointsError as error:
+        raise _as_of_mesh(slices, error) from error
+
+
+def _as_of_mesh(slices: HullSlices, error: CoincidentPointsError) -> AssocHullError:
+    """Tell of a line that runs back over itself by the place in the file, where that is known."""
+    note = next((each for each in slices.report.suspicions if each.kind == DOUBLED), None)
+    if note is None:
+        return error
+    return BadInputError(
+        f"{note.where}: {note.what.partition(': ')[0]}", f"in {slices.name}",
+        "look at the mesh there, and move that vertex back or leave out what stands out",
+    )  # fmt: skip
 
 
 def _particulars(slices: HullSlices, deck: str) -> Particulars | None:

@@ -191,8 +191,9 @@ def slice_surfaces(
     mended = mend_mesh(facets.mesh, book)
     refuse_tilt(mended, "the surfaces")
     metres = scale * METRES.get(faces.unit, 1.0)
+    ends = (frame or FrameOptions()).ends(metres)
     mended, turned = place_one_hull(
-        mended, lambda each, notes: place_mesh(each, axes, notes, 2.0 * FINE * size),
+        mended, lambda each, notes: place_mesh(each, axes, notes, 2.0 * FINE * size, ends),
         choice or HullChoice(), metres, book, turned=axes != "auto",
     )  # fmt: skip
     placed, found = in_ship_axes(turned, mended, metres, frame, book, "the surfaces")

@@ -177,7 +177,7 @@ def test_triangles_on_triangles_are_refused() -> None:
 def pointed(xyz: FloatArray) -> FloatArray:
     """Draw the bow in, so that the ends differ."""
     return np.asarray(xyz * np.column_stack([
-        np.ones(len(xyz)), np.clip(1.4 - xyz[:, 0] / 100.0, 0.0, 1.0), np.ones(len(xyz))
+        np.ones(len(xyz)), np.clip(1.05 - xyz[:, 0] / 100.0, 0.0, 1.0), np.ones(len(xyz))
     ]))  # fmt: skip
 
 
