@@ -121,10 +121,9 @@ def test_the_bow_of_lines_is_told_by_their_perpendiculars_too() -> None:
         for x in np.linspace(2.0, 50.0, 9).tolist() for z in np.linspace(0.0, 6.25, 11).tolist()
     ]  # fmt: skip
     text = "line,x,y,z\n" + "\n".join(rows) + "\n"
-    said = {"draught": 4.0, "length": 50.0}
-    for frame, told in (({}, True), ({"origin": "ap"}, False)):
-        found = read_lines(text, frame=FrameOptions(**said, **frame))
-        assert ("bow" in found.report.kinds("suspicions")) == told
+    for origin, told in ((None, True), ("ap", False)):
+        frame = FrameOptions(draught=4.0, length=50.0, origin=origin)
+        assert ("bow" in read_lines(text, frame=frame).report.kinds("suspicions")) == told
 
 
 def test_a_refusal_that_may_follow_from_the_direction_names_axes() -> None:
