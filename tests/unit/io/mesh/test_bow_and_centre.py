@@ -40,8 +40,9 @@ def backward(mesh: Triangles) -> Triangles:
 
 def cut(mesh: Triangles, axes: str = "auto", **frame: Any) -> HullSlices:
     """Lines of a mesh, its perpendiculars found from what is given."""
-    said = {"length": L} if "ap" not in frame or "fp" not in frame else {}
-    return slice_mesh(mesh, axes=axes, frame=FrameOptions(**said, draught=4.0, **frame), **CUTS)
+    length = None if "ap" in frame and "fp" in frame else L
+    wanted = FrameOptions(length=length, draught=4.0, **frame)
+    return slice_mesh(mesh, axes=axes, frame=wanted, **CUTS)
 
 
 def bow_notes(slices: HullSlices) -> list[Note]:
@@ -117,7 +118,7 @@ def test_perpendiculars_that_are_given_turn_a_hull_that_runs_aft(frame: dict[str
 def test_the_bow_of_lines_is_told_by_their_perpendiculars_too() -> None:
     """A broader fore end is suspected, but not where origin= says which end is which."""
     rows = [
-        f"ST {x:g},{x},{float(meshes.wigley_y(np.float64(x), np.float64(z))):.6f},{z}"
+        f"ST {x:g},{x},{float(meshes.wigley_y(np.array(x), np.array(z))):.6f},{z}"
         for x in np.linspace(2.0, 50.0, 9).tolist() for z in np.linspace(0.0, 6.25, 11).tolist()
     ]  # fmt: skip
     text = "line,x,y,z\n" + "\n".join(rows) + "\n"
