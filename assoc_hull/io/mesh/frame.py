@@ -188,6 +188,10 @@ def _straight_share(mesh: Triangles, x: int, axis: int, other: int) -> float:
     return float(step[on & far].sum() / size[x])
 
 
+_BESIDE = 0.02
+"""Vertices nearer than this part of the length are found exactly, others among a few thousand."""
+
+
 def mirror_error(mesh: Triangles, axis: int) -> float:
     """Give how far the mesh is from mirroring in an axis, as a part of its length."""
     from scipy.spatial import cKDTree
@@ -195,9 +199,15 @@ def mirror_error(mesh: Triangles, axis: int) -> float:
     size = float(np.ptp(mesh.xyz, axis=0).max())
     low, high = float(mesh.xyz[:, axis].min()), float(mesh.xyz[:, axis].max())
     middle = 0.5 * (low + high)
-    some = mesh.xyz[:: max(1, len(mesh.xyz) // 4000)].copy()
+    step = max(1, len(mesh.xyz) // 4000)
+    some = mesh.xyz[::step].copy()
     some[:, axis] = 2.0 * middle - some[:, axis]
-    near = cKDTree(mesh.xyz).query(some)[1]
+    tree = cKDTree(mesh.xyz)
+    away, found = tree.query(some, distance_upper_bound=_BESIDE * size)
+    near, far = np.array(found), ~np.isfinite(away)
+    # What lies far from all vertices lies nearly as far from many, and a search tries them all:
+    # some of them will do.
+    near[far] = step * cKDTree(mesh.xyz[::step]).query(some[far])[1]
     # Along the normal only: the other side may be triangulated at other points of the surface.
     away = np.abs(((some - mesh.xyz[near]) * _normals(mesh)[near]).sum(axis=1))
     return float(np.percentile(away, 90)) / size
