@@ -81,7 +81,7 @@ def _info(arguments: argparse.Namespace) -> int:
         emit(arguments, {"engine": told}, told)
         return 0
     if arguments.hull is None:
-        raise UsageError("no hull is named: give one, or --engine")
+        raise UsageError("no hull is named: give HULL, or --engine")
     hull = open_hull(arguments.hull)
     emit(arguments, hull_facts(hull), hull_words(hull, names=True))
     return 0

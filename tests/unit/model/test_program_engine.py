@@ -94,4 +94,4 @@ def test_the_command_tells(
     assert main(["info", "--engine", "--wait"]) == 0
     assert capsys.readouterr().out == "numpy: ASSOC_HULL_FAST=0 asks for it\n"
     assert main(["info"]) == 2
-    assert "give one, or --engine" in capsys.readouterr().err
+    assert "give HULL, or --engine" in capsys.readouterr().err
