@@ -16,7 +16,13 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.net.curve_net import CurveNet
 from assoc_hull.errors import OpenNetError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.surface.cells.net_graph import NetGraph, edge_angles, net_graph
+from assoc_hull.surface.cells.net_graph import (
+    WIDE_CORNER,
+    NetGraph,
+    edge_angles,
+    net_graph,
+    node_normals,
+)
 from assoc_hull.surface.cells.net_nodes import REACH, merge_linked, unlisted_crossings
 
 __all__ = [
@@ -298,9 +304,10 @@ def find_cells(graph: NetGraph) -> NetCells:
 def sound_cells(net: CurveNet, leave_out: NDArray[np.bool_] | None = None) -> NetCells:
     """Find the cells of a net, with crossings that its tables do not hold if need be.
 
-    Where the edges do not fit on half a hull, crossings are looked for along all lines; if they
-    still do not, borders of flats are left out: they are found on some lines and drawn through,
-    and two of them may run into one another. Both are reported in the notes.
+    Where the edges do not fit on half a hull, corners are told from tangent planes with more room;
+    then crossings are looked for along all lines; if they still do not, borders of flats are left
+    out: they are found on some lines and drawn through, and two of them may run into one another.
+    The last two are reported in the notes.
 
     Parameters
     ----------
@@ -326,6 +333,9 @@ def sound_cells(net: CurveNet, leave_out: NDArray[np.bool_] | None = None) -> Ne
     first = net_graph(net, leave_out=leave_out)
     if _fits(first):
         return find_cells(first)
+    normal = node_normals(first.place, first.edge, first.leave, along=WIDE_CORNER)
+    if _fits(again := attrs.evolve(first, normal=normal)):
+        return find_cells(again)
     gone = np.zeros(net.batch.count, bool) if leave_out is None else leave_out
     flat = net.flat & ~gone
     for search, without in ((True, gone), (False, gone | flat), (True, gone | flat)):

@@ -23,6 +23,7 @@ from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.surface.cells.net_nodes import RANK, Stops, find_stops, merge_stops
 
 __all__ = [
+    "WIDE_CORNER",
     "EdgePieces",
     "Lenses",
     "NetGraph",
@@ -218,22 +219,29 @@ _TANGENT = 0.02
 _ALONG = 1.0 - 0.5 * _TANGENT**2
 """Cosine from which an edge runs along a normal: how it lies around that is chance."""
 
+WIDE_CORNER = 0.98
+"""The same (11 degrees) for a second look, where the first normals lead to no cells: at the corner
+of a raked keel the side leaves a few degrees off the normal of the keel's flat."""
+
 _CROWDED = 0.02
 """Edges that leave a node with so small an angle between them (radians) lie on one another, seen
 along its normal: at the foot of a stem the keel does, and the border of a flat bottom."""
 
 
-def node_normals(place: FloatArray, edge: IntArray, leave: FloatArray) -> FloatArray:
+def node_normals(
+    place: FloatArray, edge: IntArray, leave: FloatArray, along: float = _ALONG
+) -> FloatArray:
     """Give unit normals (n, 3) at the nodes (n, 3), m, all to one side of the surface, outward.
 
     For edges between nodes (e, 2), which leave them in unit directions (e, 2, 3). The mean of the
     neighbours is taken where all lines are tangent to one another, and where some lie on one
-    another as seen along the normal of the others, or one leaves along it: at corners of the hull.
+    another as seen along the normal of the others, or one leaves along it (the cosine between them
+    is above `along`): at corners of the hull.
     """
     if not len(place):
         return np.empty((0, 3))
     normal, size = _widest(len(place), edge, leave)
-    ridge = _on_ridge(normal, edge, leave)
+    ridge = _on_ridge(normal, edge, leave, along)
     good = (size >= _TANGENT) & ~ridge
     sign = _one_side(normal, good, edge, leave, ridge)
     normal = normal * sign[:, None]
@@ -257,11 +265,13 @@ def edge_angles(normal: FloatArray, edge: IntArray, leave: FloatArray) -> FloatA
     return np.arctan2(dot(away, second[node]), dot(away, first[node]))
 
 
-def _on_ridge(normal: FloatArray, edge: IntArray, leave: FloatArray) -> NDArray[np.bool_]:
+def _on_ridge(
+    normal: FloatArray, edge: IntArray, leave: FloatArray, along: float
+) -> NDArray[np.bool_]:
     """Tell which nodes an edge leaves along the normal of two others: square corners, (n,)."""
     node, away = edge.ravel(), leave.reshape(-1, 3)
     found = np.zeros(len(normal), np.bool_)
-    found[node[np.abs(dot(away, normal[node])) > _ALONG]] = True
+    found[node[np.abs(dot(away, normal[node])) > along]] = True
     return found
 
 
