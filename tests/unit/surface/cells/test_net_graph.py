@@ -10,9 +10,13 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
+from assoc_hull.edit.adoption.adopt_lines import adopt
 from assoc_hull.errors import OpenNetError
-from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.geometry.curves import PointKind, SplineBatch
 from assoc_hull.geometry.splines.arc_length import arc_length
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
+from assoc_hull.model.tables import Association, Particulars
 from assoc_hull.surface.cells import net_faces
 from assoc_hull.surface.cells.net_faces import NetCells, find_cells, sound_cells
 from assoc_hull.surface.cells.net_graph import net_graph
@@ -282,3 +286,34 @@ def test_lines_that_enclose_no_half_hull_are_refused(
 ) -> None:
     """With the lines at fault, and what to do."""
     assert told in refused(*change(wigley))
+
+
+def test_the_corner_of_a_raked_keel_is_no_tangent_plane() -> None:
+    """Seen along the normal of the flat keel, the sides lie wrong: they leave 3 degrees off it."""
+    length, deck, rake = 20.0, 3.0, 0.05
+    x = np.linspace(0.0, length, 9)
+    siding = 0.6 * np.sin(np.pi * x / length) ** 0.5
+    siding[[0, -1]] = 0.0
+    keel = np.column_stack([x, siding, rake * x])
+    # In turns a little in and out, as lines of a mesh are.
+    top = np.column_stack([x, siding * (1.0 + 0.03 * np.cos(np.pi * np.arange(9))), 0.0 * x + deck])
+    ends = np.array([[0, 0, deck], [0, 0, 0], [length, 0, rake * length], [length, 0, deck]], float)
+    sharp = [PointKind.SMOOTH, PointKind.KNUCKLE, PointKind.KNUCKLE, PointKind.SMOOTH]
+    sources = [
+        LineSource.make("boundary", "profile", ends, plane=((0, 1, 0), 0.0), kind=sharp,
+                        boundary=BoundaryKind.END),
+        LineSource.make("boundary", "deck edge", top, plane=((0, 0, 1), deck),
+                        boundary=BoundaryKind.END),
+        LineSource.make("boundary", "rabbet", keel, boundary=BoundaryKind.KNUCKLE),
+    ]  # fmt: skip
+    sources += [
+        LineSource.make("sections", f"ST {i}", np.array([keel[i] * [1, 0, 1], keel[i], top[i]]),
+                        kind=[PointKind.SMOOTH, PointKind.KNUCKLE, PointKind.SMOOTH])
+        for i in range(1, 8)
+    ]  # fmt: skip
+    links = [Association("boundary", "boundary"), Association("boundary", "sections")]
+    net = gather_net(adopt(sources, Particulars("box", length, 1.3, deck, 2.0), links)[0])
+    found = sound_cells(net)
+    # Between two sections: the flat keel and the side.
+    assert found.count == 16
+    assert not found.notes
