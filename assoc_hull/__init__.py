@@ -178,6 +178,7 @@ _MOVED = {
     "BadInputError": "assoc_hull.errors.BadInputError",
     "Design": "assoc_hull.creation.Design",
     "FileBusyError": "assoc_hull.errors.FileBusyError",
+    "HullBusyError": "assoc_hull.errors.HullBusyError",
     "FloodingPoint": "assoc_hull.hydro.FloodingPoint",
     "ForeignPointError": "assoc_hull.errors.ForeignPointError",
     "FormCurve": "assoc_hull.creation.FormCurve",

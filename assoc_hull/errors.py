@@ -27,6 +27,7 @@ __all__ = [
     "ForeignPointError",
     "FreedomError",
     "GeometryError",
+    "HullBusyError",
     "HullFileError",
     "MissingExtraError",
     "NameTakenError",
@@ -164,6 +165,44 @@ class FileBusyError(AssocHullError, TimeoutError):
         return (
             f"{self.path} is being edited by another process (waited {self.waited:g} s); "
             "try again, or open it with a longer wait"
+        )
+
+
+@attrs.define(slots=False, eq=False)
+class HullBusyError(AssocHullError, TimeoutError):
+    """Another thread, or another task of this one, is editing a hull; nothing was changed.
+
+    Attributes
+    ----------
+    what : str
+        What it is at: an edit by its name, or another act.
+    author : str
+        Who edits there; empty if nobody was named.
+    waited : float
+        For how long it was waited, s.
+    where : str
+        What was to be done.
+    same_thread : bool
+        Whether it is a task of the same thread: waiting would stop the loop that it needs.
+    """
+
+    what: str
+    author: str
+    waited: float
+    where: str
+    same_thread: bool = False
+
+    def __str__(self) -> str:
+        who = "another task of this thread" if self.same_thread else "another thread"
+        by = f" of {self.author}" if self.author else ""
+        remedy = (
+            "use async with hull.edit(...), which waits for it"
+            if self.same_thread
+            else "try again, or give the edit a longer wait="
+        )
+        return (
+            f"{who} is at work on this hull: {self.what}{by} (waited {self.waited:.3g} s), "
+            f"{self.where}; {remedy}"
         )
 
 

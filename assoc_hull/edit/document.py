@@ -23,6 +23,7 @@ import numpy as np
 
 from assoc_hull.arguments import integer, shown, shown_name, text
 from assoc_hull.edit.step import Step
+from assoc_hull.edit.write_lock import PATIENCE, WriteLock
 from assoc_hull.errors import AssocHullError, BadInputError, NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import IntArray, freeze
 from assoc_hull.graph.network import distinct
@@ -127,6 +128,8 @@ class Document:
         The transaction that is open; None if none is.
     known_index : Index or None
         The look-ups, if they have been derived: see `index`.
+    lock : WriteLock
+        Who may write the tables.
     unsettled : bool
         Whether something was being kept when it was broken off: the keeper may be ahead of memory.
     """
@@ -143,7 +146,7 @@ class Document:
     known_index: Index | None = attrs.field(default=None, init=False)
     unsettled: bool = attrs.field(default=False, init=False)
     _states: list[tuple[Step, ...]] = attrs.field(factory=list, init=False)
-    _holder: dict[str, object] = attrs.field(factory=dict, init=False)
+    lock: WriteLock = attrs.field(factory=WriteLock, init=False)
 
     @property
     def index(self) -> Index:
@@ -193,18 +196,30 @@ class Document:
         """Number of the step that redoing all undone ones would lead to."""
         return self.undone[0].number if self.undone else self.head
 
-    def begin(self, holder: object, *, keep: bool = True) -> None:
+    def begin(
+        self,
+        holder: object,
+        what: str,
+        author: str | None = None,
+        *,
+        where: str,
+        keep: bool = True,
+        wait: float = PATIENCE,
+    ) -> None:
         """Take the right to write the tables, and what keeps them unless nothing is to be kept.
+
+        `what` and `author` are told to whoever comes meanwhile; `wait` is as `WriteLock.take`.
 
         Raises
         ------
         BadInputError
-            Another thread has it.
+            This task has it already.
+        HullBusyError
+            Another thread or task has it.
         """
+        author = self.author if author is None else author
         try:
-            if self._holder.setdefault("writer", holder) is not holder:  # atomic: one gets it
-                what, remedy = "another thread is at work on this hull", "let one edit at a time"
-                raise BadInputError(what, "in the hull", remedy)
+            self.lock.take(holder, what, author, where=where, wait=wait)
             if keep and self.keeper is not None:
                 self.settle()
                 self.keeper.begin()
@@ -214,21 +229,21 @@ class Document:
 
     def end(self, holder: object, *, keep: bool = True) -> None:
         """Give it back, if this is who has it."""
-        if self._holder.get("writer") is not holder:
+        if not self.lock.held_by(holder):
             return
         try:
             if keep and self.keeper is not None:
                 self.keeper.end()
         finally:
-            self._holder.clear()
+            self.lock.give_back(holder)
 
     @contextlib.contextmanager
-    def held(self, *, keep: bool = True) -> Iterator[None]:
+    def held(self, act: str, *, keep: bool = True, wait: float = PATIENCE) -> Iterator[None]:
         """Have the right to write for as long as a block runs; as `begin`."""
         holder = object()
         try:
             try:
-                self.begin(holder, keep=keep)
+                self.begin(holder, act, where=f"in {act}", keep=keep, wait=wait)
                 yield
             finally:
                 self.end(holder, keep=keep)
@@ -245,11 +260,12 @@ class Document:
             self.keeper.refresh(self)
             self.unsettled = False
 
-    def commit(self, step: Step) -> None:
+    def commit(self, step: Step, author: str | None = None) -> None:
         """Take a finished step into the history; whatever fails, it is not in it."""
+        author = self.author if author is None else author
         step.number, step.parent = len(self.steps) + 1, self.head
         branch = self._branch(self.tip if self.undone else None)
-        report = attrs.evolve(step.report, number=step.number, author=self.author, time=_now())
+        report = attrs.evolve(step.report, number=step.number, author=author, time=_now())
         step.replace(attrs.evolve(step.body, report=report))
         revised, places = self._revisions(step), (len(self.history), len(self._states))
         undone = list(self.undone)
@@ -276,16 +292,45 @@ class Document:
         if len(self.history) > _HELD:
             self.history[-1 - _HELD].release()
 
-    def undo(self, count: int = 1) -> list[Step]:
-        """Take back the last steps.
+    def undo(self, count: int = 1, author: str | None = None) -> list[Step]:
+        """Take back the last steps; of one author if one is named, and only if they are his.
 
         Raises
         ------
         BadInputError
-            If there are not so many, or an edit is open.
+            If there are not so many, or an edit is open; or steps of others lie above.
+        HullBusyError
+            Somebody else is at work.
         """
-        self._enough(self.history, count, "undo")
-        return self._run([(step, False) for step in self.history[-count:][::-1]], None)
+        self.require_ended("undo")
+        with self._writing("undo"):
+            if author is not None:
+                self._require_own(count, author)
+            self._enough(self.history, count, "undo")
+            return self._run([(step, False) for step in self.history[-count:][::-1]], None)
+
+    def _require_own(self, count: int, author: str) -> None:
+        """Refuse to take back steps of one author from under those of others."""
+        above = list[Step]()
+        left = integer(count, "the number of steps", "in undo", least=1)
+        for step in self.history[::-1]:
+            if step.report.author != author:
+                above.append(step)
+            elif left := left - 1:
+                continue
+            else:
+                break
+        where = f"in undo of {author!r}"
+        if left:
+            have = count - left
+            remedy = "see history for who made what"
+            raise BadInputError(f"there are {have} steps of theirs to undo, and {count} were asked",
+                                where, remedy)  # fmt: skip
+        if above:
+            names = ", ".join(f"{step.name!r} of {step.report.author!r}" for step in above[:5])
+            rest = f" and {len(above) - 5} more" if len(above) > 5 else ""
+            remedy = "undo those first, or make an edit that sets back what this one did"
+            raise BadInputError(f"above it lie {names}{rest}", where, remedy)
 
     def redo(self, count: int = 1) -> list[Step]:
         """Make steps that were taken back again.
@@ -294,9 +339,13 @@ class Document:
         ------
         BadInputError
             If there are not so many, or an edit is open.
+        HullBusyError
+            Somebody else is at work.
         """
-        self._enough(self.undone, count, "redo")
-        return self._run([(step, True) for step in self.undone[-count:][::-1]], None)
+        self.require_ended("redo")
+        with self._writing("redo"):
+            self._enough(self.undone, count, "redo")
+            return self._run([(step, True) for step in self.undone[-count:][::-1]], None)
 
     def go(self, name: str) -> list[Step]:
         """Go to a named state; steps that lie off the way there are kept under a name.
@@ -312,7 +361,8 @@ class Document:
             No such name; an edit is open.
         """
         self.require_ended("go")
-        return self.go_to(self.labelled(name))
+        with self._writing("go"):
+            return self._go_to(self.labelled(name))
 
     def labelled(self, name: object) -> int:
         """Give the number of the step that a name stands for.
@@ -328,6 +378,10 @@ class Document:
 
     def go_to(self, number: int) -> list[Step]:
         """Go to the state after the step with a number, 0 for the hull as it came."""
+        with self._writing("go"):
+            return self._go_to(number)
+
+    def _go_to(self, number: int) -> list[Step]:
         moves = self._moves(number)
         ahead = {step.number for step in self.undone}
         leaves = any(forward and step.number not in ahead for step, forward in moves)
@@ -379,10 +433,11 @@ class Document:
             The name is in use; an edit is open; it is no name.
         """
         self.require_ended("checkpoint")
-        if text(name, "the name", "in checkpoint") in self.labels:
-            raise NameTakenError("checkpoint or branch", name)
-        label = Label(name, self.head, author=self.author, time=_now())
-        with self._writing():
+        text(name, "the name", "in checkpoint")
+        with self._writing("checkpoint"):
+            if name in self.labels:
+                raise NameTakenError("checkpoint or branch", name)
+            label = Label(name, self.head, author=self.author, time=_now())
             if self.keeper is not None:
                 self.unsettled = True
                 self.keeper.label(label)
@@ -391,9 +446,9 @@ class Document:
         return label
 
     @contextlib.contextmanager
-    def _writing(self) -> Iterator[None]:
+    def _writing(self, act: str) -> Iterator[None]:
         try:
-            with self.held():
+            with self.held(act):
                 yield
         finally:
             self.try_to_settle()
@@ -405,7 +460,7 @@ class Document:
         """
         if not self.unsettled:
             return
-        with contextlib.suppress(AssocHullError), self.held(keep=False):
+        with contextlib.suppress(AssocHullError), self.held("the hull", keep=False, wait=0.0):
             self.settle()
 
     @contextlib.contextmanager
@@ -425,20 +480,22 @@ class Document:
     def _run(
         self, moves: list[tuple[Step, bool]], branch: Label | None, leaves: bool = False
     ) -> list[Step]:
-        """Run steps backward or forward, and keep that; if it fails, all is as it was."""
+        """Run steps backward or forward, and keep that; if it fails, all is as it was.
+
+        Only with the right to write.
+        """
         steps = [step for step, _ in moves]
-        with self._writing():
-            with self.unharmed():
-                for step, forward in moves:
-                    self._turn(step, forward)
-                if leaves:
-                    self.undone.clear()
-                if self.keeper is not None:
-                    self.unsettled = True
-                    self.keeper.move(self.head, self.tip, steps, branch)
-            self._name(branch)
-            self._states.append(tuple(steps))
-            self._agree()
+        with self.unharmed():
+            for step, forward in moves:
+                self._turn(step, forward)
+            if leaves:
+                self.undone.clear()
+            if self.keeper is not None:
+                self.unsettled = True
+                self.keeper.move(self.head, self.tip, steps, branch)
+        self._name(branch)
+        self._states.append(tuple(steps))
+        self._agree()
         return steps
 
     def _turn(self, step: Step, forward: bool) -> None:
@@ -474,18 +531,17 @@ class Document:
             self.labels[label.name] = label
 
     def require_ended(self, act: str) -> None:
-        """Refuse while an edit is open.
+        """Refuse while an edit of this thread and task is open.
 
         Raises
         ------
         BadInputError
             One is.
         """
-        if self.writer is not None:
+        if self.writer is not None and self.lock.held_here:
             raise BadInputError("an edit is open", f"in {act}", "end it first")
 
     def _enough(self, steps: list[Step], count: int, act: str) -> None:
-        self.require_ended(act)
         try:
             wanted = operator.index(count)
         except TypeError:

@@ -392,7 +392,7 @@ class Drag:
 
     def _run(self) -> Live | None:
         """Run the program; None where that does not answer for the whole edit."""
-        if self._quick is None or self._document.writer is not None:
+        if self._quick is None or self._document.lock.held:
             return None
         asked = {name: float(value) for name, value in self._last.items()}  # type: ignore[arg-type]
         if not all(map(isfinite, asked.values())):
@@ -419,7 +419,7 @@ class Drag:
     def _report_of(self, asked: dict[str, object]) -> EditReport | None:
         """Give the report of an edit that was tried, if the hull is as it was then."""
         document = self._document
-        if document.writer is not None or document.state_number != self._number:
+        if document.lock.held or document.state_number != self._number:
             return None
         seen = list[Step | None]()
         with Edit(document, "drag", self._settings, look=seen.append) as trial:

@@ -37,8 +37,8 @@ PolicyName = Literal["all_or_nothing", "keep_going"]
 GapsName = Literal["refuse", "report"]
 
 
-def settings_of(policy: str, gaps: str) -> Settings:
-    """Give the settings by their public names.
+def settings_of(policy: str | None, gaps: str | None, else_as: Settings | None = None) -> Settings:
+    """Give the settings by their public names; what is not named is as in `else_as`.
 
     Raises
     ------
@@ -51,12 +51,14 @@ def settings_of(policy: str, gaps: str) -> Settings:
     >>> settings_of("keep_going", "report").refuse_gaps
     False
     """
-    for what, given, known in (
-        ("policy", policy, [each.value for each in FailurePolicy]),
-        ("gaps", gaps, ["refuse", "report"]),
-    ):
-        choice(given, what, known, "in an edit")
-    return Settings(FailurePolicy(policy), gaps == "refuse")
+    found = else_as or Settings()
+    if policy is not None:
+        choice(policy, "policy", [each.value for each in FailurePolicy], "in an edit")
+        found = attrs.evolve(found, policy=FailurePolicy(policy))
+    if gaps is not None:
+        choice(gaps, "gaps", ["refuse", "report"], "in an edit")
+        found = attrs.evolve(found, refuse_gaps=gaps == "refuse")
+    return found
 
 
 def carry_out(edit: Edit, changes: Changes | None) -> None:

@@ -6,6 +6,8 @@ Every method checks its arguments, names what is wrong, and changes nothing unti
 
 from __future__ import annotations
 
+import asyncio
+import time
 from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import Literal, Self
@@ -35,12 +37,14 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.space_map import Jacobian, PointMapping, space_map
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.transaction import Transaction
+from assoc_hull.edit.write_lock import LOOK_AGAIN, PATIENCE
 from assoc_hull.errors import (
     AbsentParameterError,
     AssocHullError,
     BadInputError,
     FileBusyError,
     ForeignPointError,
+    HullBusyError,
     HullFileError,
     MissingExtraError,
     RefusedEditError,
@@ -52,7 +56,7 @@ from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 from assoc_hull.model.tables import HullState
 
-__all__ = ["Edit", "refusal_of"]
+__all__ = ["Edit", "open_edit", "refusal_of"]
 
 _USE = "use it in a with statement"
 _HANDLE = "give a handle or an address"
@@ -60,7 +64,7 @@ _HANDLE = "give a handle or an address"
 
 _RAISED = (
     WrongTypeError, UnknownNameError, AbsentParameterError, ForeignPointError, HullFileError,
-    FileBusyError, StaleHullError, MissingExtraError,
+    FileBusyError, HullBusyError, StaleHullError, MissingExtraError,
 )  # fmt: skip
 """Of these the asking is wrong, or the file, and not what was asked for."""
 
@@ -70,6 +74,14 @@ def refusal_of(error: AssocHullError) -> tuple[str, ...]:
     if isinstance(error, _RAISED):
         raise error
     return error.findings if isinstance(error, RefusedEditError) else (str(error),)
+
+
+def open_edit(document: Document) -> Edit | None:
+    """Give the edit of a hull that this thread and task have open, if there is one."""
+    writer = document.writer
+    if not isinstance(writer, Transaction) or not document.lock.held_here:
+        return None
+    return writer.face if isinstance(writer.face, Edit) else None
 
 
 class Edit:
@@ -91,6 +103,10 @@ class Edit:
         run, before everything is taken back.
     stopped : callable or None
         Asked before each pass: whether the update is to end there, with a refusal.
+    author : str or None
+        Who edits; None for who does at this hull.
+    wait : float, s
+        For how long another thread may be at work, or in ``async with`` anybody else.
     """
 
     def __init__(
@@ -100,8 +116,12 @@ class Edit:
         settings: Settings | None = None,
         look: Callable[[Step | None], None] | None = None,
         stopped: Callable[[], bool] | None = None,
+        *,
+        author: str | None = None,
+        wait: float = PATIENCE,
     ) -> None:
-        self._held = Transaction(document, name, settings, look)
+        self._held = Transaction(document, name, settings, look, author=author, wait=wait)
+        self._held.face = self
         if stopped is not None:
             self._held.pending.stopped = stopped
 
@@ -116,6 +136,51 @@ class Edit:
         trace: TracebackType | None,
     ) -> None:
         self._held.__exit__(kind, error, trace)
+
+    async def __aenter__(self) -> Self:
+        begin = time.monotonic()
+        while True:
+            try:
+                self._held.enter(0.0)
+            except HullBusyError as error:
+                # The loop goes on meanwhile: another task of it may be the one that is waited for.
+                error.waited = time.monotonic() - begin
+                if error.waited >= self._held.wait:
+                    raise
+            else:
+                return self
+            await asyncio.sleep(LOOK_AGAIN)
+
+    async def __aexit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._held.__exit__(kind, error, trace)
+
+    @property
+    def settings(self) -> Settings:
+        """How it is carried out."""
+        return self._held.settings
+
+    def join(self, settings: Settings, author: str | None) -> Self:
+        """Give this edit to one that begins inside it, if that asks for nothing else.
+
+        Raises
+        ------
+        BadInputError
+            It would be carried out in another way, or by somebody else.
+        """
+        where = f"inside the edit {self._held.name!r}"
+        if settings != self.settings:
+            what = "policy= or gaps= differ from those of the edit that is open"
+            raise BadInputError(what, where, "leave them out, or give them to the outer edit")
+        outer = self._held.document.author if self._held.author is None else self._held.author
+        if author is not None and author != outer:
+            what = f"author is {author!r} and that of the edit that is open is {outer!r}"
+            raise BadInputError(what, where, "leave author= out, or end the outer edit first")
+        return self
 
     @property
     def report(self) -> EditReport | None:

@@ -6,7 +6,6 @@ error. Whatever goes wrong, the journal takes every write back, to the last bit.
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from types import TracebackType
 from typing import Self
@@ -20,6 +19,7 @@ from assoc_hull.edit.recording import Said, Script
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.update import update
+from assoc_hull.edit.write_lock import PATIENCE
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.derived import Marked
@@ -47,6 +47,10 @@ class Transaction:
     look : callable or None
         For a preview: called with the step, or None if nothing changed, when the update has
         run; then everything is taken back.
+    author : str or None
+        Who edits; None for who does at this hull.
+    wait : float, s
+        For how long another thread may be at work before this one is refused.
     """
 
     def __init__(
@@ -55,19 +59,24 @@ class Transaction:
         name: str,
         settings: Settings | None = None,
         look: Callable[[Step | None], None] | None = None,
+        *,
+        author: str | None = None,
+        wait: float = PATIENCE,
     ) -> None:
         self.document = document
         self.name = name
         self.settings = settings or Settings()
         self.look = look
+        self.author = author
+        self.wait = wait
+        self.face: object = None  # the edit that a designer has of it
         self.journal = Journal()
         self.pending = Pending()
         self.script: list[dict[str, Said]] = []
         self.report: EditReport | None = None
         self._step: Step | None = None
-        self._depth, self._thread = 0, 0
+        self._depth = 0
         self._broken = False
-        self._quiet = PausedCollector()
         self._over = False
         self._index: Index | None = None
         self._known: Marked = {}
@@ -128,13 +137,16 @@ class Transaction:
                 )
 
     def __enter__(self) -> Self:
+        return self.enter(self.wait)
+
+    def enter(self, wait: float) -> Self:
+        """Open it, or join it where it is open; `wait` is as `WriteLock.take`."""
         before = self._depth
         try:
             if not before:
-                self._begin()
-            elif self._thread != threading.get_ident():
-                what, remedy = "another thread is at work on this hull", "let one edit at a time"
-                raise BadInputError(what, f"in the edit {self.name!r}", remedy)
+                self._begin(wait)
+            else:
+                self.document.lock.refuse_others(f"in the edit {self.name!r}")
             self._depth += 1
             return self
         except BaseException:
@@ -144,18 +156,15 @@ class Transaction:
                 self._end()
             raise
 
-    def _begin(self) -> None:
+    def _begin(self, wait: float) -> None:
         """Take the right to write."""
         where = f"in the edit {self.name!r}"
         if self._over:
             raise BadInputError("it has ended", where, "begin another one")
-        if self.document.writer is not None:
-            raise BadInputError("another edit is open", where, "end that one first")
-        self._thread = threading.get_ident()
+        keep, what = self.look is None, f"the edit {self.name!r}"
+        self.document.begin(self, what, self.author, where=where, keep=keep, wait=wait)
         self._index, self._known = self.document.known_index, self.state.memory.mark()
-        self.document.begin(self, keep=self.look is None)
         self.document.writer = self
-        self._quiet.__enter__()
 
     def _end(self) -> None:
         """Give the right to write back, and bring memory to what is kept if that is ahead."""
@@ -164,7 +173,6 @@ class Transaction:
         try:
             self.document.end(self, keep=self.look is None)
         finally:
-            self._quiet.__exit__()
             self.document.try_to_settle()
 
     def __exit__(
@@ -181,7 +189,8 @@ class Transaction:
                     self._restore()
                 elif not self._depth:
                     self._over, self.document.writer = True, None
-                    self._finish()
+                    with PausedCollector():
+                        self._finish()
             finally:
                 if not self._depth:
                     self._over = True
@@ -231,7 +240,7 @@ class Transaction:
         self._step = update(self.document, self.name, self.journal, self.pending, self.settings)
         if self.look is None:
             self._step.script = Script.of(self.script, self.settings)
-            self.document.commit(self._step)
+            self.document.commit(self._step, self.author)
         return self._step.report
 
     def _restore(self) -> None:

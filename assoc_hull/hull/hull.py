@@ -26,7 +26,8 @@ from assoc_hull.arguments import flag, instance, integer, not_negative, number, 
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
-from assoc_hull.edit.session import Edit
+from assoc_hull.edit.session import Edit, open_edit
+from assoc_hull.edit.write_lock import PATIENCE
 from assoc_hull.errors import UnknownNameError
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import FAMILIES
@@ -113,7 +114,6 @@ class Hull:
             state = Document(instance(state, HullState, "state", "in Hull"))
         self.document = state
         self.adoption: AdoptionReport | None = None
-        self._open: Edit | None = None
 
     @classmethod
     def from_lines(
@@ -215,20 +215,58 @@ class Hull:
         return NamedMapping("checkpoint or branch", dict(self.document.labels))
 
     def edit(
-        self, name: str, policy: PolicyName = "all_or_nothing", gaps: GapsName = "refuse"
+        self,
+        name: str,
+        policy: PolicyName | None = None,
+        gaps: GapsName | None = None,
+        *,
+        author: str | None = None,
+        wait: float = PATIENCE,
     ) -> Edit:
-        """Begin an edit, for a ``with`` statement; inside another one it joins that.
+        """Begin an edit, for a ``with`` or ``async with`` statement; inside another one it joins.
+
+        Only an edit of the same thread and task is joined. Inside an edit the hull reads as it was
+        published; what the edit itself gives answers with what was asked for.
+
+        Parameters
+        ----------
+        name : str
+            Of the edit, for the history.
+        policy : {"all_or_nothing", "keep_going"}
+            What becomes of it when a curve cannot be made; the first if not given.
+        gaps : {"refuse", "report"}
+            Whether a gap over its limit refuses it; the first if not given.
+        author : str or None
+            Who edits; None for `author`.
+        wait : float, s
+            For how long another thread may be at work on this hull before this one is refused. A
+            task of the same thread is refused at once; ``async with`` waits for both.
 
         Raises
         ------
         BadInputError
-            An unknown policy, or an unknown treatment of gaps.
+            An unknown policy or treatment of gaps, or others than those of the edit it joins.
+        HullBusyError
+            On entering: somebody else is at work on this hull, and has not ended in time.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("fuller forward", author="anna") as edit:
+        ...     edit.move("WL 2.5 x ST 7", y=2.95)
+        >>> hull.history[-1].author
+        'anna'
         """
-        settings = settings_of(policy, gaps)
+        outer = open_edit(self.document)
+        settings = settings_of(policy, gaps, None if outer is None else outer.settings)
         text(name, "the name", "in edit")
-        if self._open is None or not self._open.active:
-            self._open = Edit(self.document, name, settings)
-        return self._open
+        if author is not None:
+            text(author, "author", "in edit")
+        not_negative(wait, "wait", "in edit")
+        if outer is not None:
+            return outer.join(settings, author)
+        return Edit(self.document, name, settings, author=author, wait=wait)
 
     def preview(
         self,
@@ -389,12 +427,35 @@ class Hull:
             carry_out(edit, edits)
         return edit.report
 
-    def undo(self, n: int = 1) -> None:
-        """Take back the last edits; stored values come back, nothing is computed."""
-        self.document.undo(n)
+    def undo(self, n: int = 1, *, author: str | None = None) -> None:
+        """Take back the last edits; stored values come back, nothing is computed.
+
+        Parameters
+        ----------
+        n : int
+            How many.
+        author : str or None
+            Only edits of this author; refused where edits of others lie above them.
+
+        Raises
+        ------
+        BadInputError
+            There are not so many, an edit is open, or edits of others lie above: they are named.
+        HullBusyError
+            Somebody else is at work on this hull.
+        """
+        self.document.undo(n, None if author is None else text(author, "author", "in undo"))
 
     def redo(self, n: int = 1) -> None:
-        """Make edits that were taken back again."""
+        """Make edits that were taken back again.
+
+        Raises
+        ------
+        BadInputError
+            There are not so many, or an edit is open.
+        HullBusyError
+            Somebody else is at work on this hull.
+        """
         self.document.redo(n)
 
     def checkpoint(self, name: str) -> None:

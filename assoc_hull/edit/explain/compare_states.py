@@ -195,7 +195,7 @@ def walk_states(document: Document) -> Iterator[StateWalk]:
         An edit is open.
     """
     document.require_ended("the history")
-    with document.held(keep=False):
+    with document.held("the history", keep=False):
         walk = StateWalk(document)
         try:
             yield walk

@@ -149,6 +149,7 @@ def save_hull_file(
         The file cannot be written; nothing is left behind, and the hull is kept where it was.
     """
     document.require_ended("save")
+    document.lock.refuse_others("in save")
     target = Path(os.path.realpath(path))
     _require_free(target, replace=replace)
     changes = _write_whole(document, target)
@@ -300,6 +301,7 @@ def save_hull(
             raise BadInputError("this hull lives in memory", "in save", remedy)
         return _in_place(document, there)
     document.require_ended("save")
+    document.lock.refuse_others("in save")
     name = file_path(path, "in save")
     if name.endswith(TEXT_ENDING):
         write_hull_json(document.state, path)
@@ -359,7 +361,7 @@ def refresh_hull(document: Document) -> None:
         remedy = "save it as a hull file first"
         raise BadInputError("this hull lives in memory", "in refresh", remedy)
     document.require_ended("refresh")
-    with document.held(keep=False):
+    with document.held("refresh", keep=False):
         document.keeper.refresh(document)
 
 
@@ -368,10 +370,11 @@ def detach_hull(document: Document) -> None:
 
     Raises
     ------
-    BadInputError
-        An edit is open.
+    BadInputError, HullBusyError
+        An edit is open, here or in another thread.
     """
     document.require_ended("detach")
+    document.lock.refuse_others("in detach")
     document.keeper = None
 
 
@@ -387,9 +390,10 @@ def close_hull_file(document: Document) -> None:
 
     Raises
     ------
-    BadInputError
-        An edit is open.
+    BadInputError, HullBusyError
+        An edit is open, here or in another thread.
     """
     document.require_ended("close")
+    document.lock.refuse_others("in close")
     if isinstance(document.keeper, HullFile):
         document.keeper.close()

@@ -15,6 +15,7 @@ from assoc_hull.errors import (
     AssocHullError,
     BadInputError,
     DamagedFileError,
+    HullBusyError,
     HullFileError,
     StaleHullError,
 )
@@ -280,7 +281,7 @@ def test_no_thread_joins_the_edit_of_another(file: Path) -> None:
     def meanwhile() -> None:
         try:
             shift(hull, "two")
-        except BadInputError as error:
+        except HullBusyError as error:
             said.append(str(error))
 
     with hull.edit("one more") as edit:

@@ -1,0 +1,285 @@
+"""One writer at a time: what another thread, another task and an inner edit get."""
+
+import asyncio
+import gc
+import threading
+from collections.abc import Callable
+
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.errors import BadInputError, HullBusyError
+
+POINT = "WL 2.5 x ST 7"
+
+
+@pytest.fixture
+def hull() -> ah.Hull:
+    """A hull to edit."""
+    return ah.examples.wigley()
+
+
+def shift(hull: ah.Hull, name: str, by: float = 0.01, **asked: object) -> None:
+    """Move a point a little."""
+    with hull.edit(name, **asked) as edit:  # type: ignore[arg-type]
+        edit.move(POINT, y=hull.points[POINT].y + by)
+
+
+def in_thread(act: Callable[[], None]) -> list[BaseException]:
+    """Carry out an act in another thread, and give what it raised."""
+    raised = list[BaseException]()
+
+    def run() -> None:
+        try:
+            act()
+        except BaseException as error:
+            raised.append(error)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join()
+    return raised
+
+
+def names(hull: ah.Hull) -> list[str]:
+    """The edits that were made."""
+    return [each.name for each in hull.history]
+
+
+# --------------------------------------------------------------------------------------
+# Threads.
+
+
+@pytest.mark.parametrize("act", [
+    lambda hull: shift(hull, "two", wait=0.05),
+    lambda hull: hull.close(),
+    lambda hull: hull.detach(),
+], ids=["edit", "close", "detach"])  # fmt: skip
+def test_another_thread_is_told_who_is_at_work(
+    hull: ah.Hull, act: Callable[[ah.Hull], None]
+) -> None:
+    """With the edit, its author, and for how long it has waited."""
+    with hull.edit("one", author="anna") as edit:
+        (error,) = in_thread(lambda: act(hull))
+        edit.move(POINT, y=2.9)
+    assert isinstance(error, HullBusyError)
+    assert isinstance(error, TimeoutError)
+    assert (error.what, error.author, error.same_thread) == ("the edit 'one'", "anna", False)
+    assert "the edit 'one' of anna" in str(error)
+    assert names(hull) == ["one"]
+
+
+def test_another_thread_waits_for_its_turn(hull: ah.Hull) -> None:
+    """Both edits are made, one after the other, each under its own name."""
+    entered, raised = threading.Event(), list[BaseException]()
+
+    def second() -> None:
+        try:
+            entered.set()
+            shift(hull, "two", wait=20.0)
+        except BaseException as error:
+            raised.append(error)
+
+    thread = threading.Thread(target=second)
+    with hull.edit("one") as edit:
+        edit.move(POINT, y=2.9)
+        thread.start()
+        entered.wait()
+    thread.join()
+    assert not raised
+    assert names(hull) == ["one", "two"]
+
+
+def test_undo_waits_for_the_edit_of_another_thread_and_takes_that_back(hull: ah.Hull) -> None:
+    """What is taken back is chosen when its turn has come."""
+    shift(hull, "one")
+    before = hull.fingerprint
+    entered = threading.Event()
+
+    def undo() -> None:
+        entered.set()
+        hull.undo()
+
+    thread = threading.Thread(target=undo)
+    with hull.edit("two") as edit:
+        edit.move(POINT, y=2.9)
+        thread.start()
+        entered.wait()
+    thread.join()
+    assert names(hull) == ["one"]
+    assert hull.fingerprint == before
+
+
+def test_an_edit_that_waits_in_vain_leaves_the_other_one_whole(hull: ah.Hull) -> None:
+    """And may be entered again when the other has ended."""
+    late = hull.edit("late", wait=0.0)
+    with hull.edit("one") as edit:
+        edit.move(POINT, y=2.9)
+
+        def enter() -> None:
+            with late:
+                pass
+
+        (error,) = in_thread(enter)
+    assert isinstance(error, HullBusyError)
+    with late:
+        late.move(POINT, y=2.8)
+    assert names(hull) == ["one", "late"]
+
+
+# --------------------------------------------------------------------------------------
+# Tasks.
+
+
+def test_another_task_of_the_same_thread_is_told_at_once(hull: ah.Hull) -> None:
+    """To wait would stop the loop that the first one needs to end."""
+
+    async def first(begun: asyncio.Event, over: asyncio.Event) -> None:
+        with hull.edit("one") as edit:
+            edit.move(POINT, y=2.9)
+            begun.set()
+            await over.wait()
+
+    async def both() -> HullBusyError:
+        begun, over = asyncio.Event(), asyncio.Event()
+        task = asyncio.create_task(first(begun, over))
+        await begun.wait()
+        with pytest.raises(HullBusyError, match="async with") as said:
+            shift(hull, "two")
+        over.set()
+        await task
+        return said.value
+
+    error = asyncio.run(both())
+    assert error.same_thread
+    assert error.waited < 1.0
+    assert names(hull) == ["one"]
+
+
+def test_a_task_that_was_begun_inside_an_edit_does_not_join_it(hull: ah.Hull) -> None:
+    """It has the context of its maker, and is another task all the same."""
+
+    async def inner() -> None:
+        shift(hull, "inner")
+
+    async def outer() -> None:
+        async with hull.edit("outer") as edit:
+            edit.move(POINT, y=2.9)
+            with pytest.raises(HullBusyError):
+                await asyncio.create_task(inner())
+
+    asyncio.run(outer())
+    assert names(hull) == ["outer"]
+
+
+def test_two_async_editors_take_turns(hull: ah.Hull) -> None:
+    """`async with` waits without stopping the loop; no edit is lost or under another's name."""
+
+    async def editor(name: str) -> None:
+        for turn in range(20):
+            async with hull.edit(f"{name} {turn}", author=name) as edit:
+                await asyncio.sleep(0)
+                edit.move(POINT, y=2.9 + 0.001 * turn + (0.0005 if name == "anna" else 0.0))
+                await asyncio.sleep(0)
+
+    async def both() -> None:
+        await asyncio.gather(editor("anna"), editor("bert"))
+
+    asyncio.run(both())
+    assert len(hull.history) == 40
+    assert all(each.name.startswith(each.author) for each in hull.history)
+    for name in ("anna", "bert"):
+        mine = [each.name for each in hull.history if each.author == name]
+        assert mine == [f"{name} {turn}" for turn in range(20)]
+
+
+def test_async_with_waits_no_longer_than_asked(hull: ah.Hull) -> None:
+    """Then it is told as a thread is."""
+
+    async def both() -> None:
+        async with hull.edit("one") as edit:
+            edit.move(POINT, y=2.9)
+
+            async def second() -> None:
+                async with hull.edit("two", wait=0.05):
+                    pass
+
+            with pytest.raises(HullBusyError) as said:
+                await asyncio.create_task(second())
+            assert said.value.waited >= 0.05
+
+    asyncio.run(both())
+    assert names(hull) == ["one"]
+
+
+# --------------------------------------------------------------------------------------
+# Inside one task.
+
+
+def test_inner_edits_join_if_they_ask_for_nothing_else(hull: ah.Hull) -> None:
+    """One step in the history; what is not named is as outside."""
+    with hull.edit("outer", gaps="report", author="anna") as edit:
+        edit.move(POINT, y=2.9)
+        with hull.edit("inner", policy="all_or_nothing", author="anna") as inner:
+            assert inner is edit
+    assert names(hull) == ["outer"]
+
+
+@pytest.mark.parametrize(
+    "asked", [{"policy": "keep_going"}, {"gaps": "report"}, {"author": "bert"}]
+)
+def test_inner_edits_that_ask_for_something_else_are_refused(
+    hull: ah.Hull, asked: dict[str, str]
+) -> None:
+    """Nothing that was asked for is dropped in silence; the outer edit goes on."""
+    hull.author = "anna"
+    with hull.edit("outer") as edit:
+        with pytest.raises(BadInputError, match="inside the edit 'outer'"):
+            hull.edit("inner", **asked)  # type: ignore[arg-type]
+        edit.move(POINT, y=2.9)
+    assert names(hull) == ["outer"]
+
+
+def test_garbage_is_collected_while_an_edit_merely_stands_open(hull: ah.Hull) -> None:
+    """Only the update itself holds the collector off."""
+    with hull.edit("one") as edit:
+        assert gc.isenabled()
+        edit.move(POINT, y=2.9)
+    assert gc.isenabled()
+
+
+# --------------------------------------------------------------------------------------
+# Authors.
+
+
+def test_an_edit_may_have_an_author_of_its_own(hull: ah.Hull) -> None:
+    """Else it is the hull's."""
+    hull.author = "anna"
+    shift(hull, "one")
+    shift(hull, "two", author="bert")
+    assert [each.author for each in hull.history] == ["anna", "bert"]
+
+
+def test_undo_of_an_author_takes_back_what_is_theirs(hull: ah.Hull) -> None:
+    """Where it lies on top."""
+    shift(hull, "one", author="anna")
+    shift(hull, "two", author="bert")
+    shift(hull, "three", author="bert")
+    hull.undo(2, author="bert")
+    assert names(hull) == ["one"]
+    hull.redo(2)
+    assert [each.author for each in hull.history] == ["anna", "bert", "bert"]
+
+
+def test_undo_of_an_author_names_what_lies_above(hull: ah.Hull) -> None:
+    """And changes nothing."""
+    shift(hull, "one", author="anna")
+    shift(hull, "two", author="bert")
+    before = hull.fingerprint
+    with pytest.raises(BadInputError, match="above it lie 'two' of 'bert'"):
+        hull.undo(author="anna")
+    with pytest.raises(BadInputError, match="1 steps of theirs to undo, and 2 were asked"):
+        hull.undo(2, author="anna")
+    with pytest.raises(BadInputError, match="0 steps of theirs"):
+        hull.undo(author="carl")
+    assert (names(hull), hull.fingerprint) == (["one", "two"], before)
