@@ -35,7 +35,7 @@ def _column(
 ) -> Column[Any]:
     """Make a column whose rows in use are a view of its store, as it must be."""
     column = kind(store.dtype, store.shape[1:], fill)
-    column.store, column.data, column.writes = store, _frozen(store[:count]), writes
+    column._store, column.data, column.writes = store, _frozen(store[:count]), writes
     return column
 
 
@@ -51,9 +51,9 @@ class _Pickler(pickle.Pickler):
     def reducer_override(self, value: Any) -> Any:
         if isinstance(value, ah.Hull):
             assert not value.history, "the history stays behind"
-            return _hull, (value.state, value.adoption)
+            return _hull, (value.document.state, value.adoption)
         if isinstance(value, Column):
-            what = type(value), value.store, value.fill, len(value.data), value.writes
+            what = type(value), value._store, value.fill, len(value.data), value.writes
             return _column, what
         if type(value) is np.ndarray and not value.flags.writeable:
             return _frozen, (value.copy(),)

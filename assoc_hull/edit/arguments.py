@@ -104,7 +104,7 @@ class GivenObjects:
             return resolve_address(self.tables, thing)
         if isinstance(thing, Group | Line | Curve | Point | Crossing):
             self.own(thing)
-            return numbers_of(thing)
+            return numbers_of(thing, self.tables)
         raise WrongTypeError(f"the object is {shown(thing)}", "in an edit", _HANDLE)
 
     def group(self, group: Group | str) -> str:
@@ -165,7 +165,7 @@ class GivenObjects:
         tables, found = self.tables, list[int]()
         names = tables.groups.name.data
         for each in drivers:
-            if isinstance(each, Group) and each.tables is not tables:
+            if isinstance(each, Group) and each.home is not tables.live_tables:
                 raise ForeignPointError(repr(each))
             name = each.name if isinstance(each, Group) else each
             if isinstance(name, str) and name in names:
@@ -176,6 +176,6 @@ class GivenObjects:
         return found
 
     def own(self, handle: Group | Line | Curve | Point | Crossing) -> None:
-        """Refuse a handle of another hull."""
-        if handle.tables is not self.tables:
+        """Refuse a handle of another hull, or on what is no more in these tables."""
+        if handle.home is not self.tables.live_tables or not handle.is_in(self.tables):
             raise ForeignPointError(repr(handle))

@@ -104,6 +104,11 @@ class Changed:
     structural: bool
 
 
+def _live_tables(state: HullState) -> HullState:
+    """Give the tables that a published state is one of."""
+    return state.live_tables
+
+
 @attrs.define(eq=False)
 class Document:
     """A hull's tables, the look-ups derived from them, and the steps that made them.
@@ -111,7 +116,7 @@ class Document:
     Attributes
     ----------
     state : HullState
-        The published tables.
+        The tables, which whoever holds `lock` writes to; others read what is published of them.
     history, undone : list of Step
         Committed steps, oldest first; steps taken back, the last one taken back last.
     steps : dict of int to Step
@@ -134,7 +139,7 @@ class Document:
         Whether something was being kept when it was broken off: the keeper may be ahead of memory.
     """
 
-    state: HullState
+    state: HullState = attrs.field(converter=_live_tables)
     history: list[Step] = attrs.field(factory=list)
     undone: list[Step] = attrs.field(factory=list)
     steps: dict[int, Step] = attrs.field(factory=dict)
@@ -175,14 +180,15 @@ class Document:
         BadInputError
             There was no such state.
         """
+        state = self.state.published()
         first = integer(number, "the state", "in since", least=0, most=self.state_number)
         steps = [step for state in self._states[first:] for step in state]
         none = np.zeros(0, np.int64)
         curves = distinct(np.concatenate([none, *(step.curves for step in steps)]))
         rows = distinct(np.concatenate([none, *(step.rows for step in steps)]))
-        curves = curves[curves < self.state.curves.count]  # those of steps taken back are no more
-        rows = rows[rows < self.state.rows.count]
-        lines = distinct(self.state.curves.line[curves])
+        curves = curves[curves < state.curves.count]  # those of steps taken back are no more
+        rows = rows[rows < state.rows.count]
+        lines = distinct(state.curves.line[curves])
         freeze(curves, rows, lines)
         return Changed(curves, rows, lines, any(step.structural for step in steps))
 
@@ -220,6 +226,7 @@ class Document:
         author = self.author if author is None else author
         try:
             self.lock.take(holder, what, author, where=where, wait=wait)
+            self.state.begin_writing(self._written_here)
             if keep and self.keeper is not None:
                 self.settle()
                 self.keeper.begin()
@@ -235,7 +242,11 @@ class Document:
             if keep and self.keeper is not None:
                 self.keeper.end()
         finally:
+            self.state.end_writing()
             self.lock.give_back(holder)
+
+    def _written_here(self) -> bool:
+        return self.lock.held_here
 
     @contextlib.contextmanager
     def held(self, act: str, *, keep: bool = True, wait: float = PATIENCE) -> Iterator[None]:

@@ -237,7 +237,7 @@ class _QuickWay:
         across_flats: bool,
     ) -> Self | None:  # fmt: skip
         """Give what is read; None where every step has to go the full way."""
-        state = document.state
+        state = document.state.published()
         published = published_program(document)
         if published is None:
             return None
@@ -326,7 +326,7 @@ class Drag:
         self._how: DragWay = how
         self._document, self._settings = document, settings
         document.require_ended("drag")
-        state = document.state
+        state = document.state.published()
         row, _ = GivenObjects(state).point(point)
         self._name = address(state, row)
         self._asked = {"radius": radius, "across_flats": across_flats}

@@ -67,7 +67,7 @@ class LiveNumbers:
 
 def published_program(document: Document) -> PublishedProgram | None:
     """Give the program of the present state; None of a hull with curves that cannot be made."""
-    state, index = document.state, document.index
+    state, index = document.state.published(), document.index
     program = state.derived(
         ("program",), _structure(state, index), lambda: compile_program(state, index), most=1
     )

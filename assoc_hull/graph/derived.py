@@ -17,6 +17,7 @@ Examples
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from operator import is_
 from typing import TypeVar, cast
@@ -80,9 +81,17 @@ Marked = Mapping[Hashable, Mapping[Key, _Entry]]
 
 @attrs.frozen(eq=False)
 class Derived:
-    """Things by kind and key, the last one of each, those that were asked for last at the end."""
+    """Things by kind and key, the last one of each, those that were asked for last at the end.
+
+    Several threads may ask; what two ask for at once may be made twice.
+    """
 
     _kinds: dict[Hashable, dict[Key, _Entry]] = attrs.field(factory=dict, init=False)
+    _mutex: threading.RLock = attrs.field(factory=threading.RLock, init=False)
+
+    def __reduce__(self) -> tuple[type[Derived], tuple[()]]:
+        # In another process all is made anew.
+        return Derived, ()
 
     def give(
         self, key: Key, depends_on: tuple[object, ...], make: Callable[[], T], most: int = 64
@@ -100,29 +109,44 @@ class Derived:
         most : int
             So many of a kind are kept; the one that was not asked for longest goes.
         """
-        stamp, kind = _stamp(depends_on), self._kinds.setdefault(key[0], {})
-        entry = kind.pop(key, None)
+        stamp = _stamp(depends_on)
+        with self._mutex:
+            entry = self._kinds.get(key[0], {}).get(key)
         if entry is None or entry.stamp != stamp:
             entry = _Entry(depends_on, stamp, make())
-        kind[key] = entry
-        while len(kind) > most:
-            del kind[next(iter(kind))]
+        with self._mutex:
+            kind = self._kinds.setdefault(key[0], {})
+            kind.pop(key, None)
+            kind[key] = entry
+            while len(kind) > most:
+                del kind[next(iter(kind))]
         # One kind is made by one function, so its type is that of `make`.
         return cast("T", entry.value)
 
     def mark(self) -> Marked:
         """Give all that is kept now, for `restore`."""
-        return {kind: dict(entries) for kind, entries in self._kinds.items()}
+        with self._mutex:
+            return {kind: dict(entries) for kind, entries in self._kinds.items()}
+
+    def add(self, other: Derived) -> None:
+        """Keep what another one does as well; it is true where the columns are the same."""
+        known = other.mark()
+        with self._mutex:
+            for kind, entries in known.items():
+                mine = self._kinds.setdefault(kind, {})
+                for key, entry in entries.items():
+                    mine.setdefault(key, entry)
 
     def restore(self, mark: Marked) -> None:
         """Bring back what was kept, as the columns are again what they were then.
 
         What was made meanwhile stays where it does not stand in the way, and is true now.
         """
-        for kind, entries in self._kinds.items():
-            before = mark.get(kind, {})
-            for key, entry in tuple(entries.items()):
-                if key not in before and not entry.holds():
-                    del entries[key]
-        for kind, known in mark.items():
-            self._kinds.setdefault(kind, {}).update(known)
+        with self._mutex:
+            for kind, entries in self._kinds.items():
+                before = mark.get(kind, {})
+                for key, entry in tuple(entries.items()):
+                    if key not in before and not entry.holds():
+                        del entries[key]
+            for kind, known in mark.items():
+                self._kinds.setdefault(kind, {}).update(known)

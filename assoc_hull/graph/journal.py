@@ -157,12 +157,14 @@ class _ListEntry(Generic[V]):
     new: Sequence[V]
 
     def undo(self) -> None:
+        store = self.column.store
         for index, value in zip(self.index, self.old, strict=True):
-            self.column.data[index] = value
+            store[index] = value
 
     def redo(self) -> None:
+        store = self.column.store
         for index, value in zip(self.index, self.new, strict=True):
-            self.column.data[index] = value
+            store[index] = value
 
     def restamp(self) -> None:
         """Do nothing: who derives something from a list holds the objects themselves."""

@@ -23,7 +23,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from types import EllipsisType
-from typing import Generic, SupportsIndex, TypeVar, overload
+from typing import Generic, Self, SupportsIndex, TypeVar, overload
 
 import attrs
 import numpy as np
@@ -37,6 +37,7 @@ __all__ = [
     "Table",
     "ValueColumn",
     "VectorColumn",
+    "copies_taken",
     "matrices",
     "numbers",
     "values",
@@ -46,6 +47,9 @@ __all__ = [
 
 _WRITES = itertools.count(1)
 """No two writes of any column have one number, so a number may come back with its content."""
+
+_TAKEN = [0]
+"""How many columns, of all tables, have ever taken a copy of their own of what they shared."""
 
 # As an array is, a column of numbers is one of more general numbers as well.
 S = TypeVar("S", bound=np.generic, covariant=True)
@@ -62,14 +66,45 @@ class Column(Generic[S]):
     """A growing numpy array, one entry a row; `data` is a read-only view of the rows in use.
 
     `writes` is the number of the last write: what was derived from the column is true as long as
-    it stands. A journal that takes everything back brings back the number as well.
+    it stands. A journal that takes everything back brings back the number as well. Two columns may
+    share their numbers, see `share`: the one that is written to first takes a copy of its own.
     """
 
     def __init__(self, dtype: type[S] | np.dtype[S], shape: tuple[int, ...], fill: float) -> None:
-        self.store: NDArray[S] = np.full((16, *shape), fill, dtype)
+        self._store: NDArray[S] = np.full((16, *shape), fill, dtype)
+        self._shared = False
         self.fill = fill
-        self.data = self.store[:0]
+        self.data = self._store[:0]
         self.writes = 0
+
+    @property
+    def store(self) -> NDArray[S]:
+        """The array, to be written to; nobody else has it from now on."""
+        if self._shared:
+            self._store = self._store.copy()
+            self._unshare()
+            self._show(len(self.data))
+        return self._store
+
+    def _unshare(self) -> None:
+        self._shared = False
+        _TAKEN[0] += 1
+
+    def share(self) -> Self:
+        """Give another column with the same content, as it is now, whatever is written later."""
+        found = object.__new__(type(self))
+        found._store, found.fill, found.data = self._store, self.fill, self.data
+        found.writes = self.writes
+        found._shared = self._shared = True
+        return found
+
+    def shares(self, other: object) -> bool:
+        """Tell whether another column has the same numbers, for they are the very same."""
+        return isinstance(other, Column) and other._store is self._store
+
+    def _show(self, count: int) -> None:
+        self.data = self._store[:count]
+        self.data.setflags(write=False)
 
     def written(self) -> None:
         """Say that something was written."""
@@ -78,15 +113,15 @@ class Column(Generic[S]):
     def resize(self, count: int) -> None:
         """Bring the column to `count` rows; new ones hold the fill value."""
         old = len(self.data)
-        if count > len(self.store):
-            grown = np.full((max(count, 2 * len(self.store)), *self.store.shape[1:]), self.fill)
-            store = grown.astype(self.store.dtype)
-            store[:old] = self.store[:old]
-            self.store = store
+        if count > len(self._store):
+            grown = np.full((max(count, 2 * len(self._store)), *self._store.shape[1:]), self.fill)
+            store = grown.astype(self._store.dtype)
+            store[:old] = self._store[:old]
+            self._store = store
+            self._unshare()
         if count > old:
             self.store[old:count] = self.fill
-        self.data = self.store[:count]
-        self.data.setflags(write=False)
+        self._show(count)
         self.written()
 
     def parts(self) -> NDArray[S]:
@@ -139,18 +174,42 @@ class MatrixColumn(Column[S]):
 class ValueColumn(Generic[V]):
     """A growing list of values that never change, one entry a row.
 
-    Without a fill value, a new row is written before anyone reads it.
+    Without a fill value, a new row is written before anyone reads it. Two columns may share their
+    list as those of numbers do.
     """
 
     def __init__(self, fill: V | None) -> None:
         self.data: list[V] = []
         self.fill = fill
+        self._shared = False
+
+    @property
+    def store(self) -> list[V]:
+        """The list, to be written to; nobody else has it from now on."""
+        if self._shared:
+            self.data, self._shared = self.data.copy(), False
+            _TAKEN[0] += 1
+        return self.data
+
+    def share(self) -> Self:
+        """Give another column with the same content, as it is now, whatever is written later."""
+        found = object.__new__(type(self))
+        found.data, found.fill = self.data, self.fill
+        found._shared = self._shared = True
+        return found
+
+    def shares(self, other: object) -> bool:
+        """Tell whether another column has the same values, for it is the very same list."""
+        return isinstance(other, ValueColumn) and other.data is self.data
 
     def resize(self, count: int) -> None:
         """Bring the column to `count` rows; new ones hold the fill value."""
-        del self.data[count:]
-        fresh = [self.fill] * (count - len(self.data))
-        self.data.extend(fresh)  # type: ignore[arg-type]  # None stands where nothing is written yet
+        if count == len(self.data):
+            return
+        store = self.store
+        del store[count:]
+        fresh = [self.fill] * (count - len(store))
+        store.extend(fresh)  # type: ignore[arg-type]  # None stands where nothing is written yet
 
     @overload
     def __getitem__(self, row: SupportsIndex) -> V: ...
@@ -164,6 +223,11 @@ class ValueColumn(Generic[V]):
 
 AnyColumn = Column[np.generic] | ValueColumn[object]
 """A column taken by its name, which does not tell what it holds."""
+
+
+def copies_taken() -> int:
+    """Tell how often any column had to copy what it shared: unchanged, nobody wrote to such."""
+    return _TAKEN[0]
 
 
 # --------------------------------------------------------------------------------------
@@ -210,6 +274,19 @@ class Table:
     def __attrs_post_init__(self) -> None:
         names = [each.name for each in attrs.fields(type(self)) if each.name != "columns"]
         self.columns.update((name, getattr(self, name)) for name in names)
+
+    def share(self) -> Self:
+        """Give a table with the same content, as it is now, whatever is written later."""
+        found = object.__new__(type(self))
+        columns = {name: each.share() for name, each in self.columns.items()}
+        for name, each in columns.items():
+            object.__setattr__(found, name, each)  # as attrs does for a frozen class
+        object.__setattr__(found, "columns", columns)
+        return found
+
+    def shares(self, other: Table) -> bool:
+        """Tell whether another table of the kind has the same content, as nobody wrote since."""
+        return all(each.shares(other.columns[name]) for name, each in self.columns.items())
 
     @property
     def count(self) -> int:

@@ -138,8 +138,8 @@ class Hull:
 
     @property
     def state(self) -> HullState:
-        """The tables."""
-        return self.document.state
+        """The published tables; they stay as they are, whatever is edited later."""
+        return self.document.state.published()
 
     @property
     def particulars(self) -> Particulars:
@@ -396,6 +396,27 @@ class Hull:
         """
         return self.document.state_number
 
+    def snapshot(self) -> Self:
+        """Give this hull as it is published now: in memory, without history, of its own.
+
+        Nothing is copied until one of the two is edited, so it takes a fraction of a millisecond.
+        For readers in other threads that need several things of one state: what they ask this hull
+        itself for, one after the other, may come from states that follow one another.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> before = hull.snapshot()
+        >>> with hull.edit("fuller") as edit:
+        ...     edit.move("WL 2.5 x ST 7", y=2.95)
+        >>> before.points["WL 2.5 x ST 7"].y < hull.points["WL 2.5 x ST 7"].y
+        True
+        """
+        found = type(self)(self.document.state.snapshot())
+        found.adoption = self.adoption
+        return found
+
     def since(self, number: int) -> Changed:
         """Tell which curves, points and lines have changed since the state with a number.
 
@@ -526,7 +547,7 @@ class Hull:
         """Give what is wrong with the hull; empty if nothing is."""
         from assoc_hull.edit.checks.hull_findings import check
 
-        return check(self.document.state, flag(notes, "notes", "in check"))
+        return check(self.state, flag(notes, "notes", "in check"))
 
     def verify(self, relative: float = 0.0) -> tuple[Difference, ...]:
         """Rebuild the hull beside the published one, look through its file: all that differs."""

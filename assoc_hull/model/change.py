@@ -193,7 +193,7 @@ def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
         span = slice(start, start + count)
         met = int((places.line[span] >= 0).sum())
         span = slice(start, start + met)
-        state.curves.meets.data[curve] = CurveIntersections(
+        state.curves.meets.store[curve] = CurveIntersections(
             places.line[span].copy(), places.sign[span].astype(np.int8), places.row[span].copy(),
             places.at[span, 0].copy(), places.at[span, 1:].copy(),
         )  # fmt: skip
@@ -426,9 +426,9 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
         held = columns[name]
         assert isinstance(held, ValueColumn), name
         for row, value in zip(rows.tolist(), new if forward else old, strict=True):
-            held.data[row] = value
+            held.store[row] = value
     if change.births:
-        state.settings.births.data[0] = _counted(state, change.births, forward)
+        state.settings.births.store[0] = _counted(state, change.births, forward)
     # the crossings know their curves now, as both of these need it
     _move(state, change.moved)
     put_crossing_positions(state, change.after if forward else change.before)
@@ -478,6 +478,6 @@ def shape_curves(state: HullState, curves: IntArray, kept: dict[int, SplineBatch
     if len(made):
         batch = loft_curves(state, made)
         for curve, spline in zip(made.tolist(), batch.single(), strict=True):
-            state.curves.spline.data[curve] = spline
+            state.curves.spline.store[curve] = spline
     for curve, spline in kept.items():
-        state.curves.spline.data[curve] = spline
+        state.curves.spline.store[curve] = spline

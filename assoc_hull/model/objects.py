@@ -60,14 +60,19 @@ __all__ = [
 ]
 
 
+def _home(tables: HullState) -> HullState:
+    """Give the tables that live on when those of a published state are past."""
+    return instance(tables, HullState, "tables", "in a handle").live_tables
+
+
 @attrs.frozen(repr=False)
 class Handle:
     """A handle on one object of a hull.
 
     Attributes
     ----------
-    tables : HullState
-        The tables of the hull.
+    home : HullState
+        The tables of the hull, those that are written to.
     number : int
         Row of the object in its table.
     id : str
@@ -75,12 +80,11 @@ class Handle:
     """
 
     _table: ClassVar[str]
-    tables: HullState
+    home: HullState = attrs.field(alias="tables", converter=_home)
     number: int
     id: str
 
     def __attrs_post_init__(self) -> None:
-        instance(self.tables, HullState, "tables", "in a handle")
         if not isinstance(self.number, int):
             integer(self.number, "number", "in a handle", least=0)
         word(self.id, "id", "in a handle")
@@ -94,9 +98,19 @@ class Handle:
         return cls(tables, int(number), column.data[int(number)])
 
     @property
+    def tables(self) -> HullState:
+        """The published tables; for an open edit, of what it has made itself, those it writes."""
+        found = self.home.published()
+        return found if self.is_in(found) else self.home.seen_here()
+
+    @property
     def alive(self) -> bool:
         """Whether the object is still there."""
-        table = getattr(self.tables, self._table)
+        return self.is_in(self.tables)
+
+    def is_in(self, tables: HullState) -> bool:
+        """Tell whether the object is there in tables of its hull."""
+        table = getattr(tables, self._table)
         if self.number >= table.count or not table.alive[self.number]:
             return False
         return self._table == "groups" or bool(table.key[self.number] == self.id)
@@ -700,8 +714,10 @@ def handle(state: HullState, text: str) -> Group | Line | Curve | Point:
     return Group.of(state, place.group)
 
 
-def numbers_of(thing: Group | Line | Curve | Point | Crossing) -> ResolvedAddress:
-    """Give the numbers of what a handle stands for, as its address would.
+def numbers_of(
+    thing: Group | Line | Curve | Point | Crossing, tables: HullState | None = None
+) -> ResolvedAddress:
+    """Give the numbers of what a handle stands for, as its address would; in `tables` if given.
 
     Raises
     ------
@@ -715,7 +731,7 @@ def numbers_of(thing: Group | Line | Curve | Point | Crossing) -> ResolvedAddres
     >>> numbers_of(handle(wigley(), "sections"))
     ResolvedAddress(group=1, line=-1, curve=-1, row=-1, side=-1)
     """
-    number, state = thing.row, thing.tables
+    number, state = (thing.row, thing.tables) if tables is None else (thing.number, tables)
     if isinstance(thing, Group):
         return ResolvedAddress(number)
     row = number if isinstance(thing, Point | Crossing) else -1
@@ -742,7 +758,11 @@ class Points(Mapping[str, Point]):
     """
 
     def __init__(self, state: HullState) -> None:
-        self._state = state
+        self._home = state.live_tables
+
+    @property
+    def _state(self) -> HullState:
+        return self._home.published()
 
     def __getitem__(self, address: str) -> Point:
         found = handle(self._state, address)

@@ -9,6 +9,7 @@ or adopted point has a curve on side 0 only. Tables are written through a `Journ
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Mapping
 from typing import Protocol, TypeVar
 
@@ -26,6 +27,7 @@ from assoc_hull.graph.table import (
     Table,
     ValueColumn,
     VectorColumn,
+    copies_taken,
     matrices,
     numbers,
     values,
@@ -61,6 +63,11 @@ __all__ = [
 ]
 
 T = TypeVar("T")
+
+_OF_THIS_PROCESS = ("_live", "_published", "_written_here", "_taken")
+
+_GATE = threading.RLock()
+"""Held for the moment in which a state is published, or one is taken."""
 
 
 class HasState(Protocol):
@@ -373,12 +380,93 @@ class HullState:
     revision_row: dict[int, int] = attrs.field(factory=dict)
     revision_curve: dict[int, int] = attrs.field(factory=dict)
     memory: Derived = attrs.field(factory=Derived, init=False, repr=False)
+    _live: HullState | None = attrs.field(default=None, init=False, repr=False)
+    _published: HullState | None = attrs.field(default=None, init=False, repr=False)
+    _written_here: Callable[[], bool] | None = attrs.field(default=None, init=False, repr=False)
+    _taken: int = attrs.field(default=-1, init=False, repr=False)
 
     def __attrs_post_init__(self) -> None:
         if not self.settings.count:
             self.settings.resize(1)
             self.settings.births.data[0] = {}
             self.settings.particulars.data[0] = self._given
+
+    @property
+    def live_tables(self) -> HullState:
+        """The tables that this is a published state of; itself, if it is the state of nothing."""
+        return self if self._live is None else self._live
+
+    def published(self) -> HullState:
+        """Give the tables as they were when they were published last; they stay so for ever.
+
+        While somebody writes that is how they were before. Numbers are copied by whoever writes.
+        """
+        with _GATE:
+            if self._live is not None:
+                return self
+            if self._written_here is None and not self._is_current():
+                self._published = self._shared(self, self._published)
+            assert self._published is not None, "made above, or before anybody began to write"
+            return self._published
+
+    def _is_current(self) -> bool:
+        """Tell whether nothing was written to the tables since they were published."""
+        published, taken = self._published, copies_taken()
+        if published is None:
+            return False
+        if taken != self._taken:  # else nobody has written to any shared column of any hull
+            if not all(getattr(self, name).shares(getattr(published, name)) for name in TABLES):
+                return False
+            self._taken = taken
+        return True
+
+    def seen_here(self) -> HullState:
+        """Give the tables that are being written to whoever writes them, else the published."""
+        mine = self._written_here
+        return self if mine is not None and mine() else self.published()
+
+    def begin_writing(self, written_here: Callable[[], bool]) -> None:
+        """Keep what is published, for all but those of whom `written_here` is true."""
+        with _GATE:
+            self.memory.add(self.published().memory)
+            self._written_here = written_here
+
+    def end_writing(self) -> None:
+        """Publish the tables as they are."""
+        with _GATE:
+            self._written_here = None
+            self.published()
+
+    def snapshot(self) -> HullState:
+        """Give tables of their own with the published content; nothing is copied until a write."""
+        return self.published()._shared(None)
+
+    def _shared(self, live: HullState | None, before: HullState | None = None) -> HullState:
+        """Give tables that share all columns; what was derived is known there as well."""
+        found = object.__new__(HullState)
+        for name in TABLES:
+            setattr(found, name, getattr(self, name).share())
+        found._given, found.tolerances = self._given, self.tolerances
+        found.revision_row, found.revision_curve = (
+            dict(self.revision_row),
+            dict(self.revision_curve),
+        )
+        found._live, found._published, found._written_here, found._taken = live, None, None, -1
+        found.memory = Derived()
+        # What was made of tables that may be written to is not handed on: it may look at them.
+        if (source := self if self._live is not None else before) is not None:
+            found.memory.add(source.memory)
+        return found
+
+    def __getstate__(self) -> dict[str, object]:
+        # In another process these tables are a hull of their own.
+        names = [each.name for each in attrs.fields(HullState)]
+        return {name: getattr(self, name) for name in names if name not in _OF_THIS_PROCESS}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        for name, value in state.items():
+            setattr(self, name, value)
+        self._live, self._published, self._written_here, self._taken = None, None, None, -1
 
     def derived(
         self, key: Key, depends_on: tuple[object, ...], make: Callable[[], T], most: int = 64
@@ -476,7 +564,7 @@ def copy_into(found: HullState, state: HullState) -> None:
     """Give tables the content of a copy; they stay the same objects, so handles on them hold."""
     for name in TABLES:
         _copy(getattr(state, name), getattr(found, name))
-    found.settings.births.data[0] = dict(state.births)
+    found.settings.births.store[0] = dict(state.births)
     found.revision_row, found.revision_curve = dict(state.revision_row), dict(state.revision_curve)
 
 
@@ -488,4 +576,4 @@ def _copy(given: Table, found: Table) -> None:
             other.store[: given.count] = column.data
             other.written()
         elif isinstance(column, ValueColumn) and isinstance(other, ValueColumn):
-            other.data[:] = column.data
+            other.store[:] = column.data

@@ -317,7 +317,7 @@ def _line(state: HullState, curve: object) -> Line | Curve:
     if not isinstance(found, Line | Curve):
         what = f"the curve is {shown(curve)}"
         raise WrongTypeError(what, _WHERE, f"give a Line, a Curve, an address or {AREAS!r}")
-    if found.tables is not state:
+    if found.home is not state.live_tables:
         raise ForeignPointError(repr(found))
     return found
 

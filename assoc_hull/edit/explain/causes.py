@@ -183,7 +183,7 @@ def why(document: Document, node: int) -> Why:
     >>> print(why(Document(wigley()), 0))
     ST 1 x profile: as it was made: no edit has reached it
     """
-    return why_after(document.state, document.history, node)
+    return why_after(document.state.published(), document.history, node)
 
 
 def why_after(state: HullState, steps: Sequence[Step], node: int) -> Why:
@@ -236,7 +236,7 @@ def node_of(state: HullState, thing: Thing | FormDefinition | str) -> int:
     if not isinstance(found, Thing):
         what = f"the object is {shown(found)}"
         raise WrongTypeError(what, "in why", "give a handle or an address")
-    if found.tables is not state:
+    if found.home is not state.live_tables:
         raise ForeignPointError(f"{type(found).__name__.lower()} {found.id!r}")
     number = found.row
     if isinstance(found, Line) and found.curves:

@@ -220,5 +220,5 @@ def compare_labelled(document: Document, before: str, after: str | None = None) 
     """
     old = state_at(document, document.labelled(before))
     if after is None:
-        return compare_states(old, document.state, (before, PRESENT_STATE))
+        return compare_states(old, document.state.published(), (before, PRESENT_STATE))
     return compare_states(old, state_at(document, document.labelled(after)), (before, after))

@@ -72,10 +72,12 @@ def graph_of(
         choice(only, "only", ONLY, "in graph")
     number = -1 if only == "changed" and edit is None else edit
     changed = None if number is None else changed_by(document, number)
-    found = object_graph(document.state)
+    found = object_graph(document.state.published())
     kept = set(found)
     if around is not None:
-        kept &= filters.nodes_within(found, _nodes(document.state, around, found), *hops)
+        kept &= filters.nodes_within(
+            found, _nodes(document.state.published(), around, found), *hops
+        )
     if changed is not None:
         kept &= changed
     if only in ("two-way", "one-way", "latent"):
@@ -114,7 +116,7 @@ def _nodes(
     if not isinstance(given, Thing):
         what = f"the object is {shown(given)}"
         raise WrongTypeError(what, "in graph", "give a handle or an address")
-    if given.tables is not state:
+    if given.home is not state.live_tables:
         raise ForeignPointError(f"{type(given).__name__.lower()} {given.id!r}")
     if isinstance(given, Crossing):
         return [point_id(state, given.row, side) for side in (0, 1)]
@@ -161,7 +163,7 @@ def changed_by(document: Document, number: int) -> frozenset[str]:
             f"give a number from 1 to {count}" if count else "make an edit first",
         )  # fmt: skip
     step = document.history[number - 1 if number > 0 else number]
-    state = document.state
+    state = document.state.published()
     curves = {str(state.curves.key[curve]) for curve in step.curves.tolist()}
     curves |= {str(state.formed.definition[form].key) for form in step.forms.tolist()}
     return frozenset(curves.union(*(_names(state, row) for row in step.rows.tolist())))

@@ -222,7 +222,7 @@ def preview(
     flag(shapes, "shapes", "in preview")
     flag(measure, "measure", "in preview")
     document.require_ended("preview")
-    before = _measure(document) if measure else None
+    before = _measure(document.state.published()) if measure else None
     after = list[_After]()
     trial = Edit(
         document, text(name, "the name", "in preview"), settings,
@@ -266,7 +266,7 @@ def _look(
     for thing in asked:
         node = node_of(state, thing)
         causes[thing if isinstance(thing, str) else thing.id] = why_after(state, steps, node)
-    displaced = _measure(document) if measure else None
+    displaced = _measure(state) if measure else None
     drawn = _shapes(state, step) if shapes else None
     return _After(displaced, line_changes(state, step), causes, fingerprint(state), drawn)
 
@@ -278,8 +278,8 @@ def _shapes(state: HullState, step: Step | None) -> Shapes:
     return Shapes(curves, joined([state.spline(curve) for curve in curves.tolist()]))
 
 
-def _measure(document: Document) -> EvenKeelDisplacement | None:
+def _measure(state: HullState) -> EvenKeelDisplacement | None:
     try:
-        return even_keel_displacement(document.state)
+        return even_keel_displacement(state)
     except BadInputError:
         return None

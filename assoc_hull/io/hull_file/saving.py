@@ -304,7 +304,7 @@ def save_hull(
     document.lock.refuse_others("in save")
     name = file_path(path, "in save")
     if name.endswith(TEXT_ENDING):
-        write_hull_json(document.state, path)
+        write_hull_json(document.state.published(), path)
         return Saved(Path(path), written=True)
     if there is not None and there == Path(os.path.realpath(path)):
         return _in_place(document, there)
