@@ -9,18 +9,17 @@ Both ways give the same bits. `Drag.commit` makes the edit that the last `to` as
 from __future__ import annotations
 
 import contextlib
+import math
 import time
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
-from math import isfinite
-from threading import Event
 from types import TracebackType
 from typing import Literal, Self
 
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import choice, flag, shown
+from assoc_hull.arguments import choice, flag, pair, shown, text
 from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.displacement_field import (
     CLOSE,
@@ -39,6 +38,7 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit, refusal_of
 from assoc_hull.edit.shapes import joined, lofted_curves
 from assoc_hull.edit.step import Step
+from assoc_hull.edit.write_lock import WriteLock
 from assoc_hull.errors import AssocHullError, BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.integrals.area_moments import section_area
@@ -278,6 +278,7 @@ class _QuickWay:
         `amount` is how far the point was pulled, m; nil where it was moved.
         """
         numbers, table = self.numbers, self.state.rows
+        numbers.begin()
         moved = write_points(numbers.values, rows, places)
         # What a field has moved does not ride in the same edit.
         held = moved[table.sort[moved] == Sort.ADOPTED] if self.pull else moved[:0]
@@ -294,6 +295,17 @@ class _QuickWay:
         way = self.numbers.values.xyz[self.row] - self.pull.place
         reached = float((way * self.pull.normal).sum())
         return abs(1.0 - reached / amount) <= CLOSE
+
+
+_NUMBERS = (float, int, np.floating, np.integer)
+
+
+def _as_float(value: float) -> float:
+    """Give a number; one that is too large for one is infinite, and refused as that is."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
 
 
 class Drag:
@@ -323,6 +335,11 @@ class Drag:
     ) -> None:
         choice(how, "how", ("pull", "move"), "in drag")
         flag(across_flats, "across_flats", "in drag")
+        if radius is not None:
+            if how == "move":
+                what, remedy = "a radius was given to a drag that moves", "leave it out, or pull"
+                raise BadInputError(what, "in drag", remedy)
+            radius = pair(radius, "radius", "in drag", positive=True)
         self._how: DragWay = how
         self._document, self._settings = document, settings
         document.require_ended("drag")
@@ -339,8 +356,8 @@ class Drag:
         freeze(self.start, *([] if self.normal is None else [self.normal]))
         self._row, self._quick = row, _QuickWay.of(document, row, how, radius, across_flats)
         self._published = _Published.of(state)
-        self._number, self._last = document.state_number, dict[str, object]()
-        self._over, self._stopped = False, Event()
+        self._number, self._last = document.state_number, dict[str, float]()
+        self._over, self._stop_asked, self._turn = False, False, WriteLock()
 
     def __enter__(self) -> Self:
         return self
@@ -383,19 +400,30 @@ class Drag:
         WrongTypeError
             An argument is no number.
         """
-        self._require_open("to")
-        self._last = self._arguments({"d": d, "x": x, "y": y, "z": z})
-        self._stopped.clear()
-        begin = time.perf_counter()
-        found = self._run() or self._full()
-        return attrs.evolve(found, seconds=time.perf_counter() - begin)
+        with self._one_at_a_time("to"):
+            self._require_open("to")
+            self._last = self._arguments({"d": d, "x": x, "y": y, "z": z})
+            self._stop_asked = False
+            begin = time.perf_counter()
+            found = self._run() or self._full()
+            return attrs.evolve(found, seconds=time.perf_counter() - begin)
+
+    @contextlib.contextmanager
+    def _one_at_a_time(self, act: str) -> Iterator[None]:
+        """Let another thread wait until this one's step is over: they work on the same numbers."""
+        holder, where = object(), f"in {act} of the drag of {self._name}"
+        try:
+            self._turn.take(holder, f"the drag of {self._name}", where=where)
+            yield
+        finally:
+            self._turn.give_back(holder)
 
     def _run(self) -> Live | None:
         """Run the program; None where that does not answer for the whole edit."""
         if self._quick is None or self._document.lock.held:
             return None
-        asked = {name: float(value) for name, value in self._last.items()}  # type: ignore[arg-type]
-        if not all(map(isfinite, asked.values())):
+        asked = self._last
+        if not all(map(math.isfinite, asked.values())):
             return None
         written = self._quick.written(asked)
         if written is None:
@@ -416,7 +444,7 @@ class Drag:
         return Live((), curves, spline, (), (), rows, xyz, len(curves), 0.0, self._published,
                     lambda: self._report_of(asked))  # fmt: skip
 
-    def _report_of(self, asked: dict[str, object]) -> EditReport | None:
+    def _report_of(self, asked: dict[str, float]) -> EditReport | None:
         """Give the report of an edit that was tried, if the hull is as it was then."""
         document = self._document
         if document.lock.held or document.state_number != self._number:
@@ -431,7 +459,7 @@ class Drag:
         seen = list[Live]()
         trial = Edit(
             self._document, "drag", self._settings,
-            look=lambda step: seen.append(self._look(step)), stopped=self._stopped.is_set,
+            look=lambda step: seen.append(self._look(step)), stopped=lambda: self._stop_asked,
         )  # fmt: skip
         try:
             with trial:
@@ -450,14 +478,16 @@ class Drag:
         RefusedEditError, PointRoleError, FreedomError
             What the last `to` told as refused; the hull is as it was.
         """
-        self._require_open("commit")
-        if not self._last:
-            what, remedy = "nothing was asked for", "call to before"
-            raise BadInputError(what, f"in the drag of {self._name}", remedy)
-        edit = Edit(self._document, name, self._settings)
-        with edit:
-            self._ask(edit, self._last)
-        self._over = True
+        text(name, "the name", "in commit")
+        with self._one_at_a_time("commit"):
+            self._require_open("commit")
+            if not self._last:
+                what, remedy = "nothing was asked for", "call to before"
+                raise BadInputError(what, f"in the drag of {self._name}", remedy)
+            edit = Edit(self._document, name, self._settings)
+            with edit:
+                self._ask(edit, self._last)
+            self._over = True
         assert edit.report is not None
         return edit.report
 
@@ -466,7 +496,7 @@ class Drag:
 
         It is told as refused. The next `to` runs as usual.
         """
-        self._stopped.set()
+        self._stop_asked = True
 
     def _require_open(self, act: str) -> None:
         """Refuse a drag that is over, or whose ground has changed."""
@@ -478,9 +508,9 @@ class Drag:
             what = "the hull was changed since the drag began"
             raise BadInputError(what, where, "begin another one (hull.drag)")
 
-    def _arguments(self, given: dict[str, float | None]) -> dict[str, object]:
+    def _arguments(self, given: dict[str, float | None]) -> dict[str, float]:
         """Take what was given; a drag takes d, or coordinates."""
-        asked: dict[str, object] = {
+        asked: dict[str, float] = {
             name: value for name, value in given.items() if value is not None
         }
         fits = set(asked) == {"d"} if self._how == "pull" else bool(asked) and "d" not in asked
@@ -489,17 +519,18 @@ class Drag:
             what = f"{', '.join(asked) or 'nothing'} was given to a drag that {self._how}s"
             raise BadInputError(what, f"in to of the drag of {self._name}", f"give {wanted}")
         for name, value in asked.items():
-            if isinstance(value, bool) or not isinstance(value, float | int | np.number):
+            if isinstance(value, bool | np.timedelta64) or not isinstance(value, _NUMBERS):
                 what = f"{name} is {shown(value)}"
                 raise WrongTypeError(what, f"in to of the drag of {self._name}", "give a number")
+            asked[name] = _as_float(value)
         return asked
 
-    def _ask(self, edit: Edit, asked: dict[str, object]) -> None:
+    def _ask(self, edit: Edit, asked: dict[str, float]) -> None:
         """Ask an edit for what a `to` asked for."""
         if self._how == "pull":
             edit.pull(self._name, **asked, **self._asked)  # type: ignore[arg-type]
         else:
-            edit.move(self._name, **asked)  # type: ignore[arg-type]
+            edit.move(self._name, **asked)
 
     def _nothing(self, refused: tuple[str, ...]) -> Live:
         none, nowhere = np.zeros(0, np.int64), np.zeros((0, 3))

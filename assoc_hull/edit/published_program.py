@@ -39,11 +39,19 @@ class LiveNumbers:
     published: PublishedProgram
     values: Values
     runner: RunProgram
+    written: bool = False
 
     @classmethod
     def of(cls, published: PublishedProgram) -> LiveNumbers:
         """Begin with the published numbers."""
         return cls(published, published.values.copy(), runner_of(published.program))
+
+    def begin(self) -> None:
+        """Say that they will be written to; what was broken off before is swept away."""
+        if self.written:
+            self.values = self.published.values.copy()
+            self.runner = runner_of(self.published.program)
+        self.written = True
 
     def run(self, rows: IntArray, held: IntArray) -> ProgramRun:
         """Bring all up to date with points that were written."""
@@ -52,6 +60,7 @@ class LiveNumbers:
     def restore(self, run: ProgramRun) -> None:
         """Put the published numbers back where a run has written."""
         self.runner.restore(self.values, self.published.values, run)
+        self.written = False
 
     def splines(self, curves: IntArray) -> SplineBatch:
         """Give curves, as the program counts them, as they are in these numbers; there is one."""

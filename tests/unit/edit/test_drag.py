@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.edit.drag import Live
+from assoc_hull.edit.published_program import LiveNumbers
 from assoc_hull.errors import (
     BadInputError,
     PointRoleError,
@@ -22,6 +23,7 @@ from assoc_hull.errors import (
 )
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import NumberColumn, Table, numbers
+from assoc_hull.model.run_program import ProgramRun
 from tests.twins import packed, twin
 
 POINT = "WL 2.5 x ST 7"
@@ -269,3 +271,119 @@ def test_the_number_of_a_write_comes_back_with_its_content(acts: list[str]) -> N
             journal.put(table.height, [turn % table.count], [float(turn)])
         content = table.height.data.tobytes()
         assert seen.setdefault(table.height.writes, content) == content
+
+
+# --------------------------------------------------------------------------------------
+# Broken off, by several threads at once, and wrong arguments.
+
+
+@pytest.mark.parametrize("how", ["pull", "move"])
+def test_a_step_that_is_broken_off_leaves_the_next_one_right(
+    how: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also one that asks for the same again: nothing of what was written stands."""
+    ship = hull()
+    asked = {"d": 0.015} if how == "pull" else {"y": ship.points[POINT].y + 0.015}
+    drag, fresh = (ship.drag(POINT, how=how, radius=None) for _ in range(2))  # type: ignore[arg-type]
+    right = fresh.to(**asked)
+    run = LiveNumbers.run
+
+    def broken(self: LiveNumbers, rows: object, held: object) -> ProgramRun:
+        run(self, rows, held)  # type: ignore[arg-type]
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(LiveNumbers, "run", broken)
+        with pytest.raises(KeyboardInterrupt):
+            drag.to(**asked)
+    again = drag.to(**asked)
+    assert again.curves.tolist() == right.curves.tolist()
+    assert len(again.curves)
+    assert again.spline.xyz.tobytes() == right.spline.xyz.tobytes()
+
+
+def test_threads_that_share_a_drag_take_turns() -> None:
+    """Each gets the answer to what it asked for."""
+    ship = hull()
+    drag, amounts = ship.drag(POINT, radius=RADIUS), (0.005, 0.011, 0.017, 0.02)
+    right = {d: drag.to(d).spline.xyz.tobytes() for d in amounts}
+    wrong = list[float]()
+
+    def ask(d: float) -> None:
+        wrong.extend(d for _ in range(15) if drag.to(d).spline.xyz.tobytes() != right[d])
+
+    threads = [threading.Thread(target=ask, args=(d,)) for d in amounts]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_a_drag_begins_on_the_published_hull_while_another_thread_tries_something() -> None:
+    """What a preview writes in between is nobody else's."""
+    ship = hull()
+    start = ship.points[POINT].position.tobytes()
+    seen, over = set[bytes](), threading.Event()
+
+    def look() -> None:
+        while not over.is_set():
+            seen.add(ship.drag(POINT, how="move").start.tobytes())
+            seen.add(ship.points[POINT].position.tobytes())
+
+    thread = threading.Thread(target=look)
+    thread.start()
+    for step in range(12):
+        ship.preview([{"op": "move", "point": POINT, "y": 2.9 + 0.004 * step}], measure=False)
+    over.set()
+    thread.join()
+    assert seen == {start}
+
+
+@pytest.mark.parametrize("name", ["", "a\nb", 3.5, None, b"x"])
+def test_commit_takes_names_as_an_edit_does(name: object) -> None:
+    """Nothing is published under another."""
+    ship = hull()
+    before = published(ship)
+    drag = ship.drag(POINT)
+    drag.to(0.01)
+    with pytest.raises(BadInputError, match="name"):
+        drag.commit(name)  # type: ignore[arg-type]
+    assert published(ship) == before
+    drag.commit("pull")
+    assert [each.name for each in ship.history] == ["pull"]
+
+
+def test_numbers_too_large_for_one_are_refused_and_other_kinds_are_errors() -> None:
+    """As infinity is; an angle, a time or a complex number is no distance."""
+    drag = hull().drag(POINT)
+    assert drag.to(10**400).refused == drag.to(float("inf")).refused
+    assert drag.to(-(10**400)).refused
+    for wrong in (np.timedelta64(1, "s"), np.complex128(0.01), "0.01", True):
+        with pytest.raises(WrongTypeError, match="give a number"):
+            drag.to(wrong)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("radius", ["ab", (1.0, 2.0, 3.0), -1.0, (0.0, 1.0), (np.nan, 1.0)])
+def test_a_wrong_radius_is_told_at_once(radius: object) -> None:
+    """Not at every step as a refusal."""
+    with pytest.raises(BadInputError, match="radius"):
+        hull().drag(POINT, radius=radius)  # type: ignore[arg-type]
+
+
+def test_a_drag_that_moves_takes_no_radius() -> None:
+    """Nothing that was given is dropped in silence."""
+    with pytest.raises(BadInputError, match="leave it out, or pull"):
+        hull().drag(POINT, how="move", radius=RADIUS)
+
+
+def test_a_radius_that_is_changed_later_changes_nothing() -> None:
+    """It is taken as it was."""
+    radius = [20.0, 4.0]
+    drag = hull().drag(POINT, radius=radius)  # type: ignore[arg-type]
+    first = drag.to(0.01)
+    radius[0] = 5.0
+    again = drag.to(0.01)
+    assert again.spline.xyz.tobytes() == first.spline.xyz.tobytes()
+    assert first.report is not None
+    assert len(first.curves) == len(first.report.relofted)
