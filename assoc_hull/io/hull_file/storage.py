@@ -357,6 +357,11 @@ class HullFile:
 
     def require_print(self) -> None:
         """Refuse tables whose fingerprint is not the one in the file."""
+        splines, keys = self.state.curves.spline, self.state.curves.key
+        for curve in self.state.live("curves").tolist():
+            if splines[curve] is None:  # a curve without a shape has no fingerprint
+                what = f"the curve {keys[curve]!r} has no shape"
+                raise DamagedFileError(what, f"at {self.path}", "take it from a copy")
         found, said = fingerprint(self.state), str(self._one("SELECT fingerprint FROM hull")[0])
         if found != said:
             what = f"the content has the fingerprint {found[:12]}, the file says {said[:12]}"

@@ -147,6 +147,17 @@ def test_a_value_that_was_changed_from_outside_is_noticed(file: Path) -> None:
         ah.open(file)
 
 
+def test_a_curve_that_is_said_to_be_unfinished_is_noticed(
+    file: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Its points are there and its shape is not: found by files with changed cells."""
+    database = sqlite3.connect(file)
+    database.execute("UPDATE curves SET state = 1 WHERE number = 1")
+    database.commit()
+    database.close()
+    refused(file, capfd, "has no shape")
+
+
 def let_in(folder: Path) -> None:
     """Let everybody reach a folder of the tests."""
     for each in (folder, *folder.parents):

@@ -1,0 +1,193 @@
+"""Published states: once read they stay, and nobody but an edit itself sees what it writes.
+
+Readers are other threads, previews and drags beside them, and the edit's own body, which reads the
+hull as it was published.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import assoc_hull as ah
+from assoc_hull.errors import AssocHullError, HullBusyError
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.tables import HullState
+from tests.conftest import Shipped
+from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
+
+LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
+
+tasks_of_all_kinds = tasks(SHAPES + STRUCTURE)
+
+
+def content(state: HullState) -> tuple[object, ...]:
+    """Every bit of the tables; of lists the very objects."""
+    tables = state.rows, state.curves, state.lines, state.groups, state.settings
+    columns = [
+        each.data.tobytes() if isinstance(each.data, np.ndarray) else list(map(id, each.data))
+        for table in tables
+        for each in table.columns.values()
+    ]
+    return columns, dict(state.revision_row), dict(state.revision_curve)
+
+
+@settings(max_examples=20, deadline=None)
+@given(number=st.integers(0, POOL - 1), edits=tasks_of_all_kinds, back=st.integers(0, 3))
+def test_a_state_that_was_read_stays_whatever_is_done_later(
+    number: int, edits: list[Task], back: int
+) -> None:
+    """To the bit, with all that is asked of it; so do snapshots, which are hulls of their own."""
+    hull = fresh(number)
+    kept = [(hull.state, hull.snapshot(), content(hull.state), hull.fingerprint)]
+    for each in edits:
+        carry_out(hull, each)
+        kept.append((hull.state, hull.snapshot(), content(hull.state), hull.fingerprint))
+    hull.undo(min(back, len(hull.history))) if back and hull.history else None
+    for state, snapshot, bits, mark in kept:
+        assert content(state) == bits
+        assert fingerprint(state) == mark == snapshot.fingerprint
+    assert content(hull.state) == content(hull.document.state)
+
+
+@settings(max_examples=12, deadline=None)
+@given(number=st.integers(0, POOL - 1), edits=tasks_of_all_kinds)
+def test_an_edit_of_a_snapshot_and_one_of_its_hull_do_not_meet(
+    number: int, edits: list[Task]
+) -> None:
+    """Whichever is written to first."""
+    hull = fresh(number)
+    snapshot = hull.snapshot()
+    before = content(hull.state)
+    for each in edits:
+        carry_out(snapshot, each)
+    assert content(hull.state) == before
+    assert hull.verify() == ()
+    theirs = content(snapshot.state), snapshot.fingerprint
+    for each in edits:
+        carry_out(hull, each)
+    assert (content(snapshot.state), snapshot.fingerprint) == theirs
+    assert snapshot.fingerprint == hull.fingerprint
+
+
+def test_inside_an_edit_the_hull_reads_as_published() -> None:
+    """What the edit has made answers, and is seen by nobody else; a refusal leaves no trace."""
+    hull = ah.examples.wigley()
+    before, count = content(hull.state), len(hull.points)
+    made = list[ah.Point]()
+    with pytest.raises(AssocHullError):
+        insert_and_fail(hull, made, before, count)
+    assert not made[0].alive
+    assert content(hull.state) == before == content(hull.document.state)
+
+
+def insert_and_fail(hull: ah.Hull, made: list[ah.Point], before: object, count: int) -> None:
+    """Insert a point, look at what is seen of it, and ask for what is refused."""
+    with hull.edit("failing") as edit:
+        point = edit.insert("ST 7", (35.0, 2.2, 1.3))
+        made.append(point)
+        assert point.alive
+        assert point.x == 35.0
+        assert point.container_curve.name == "ST 7"
+        assert len(hull.points) == count
+        assert content(hull.state) == before
+        seen = list[bool]()
+        thread = threading.Thread(target=lambda: seen.append(point.alive))
+        thread.start()
+        thread.join()
+        assert seen == [False]
+        edit.move("WL 2.5 x ST 7", y=1e9)
+
+
+def test_what_an_edit_has_deleted_is_not_given_to_it_again() -> None:
+    """A handle that the published hull still knows is one on nothing in this edit."""
+    hull = ah.examples.wigley()
+    with hull.edit("insert") as edit:
+        point = edit.insert("ST 7", (35.0, 2.2, 1.3))
+    with hull.edit("delete") as edit:
+        edit.delete(point)
+        assert point.alive
+        with pytest.raises(ah.errors.ForeignPointError):
+            edit.pin(point)
+    assert not point.alive
+
+
+# --------------------------------------------------------------------------------------
+# Threads.
+
+
+def _readings(hull: ah.Hull, point: str) -> dict[str, Callable[[], object]]:
+    """What readers ask for: each gives something that is known of every committed state."""
+
+    def of_snapshot() -> object:
+        snapshot = hull.snapshot()
+        return snapshot.fingerprint, snapshot.points[point].y
+
+    def tried() -> None:
+        hull.preview([{"op": "move", "point": point, "y": -1e3}], measure=False)
+
+    return {
+        "fingerprint": lambda: hull.fingerprint,
+        "point": lambda: hull.points[point].y,
+        "curve": lambda: hull.points[point].parent_curve.spline.xyz.tobytes(),
+        "snapshot": of_snapshot,
+        "hydrostatics": lambda: hull.hydrostatics(draught=hull.particulars.draught).volume,
+        "check": hull.check,
+        "preview": tried,
+        "again": lambda: hull.fingerprint,
+    }
+
+
+@pytest.mark.parametrize("name", ["wigley", *(["series60_70"] if LONG else [])])
+def test_readers_in_other_threads_see_committed_states_only(name: str, shipped: Shipped) -> None:
+    """Eight of them beside one writer; 60 s in the long form."""
+    hull = shipped(name)
+    point = next(each for each, found in hull.points.items() if "y" in found.free and found.y > 1.0)
+    ask, seconds = _readings(hull, point), 60.0 if LONG else 4.0
+    seen: dict[str, set[object]] = {each: set() for each in ask}
+    raised, over = list[BaseException](), threading.Event()
+
+    def read(each: str) -> None:
+        while not over.is_set():
+            try:
+                seen[each].add(ask[each]())
+            except HullBusyError:
+                assert each == "preview"
+            except BaseException as error:
+                raised.append(error)
+                over.set()
+
+    known: dict[str, set[object]] = {each: set() for each in ask}
+
+    def commit() -> None:
+        for each in set(ask) - {"preview"}:
+            known[each].add(ask[each]())
+
+    commit()
+    threads = [threading.Thread(target=read, args=(each,)) for each in ask]
+    for thread in threads:
+        thread.start()
+    start, end, step = hull.points[point].y, time.monotonic() + seconds, 0
+    while time.monotonic() < end and not over.is_set():
+        step += 1
+        if step % 4 == 0:
+            hull.undo()
+        else:
+            with hull.edit("move", wait=60.0) as edit:
+                edit.move(point, y=start - 1e-3 * (step % 7))
+        commit()
+    over.set()
+    for thread in threads:
+        thread.join()
+    assert not raised
+    assert step >= 3
+    for each in set(ask) - {"preview"}:
+        assert seen[each] <= known[each], each
+    assert hull.verify() == ()
