@@ -138,18 +138,22 @@ class Edit:
         self._held.__exit__(kind, error, trace)
 
     async def __aenter__(self) -> Self:
-        begin = time.monotonic()
-        while True:
-            try:
-                self._held.enter(0.0)
-            except HullBusyError as error:
-                # The loop goes on meanwhile: another task of it may be the one that is waited for.
-                error.waited = time.monotonic() - begin
-                if error.waited >= self._held.wait:
-                    raise
-            else:
-                return self
-            await asyncio.sleep(LOOK_AGAIN)
+        begin, lock, held = time.monotonic(), self._held.document.lock, self._held
+        lock.line_up(held, f"the edit {held.name!r}")
+        try:
+            while True:
+                try:
+                    held.enter(0.0)
+                except HullBusyError as error:
+                    # The loop goes on meanwhile: a task of it may be the one that is waited for.
+                    error.waited = time.monotonic() - begin
+                    if error.waited >= held.wait:
+                        raise
+                else:
+                    return self
+                await asyncio.sleep(LOOK_AGAIN)
+        finally:
+            lock.leave(held)
 
     async def __aexit__(
         self,

@@ -33,6 +33,9 @@ PATIENCE = 5.0
 LOOK_AGAIN = 0.002
 """After so long it looks whether its turn has come, s."""
 
+_GONE = 0.5
+"""Who has not looked for so long is passed over: it may have been broken off, s."""
+
 
 @attrs.frozen
 class Activity:
@@ -61,9 +64,11 @@ class _Turn:
 
 @attrs.frozen(eq=False)
 class WriteLock:
-    """The right to write the tables of one hull."""
+    """The right to write the tables of one hull; of those that wait, who came first is next."""
 
     _turn: dict[str, _Turn] = attrs.field(factory=dict, init=False)
+    _line: dict[object, tuple[_Turn, float]] = attrs.field(factory=dict, init=False)
+    """Who waits, in the order in which they came, and when each has looked last."""
 
     @property
     def held(self) -> bool:
@@ -89,14 +94,39 @@ class WriteLock:
             Another task of this thread has it, or another thread has not given it back in time.
         """
         own, begin = _Turn(holder, Activity.here(), what, author), time.monotonic()
+        new = holder not in self._line
+        try:
+            while (turn := self._next(own)).holder is not holder:
+                if turn.whose == own.whose:
+                    raise BadInputError(f"{turn.what} is open", where, "end that one first")
+                waited, beside = time.monotonic() - begin, turn.whose.thread == own.whose.thread
+                if beside or waited >= wait:
+                    raise HullBusyError(turn.what, turn.author, waited, where, beside)
+                time.sleep(LOOK_AGAIN)
+        finally:
+            if new:
+                self.leave(holder)
+
+    def line_up(self, holder: object, what: str, author: str = "") -> None:
+        """Have a place among those that wait, for one who takes it without waiting there."""
+        self._line[holder] = _Turn(holder, Activity.here(), what, author), time.monotonic()
+
+    def leave(self, holder: object) -> None:
+        """Give up the place among those that wait, if this has one."""
+        self._line.pop(holder, None)
+
+    def _next(self, own: _Turn) -> _Turn:
+        """Give whose turn it is: `own` if nobody has it or has come before it."""
+        now = time.monotonic()
+        self._line[own.holder] = own, now  # at the end, or where it stands already
+        for first, seen in list(self._line.values()):
+            if first is own or "now" in self._turn:
+                break
+            # One of this thread cannot look before the thread is free again.
+            if now - seen < _GONE and first.whose.thread != own.whose.thread:
+                return first
         # At once: of several that come together one gets it.
-        while (turn := self._turn.setdefault("now", own)).holder is not holder:
-            if turn.whose == own.whose:
-                raise BadInputError(f"{turn.what} is open", where, "end that one first")
-            waited, beside = time.monotonic() - begin, turn.whose.thread == own.whose.thread
-            if beside or waited >= wait:
-                raise HullBusyError(turn.what, turn.author, waited, where, beside)
-            time.sleep(LOOK_AGAIN)
+        return self._turn.setdefault("now", own)
 
     def held_by(self, holder: object) -> bool:
         """Whether this is who has it."""

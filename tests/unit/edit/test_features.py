@@ -291,7 +291,7 @@ def test_a_point_off_its_feature_is_a_finding() -> None:
     hull = round_box()
     row = hull.features["ST 2 arc"].points[12].number
     place = hull.state.rows.xyz[row] * [1.0, 1.0, 1.1]
-    Journal().put(hull.state.rows.xyz, [row], place[None])
+    Journal().put(hull.document.state.rows.xyz, [row], place[None])
     told = [each for each in hull.check() if each.kind == "feature"]
     assert [each.object for each in told] == ["ST 2 @ placed 13"]
     assert told[0].amount == pytest.approx(places_off(

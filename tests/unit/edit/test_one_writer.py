@@ -8,6 +8,7 @@ from collections.abc import Callable
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.edit.write_lock import WriteLock
 from assoc_hull.errors import BadInputError, HullBusyError
 
 POINT = "WL 2.5 x ST 7"
@@ -283,3 +284,47 @@ def test_undo_of_an_author_names_what_lies_above(hull: ah.Hull) -> None:
     with pytest.raises(BadInputError, match="0 steps of theirs"):
         hull.undo(author="carl")
     assert (names(hull), hull.fingerprint) == (["one", "two"], before)
+
+
+def test_who_came_first_is_next() -> None:
+    """One who gives it back and asks again at once comes after those that wait."""
+    lock, order, first = WriteLock(), list[str](), object()
+    lock.take(first, "the first", where="in the first")
+    came = threading.Event()
+
+    def other() -> None:
+        mine = object()
+        lock.line_up(mine, "the second")
+        came.set()
+        lock.take(mine, "the second", where="in the second")
+        order.append("second")
+        lock.give_back(mine)
+        lock.leave(mine)
+
+    thread = threading.Thread(target=other)
+    thread.start()
+    came.wait()
+    lock.give_back(first)
+    lock.take(third := object(), "the third", where="in the third")
+    order.append("third")
+    lock.give_back(third)
+    thread.join()
+    assert order == ["second", "third"]
+
+
+def test_who_waited_and_was_broken_off_keeps_nobody_waiting() -> None:
+    """It has not looked for its turn for half a second."""
+    lock = WriteLock()
+    thread = threading.Thread(target=lock.line_up, args=(object(), "the first"))
+    thread.start()
+    thread.join()
+    lock.take(mine := object(), "the second", where="in the second", wait=5.0)
+    assert lock.held_by(mine)
+
+
+def test_a_task_that_waits_does_not_stop_its_own_thread() -> None:
+    """It stands before the thread's own edit, and cannot look before that is done."""
+    lock = WriteLock()
+    lock.line_up(object(), "the first")
+    lock.take(mine := object(), "the second", where="in the second", wait=0.0)
+    assert lock.held_by(mine)

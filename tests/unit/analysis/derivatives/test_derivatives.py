@@ -270,14 +270,14 @@ def test_they_are_those_of_a_whole_edit(shipped: Callable[[str], Hull]) -> None:
     """The points that an edit moves, as it moves them; or one point, and the others follow."""
     hull, point, step = shipped("series60_60"), "WL 0.75 x ST 2", 2e-5
     floats, terms = at(hull, "inclined")
-    rows, place = hull.state.rows, hull.points[point].y
+    place = hull.points[point].y
     values, places = [], []
     for sign in (1.0, -1.0):
         with hull.edit("a move") as edit:
             edit.move(point, y=place + sign * step)
         plane = planes_of([floats.position], hull.particulars.length)
         values.append(values_at(flotation(hull.state), plane, floats.header))
-        places.append(rows.xyz[: rows.count].copy())
+        places.append(hull.state.rows.xyz[: hull.state.rows.count])
         hull.undo()
     moved = Deformation("edit", lambda _: (places[0] - places[1]) / (2.0 * step), unit="m")
     wrt = [moved, PointMove(point, follow=True)]

@@ -129,7 +129,7 @@ def test_other_pieces_make_other_points(hull: ah.Hull) -> None:
         "flat", "half_siding", "course", {"AP_x": 0.0, "AP_y": 0.0, "FP_x": 100.0, "FP_y": 0.0},
         "straight", ("AP", "FP"),
     )  # fmt: skip
-    Maker(hull.state, Journal()).definitions([*hull.state.definitions, flat])
+    Maker(hull.document.state, Journal()).definitions([*hull.state.definitions, flat])
     hull.document.refresh()
     before = hull.fingerprint
     with hull.edit("a bar keel") as edit:

@@ -130,11 +130,11 @@ def test_affine_with_all_groups_driving_is_exact(hull: ah.Hull, scale: list[floa
     spline is the spline through the images only if the factors are equal, else the driver
     stays within 2 mm of the image.
     """
-    table = hull.state.rows
-    live = hull.state.live("rows")
-    old, planes = table.xyz[live].copy(), hull.state.lines.offset.data.copy()
-    normals = hull.state.lines.normal.data.copy()
+    before, live = hull.state, hull.state.live("rows")
+    old, planes = before.rows.xyz[live], before.lines.offset.data
+    normals = before.lines.normal.data
     transformed(hull, lambda xyz: xyz * scale, groups(hull))
+    table = hull.state.rows
     off = np.abs(table.xyz[live] - old * scale).max(axis=1)
     held = (table.driver[live] < 0) & (
         (table.sort[live] != Sort.CROSSING) | (table.role[live] == Role.SHARED)
@@ -149,9 +149,9 @@ def test_a_similarity_is_exact_everywhere(hull: ah.Hull) -> None:
     """With equal factors computed crossings are exact too: chord lengths scale as one."""
     table, live = hull.state.rows, hull.state.live("rows")
     live = live[table.role[live] != Role.WATCHED]
-    old = table.xyz[live].copy()
+    old = table.xyz[live]
     transformed(hull, lambda xyz: xyz * 1.1, groups(hull))
-    assert np.abs(table.xyz[live] - 1.1 * old).max() <= 1e-9
+    assert np.abs(hull.state.rows.xyz[live] - 1.1 * old).max() <= 1e-9
 
 
 def off_formula(hull: ah.Hull, breadth: float, draught: float) -> float:
