@@ -230,6 +230,9 @@ class Document:
             if keep and self.keeper is not None:
                 self.settle()
                 self.keeper.begin()
+                # What came back from there, or from another process, is what the edit reads.
+                self.state.end_writing()
+                self.state.begin_writing(self._written_here)
         except BaseException:
             self.end(holder, keep=keep)
             raise
