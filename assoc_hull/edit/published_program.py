@@ -7,6 +7,7 @@ another and beside the tables, which are only read.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 
 import attrs
 import numpy as np
@@ -16,20 +17,12 @@ from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.graph.derived import Objects
 from assoc_hull.model.index import Index
-from assoc_hull.model.program import Program, Values, compile_program
+from assoc_hull.model.program import Program, PublishedProgram, Values, compile_program
 from assoc_hull.model.program_engine import runner_of
 from assoc_hull.model.run_program import ProgramRun, RunProgram
 from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["LiveNumbers", "PublishedProgram", "published_program"]
-
-
-@attrs.frozen(eq=False)
-class PublishedProgram:
-    """The structure of a hull, and its numbers as they are published; never written to."""
-
-    program: Program
-    values: Values
+__all__ = ["LiveNumbers", "keep_numbers", "published_program"]
 
 
 @attrs.define(eq=False)
@@ -82,12 +75,21 @@ def published_program(document: Document) -> PublishedProgram | None:
     )
     if program is None:
         return None
+    return PublishedProgram(program, _numbers(state, program, lambda: _published(state, program)))
+
+
+def keep_numbers(document: Document, found: PublishedProgram) -> None:
+    """Keep the numbers of what has just been published: they are known, and need not be read."""
+    values = found.values
+    freeze(*(getattr(values, each.name) for each in attrs.fields(Values)))
+    _numbers(document.state.published(), found.program, lambda: values)
+
+
+def _numbers(state: HullState, program: Program, make: Callable[[], Values]) -> Values:
+    """Give the numbers of the tables as they were read or kept last, if they still hold."""
     rows, curves = state.rows, state.curves
-    numbers = rows.xyz, rows.base, rows.anchor_from, rows.gap, curves.spline, curves.meets
-    values = state.derived(
-        ("published numbers",), (program, *numbers), lambda: _published(state, program), most=1
-    )
-    return PublishedProgram(program, values)
+    columns = rows.xyz, rows.base, rows.anchor_from, rows.gap, curves.spline, curves.meets
+    return state.derived(("published numbers",), (program, *columns), make, most=1)
 
 
 def _structure(state: HullState, index: Index) -> tuple[object, ...]:
