@@ -2,6 +2,7 @@
 
 import asyncio
 import gc
+import os
 import threading
 from collections.abc import Callable
 
@@ -11,7 +12,8 @@ import assoc_hull as ah
 from assoc_hull.edit.write_lock import WriteLock
 from assoc_hull.errors import BadInputError, HullBusyError
 
-POINT = "WL 2.5 x ST 7"
+POINT, OTHER = "WL 2.5 x ST 7", "WL 2.5 x ST 12"
+LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 
 
 @pytest.fixture
@@ -328,3 +330,41 @@ def test_a_task_that_waits_does_not_stop_its_own_thread() -> None:
     lock.line_up(object(), "the first")
     lock.take(mine := object(), "the second", where="in the second", wait=0.0)
     assert lock.held_by(mine)
+
+
+def test_two_editors_in_one_loop_for_many_turns(hull: ah.Hull) -> None:
+    """Each edit is in the history under its own name, or was refused to who asked for it."""
+    turns, made, refused, idle = (500 if LONG else 60), list[str](), list[str](), 0
+
+    async def editor(name: str, waits: bool) -> None:
+        nonlocal idle
+        for turn in range(turns):
+            edit, title = hull.edit(f"{name} {turn}", author=name), f"{name} {turn}"
+            try:
+                if waits:
+                    async with edit:
+                        await asyncio.sleep(0)
+                        edit.move(POINT, y=2.9 + 1e-4 * (turn % 7))
+                else:
+                    with edit:
+                        await asyncio.sleep(0)
+                        edit.move(OTHER, y=2.2 + 1e-4 * (turn % 5))
+            except HullBusyError:
+                refused.append(title)
+            else:
+                assert edit.report is not None
+                if edit.report.changed:
+                    made.append(title)
+                idle += not edit.report.changed
+            await asyncio.sleep(0)
+
+    async def both() -> None:
+        await asyncio.gather(editor("waits", True), editor("does not", False))
+
+    asyncio.run(both())
+    assert len(made) + len(refused) + idle == 2 * turns
+    assert len(made) > turns
+    assert not any(title.startswith("waits") for title in refused)
+    assert [each.name for each in hull.history] == made
+    assert all(each.name.startswith(each.author) for each in hull.history)
+    assert hull.verify() == ()
