@@ -30,7 +30,18 @@ from assoc_hull.model.gaps import crossing_normals
 from assoc_hull.model.program import Program, Values
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["Doubt", "NumpyProgram", "ProgramRun", "RunProgram", "run_program", "run_tile", "write_points"]
+__all__ = [
+    "Doubt",
+    "NumpyProgram",
+    "ProgramRun",
+    "RunProgram",
+    "curve_data",
+    "ranges",
+    "run_program",
+    "run_tile",
+    "spans",
+    "write_points",
+]
 
 _COINCIDENT = Tolerances().coincident
 _BEYOND = 1e-6
@@ -111,8 +122,8 @@ class NumpyProgram:
         """Put back what a run has written."""
         program, curves = self.program, run.curves
         rows = np.concatenate([run.rows, program.watch[run.watched]])
-        knots, met = _spans(program.start, curves), _spans(program.meet_start, curves)
-        blocks = _spans(9 * program.start, curves)
+        knots, met = spans(program.start, curves), spans(program.meet_start, curves)
+        blocks = spans(9 * program.start, curves)
         for name, items in (
             ("xyz", rows), ("knot", knots), ("block", blocks), ("at", met), ("place", met),
             ("segment", met), ("gap", run.watched), ("folds", curves), ("lowest", curves),
@@ -190,7 +201,7 @@ def run_tile(
     return work.runs(watched)
 
 
-def _spans(start: IntArray, owners: IntArray) -> IntArray:
+def spans(start: IntArray, owners: IntArray) -> IntArray:
     """Give where the items of some owners stand, one owner after the other."""
     count = start[owners + 1] - start[owners]
     ends = np.cumsum(count)
@@ -199,9 +210,9 @@ def _spans(start: IntArray, owners: IntArray) -> IntArray:
     return place
 
 
-def _ranges(start: IntArray, items: IntArray, owners: IntArray) -> IntArray:
+def ranges(start: IntArray, items: IntArray, owners: IntArray) -> IntArray:
     """Give the items of some owners, one owner after the other."""
-    found: IntArray = items[_spans(start, owners)]
+    found: IntArray = items[spans(start, owners)]
     return found
 
 
@@ -263,12 +274,12 @@ class _Work:
         self.changed[rows] = True
         readers = self.program.reader[rows].ravel()
         self.dirty[readers[readers >= 0]] = True
-        self.due[_ranges(self.program.rider_start, self.program.rider, rows)] = True
+        self.due[ranges(self.program.rider_start, self.program.rider, rows)] = True
 
     def ride(self, curves: IntArray) -> None:
         """Move the points that ride on curves."""
         program, values = self.program, self.values
-        rows = _ranges(program.riding_start, program.riding, curves)
+        rows = ranges(program.riding_start, program.riding, curves)
         rows = rows[self.due[rows] & ~self.held[rows]]
         if not len(rows):
             return
@@ -302,7 +313,7 @@ class _Work:
             met = met.take(self.doubt[curves[met.curve] // self.size] == Doubt.NONE)
             curves = self.kept(curves)
         _write(program, values, curves, met)
-        meetings = _ranges(program.drive_start, program.drive, curves)
+        meetings = ranges(program.drive_start, program.drive, curves)
         self.publish(program.meet_row[meetings], values.place[meetings])
 
     def lofted(self, curves: IntArray) -> tuple[IntArray, SplineBatch | None]:
@@ -327,7 +338,7 @@ class _Work:
         if (self.doubt != Doubt.NONE).all():
             return np.zeros(0, np.int64)
         touched = self.kept(np.flatnonzero(self.dirty))
-        watched = np.unique(_ranges(program.watch_start, program.watched, touched))
+        watched = np.unique(ranges(program.watch_start, program.watched, touched))
         rows = np.flatnonzero(self.changed)
         rows = rows[self.doubt[rows // self.points] == Doubt.NONE]
         features = len(program.features.shape) * self.size // program.curves
@@ -354,18 +365,22 @@ class _Work:
         )  # fmt: skip
 
 
-def _lofted(program: Program, values: Values, curves: IntArray) -> SplineBatch | None:
-    """Make curves through their points; None if one cannot be made, or is not finite."""
+def curve_data(program: Program, values: Values, curves: IntArray) -> CurveData:
+    """Give what curves are made from."""
     count = program.start[curves + 1] - program.start[curves]
     start = np.zeros(len(curves) + 1, np.int64)
     np.cumsum(count, out=start[1:])
-    knots = _spans(program.start, curves)
-    data = CurveData(
+    knots = spans(program.start, curves)
+    return CurveData(
         start, values.xyz[program.row[knots]], program.kind[knots], program.direction[knots],
         program.end_kind[curves], program.end_vector[curves],
     )  # fmt: skip
+
+
+def _lofted(program: Program, values: Values, curves: IntArray) -> SplineBatch | None:
+    """Make curves through their points; None if one cannot be made, or is not finite."""
     try:
-        batch = loft(data)
+        batch = loft(curve_data(program, values, curves))
     except (AssocHullError, ArithmeticError):
         return None
     return batch if np.isfinite(batch.leave).all() else None
@@ -373,7 +388,7 @@ def _lofted(program: Program, values: Values, curves: IntArray) -> SplineBatch |
 
 def _store(program: Program, values: Values, curves: IntArray, batch: SplineBatch) -> None:
     """Write the splines of curves into the values."""
-    knots = _spans(program.start, curves)
+    knots = spans(program.start, curves)
     count = np.diff(batch.start)
     first = np.repeat(program.start[curves], count)
     width = np.repeat(count, count)
@@ -404,7 +419,7 @@ class _Met:
 
 def _met(program: Program, curves: IntArray, batch: SplineBatch) -> _Met:
     """Cut curves with their planes."""
-    sets = _ranges(program.set_start, program.sets, curves)
+    sets = ranges(program.set_start, program.sets, curves)
     owner = np.repeat(np.arange(len(curves)), np.diff(program.set_start)[curves])
     nothing = np.zeros(0, np.int64)
     pieces = [_Met(nothing, nothing, nothing, nothing, np.zeros(0), np.zeros((0, 3)))]
@@ -413,7 +428,7 @@ def _met(program: Program, curves: IntArray, batch: SplineBatch) -> _Met:
         part = _taken(batch, mine)
         first, stop = program.first[each : each + 2].tolist()
         met = intersect_planes(part, program.normal[each], program.offset[first:stop],
-                               program.factor)  # fmt: skip
+                               program.factor, tell_tangential=False)  # fmt: skip
         segment = met.segment - part.start[met.curve]
         sign = met.sign.astype(np.int64)
         pieces.append(_Met(mine[met.curve], met.plane + first, sign, segment, met.t, met.xyz))
@@ -426,7 +441,7 @@ def _taken(batch: SplineBatch, curves: IntArray) -> SplineBatch:
     """Give some curves of a batch, ascending."""
     if len(curves) == batch.count:
         return batch
-    knots = _spans(batch.start, curves)
+    knots = spans(batch.start, curves)
     start = np.zeros(len(curves) + 1, np.int64)
     np.cumsum(np.diff(batch.start)[curves], out=start[1:])
     return SplineBatch(
@@ -438,7 +453,7 @@ def _odd(program: Program, curves: IntArray, met: _Met) -> NDArray[np.bool_]:
     """Tell which curves meet other planes, or in other senses, than they did."""
     wanted = program.meet_start[curves + 1] - program.meet_start[curves]
     odd: NDArray[np.bool_] = np.bincount(met.curve, minlength=len(curves)) != wanted
-    expected = _spans(program.meet_start, curves[~odd])
+    expected = spans(program.meet_start, curves[~odd])
     like = ~odd[met.curve]
     differ = met.plane[like] != program.meet_plane[expected]
     differ |= met.sign[like] != program.meet_sign[expected]
@@ -448,7 +463,7 @@ def _odd(program: Program, curves: IntArray, met: _Met) -> NDArray[np.bool_]:
 
 def _write(program: Program, values: Values, curves: IntArray, met: _Met) -> None:
     """Write the meetings of curves, which are those that were expected, into the values."""
-    expected, xyz = _spans(program.meet_start, curves), met.place
+    expected, xyz = spans(program.meet_start, curves), met.place
     axis = program.own_axis[program.meet_curve[expected]]
     flat = np.flatnonzero(axis >= 0)
     xyz[flat, axis[flat]] = program.own_offset[program.meet_curve[expected[flat]]]
@@ -466,7 +481,7 @@ def _doubts(
     """Measure the gaps of curves; give doubts by their rank, with the curves or features."""
     values.gap[watched] = _gaps(program, values, watched)
     values.xyz[program.watch[watched]] = values.place[program.watch_a[watched]]
-    sense = _ranges(program.sense_start, program.sense, touched)
+    sense = ranges(program.sense_start, program.sense, touched)
     apart = np.abs(values.place[sense] - values.xyz[program.meet_row[sense]]).max(
         axis=1, initial=0.0
     )
@@ -477,7 +492,7 @@ def _doubts(
     lowest, least = values.lowest[touched], _BEYOND * program.factor
     beyond = (lowest < -least) & (lowest < before.lowest[touched] - least)
     yield Doubt.BEYOND, touched[beyond]
-    pairs = np.unique(_ranges(program.pair_start, program.paired, touched))
+    pairs = np.unique(ranges(program.pair_start, program.paired, touched))
     away = values.place[program.pair_a[pairs]] - values.place[program.pair_b[pairs]]
     near = (away * away).sum(axis=1) <= program.near**2
     yield Doubt.LATENT, program.meet_curve[program.pair_a[pairs[near]]]
@@ -520,7 +535,7 @@ def _tangents(program: Program, values: Values, meeting: IntArray) -> FloatArray
 def _features_left(program: Program, values: Values, rows: IntArray) -> IntArray:
     """Give the features that points which own them have come off."""
     features, left = program.features, list[int]()
-    for each in np.unique(_ranges(features.owner_start, features.owner, rows)).tolist():
+    for each in np.unique(ranges(features.owner_start, features.owner, rows)).tolist():
         span = slice(features.start[each], features.start[each + 1])
         off = off_shapes(int(features.shape[each]), features.numbers[each],
                          values.xyz[features.point[span]])  # fmt: skip
