@@ -163,7 +163,7 @@ class _Moves:
         rows = rows[~self.held[rows]]
         anchor = program.anchor[rows]
         there = anchor >= 0
-        due = (self.moved[:, anchor] & there).any(axis=2)
+        due = np.asarray((self.moved[:, anchor] & there).any(axis=2))
         shift = np.where(there[:, :, None], self.found.xyz[:, anchor], 0.0)
         weight = program.weight[rows][:, None]
         self.publish(rows, (1.0 - weight) * shift[:, :, 0] + weight * shift[:, :, 1], due)
@@ -197,7 +197,7 @@ class _Moves:
         """Let watched crossings move with their place on the first of their curves."""
         program = self.program
         both = program.meet_curve[np.stack([program.watch_a, program.watch_b])]
-        reached = self.reached[:, both].any(axis=1)
+        reached = np.asarray(self.reached[:, both].any(axis=1))
         self.publish(program.watch, self.found.place[:, program.watch_a], reached)
 
 

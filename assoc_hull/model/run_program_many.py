@@ -124,51 +124,57 @@ def _joined(items: Sequence[IntArray], size: int) -> IntArray:
     return np.concatenate([np.zeros(0, np.int64), *parts])
 
 
+_ON = {
+    "row": "points", "rider": "points", "riding": "points", "anchor": "points", "watch": "points",
+    "meet_row": "points", "meet_curve": "curves", "reader": "curves", "drive": "meets",
+    "watch_a": "meets", "watch_b": "meets", "pair_a": "meets", "pair_b": "meets", "sense": "meets",
+    "watched": "watches", "paired": "pairs",
+}  # fmt: skip
+"""Numbers that are counted on from one variant to the next, and what they count."""
+
+_FIRST = (
+    "start", "rider_start", "riding_start", "set_start", "meet_start", "drive_start",
+    "watch_start", "pair_start", "sense_start",
+)  # fmt: skip
+"""Where lists begin in arrays that are put one behind the other."""
+
+_AGAIN = (
+    "number", "kind", "direction", "end_kind", "end_vector", "own_axis", "own_offset", "weight",
+    "sets", "meet_plane", "meet_sign", "limit", "unsure", "unsure_row",
+)  # fmt: skip
+
+
 def tile_program(program: Program, count: int) -> Program:
     """Put the structure of a net one behind the other; levels and planes stay those of one.
 
     Fewer variants than `count` can be run on it too. What numpy does not read stays that of one.
     """
-    points, curves, meets = len(program.reader), program.curves, len(program.meet_row)
-    watches, pairs, feature = len(program.watch), len(program.pair_a), program.features
-
-    def again(array: NDArray[np.generic]) -> NDArray[np.generic]:
-        return np.concatenate([array] * count)
-
-    def on(numbers: IntArray, size: int) -> IntArray:
-        """Count on; -1 stands for none."""
-        shift = size * np.arange(count).reshape(-1, *(1,) * numbers.ndim)
-        tiled = np.where(numbers >= 0, numbers + shift, numbers)
-        return tiled.reshape(-1, *numbers.shape[1:]).astype(np.int64)
-
-    def begins(start: IntArray) -> IntArray:
-        return np.append(on(start[:-1], int(start[-1])), count * start[-1])
-
-    counted = {
-        "row": points, "rider": points, "riding": points, "anchor": points, "watch": points,
-        "meet_row": points, "meet_curve": curves, "reader": curves, "drive": meets,
-        "watch_a": meets, "watch_b": meets, "pair_a": meets, "pair_b": meets, "sense": meets,
-        "watched": watches, "paired": pairs,
+    sizes = {
+        "points": len(program.reader), "curves": program.curves, "meets": len(program.meet_row),
+        "watches": len(program.watch), "pairs": len(program.pair_a),
     }  # fmt: skip
-    first = (
-        "start", "rider_start", "riding_start", "set_start", "meet_start", "drive_start",
-        "watch_start", "pair_start", "sense_start",
-    )  # fmt: skip
-    same = (
-        "number", "kind", "direction", "end_kind", "end_vector", "own_axis", "own_offset", "weight",
-        "sets", "meet_plane", "meet_sign", "limit", "unsure", "unsure_row",
-    )  # fmt: skip
+    arrays: dict[str, NDArray[np.generic]] = {
+        name: _counted_on(getattr(program, name), sizes[of], count) for name, of in _ON.items()
+    }
+    arrays |= {name: _begins(getattr(program, name), count) for name in _FIRST}
+    arrays |= {name: np.concatenate([getattr(program, name)] * count) for name in _AGAIN}
+    one = program.features
     features = CompiledFeatures(
-        begins(feature.owner_start), on(feature.owner, len(feature.shape)), begins(feature.start),
-        on(feature.point, points), *(
-            np.concatenate([each] * count) for each in (feature.shape, feature.numbers)
-        ), np.tile(feature.limit, count),
+        _begins(one.owner_start, count), _counted_on(one.owner, len(one.shape), count),
+        _begins(one.start, count), _counted_on(one.point, sizes["points"], count),
+        np.tile(one.shape, count), np.tile(one.numbers, (count, 1)), np.tile(one.limit, count),
     )  # fmt: skip
-    tile = attrs.evolve(
-        program, features=features,
-        **{name: on(getattr(program, name), size) for name, size in counted.items()},
-        **{name: begins(getattr(program, name)) for name in first},
-        **{name: again(getattr(program, name)) for name in same},
-    )  # fmt: skip
-    freeze(*(each for each in attrs.astuple(tile, recurse=False) if isinstance(each, np.ndarray)))
-    return tile
+    freeze(*arrays.values(), *attrs.astuple(features, recurse=False))
+    return attrs.evolve(program, features=features, **arrays)  # type: ignore[arg-type]
+
+
+def _counted_on(numbers: IntArray, size: int, count: int) -> IntArray:
+    """Count numbers (n, ...) on from one variant to the next; -1 stands for none."""
+    shift = size * np.arange(count).reshape(-1, *(1,) * numbers.ndim)
+    found: IntArray = np.where(numbers >= 0, numbers + shift, numbers)
+    return found.reshape(-1, *numbers.shape[1:])
+
+
+def _begins(start: IntArray, count: int) -> IntArray:
+    """Give where lists begin, of all variants; the last entry is where the last one ends."""
+    return np.append(_counted_on(start[:-1], int(start[-1]), count), count * start[-1])

@@ -175,7 +175,7 @@ def random_moves(
     seeds = np.flatnonzero((program.reader >= 0).any(axis=1))
     if program.unsure.any():  # curves are made anew then, and so are all points that these give
         seeds = seeds[driver[seeds] < 0]
-    rows = np.sort(rng.choice(seeds, min(len(seeds), rng.integers(1, 6)), replace=False))
+    rows = np.sort(rng.choice(seeds, min(len(seeds), int(rng.integers(1, 6))), replace=False))
     moves = rng.normal(size=(count, len(rows), 3)) * rng.integers(0, 2, (count, len(rows), 1))
     for curve in (*program.reader[rows].T, driver[rows]):
         axis = np.where(curve >= 0, program.own_axis[curve], -1)
