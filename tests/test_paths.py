@@ -6,8 +6,8 @@ from benchmarks.house import TRIPS, entered
 
 MOST = {
     # every edit asks `model.node` how the nodes of the network are numbered, which alone knows it;
-    # reports name the movement along the normal, which `model.gaps` measures; `edit.write_lock` lets
-    # one write at a time, and `edit.program_network` asks whether the program answers for the edit
+    # reports name the movement along the normal, which `model.gaps` measures; `edit.write_lock`
+    # lets one write at a time; `edit.program_network` asks whether the program answers for the edit
     "a moved point": 58,
     "a pull": 60,
     "hydrostatics": 30,  # columns are read through `graph.table`, by `column[row]`

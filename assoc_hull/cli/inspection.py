@@ -18,7 +18,7 @@ from assoc_hull.cli.output import can_print, emit, progress, why_document
 from assoc_hull.cli.problems import UsageError, check_other_target, check_target
 from assoc_hull.edit.explain.causes import Why
 from assoc_hull.hull.sources import open as open_hull
-from assoc_hull.model.program_engine import engine_words, wait_for_engine
+from assoc_hull.model.program.engine import engine_words, wait_for_engine
 
 __all__ = [
     "add_fairness",

@@ -48,7 +48,7 @@ from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import free_axes
 from assoc_hull.model.objects import Point
-from assoc_hull.model.run_program import ProgramRun, write_points
+from assoc_hull.model.program.run_program import ProgramRun, write_points
 from assoc_hull.model.tables import HullState
 
 __all__ = ["Drag", "DragWay", "Live"]

@@ -12,7 +12,7 @@ from assoc_hull.edit.nudge import Nudge
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.graph.run_update import FailurePolicy
 from assoc_hull.model.form_definition import FormDefinition
-from assoc_hull.model.program import PublishedProgram
+from assoc_hull.model.program.structure import PublishedProgram
 
 __all__ = ["Pending", "Settings"]
 

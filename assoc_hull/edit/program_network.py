@@ -21,8 +21,8 @@ from assoc_hull.graph.journal import Journal, PickedRows
 from assoc_hull.graph.network import Evaluation
 from assoc_hull.model.network import HullNetwork, moved_curves, placed
 from assoc_hull.model.node import Node
-from assoc_hull.model.program import PublishedProgram
-from assoc_hull.model.program_engine import is_compiled
+from assoc_hull.model.program.engine import is_compiled
+from assoc_hull.model.program.structure import PublishedProgram
 from assoc_hull.model.tables import HullState
 
 __all__ = ["ProgramNetwork", "ProgramRuns"]

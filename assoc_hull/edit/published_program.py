@@ -16,9 +16,9 @@ from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.graph.derived import Objects
 from assoc_hull.model.index import Index
-from assoc_hull.model.program import Program, PublishedProgram, Values, compile_program
-from assoc_hull.model.program_engine import runner_of
-from assoc_hull.model.run_program import ProgramRun, RunProgram
+from assoc_hull.model.program.engine import runner_of
+from assoc_hull.model.program.run_program import ProgramRun, RunProgram
+from assoc_hull.model.program.structure import Program, PublishedProgram, Values, compile_program
 from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = ["LiveNumbers", "keep_numbers", "published_program"]

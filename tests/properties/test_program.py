@@ -18,8 +18,8 @@ import assoc_hull as ah
 from assoc_hull.edit.drag import Drag, Live
 from assoc_hull.edit.published_program import published_program
 from assoc_hull.geometry.splines.backend import backend, set_backend
-from assoc_hull.model.program import PublishedProgram, Values
-from assoc_hull.model.run_program import NumpyProgram, RunProgram, run_program, write_points
+from assoc_hull.model.program.run_program import NumpyProgram, RunProgram, run_program, write_points
+from assoc_hull.model.program.structure import PublishedProgram, Values
 from assoc_hull.model.tables import HullState
 from tests.conftest import Shipped
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
@@ -165,7 +165,7 @@ def test_a_step_of_a_drag_of_a_ship_is_the_whole_edit_to_the_bit(
 def test_compiled_and_numpy_give_the_same_bits_and_doubts(name: str, shipped: Shipped) -> None:
     """Whatever is written where, and the numbers are put back after every run."""
     pytest.importorskip("numba")
-    from assoc_hull.model.program_compiled import CompiledProgram
+    from assoc_hull.model.program.compiled_program import CompiledProgram
 
     found = program_of(shipped(name))
     assert found is not None

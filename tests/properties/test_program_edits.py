@@ -23,7 +23,7 @@ from assoc_hull.edit.program_network import ProgramRuns
 from assoc_hull.edit.published_program import LiveNumbers, published_program
 from assoc_hull.edit.step import Step
 from assoc_hull.geometry.splines.backend import backend, set_backend
-from assoc_hull.model.program import Values
+from assoc_hull.model.program.structure import Values
 from tests.conftest import Shipped
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 

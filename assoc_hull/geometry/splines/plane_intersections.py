@@ -101,7 +101,11 @@ class PlaneIntersections:
 
 
 def intersect_planes(
-    batch: SplineBatch, normal: FloatArray, offsets: FloatArray, factor: float = 1.0
+    batch: SplineBatch,
+    normal: FloatArray,
+    offsets: FloatArray,
+    factor: float = 1.0,
+    tell_tangential: bool = True,
 ) -> PlaneIntersections:
     """Find all intersections of every curve with every plane ``normal . P = offset``.
 
@@ -115,6 +119,8 @@ def intersect_planes(
         Offsets of the planes, ascending.
     factor : float
         Of lengths, by the size of the hull: how near a root is found to its plane.
+    tell_tangential : bool
+        Whether to look for tangential intersections; none is marked otherwise.
 
     Returns
     -------
@@ -148,7 +154,10 @@ def intersect_planes(
     axis = _coordinate_axis(normal)
     if axis is not None:
         np.multiply(offsets.take(found.plane), normal[axis], out=found.points[axis])
-    tangential = _tangential(batch, normal, found, offsets)
+    if tell_tangential:
+        tangential = _tangential(batch, normal, found, offsets)
+    else:
+        tangential = np.zeros(len(found.owner), np.bool_)
     return PlaneIntersections(
         found.curve, found.plane, found.segment, found.t, found.points.T, found.sign, tangential
     )

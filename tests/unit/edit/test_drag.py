@@ -23,7 +23,7 @@ from assoc_hull.errors import (
 )
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import NumberColumn, Table, numbers
-from assoc_hull.model.run_program import ProgramRun
+from assoc_hull.model.program.run_program import ProgramRun
 from tests.twins import packed, twin
 
 POINT = "WL 2.5 x ST 7"

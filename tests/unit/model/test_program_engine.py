@@ -10,8 +10,8 @@ from collections.abc import Iterator
 import pytest
 
 from assoc_hull.cli import main
-from assoc_hull.model import program_engine
-from assoc_hull.model.program_engine import engine_words, wait_for_engine
+from assoc_hull.model.program import engine as program_engine
+from assoc_hull.model.program.engine import engine_words, wait_for_engine
 
 
 @pytest.fixture(autouse=True)
@@ -76,9 +76,9 @@ def test_what_a_child_compiles_is_found_by_another_process() -> None:
     """One version of each function is compiled, and it is loaded the next time."""
     pytest.importorskip("numba")
     code = (
-        "from assoc_hull.model.program_engine import wait_for_engine\n"
+        "from assoc_hull.model.program.engine import wait_for_engine\n"
         "print(wait_for_engine())\n"
-        "from assoc_hull.model import program_compiled as made\n"
+        "from assoc_hull.model.program import compiled_program as made\n"
         "made.warm()\n"
         "print(len(made.run.signatures), len(made.restore.signatures))\n"
     )

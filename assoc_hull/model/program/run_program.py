@@ -11,6 +11,8 @@ This is the reference in numpy. The compiled form gives the same bits and the sa
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
 from enum import IntEnum
 from typing import Protocol
 
@@ -25,10 +27,21 @@ from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.feature_geometry import off_shapes
 from assoc_hull.model.gaps import crossing_normals
-from assoc_hull.model.program import Program, Values
+from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["Doubt", "NumpyProgram", "ProgramRun", "RunProgram", "run_program", "write_points"]
+__all__ = [
+    "Doubt",
+    "NumpyProgram",
+    "ProgramRun",
+    "RunProgram",
+    "curve_data",
+    "ranges",
+    "run_program",
+    "run_tile",
+    "spans",
+    "write_points",
+]
 
 _COINCIDENT = Tolerances().coincident
 _BEYOND = 1e-6
@@ -109,9 +122,8 @@ class NumpyProgram:
         """Put back what a run has written."""
         program, curves = self.program, run.curves
         rows = np.concatenate([run.rows, program.watch[run.watched]])
-        knots = _ranges(program.start, np.arange(len(program.row)), curves)
-        blocks = _ranges(9 * program.start, np.arange(len(values.block)), curves)
-        met = _ranges(program.meet_start, np.arange(len(program.meet_row)), curves)
+        knots, met = spans(program.start, curves), spans(program.meet_start, curves)
+        blocks = spans(9 * program.start, curves)
         for name, items in (
             ("xyz", rows), ("knot", knots), ("block", blocks), ("at", met), ("place", met),
             ("segment", met), ("gap", run.watched), ("folds", curves), ("lowest", curves),
@@ -162,72 +174,112 @@ def run_program(
     -------
     ProgramRun
     """
-    work = _Work.of(program, values, rows, held)
+    return run_tile(program, values, before, rows, held, curves, 1)[0]
+
+
+def run_tile(
+    tile: Program, values: Values, before: Values, rows: IntArray, held: IntArray,
+    curves: IntArray | None, count: int,
+) -> tuple[ProgramRun, ...]:  # fmt: skip
+    """Run `count` variants of a net, whose structures and numbers stand one behind the other.
+
+    `level` is that of one variant; all that is counted in curves, points or meetings goes on from
+    one variant to the next. A variant in doubt stands still while the others go on.
+    """
+    work = _Work.of(tile, values, rows, held, count)
     if curves is not None:
         work.dirty[curves], work.whole = True, True
-    doubt, where = Doubt.NONE, -1
-    for first, stop in zip(program.level[:-1].tolist(), program.level[1:].tolist(), strict=True):
-        work.ride(first, stop)
-        chosen = np.flatnonzero(work.dirty[first:stop]) + first
+    for first, stop in itertools.pairwise(tile.level.tolist()):
+        mine = work.level(first, stop)
+        if not len(mine):
+            break
+        work.ride(mine)
+        chosen = mine[work.dirty[mine]]
         if len(chosen):
-            doubt, where = work.evaluate(chosen)
-            if doubt:
-                break
-    if not doubt and program.unsure_row[work.changed].any() and not work.whole:
-        doubt, where = Doubt.UNSURE, -1
-    touched = np.flatnonzero(work.dirty)
-    watched = np.zeros(0, np.int64)
-    if not doubt:
-        watched = np.unique(_ranges(program.watch_start, program.watched, touched))
-        doubt, where = _checked(program, values, before, work, touched, watched)
-    moved = np.flatnonzero(work.changed)
-    return ProgramRun(doubt, where, touched, moved, watched)
+            work.evaluate(chosen)
+    watched = work.check(before)
+    return work.runs(watched)
 
 
-def _ranges(start: IntArray, items: IntArray, owners: IntArray) -> IntArray:
-    """Give the items of some owners, one owner after the other."""
+def spans(start: IntArray, owners: IntArray) -> IntArray:
+    """Give where the items of some owners stand, one owner after the other."""
     count = start[owners + 1] - start[owners]
     ends = np.cumsum(count)
     total = int(ends[-1]) if len(ends) else 0
-    place = np.arange(total) + np.repeat(start[owners] - (ends - count), count)
-    found: IntArray = items[place]
+    place: IntArray = np.arange(total) + np.repeat(start[owners] - (ends - count), count)
+    return place
+
+
+def ranges(start: IntArray, items: IntArray, owners: IntArray) -> IntArray:
+    """Give the items of some owners, one owner after the other."""
+    found: IntArray = items[spans(start, owners)]
     return found
 
 
 @attrs.define(eq=False)
 class _Work:
-    """A run under way: which curves are to be made, which points have changed."""
+    """A run of variants under way: what is to be made, what has changed, who is in doubt.
+
+    `size` and `points` are the numbers of curves and points of one variant.
+    """
 
     program: Program
     values: Values
+    count: int
+    size: int
+    points: int
     dirty: NDArray[np.bool_]
     changed: NDArray[np.bool_]
     due: NDArray[np.bool_]
     held: NDArray[np.bool_]
+    doubt: IntArray
+    where: IntArray
     whole: bool = False
 
     @classmethod
-    def of(cls, program: Program, values: Values, rows: IntArray, held: IntArray) -> _Work:
-        points = len(values.xyz)
+    def of(
+        cls, program: Program, values: Values, rows: IntArray, held: IntArray, count: int
+    ) -> _Work:
+        points, size = len(values.xyz), int(program.level[-1])
         changed, due, held_back = (np.zeros(points, np.bool_) for _ in range(3))
-        dirty = np.zeros(program.curves, np.bool_)
-        work = cls(program, values, dirty, changed, due, held_back)
+        dirty = np.zeros(count * size, np.bool_)
+        doubt, where = np.full(count, int(Doubt.NONE)), np.full(count, -1)
+        work = cls(program, values, count, size, points // count, dirty, changed, due, held_back,
+                   doubt, where)  # fmt: skip
         work.held[held] = True
         work.mark(rows)
         return work
+
+    def level(self, first: int, stop: int) -> IntArray:
+        """Give the curves of a level, of the variants that are not in doubt."""
+        kept = np.flatnonzero(self.doubt == Doubt.NONE)
+        curves: IntArray = (kept[:, None] * self.size + np.arange(first, stop)).ravel()
+        return curves
+
+    def kept(self, curves: IntArray) -> IntArray:
+        """Give those of curves whose variants are not in doubt."""
+        found: IntArray = curves[self.doubt[curves // self.size] == Doubt.NONE]
+        return found
+
+    def note(self, doubt: Doubt, where: IntArray, size: int) -> None:
+        """Raise a doubt at curves or features, ascending; the first of each variant is told."""
+        if len(where):
+            variant, first = np.unique(where // size, return_index=True)
+            new = self.doubt[variant] == Doubt.NONE
+            self.doubt[variant[new]] = int(doubt)
+            self.where[variant[new]] = where[first[new]] % size
 
     def mark(self, rows: IntArray) -> None:
         """Note that points have changed: what is made of them is to be made anew."""
         self.changed[rows] = True
         readers = self.program.reader[rows].ravel()
         self.dirty[readers[readers >= 0]] = True
-        self.due[_ranges(self.program.rider_start, self.program.rider, rows)] = True
+        self.due[ranges(self.program.rider_start, self.program.rider, rows)] = True
 
-    def ride(self, first: int, stop: int) -> None:
-        """Move the points that ride on the curves of a level."""
+    def ride(self, curves: IntArray) -> None:
+        """Move the points that ride on curves."""
         program, values = self.program, self.values
-        begin, end = program.riding_start[first], program.riding_start[stop]
-        rows = program.riding[begin:end]
+        rows = ranges(program.riding_start, program.riding, curves)
         rows = rows[self.due[rows] & ~self.held[rows]]
         if not len(rows):
             return
@@ -244,35 +296,91 @@ class _Work:
         self.values.xyz[rows[odd]] = places[odd]
         self.mark(rows[odd])
 
-    def evaluate(self, curves: IntArray) -> tuple[Doubt, int]:
+    def evaluate(self, curves: IntArray) -> None:
         """Loft curves of one level, cut them, and write what is computed from them."""
         program, values = self.program, self.values
-        if program.unsure[curves].any() and not self.whole:
-            return Doubt.UNSURE, int(curves[np.argmax(program.unsure[curves])])
-        batch = _lofted(program, values, curves)
+        if not self.whole and program.unsure[curves].any():
+            self.note(Doubt.UNSURE, curves[program.unsure[curves] != 0], self.size)
+            curves = self.kept(curves)
+        curves, batch = self.lofted(curves)
         if batch is None:
-            return Doubt.NOT_MADE, int(curves[0])
+            return
         _store(program, values, curves, batch)
-        odd = _cut(program, values, curves, batch)
-        if odd >= 0:
-            return Doubt.MEETINGS, odd
-        meetings = _ranges(program.drive_start, program.drive, curves)
+        met = _met(program, curves, batch)
+        odd = _odd(program, curves, met)
+        if odd.any():
+            self.note(Doubt.MEETINGS, curves[odd], self.size)
+            met = met.take(self.doubt[curves[met.curve] // self.size] == Doubt.NONE)
+            curves = self.kept(curves)
+        _write(program, values, curves, met)
+        meetings = ranges(program.drive_start, program.drive, curves)
         self.publish(program.meet_row[meetings], values.place[meetings])
-        return Doubt.NONE, -1
+
+    def lofted(self, curves: IntArray) -> tuple[IntArray, SplineBatch | None]:
+        """Loft curves of the variants of which all can be made; give these curves."""
+        batch = _lofted(self.program, self.values, curves) if len(curves) else None
+        if batch is not None or not len(curves):
+            return curves, batch
+        parts = np.split(curves, np.flatnonzero(np.diff(curves // self.size)) + 1)
+        for part in parts:
+            # Of a single variant it is known already.
+            if len(parts) == 1 or _lofted(self.program, self.values, part) is None:
+                self.note(Doubt.NOT_MADE, part[:1], self.size)
+        return self.lofted(self.kept(curves))
+
+    def check(self, before: Values) -> IntArray:
+        """Look for what a run cannot answer for; give the watched crossings that were measured."""
+        program = self.program
+        if not self.whole:
+            doubtful = np.flatnonzero(self.changed & (program.unsure_row[: len(self.changed)] != 0))
+            variants = np.unique(doubtful // self.points)
+            self.doubt[variants[self.doubt[variants] == Doubt.NONE]] = int(Doubt.UNSURE)
+        if (self.doubt != Doubt.NONE).all():
+            return np.zeros(0, np.int64)
+        touched = self.kept(np.flatnonzero(self.dirty))
+        watched = np.unique(ranges(program.watch_start, program.watched, touched))
+        rows = np.flatnonzero(self.changed)
+        rows = rows[self.doubt[rows // self.points] == Doubt.NONE]
+        features = len(program.features.shape) * self.size // program.curves
+        for doubt, where in _doubts(program, self.values, before, touched, watched, rows):
+            self.note(doubt, where, features if doubt is Doubt.FEATURE else self.size)
+            if (self.doubt != Doubt.NONE).all():
+                break
+        return watched
+
+    def runs(self, watched: IntArray) -> tuple[ProgramRun, ...]:
+        """Tell what was done, variant by variant."""
+        dirty = self.dirty.reshape(self.count, -1)
+        changed = self.changed.reshape(self.count, -1)
+        crossings = len(self.program.watch) * self.size // self.program.curves
+        span = np.searchsorted(watched, np.arange(self.count + 1) * crossings).tolist()
+        return tuple(
+            ProgramRun(
+                Doubt(doubt), where, np.flatnonzero(dirty[v]), np.flatnonzero(changed[v]),
+                watched[span[v] : span[v + 1]] - v * crossings,
+            )
+            for v, (doubt, where) in enumerate(
+                zip(self.doubt.tolist(), self.where.tolist(), strict=True)
+            )
+        )  # fmt: skip
+
+
+def curve_data(program: Program, values: Values, curves: IntArray) -> CurveData:
+    """Give what curves are made from."""
+    count = program.start[curves + 1] - program.start[curves]
+    start = np.zeros(len(curves) + 1, np.int64)
+    np.cumsum(count, out=start[1:])
+    knots = spans(program.start, curves)
+    return CurveData(
+        start, values.xyz[program.row[knots]], program.kind[knots], program.direction[knots],
+        program.end_kind[curves], program.end_vector[curves],
+    )  # fmt: skip
 
 
 def _lofted(program: Program, values: Values, curves: IntArray) -> SplineBatch | None:
     """Make curves through their points; None if one cannot be made, or is not finite."""
-    count = program.start[curves + 1] - program.start[curves]
-    start = np.zeros(len(curves) + 1, np.int64)
-    np.cumsum(count, out=start[1:])
-    knots = _ranges(program.start, np.arange(len(program.row)), curves)
-    data = CurveData(
-        start, values.xyz[program.row[knots]], program.kind[knots], program.direction[knots],
-        program.end_kind[curves], program.end_vector[curves],
-    )  # fmt: skip
     try:
-        batch = loft(data)
+        batch = loft(curve_data(program, values, curves))
     except (AssocHullError, ArithmeticError):
         return None
     return batch if np.isfinite(batch.leave).all() else None
@@ -280,7 +388,7 @@ def _lofted(program: Program, values: Values, curves: IntArray) -> SplineBatch |
 
 def _store(program: Program, values: Values, curves: IntArray, batch: SplineBatch) -> None:
     """Write the splines of curves into the values."""
-    knots = _ranges(program.start, np.arange(len(program.row)), curves)
+    knots = spans(program.start, curves)
     count = np.diff(batch.start)
     first = np.repeat(program.start[curves], count)
     width = np.repeat(count, count)
@@ -294,91 +402,101 @@ def _store(program: Program, values: Values, curves: IntArray, batch: SplineBatc
     values.lowest[curves] = np.minimum.reduceat(batch.xyz[:, 1], batch.start[:-1])
 
 
-def _cut(program: Program, values: Values, curves: IntArray, batch: SplineBatch) -> int:
-    """Cut curves with their planes; give the first that meets others than before, -1 if none."""
-    sets = _ranges(program.set_start, program.sets, curves)
+@attrs.frozen(eq=False)
+class _Met:
+    """Where curves meet planes, by curve, plane and parameter; curves by their place in a batch."""
+
+    curve: IntArray
+    plane: IntArray
+    sign: IntArray
+    segment: IntArray
+    at: FloatArray
+    place: FloatArray
+
+    def take(self, items: IntArray | NDArray[np.bool_]) -> _Met:
+        return _Met(*(each[items] for each in attrs.astuple(self, recurse=False)))
+
+
+def _met(program: Program, curves: IntArray, batch: SplineBatch) -> _Met:
+    """Cut curves with their planes."""
+    sets = ranges(program.set_start, program.sets, curves)
     owner = np.repeat(np.arange(len(curves)), np.diff(program.set_start)[curves])
-    pieces: list[tuple[IntArray, ...]] = []
-    places: list[tuple[FloatArray, FloatArray]] = []
+    nothing = np.zeros(0, np.int64)
+    pieces = [_Met(nothing, nothing, nothing, nothing, np.zeros(0), np.zeros((0, 3)))]
     for each in np.unique(sets).tolist():
         mine = owner[sets == each]
-        part = SplineBatch.join([batch.part(i, i + 1) for i in mine.tolist()])
+        part = _taken(batch, mine)
         first, stop = program.first[each : each + 2].tolist()
         met = intersect_planes(part, program.normal[each], program.offset[first:stop],
-                               program.factor)  # fmt: skip
+                               program.factor, tell_tangential=False)  # fmt: skip
         segment = met.segment - part.start[met.curve]
-        pieces.append((mine[met.curve], met.plane + first, met.sign.astype(np.int64), segment))
-        places.append((met.t, met.xyz))
-    expected = _ranges(program.meet_start, np.arange(len(program.meet_row)), curves)
-    if not pieces:
-        return -1 if not len(expected) else int(curves[0])
-    local, plane, sign, segment = (np.concatenate([piece[i] for piece in pieces]) for i in range(4))
-    order = np.lexsort((plane, local))
-    local, plane, sign, segment = (each[order] for each in (local, plane, sign, segment))
-    wanted = program.meet_curve[expected], program.meet_plane[expected]
-    same = len(expected) == len(local) and bool(
-        ((curves[local] == wanted[0]) & (plane == wanted[1])).all()
-        and (sign == program.meet_sign[expected]).all()
+        sign = met.sign.astype(np.int64)
+        pieces.append(_Met(mine[met.curve], met.plane + first, sign, segment, met.t, met.xyz))
+    columns = zip(*(attrs.astuple(each, recurse=False) for each in pieces), strict=True)
+    found = _Met(*(np.concatenate(each) for each in columns))
+    return found.take(np.lexsort((found.plane, found.curve)))
+
+
+def _taken(batch: SplineBatch, curves: IntArray) -> SplineBatch:
+    """Give some curves of a batch, ascending."""
+    if len(curves) == batch.count:
+        return batch
+    knots = spans(batch.start, curves)
+    start = np.zeros(len(curves) + 1, np.int64)
+    np.cumsum(np.diff(batch.start)[curves], out=start[1:])
+    return SplineBatch(
+        start, batch.knot[knots], batch.xyz[knots], batch.leave[knots], batch.arrive[knots]
     )
-    if not same:
-        return _first_odd(program, curves, local, plane, sign)
-    at = np.concatenate([each[0] for each in places])[order]
-    xyz = np.concatenate([each[1] for each in places])[order]
-    axis = program.own_axis[wanted[0]]
+
+
+def _odd(program: Program, curves: IntArray, met: _Met) -> NDArray[np.bool_]:
+    """Tell which curves meet other planes, or in other senses, than they did."""
+    wanted = program.meet_start[curves + 1] - program.meet_start[curves]
+    odd: NDArray[np.bool_] = np.bincount(met.curve, minlength=len(curves)) != wanted
+    expected = spans(program.meet_start, curves[~odd])
+    like = ~odd[met.curve]
+    differ = met.plane[like] != program.meet_plane[expected]
+    differ |= met.sign[like] != program.meet_sign[expected]
+    odd[met.curve[like][differ]] = True
+    return odd
+
+
+def _write(program: Program, values: Values, curves: IntArray, met: _Met) -> None:
+    """Write the meetings of curves, which are those that were expected, into the values."""
+    expected, xyz = spans(program.meet_start, curves), met.place
+    axis = program.own_axis[program.meet_curve[expected]]
     flat = np.flatnonzero(axis >= 0)
-    xyz[flat, axis[flat]] = program.own_offset[wanted[0][flat]]
-    values.at[expected], values.place[expected], values.segment[expected] = at, xyz, segment
-    return -1
-
-
-def _first_odd(
-    program: Program, curves: IntArray, local: IntArray, plane: IntArray, sign: IntArray
-) -> int:
-    """Find the first curve that meets other planes, or in other senses, than it did."""
-    for i, curve in enumerate(curves.tolist()):
-        span = slice(program.meet_start[curve], program.meet_start[curve + 1])
-        mine = local == i
-        if not (
-            np.array_equal(plane[mine], program.meet_plane[span])
-            and np.array_equal(sign[mine], program.meet_sign[span])
-        ):
-            return int(curve)
-    raise AssertionError("some curve meets other planes")
+    xyz[flat, axis[flat]] = program.own_offset[program.meet_curve[expected[flat]]]
+    values.at[expected], values.place[expected], values.segment[expected] = met.at, xyz, met.segment
 
 
 # --------------------------------------------------------------------------------------
 # What must hold. All of it is asked of the curves that were made, and of the points that moved.
 
 
-def _checked(
-    program: Program, values: Values, before: Values, work: _Work, touched: IntArray,
-    watched: IntArray,
-) -> tuple[Doubt, int]:  # fmt: skip
-    """Measure the gaps of curves and look for what a run cannot answer for."""
+def _doubts(
+    program: Program, values: Values, before: Values, touched: IntArray, watched: IntArray,
+    rows: IntArray,
+) -> Iterator[tuple[Doubt, IntArray]]:  # fmt: skip
+    """Measure the gaps of curves; give doubts by their rank, with the curves or features."""
     values.gap[watched] = _gaps(program, values, watched)
     values.xyz[program.watch[watched]] = values.place[program.watch_a[watched]]
-    sense = _ranges(program.sense_start, program.sense, touched)
+    sense = ranges(program.sense_start, program.sense, touched)
     apart = np.abs(values.place[sense] - values.xyz[program.meet_row[sense]]).max(
         axis=1, initial=0.0
     )
-    if (apart > _COINCIDENT).any():
-        return Doubt.SENSE, int(program.meet_curve[sense[np.argmax(apart > _COINCIDENT)]])
+    yield Doubt.SENSE, program.meet_curve[sense[apart > _COINCIDENT]]
     wide = ~(values.gap[watched] <= program.limit[watched])
-    if wide.any():
-        return Doubt.GAP, int(program.meet_curve[program.watch_b[watched[np.argmax(wide)]]])
-    folds = (values.folds[touched] > before.folds[touched]).nonzero()[0]
-    if len(folds):
-        return Doubt.FOLD, int(touched[folds[0]])
+    yield Doubt.GAP, program.meet_curve[program.watch_b[watched[wide]]]
+    yield Doubt.FOLD, touched[values.folds[touched] > before.folds[touched]]
     lowest, least = values.lowest[touched], _BEYOND * program.factor
-    beyond = ((lowest < -least) & (lowest < before.lowest[touched] - least)).nonzero()[0]
-    if len(beyond):
-        return Doubt.BEYOND, int(touched[beyond[0]])
-    pairs = np.unique(_ranges(program.pair_start, program.paired, touched))
+    beyond = (lowest < -least) & (lowest < before.lowest[touched] - least)
+    yield Doubt.BEYOND, touched[beyond]
+    pairs = np.unique(ranges(program.pair_start, program.paired, touched))
     away = values.place[program.pair_a[pairs]] - values.place[program.pair_b[pairs]]
-    near = ((away * away).sum(axis=1) <= program.near**2).nonzero()[0]
-    if len(near):
-        return Doubt.LATENT, int(program.meet_curve[program.pair_a[pairs[near[0]]]])
-    return _features_kept(program, values, np.flatnonzero(work.changed))
+    near = (away * away).sum(axis=1) <= program.near**2
+    yield Doubt.LATENT, program.meet_curve[program.pair_a[pairs[near]]]
+    yield Doubt.FEATURE, _features_left(program, values, rows)
 
 
 def _gaps(program: Program, values: Values, watched: IntArray) -> FloatArray:
@@ -414,14 +532,14 @@ def _tangents(program: Program, values: Values, meeting: IntArray) -> FloatArray
     return found
 
 
-def _features_kept(program: Program, values: Values, rows: IntArray) -> tuple[Doubt, int]:
-    """Look whether points have come off the features that own them."""
-    features = program.features
-    for each in np.unique(_ranges(features.owner_start, features.owner, rows)).tolist():
+def _features_left(program: Program, values: Values, rows: IntArray) -> IntArray:
+    """Give the features that points which own them have come off."""
+    features, left = program.features, list[int]()
+    for each in np.unique(ranges(features.owner_start, features.owner, rows)).tolist():
         span = slice(features.start[each], features.start[each + 1])
         off = off_shapes(int(features.shape[each]), features.numbers[each],
                          values.xyz[features.point[span]])  # fmt: skip
         # A point that is at the limit, but for rounding, is left to the full way.
         if not off.max() <= features.limit[each] * (1.0 - 1e-9):
-            return Doubt.FEATURE, each
-    return Doubt.NONE, -1
+            left.append(each)
+    return np.array(left, np.int64)

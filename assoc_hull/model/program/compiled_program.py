@@ -28,8 +28,8 @@ from assoc_hull.geometry.splines.compiled_intersections import (
 from assoc_hull.geometry.splines.compiled_loft import loft_curves
 from assoc_hull.geometry.splines.loft_rules import LEAST_COSINE, NO_DIRECTION
 from assoc_hull.geometry.splines.plane_heights import CONTACT
-from assoc_hull.model.program import CompiledFeatures, Program, Values
-from assoc_hull.model.run_program import Doubt, ProgramRun
+from assoc_hull.model.program.run_program import Doubt, ProgramRun
+from assoc_hull.model.program.structure import CompiledFeatures, Program, Values
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["CompiledProgram", "warm"]

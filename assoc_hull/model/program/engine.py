@@ -18,8 +18,8 @@ import threading
 import attrs
 
 from assoc_hull.geometry.splines.backend import backend
-from assoc_hull.model.program import Program
-from assoc_hull.model.run_program import NumpyProgram, RunProgram
+from assoc_hull.model.program.run_program import NumpyProgram, RunProgram
+from assoc_hull.model.program.structure import Program
 
 __all__ = ["engine_words", "is_compiled", "runner_of", "wait_for_engine"]
 
@@ -28,7 +28,7 @@ import os, sys
 again, *sys.path[:] = sys.argv[1:]
 if again == "no" and hasattr(os, "nice"):
     os.nice(5)
-from assoc_hull.model.program_compiled import warm
+from assoc_hull.model.program.compiled_program import warm
 if not warm():
     if again == "yes":
         sys.exit("what numba compiles cannot be kept on this disk: see NUMBA_CACHE_DIR")
@@ -58,7 +58,7 @@ _engine = _Engine()
 def runner_of(program: Program) -> RunProgram:
     """Give a program with the arithmetic at hand; where none is compiled yet, begin that."""
     if _is_ready():
-        from assoc_hull.model.program_compiled import CompiledProgram
+        from assoc_hull.model.program.compiled_program import CompiledProgram
 
         return CompiledProgram(program)
     return NumpyProgram(program)
