@@ -94,6 +94,8 @@ def update(
     """
     begin = time.perf_counter()
     origin = document.state.rows.xyz.data.copy() if pending.fields else np.zeros((0, 3))
+    # What was written by now (a role, a limit, a name) the program does not know of.
+    program = None if journal.entries else ProgramRuns.of(document, pending)
     try:
         forms = take_up_forms(document.state, journal, pending)
     except AssocHullError as error:
@@ -103,8 +105,7 @@ def update(
         _link_riders(document.state, journal, pending)
         document.refresh()
     network = HullNetwork(document.state, document.index)
-    work = Work(document, name, journal, pending, settings, network, forms=forms,
-                program=ProgramRuns.of(document, pending))  # fmt: skip
+    work = Work(document, name, journal, pending, settings, network, forms=forms, program=program)
     try:
         if pending.fields:
             rows, away = _run_fields(work, rows, origin)
