@@ -425,14 +425,32 @@ def parallel_slabs(net: CurveNet, x: FloatArray) -> frozenset[int]:
     station = np.abs(net.x[curves][:, None] - x).argmin(axis=1)
     top = np.full(len(x), -np.inf)
     np.maximum.at(top, station, np.maximum.reduceat(batch.xyz[:, 2], batch.start[:-1]))
+    # Below a common level: sheer must not make equal sections differ.
+    level = np.minimum(top[:-1], top[1:])
     found = []
-    for slab in range(1, len(x)):
-        # Below a common level: sheer must not make equal sections differ.
-        level = min(top[slab - 1], top[slab])
-        area = np.bincount(station, section_area(batch, level), len(x))
+    for slab in _large_slabs(batch, station, level).tolist():
+        area = np.bincount(station, section_area(batch, level[slab - 1]), len(x))
         if area[slab - 1 : slab + 1].min() >= (1.0 - _EQUAL) * area.max():
             found.append(slab)
     return frozenset(found)
+
+
+def _large_slabs(batch: SplineBatch, station: IntArray, level: FloatArray) -> IntArray:
+    """Give the slabs of which neither section is less than one large section, below `level` (n,).
+
+    Most are told to be no parallel body by this one, and need not be held against all sections.
+    """
+    count = len(level) + 1
+    whole = np.bincount(station, section_area(batch, float(level.min())), count)
+    slab = np.arange(count - 1)
+    sections = np.stack([slab, slab + 1, np.full(count - 1, whole.argmax())])
+    number, row = np.nonzero(station == sections.T.reshape(-1, 1))
+    parts = SplineBatch.join([batch.part(i, i + 1) for i in row.tolist()])
+    area = section_area(parts, level.repeat(3)[number])
+    one, other, large = np.bincount(number, area, 3 * len(level)).reshape(-1, 3).T
+    # Twice the limit: what rounding could turn is left to the comparison with all.
+    kept: IntArray = 1 + np.flatnonzero(np.minimum(one, other) >= (1.0 - 2.0 * _EQUAL) * large)
+    return kept
 
 
 # --------------------------------------------------------------------------------------
