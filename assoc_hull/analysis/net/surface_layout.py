@@ -9,6 +9,7 @@ is kept while lines only move; the cells themselves are values of `assoc_hull.ge
 from __future__ import annotations
 
 import itertools
+from bisect import bisect_right
 from collections.abc import Sequence
 
 import attrs
@@ -387,7 +388,7 @@ class _Rail:
         curve, t = place
         for i, (c, t0, t1) in enumerate(self.parts):
             if c == curve and min(t0, t1) - self.same <= t <= max(t0, t1) + self.same:
-                return i, float(np.clip(t, min(t0, t1), max(t0, t1)))
+                return i, min(max(t, min(t0, t1)), max(t0, t1))
         for (c, at), spot in self.corner:
             if c == curve and abs(at - t) <= max(self.same, _CORNER * self.length):
                 return spot
@@ -681,10 +682,12 @@ def _cells(
     """Cut the cells into tiles; also give the cell of each tile."""
     tiles: list[tuple[int, int, int, int, int]] = []
     tile_start, cell = [0], list[int]()
+    # Lists: they are read place by place.
+    start, begin = walked.paths.start.tolist(), walked.begin.tolist()
     for i in range(len(found)):
         for j in range(draft.cell_start[i], draft.cell_start[i + 1]):
             first, aft, fore = draft.cell[j]
-            tiles += [(first, *tile) for tile in _tiles(walked, aft, fore)]
+            tiles += [(first, *tile) for tile in _tiles(start, begin, aft, fore)]
             cell += [j] * (len(tiles) - len(cell))
         if deck[i]:
             # The deck is one more tile above the last: -2 says so.
@@ -717,13 +720,16 @@ def _cells(
     return cells, np.array(cell, np.int64)
 
 
-def _tiles(walked: PathShapes, aft: int, fore: int) -> list[tuple[int, int, int, int]]:
-    """Cut a cell at the knots of both rails: bits aft and fore, and what begins and ends it."""
-    start = walked.paths.start
+def _tiles(
+    start: list[int], begin: list[float], aft: int, fore: int
+) -> list[tuple[int, int, int, int]]:
+    """Cut a cell at the knots of both rails: bits aft and fore, and what begins and ends it.
+
+    `start` and `begin` say where the bits of each path begin, in all bits and along the path.
+    """
     knots = [(0.0, -1)]
     for path in (aft, fore):
-        bits = range(int(start[path]) + 1, int(start[path + 1]))
-        knots += [(float(walked.begin[bit]), bit) for bit in bits]
+        knots += [(begin[bit], bit) for bit in range(start[path] + 1, start[path + 1])]
     knots.sort()
     kept = knots[:1]
     for knot in knots[1:]:
@@ -733,14 +739,11 @@ def _tiles(walked: PathShapes, aft: int, fore: int) -> list[tuple[int, int, int,
     for i, (low, bit) in enumerate(kept):
         high, end = kept[i + 1] if i + 1 < len(kept) else (1.0, -1)
         middle = 0.5 * (low + high)
-        pair = [_bit_at(walked, path, middle) for path in (aft, fore)]
-        tiles.append((pair[0], pair[1], bit, end))
+        one, other = (
+            bisect_right(begin, middle, start[path], start[path + 1]) - 1 for path in (aft, fore)
+        )
+        tiles.append((one, other, bit, end))
     return tiles
-
-
-def _bit_at(walked: PathShapes, path: int, w: float) -> int:
-    first, last = int(walked.paths.start[path]), int(walked.paths.start[path + 1])
-    return first + int(np.searchsorted(walked.begin[first:last], w, side="right")) - 1
 
 
 def _is_edge(net: CurveNet, frame: StripBoundary, every: Sequence[StripBoundary]) -> bool:
