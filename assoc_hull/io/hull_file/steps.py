@@ -22,9 +22,10 @@ from assoc_hull.edit.document import Label
 from assoc_hull.edit.recording import Script
 from assoc_hull.edit.report import EditReport, Movement
 from assoc_hull.edit.step import Rerun, Step, StepBody
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.network import Readers
-from assoc_hull.io.hull_file.guard import parse_json, read_rows
+from assoc_hull.io.hull_file.guard import MOST_BYTES, MOST_TEXT, parse_json, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
 from assoc_hull.model.change import CrossingPositions, TableChange
 from assoc_hull.model.features import Feature
@@ -164,7 +165,7 @@ def unpack_change(data: bytes) -> TableChange:
         for name, (rows, old, new) in facts["objects"].items()
     }
     return TableChange(
-        {name: (int(old), int(new)) for name, (old, new) in facts["sizes"].items()},
+        _sizes(facts),
         {name: _bits(arrays, name) for name in facts["bits"]},
         objects,
         {(a, b): (int(old), int(new)) for a, b, old, new in facts["births"]},
@@ -174,6 +175,18 @@ def unpack_change(data: bytes) -> TableChange:
         _long(arrays["lofted"]),
         (_kept(arrays, facts, 0), _kept(arrays, facts, 1)),
     )
+
+
+def _sizes(facts: dict[str, Any]) -> dict[str, tuple[int, int]]:
+    """Give how tables grew: by rows that are all named, for each has a key or a name."""
+    found = {name: (int(old), int(new)) for name, (old, new) in facts["sizes"].items()}
+    for name, (old, new) in found.items():
+        named = sum(
+            len(each[0]) for column, each in facts["objects"].items() if column.startswith(name)
+        )
+        if not 0 <= old <= new <= old + named:
+            raise ValueError(f"a table grows from {old} to {new} rows, and {named} are named")
+    return found
 
 
 def _bits(arrays: Arrays, name: str) -> tuple[IntArray, NDArray[np.uint8]]:
@@ -274,6 +287,13 @@ def write_step(database: sqlite3.Connection, step: Step, change: TableChange) ->
         step.number, step.parent, step.name, report.author, report.time, int(step.structural),
         step.fingerprint, script_text(step.script), report_text(report), trace, pack_change(change),
     )  # fmt: skip
+    for what, each in zip(("script", "report", "trace", "change"), row[7:], strict=True):
+        most = MOST_TEXT if isinstance(each, str) else MOST_BYTES
+        if len(each) > most:
+            raise BadInputError(
+                f"its {what} has {len(each)} bytes, and a hull file takes {most}",
+                f"in the edit {step.name!r}", "divide it into several edits",
+            )  # fmt: skip
     database.execute(
         "INSERT INTO steps VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         (*row[:7], step_digest(row), *row[7:]),
