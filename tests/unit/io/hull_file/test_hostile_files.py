@@ -128,7 +128,7 @@ HARMS: dict[str, Harm] = {
     "generated column": run("ALTER TABLE lines ADD COLUMN more AS (hex(zeroblob(60000000)))"),
     "default that is computed": schema_text("hull", "'open'", "(hex(randomblob(99999999)))"),
     "check": schema_text("points", "key TEXT NOT NULL", "key TEXT NOT NULL CHECK (key <> '')"),
-    "collation": schema_text("labels", "name TEXT PRIMARY KEY", "name TEXT PRIMARY KEY COLLATE NOCASE"),
+    "collation": schema_text("labels", "PRIMARY KEY", "PRIMARY KEY COLLATE NOCASE"),
     "comment": schema_text("groups", "number", "/* harmless? */ number"),
     "schema that is none": schema_text("groups", "CREATE TABLE groups (", "CREATE TABLE groups (("),
     "name of an index": lambda database: [
