@@ -10,6 +10,7 @@ import sqlite3
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -115,7 +116,9 @@ def test_copies_that_are_made_during_a_session_are_whole_or_refused(file: Path) 
 def test_a_copy_between_edits_is_whole(file: Path, tmp_path: Path) -> None:
     """Everything that was committed is in the file itself, the log is not needed."""
     hull = ah.open(file)
-    acts = [lambda: shift(hull, "two"), hull.undo, lambda: hull.checkpoint("here"), hull.redo]
+    acts: list[Callable[[], object]] = [
+        lambda: shift(hull, "two"), hull.undo, lambda: hull.checkpoint("here"), hull.redo,
+    ]  # fmt: skip
     for number, act in enumerate(acts):
         act()
         copy = tmp_path / f"copy {number}.hull"
