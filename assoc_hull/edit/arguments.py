@@ -16,7 +16,7 @@ from assoc_hull.arguments import place, shown, shown_name
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.address import ResolvedAddress, resolve_address
-from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, numbers_of
+from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, is_in, numbers_of
 from assoc_hull.model.tables import HullState
 
 __all__ = [
@@ -177,5 +177,5 @@ class GivenObjects:
 
     def own(self, handle: Group | Line | Curve | Point | Crossing) -> None:
         """Refuse a handle of another hull, or on what is no more in these tables."""
-        if handle.home is not self.tables.live_tables or not handle.is_in(self.tables):
+        if handle.home is not self.tables.live_tables or not is_in(handle, self.tables):
             raise ForeignPointError(repr(handle))

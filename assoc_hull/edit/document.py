@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import contextlib
 import operator
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
 from typing import Protocol
 
@@ -137,6 +137,8 @@ class Document:
         Who may write the tables.
     unsettled : bool
         Whether something was being kept when it was broken off: the keeper may be ahead of memory.
+    when_published : callable or None
+        What is still to be done with a step that was committed, as soon as it is published.
     """
 
     state: HullState = attrs.field(converter=_live_tables)
@@ -150,6 +152,7 @@ class Document:
     writer: object = attrs.field(default=None, init=False)
     known_index: Index | None = attrs.field(default=None, init=False)
     unsettled: bool = attrs.field(default=False, init=False)
+    when_published: Callable[[], None] | None = attrs.field(default=None, init=False)
     _states: list[tuple[Step, ...]] = attrs.field(factory=list, init=False)
     lock: WriteLock = attrs.field(factory=WriteLock, init=False)
 
@@ -230,6 +233,9 @@ class Document:
             if keep and self.keeper is not None:
                 self.settle()
                 self.keeper.begin()
+                # What came back from there, or from another process, is what the edit reads.
+                self.state.end_writing()
+                self.state.begin_writing(self._written_here)
         except BaseException:
             self.end(holder, keep=keep)
             raise
@@ -243,7 +249,12 @@ class Document:
                 self.keeper.end()
         finally:
             self.state.end_writing()
-            self.lock.give_back(holder)
+            act, self.when_published = self.when_published, None
+            try:
+                if act is not None:
+                    act()
+            finally:
+                self.lock.give_back(holder)
 
     def _written_here(self) -> bool:
         return self.lock.held_here

@@ -12,6 +12,7 @@ from assoc_hull.edit.nudge import Nudge
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.graph.run_update import FailurePolicy
 from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.program import PublishedProgram
 
 __all__ = ["Pending", "Settings"]
 
@@ -79,6 +80,8 @@ class Pending:
         Lines whose points are to come from definitions again.
     detached : list of int
         Curves that have left their definitions in this transaction.
+    numbers : PublishedProgram or None
+        The numbers of the tables when all has run, where a program has made them.
     stopped : callable
         Tells whether somebody has asked to end the update; looked at before every pass.
     """
@@ -105,7 +108,17 @@ class Pending:
     forms: dict[str, FormDefinition] = attrs.field(factory=dict)
     attach: set[int] = attrs.field(factory=set)
     detached: list[int] = attrs.field(factory=list)
+    numbers: PublishedProgram | None = None
     stopped: Callable[[], bool] = bool
+
+    @property
+    def places_only(self) -> bool:
+        """Whether nothing but places of points is set, each by itself or by a field."""
+        other = (
+            self.curves, self.computed, self.structural, self.fresh, self.alone, self.relink,
+            self.after, self.features, self.nudge, self.forms, self.attach,
+        )  # fmt: skip
+        return not any(other) and bool(self.values or self.fields)
 
     @staticmethod
     def not_alone(name: str) -> tuple[str, str, str]:

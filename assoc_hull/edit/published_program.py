@@ -6,7 +6,7 @@ another and beside the tables, which are only read.
 
 from __future__ import annotations
 
-import itertools
+from collections.abc import Callable
 
 import attrs
 import numpy as np
@@ -16,20 +16,12 @@ from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.graph.derived import Objects
 from assoc_hull.model.index import Index
-from assoc_hull.model.program import Program, Values, compile_program
+from assoc_hull.model.program import Program, PublishedProgram, Values, compile_program
 from assoc_hull.model.program_engine import runner_of
 from assoc_hull.model.run_program import ProgramRun, RunProgram
 from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["LiveNumbers", "PublishedProgram", "published_program"]
-
-
-@attrs.frozen(eq=False)
-class PublishedProgram:
-    """The structure of a hull, and its numbers as they are published; never written to."""
-
-    program: Program
-    values: Values
+__all__ = ["LiveNumbers", "keep_numbers", "published_program"]
 
 
 @attrs.define(eq=False)
@@ -82,12 +74,52 @@ def published_program(document: Document) -> PublishedProgram | None:
     )
     if program is None:
         return None
-    rows, curves = state.rows, state.curves
-    numbers = rows.xyz, rows.base, rows.anchor_from, rows.gap, curves.spline, curves.meets
-    values = state.derived(
-        ("published numbers",), (program, *numbers), lambda: _published(state, program), most=1
-    )
+    last = _last(state, program)
+    values = _numbers(state, program, lambda: _read(state, program, last.read))
+    last.read = _Read(values, *_objects(state, program))
     return PublishedProgram(program, values)
+
+
+def keep_numbers(document: Document, found: PublishedProgram) -> None:
+    """Keep the numbers of what has just been published: they are known, and need not be read."""
+    values, state = found.values, document.state.published()
+    freeze(*(getattr(values, each.name) for each in attrs.fields(Values)))
+    _numbers(state, found.program, lambda: values)
+    _last(state, found.program).read = _Read(values, *_objects(state, found.program))
+
+
+@attrs.frozen(eq=False)
+class _Read:
+    """Numbers, and the splines and meetings that they were read of."""
+
+    values: Values
+    splines: list[SplineBatch]
+    met: list[CurveIntersections]
+
+
+@attrs.define(eq=False)
+class _Last:
+    """What was read last of a structure; another state of it differs in a few curves."""
+
+    read: _Read | None = None
+
+
+def _last(state: HullState, program: Program) -> _Last:
+    return state.derived(("numbers read last",), (program,), _Last, most=1)
+
+
+def _objects(
+    state: HullState, program: Program
+) -> tuple[list[SplineBatch], list[CurveIntersections]]:
+    curves = program.number.tolist()
+    return [state.spline(each) for each in curves], [state.curves.meets[each] for each in curves]
+
+
+def _numbers(state: HullState, program: Program, make: Callable[[], Values]) -> Values:
+    """Give the numbers of the tables as they were read or kept last, if they still hold."""
+    rows, curves = state.rows, state.curves
+    columns = rows.xyz, rows.base, rows.anchor_from, rows.gap, curves.spline, curves.meets
+    return state.derived(("published numbers",), (program, *columns), make, most=1)
 
 
 def _structure(state: HullState, index: Index) -> tuple[object, ...]:
@@ -105,25 +137,33 @@ def _structure(state: HullState, index: Index) -> tuple[object, ...]:
     )  # fmt: skip
 
 
-def _published(state: HullState, program: Program) -> Values:
-    """Read the numbers of the tables."""
-    values = Values.blank(program, state)
-    met: list[CurveIntersections] = [state.curves.meets[curve] for curve in program.number.tolist()]
-    splines = [state.spline(curve) for curve in program.number.tolist()]
-    values.at[:] = np.concatenate([each.parameter for each in met])
-    values.place[:] = np.concatenate([each.xyz for each in met])
-    spans, meetings = (
-        itertools.pairwise(each.tolist()) for each in (program.start, program.meet_start)
-    )
-    for (a, b), (first, stop), spline in zip(spans, meetings, splines, strict=True):
-        block = values.block[9 * a : 9 * b].reshape(9, b - a)
+def _read(state: HullState, program: Program, last: _Read | None) -> Values:
+    """Read the numbers of the tables; of curves that are as they were, take what was read last."""
+    splines, met = _objects(state, program)
+    table = state.rows
+    if last is None:
+        values, odd = Values.blank(program, state), list(range(program.curves))
+    else:
+        values = last.values.copy()
+        values.xyz[:], values.base[:] = table.xyz.data, table.base.data
+        values.anchor_from[:] = table.anchor_from.data
+        was = zip(last.splines, last.met, strict=True)
+        odd = [
+            i for i, (spline, meets) in enumerate(was)
+            if spline is not splines[i] or meets is not met[i]
+        ]  # fmt: skip
+    for i in odd:
+        a, b = program.start[i : i + 2].tolist()
+        first, stop = program.meet_start[i : i + 2].tolist()
+        spline, block = splines[i], values.block[9 * a : 9 * b].reshape(9, b - a)
         block[:3], block[3:6], block[6:] = spline.xyz.T, spline.leave.T, spline.arrive.T
         values.knot[a:b] = spline.knot
-        inner = spline.knot[1:-1]
-        values.segment[first:stop] = inner.searchsorted(values.at[first:stop], "right")
-    batch = SplineBatch.join(splines)
-    values.folds[:] = np.bincount(curve_folds(batch).curve, minlength=program.curves)
-    values.lowest[:] = np.minimum.reduceat(batch.xyz[:, 1], batch.start[:-1])
-    values.gap[:] = state.rows.gap[program.watch]
+        values.at[first:stop], values.place[first:stop] = met[i].parameter, met[i].xyz
+        values.segment[first:stop] = spline.knot[1:-1].searchsorted(met[i].parameter, "right")
+    if odd:
+        batch = SplineBatch.join([splines[i] for i in odd])
+        values.folds[odd] = np.bincount(curve_folds(batch).curve, minlength=len(odd))
+        values.lowest[odd] = np.minimum.reduceat(batch.xyz[:, 1], batch.start[:-1])
+    values.gap[:] = table.gap[program.watch]
     freeze(*(getattr(values, each.name) for each in attrs.fields(Values)))
     return values

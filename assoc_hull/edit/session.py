@@ -56,7 +56,7 @@ from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 from assoc_hull.model.tables import HullState
 
-__all__ = ["Edit", "open_edit", "refusal_of"]
+__all__ = ["Edit", "join_edit", "open_edit", "refusal_of"]
 
 _USE = "use it in a with statement"
 _HANDLE = "give a handle or an address"
@@ -67,6 +67,26 @@ _RAISED = (
     FileBusyError, HullBusyError, StaleHullError, MissingExtraError,
 )  # fmt: skip
 """Of these the asking is wrong, or the file, and not what was asked for."""
+
+
+def join_edit(edit: Edit, settings: Settings, author: str | None) -> Edit:
+    """Give the edit that is open to one that begins inside it, if that asks for nothing else.
+
+    Raises
+    ------
+    BadInputError
+        It would be carried out in another way, or by somebody else.
+    """
+    held = edit._held
+    where = f"inside the edit {held.name!r}"
+    if settings != edit.settings:
+        what = "policy= or gaps= differ from those of the edit that is open"
+        raise BadInputError(what, where, "leave them out, or give them to the outer edit")
+    outer = held.document.author if held.author is None else held.author
+    if author is not None and author != outer:
+        what = f"author is {author!r} and that of the edit that is open is {outer!r}"
+        raise BadInputError(what, where, "leave author= out, or end the outer edit first")
+    return edit
 
 
 def refusal_of(error: AssocHullError) -> tuple[str, ...]:
@@ -167,24 +187,6 @@ class Edit:
     def settings(self) -> Settings:
         """How it is carried out."""
         return self._held.settings
-
-    def join(self, settings: Settings, author: str | None) -> Self:
-        """Give this edit to one that begins inside it, if that asks for nothing else.
-
-        Raises
-        ------
-        BadInputError
-            It would be carried out in another way, or by somebody else.
-        """
-        where = f"inside the edit {self._held.name!r}"
-        if settings != self.settings:
-            what = "policy= or gaps= differ from those of the edit that is open"
-            raise BadInputError(what, where, "leave them out, or give them to the outer edit")
-        outer = self._held.document.author if self._held.author is None else self._held.author
-        if author is not None and author != outer:
-            what = f"author is {author!r} and that of the edit that is open is {outer!r}"
-            raise BadInputError(what, where, "leave author= out, or end the outer edit first")
-        return self
 
     @property
     def report(self) -> EditReport | None:

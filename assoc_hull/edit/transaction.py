@@ -7,6 +7,7 @@ error. Whatever goes wrong, the journal takes every write back, to the last bit.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from types import TracebackType
 from typing import Self
 
@@ -15,6 +16,7 @@ import numpy as np
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.garbage_collection import PausedCollector
 from assoc_hull.edit.pending_changes import Pending, Settings
+from assoc_hull.edit.published_program import keep_numbers
 from assoc_hull.edit.recording import Said, Script
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Step
@@ -241,6 +243,8 @@ class Transaction:
         if self.look is None:
             self._step.script = Script.of(self.script, self.settings)
             self.document.commit(self._step, self.author)
+            if (known := self.pending.numbers) is not None:
+                self.document.when_published = partial(keep_numbers, self.document, known)
         return self._step.report
 
     def _restore(self) -> None:

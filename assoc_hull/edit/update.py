@@ -57,6 +57,7 @@ from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.nudge import Nudge, write_nudge
 from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.pending_changes import Pending, Settings
+from assoc_hull.edit.program_network import ProgramRuns
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.update_passes import Work
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
@@ -102,7 +103,8 @@ def update(
         _link_riders(document.state, journal, pending)
         document.refresh()
     network = HullNetwork(document.state, document.index)
-    work = Work(document, name, journal, pending, settings, network, forms=forms)
+    work = Work(document, name, journal, pending, settings, network, forms=forms,
+                program=ProgramRuns.of(document, pending))  # fmt: skip
     try:
         if pending.fields:
             rows, away = _run_fields(work, rows, origin)
@@ -129,6 +131,8 @@ def update(
     if findings:
         raise RefusedEditError(name, findings)
     settle_features(work, rows)
+    if work.program is not None:
+        pending.numbers = work.program.published()
     work.seconds |= {"run": ran - begin, "check": time.perf_counter() - ran}
     return step_of(work, rows, away)
 
@@ -317,6 +321,9 @@ def _run_nudge(work: Work, by: Nudge) -> None:
 
 def _check(work: Work) -> tuple[str, ...]:
     """Check what was evaluated; mend gaps once; give all findings that refuse the edit."""
+    if work.program is not None:  # it has looked for all that is looked for below
+        work.wide = work.program.write_gaps(work.journal)
+        return tuple(unreached(work.state, work.pending.fields, work.pending.values.keys()))
     curves = work.touched()
     wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     if len(wide.rows) and not any(field.strict for field in work.pending.fields):

@@ -9,6 +9,7 @@ from assoc_hull.edit.checks.update_findings import WideGaps
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.failed_curves import blocked_nodes, note_states
 from assoc_hull.edit.pending_changes import Pending, Settings
+from assoc_hull.edit.program_network import ProgramRuns
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
@@ -50,6 +51,8 @@ class Work:
         Crossings that define no line any more, as others have passed them.
     forms : (k,) int
         Nodes of the definitions that the edit set; the first pass starts from them as well.
+    program : ProgramRuns or None
+        What makes the curves, as long as it answers for the whole edit.
     """
 
     document: Document
@@ -69,6 +72,7 @@ class Work:
     planned: int = 0
     watched: list[int] = attrs.field(factory=list)
     forms: IntArray = attrs.field(factory=lambda: _NONE)
+    program: ProgramRuns | None = None
 
     @property
     def state(self) -> HullState:
@@ -99,10 +103,16 @@ class Work:
         if not self.passes:
             seeds = np.concatenate([seeds, self.forms])
             self.planned = self.network.reached(np.concatenate([seeds, Node.curve(curves)]))
-        held = Node.point(np.array(sorted(self.pending.held), np.int64))
+        carried = np.array(sorted(self.pending.held), np.int64)
+        held, network = Node.point(carried), self.network
+        if self.program is not None:
+            if not len(curves) and self.program.run(rows, carried):
+                network = self.program.network(network)
+            else:
+                self.program = None  # from here on all is made here
         blocked = blocked_nodes(self.network, self.state.failed)
         result = run_update(
-            self.network, seeds, self.journal, self.settings.policy,
+            network, seeds, self.journal, self.settings.policy,
             also=self._also(curves), held=np.concatenate([held, blocked]),
         )  # fmt: skip
         self.passes.append(result)

@@ -26,7 +26,7 @@ from assoc_hull.arguments import flag, instance, integer, not_negative, number, 
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
-from assoc_hull.edit.session import Edit, open_edit
+from assoc_hull.edit.session import Edit, join_edit, open_edit
 from assoc_hull.edit.write_lock import PATIENCE
 from assoc_hull.errors import UnknownNameError
 from assoc_hull.model.address import AddressBook
@@ -265,7 +265,7 @@ class Hull:
             text(author, "author", "in edit")
         not_negative(wait, "wait", "in edit")
         if outer is not None:
-            return outer.join(settings, author)
+            return join_edit(outer, settings, author)
         return Edit(self.document, name, settings, author=author, wait=wait)
 
     def preview(

@@ -71,6 +71,11 @@ class AddressBook:
     @cached_property
     def lines(self) -> dict[str, list[int]]:
         """Live lines by name, and by group and name."""
+        table = self.state.lines
+        depends_on = table.alive, table.group, table.name, self.state.groups.name
+        return self.state.derived(("lines by name",), depends_on, self._lines_by_name)
+
+    def _lines_by_name(self) -> dict[str, list[int]]:
         found: defaultdict[str, list[int]] = defaultdict(list)
         table = self.state.lines
         for line in self.state.live("lines").tolist():
@@ -82,9 +87,9 @@ class AddressBook:
     def crossings(self, one: int, other: int) -> dict[int, int]:
         """Give the live crossings of two lines, the first of lower rank: row by birth."""
         table, line = self.state.rows, self.state.curves.line.data
-        a, b = (np.flatnonzero(line == each) for each in (one, other))
-        curve = table.curve.data
-        found = np.isin(curve[:, 0], a) & np.isin(curve[:, 1], b) & table.alive.data
+        a, b = table.curve.data.T
+        # Of a point on one curve b is -1, and the last curve is looked at in its place.
+        found = (line == one)[a] & (line == other)[b] & (b >= 0) & table.alive.data
         rows = np.flatnonzero(found)
         return dict(zip(table.birth[rows].tolist(), rows.tolist(), strict=True))
 

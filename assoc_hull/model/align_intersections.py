@@ -42,18 +42,36 @@ def align_curve(curve: int, old: CurveIntersections, new: CurveIntersections) ->
     """Align all meetings of a curve, plane by plane."""
     row = np.full(len(new.line), -1)
     known = np.zeros(len(new.line), bool)
+    before, after = (np.argsort(each.line, kind="stable") for each in (old, new))
+    odd = _odd_lines(old, before, new, after)
+    # Of all other planes each meeting is the one that stood in its place.
+    kept = after[~np.isin(new.line[after], odd)]
+    row[kept], known[kept] = old.row[before[~np.isin(old.line[before], odd)]], True
     gone: list[int] = []
-    for line in np.union1d(old.line, new.line).tolist():
-        before, after = np.flatnonzero(old.line == line), np.flatnonzero(new.line == line)
-        match = align_plane_roots(
-            old.sign[before], old.xyz[before], new.sign[after], new.xyz[after]
-        )
-        for first, second in match:
-            row[after[second]] = old.row[before[first]]
-            known[after[second]] = True
-        lost = np.setdiff1d(np.arange(len(before)), [first for first, _ in match])
-        gone += [int(old.row[before[i]]) for i in lost if old.row[before[i]] >= 0]
+    for line in odd.tolist():
+        first, then = np.flatnonzero(old.line == line), np.flatnonzero(new.line == line)
+        match = align_plane_roots(old.sign[first], old.xyz[first], new.sign[then], new.xyz[then])
+        for one, other in match:
+            row[then[other]], known[then[other]] = old.row[first[one]], True
+        lost = set(range(len(first))) - {one for one, _ in match}
+        gone += [int(old.row[first[i]]) for i in lost if old.row[first[i]] >= 0]
     return Alignment(curve, row, np.array(sorted(gone), np.int64), np.flatnonzero(~known))
+
+
+def _odd_lines(
+    old: CurveIntersections, before: IntArray, new: CurveIntersections, after: IntArray
+) -> IntArray:
+    """Give the lines whose planes are met more or less often than before, or in other senses.
+
+    `before` and `after` are the orders of the meetings by lines.
+    """
+    was, now = old.line[before], new.line[after]
+    lines = np.union1d(was, now)
+    counts = [each.searchsorted(lines, "right") - each.searchsorted(lines) for each in (was, now)]
+    odd: IntArray = lines[counts[0] != counts[1]]
+    one, other = ~np.isin(was, odd), ~np.isin(now, odd)
+    turned = old.sign[before[one]] != new.sign[after[other]]
+    return np.union1d(odd, was[one][turned])
 
 
 def align_plane_roots(

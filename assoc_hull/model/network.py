@@ -27,7 +27,7 @@ from assoc_hull.model.node import Node
 from assoc_hull.model.plane_intersections import LastIntersections, PartnerIntersections, cut_curves
 from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["HullNetwork", "bits_differ"]
+__all__ = ["HullNetwork", "bits_differ", "moved_curves", "placed"]
 
 _NO_NODES: IntArray = np.zeros(0, np.int64)
 _MANY = 4096
@@ -199,7 +199,7 @@ class HullNetwork:
         for curve, spline in zip(numbers, old, strict=True):
             if spline is not None:
                 self.before.setdefault(curve, spline)
-        moved = _moved(old, known.batch if known else None, splines, batch)
+        moved = moved_curves(old, known.batch if known else None, splines, batch)
         journal.set(table.spline, numbers, splines)
         now = self._attach(numbers, met, splines, batch, found, known)
         journal.set(table.meets, numbers, now.meets)
@@ -224,7 +224,7 @@ class HullNetwork:
         at, xyz, spans = found.parameter, found.xyz, list(pairwise(found.bounds))
         if known is not None and found.line is known.found.line:
             meets = [
-                _placed(each, at[a:b], xyz[a:b]) for each, (a, b) in zip(old, spans, strict=True)
+                placed(each, at[a:b], xyz[a:b]) for each, (a, b) in zip(old, spans, strict=True)
             ]
             row, actual, part = known.row, known.actual, known.part
         else:
@@ -290,9 +290,7 @@ _set_line, _set_sign, _set_row, _set_parameter, _set_xyz = (
 )
 
 
-def _placed(
-    meets: CurveIntersections, parameter: FloatArray, xyz: FloatArray
-) -> CurveIntersections:
+def placed(meets: CurveIntersections, parameter: FloatArray, xyz: FloatArray) -> CurveIntersections:
     """Give the same meetings at other places; the arrays are frozen already."""
     found = object.__new__(CurveIntersections)
     _set_line(found, meets.line)
@@ -303,7 +301,7 @@ def _placed(
     return found
 
 
-def _moved(
+def moved_curves(
     old: list[SplineBatch | None],
     before: SplineBatch | None,
     splines: list[SplineBatch],

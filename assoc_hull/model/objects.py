@@ -56,6 +56,7 @@ __all__ = [
     "Points",
     "features_by_name",
     "handle",
+    "is_in",
     "numbers_of",
 ]
 
@@ -101,19 +102,12 @@ class Handle:
     def tables(self) -> HullState:
         """The published tables; for an open edit, of what it has made itself, those it writes."""
         found = self.home.published()
-        return found if self.is_in(found) else self.home.seen_here()
+        return found if is_in(self, found) else self.home.seen_here()
 
     @property
     def alive(self) -> bool:
         """Whether the object is still there."""
-        return self.is_in(self.tables)
-
-    def is_in(self, tables: HullState) -> bool:
-        """Tell whether the object is there in tables of its hull."""
-        table = getattr(tables, self._table)
-        if self.number >= table.count or not table.alive[self.number]:
-            return False
-        return self._table == "groups" or bool(table.key[self.number] == self.id)
+        return is_in(self, self.tables)
 
     @property
     def row(self) -> int:
@@ -131,6 +125,14 @@ class Handle:
     def __repr__(self) -> str:
         name = getattr(self, "name", self.id) if self.alive else f"{self.id}, gone"
         return f"<{type(self).__name__} {name}>"
+
+
+def is_in(handle: Handle, tables: HullState) -> bool:
+    """Tell whether an object is there in tables of its hull."""
+    table, number = getattr(tables, handle._table), handle.number
+    if number >= table.count or not table.alive[number]:
+        return False
+    return handle._table == "groups" or bool(table.key[number] == handle.id)
 
 
 # --------------------------------------------------------------------------------------

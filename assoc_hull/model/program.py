@@ -25,7 +25,7 @@ from assoc_hull.model.index import Index
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["CompiledFeatures", "Program", "Values", "compile_program"]
+__all__ = ["CompiledFeatures", "Program", "PublishedProgram", "Values", "compile_program"]
 
 Flags = NDArray[np.int8]
 
@@ -255,6 +255,14 @@ def _grouped(owner: IntArray, item: IntArray, count: int) -> tuple[IntArray, Int
     order = np.argsort(owner, kind="stable")
     start = np.searchsorted(owner[order], np.arange(count + 1))
     return start.astype(np.int64), item[order].astype(np.int64)
+
+
+@attrs.frozen(eq=False)
+class PublishedProgram:
+    """The structure of a hull, and its numbers as they are published; never written to."""
+
+    program: Program
+    values: Values
 
 
 def compile_program(state: HullState, index: Index) -> Program | None:

@@ -21,7 +21,7 @@ from assoc_hull.geometry.splines.backend import backend
 from assoc_hull.model.program import Program
 from assoc_hull.model.run_program import NumpyProgram, RunProgram
 
-__all__ = ["engine_words", "runner_of", "wait_for_engine"]
+__all__ = ["engine_words", "is_compiled", "runner_of", "wait_for_engine"]
 
 _MAKE = """
 import os, sys
@@ -36,6 +36,9 @@ if not warm():
 """
 """What the child runs: it compiles, and makes sure that another process finds that in the cache."""
 
+_SELDOM = 20
+"""Who edits a hull more often is no command that runs once."""
+
 _lock = threading.Lock()
 
 
@@ -46,6 +49,7 @@ class _Engine:
     child: subprocess.Popen[bytes] | None = None
     told: str = ""
     ready: bool = False
+    asked: int = 0
 
 
 _engine = _Engine()
@@ -58,6 +62,15 @@ def runner_of(program: Program) -> RunProgram:
 
         return CompiledProgram(program)
     return NumpyProgram(program)
+
+
+def is_compiled() -> bool:
+    """Tell whether the compiled form serves; one who asks often enough has it made.
+
+    A process that runs once asks seldom: it is not to pay for a compilation.
+    """
+    _engine.asked += 1
+    return _engine.ready or (_engine.asked > _SELDOM and _is_ready())
 
 
 def engine_words() -> str:

@@ -74,7 +74,7 @@ def test_the_relofted_set_is_the_closure_of_the_role_table(series60_70: ah.Hull,
 @pytest.mark.parametrize("kind", list(KINDS))
 def test_why_names_what_moved_each_curve_back_to_the_edit(series60_70: ah.Hull, kind: str) -> None:
     """Causes are points that lie on the curve and moved; the chain ends at one the edit set."""
-    hull, state = series60_70, series60_70.state
+    hull, state = series60_70, series60_70.document.state
     number = {state.curves.key[curve]: curve for curve in state.live("curves").tolist()}
     for row in at(hull, kind, 6):
         start = state.rows.xyz.data.copy()
@@ -117,7 +117,7 @@ def test_every_line_with_a_shared_crossing_in_reach_of_a_pull_has_moved(
     series60_70: ah.Hull,
 ) -> None:
     """Both lines of each such crossing, and the crossing by what the field says there."""
-    hull, state = series60_70, series60_70.state
+    hull, state = series60_70, series60_70.document.state
     for row in at(hull, "a pull"):
         start, place = state.rows.xyz.data.copy(), state.rows.xyz[row].copy()
         free, bits = _free_shared(hull), snapshot(hull).curves
@@ -142,7 +142,7 @@ def test_every_line_with_a_shared_crossing_on_a_reshaped_stretch_has_moved(
     series60_70: ah.Hull, kind: str
 ) -> None:
     """Each partner takes the new place of the crossing, where the curve was asked to change."""
-    hull, state = series60_70, series60_70.state
+    hull, state = series60_70, series60_70.document.state
     name = next(name for name in ("waterlines", "buttocks", "sections") if name[:-1] in kind)
     axis, reach = (2, 3.0) if name == "sections" else (0, 15.0)
     for row in at(hull, kind):
@@ -165,7 +165,7 @@ def test_every_line_with_a_shared_crossing_on_a_reshaped_stretch_has_moved(
 @pytest.mark.parametrize("amount", [0.005, 0.02])
 def test_every_drag_puts_its_point_where_it_was_asked(series60_70: ah.Hull, amount: float) -> None:
     """To 1e-9 m, at all 24 places."""
-    hull, table = series60_70, series60_70.state.rows
+    hull, table = series60_70, series60_70.document.state.rows
     for row in places.places(hull, places.PAIRS, 24, SEED):
         target = table.xyz[row] + amount * places.normal_step(hull, row)
         try:
@@ -180,7 +180,7 @@ def test_every_drag_puts_its_point_where_it_was_asked(series60_70: ah.Hull, amou
 @pytest.mark.parametrize("amount", [0.02, 0.05])
 def test_every_pull_gives_its_normal_displacement(series60_70: ah.Hull, amount: float) -> None:
     """Along the outward normal at the pulled point, within 1 %, at all 24 places."""
-    hull, table = series60_70, series60_70.state.rows
+    hull, table = series60_70, series60_70.document.state.rows
     normal = hull_normals(hull.state)
     for row in places.places(hull, places.PAIRS, 24, SEED):
         start = table.xyz[row].copy()

@@ -46,30 +46,30 @@ def _plain(state: HullState, table: str, name: str, value: object, row: int) -> 
 def test_a_change_runs_both_ways_to_the_last_bit(which: int, todo: list[Task]) -> None:
     """Every edit of a session, taken back and made again by its change, leaves the same tables."""
     hull = fresh(which)
-    pictures, changes = [picture(hull.state)], []
+    pictures, changes = [picture(hull.document.state)], []
     for task in todo:
         count = len(hull.history)
         carry_out(hull, task)
         if len(hull.history) > count:
             journal = hull.document.history[-1].journal
             assert isinstance(journal, Journal)
-            changes.append(change_of(hull.state, journal))
-            pictures.append(picture(hull.state))
-    prints = [fingerprint(hull.state)]
+            changes.append(change_of(hull.document.state, journal))
+            pictures.append(picture(hull.document.state))
+    prints = [fingerprint(hull.document.state)]
     for _ in range(2):
         for i in range(len(changes) - 1, -1, -1):
-            apply_change(hull.state, changes[i], forward=False)
+            apply_change(hull.document.state, changes[i], forward=False)
             compare(hull, pictures[i])
         for i, change in enumerate(changes, start=1):
-            apply_change(hull.state, change, forward=True)
+            apply_change(hull.document.state, change, forward=True)
             compare(hull, pictures[i])
-    prints.append(fingerprint(hull.state))
+    prints.append(fingerprint(hull.document.state))
     assert prints[0] == prints[1]
 
 
 def compare(hull: ah.Hull, then: dict[str, object]) -> None:
     """Compare column by column."""
-    now = picture(hull.state)
+    now = picture(hull.document.state)
     assert [name for name in then if now[name] != then[name]] == []
 
 
@@ -80,12 +80,12 @@ def test_a_printer_takes_the_fingerprint_while_the_structure_stays(
 ) -> None:
     """Made anew where a change is not one of shape only, it never differs from the slow way."""
     hull = fresh(which)
-    printer = FingerprintCache(hull.state)
+    printer = FingerprintCache(hull.document.state)
     for task in todo:
         if carry_out(hull, task) is None:
             continue
         journal = hull.document.history[-1].journal
         assert isinstance(journal, Journal)
-        if not is_shape(change_of(hull.state, journal)):
-            printer = FingerprintCache(hull.state)
-        assert printer.take() == fingerprint(hull.state)
+        if not is_shape(change_of(hull.document.state, journal)):
+            printer = FingerprintCache(hull.document.state)
+        assert printer.take() == fingerprint(hull.document.state)

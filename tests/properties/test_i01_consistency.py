@@ -113,7 +113,7 @@ def movable(crossing: Crossing) -> bool:
 def test_the_root_finder_sees_what_is_tampered_with() -> None:
     """A shared value that is off by 2e-9 m, and a crossing taken out of the table."""
     hull = fresh(2)
-    rows = hull.state.rows
+    rows = hull.document.state.rows
     row = next(c.row for c in hull.crossings.values() if movable(c) and not at_boundary(c))
     rows.xyz.store[row, int(np.flatnonzero(_free(hull, row))[0])] += 2e-9
     assert any(hull.state.rows.key[row] in text for text in trouble(hull))

@@ -16,6 +16,8 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from tests.properties.test_program_edits import Count, by_program
+from tests.properties.test_published_states import content
 
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 ROOT = str(Path(ah.__file__).parent)
@@ -45,9 +47,15 @@ def _name(hull: ah.Hull) -> None:
     hull.checkpoint("as drawn")
 
 
+def _move_by_program(hull: ah.Hull) -> None:
+    with by_program(Count(), always=True):
+        _move(hull)
+
+
 ACTS: dict[str, tuple[Callable[[ah.Hull], None], int]] = {
-    "a moved point": (_move, 1), "an inserted point": (_insert, 1), "undo": (_undo, 1),
-    "redo": (_redo, 2), "a checkpoint": (_name, 1),
+    "a moved point": (_move, 1), "a point moved by the program": (_move_by_program, 1),
+    "an inserted point": (_insert, 1), "undo": (_undo, 1), "redo": (_redo, 2),
+    "a checkpoint": (_name, 1),
 }  # fmt: skip
 """Each with what is done before: 1 an edit, 2 an edit that is taken back."""
 
@@ -119,6 +127,7 @@ def test_an_interrupt_anywhere_leaves_one_truth(name: str, tmp_path: Path) -> No
         assert sorted(again.labels) == sorted(hull.labels), told
         again.close()
         assert hull.verify() == (), told
+        assert content(hull.state) == content(hull.document.state), told
         try:
             with hull.edit("next") as edit:
                 edit.move("WL 3.75 x ST 5", y=3.17)

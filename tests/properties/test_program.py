@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.edit.drag import Drag, Live
-from assoc_hull.edit.published_program import PublishedProgram, published_program
+from assoc_hull.edit.published_program import published_program
 from assoc_hull.geometry.splines.backend import backend, set_backend
-from assoc_hull.model.program import Values
+from assoc_hull.model.program import PublishedProgram, Values
 from assoc_hull.model.run_program import NumpyProgram, RunProgram, run_program, write_points
 from assoc_hull.model.tables import HullState
 from tests.conftest import Shipped

@@ -136,7 +136,7 @@ def _readings(hull: ah.Hull, point: str) -> dict[str, Callable[[], object]]:
     return {
         "fingerprint": lambda: hull.fingerprint,
         "point": lambda: hull.points[point].y,
-        "curve": lambda: hull.points[point].parent_curve.spline.xyz.tobytes(),
+        "curve": lambda: hull.points[point].container_curve.spline.xyz.tobytes(),
         "snapshot": of_snapshot,
         "hydrostatics": lambda: hull.hydrostatics(draught=hull.particulars.draught).volume,
         "check": hull.check,

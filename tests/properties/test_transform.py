@@ -69,6 +69,7 @@ def test_a_transformed_net_is_sound(
     except AssocHullError:
         assert hull.fingerprint == before
         return
+    table = hull.state.rows
     assert table.alive[placed].all()
     assert (table.sort[placed] == Sort.PLACED).all()
     assert sorted(hull.lines) == names

@@ -88,7 +88,9 @@ HULL: dict[str, Given] = {
         "lines": [], "particulars": ah.Particulars("a", 1.0, 1.0, 1.0, 1.0),
         "associations": [], "tolerances": None,
     },
-    "edit": {"name": "a", "policy": "all_or_nothing", "gaps": "refuse"},
+    "edit": {
+        "name": "a", "policy": "all_or_nothing", "gaps": "refuse", "author": "anna", "wait": 1.0
+    },
     "preview": {
         "edits": [], "policy": "all_or_nothing", "gaps": "refuse", "name": "a", "why": [POINT],
         "shapes": False, "measure": False,
@@ -100,7 +102,8 @@ HULL: dict[str, Given] = {
     "shapes": {},
     "since": {"number": 0},
     "apply": {"name": "a", "edits": []},
-    "undo": {"n": 0},
+    "undo": {"n": 0, "author": None},
+    "snapshot": {},
     "redo": {"n": 0},
     "find": {"address": POINT},
     "why": {"thing": POINT},

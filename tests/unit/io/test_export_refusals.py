@@ -273,7 +273,7 @@ def test_a_curve_that_failed_is_refused(tmp_path: Path) -> None:
     """A hull with a failed curve is not exported; the line is named."""
     hull = examples.wigley(stations=5, waterlines=4)
     number = hull.lines["ST 1"].curves[0].number
-    Journal().put(hull.state.curves.state, [number], [State.FAILED])
+    Journal().put(hull.document.state.curves.state, [number], [State.FAILED])
     for name in ("a.csv", "a.bri"):
         with pytest.raises(BadInputError, match="ST 1"):
             hull.export(tmp_path / name)

@@ -1,0 +1,172 @@
+"""Edits whose numbers come from the program: they leave what the full way leaves, to the bit.
+
+The same edits are made on two equal hulls. One always takes the program where it answers for the
+edit; the other always goes the full way. Tables, steps, causes and reports must not differ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from unittest import mock
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import assoc_hull as ah
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.pending_changes import Pending
+from assoc_hull.edit.program_network import ProgramRuns
+from assoc_hull.edit.published_program import LiveNumbers, published_program
+from assoc_hull.edit.step import Step
+from assoc_hull.geometry.splines.backend import backend, set_backend
+from assoc_hull.model.program import Values
+from tests.conftest import Shipped
+from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
+
+COLUMNS = ("xyz", "parameter", "spot", "gap", "base", "anchor_from", "alive", "role", "driver")
+
+
+@pytest.fixture(params=["numpy", "numba"])
+def backend_in_use(request: pytest.FixtureRequest) -> Iterator[str]:
+    """The tests that ask for it hold for both kinds of arithmetic."""
+    if request.param == "numba":
+        pytest.importorskip("numba")
+    before = backend()
+    set_backend(request.param)
+    yield request.param
+    set_backend(before)
+
+
+@attrs.define
+class Count:
+    """How many edits a program has answered for, and for how many it was asked."""
+
+    kept: int = 0
+    asked: int = 0
+
+
+@contextmanager
+def by_program(count: Count, *, always: bool) -> Iterator[None]:
+    """Let every edit that sets places take the program, or none."""
+
+    def of(document: Document, pending: Pending) -> ProgramRuns | None:
+        if not (always and pending.places_only):
+            return None
+        found = published_program(document)
+        return None if found is None else ProgramRuns(document.state, LiveNumbers.of(found))
+
+    run = ProgramRuns.run
+
+    def counted(self: ProgramRuns, *given: object) -> bool:
+        kept = run(self, *given)  # type: ignore[arg-type]
+        count.asked += 1
+        count.kept += kept
+        return kept
+
+    with mock.patch.object(ProgramRuns, "of", of), mock.patch.object(ProgramRuns, "run", counted):
+        yield
+
+
+def content(hull: ah.Hull) -> dict[str, object]:
+    """All numbers of the tables; splines and meetings by their bits."""
+    state = hull.state
+    found: dict[str, object] = {name: getattr(state.rows, name).data.tobytes() for name in COLUMNS}
+    for curve in state.live("curves").tolist():
+        spline, met = state.curves.spline[curve], state.curves.meets[curve]
+        for name in ("knot", "xyz", "leave", "arrive"):
+            found[f"{curve} {name}"] = None if spline is None else getattr(spline, name).tobytes()
+        for name in ("line", "sign", "row", "parameter", "xyz"):
+            found[f"{curve} met {name}"] = getattr(met, name).tobytes()
+    found["revisions"] = dict(state.revision_row), dict(state.revision_curve)
+    found["history"] = [told(step) for step in hull.document.history]
+    return found
+
+
+def told(step: Step) -> tuple[object, ...]:
+    """What a step says of itself; not when it was made, and how long that took."""
+    report = attrs.evolve(step.report, seconds={}, time="", fairness=None)
+    fairness = step.report.fairness
+    lines = None if fairness is None else str(fairness)
+    numbers = (step.changed, step.moved, step.seeds, step.cause.reader, step.cause.source)
+    return step.name, step.structural, report, lines, [each.tobytes() for each in numbers]
+
+
+def assert_same(one: ah.Hull, other: ah.Hull) -> None:
+    """Fail with the first part that differs."""
+    mine, theirs = content(one), content(other)
+    assert mine.keys() == theirs.keys()
+    for name, value in mine.items():
+        assert value == theirs[name], name
+    assert one.fingerprint == other.fingerprint
+
+
+def assert_numbers_are_those_of_the_tables(hull: ah.Hull) -> None:
+    """What was kept as the published numbers is what would be read of the tables."""
+    kept = published_program(hull.document)
+    if kept is None:
+        return
+    anew = published_program(ah.Hull(hull.document.state.snapshot()).document)
+    assert anew is not None
+    at = anew.program.start[anew.program.meet_curve] + anew.values.segment
+    for name in (each.name for each in attrs.fields(Values)):
+        one, two = getattr(kept.values, name), getattr(anew.values, name)
+        if name == "segment":  # at a knot that before or behind it will do
+            assert (anew.values.knot[at[one != two]] == anew.values.at[one != two]).all()
+        else:
+            assert one.tobytes() == two.tobytes(), name
+
+
+@settings(max_examples=30, deadline=None)
+@given(number=st.integers(0, POOL - 1), edits=tasks(SHAPES + STRUCTURE), back=st.integers(0, 2))
+def test_an_edit_by_the_program_is_that_of_the_full_way(
+    number: int, edits: list[Task], back: int
+) -> None:
+    """Edits of every kind on random nets, refusals among them; then undo, redo and one more."""
+    one, other, count = fresh(number), fresh(number), Count()
+    for hull, always in ((one, True), (other, False)):
+        with by_program(count, always=always):
+            for each in edits:
+                carry_out(hull, each)
+            for _ in range(min(back, len(hull.history))):
+                hull.undo()
+            for _ in range(min(back, len(hull.document.undone))):
+                hull.redo()
+            carry_out(hull, edits[0])
+    assert_same(one, other)
+    assert one.verify() == ()
+    assert_numbers_are_those_of_the_tables(one)
+
+
+SHIPS = ("series60_60", "series60_70", "bulk_carrier")
+
+
+@pytest.mark.parametrize("name", SHIPS)
+def test_edits_of_ships_by_the_program(name: str, shipped: Shipped, backend_in_use: str) -> None:
+    """Moves and pulls of random points, large ones with sub-steps among them."""
+    hulls, count = (shipped(name), shipped(name)), Count()
+    points = [key for key, point in hulls[0].points.items() if point.free == ("y",)]
+    for hull, always in zip(hulls, (True, False), strict=True):
+        rng = np.random.default_rng(28)
+        with by_program(count, always=always):
+            made = 0
+            for number in range(60):
+                point = points[int(rng.integers(len(points)))]
+                size = float(rng.normal(0.0, 0.01 if number % 4 else 0.3))
+                try:
+                    with hull.edit(f"edit {number}", author="x") as edit:
+                        if number % 2:
+                            edit.pull(point, size, (20.0, 8.0))
+                        else:
+                            edit.move(point, y=hull.points[point].y + size)
+                except ah.errors.AssocHullError:
+                    continue
+                made += 1
+                if made == 12:
+                    break
+    assert_same(*hulls)
+    assert count.kept > 5
+    assert_numbers_are_those_of_the_tables(hulls[0])
