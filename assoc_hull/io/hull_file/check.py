@@ -12,7 +12,7 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -123,7 +123,7 @@ def _texts(state: HullState) -> Iterator[str]:
         yield "a family does not exist"
 
 
-def _names(values: Collection[object]) -> bool:
+def _names(values: Iterable[object]) -> bool:
     return all(isinstance(each, str) for each in values)
 
 
@@ -183,6 +183,9 @@ def require_whole_history(
 ) -> None:
     """Refuse a history whose steps are not numbered on, or that is named where it is not.
 
+    A step that lies on no way to the tip or to a name is let be: it does no harm, and an interrupt
+    in `Document.go` of a hull in memory leaves one.
+
     Raises
     ------
     ValueError
@@ -195,6 +198,8 @@ def require_whole_history(
     most = known + len(new)
     if not all(0 <= number <= most for number in (*stand, *(each.step for each in labels))):
         raise ValueError(f"there is a name for a step beyond the {most} that there are")
+    if not _names([*(each.name for each in new), *(each.name for each in labels)]):
+        raise ValueError("the name of a step or of a state is no text")
     steps = {**document.steps, **{step.number: step for step in new}}
     way = stand[1]
     while way > stand[0]:

@@ -16,8 +16,10 @@ False
 from __future__ import annotations
 
 import contextlib
+import functools
 import os
 import sqlite3
+import time
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from urllib.parse import quote
@@ -26,23 +28,34 @@ import numpy as np
 
 from assoc_hull.arguments import regular_file
 from assoc_hull.errors import BadInputError, DamagedFileError, FileBusyError, HullFileError
-from assoc_hull.io.open_databases import MAGIC, HullFileConnection, is_open_here, log_file
+from assoc_hull.io.hull_file.guard import GuardedConnection, Schema, schema_fault, schema_of
+from assoc_hull.io.open_databases import MAGIC, is_open_here, log_file
 
 __all__ = [
+    "AGAIN",
     "APPLICATION",
     "MIGRATIONS",
     "SCHEMA",
     "TABLES",
     "connect_database",
+    "connect_new",
     "create_tables",
     "damage_errors",
     "database_errors",
     "is_writable",
+    "known_schema",
     "migrate_tables",
+    "require_schema",
 ]
 
 # --------------------------------------------------------------------------------------
 # Tables and migrations.
+
+AGAIN = (
+    "take it from another copy; if it is a copy, make it again while nobody edits, or by "
+    "hull.save(other)"
+)
+"""What to do about a file that is damaged: a copy that an edit tore looks like that, too."""
 
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
@@ -179,6 +192,40 @@ MIGRATIONS: Mapping[int, Migration] = {
 """By version: what brings a file of it to the next one."""
 
 
+_CAME = {"gone": 3, "features": 5, "definitions": 6, "generated": 6}
+_GREW = {
+    "labels": (2, ",author TEXT NOT NULL DEFAULT '',time TEXT NOT NULL DEFAULT ''"),
+    "hull": (4, ",deck TEXT NOT NULL DEFAULT 'open'"),
+}
+"""Versions in which tables came, and in which one got columns, without white space."""
+
+
+@functools.cache
+def known_schema(version: int) -> Schema:
+    """Give the schema of a version, made anew or brought there from an older one."""
+    found = {
+        name: each for name, each in schema_of(TABLES).items() if _CAME.get(name, 1) <= version
+    }
+    for name, (since, columns) in _GREW.items():
+        if version < since:
+            kind, table, text = found[name]
+            found[name] = kind, table, text.replace(columns, "")
+    return found
+
+
+def require_schema(database: sqlite3.Connection, path: Path, version: int = SCHEMA) -> None:
+    """Refuse a file whose schema is not exactly that of a version.
+
+    Raises
+    ------
+    DamagedFileError
+        It is not: what else is in there might run with any query.
+    """
+    fault = schema_fault(database, known_schema(version))
+    if fault:
+        raise DamagedFileError(f"it is damaged or was tampered with ({fault})", f"at {path}", AGAIN)
+
+
 def create_tables(database: sqlite3.Connection) -> None:
     """Make the tables in an empty database."""
     database.executescript(TABLES)
@@ -186,15 +233,23 @@ def create_tables(database: sqlite3.Connection) -> None:
     database.execute(f"PRAGMA user_version = {SCHEMA}")
 
 
-def migrate_tables(database: sqlite3.Connection) -> None:
-    """Bring a file to this version, all of it or nothing."""
+def migrate_tables(database: sqlite3.Connection, path: Path) -> None:
+    """Bring a file to this version, all of it or nothing.
+
+    Raises
+    ------
+    DamagedFileError
+        Its schema is not that of its version.
+    """
     database.execute("BEGIN IMMEDIATE")
     try:
         # Another process may have brought it there while this one waited.
         version = database.execute("PRAGMA user_version").fetchone()[0]
+        require_schema(database, path, version)
         for each in range(version, SCHEMA):
             MIGRATIONS[each](database)
         database.execute(f"PRAGMA user_version = {SCHEMA}")
+        require_schema(database, path)
         database.execute("COMMIT")
     except BaseException:
         database.execute("ROLLBACK")
@@ -203,8 +258,6 @@ def migrate_tables(database: sqlite3.Connection) -> None:
 
 # --------------------------------------------------------------------------------------
 # Connecting, and saying in one line why it cannot be done.
-
-_COPY = "take it from a copy, and look after the disk"
 
 
 @contextlib.contextmanager
@@ -231,7 +284,7 @@ def database_errors(path: Path, waited: float = 0.0) -> Iterator[None]:
         raise BadInputError(what, f"for {path}", "choose another name") from error
     except UnicodeDecodeError as error:  # the database quotes what it found
         what = "it is damaged (there are bytes that are no text)"
-        raise DamagedFileError(what, f"at {path}", _COPY) from error
+        raise DamagedFileError(what, f"at {path}", AGAIN) from error
 
 
 @contextlib.contextmanager
@@ -250,9 +303,14 @@ def damage_errors(path: Path, fault: str) -> Iterator[None]:
             yield
     except DamagedFileError:
         raise
-    except (ValueError, TypeError, LookupError, ArithmeticError, AttributeError) as error:
+    except MemoryError as error:
+        what = f"{fault} (it asks for more memory than there is)"
+        raise DamagedFileError(what, f"in {path}", AGAIN) from error
+    except (
+        ValueError, TypeError, LookupError, ArithmeticError, AttributeError, RecursionError,
+    ) as error:  # fmt: skip
         what = " ".join(f"{fault} ({error})".split())
-        raise DamagedFileError(what, f"in {path}", "take it from a copy") from error
+        raise DamagedFileError(what, f"in {path}", AGAIN) from error
 
 
 def _explained(error: sqlite3.Error, path: Path, waited: float) -> Exception:
@@ -272,9 +330,12 @@ def _explained(error: sqlite3.Error, path: Path, waited: float) -> Exception:
         what, remedy = f"input or output failed ({error})", "the file is as it was; check the disk"
     elif isinstance(error, sqlite3.ProgrammingError | sqlite3.InterfaceError):
         what, remedy = f"it cannot be used ({error})", "open it again"
+    elif name.startswith("SQLITE_INTERRUPT"):
+        what = "it is damaged (looking through it takes longer than its size allows)"
+        return DamagedFileError(what, f"at {path}", AGAIN)
     else:
         what = " ".join(f"it is damaged ({error})".split())
-        return DamagedFileError(what, f"at {path}", _COPY)
+        return DamagedFileError(what, f"at {path}", AGAIN)
     return HullFileError(str(path), what, remedy)
 
 
@@ -288,7 +349,7 @@ def _may(path: Path, mode: int) -> bool:
     return os.access(path, mode, effective_ids=os.access in os.supports_effective_ids)
 
 
-def connect_database(path: Path, wait: float) -> HullFileConnection:
+def connect_database(path: Path, wait: float) -> GuardedConnection:
     """Open the database in a hull file, migrated to this version of the schema.
 
     `wait` (s) is how long to wait while another process writes.
@@ -302,18 +363,31 @@ def connect_database(path: Path, wait: float) -> HullFileConnection:
     """
     _require_readable(path)
     with database_errors(path, wait):
-        database = sqlite3.connect(
-            _address(path), uri=True, timeout=wait, isolation_level=None, check_same_thread=False,
-            factory=HullFileConnection,
-        )  # fmt: skip
+        database = _connect(_address(path), wait)
     try:
         database.know(path)
         with database_errors(path, wait):
+            database.guard(path)
             _set_up(database, path)
     except BaseException:
         database.close()
         raise
     return database
+
+
+def connect_new(name: str) -> GuardedConnection:
+    """Open an empty file, in which a database is to be made."""
+    database = _connect(f"file:{quote(os.path.abspath(name))}?mode=rw", 0.0)
+    database.guard(None)
+    database.execute("PRAGMA synchronous = FULL")
+    return database
+
+
+def _connect(address: str, wait: float) -> GuardedConnection:
+    return sqlite3.connect(
+        address, uri=True, timeout=wait, isolation_level=None, check_same_thread=False,
+        factory=GuardedConnection,
+    )  # fmt: skip
 
 
 def _address(path: Path) -> str:
@@ -338,12 +412,13 @@ def _set_up(database: sqlite3.Connection, path: Path) -> None:
             f"it has version {version} of the hull file, and this program reads 1 to {SCHEMA}",
             f"at {path}", "open it with the version of assoc-hull that wrote it",
         )  # fmt: skip
+    require_schema(database, path, version)
     database.execute("PRAGMA synchronous = FULL")
     if version < SCHEMA:
         if not is_writable(path):
             what = f"it has version {version} of the hull file, and may only be read"
             raise BadInputError(what, f"at {path}", "copy it to where it can be brought up to date")
-        migrate_tables(database)
+        migrate_tables(database, path)
 
 
 def _require_readable(path: Path) -> None:
@@ -352,18 +427,41 @@ def _require_readable(path: Path) -> None:
         return
     if path.is_dir():
         raise BadInputError("this is a folder", f"at {path}", "give the name of a hull file")
-    try:
-        with regular_file(path).open("rb") as file:
-            head = file.read(100)
-        size = path.stat().st_size
-    except OSError as error:
-        what = f"the file cannot be read ({error.strerror or error})"
-        raise BadInputError(what, f"at {path}", "check name and permissions") from error
+    head, size = _head(path)
     if len(head) < 100 or head[: len(MAGIC)] != MAGIC:
         what = f"this is no hull file ({'it is empty' if not head else 'it begins otherwise'})"
         raise BadInputError(what, f"at {path}", "give a hull file, made by save or assoc-hull")
+    # SQLite would run a journal over the file before it looks at anything; a log it checks.
+    if head[18:20] == b"\x02\x02" and path.with_name(f"{path.name}-journal").exists():
+        what = f"a journal of another program lies beside it, {path.name}-journal"
+        raise DamagedFileError(what, f"at {path}", "move the journal away, then open it again")
+    for again in (True, True, True, False):
+        fault = _length_fault(head, size)
+        if not fault or log_file(path).exists():
+            return
+        if not again:
+            raise DamagedFileError(fault, f"at {path}", AGAIN)
+        time.sleep(0.02)  # whoever closed it just now may have changed it between the two looks
+        head, size = _head(path)
+
+
+def _head(path: Path) -> tuple[bytes, int]:
+    """Give the first 100 bytes of a file, and how many there are."""
+    try:
+        with regular_file(path).open("rb") as file:
+            return file.read(100), os.fstat(file.fileno()).st_size
+    except OSError as error:
+        what = f"the file cannot be read ({error.strerror or error})"
+        raise BadInputError(what, f"at {path}", "check name and permissions") from error
+
+
+def _length_fault(head: bytes, size: int) -> str:
+    """Say whether a file without a log is longer or shorter than its first page tells."""
     page = int.from_bytes(head[16:18], "big")
     whole = (65536 if page == 1 else page) * int.from_bytes(head[28:32], "big")
-    if size < whole and not log_file(path).exists():
-        what = f"it is cut off: it has {size} of {whole} bytes"
-        raise DamagedFileError(what, f"at {path}", _COPY)
+    if size < whole:
+        return f"it is cut off: it has {size} of {whole} bytes"
+    # The number of pages counts where it was written with the last change of the first page.
+    if size > whole and head[24:28] == head[92:96]:
+        return f"it is torn: it has {size} bytes, and says that it has {whole}"
+    return ""

@@ -24,11 +24,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.io.hull_file.guard import MOST_TEXT, parse_json
+
 __all__ = ["pack_arrays", "unpack_arrays"]
 
 _TYPES = ("|u1", "|i1", "<i4", "<i8", "<f8")
 _LEVEL = 6
-_LARGEST = 1 << 31
+_LARGEST = 1 << 28
 """No piece unpacks to more bytes; what claims to was not written here."""
 
 
@@ -56,8 +58,8 @@ def _little(array: NDArray[Any]) -> NDArray[Any]:
     return found
 
 
-def unpack_arrays(data: bytes) -> tuple[dict[str, NDArray[Any]], Any]:
-    """Take arrays and facts out again; the arrays are frozen.
+def unpack_arrays(data: bytes, most: int = _LARGEST) -> tuple[dict[str, NDArray[Any]], Any]:
+    """Take arrays and facts out again, of at most so many bytes; the arrays are frozen.
 
     Raises
     ------
@@ -66,24 +68,42 @@ def unpack_arrays(data: bytes) -> tuple[dict[str, NDArray[Any]], Any]:
     """
     try:
         stream = zlib.decompressobj()
-        whole = stream.decompress(data, _LARGEST)
+        first = stream.decompress(data, max(min(most, MOST_TEXT), 1))  # 0 would be no bound
+        head, found, body = first.partition(b"\n")
+        if not found:
+            raise ValueError("it does not say what it holds")
+        said = parse_json(head)
+        size = _size(said["arrays"])
+        if size > most:
+            raise ValueError(f"it names {size} bytes, and at most {most} are")
+        if size > len(body):  # no more than it names, and the byte that says that there is none
+            body += stream.decompress(stream.unconsumed_tail, size - len(body) + 1)
+        if not stream.eof:
+            body += stream.decompress(stream.unconsumed_tail, 1)
         if not stream.eof or stream.unused_data:
             raise ValueError("it ends too early, or goes on behind its end")
-        head, body = whole.split(b"\n", 1)
-        said = json.loads(head)
         return _split(body, said["arrays"]), said["facts"]
-    except (zlib.error, KeyError, TypeError, RecursionError) as error:
+    except (zlib.error, KeyError, TypeError, OverflowError) as error:
         raise ValueError(f"it is no packed piece ({error})") from error
+
+
+def _size(listed: list[list[Any]]) -> int:
+    """Give how many bytes the named arrays have together."""
+    size = 0
+    for name, kind, shape in listed:
+        if kind not in _TYPES:
+            raise ValueError(f"{name} is of the type {kind!r}")
+        if not all(type(each) is int and each >= 0 for each in shape):
+            raise ValueError(f"{name} has no shape")
+        size += int(kind[2:]) * math.prod(shape)
+    return size
 
 
 def _split(body: bytes, listed: list[list[Any]]) -> dict[str, NDArray[Any]]:
     found: dict[str, NDArray[Any]] = {}
     first = 0
     for name, kind, shape in listed:
-        if kind not in _TYPES:
-            raise ValueError(f"{name} is of the type {kind!r}")
-        count = math.prod(shape)
-        array = np.frombuffer(body, kind, count, first).reshape(shape)
+        array = np.frombuffer(body, kind, math.prod(shape), first).reshape(shape)
         first += array.nbytes
         found[name] = array
     if first != len(body):

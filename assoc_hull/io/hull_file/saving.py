@@ -50,14 +50,16 @@ from assoc_hull.arguments import file_path
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain.compare_states import walk_states
 from assoc_hull.edit.step import Rerun
-from assoc_hull.errors import BadInputError, HullFileError
+from assoc_hull.errors import AssocHullError, BadInputError, HullFileError
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file.check import require_sound_tables
 from assoc_hull.io.hull_file.database import (
     connect_database,
+    connect_new,
     create_tables,
     damage_errors,
     database_errors,
+    require_schema,
 )
 from assoc_hull.io.hull_file.steps import write_labels, write_step
 from assoc_hull.io.hull_file.storage import HullFile
@@ -114,6 +116,7 @@ def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> D
     try:
         with database_errors(path, wait), damage_errors(path, "it is damaged"):
             database.execute("BEGIN")
+            require_schema(database, path)
             state = read_state(database)
             file = HullFile(path, database, state, wait)
             document = Document(state, keeper=file, author=user_name())
@@ -122,7 +125,9 @@ def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> D
             file.require_print()
             if not damaged:
                 require_sound_tables(state)
+                file.require_newest()
             database.execute("ROLLBACK")
+            file.fold_left()
     except BaseException:
         database.close()
         raise
@@ -175,10 +180,21 @@ def _require_free(target: Path, *, replace: bool) -> None:
         remedy = "close it first, or give another name"
         raise BadInputError("this hull file is open in this process", f"at {target}", remedy)
     log = log_file(target)
+    if replace and os.path.isfile(target) and os.path.lexists(log):
+        _tidy(target)
     if os.path.lexists(log):
         what = "the log of another hull file lies beside it, with edits that may be nowhere else"
         remedy = "close the program that uses it, or move it to where its hull file is"
         raise BadInputError(what, f"at {log}", remedy)
+
+
+def _tidy(target: Path) -> None:
+    """Carry the log of a killed process into the file that is to be replaced, by opening it.
+
+    If that cannot be done, or another process has the file open, the log stays.
+    """
+    with contextlib.suppress(AssocHullError):
+        connect_database(target, 0.0).close()
 
 
 def _write_whole(document: Document, target: Path) -> dict[int, TableChange]:
@@ -209,9 +225,8 @@ def _write_whole(document: Document, target: Path) -> dict[int, TableChange]:
 
 def _fill(document: Document, name: str) -> dict[int, TableChange]:
     """Fill an empty file: with a copy of the file that keeps the hull, or from memory."""
-    database = sqlite3.connect(name, isolation_level=None)
+    database = connect_new(name)
     try:
-        database.execute("PRAGMA synchronous = FULL")
         if isinstance(document.keeper, HullFile):
             document.keeper.copy_to(database)
             return {}

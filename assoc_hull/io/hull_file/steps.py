@@ -22,8 +22,10 @@ from assoc_hull.edit.document import Label
 from assoc_hull.edit.recording import Script
 from assoc_hull.edit.report import EditReport, Movement
 from assoc_hull.edit.step import Rerun, Step, StepBody
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.network import Readers
+from assoc_hull.io.hull_file.guard import MOST_BYTES, MOST_TEXT, parse_json, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
 from assoc_hull.model.change import CrossingPositions, TableChange
 from assoc_hull.model.features import Feature
@@ -32,6 +34,7 @@ from assoc_hull.model.tables import Association, Ends, HullState, Particulars
 
 __all__ = [
     "body_of",
+    "newest_fault",
     "pack_change",
     "read_labels",
     "report_from",
@@ -162,7 +165,7 @@ def unpack_change(data: bytes) -> TableChange:
         for name, (rows, old, new) in facts["objects"].items()
     }
     return TableChange(
-        {name: (int(old), int(new)) for name, (old, new) in facts["sizes"].items()},
+        _sizes(facts),
         {name: _bits(arrays, name) for name in facts["bits"]},
         objects,
         {(a, b): (int(old), int(new)) for a, b, old, new in facts["births"]},
@@ -172,6 +175,18 @@ def unpack_change(data: bytes) -> TableChange:
         _long(arrays["lofted"]),
         (_kept(arrays, facts, 0), _kept(arrays, facts, 1)),
     )
+
+
+def _sizes(facts: dict[str, Any]) -> dict[str, tuple[int, int]]:
+    """Give how tables grew: by rows that are all named, for each has a key or a name."""
+    found = {name: (int(old), int(new)) for name, (old, new) in facts["sizes"].items()}
+    for name, (old, new) in found.items():
+        named = sum(
+            len(each[0]) for column, each in facts["objects"].items() if column.startswith(name)
+        )
+        if not 0 <= old <= new <= old + named:
+            raise ValueError(f"a table grows from {old} to {new} rows, and {named} are named")
+    return found
 
 
 def _bits(arrays: Arrays, name: str) -> tuple[IntArray, NDArray[np.uint8]]:
@@ -272,6 +287,13 @@ def write_step(database: sqlite3.Connection, step: Step, change: TableChange) ->
         step.number, step.parent, step.name, report.author, report.time, int(step.structural),
         step.fingerprint, script_text(step.script), report_text(report), trace, pack_change(change),
     )  # fmt: skip
+    for what, each in zip(("script", "report", "trace", "change"), row[7:], strict=True):
+        most = MOST_TEXT if isinstance(each, str) else MOST_BYTES
+        if len(each) > most:
+            raise BadInputError(
+                f"its {what} has {len(each)} bytes, and a hull file takes {most}",
+                f"in the edit {step.name!r}", "divide it into several edits",
+            )  # fmt: skip
     database.execute(
         "INSERT INTO steps VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         (*row[:7], step_digest(row), *row[7:]),
@@ -300,7 +322,7 @@ def script_from(text: str) -> Script:
     ValueError, KeyError, TypeError
         It is no script.
     """
-    said = json.loads(text)
+    said = parse_json(text)
     return Script(tuple(dict(each) for each in said["edits"]), said["policy"], said["gaps"])
 
 
@@ -324,7 +346,7 @@ def report_from(text: str) -> EditReport:
     ValueError, KeyError, TypeError
         It is no report.
     """
-    said = json.loads(text)
+    said = parse_json(text)
     counted = tuple((key, int(count)) for key, count in said.pop("inflections"))
     largest, normal = (_movement(said.pop(name, None)) for name in ("largest", "largest_normal"))
     changes = tuple(tuple(each) for each in said.pop("definitions", ()))
@@ -343,10 +365,11 @@ def steps_of(
     tell: Callable[[int], EditReport],
 ) -> list[Step]:
     """Give the steps beyond the number `after`; `load` and `tell` fetch bodies and reports."""
-    rows = database.execute(
-        "SELECT number, parent, name, structural, script, fingerprint FROM steps WHERE number > ? "
-        "ORDER BY number", (after,),
-    )  # fmt: skip
+    rows = read_rows(
+        database,
+        "SELECT number, parent, name, structural, script, fingerprint FROM steps "
+        f"WHERE number > {after:d} ORDER BY number",
+    )
     return [
         Step(
             name, bool(structural), number, parent, script_from(script), fingerprint,
@@ -377,6 +400,22 @@ def body_of(row: tuple[Any, ...], state: HullState) -> StepBody:
     )  # fmt: skip
 
 
+_NEWEST = 1 << 22
+"""So many bytes of the newest steps are looked at when a file is opened."""
+
+
+def newest_fault(database: sqlite3.Connection) -> str:
+    """Say which of the newest steps is not as it was written; empty if all are."""
+    left = _NEWEST
+    for row in database.execute("SELECT * FROM steps ORDER BY number DESC"):
+        if step_digest((*row[:7], *row[8:])) != row[7]:
+            return f"step {row[0]} is not as it was written"
+        left -= sum(len(each) for each in row if isinstance(each, bytes | str))
+        if left < 0:
+            break
+    return ""
+
+
 def write_labels(database: sqlite3.Connection, labels: Sequence[Label]) -> None:
     """Write names of states."""
     rows = [(each.name, each.step, int(each.branch), each.author, each.time) for each in labels]
@@ -385,8 +424,8 @@ def write_labels(database: sqlite3.Connection, labels: Sequence[Label]) -> None:
 
 def read_labels(database: sqlite3.Connection) -> list[Label]:
     """Read all names of states, in the order of the steps."""
-    rows = database.execute(
-        "SELECT name, step, branch, author, time FROM labels ORDER BY step, name"
+    rows = read_rows(
+        database, "SELECT name, step, branch, author, time FROM labels ORDER BY step, name"
     )
     return [
         Label(name, step, bool(branch), author, time) for name, step, branch, author, time in rows

@@ -2,7 +2,8 @@
 
 `HullFile` is what a `Document` keeps its steps in. A step is written, with every row of the
 tables that it changed, in one transaction of the database, and brought to the disk before the
-edit counts as committed; a process that is killed leaves the file as the last commit did.
+edit counts as committed; a process that is killed leaves the file as the last commit did. Then the
+log is folded into the file (`HullFile.fold`), so that a plain copy of the file has it all.
 
 Examples
 --------
@@ -30,6 +31,7 @@ from __future__ import annotations
 import contextlib
 import operator
 import sqlite3
+import time
 import weakref
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
@@ -41,13 +43,20 @@ import numpy as np
 from assoc_hull.edit.document import Document, Label
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Rerun, Step, StepBody
-from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
+from assoc_hull.errors import DamagedFileError, FileBusyError, HullFileError, StaleHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file.check import require_sound_tables, require_whole_history
-from assoc_hull.io.hull_file.database import connect_database, damage_errors, database_errors
+from assoc_hull.io.hull_file.database import (
+    AGAIN,
+    connect_database,
+    damage_errors,
+    database_errors,
+    require_schema,
+)
 from assoc_hull.io.hull_file.steps import (
     body_of,
+    newest_fault,
     read_labels,
     report_from,
     steps_of,
@@ -62,14 +71,22 @@ from assoc_hull.io.hull_file.tables import (
     write_births,
     write_settings,
 )
-from assoc_hull.io.open_databases import FileIdentity, HullFileConnection
+from assoc_hull.io.open_databases import (
+    FileIdentity,
+    HullFileConnection,
+    log_file,
+    spared_log,
+)
 from assoc_hull.model.change import TableChange, change_of
 from assoc_hull.model.definition.fingerprint import FingerprintCache, fingerprint, is_shape
 from assoc_hull.model.tables import HullState
 
 __all__ = ["HullFile"]
 
-_COPY = "take it from a copy; what is in memory is as it was"
+_WRITE = "BEGIN IMMEDIATE"
+
+_CLOSING = 2.0
+"""So long (s) the next act waits for another process that is just closing the file."""
 
 
 class HullFile:
@@ -97,18 +114,24 @@ class HullFile:
         self._known_printer: FingerprintCache | None = None
         self._agreed = False
         self._open = True
-        weakref.finalize(self, database.close)  # the last one to close tidies the log away
+        self._unfolded = False
+        # The last one to close tidies the log away.
+        self._closing = weakref.finalize(self, database.close)
 
     def _one(self, sql: str, *values: object) -> Any:
         found = self.database.execute(sql, values).fetchone()
         if found is None:
-            raise DamagedFileError("a row is missing", f"in {self.path}", _COPY)
+            raise DamagedFileError("a row is missing", f"in {self.path}", AGAIN)
         return found
 
     def close(self) -> None:
         """Let go of the file; edits are refused from then on."""
         self._open = False
-        self.database.close()
+        if self.place.has_log:
+            self.database.close()
+        else:
+            with spared_log(self.path):
+                self.database.close()
 
     def begin(self) -> None:
         """Take the right to write.
@@ -121,10 +144,11 @@ class HullFile:
         """
         self._agreed = False
         try:
-            self._enter("BEGIN IMMEDIATE")
+            self._enter(_WRITE)
             with database_errors(self.path):
                 self.place.require_log()
                 self._refuse_stale()
+                self.place.note_log()
         except BaseException:
             self.end()
             raise
@@ -138,9 +162,48 @@ class HullFile:
         self._require_open()
         self.place.require_file()
         with database_errors(self.path, self.wait):
-            if self.database.in_transaction:  # one whose end was broken off
+            self._roll_back()  # one whose end was broken off
+            self._hold()
+            if not self.place.has_log and self.place.is_alone and not self._unfolded:
+                self._reopen()
+            if self._unfolded and how == _WRITE:
+                # A full disk: the log would take further edits, and a plain copy lack them.
+                self._unfolded = not self._folded()
+            self._begin(how)
+
+    def _begin(self, how: str) -> None:
+        self.database.execute(how)
+        require_schema(self.database, self.path)
+
+    def _roll_back(self) -> None:
+        try:
+            if self.database.in_transaction:
                 self.database.execute("ROLLBACK")
-            self.database.execute(how)
+        finally:  # once more, should an interrupt come just there
+            if self.database.in_transaction:
+                self.database.execute("ROLLBACK")
+
+    def _hold(self) -> None:
+        """Have the locks of SQLite, even if a copy that was made in this process gave them up."""
+        until = time.monotonic() + max(self.wait, _CLOSING)
+        while not self.place.hold():
+            if time.monotonic() > until:
+                raise FileBusyError(str(self.path), self.wait)
+            time.sleep(0.005)
+
+    def _reopen(self) -> None:
+        """Take up the log that another process made after it had cleared this one's away.
+
+        It could, as a copy that was made in this process had given the locks up; all that was
+        committed here is in the file, and whether somebody wrote since is looked at as ever.
+        """
+        with spared_log(self.path):
+            self.database.close()
+        self._closing.detach()
+        self.database = connect_database(self.path, self.wait)
+        self._closing = weakref.finalize(self, self.database.close)
+        self.place = FileIdentity(self.path)
+        self._hold()
 
     def _refuse_stale(self) -> None:
         if self._one("SELECT serial FROM hull")[0] != self.serial:
@@ -153,8 +216,36 @@ class HullFile:
         """Give the right to write back."""
         if not self._agreed:
             self._known_printer = None  # the tables are, or will be, what they were before
-        if self._open and self.database.in_transaction:
-            self.database.execute("ROLLBACK")
+        if self._open:
+            self._roll_back()
+            if self._unfolded:
+                self.fold()
+
+    def fold(self) -> None:
+        """Fold the log into the file, unless somebody reads what is older; it never fails.
+
+        What is committed is so already. What could not be folded now is before the next edit.
+        """
+        with contextlib.suppress(sqlite3.Error):
+            self._unfolded = not self._folded()
+
+    def fold_left(self) -> None:
+        """Fold in what a process that was killed or blocked left, in nobody's way."""
+        with contextlib.suppress(sqlite3.Error, OSError):
+            if log_file(self.path).stat().st_size:
+                self.database.execute("PRAGMA wal_checkpoint(PASSIVE)").fetchone()
+
+    def _folded(self) -> bool:
+        """Fold the log into the file; tell whether all of it is there now.
+
+        The log keeps its length, and the next commit begins it anew: cutting it off would cost the
+        disk two further changes of its length at each commit.
+        """
+        if not self.place.has_log or not self.place.hold():
+            return False
+        # Passive: whoever reads is not waited for.
+        busy, frames, folded = self.database.execute("PRAGMA wal_checkpoint(PASSIVE)").fetchone()
+        return bool(not busy and frames == folded)
 
     def commit(self, step: Step, branch: Label | None) -> None:
         """Write a step and what it changed, and bring it to the disk."""
@@ -162,12 +253,13 @@ class HullFile:
         assert isinstance(journal, Journal), "a step that was just made holds its journal"
         change = change_of(self.state, journal)
         with database_errors(self.path):
+            self.place.require_own()
             self._put(change, step.rows, step.curves)
             self._look_anew(change)
             step.fingerprint = self._sign(step.number, step.number)
             write_step(self.database, step, change)
             self._label(branch)
-            self.database.execute("COMMIT")
+            self._keep()
         self.keep(step, change)
 
     def keep(self, step: Step, change: TableChange) -> None:
@@ -188,6 +280,7 @@ class HullFile:
             database_errors(self.path),
             damage_errors(self.path, "the history does not fit the hull"),
         ):
+            self.place.require_own()
             for step in steps:
                 journal = step.journal
                 assert isinstance(journal, Rerun), "a step that is kept holds its change"
@@ -199,14 +292,20 @@ class HullFile:
             require_sound_tables(self.state)
             require_counts(self.database, self.state)
             self._label(branch)
-            self.database.execute("COMMIT")
+            self._keep()
 
     def label(self, label: Label) -> None:
         """Write a name."""
         with database_errors(self.path):
+            self.place.require_own()
             self._label(label)
             self.database.execute("UPDATE hull SET serial = serial + 1")
-            self.database.execute("COMMIT")
+            self._keep()
+
+    def _keep(self) -> None:
+        """Commit to the disk; nothing that may fail stands behind it, `end` folds the log."""
+        self._unfolded = True
+        self.database.execute("COMMIT")
 
     def agree(self, steps: int) -> None:
         """Take note that what was kept last is in memory as well, where there are so many steps.
@@ -331,7 +430,7 @@ class HullFile:
         """Copy the whole file into another database."""
         self._require_open()
         with database_errors(self.path, self.wait):
-            self.database.execute("BEGIN")
+            self._begin("BEGIN")
             try:
                 self._refuse_stale()
                 self.database.backup(database)
@@ -361,11 +460,24 @@ class HullFile:
         for curve in self.state.live("curves").tolist():
             if splines[curve] is None:  # a curve without a shape has no fingerprint
                 what = f"the curve {keys[curve]!r} has no shape"
-                raise DamagedFileError(what, f"at {self.path}", "take it from a copy")
+                raise DamagedFileError(what, f"at {self.path}", AGAIN)
         found, said = fingerprint(self.state), str(self._one("SELECT fingerprint FROM hull")[0])
         if found != said:
             what = f"the content has the fingerprint {found[:12]}, the file says {said[:12]}"
-            raise DamagedFileError(what, f"at {self.path}", "take it from a copy")
+            raise DamagedFileError(what, f"at {self.path}", AGAIN)
+
+    def require_newest(self) -> None:
+        """Refuse a history whose newest steps are not as they were written, or lead elsewhere.
+
+        What a commit tears in a copy are the newest ones; older ones are looked at when they are
+        run or told.
+        """
+        head, said = self._one("SELECT head, fingerprint FROM hull")
+        if self.recorded(head) != said:
+            raise ValueError(f"the hull is not as step {head} left it")
+        fault = newest_fault(self.database)
+        if fault:
+            raise ValueError(fault)
 
     def damages(self) -> list[str]:
         """Look through the whole file for what is not as it was written; one line each."""

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
+from assoc_hull.io.hull_file.guard import parse_json, read_numbered, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
 from assoc_hull.model.change import (
     CrossingPositions,
@@ -101,7 +102,7 @@ def feature_of(row: tuple[Any, ...]) -> Feature:
     """
     _, _, key, kind, name, lines, points, centre, radius, normal, offset, direction, side, gap = row
     return Feature(
-        key, kind, name, json.loads(lines), np.frombuffer(points, "<i4").tolist(), _vector(centre),
+        key, kind, name, parse_json(lines), np.frombuffer(points, "<i4").tolist(), _vector(centre),
         _real(radius), _vector(normal), _real(offset), _vector(direction), side, _real(gap),
     )  # fmt: skip
 
@@ -167,7 +168,7 @@ def definition_of(row: Row) -> FormDefinition:
         The row holds none.
     """
     _, _, use, name, kind, rule, nodes, numbers = row
-    bare = FormDefinition(name, use, kind, {}, rule, json.loads(nodes))
+    bare = FormDefinition(name, use, kind, {}, rule, parse_json(nodes))
     values = np.frombuffer(numbers, "<f8").tolist()
     known = [None if np.isnan(value) else value for value in values]
     return bare.having(dict(zip(bare.names, known, strict=True)))
@@ -399,19 +400,19 @@ def read_state(database: sqlite3.Connection) -> HullState:
     said = database.execute(
         "SELECT name, length, breadth, depth, draught, deck, tolerances, failed FROM hull"
     ).fetchone()
-    state = HullState(Particulars(*said[:6]), Tolerances(**json.loads(said[6])))
-    links = database.execute("SELECT a, b, two_way FROM associations ORDER BY a, b")
+    state = HullState(Particulars(*said[:6]), Tolerances(**parse_json(said[6])))
+    links = read_rows(database, "SELECT a, b, two_way FROM associations ORDER BY a, b")
     state.settings.associations.data[0] = tuple(Association(a, b, bool(w)) for a, b, w in links)
-    births = database.execute("SELECT a, b, count FROM births ORDER BY a, b")
+    births = read_rows(database, "SELECT a, b, count FROM births ORDER BY a, b")
     state.settings.births.data[0] = {(a, b): int(count) for a, b, count in births}
-    state.settings.failed.data[0] = tuple(json.loads(said[7]))
-    _read_groups(state, _rows(database, "groups"))
-    _read_lines(state, _rows(database, "lines"))
-    _read_points(state, _rows(database, "points"))
-    _read_curves(state, _rows(database, "curves"))
-    read_features(state, _rows(database, "features"))
-    read_definitions(state, _rows(database, "definitions"))
-    read_generated(state, _rows(database, "generated"))
+    state.settings.failed.data[0] = tuple(parse_json(said[7]))
+    _read_groups(state, read_numbered(database, "groups"))
+    _read_lines(state, read_numbered(database, "lines"))
+    _read_points(state, read_numbered(database, "points"))
+    _read_curves(state, read_numbered(database, "curves"))
+    read_features(state, read_numbered(database, "features"))
+    read_definitions(state, read_numbered(database, "definitions"))
+    read_generated(state, read_numbered(database, "generated"))
     state.revision_row, state.revision_curve = read_revisions(database)
     return state
 
@@ -430,14 +431,6 @@ def read_revisions(database: sqlite3.Connection) -> tuple[dict[int, int], dict[i
         for name in ("points", "curves")
     )  # fmt: skip
     return points, curves
-
-
-def _rows(database: sqlite3.Connection, name: str) -> list[Row]:
-    """Give all rows of a table by number, which must leave no gap."""
-    found = database.execute(f"SELECT * FROM {name} ORDER BY number").fetchall()
-    if found and found[-1][0] != len(found) - 1:
-        raise ValueError(f"the table {name} lacks rows")
-    return found
 
 
 def _columns(rows: Sequence[Row], count: int) -> list[tuple[Any, ...]]:
@@ -470,7 +463,7 @@ def _read_lines(state: HullState, rows: Sequence[Row]) -> None:
     table.resize(len(rows))
     _, key, name, alive, group, planar, normal, offset, boundary, curves, note = _columns(rows, 11)
     table.key.data[:], table.name.data[:], table.note.data[:] = key, name, note
-    table.curves.data[:] = [tuple(json.loads(each)) for each in curves]
+    table.curves.data[:] = [tuple(parse_json(each)) for each in curves]
     for column, values in (
         (table.alive, alive), (table.group, group), (table.planar, planar),
         (table.boundary, boundary),
@@ -504,7 +497,7 @@ def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
     table.resize(len(rows))
     _, key, alive, line, states, _, ends, points, places, kept = _columns(rows, 10)
     table.key.data[:] = key
-    table.ends.data[:] = [_ends(json.loads(each)) for each in ends]
+    table.ends.data[:] = [_ends(parse_json(each)) for each in ends]
     for i, each in enumerate(points):
         record = np.frombuffer(each, _POINT)
         chosen, side = record["row"].astype(np.int64), record["side"].astype(np.int64)
@@ -513,7 +506,11 @@ def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
     for column, values in ((table.alive, alive), (table.line, line), (table.state, states)):
         _put_whole(column, values)
     put_crossing_positions(state, _places(places))
-    splines = {i: unpack_spline(each) for i, each in enumerate(kept) if each is not None}
+    splines, left = dict[int, SplineBatch](), _MOST_SPLINES
+    for i, each in enumerate(kept):
+        if each is not None:
+            splines[i] = unpack_spline(each, left)
+            left -= splines[i].xyz.nbytes
     shape_curves(state, np.arange(len(rows)), splines)
 
 
@@ -532,9 +529,13 @@ def _places(blobs: Sequence[bytes]) -> CrossingPositions:
     )  # fmt: skip
 
 
-def unpack_spline(data: bytes) -> SplineBatch:
-    """Take a spline out of bytes."""
-    arrays: dict[str, NDArray[Any]] = unpack_arrays(data)[0]
+_MOST_SPLINES = 1 << 25
+"""Bytes of the splines that a hull keeps of curves that failed: a million points."""
+
+
+def unpack_spline(data: bytes, most: int = _MOST_SPLINES) -> SplineBatch:
+    """Take a spline out of bytes, at most so many."""
+    arrays: dict[str, NDArray[Any]] = unpack_arrays(data, most)[0]
     knot = arrays["knot"]
     return SplineBatch(
         np.array([0, len(knot)], np.int64), knot, arrays["xyz"], arrays["leave"], arrays["arrive"]

@@ -217,9 +217,38 @@ def test_a_file_that_is_open_here_is_not_written_over(file: Path) -> None:
     assert names(ah.open(file)) == ["one", "two"]
 
 
-def test_nothing_is_written_to_a_log_that_has_gone(file: Path) -> None:
+def test_nothing_is_written_to_a_log_that_goes_during_an_edit(file: Path) -> None:
     """An edit that nobody would ever see is refused, and all others are in the file."""
     hull = ah.open(file)
+    before = hull.fingerprint
+
+    def meanwhile() -> None:
+        with hull.edit("two") as edit:
+            edit.move(POINT, y=hull.points[POINT].y + 0.01)
+            os.replace(log_file(file), log_file(file).with_name("away"))
+
+    with pytest.raises(HullFileError, match=r"its log ship\.hull-wal was removed"):
+        meanwhile()
+    assert hull.fingerprint == before
+    shift(hull, "three")
+    assert names(ah.open(file)) == ["one", "three"]
+
+
+def test_a_session_goes_on_with_another_log(file: Path) -> None:
+    """All that was committed is in the file; whether somebody wrote is asked as ever."""
+    hull = ah.open(file)
+    os.replace(log_file(file), log_file(file).with_name("away"))
+    shift(hull, "two")
+    os.replace(log_file(file), log_file(file).with_name("away"))
+    hull.undo()
+    os.replace(log_file(file), log_file(file).with_name("away"))
+    hull.refresh()
+    assert names(hull) == names(ah.open(file)) == ["one"]
+
+
+def test_a_log_that_is_gone_for_two_handles_is_told(file: Path) -> None:
+    """Neither can take up another one while the other has the file open, too."""
+    hull, other = ah.open(file), ah.open(file)
     os.replace(log_file(file), log_file(file).with_name("away"))
     before = hull.fingerprint
     acts: list[Callable[[], None]] = [lambda: shift(hull, "two"), hull.undo, hull.refresh]
@@ -227,7 +256,9 @@ def test_nothing_is_written_to_a_log_that_has_gone(file: Path) -> None:
         with pytest.raises(HullFileError, match=r"its log ship\.hull-wal was removed"):
             act()
     assert hull.fingerprint == before
-    assert names(ah.open(file)) == ["one"]
+    other.close()
+    shift(hull, "two")
+    assert names(ah.open(file)) == ["one", "two"]
 
 
 def test_nobody_is_told_that_edits_are_in_a_file_that_has_gone(file: Path) -> None:

@@ -68,7 +68,7 @@ def test_two_processes_bring_a_file_up_to_date_once(tmp_path: Path) -> None:
     shutil.copy(OLD / "version_1.hull", path)
     one, two = (sqlite3.connect(path, isolation_level=None) for _ in range(2))
     for database in (one, two):
-        migrate_tables(database)
+        migrate_tables(database, path)
         assert database.execute("PRAGMA user_version").fetchone() == (SCHEMA,)
         database.close()
     assert ah.open(path).verify() == ()
