@@ -34,7 +34,9 @@ def note_states(network: HullNetwork, result: UpdatePass, journal: Journal) -> N
     broken = {Node.number(node) for node in result.failed if Node.is_curve(node)}
     curves = result.evaluated[Node.is_curve(result.evaluated)]
     mended = set(Node.number(curves).tolist()) - broken
-    failed = tuple(sorted((set(state.failed) | broken) - mended))
+    # A curve that was removed with its line has failed no more.
+    there = [curve for curve in set(state.failed) | broken if state.curves.alive[curve]]
+    failed = tuple(sorted(set(there) - mended))
     if failed == state.failed:
         return
     before = blocked_nodes(network, state.failed)

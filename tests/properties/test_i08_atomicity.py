@@ -8,6 +8,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from unittest import mock
 
 import attrs
@@ -318,6 +319,26 @@ def test_any_kind_of_failure_is_taken_back(error: BaseException) -> None:
             for node in (reach.of(stage)[0], reach.of(stage)[-1]):
                 refuse(hull, change, stage, node, error, before=there)
         assert whole(hull) == before
+
+
+def test_a_curve_that_failed_goes_with_its_line(tmp_path: Path) -> None:
+    """It is none of the failed ones any more, and the hull file opens."""
+    hull = smallest()
+    node = next(node for node in reach_of(hull, drag(hull)).of("loft"))
+    change = drag(hull)
+    with failing_at("loft", node), hull.edit("failing", "keep_going", "report") as edit:
+        change(edit)
+    assert hull.state.failed == (Node.number(node),)
+    hull.save(tmp_path / "ship.hull")
+    name = ah.Curve.of(hull.state, Node.number(node)).line.name
+    with hull.edit("without it", gaps="report") as edit:
+        edit.remove_line(name)
+    assert hull.state.failed == ()
+    hull.close()
+    again = ah.open(tmp_path / "ship.hull")
+    assert name not in again.lines
+    assert again.verify() == ()
+    again.close()
 
 
 @pytest.mark.parametrize("stage", _GONE_PAST)

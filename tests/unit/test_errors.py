@@ -169,6 +169,11 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
     ),
     (errors.FileBusyError("ship.hull", 2.5), TimeoutError, ["ship.hull", "2.5 s", "longer wait"]),
     (
+        errors.HullBusyError("the edit 'fuller'", "anna", 2.5, "in the edit 'finer'"),
+        TimeoutError,
+        ["'fuller'", "anna", "2.5 s", "'finer'", "longer wait"],
+    ),
+    (
         errors.StaleHullError("ship.hull", ("fair WL 1", "fair WL 2")),
         RuntimeError,
         ["ship.hull", "2 edit", "'fair WL 2'", "refresh()"],

@@ -36,12 +36,12 @@ def test_a_twin_is_a_hull_of_its_own() -> None:
 
 
 def test_what_was_read_only_is_so_still() -> None:
-    """Columns in use and splines; and a column shows what is written to its store."""
+    """Columns in use and splines; and a column shows what stands in its store."""
     state = twin(packed(small())).state
     for column in state.rows.columns.values():
         if isinstance(column, Column):
             assert not column.data.flags.writeable
-            assert np.shares_memory(column.data, column.store)
+            assert np.shares_memory(column.data, column._store)
     for curve in state.live("curves").tolist():
         assert not state.spline(curve).xyz.flags.writeable
         assert not state.curves.rows[curve].flags.writeable
