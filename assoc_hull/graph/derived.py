@@ -17,13 +17,14 @@ Examples
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
+from functools import partial
 from operator import is_
 from typing import TypeVar, cast
 
 import attrs
 
+from assoc_hull.graph.gate import Gate
 from assoc_hull.graph.table import Column, ValueColumn
 
 __all__ = ["Derived", "Key", "Marked", "Objects", "same_objects"]
@@ -87,7 +88,7 @@ class Derived:
     """
 
     _kinds: dict[Hashable, dict[Key, _Entry]] = attrs.field(factory=dict, init=False)
-    _mutex: threading.RLock = attrs.field(factory=threading.RLock, init=False)
+    _gate: Gate = attrs.field(factory=Gate, init=False)
 
     def __reduce__(self) -> tuple[type[Derived], tuple[()]]:
         # In another process all is made anew.
@@ -110,43 +111,49 @@ class Derived:
             So many of a kind are kept; the one that was not asked for longest goes.
         """
         stamp = _stamp(depends_on)
-        with self._mutex:
-            entry = self._kinds.get(key[0], {}).get(key)
+        entry = self._kinds.get(key[0], {}).get(key)
         if entry is None or entry.stamp != stamp:
             entry = _Entry(depends_on, stamp, make())
-        with self._mutex:
-            kind = self._kinds.setdefault(key[0], {})
-            kind.pop(key, None)
-            kind[key] = entry
-            while len(kind) > most:
-                del kind[next(iter(kind))]
+        self._gate.alone(partial(self._put, key, entry, most))
         # One kind is made by one function, so its type is that of `make`.
         return cast("T", entry.value)
 
+    def _put(self, key: Key, entry: _Entry, most: int) -> None:
+        """Keep an entry as the last of its kind."""
+        kind = self._kinds.setdefault(key[0], {})
+        kind.pop(key, None)
+        kind[key] = entry
+        while len(kind) > most:
+            del kind[next(iter(kind))]
+
     def mark(self) -> Marked:
         """Give all that is kept now, for `restore`."""
-        with self._mutex:
-            return {kind: dict(entries) for kind, entries in self._kinds.items()}
+        return self._gate.alone(
+            lambda: {kind: dict(entries) for kind, entries in self._kinds.items()}
+        )
 
     def add(self, other: Derived) -> None:
         """Keep what another one does as well; it is true where the columns are the same."""
-        known = other.mark()
-        with self._mutex:
-            for kind, entries in known.items():
-                mine = self._kinds.setdefault(kind, {})
-                for key, entry in entries.items():
-                    mine.setdefault(key, entry)
+        self._gate.alone(partial(self._add, other.mark()))
+
+    def _add(self, known: Marked) -> None:
+        for kind, entries in known.items():
+            mine = self._kinds.setdefault(kind, {})
+            for key, entry in entries.items():
+                mine.setdefault(key, entry)
 
     def restore(self, mark: Marked) -> None:
         """Bring back what was kept, as the columns are again what they were then.
 
         What was made meanwhile stays where it does not stand in the way, and is true now.
         """
-        with self._mutex:
-            for kind, entries in self._kinds.items():
-                before = mark.get(kind, {})
-                for key, entry in tuple(entries.items()):
-                    if key not in before and not entry.holds():
-                        del entries[key]
-            for kind, known in mark.items():
-                self._kinds.setdefault(kind, {}).update(known)
+        self._gate.alone(partial(self._restore, mark))
+
+    def _restore(self, mark: Marked) -> None:
+        for kind, entries in self._kinds.items():
+            before = mark.get(kind, {})
+            for key, entry in tuple(entries.items()):
+                if key not in before and not entry.holds():
+                    del entries[key]
+        for kind, known in mark.items():
+            self._kinds.setdefault(kind, {}).update(known)

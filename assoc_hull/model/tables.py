@@ -9,8 +9,8 @@ or adopted point has a curve on side 0 only. Tables are written through a `Journ
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Protocol, TypeVar
 
 import attrs
@@ -20,6 +20,7 @@ from assoc_hull.arguments import checked, choice, flag, integer, places, positiv
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.derived import Derived, Key
+from assoc_hull.graph.gate import Gate
 from assoc_hull.graph.table import (
     Column,
     MatrixColumn,
@@ -66,7 +67,7 @@ T = TypeVar("T")
 
 _OF_THIS_PROCESS = ("_live", "_published", "_written_here", "_taken")
 
-_GATE = threading.RLock()
+_GATE = Gate()
 """Held for the moment in which a state is published, or one is taken."""
 
 
@@ -401,13 +402,13 @@ class HullState:
 
         While somebody writes that is how they were before. Numbers are copied by whoever writes.
         """
-        with _GATE:
-            if self._live is not None:
-                return self
-            if self._written_here is None and not self._is_current():
-                self._published = self._shared(self, self._published)
-            assert self._published is not None, "made above, or before anybody began to write"
-            return self._published
+        return self if self._live is not None else _GATE.alone(self._published_now)
+
+    def _published_now(self) -> HullState:
+        if self._written_here is None and not self._is_current():
+            self._published = self._shared(self, self._published)
+        assert self._published is not None, "made above, or before anybody began to write"
+        return self._published
 
     def _is_current(self) -> bool:
         """Tell whether nothing was written to the tables since they were published."""
@@ -427,15 +428,19 @@ class HullState:
 
     def begin_writing(self, written_here: Callable[[], bool]) -> None:
         """Keep what is published, for all but those of whom `written_here` is true."""
-        with _GATE:
-            self.memory.add(self.published().memory)
-            self._written_here = written_here
+        _GATE.alone(partial(self._begin_writing, written_here))
+
+    def _begin_writing(self, written_here: Callable[[], bool]) -> None:
+        self.memory.add(self._published_now().memory)
+        self._written_here = written_here
 
     def end_writing(self) -> None:
         """Publish the tables as they are."""
-        with _GATE:
-            self._written_here = None
-            self.published()
+        _GATE.alone(self._end_writing)
+
+    def _end_writing(self) -> None:
+        self._written_here = None
+        self._published_now()
 
     def snapshot(self) -> HullState:
         """Give tables of their own with the published content; nothing is copied until a write."""

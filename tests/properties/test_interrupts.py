@@ -7,6 +7,7 @@ lives in a hull file.
 
 import os
 import sys
+import threading
 from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
@@ -100,6 +101,15 @@ def ready(folder: Path, done: int) -> ah.Hull:
     return hull
 
 
+def in_thread(hull: ah.Hull) -> str:
+    """The fingerprint in another thread; none if that waits for what nobody gives back."""
+    found = list[str]()
+    thread = threading.Thread(target=lambda: found.append(hull.fingerprint), daemon=True)
+    thread.start()
+    thread.join(60.0)
+    return found[0] if found else ""
+
+
 @pytest.mark.parametrize("name", ACTS)
 def test_an_interrupt_anywhere_leaves_one_truth(name: str, tmp_path: Path) -> None:
     """Whatever line it comes at, hull and file are as before the act or as after it."""
@@ -127,6 +137,7 @@ def test_an_interrupt_anywhere_leaves_one_truth(name: str, tmp_path: Path) -> No
         assert sorted(again.labels) == sorted(hull.labels), told
         again.close()
         assert hull.verify() == (), told
+        assert in_thread(hull) == hull.fingerprint, told
         assert content(hull.state) == content(hull.document.state), told
         try:
             with hull.edit("next") as edit:

@@ -13,11 +13,11 @@ import importlib.util
 import os
 import subprocess
 import sys
-import threading
 
 import attrs
 
 from assoc_hull.geometry.splines.backend import backend
+from assoc_hull.graph.gate import Gate
 from assoc_hull.model.program.run_program import NumpyProgram, RunProgram
 from assoc_hull.model.program.structure import Program
 
@@ -39,7 +39,7 @@ if not warm():
 _SELDOM = 20
 """Who edits a hull more often is no command that runs once."""
 
-_lock = threading.Lock()
+_gate = Gate()
 
 
 @attrs.define
@@ -97,13 +97,17 @@ def _is_ready() -> bool:
         return False
     if backend() == "numba":
         return True
-    with _lock:
-        if not _engine.ready and not _engine.told:
-            _begin()
-        child = _engine.child
-        if child is not None and child.poll() is not None:
-            _finish(child)
-        return _engine.ready
+    return _gate.alone(_look)
+
+
+def _look() -> bool:
+    """Begin to compile, or see whether that is done."""
+    if not _engine.ready and not _engine.told:
+        _begin()
+    child = _engine.child
+    if child is not None and child.poll() is not None:
+        _finish(child)
+    return _engine.ready
 
 
 def _begin() -> None:

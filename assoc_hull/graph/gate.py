@@ -1,0 +1,41 @@
+"""A lock for a few statements, which an interrupt at any of them leaves open.
+
+A ``with`` block of a lock has a place, between its last statement and the release, at which an
+interrupt leaves the lock taken: every other thread would wait for ever.
+
+Examples
+--------
+>>> from assoc_hull.graph.gate import Gate
+>>> Gate().alone(lambda: 1 + 1)
+2
+"""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable
+from typing import TypeVar
+
+import attrs
+
+__all__ = ["Gate"]
+
+T = TypeVar("T")
+
+
+@attrs.frozen(eq=False)
+class Gate:
+    """Lets one thread in at a time; what is done inside must not come to the gate again."""
+
+    # A lock of this kind alone refuses to be released by a thread that has not taken it.
+    _lock: threading.RLock = attrs.field(factory=threading.RLock, init=False)
+
+    def alone(self, act: Callable[[], T]) -> T:
+        """Do something while no other thread is inside."""
+        try:
+            with self._lock:
+                return act()
+        finally:
+            with contextlib.suppress(RuntimeError):  # it has been given back: the usual case
+                self._lock.release()
