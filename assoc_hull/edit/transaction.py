@@ -195,7 +195,7 @@ class Transaction:
                         self._finish()
             finally:
                 if not self._depth:
-                    self._over = True
+                    self._over, self.face = True, None  # else a ring would keep the hull open
                     self._end()
         finally:  # once more, should an interrupt come just there: it may be done twice
             if not self._depth:

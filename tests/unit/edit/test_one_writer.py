@@ -5,6 +5,7 @@ import gc
 import os
 import threading
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -368,3 +369,19 @@ def test_two_editors_in_one_loop_for_many_turns(hull: ah.Hull) -> None:
     assert [each.name for each in hull.history] == made
     assert all(each.name.startswith(each.author) for each in hull.history)
     assert hull.verify() == ()
+
+
+def test_an_edit_does_not_hold_its_hull_in_a_ring(hull: ah.Hull, tmp_path: Path) -> None:
+    """A hull file is closed as soon as nobody has the hull, whenever a collector runs."""
+    path = tmp_path / "ship.hull"
+    hull.save(path)
+    again = ah.open(path)
+    gc.disable()
+    try:
+        shift(again, "fuller")
+        again.drag(POINT).to(d=0.01)
+        del again
+        hull.close()
+        assert [each.name for each in tmp_path.iterdir()] == ["ship.hull"]
+    finally:
+        gc.enable()
