@@ -79,15 +79,14 @@ def _jobs(hull: ah.Hull, point: str) -> dict[str, Callable[[], object]]:
     def preview() -> None:
         hull.preview([{"op": "pull", "point": point, "d": 0.02, "radius": [20.0, 8.0]}])
 
-    drag = hull.drag(point, radius=(20.0, 8.0))
+    drag, begun = hull.drag(point, radius=(20.0, 8.0)), hull.state_number
 
     def step() -> None:
-        nonlocal drag
-        if hull.state_number != drag_of[0]:
-            drag, drag_of[0] = hull.drag(point, radius=(20.0, 8.0)), hull.state_number
+        nonlocal drag, begun
+        if hull.state_number != begun:  # an edit came between: a drag stands on one state
+            drag, begun = hull.drag(point, radius=(20.0, 8.0)), hull.state_number
         drag.to(d=1e-3 * (1 + next(turn) % 5))
 
-    drag_of = [hull.state_number]
     return {"move": move, "pull": pull, "preview": preview, "step of a drag": step}
 
 

@@ -115,17 +115,14 @@ class ProgramRuns:
 
     def write_gaps(self, journal: Journal) -> WideGaps:
         """Write the gaps that the runs have measured; none is over its limit."""
-        rows, gap = self._watch, self.numbers.values.gap[self.watched]
+        numbers = self.numbers
+        rows: IntArray = numbers.published.program.watch[self.watched]
+        gap = numbers.values.gap[self.watched]
         table, nothing = self.state.rows, np.zeros(0)
         journal.put(table.gap, rows, gap)
         # A watched crossing is published where it lies on curve a.
         journal.put(table.xyz, rows, table.spot[rows, 0])
         return WideGaps(rows[:0], nothing, nothing, float(gap.max(initial=0.0)), rows[:0])
-
-    @property
-    def _watch(self) -> IntArray:
-        found: IntArray = self.numbers.published.program.watch[self.watched]
-        return found
 
     def published(self) -> PublishedProgram:
         """Give the numbers of the tables as the edit leaves them."""

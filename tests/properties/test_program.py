@@ -6,8 +6,6 @@ program carries out the whole edit. Both look at the same hull, which neither ch
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import attrs
 import numpy as np
 import pytest
@@ -17,7 +15,6 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.edit.drag import Drag, Live
 from assoc_hull.edit.published_program import published_program
-from assoc_hull.geometry.splines.backend import backend, set_backend
 from assoc_hull.model.program.run_program import NumpyProgram, RunProgram, run_program, write_points
 from assoc_hull.model.program.structure import PublishedProgram, Values
 from assoc_hull.model.tables import HullState
@@ -28,17 +25,6 @@ NUMBERS = tuple(each.name for each in attrs.fields(Values))
 NONE = np.zeros(0, np.int64)
 
 tasks_of_all_kinds = tasks(SHAPES + STRUCTURE)
-
-
-@pytest.fixture(params=["numpy", "numba"])
-def backend_in_use(request: pytest.FixtureRequest) -> Iterator[str]:
-    """The tests that ask for it hold for both kinds of arithmetic."""
-    if request.param == "numba":
-        pytest.importorskip("numba")
-    before = backend()
-    set_backend(request.param)
-    yield request.param
-    set_backend(before)
 
 
 def program_of(hull: ah.Hull) -> PublishedProgram | None:

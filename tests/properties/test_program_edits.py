@@ -22,23 +22,11 @@ from assoc_hull.edit.pending_changes import Pending
 from assoc_hull.edit.program_network import ProgramRuns
 from assoc_hull.edit.published_program import LiveNumbers, published_program
 from assoc_hull.edit.step import Step
-from assoc_hull.geometry.splines.backend import backend, set_backend
 from assoc_hull.model.program.structure import Values
 from tests.conftest import Shipped
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 
 COLUMNS = ("xyz", "parameter", "spot", "gap", "base", "anchor_from", "alive", "role", "driver")
-
-
-@pytest.fixture(params=["numpy", "numba"])
-def backend_in_use(request: pytest.FixtureRequest) -> Iterator[str]:
-    """The tests that ask for it hold for both kinds of arithmetic."""
-    if request.param == "numba":
-        pytest.importorskip("numba")
-    before = backend()
-    set_backend(request.param)
-    yield request.param
-    set_backend(before)
 
 
 @attrs.define
