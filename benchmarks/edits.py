@@ -12,7 +12,7 @@ from unittest import mock
 import attrs
 
 import assoc_hull as ah
-from assoc_hull.edit.program_network import ProgramRuns
+from assoc_hull.edit.program_edit import ProgramEdit
 from assoc_hull.model.program.engine import is_compiled, wait_for_engine
 from benchmarks.clock import Figure, side_by_side
 
@@ -94,7 +94,7 @@ def _without(job: Callable[[], object]) -> Callable[[], object]:
     """Give a job that takes no program."""
 
     def run() -> object:
-        with mock.patch.object(ProgramRuns, "of", return_value=None):
+        with mock.patch.object(ProgramEdit, "of", return_value=None):
             return job()
 
     return run

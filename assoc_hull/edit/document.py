@@ -22,6 +22,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import integer, shown, shown_name, text
+from assoc_hull.edit.published_program import KeptProgram
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.write_lock import PATIENCE, WriteLock
 from assoc_hull.errors import AssocHullError, BadInputError, NameTakenError, UnknownNameError
@@ -133,6 +134,8 @@ class Document:
         The transaction that is open; None if none is.
     known_index : Index or None
         The look-ups, if they have been derived: see `index`.
+    program : KeptProgram
+        The program of its net, as far as it has been asked for.
     lock : WriteLock
         Who may write the tables.
     unsettled : bool
@@ -154,6 +157,7 @@ class Document:
     unsettled: bool = attrs.field(default=False, init=False)
     when_published: Callable[[], None] | None = attrs.field(default=None, init=False)
     _states: list[tuple[Step, ...]] = attrs.field(factory=list, init=False)
+    program: KeptProgram = attrs.field(factory=KeptProgram, init=False)
     lock: WriteLock = attrs.field(factory=WriteLock, init=False)
 
     @property
@@ -285,10 +289,8 @@ class Document:
     def commit(self, step: Step, author: str | None = None) -> None:
         """Take a finished step into the history; whatever fails, it is not in it."""
         author = self.author if author is None else author
-        step.number, step.parent = len(self.steps) + 1, self.head
         branch = self._branch(self.tip if self.undone else None)
-        report = attrs.evolve(step.report, number=step.number, author=author, time=_now())
-        step.replace(attrs.evolve(step.body, report=report))
+        step.enter(len(self.steps) + 1, self.head, author, _now())
         revised, places = self._revisions(step), (len(self.history), len(self._states))
         undone = list(self.undone)
         try:
@@ -336,7 +338,7 @@ class Document:
         above = list[Step]()
         left = integer(count, "the number of steps", "in undo", least=1)
         for step in self.history[::-1]:
-            if step.report.author != author:
+            if step.author != author:
                 above.append(step)
             elif left := left - 1:
                 continue
@@ -349,7 +351,7 @@ class Document:
             raise BadInputError(f"there are {have} steps of theirs to undo, and {count} were asked",
                                 where, remedy)  # fmt: skip
         if above:
-            names = ", ".join(f"{step.name!r} of {step.report.author!r}" for step in above[:5])
+            names = ", ".join(f"{step.name!r} of {step.author!r}" for step in above[:5])
             rest = f" and {len(above) - 5} more" if len(above) > 5 else ""
             remedy = "undo those first, or make an edit that sets back what this one did"
             raise BadInputError(f"above it lie {names}{rest}", where, remedy)

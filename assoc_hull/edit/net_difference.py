@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
@@ -11,13 +13,13 @@ from assoc_hull.model.network import bits_differ
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
-__all__ = ["net_difference"]
+__all__ = ["net_difference", "points_elsewhere"]
 
 
 def net_difference(
-    state: HullState,
-    journal: Journal,
-    before: dict[int, SplineBatch],
+    elsewhere: tuple[IntArray, FloatArray],
+    before: Mapping[int, SplineBatch],
+    spline: Callable[[int], SplineBatch],
     nodes: IntArray,
     moved: FloatArray,
 ) -> tuple[IntArray, FloatArray]:
@@ -25,36 +27,38 @@ def net_difference(
 
     Parameters
     ----------
-    state : HullState
-        The tables after the edit.
-    journal : Journal
-        All writes of the edit.
-    before : dict of int to SplineBatch
+    elsewhere : (k,) int, (k,) float, m
+        What `points_elsewhere` gives.
+    before : mapping of int to SplineBatch
         The splines of the curves before the edit; a new curve has none.
+    spline : callable
+        Gives that of a curve after it.
     nodes, moved : (k,) int, (k,) float
         Nodes that changed in any pass, and by how much; a node may stand more than once.
 
     Returns
     -------
     nodes, moved : (n,) int, (n,) float, m
-        Each node once, points first; nan where the edit itself set the point. Points that
-        the edit made are left out, and watched ones, which have no value.
+        Each node once, points first; nan where the edit itself set the point.
     """
     odd = Node.is_curve(nodes)
-    rows, away = _points(state, journal)
-    away[~np.isin(Node.point(rows), nodes)] = np.nan
+    rows, away = elsewhere
+    away = np.where(np.isin(Node.point(rows), nodes), away, np.nan)
     curves = [
         curve
         for curve in np.unique(Node.number(nodes[odd])).tolist()
-        if curve not in before or not _same(before[curve], state.spline(curve))
+        if curve not in before or not _same(before[curve], spline(curve))
     ]
     widest = np.array([np.max(moved[nodes == Node.curve(curve)]) for curve in curves], np.float64)
     numbers = np.array(curves, np.int64)
     return np.concatenate([Node.point(rows), Node.curve(numbers)]), np.concatenate([away, widest])
 
 
-def _points(state: HullState, journal: Journal) -> tuple[IntArray, FloatArray]:
-    """Give the points that lie elsewhere than before, and how far."""
+def points_elsewhere(state: HullState, journal: Journal) -> tuple[IntArray, FloatArray]:
+    """Give the points that lie elsewhere than before an edit, and how far.
+
+    Points that the edit made are left out, and watched ones, which have no value.
+    """
     table = state.rows
     rows, old = journal.before(table.xyz)
     marked, was_alive = journal.before(table.alive)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Protocol
 
 import attrs
 
@@ -12,9 +13,8 @@ from assoc_hull.edit.nudge import Nudge
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.graph.run_update import FailurePolicy
 from assoc_hull.model.form_definition import FormDefinition
-from assoc_hull.model.program.structure import PublishedProgram
 
-__all__ = ["Pending", "Settings"]
+__all__ = ["Pending", "Settings", "TriedNumbers"]
 
 
 @attrs.frozen
@@ -32,6 +32,16 @@ class Settings:
 
     policy: FailurePolicy = FailurePolicy.ALL_OR_NOTHING
     refuse_gaps: bool = True
+
+
+class TriedNumbers(Protocol):
+    """Numbers of a program that an edit was carried out with."""
+
+    def publish(self) -> None:
+        """Keep them: they are those of the tables, which have just been published."""
+
+    def take_back(self) -> None:
+        """Put those of before back."""
 
 
 @attrs.define(eq=False)
@@ -80,7 +90,7 @@ class Pending:
         Lines whose points are to come from definitions again.
     detached : list of int
         Curves that have left their definitions in this transaction.
-    numbers : PublishedProgram or None
+    numbers : TriedNumbers or None
         The numbers of the tables when all has run, where a program has made them.
     stopped : callable
         Tells whether somebody has asked to end the update; looked at before every pass.
@@ -108,7 +118,7 @@ class Pending:
     forms: dict[str, FormDefinition] = attrs.field(factory=dict)
     attach: set[int] = attrs.field(factory=set)
     detached: list[int] = attrs.field(factory=list)
-    numbers: PublishedProgram | None = None
+    numbers: TriedNumbers | None = None
     stopped: Callable[[], bool] = bool
 
     @property

@@ -1,32 +1,36 @@
 """The program of a hull and its published numbers, at hand until the tables change.
 
-What runs on it works on a copy of the numbers of its own, so any number of drags stand beside one
-another and beside the tables, which are only read.
+What runs on it works on numbers of its own, so any number of drags stand beside one another and
+beside the tables, which are only read. The edits of a hull share one set of such numbers: when one
+is published its numbers become the published ones, and those before are brought up to date where it
+has written, so that nothing as large as the hull is copied. Numbers that a drag looks at are left.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import Protocol
 
 import attrs
 import numpy as np
 
-from assoc_hull.edit.document import Document
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.graph.derived import Objects
+from assoc_hull.graph.gate import Gate
 from assoc_hull.model.index import Index
+from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.program.engine import runner_of
 from assoc_hull.model.program.run_program import ProgramRun, RunProgram
 from assoc_hull.model.program.structure import Program, PublishedProgram, Values, compile_program
 from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["LiveNumbers", "keep_numbers", "published_program"]
+__all__ = ["HasProgram", "KeptProgram", "LiveNumbers", "numbers_for_edit", "published_program"]
 
 
 @attrs.define(eq=False)
 class LiveNumbers:
-    """Numbers of a hull that are tried and put back."""
+    """Numbers of a hull that are tried, and put back or published."""
 
     published: PublishedProgram
     values: Values
@@ -66,26 +70,130 @@ class LiveNumbers:
         return SplineBatch(start, knot, block[:3].T, block[3:6].T, block[6:].T)
 
 
-def published_program(document: Document) -> PublishedProgram | None:
-    """Give the program of the present state; None of a hull with curves that cannot be made."""
-    state, index = document.state.published(), document.index
-    program = state.derived(
-        ("program",), _structure(state, index), lambda: compile_program(state, index), most=1
+@attrs.define(eq=False)
+class _AtHand:
+    """A published state, what runs on it, and the net as it was when that was compiled.
+
+    `lent`: somebody else may look at the numbers, so they stay as they are.
+    """
+
+    state: HullState
+    found: PublishedProgram
+    net: HullNetwork
+    lent: bool
+
+
+@attrs.define(eq=False)
+class KeptProgram:
+    """What a hull keeps of its program: the numbers published last, and those for the next edit."""
+
+    at_hand: _AtHand | None = None
+    spare: LiveNumbers | None = None
+    gate: Gate = attrs.field(factory=Gate)
+
+    def publish(
+        self, state: HullState, numbers: LiveNumbers, runs: Sequence[ProgramRun], ridden: IntArray
+    ) -> None:
+        """Say that the tables have just been published with numbers that runs have made.
+
+        `ridden` (k,) are points that ride from elsewhere than before.
+        """
+        before, values = numbers.published, numbers.values
+        found = PublishedProgram(before.program, values)
+        freeze(*_arrays(values))
+
+        def replace() -> bool:
+            at, self.spare = self.at_hand, None
+            if at is None or at.found is not before:
+                return False
+            self.at_hand = _AtHand(state, found, at.net, lent=False)
+            return not at.lent
+
+        if not self.gate.alone(replace):
+            return
+        # Nobody else has the numbers of before: they become those that the next edit writes.
+        spare = before.values
+        for each in _arrays(spare):
+            each.setflags(write=True)
+        for run in runs:
+            numbers.runner.restore(spare, values, run)
+        spare.base[ridden], spare.anchor_from[ridden] = (
+            values.base[ridden], values.anchor_from[ridden],
+        )  # fmt: skip
+        self.spare = LiveNumbers(found, spare, numbers.runner)
+
+
+class HasProgram(Protocol):
+    """A hull that keeps its program."""
+
+    program: KeptProgram
+
+    @property
+    def state(self) -> HullState:
+        """The tables."""
+
+    @property
+    def index(self) -> Index:
+        """Look-ups derived from them."""
+
+
+def published_program(document: HasProgram) -> PublishedProgram | None:
+    """Give the program of the present state; None of a hull with curves that cannot be made.
+
+    Its numbers stay as they are for ever.
+    """
+    at = _at_hand(document, lend=True)
+    return None if at is None else at.found
+
+
+def numbers_for_edit(document: HasProgram) -> tuple[LiveNumbers, HullNetwork] | None:
+    """Give numbers for whoever writes the tables, and the net as the engine sees it.
+
+    Of the net only the structure is looked at: its numbers may be those of an earlier state.
+    """
+    at = _at_hand(document, lend=False)
+    if at is None:
+        return None
+    spare, document.program.spare = document.program.spare, None
+    if spare is None or spare.published is not at.found or spare.written:
+        spare = LiveNumbers.of(at.found)
+    return spare, at.net
+
+
+def _at_hand(document: HasProgram, *, lend: bool) -> _AtHand | None:
+    """Give the program with the numbers of the published state."""
+    kept, state = document.program, document.state.published()
+
+    def known() -> _AtHand | None:
+        at = kept.at_hand
+        if at is None or at.state is not state:
+            return None
+        at.lent = at.lent or lend
+        return at
+
+    return kept.gate.alone(known) or _find(document, state)
+
+
+def _find(document: HasProgram, state: HullState) -> _AtHand | None:
+    """Compile, where the structure is another than before; and read what has changed."""
+    index, kept = document.index, document.program
+    net = state.derived(
+        ("net",), _structure(state, index), lambda: HullNetwork(state, index), most=1
     )
+    program = state.derived(("program",), (net,), lambda: compile_program(state, index), most=1)
     if program is None:
         return None
     last = _last(state, program)
     values = _numbers(state, program, lambda: _read(state, program, last.read))
     last.read = _Read(values, *_objects(state, program))
-    return PublishedProgram(program, values)
+    # Derived numbers are kept by the tables as well, so they are never written to again.
+    at = _AtHand(state, PublishedProgram(program, values), net, lent=True)
 
+    def keep() -> None:
+        kept.at_hand = at
 
-def keep_numbers(document: Document, found: PublishedProgram) -> None:
-    """Keep the numbers of what has just been published: they are known, and need not be read."""
-    values, state = found.values, document.state.published()
-    freeze(*(getattr(values, each.name) for each in attrs.fields(Values)))
-    _numbers(state, found.program, lambda: values)
-    _last(state, found.program).read = _Read(values, *_objects(state, found.program))
+    kept.gate.alone(keep)
+    return at
 
 
 @attrs.frozen(eq=False)
@@ -115,8 +223,12 @@ def _objects(
     return [state.spline(each) for each in curves], [state.curves.meets[each] for each in curves]
 
 
+def _arrays(values: Values) -> list[np.typing.NDArray[np.generic]]:
+    return [getattr(values, each.name) for each in attrs.fields(Values)]
+
+
 def _numbers(state: HullState, program: Program, make: Callable[[], Values]) -> Values:
-    """Give the numbers of the tables as they were read or kept last, if they still hold."""
+    """Give the numbers of the tables as they were read last, if they still hold."""
     rows, curves = state.rows, state.curves
     columns = rows.xyz, rows.base, rows.anchor_from, rows.gap, curves.spline, curves.meets
     return state.derived(("published numbers",), (program, *columns), make, most=1)

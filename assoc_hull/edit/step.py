@@ -81,6 +81,16 @@ class StepBody:
     report: EditReport
 
 
+@attrs.frozen(eq=False)
+class _ToldLater:
+    """What the history needs of a step whose body has not been asked for, and what makes that."""
+
+    writes: Writes
+    rows: IntArray
+    curves: IntArray
+    tell: Callable[[], StepBody]
+
+
 @attrs.define(eq=False)
 class Step:
     """One committed edit.
@@ -113,23 +123,61 @@ class Step:
     load: Callable[[], StepBody] | None = None
     tell: Callable[[], EditReport] | None = None
     _body: StepBody | None = None
+    _later: _ToldLater | None = None
+    _entry: tuple[str, str] | None = attrs.field(default=None, init=False)
+
+    @classmethod
+    def told_later(
+        cls, name: str, writes: Writes, rows: IntArray, curves: IntArray,
+        tell: Callable[[], StepBody],
+    ) -> Step:  # fmt: skip
+        """Give a step that keeps the structure, of which the body is made when it is asked for.
+
+        `rows` and `curves` are the points and curves that changed, ascending.
+        """
+        return cls(name, structural=False, later=_ToldLater(writes, rows, curves, tell))
 
     @property
     def body(self) -> StepBody:
-        """The large part; loaded where it is not held."""
-        if self._body is None:
-            assert self.load is not None, "a step holds its body, or can load it"
-            self._body = self.load()
-        return self._body
+        """The large part; made or loaded where it is not held."""
+        body, later = self._body, self._later
+        if body is None:
+            if later is not None:
+                body = later.tell()
+            else:
+                assert self.load is not None, "a step holds its body, or can load it"
+                body = self.load()
+            self.replace(body)
+        return body
 
     def replace(self, body: StepBody) -> None:
         """Hold another body."""
-        self._body = body
+        # What is known besides goes last: another thread may be asking.
+        self._body, self._later = self._entered(body), None
 
     def release(self) -> None:
         """Let go of the body, if it can be loaded again."""
         if self.load is not None:
-            self._body = None
+            self._body, self._later = None, None
+
+    def enter(self, number: int, parent: int, author: str, time: str) -> None:
+        """Note under which number it enters the history, and who made it when."""
+        self.number, self.parent, self._entry = number, parent, (author, time)
+        if self._body is not None:
+            self._body = self._entered(self._body)
+
+    def _entered(self, body: StepBody) -> StepBody:
+        """Give a body whose report says what was noted."""
+        if self._entry is None:
+            return body
+        author, time = self._entry
+        report = attrs.evolve(body.report, number=self.number, author=author, time=time)
+        return attrs.evolve(body, report=report)
+
+    @property
+    def author(self) -> str:
+        """Who made the edit."""
+        return self.report.author if self._entry is None else self._entry[0]
 
     @property
     def report(self) -> EditReport:
@@ -141,7 +189,8 @@ class Step:
     @property
     def journal(self) -> Writes:
         """All writes."""
-        return self.body.journal
+        later = self._later
+        return self.body.journal if later is None else later.writes
 
     @property
     def cause(self) -> Readers:
@@ -166,6 +215,9 @@ class Step:
     @property
     def rows(self) -> IntArray:
         """Points that changed."""
+        later = self._later
+        if later is not None:
+            return later.rows
         return distinct(Node.number(self.changed[Node.is_point(self.changed)]))
 
     @property
@@ -176,4 +228,7 @@ class Step:
     @property
     def curves(self) -> IntArray:
         """Curves that changed."""
+        later = self._later
+        if later is not None:
+            return later.curves
         return distinct(Node.number(self.changed[Node.is_curve(self.changed)]))

@@ -7,7 +7,6 @@ error. Whatever goes wrong, the journal takes every write back, to the last bit.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from types import TracebackType
 from typing import Self
 
@@ -16,7 +15,6 @@ import numpy as np
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.garbage_collection import PausedCollector
 from assoc_hull.edit.pending_changes import Pending, Settings
-from assoc_hull.edit.published_program import keep_numbers
 from assoc_hull.edit.recording import Said, Script
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Step
@@ -75,13 +73,18 @@ class Transaction:
         self.journal = Journal()
         self.pending = Pending()
         self.script: list[dict[str, Said]] = []
-        self.report: EditReport | None = None
+        self._told: EditReport | None = None
         self._step: Step | None = None
         self._depth = 0
         self._broken = False
         self._over = False
         self._index: Index | None = None
         self._known: Marked = {}
+
+    @property
+    def report(self) -> EditReport | None:
+        """What it did, made when it is first asked for; None before the update has run."""
+        return self._told if self._step is None else self._step.report
 
     @property
     def active(self) -> bool:
@@ -208,16 +211,17 @@ class Transaction:
                 reason = "an edit nested in it failed, so all of it was taken back"
                 raise RefusedEditError(self.name, (reason,))
             if self._idle():
-                self.report = EditReport(
+                self._told = EditReport(
                     self.name, changed=False, notes=(*self.pending.notes, _IDLE)
                 )
                 self._restore()
             else:
-                self.report = self._publish()
+                self._publish()
         except BaseException:
             # Behind the commit nothing is taken back: the step is in the history, and kept.
             if self._step is None or self.document.steps.get(self._step.number) is not self._step:
                 self._restore()
+                self._step = None
             raise
         if self.look is not None:
             try:
@@ -237,20 +241,25 @@ class Transaction:
         ]
         return all(asked) and self.journal.idle()
 
-    def _publish(self) -> EditReport:
+    def _publish(self) -> None:
         """Run the update, and take its step into the history unless it is only looked at."""
-        self._step = update(self.document, self.name, self.journal, self.pending, self.settings)
+        step = update(self.document, self.name, self.journal, self.pending, self.settings)
         if self.look is None:
-            self._step.script = Script.of(self.script, self.settings)
-            self.document.commit(self._step, self.author)
+            step.script = Script.of(self.script, self.settings)
+            # Known before it is committed: behind that nothing is taken back.
+            self._step = step
+            self.document.commit(step, self.author)
             if (known := self.pending.numbers) is not None:
-                self.document.when_published = partial(keep_numbers, self.document, known)
-        return self._step.report
+                self.document.when_published = known.publish
+        self._step = step
 
     def _restore(self) -> None:
         """Take everything back; what was derived from the tables before is true again."""
-        structural, self.pending = self.pending.structural, Pending()
+        numbers, structural = self.pending.numbers, self.pending.structural
+        self.pending = Pending()
         self.journal.undo()
+        if numbers is not None:
+            numbers.take_back()
         self.state.memory.restore(self._known)
         if structural:
             self.document.known_index = self._index

@@ -23,19 +23,11 @@ from assoc_hull.edit.checks.update_findings import (
     note_new_ends,
     splines_of,
 )
-from assoc_hull.edit.displacement_field import (
-    CLOSE,
-    add_displacements,
-    field_context,
-    land_points,
-    sub_step_count,
-    unreached,
-)
+from assoc_hull.edit.displacement_field import unreached
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.followup.adopted_points import (
     link_adopted_points,
     mend_gaps,
-    rebase_adopted_points,
 )
 from assoc_hull.edit.followup.crossings import (
     latent_intersections,
@@ -57,7 +49,8 @@ from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.nudge import Nudge, write_nudge
 from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.pending_changes import Pending, Settings
-from assoc_hull.edit.program_network import ProgramRuns
+from assoc_hull.edit.program_edit import ProgramEdit
+from assoc_hull.edit.run_fields import run_fields
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.update_passes import Work
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
@@ -76,9 +69,6 @@ _NONE: IntArray = np.zeros(0, np.int64)
 _ROUNDS = 6
 """Crossings that come make others come, seldom more than twice."""
 
-_MORE = 4
-"""Sub-steps a field may have in addition."""
-
 
 def update(
     document: Document, name: str, journal: Journal, pending: Pending, settings: Settings
@@ -92,10 +82,18 @@ def update(
     RingError
         If driven links would run in a ring.
     """
+    # What was written by now (a role, a limit, a name) the program does not know of.
+    program = None if journal.entries else ProgramEdit.of(document, pending)
+    if program is not None:
+        rows, away = _set_values(document.state, journal, pending)
+        step = program.run(name, journal, settings, rows, away)
+        if step is not None:
+            return step
+        journal.undo()
+        pending.held.clear()
+        program.take_back()
     begin = time.perf_counter()
     origin = document.state.rows.xyz.data.copy() if pending.fields else np.zeros((0, 3))
-    # What was written by now (a role, a limit, a name) the program does not know of.
-    program = None if journal.entries else ProgramRuns.of(document, pending)
     try:
         forms = take_up_forms(document.state, journal, pending)
     except AssocHullError as error:
@@ -105,7 +103,7 @@ def update(
         _link_riders(document.state, journal, pending)
         document.refresh()
     network = HullNetwork(document.state, document.index)
-    work = Work(document, name, journal, pending, settings, network, forms=forms, program=program)
+    work = Work(document, name, journal, pending, settings, network, forms=forms)
     try:
         if pending.fields:
             rows, away = _run_fields(work, rows, origin)
@@ -131,9 +129,7 @@ def update(
         raise RefusedEditError(name, (str(error),)) from error
     if findings:
         raise RefusedEditError(name, findings)
-    settle_features(work, rows)
-    if work.program is not None:
-        pending.numbers = work.program.published()
+    settle_features(work, rows, np.concatenate([rows, work.changed_points()]))
     work.seconds |= {"run": ran - begin, "check": time.perf_counter() - ran}
     return step_of(work, rows, away)
 
@@ -161,61 +157,22 @@ def _link_riders(state: HullState, journal: Journal, pending: Pending) -> None:
 
 
 def _run_fields(work: Work, rows: IntArray, origin: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Run the fields, in sub-steps where they are large; give all points that were set.
+    """Run the fields; give all points that were set, and how far they are from where they lay."""
+    first = np.array(sorted(work.pending.curves), np.int64)
 
-    `origin` holds where all points lay before; the distances are from there.
-    """
-    state, fields = work.state, work.pending.fields
-    across = any(field.across_flats for field in fields)
-    pinned = set(work.pending.values)
-    ground = field_context(state, across_flats=across)
-    shift = add_displacements([field.shift(ground, 1.0) for field in fields], pinned)
-    steps = sub_step_count(state, shift)
-    curves = np.array(sorted(work.pending.curves), np.int64)
-    touched: set[int] = set(rows.tolist())
-    for step in range(steps + _MORE):
-        part = _part(work, step, steps)
-        if part == 0.0:
-            break
-        if step:
-            ground = field_context(state, across_flats=across)
-        shift = add_displacements([field.shift(ground, part) for field in fields], pinned)
-        before = state.rows.xyz.data.copy()
-        if detach_rows(Maker(state, work.journal), work.pending, shift.rows):
-            work.renew()
-        work.journal.put(state.rows.xyz, shift.rows, state.rows.xyz[shift.rows] + shift.delta)
-        if step == steps - 1:
-            land_points(state, work.journal, fields)
-        shifted = np.flatnonzero(bits_differ(before, state.rows.xyz.data))
-        adopted = state.rows.sort[shifted] == Sort.ADOPTED
-        work.pending.held |= set(shifted[adopted].tolist())
-        touched |= set(shifted.tolist())
-        seeds = np.union1d(shifted, rows) if step == 0 else shifted
-        work.go(seeds, curves if step == 0 else _NONE)
+    def go(seeds: IntArray) -> bool:
+        work.go(seeds, _NONE if work.passes else first)
         _settle(work)
-    work.pending.notes += [
-        f"{address(state, row)}: left alone, it is free almost along the hull only"
-        for row in shift.left.tolist()
-    ]
-    rebase_adopted_points(state, np.array(sorted(work.pending.held), np.int64), work.journal)
+        return True
+
+    def detach_from(rows: IntArray) -> None:
+        if detach_rows(Maker(work.state, work.journal), work.pending, rows):
+            work.renew()
+
+    found = run_fields(work.state, work.journal, work.pending, rows, origin, go, detach_from)
+    assert found is not None, "every update says that it goes on"
     work.pending.held.clear()
-    every = np.array(sorted(touched), np.int64)
-    every = every[every < len(origin)]
-    every = every[bits_differ(state.rows.xyz[every], origin[every])]
-    moved = state.rows.xyz[every] - origin[every]
-    return every, np.sqrt((moved * moved).sum(axis=1))
-
-
-def _part(work: Work, step: int, steps: int) -> float:
-    """Give the part of the fields to run in a sub-step; nil when they are where they should be.
-
-    A field that knows what it lacks spreads that over the sub-steps left, and has a few more.
-    """
-    fields, done = work.pending.fields, min(step, steps) / steps
-    left = fields[0].left(work.state, done) if len(fields) == 1 else 1.0 - done
-    if step >= steps and abs(left) <= CLOSE:
-        return 0.0
-    return float(np.clip(left / max(steps - step, 1), -1.0 / steps, 1.0 / steps))
+    return found
 
 
 def _settle(work: Work) -> None:
@@ -322,9 +279,6 @@ def _run_nudge(work: Work, by: Nudge) -> None:
 
 def _check(work: Work) -> tuple[str, ...]:
     """Check what was evaluated; mend gaps once; give all findings that refuse the edit."""
-    if work.program is not None:  # it has looked for all that is looked for below
-        work.wide = work.program.write_gaps(work.journal)
-        return tuple(unreached(work.state, work.pending.fields, work.pending.values.keys()))
     curves = work.touched()
     wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     if len(wide.rows) and not any(field.strict for field in work.pending.fields):

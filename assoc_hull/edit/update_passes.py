@@ -9,7 +9,6 @@ from assoc_hull.edit.checks.update_findings import WideGaps
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.failed_curves import blocked_nodes, note_states
 from assoc_hull.edit.pending_changes import Pending, Settings
-from assoc_hull.edit.program_network import ProgramRuns
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
@@ -51,8 +50,6 @@ class Work:
         Crossings that define no line any more, as others have passed them.
     forms : (k,) int
         Nodes of the definitions that the edit set; the first pass starts from them as well.
-    program : ProgramRuns or None
-        What makes the curves, as long as it answers for the whole edit.
     """
 
     document: Document
@@ -72,7 +69,6 @@ class Work:
     planned: int = 0
     watched: list[int] = attrs.field(factory=list)
     forms: IntArray = attrs.field(factory=lambda: _NONE)
-    program: ProgramRuns | None = None
 
     @property
     def state(self) -> HullState:
@@ -87,6 +83,11 @@ class Work:
             return curves  # in one pass no node stands twice
         once: IntArray = curves[np.sort(np.unique(curves, return_index=True)[1])]
         return once
+
+    def changed_points(self) -> IntArray:
+        """Points that changed in any pass; one may stand more than once."""
+        changed = np.concatenate([_NONE, *(part.changed for part in self.passes)])
+        return Node.number(changed[Node.is_point(changed)])
 
     def touched(self) -> IntArray:
         """Curves evaluated in any pass or made in this edit, but for those removed since."""
@@ -104,15 +105,10 @@ class Work:
             seeds = np.concatenate([seeds, self.forms])
             self.planned = self.network.reached(np.concatenate([seeds, Node.curve(curves)]))
         carried = np.array(sorted(self.pending.held), np.int64)
-        held, network = Node.point(carried), self.network
-        if self.program is not None:
-            if not len(curves) and self.program.run(rows, carried):
-                network = self.program.network(network)
-            else:
-                self.program = None  # from here on all is made here
+        held = Node.point(carried)
         blocked = blocked_nodes(self.network, self.state.failed)
         result = run_update(
-            network, seeds, self.journal, self.settings.policy,
+            self.network, seeds, self.journal, self.settings.policy,
             also=self._also(curves), held=np.concatenate([held, blocked]),
         )  # fmt: skip
         self.passes.append(result)

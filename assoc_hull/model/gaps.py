@@ -7,6 +7,8 @@ places means nothing; along the normal it is the gap a builder would see.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
@@ -14,7 +16,15 @@ from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import HullState
 
-__all__ = ["crossing_normals", "gap_at", "tangents", "watched_on"]
+__all__ = [
+    "along_normal",
+    "crossing_normals",
+    "gap_at",
+    "sides_held",
+    "tangents",
+    "tangents_of",
+    "watched_on",
+]
 
 
 def watched_on(state: HullState, curves: IntArray) -> IntArray:
@@ -48,7 +58,26 @@ def tangents(
     if not len(curves):
         return np.zeros((0, 3))
     numbers, local = _numbered(curves)
-    batch = SplineBatch.join([state.spline(curve) for curve in numbers])
+    return _tangents([state.spline(curve) for curve in numbers], local, parameters, guess)
+
+
+def tangents_of(
+    spline: Mapping[int, SplineBatch], curves: IntArray, parameters: FloatArray
+) -> FloatArray:
+    """Give unit tangents of curves at chord parameters, (k, 3), of splines by number of curve."""
+    if not len(curves):
+        return np.zeros((0, 3))
+    numbers, local = _numbered(curves)
+    return _tangents([spline[curve] for curve in numbers], local, parameters, None)
+
+
+def _tangents(
+    splines: Sequence[SplineBatch],
+    local: IntArray,
+    parameters: FloatArray,
+    guess: np.typing.NDArray[np.integer] | None,
+) -> FloatArray:
+    batch = SplineBatch.join(splines)
     slope = derivative(batch, local, parameters, guess=guess)
     found: FloatArray = (slope.T / _length(slope)).T
     return found
@@ -87,20 +116,42 @@ def crossing_normals(first: FloatArray, second: FloatArray) -> FloatArray:
     return normal.T
 
 
-def along_normal(state: HullState, rows: IntArray, away: FloatArray) -> FloatArray:
+def sides_held(
+    curve: IntArray, parameter: FloatArray, spline: Mapping[int, SplineBatch]
+) -> np.typing.NDArray[np.bool_]:
+    """Tell on which of their two curves points have a place, (k, 2): these have a shape there."""
+    known = [each in spline for each in curve.ravel().tolist()]
+    held: np.typing.NDArray[np.bool_] = np.isfinite(parameter)
+    held &= np.array(known, np.bool_).reshape(-1, 2)
+    return held
+
+
+def along_normal(
+    curve: IntArray,
+    parameter: FloatArray,
+    held: np.typing.NDArray[np.bool_],
+    spline: Mapping[int, SplineBatch],
+    away: FloatArray,
+) -> FloatArray:
     """Give how far movements (k, 3), m, of points lead along the normal of the hull, (k,), m.
 
     That is the normal of their two curves. Of a point on one curve, or where two are tangent, it
     is what leads across the curve; nan for a point whose curves are not there.
+
+    Parameters
+    ----------
+    curve, parameter : (k, 2) int, (k, 2) m
+        The curves of the points, and where on them.
+    held : (k, 2) bool
+        Whether a point has a place on a curve, as `sides_held` gives it.
+    spline : mapping of int to SplineBatch
+        The curves.
+    away : (k, 3), m
+        The movements.
     """
-    table, found = state.rows, np.full(len(rows), np.nan)
-    curve, at = table.curve[rows], table.parameter[rows]
-    held = (curve >= 0) & np.isfinite(at)
-    for side in (0, 1):
-        held[:, side] &= _is_lofted(state, curve[:, side], held[:, side])
-    tangent = np.zeros((len(rows), 2, 3))
+    found, tangent = np.full(len(curve), np.nan), np.zeros((len(curve), 2, 3))
     one, two = np.nonzero(held)
-    tangent[one, two] = tangents(state, curve[one, two], at[one, two])
+    tangent[one, two] = tangents_of(spline, curve[one, two], parameter[one, two])
     normal = crossing_normals(tangent[:, 0], tangent[:, 1])
     crossing = held.all(axis=1) & (normal != 0.0).any(axis=1)
     found[crossing] = np.abs((away[crossing] * normal[crossing]).sum(axis=1))
@@ -109,17 +160,6 @@ def along_normal(state: HullState, rows: IntArray, away: FloatArray) -> FloatArr
     across = away[alone] - (away[alone] * along).sum(axis=1)[:, None] * along
     found[alone] = np.sqrt((across * across).sum(axis=1))
     return found
-
-
-def _is_lofted(
-    state: HullState, curves: IntArray, asked: np.typing.NDArray[np.bool_]
-) -> np.typing.NDArray[np.bool_]:
-    """Tell which curves have a spline; False where it is not asked."""
-    spline = state.curves.spline.data
-    return np.array(
-        [bool(ask) and spline[curve] is not None
-         for curve, ask in zip(curves.tolist(), asked.tolist(), strict=True)], np.bool_,
-    )  # fmt: skip
 
 
 def gap_at(

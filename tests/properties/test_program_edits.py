@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.pending_changes import Pending
-from assoc_hull.edit.program_network import ProgramRuns
-from assoc_hull.edit.published_program import LiveNumbers, published_program
+from assoc_hull.edit.program_edit import ProgramEdit
+from assoc_hull.edit.published_program import published_program
 from assoc_hull.edit.step import Step
 from assoc_hull.model.program.structure import Values
 from tests.conftest import Shipped
@@ -41,21 +41,18 @@ class Count:
 def by_program(count: Count, *, always: bool) -> Iterator[None]:
     """Let every edit that sets places take the program, or none."""
 
-    def of(document: Document, pending: Pending) -> ProgramRuns | None:
-        if not (always and pending.places_only):
-            return None
-        found = published_program(document)
-        return None if found is None else ProgramRuns(document.state, LiveNumbers.of(found))
+    def of(document: Document, pending: Pending) -> ProgramEdit | None:
+        return ProgramEdit.begun(document, pending) if always and pending.places_only else None
 
-    run = ProgramRuns.run
+    run = ProgramEdit.run
 
-    def counted(self: ProgramRuns, *given: object) -> bool:
-        kept = run(self, *given)  # type: ignore[arg-type]
+    def counted(self: ProgramEdit, *given: object) -> Step | None:
+        step = run(self, *given)  # type: ignore[arg-type]
         count.asked += 1
-        count.kept += kept
-        return kept
+        count.kept += step is not None
+        return step
 
-    with mock.patch.object(ProgramRuns, "of", of), mock.patch.object(ProgramRuns, "run", counted):
+    with mock.patch.object(ProgramEdit, "of", of), mock.patch.object(ProgramEdit, "run", counted):
         yield
 
 

@@ -25,7 +25,6 @@ from assoc_hull.model.address import address
 from assoc_hull.model.feature_geometry import line_numbers, places_off, rounded_gap, rounding_of
 from assoc_hull.model.features import Feature
 from assoc_hull.model.make_objects import Maker
-from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
 __all__ = ["settle_features"]
@@ -51,7 +50,7 @@ class _Settling:
     bent: list[str] = attrs.field(factory=list)
 
 
-def settle_features(work: Work, rows: IntArray) -> None:
+def settle_features(work: Work, rows: IntArray, changed: IntArray) -> None:
     """Bring the features of a hull up to date with an edit, through its journal.
 
     Parameters
@@ -60,12 +59,14 @@ def settle_features(work: Work, rows: IntArray) -> None:
         The update, which has run and was found good.
     rows : (k,) int
         Points that were set, and differ from before by a bit.
+    changed : (k,) int
+        All points that changed, these included.
     """
     state, pending = work.state, work.pending
     before = state.features if pending.features is None else pending.features.features
     fresh = _fresh_lines(work)
     whole = pending.structural or pending.alone
-    affected = list(range(len(before))) if whole else _affected(work, rows)
+    affected = list(range(len(before))) if whole else _affected(work, changed)
     if not affected and not fresh:
         return
     hand = pending.by_hand | _moved_by_hand(work, rows)
@@ -96,12 +97,13 @@ def _moved_by_hand(work: Work, rows: IntArray) -> _Hand:
     return {(row, int(each)) for row in moved for each in curve[row]}
 
 
-def _affected(work: Work, rows: IntArray) -> list[int]:
+def _affected(work: Work, changed: IntArray) -> list[int]:
     """Give the numbers of the features that own a point which changed."""
-    changed = np.concatenate([rows[:0], *(part.changed for part in work.passes)])
-    hand = np.array([row for row, _ in work.pending.by_hand], np.int64)
-    every = np.concatenate([rows, Node.number(changed[Node.is_point(changed)]), hand])
     point, owner = _owners(work.state)
+    if not len(point):
+        return []
+    hand = np.array([row for row, _ in work.pending.by_hand], np.int64)
+    every = np.concatenate([changed, hand])
     found: list[int] = np.unique(owner[np.isin(point, every)]).tolist()
     return found
 

@@ -1,0 +1,357 @@
+"""An edit that keeps the structure of the net: its numbers come from runs of the program.
+
+The runs give the bits of the full way, or say that they do not answer for the edit: then all is
+taken back, and the edit goes the full way. The tables are written to in one piece a run. Causes and
+report are told when somebody asks: the engine then goes once more through the net as it was, and
+takes what each node became from what was noted here, so that they are those of any other edit.
+"""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Mapping, Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.checks.update_findings import plane_normals
+from assoc_hull.edit.displacement_field import unreached
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.followup.settle_features import settle_features
+from assoc_hull.edit.net_difference import net_difference, points_elsewhere
+from assoc_hull.edit.outcome import (
+    Movements,
+    changed_nodes,
+    joined_causes,
+    largest_movements,
+)
+from assoc_hull.edit.pending_changes import Pending, Settings
+from assoc_hull.edit.published_program import LiveNumbers, numbers_for_edit
+from assoc_hull.edit.report import EditReport, Fairness
+from assoc_hull.edit.run_fields import run_fields
+from assoc_hull.edit.step import Step, StepBody
+from assoc_hull.edit.update_passes import Work
+from assoc_hull.errors import RefusedEditError
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.graph.journal import Journal, PickedRows
+from assoc_hull.graph.network import Evaluation, distinct
+from assoc_hull.graph.run_update import UpdatePass, run_update
+from assoc_hull.model.generated_curves import attached_curves
+from assoc_hull.model.network import HullNetwork, moved_curves, placed
+from assoc_hull.model.node import Node
+from assoc_hull.model.program.engine import is_compiled
+from assoc_hull.model.program.run_program import ProgramRun
+
+__all__ = ["ProgramEdit"]
+
+_STEADY = 3
+"""After so many edits that kept the structure a program is compiled for the next ones."""
+
+_NONE: IntArray = np.zeros(0, np.int64)
+
+
+@attrs.frozen(eq=False)
+class _Pass:
+    """One run: the points that were set, those that moved for it, the curves that were lofted.
+
+    `held` are adopted points that did not ride, `step` (k, 3), m, is how far `rows` moved.
+    """
+
+    seeds: IntArray
+    held: IntArray
+    rows: IntArray
+    step: FloatArray
+    curves: IntArray
+    old: Sequence[SplineBatch]
+    new: Sequence[SplineBatch]
+
+    def distances(self) -> dict[int, float]:
+        """Give how far each node moved, m; curves that came out as they were are left out."""
+        step = self.step
+        point = np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
+        found = dict(zip(Node.point(self.rows).tolist(), point.tolist(), strict=True))
+        if len(self.curves):
+            batch = SplineBatch.join(self.new)
+            curve = moved_curves(list(self.old), None, list(self.new), batch)
+            differs = curve != 0.0
+            nodes = Node.curve(self.curves[differs]).tolist()
+            found |= dict(zip(nodes, curve[differs].tolist(), strict=True))
+        return found
+
+    def changed_curves(self) -> list[int]:
+        """Give the curves that differ by a bit from what they were."""
+        pairs = zip(self.curves.tolist(), self.old, self.new, strict=True)
+        return [
+            curve for curve, old, new in pairs
+            if not (np.array_equal(old.xyz, new.xyz) and np.array_equal(old.leave, new.leave))
+        ]  # fmt: skip
+
+
+@attrs.define(eq=False)
+class _NotedNetwork(HullNetwork):
+    """A net whose nodes have become already what they are to be, and by how much they moved."""
+
+    noted: Mapping[int, float] = attrs.field(kw_only=True)
+
+    def evaluate(self, nodes: IntArray, journal: Journal) -> Evaluation:
+        """Tell which of the nodes changed."""
+        distance = [self.noted.get(node, np.nan) for node in nodes.tolist()]
+        moved = np.array(distance)
+        changed = ~np.isnan(moved)
+        return Evaluation(nodes[changed], moved[changed])
+
+
+@attrs.frozen(eq=False)
+class _Notes:
+    """All that is told of an edit later on; nothing of it changes when the tables do."""
+
+    net: HullNetwork
+    name: str
+    journal: Journal
+    passes: Sequence[_Pass]
+    rows: IntArray
+    away: FloatArray
+    movements: Movements
+    elsewhere: tuple[IntArray, FloatArray]
+    notes: tuple[str, ...]
+    largest_gap: float
+    seconds: dict[str, float]
+
+    def body(self) -> StepBody:
+        """Tell what changed, and why."""
+        parts = [self._replayed(each) for each in self.passes]
+        nodes, moved = changed_nodes(parts, self.rows, self.away, _NONE)
+        before, after = self._splines()
+        if len(parts) > 1:
+            every = np.concatenate([nodes, *(part.changed for part in parts)])
+            known = np.concatenate([moved, *(part.moved for part in parts)])
+            nodes, moved = net_difference(
+                self.elsewhere, before, after.__getitem__, every, known
+            )  # fmt: skip
+        report = self._report(parts, nodes, moved, before, after)
+        return StepBody(
+            self.journal, joined_causes(parts), nodes, moved, Node.point(self.rows), report
+        )
+
+    def _replayed(self, noted: _Pass) -> UpdatePass:
+        """Let the engine go through the net once more."""
+        net = _NotedNetwork(self.net.state, self.net.index, noted=noted.distances())
+        return run_update(net, Node.point(noted.seeds), Journal(), held=Node.point(noted.held))
+
+    def _splines(self) -> tuple[dict[int, SplineBatch], dict[int, SplineBatch]]:
+        """Give the curves that were lofted as they were before, and as they are after."""
+        before, after = dict[int, SplineBatch](), dict[int, SplineBatch]()
+        for each in self.passes:
+            after |= zip(each.curves.tolist(), each.new, strict=True)
+            for curve, spline in zip(each.curves.tolist(), each.old, strict=True):
+                before.setdefault(curve, spline)
+        return before, after
+
+    def _report(
+        self, parts: Sequence[UpdatePass], nodes: IntArray, moved: FloatArray,
+        before: dict[int, SplineBatch], after: dict[int, SplineBatch],
+    ) -> EditReport:  # fmt: skip
+        state = self.net.state
+        evaluated = np.concatenate([_NONE, *(part.evaluated for part in parts)])
+        every = Node.number(evaluated[Node.is_curve(evaluated)])
+        curves = every[np.sort(np.unique(every, return_index=True)[1])]
+        keys = tuple(state.curves.key.data[curve] for curve in curves.tolist())
+        largest, normal = largest_movements(state.rows.key.data, self.movements, nodes, moved)
+        return EditReport(
+            self.name,
+            planned=self.net.reached(Node.point(self.passes[0].seeds)),
+            relofted=keys,
+            cut_off=sum(len(part.cut_off) for part in parts),
+            largest=largest,
+            largest_normal=normal,
+            largest_gap=self.largest_gap,
+            notes=self.notes,
+            seconds=self.seconds,
+            fairness=Fairness(
+                before, {curve: after[curve] for curve in curves.tolist()},
+                plane_normals(state, curves), curves, keys,
+            ),
+        )  # fmt: skip
+
+
+@attrs.define(eq=False)
+class ProgramEdit:
+    """One edit while the program carries it out.
+
+    `net` is the net as the engine sees it; of its tables only the structure is looked at.
+    """
+
+    document: Document
+    pending: Pending
+    numbers: LiveNumbers
+    net: HullNetwork
+    journal: Journal = attrs.field(factory=Journal)
+    runs: list[ProgramRun] = attrs.field(factory=list)
+    passes: list[_Pass] = attrs.field(factory=list)
+    ridden: IntArray = attrs.field(factory=lambda: _NONE)
+
+    @classmethod
+    def of(cls, document: Document, pending: Pending) -> ProgramEdit | None:
+        """Give what carries out an edit; None where it is not at hand, or not for such an edit."""
+        steps = document.history[-_STEADY:]
+        steady = len(steps) == _STEADY and not any(each.structural for each in steps)
+        if not (pending.places_only and steady and is_compiled()):
+            return None
+        return cls.begun(document, pending)
+
+    @classmethod
+    def begun(cls, document: Document, pending: Pending) -> ProgramEdit | None:
+        """Take numbers to write to; None for a hull with curves that a program does not make."""
+        found = None if attached_curves(document.state) else numbers_for_edit(document)
+        return None if found is None else cls(document, pending, *found)
+
+    def run(
+        self, name: str, journal: Journal, settings: Settings, rows: IntArray, away: FloatArray
+    ) -> Step | None:
+        """Carry out the edit, of which the points `rows` are set already, and give its step.
+
+        None where the runs do not answer for it; what is in the journal is to be taken back then.
+
+        Raises
+        ------
+        RefusedEditError
+            It was stopped, or a point did not come where it was pulled.
+        """
+        begin, state, pending = time.perf_counter(), self.document.state, self.pending
+        self.journal = journal
+        self.numbers.begin()
+        if pending.stopped():
+            raise RefusedEditError(name, ("it was stopped",))
+        if pending.fields:
+            origin = self.numbers.published.values.xyz
+            found = run_fields(state, journal, pending, rows, origin, self._run)
+            if found is None:
+                return None
+            rows, away = found
+            self._note_riding()
+        elif not self._run(rows):
+            return None
+        ran = time.perf_counter()
+        largest_gap = self._write_gaps()
+        findings = tuple(unreached(state, pending.fields, pending.values.keys()))
+        if findings:
+            raise RefusedEditError(name, findings)
+        work = Work(self.document, name, journal, pending, settings, self.net)
+        written = len(journal.entries)
+        settle_features(work, rows, np.concatenate([rows, *(each.rows for each in self.passes)]))
+        if len(journal.entries) == written:  # else the structure is another one from here on
+            pending.numbers = self
+        seconds = {"run": ran - begin, "check": time.perf_counter() - ran}
+        return self._step(name, rows, away, largest_gap, seconds)
+
+    def _run(self, rows: IntArray) -> bool:
+        """Run with points as they are in the tables now; tell whether that is the whole edit."""
+        if self.pending.stopped():
+            return False  # the full way says so
+        held = np.array(sorted(self.pending.held), np.int64)
+        self.numbers.values.xyz[rows] = self.document.state.rows.xyz[rows]
+        found = self.numbers.run(rows, held)
+        self.runs.append(found)
+        if found.kept:
+            self._write(found, rows, held)
+        return found.kept
+
+    def _write(self, run: ProgramRun, seeds: IntArray, held: IntArray) -> None:
+        """Write what a run has made; each meeting is the crossing that it was."""
+        state, values, program = (
+            self.document.state, self.numbers.values, self.numbers.published.program,
+        )  # fmt: skip
+        rows = np.setdiff1d(run.rows, seeds, assume_unique=True)
+        place = values.xyz[rows]
+        step = place - state.rows.xyz[rows]
+        self.journal.put(state.rows.xyz, rows, place)
+        curves = program.number[run.curves]
+        numbers, table = curves.tolist(), state.curves
+        old, new = [state.spline(curve) for curve in numbers], list[SplineBatch]()
+        if numbers:
+            new = self.numbers.splines(run.curves).single()
+            self.journal.set(table.spline, numbers, new)
+            self._write_meetings(run.curves, numbers)
+        self.passes.append(_Pass(seeds, held, rows, step, curves, old, new))
+
+    def _write_meetings(self, local: IntArray, numbers: list[int]) -> None:
+        """Write where curves meet the planes of others, and crossings lie on them."""
+        state, values, program = (
+            self.document.state, self.numbers.values, self.numbers.published.program,
+        )  # fmt: skip
+        first, stop = program.meet_start[local], program.meet_start[local + 1]
+        bounds = np.concatenate([[0], np.cumsum(stop - first)])
+        where = np.arange(bounds[-1]) + np.repeat(first - bounds[:-1], stop - first)
+        at, xyz = values.at[where], values.place[where]
+        freeze(at, xyz)
+        met, spans = state.curves.meets.data, itertools.pairwise(bounds.tolist())
+        self.journal.set(
+            state.curves.meets, numbers,
+            [placed(met[c], at[a:b], xyz[a:b]) for c, (a, b) in zip(numbers, spans, strict=True)],
+        )  # fmt: skip
+        rows, row = state.rows, program.meet_row[where]
+        actual = np.flatnonzero(row >= 0)  # a latent meeting (-1) is no crossing yet
+        owner = program.number[program.meet_curve[where[actual]]]
+        part = 2 * row[actual] + (rows.curve[row[actual], 0] != owner)
+        pick = None if len(actual) == len(row) else actual
+        self.journal.put_parts(rows.spot, part, PickedRows(xyz, pick), None)
+        self.journal.put_parts(rows.parameter, part, PickedRows(at, pick), None)
+        guess = self.document.index.guess.reshape(-1)
+        if len(guess) == 2 * rows.count:
+            guess[part] = values.segment[where[actual]]
+
+    def _note_riding(self) -> None:
+        """Let points that a field has carried ride from where they are now."""
+        table, values = self.document.state.rows, self.numbers.values
+        self.ridden = np.array(sorted(self.pending.held), np.int64)
+        self.pending.held.clear()
+        values.base[self.ridden] = table.base[self.ridden]
+        values.anchor_from[self.ridden] = table.anchor_from[self.ridden]
+
+    def _write_gaps(self) -> float:
+        """Write the gaps that the runs have measured, none over its limit; give the largest."""
+        values, rows = self.numbers.values, self.document.state.rows
+        watched = distinct(np.concatenate([each.watched for each in self.runs]))
+        gap = values.gap[watched]
+        crossings: IntArray = self.numbers.published.program.watch[watched]
+        self.journal.put(rows.gap, crossings, gap)
+        # A watched crossing is published where it lies on curve a.
+        self.journal.put(rows.xyz, crossings, rows.spot[crossings, 0])
+        return float(gap.max(initial=0.0))
+
+    def _step(
+        self, name: str, rows: IntArray, away: FloatArray, largest_gap: float,
+        seconds: dict[str, float],
+    ) -> Step:  # fmt: skip
+        """Put the finished step together; only what the history needs is told now."""
+        state = self.document.state
+        changed = distinct(np.concatenate([rows, *(each.rows for each in self.passes)]))
+        curves, elsewhere = self.passes[0].changed_curves(), (_NONE, away[:0])
+        if len(self.passes) > 1:
+            elsewhere = points_elsewhere(state, self.journal)
+            changed = elsewhere[0]
+        movements = Movements.of(state, changed, self.numbers.published.values.xyz[changed])
+        notes = _Notes(
+            self.net, name, self.journal, tuple(self.passes), rows, away, movements, elsewhere,
+            tuple(self.pending.notes), largest_gap, seconds,
+        )  # fmt: skip
+        if len(self.passes) > 1:  # a curve may have gone away and come back
+            return Step(name, structural=False, body=notes.body())
+        return Step.told_later(name, self.journal, changed, distinct(np.array(curves)), notes.body)
+
+    def publish(self) -> None:
+        """Keep the numbers of what has just been published."""
+        self.document.program.publish(
+            self.document.state.published(), self.numbers, self.runs, self.ridden
+        )
+
+    def take_back(self) -> None:
+        """Put the published numbers back, for the next edit."""
+        values, published = self.numbers.values, self.numbers.published.values
+        values.base[self.ridden] = published.base[self.ridden]
+        values.anchor_from[self.ridden] = published.anchor_from[self.ridden]
+        for each in self.runs:
+            self.numbers.restore(each)
+        self.numbers.written = False
+        self.document.program.spare = self.numbers
