@@ -8,16 +8,17 @@ delta = U U^T n d / |U^T n|^2. The update runs a `NormalField` in sub-steps wher
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from typing import Protocol
+from collections.abc import Callable, Collection, Hashable, Iterator, Sequence
+from typing import Protocol, TypeVar, cast
 
 import attrs
 import numpy as np
 
-from assoc_hull.edit.hull_normals import free_normals, hull_normals, shape_columns
+from assoc_hull.edit.hull_normals import free_normals, normals_at
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.graph.derived import Objects
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
@@ -30,7 +31,6 @@ __all__ = [
     "PointDisplacements",
     "PullField",
     "add_displacements",
-    "field_context",
     "flat_distance",
     "land_points",
     "move_normal",
@@ -50,6 +50,9 @@ __all__ = [
 
 BoolArray = np.typing.NDArray[np.bool_]
 
+_IN_PLANE = 1e-9
+"""Points as near to a plane (m) lie in it."""
+
 
 def quintic_fade(part: FloatArray) -> FloatArray:
     """Give 1 - (10 s^3 - 15 s^4 + 6 s^5) for s below 1, else 0: a fade with flat ends.
@@ -66,29 +69,69 @@ def quintic_fade(part: FloatArray) -> FloatArray:
     return np.where(s < 1.0, value, 0.0)
 
 
+T = TypeVar("T")
+
+
 @attrs.frozen(eq=False)
 class FieldContext:
-    """What all fields of one (sub-)step read.
+    """What all fields of one (sub-)step read of a hull, as far as they ask for it.
 
     Attributes
     ----------
     state : HullState
-        The tables as they stand.
-    normal : (rows, 3)
-        Unit outward normals.
-    free : (k,) int
-        Points that fields may move.
-    flat_distance : (k,), m
-        Distance of each of these from the nearest border of a flat; inf if there is none.
+        The tables as they stand; they stay so.
+    across_flats : bool
+        Whether flats are moved too.
     """
 
     state: HullState
-    normal: FloatArray
-    free: IntArray
-    flat_distance: FloatArray
+    across_flats: bool
+    _known: dict[Hashable, object] = attrs.field(factory=dict, init=False, repr=False)
 
-    def __attrs_post_init__(self) -> None:
-        freeze(self.normal, self.free, self.flat_distance)
+    def _once(self, key: Hashable, make: Callable[[], T]) -> T:
+        """Give what was asked for before, or make it."""
+        if key not in self._known:
+            self._known[key] = make()
+        # One key is made by one function, so its type is that of `make`.
+        return cast("T", self._known[key])
+
+    def free(self) -> IntArray:
+        """Give the points that fields may move, ascending."""
+        rows = _movable(self.state, self.across_flats)
+        return self._once("free", lambda: self._off_planes(rows))
+
+    def free_near(self, place: FloatArray, radius: tuple[float, float]) -> IntArray:
+        """Give those within a distance along the length, and about within one seen along x."""
+        return self._once(("near", place.tobytes(), radius), lambda: self._near(place, radius))
+
+    def may_move(self, row: int) -> bool:
+        """Tell whether fields may move a point."""
+        movable = _movable(self.state, self.across_flats)
+        return bool(len(self._off_planes(movable[movable == row])))
+
+    def normals(self, rows: IntArray) -> FloatArray:
+        """Give the unit outward normals at points (k,): (k, 3)."""
+        return self._once(("normals", rows.tobytes()), lambda: normals_at(self.state, rows))
+
+    def flat_distances(self, rows: IntArray) -> FloatArray:
+        """Give the distances of points (k,) from the nearest border of a flat, m; inf: none."""
+        return self._once(
+            ("flats", rows.tobytes()), lambda: flat_distance(self.state, self.state.rows.xyz[rows])
+        )
+
+    def _near(self, place: FloatArray, radius: tuple[float, float]) -> IntArray:
+        rows, xyz = _movable(self.state, self.across_flats), self.state.rows.xyz.data
+        rows = rows[np.abs(xyz[:, 0].take(rows) - place[0]) < radius[0]]
+        step = xyz.take(rows, axis=0) - place
+        return self._off_planes(rows[(np.abs(step[:, 1:]) < radius[1]).all(axis=1)])
+
+    def _off_planes(self, rows: IntArray) -> IntArray:
+        """Leave out points in the centre plane, and in the planes of flats."""
+        xyz = self.state.rows.xyz.data.take(rows, axis=0)
+        out = np.abs(xyz[:, 1]) < _IN_PLANE
+        if not self.across_flats:
+            out |= _in_flat_planes(self.state, xyz)
+        return rows[~out]
 
 
 @attrs.frozen(eq=False)
@@ -131,23 +174,23 @@ class NormalField(Protocol):
         """Give the part (of 1) that the hull still lacks, when a part was asked for as `done`."""
 
 
-def field_context(state: HullState, *, across_flats: bool = False) -> FieldContext:
-    """Find the points that fields may move; kept as long as the hull stays as it is."""
-    depends_on = (*shape_columns(state), state.rows.role, across_flats)
-    return state.derived(("field context",), depends_on, lambda: _context(state, across_flats))
+def _movable(state: HullState, across_flats: bool) -> IntArray:
+    """Give the points that fields may move by what they are, and by the lines that they lie on."""
+    rows, lines = state.rows, state.lines
+    depends_on = (
+        rows.alive, rows.sort, rows.role, rows.curve, state.curves.line, lines.alive,
+        lines.boundary, lines.planar, lines.normal,
+    )  # fmt: skip
 
+    def find() -> IntArray:
+        shared = (rows.sort.data == Sort.CROSSING) & (rows.role.data == Role.SHARED)
+        free = rows.alive.data & (shared | (rows.sort.data == Sort.ADOPTED))
+        free &= ~_of_lines(state, _profile_lines(state))
+        if not across_flats:
+            free &= ~_of_lines(state, _boundary_lines(state, BoundaryKind.FLAT))
+        return np.flatnonzero(free)
 
-def _context(state: HullState, across_flats: bool) -> FieldContext:
-    table = state.rows
-    shared = (table.sort.data == Sort.CROSSING) & (table.role.data == Role.SHARED)
-    free = table.alive.data & (shared | (table.sort.data == Sort.ADOPTED))
-    free &= ~on_profile(state)
-    if not across_flats:
-        free &= ~on_flat(state)
-    rows = np.flatnonzero(free)
-    return FieldContext(
-        state, hull_normals(state), rows, flat_distance(state, state.rows.xyz[rows])
-    )
+    return state.derived(("movable", across_flats), depends_on, find)
 
 
 def _boundary_lines(state: HullState, kind: BoundaryKind) -> IntArray:
@@ -163,42 +206,59 @@ def _of_lines(state: HullState, lines: IntArray) -> BoolArray:
     return np.asarray(found[:, 0] | found[:, 1])
 
 
-def on_profile(state: HullState) -> BoolArray:
-    """Tell which points lie in the centre plane: they move with the profile only."""
+def _profile_lines(state: HullState) -> IntArray:
+    """Give the boundary lines in the centre plane on which others end."""
     ends = _boundary_lines(state, BoundaryKind.END)
     centre = np.abs(state.lines.normal[ends, 1]) == 1.0
-    on_line = _of_lines(state, ends[state.lines.planar[ends] & centre])
-    return np.asarray(on_line | (np.abs(state.rows.xyz[:, 1]) < 1e-9))
+    return ends[state.lines.planar[ends] & centre]
+
+
+def on_profile(state: HullState) -> BoolArray:
+    """Tell which points lie in the centre plane: they move with the profile only."""
+    on_line = _of_lines(state, _profile_lines(state))
+    return np.asarray(on_line | (np.abs(state.rows.xyz[:, 1]) < _IN_PLANE))
 
 
 def on_flat(state: HullState) -> BoolArray:
     """Tell which points lie in a flat or on its border."""
-    flats = _boundary_lines(state, BoundaryKind.FLAT)
-    found = _of_lines(state, flats)
-    for line in flats.tolist():
+    found = _of_lines(state, _boundary_lines(state, BoundaryKind.FLAT))
+    return found | _in_flat_planes(state, state.rows.xyz.data)
+
+
+def _in_flat_planes(state: HullState, xyz: FloatArray) -> BoolArray:
+    """Tell which places (k, 3), m, lie in the plane of a flat."""
+    found = np.zeros(len(xyz), np.bool_)
+    for line in _boundary_lines(state, BoundaryKind.FLAT).tolist():
         if state.lines.planar.data[line]:
-            off = (
-                state.rows.xyz.data @ state.lines.normal.data[line] - state.lines.offset.data[line]
-            )
-            found |= np.abs(off) < 1e-9
+            x, y, z = state.lines.normal.data[line].tolist()
+            off = x * xyz[:, 0] + y * xyz[:, 1] + z * xyz[:, 2] - state.lines.offset.data[line]
+            found |= np.abs(off) < _IN_PLANE
     return found
 
 
 def flat_distance(state: HullState, places: FloatArray) -> FloatArray:
     """Measure how far places (k, 3) lie from the nearest border of a flat, (k,), m."""
     distance = np.full(len(places), np.inf)
-    for line in _boundary_lines(state, BoundaryKind.FLAT).tolist():
-        for curve in state.lines.curves.data[line]:
-            border = sample(state.spline(curve), 4)[1]
-            # coordinate by coordinate: numpy runs several times as fast over long rows
-            square = np.zeros((len(places), len(border)))
-            for axis in range(3):
-                step = places[:, axis, None] - border[:, axis]
-                step *= step
-                square += step
-            nearest = np.sqrt(square.min(axis=1))
-            distance = np.minimum(distance, nearest)
+    for border in _flat_borders(state):
+        # coordinate by coordinate: numpy runs several times as fast over long rows
+        square = np.zeros((len(places), len(border)))
+        for axis in range(3):
+            step = places[:, axis, None] - border[:, axis]
+            step *= step
+            square += step
+        nearest = np.sqrt(square.min(axis=1))
+        distance = np.minimum(distance, nearest)
     return distance
+
+
+def _flat_borders(state: HullState) -> list[FloatArray]:
+    """Give places (k, 3), m, along the border curves of flats."""
+    curves = state.lines.curves.data
+    flats = _boundary_lines(state, BoundaryKind.FLAT).tolist()
+    splines = [state.spline(curve) for line in flats for curve in curves[line]]
+    return state.derived(
+        ("flat borders",), (Objects(splines),), lambda: [sample(each, 4)[1] for each in splines]
+    )
 
 
 def move_normal(ground: FieldContext, rows: IntArray, amount: FloatArray) -> PointDisplacements:
@@ -206,7 +266,7 @@ def move_normal(ground: FieldContext, rows: IntArray, amount: FloatArray) -> Poi
 
     `amount` (k,), m, is positive outward. Points whose freedom is almost tangential stay.
     """
-    normal = ground.normal[rows]
+    normal = ground.normals(rows)
     along = free_normals(ground.state, rows, normal)
     square = (along * along).sum(axis=1)
     good = np.sqrt(square) >= ground.state.tolerances.field_normal
@@ -326,8 +386,8 @@ class PullField:
 
     def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
         """Give the displacements for a part of the whole pull."""
-        xyz = ground.state.rows.xyz[ground.free]
-        step = xyz - self.place
+        rows = ground.free_near(self.place, self.radius)
+        step = ground.state.rows.xyz[rows] - self.place
         girth = np.sqrt(step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
         amount = (
             part
@@ -335,10 +395,11 @@ class PullField:
             * quintic_fade(step[:, 0] / self.radius[0])
             * quintic_fade(girth / self.radius[1])
         )
+        rows, amount = rows[amount != 0.0], amount[amount != 0.0]
         if not self.across_flats and np.isfinite(self.flat_fade):
-            amount = amount * (1.0 - quintic_fade(ground.flat_distance / self.flat_fade))
+            amount = amount * (1.0 - quintic_fade(ground.flat_distances(rows) / self.flat_fade))
         reach = amount != 0.0
-        return move_normal(ground, ground.free[reach], amount[reach])
+        return move_normal(ground, rows[reach], amount[reach])
 
     def exact(self) -> tuple[IntArray, FloatArray]:
         """Nothing: every point moves by what the field says."""
@@ -408,7 +469,7 @@ def _slides(state: HullState, pull: PullField) -> bool:
         return False
     if state.rows.role[pull.row] == Role.WATCHED:
         return False
-    normal = np.stack([pull.normal, hull_normals(state)[pull.row]])
+    normal = np.stack([pull.normal, normals_at(state, np.array([pull.row]))[0]])
     along = free_normals(state, np.array([pull.row, pull.row]), normal)
     least = float(np.sqrt((along * along).sum(axis=1)).min())
     return least < state.tolerances.field_normal

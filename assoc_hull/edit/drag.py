@@ -25,11 +25,10 @@ from assoc_hull.edit.displacement_field import (
     CLOSE,
     FieldContext,
     PullField,
-    field_context,
     sub_step_count,
 )
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.hull_normals import hull_normals
+from assoc_hull.edit.hull_normals import normals_at
 from assoc_hull.edit.modifications.points import PointFreedom
 from assoc_hull.edit.modifications.pull import curves_to_hold, pull_field
 from assoc_hull.edit.pending_changes import Settings
@@ -251,7 +250,7 @@ class _QuickWay:
             pull = pull_field(state, row, 1.0, radius, across_flats=across_flats)
         except AssocHullError:
             return None  # each step says why
-        ground = field_context(state, across_flats=across_flats)
+        ground = FieldContext(state, across_flats)
         return None if curves_to_hold(state, row) else cls(numbers, state, row, None, pull, ground)
 
     def written(self, asked: dict[str, float]) -> tuple[IntArray, FloatArray] | None:
@@ -351,7 +350,7 @@ class Drag:
         computed = state.rows.sort[row] == Sort.CROSSING
         computed &= state.rows.role[row] != Role.SHARED
         self.free = () if computed else free_axes(state, row)
-        normal = hull_normals(state)[row]
+        normal = normals_at(state, np.array([row]))[0]
         self.normal: FloatArray | None = normal.copy() if (normal != 0.0).any() else None
         freeze(self.start, *([] if self.normal is None else [self.normal]))
         self._row, self._quick = row, _QuickWay.of(document, row, how, radius, across_flats)

@@ -13,8 +13,8 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.interpolation import interpolate_linear
-from assoc_hull.graph.table import ValueColumn
-from assoc_hull.model.gaps import crossing_normals, tangents
+from assoc_hull.graph.network import distinct
+from assoc_hull.model.gaps import crossing_normals, numbered, tangents
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.lofting import loft_curves
 from assoc_hull.model.tables import HullState
@@ -23,8 +23,8 @@ __all__ = [
     "curve_tangents",
     "free_normals",
     "hull_normals",
+    "normals_at",
     "shape_columns",
-    "turn_outward",
 ]
 
 _SHORT = 1e-6
@@ -32,12 +32,78 @@ _SHORT = 1e-6
 direction."""
 
 
-def turn_outward(state: HullState, normal: FloatArray, tangent: FloatArray) -> FloatArray:
-    """Turn unit normals (rows, 3) out of the hull.
+def _turn_outward(
+    state: HullState, rows: IntArray, normal: FloatArray, tangent: FloatArray
+) -> FloatArray:
+    """Turn unit normals (k, 3) at points (k,) out of the hull.
 
-    `tangent` (rows, 2, 3) are the unit tangents of the two curves at every point, as the curves
-    are stored; zero where not known. Where both curves are boundary or space curves, normals are
+    `tangent` (k, 2, 3) are the unit tangents of the two curves at every point, as the curves are
+    stored; zero where not known. Where both curves are boundary or space curves, normals are
     turned away from the line of the deck in the centre plane.
+    """
+    reference = _references(state, rows, tangent)
+    cosine = (normal[:, None, :] * reference).sum(axis=2)
+    # of two plane curves, the one to which the normal is less oblique decides
+    surer = np.abs(cosine[:, 1]) > np.abs(cosine[:, 0])
+    away = np.where(surer, cosine[:, 1], cosine[:, 0])
+    unknown = ~(reference != 0.0).any(axis=(1, 2))
+    if unknown.any():
+        away[unknown] = _from_deck(state, rows[unknown], normal[unknown])
+    return np.where((away < 0.0)[:, None], -normal, normal)
+
+
+def _references(state: HullState, rows: IntArray, tangent: FloatArray) -> FloatArray:
+    """Give the direction out of the hull in the plane of each curve, (k, 2, 3)."""
+    curve = state.rows.curve.data.take(rows, axis=0)
+    line = np.where(curve >= 0, state.curves.line.data.take(np.maximum(curve, 0)), 0)
+    known = (curve >= 0) & state.lines.planar.data.take(line)
+    known &= state.lines.boundary.data.take(line) < 0
+    plane = np.where(known[:, :, None], state.lines.normal.data.take(line, axis=0), 0.0)
+    out = np.cross(plane, tangent)
+    sense = np.zeros(known.shape)
+    sense[known] = _course(state, curve[known])
+    return np.asarray(out * sense[:, :, None])
+
+
+def _course(state: HullState, curves: IntArray) -> FloatArray:
+    """Give 1 or -1 for plane curves (k,), so that plane x tangent points outward with it."""
+    ends = state.rows.xyz.data.take(_defining_points(state).ends.take(curves, axis=0), axis=0)
+    line = state.curves.line.data.take(curves)
+    across = np.abs(state.lines.normal.data.take(line, axis=0)[:, 0]) > 0.5
+    away = ends[:, 1] - ends[:, 0]
+    run = np.where(across, away[:, 2], away[:, 0])
+    short = np.abs(run) < state.tolerances.factor * _SHORT
+    # A closed curve: the sense in which it goes round decides.
+    for i in np.flatnonzero(short).tolist():
+        xyz = state.rows.xyz.data[state.curves.rows.data[int(curves[i])]]
+        turn = _turn(xyz, state.lines.normal.data[int(line[i])])
+        run[i] = turn * (1.0 if across[i] else -1.0)
+    return np.copysign(1.0, np.where(across, -run, run))
+
+
+def _turn(xyz: FloatArray, normal: FloatArray) -> float:
+    """Give the area a closed curve goes round, counted positive about the normal, m2."""
+    areas = 0.5 * np.cross(xyz[:-1] - xyz[0], xyz[1:] - xyz[0]).sum(axis=0)
+    return float((areas * normal).sum())
+
+
+def _from_deck(state: HullState, rows: IntArray, normal: FloatArray) -> FloatArray:
+    """Tell by its sign whether a normal points away from the deck's line in the centre plane."""
+    xyz = state.rows.xyz.data
+    top = max(state.particulars.depth, float(xyz[state.live("rows"), 2].max(initial=0.0)))
+    y, z = xyz[rows, 1], xyz[rows, 2]
+    found: FloatArray = normal[:, 1] * y + normal[:, 2] * (z - top)
+    return found
+
+
+# --------------------------------------------------------------------------------------
+# Normals at all points, and at some: at each they are the same, to the bit.
+
+
+def hull_normals(state: HullState) -> FloatArray:
+    """Give the unit outward normal at every point, (rows, 3); zero where it is not known.
+
+    They are kept, read-only, until something changes that they are made from.
 
     Examples
     --------
@@ -48,71 +114,10 @@ def turn_outward(state: HullState, normal: FloatArray, tangent: FloatArray) -> F
     >>> bool((normal[:, 1] > -1e-12).all())
     True
     """
-    reference = _references(state, tangent)
-    cosine = (normal[:, None, :] * reference).sum(axis=2)
-    # of two plane curves, the one to which the normal is less oblique decides
-    surer = np.abs(cosine[:, 1]) > np.abs(cosine[:, 0])
-    away = np.where(surer, cosine[:, 1], cosine[:, 0])
-    unknown = ~(reference != 0.0).any(axis=(1, 2))
-    away[unknown] = _from_deck(state, normal)[unknown]
-    return np.where((away < 0.0)[:, None], -normal, normal)
-
-
-def _references(state: HullState, tangent: FloatArray) -> FloatArray:
-    """Give the direction out of the hull in the plane of each curve, (rows, 2, 3)."""
-    curve = state.rows.curve.data
-    line = np.where(curve >= 0, state.curves.line[np.maximum(curve, 0)], 0)
-    known = (curve >= 0) & state.lines.planar[line]
-    known &= state.lines.boundary[line] < 0
-    plane = np.where(known[:, :, None], state.lines.normal[line], 0.0)
-    out = np.cross(plane, tangent)
-    sense = np.where(known, _course(state)[np.maximum(curve, 0)], 0.0)
-    return np.asarray(out * sense[:, :, None])
-
-
-def _course(state: HullState) -> FloatArray:
-    """Give 1 or -1 by curve, so that plane x tangent points outward with it."""
-    found = np.ones(state.curves.count)
-    for curve in state.live("curves").tolist():
-        line = state.line_of(curve)
-        xyz, normal = state.rows.xyz.data[state.curves.rows.data[curve]], state.lines.normal.data
-        if not state.lines.planar.data[line] or len(xyz) < 2:
-            continue
-        across = abs(normal[line, 0]) > 0.5
-        run = float(xyz[-1, 2] - xyz[0, 2]) if across else float(xyz[-1, 0] - xyz[0, 0])
-        if (
-            abs(run) < state.tolerances.factor * _SHORT
-        ):  # a closed curve: the sense in which it goes round decides
-            run = _turn(xyz, normal[line]) * (1.0 if across else -1.0)
-        found[curve] = np.copysign(1.0, -run if across else run)
-    return found
-
-
-def _turn(xyz: FloatArray, normal: FloatArray) -> float:
-    """Give the area a closed curve goes round, counted positive about the normal, m2."""
-    areas = 0.5 * np.cross(xyz[:-1] - xyz[0], xyz[1:] - xyz[0]).sum(axis=0)
-    return float((areas * normal).sum())
-
-
-def _from_deck(state: HullState, normal: FloatArray) -> FloatArray:
-    """Tell by its sign whether a normal points away from the deck's line in the centre plane."""
-    xyz = state.rows.xyz.data
-    top = max(state.particulars.depth, float(xyz[state.live("rows"), 2].max(initial=0.0)))
-    found: FloatArray = normal[:, 1] * xyz[:, 1] + normal[:, 2] * (xyz[:, 2] - top)
-    return found
-
-
-# --------------------------------------------------------------------------------------
-# Normals at all points.
-
-
-def hull_normals(state: HullState) -> FloatArray:
-    """Give the unit outward normal at every point, (rows, 3); zero where it is not known.
-
-    An edit asks for them again and again: they are kept, read-only, until something changes that
-    they are made from.
-    """
-    return state.derived(("hull normals",), shape_columns(state), lambda: _normals(state))
+    return state.derived(
+        ("hull normals",), shape_columns(state),
+        lambda: normals_at(state, np.arange(state.rows.count)),
+    )  # fmt: skip
 
 
 def shape_columns(state: HullState) -> tuple[object, ...]:
@@ -126,43 +131,87 @@ def shape_columns(state: HullState) -> tuple[object, ...]:
     )  # fmt: skip
 
 
-def _normals(state: HullState) -> FloatArray:
-    table = state.rows
-    tangent = curve_tangents(state)
-    crossing = np.flatnonzero(table.alive.data & (table.sort.data == Sort.CROSSING))
-    normal = np.zeros((table.count, 3))
-    normal[crossing] = crossing_normals(tangent[crossing, 0], tangent[crossing, 1])
-    normal = turn_outward(state, normal, tangent)
-    _interpolate(state, normal)
-    freeze(normal)
-    return normal
+def normals_at(state: HullState, rows: IntArray) -> FloatArray:
+    """Give the unit outward normals at points (k,): (k, 3), zero where not known."""
+    table, found = state.rows, np.zeros((len(rows), 3))
+    crosses = _cross(state, rows)
+    own = np.flatnonzero(~crosses & (_defining_points(state).place.take(rows, axis=0)[:, 0] >= 0))
+    along = _Along.of_curves(state, table.curve[rows[own], 0]) if len(own) else None
+    every = distinct(rows[crosses])
+    if along is not None:
+        every = distinct(np.concatenate([every, along.row[along.row >= 0]]))
+        every = every[_cross(state, every)]
+    tangent = _tangents_at(state, every)
+    normal = crossing_normals(tangent[:, 0], tangent[:, 1])
+    normal = _turn_outward(state, every, normal, tangent)
+    place = every.searchsorted(rows[crosses])
+    found[crosses] = normal.take(place, axis=0)
+    if along is not None and len(every):
+        found[own] = along.interpolate(state, rows[own], every, normal)
+    freeze(found)
+    return found
+
+
+def _cross(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell which points are crossings, and there."""
+    found: np.typing.NDArray[np.bool_] = state.rows.alive.data.take(rows)
+    found &= state.rows.sort.data.take(rows) == Sort.CROSSING
+    return found
+
+
+@attrs.frozen(eq=False)
+class _DefiningPoints:
+    """Where points stand among those that define their curves.
+
+    `place` (rows, 2) int is the number of a point on its curve on each side, -1 where it does not
+    define that; `ends` (curves, 2) int are the first and the last point of a curve.
+    """
+
+    place: IntArray
+    ends: IntArray
+
+    @classmethod
+    def of(cls, state: HullState) -> _DefiningPoints:
+        """Read the tables."""
+        curves = state.live("curves").tolist()
+        rows = [state.curves.rows.data[curve] for curve in curves]
+        place = np.full((state.rows.count, 2), -1)
+        for row, curve in zip(rows, curves, strict=True):
+            place[row, state.curves.side.data[curve]] = np.arange(len(row))
+        ends = np.zeros((state.curves.count, 2), np.int64)
+        ends[curves] = np.array([row[[0, -1]] for row in rows], np.int64).reshape(-1, 2)
+        return cls(place, ends)
+
+
+def _defining_points(state: HullState) -> _DefiningPoints:
+    curves = state.curves
+    depends_on = curves.rows, curves.side, curves.alive, state.rows.alive
+    return state.derived(("defining points",), depends_on, lambda: _DefiningPoints.of(state))
 
 
 def curve_tangents(state: HullState) -> FloatArray:
     """Give the unit tangents of both curves at every point, (rows, 2, 3); zero where unknown."""
-    table, curves = state.rows, state.live("curves").tolist()
-    found = np.zeros((table.count, 2, 3))
-    known = np.zeros((table.count, 2), bool)
-    if curves:
-        batch = SplineBatch.join([_present(state, curve) for curve in curves])
-        slope, first, last = batch.leave + batch.arrive, batch.start[:-1], batch.start[1:] - 1
-        slope[first], slope[last] = batch.leave[first], batch.arrive[last]
+    return _tangents_at(state, np.arange(state.rows.count))
+
+
+def _tangents_at(state: HullState, rows: IntArray) -> FloatArray:
+    """Give the unit tangents of both curves at points (k,): (k, 2, 3), zero where unknown."""
+    table, found = state.rows, np.zeros((len(rows), 2, 3))
+    curve, at = table.curve.data.take(rows, axis=0), table.parameter.data.take(rows, axis=0)
+    place = _defining_points(state).place.take(rows, axis=0)
+    defines = place >= 0
+    passes = ~defines & (curve >= 0) & np.isfinite(at) & table.alive.data.take(rows)[:, None]
+    if defines.any():
+        numbers, local = numbered(curve[defines])
+        batch = SplineBatch.join([_present(state, each) for each in numbers])
+        knot = batch.start.take(local) + place[defines]
+        slope = batch.leave.take(knot, axis=0) + batch.arrive.take(knot, axis=0)
+        first, last = place[defines] == 0, knot == batch.start.take(local + 1) - 1
+        slope[first], slope[last] = batch.leave[knot[first]], batch.arrive[knot[last]]
         length = np.sqrt((slope * slope).sum(axis=1))
-        there = _joined(state.curves.rows, curves), _joined(state.curves.side, curves)
-        found[there] = slope / np.where(length > 0.0, length, 1.0)[:, None]
-        known[there] = True
-    for side in (0, 1):
-        missing = table.alive.data & ~known[:, side] & np.isfinite(table.parameter.data[:, side])
-        rows = np.flatnonzero(missing & (table.curve.data[:, side] >= 0))
-        found[rows, side] = tangents(
-            state, table.curve.data[rows, side], table.parameter.data[rows, side]
-        )
+        found[defines] = slope / np.where(length > 0.0, length, 1.0)[:, None]
+    found[passes] = tangents(state, curve[passes], at[passes])
     return found
-
-
-def _joined(column: ValueColumn[IntArray], curves: list[int]) -> IntArray:
-    """Put the arrays that a column holds for curves one behind the other."""
-    return np.concatenate([column.data[curve] for curve in curves])
 
 
 def _present(state: HullState, curve: int) -> SplineBatch:
@@ -172,26 +221,58 @@ def _present(state: HullState, curve: int) -> SplineBatch:
     return spline if same else loft_curves(state, np.array([curve]))
 
 
-def _interpolate(state: HullState, normal: FloatArray) -> None:
-    """Fill in the normals at points that have one curve only, from those at its crossings."""
-    curves = state.live("curves").tolist()
-    if not curves:
-        return
-    splines = [_present(state, curve) for curve in curves]
-    knot = np.concatenate([spline.knot for spline in splines])
-    curve = np.repeat(np.arange(len(curves)), [len(spline.knot) for spline in splines])
-    rows = _joined(state.curves.rows, curves)
-    own = state.rows.sort[rows] != Sort.CROSSING
-    meets = [state.curves.meets.data[each] for each in curves]
-    meeting = np.repeat(np.arange(len(curves)), [len(each.row) for each in meets])
-    where = np.concatenate([curve[~own], meeting])
-    known = np.concatenate([rows[~own], *(each.row for each in meets)])
-    at = np.concatenate([knot[~own], *(each.parameter for each in meets)])
-    values = normal[known]
-    good = (known >= 0) & (values != 0.0).any(axis=1)
-    blend, found = interpolate_linear(where[good], at[good], values[good], curve[own], knot[own])
-    length = np.sqrt((blend * blend).sum(axis=1))
-    normal[rows[own][found]] = blend / np.where(length > 1e-12, length, 1.0)[:, None]
+@attrs.frozen(eq=False)
+class _Along:
+    """Curves on which there are points that lie on no other, and the crossings there.
+
+    Attributes
+    ----------
+    curves : list of int
+        The curves, ascending.
+    batch : SplineBatch
+        As they are.
+    of, row, at : (q,) int, (q,) int, (q,) m
+        Crossings: on which of the curves, which, and where; those that define a curve first.
+    """
+
+    curves: list[int]
+    batch: SplineBatch
+    of: IntArray
+    row: IntArray
+    at: FloatArray
+
+    @classmethod
+    def of_curves(cls, state: HullState, curves: IntArray) -> _Along:
+        """Find them."""
+        numbers = distinct(curves).tolist()
+        batch = SplineBatch.join([_present(state, each) for each in numbers])
+        owner = np.repeat(np.arange(len(numbers)), np.diff(batch.start))
+        rows = np.concatenate([state.curves.rows.data[each] for each in numbers])
+        crossing = state.rows.sort.data.take(rows) == Sort.CROSSING
+        meets = [state.curves.meets.data[each] for each in numbers]
+        meeting = np.repeat(np.arange(len(numbers)), [len(each.row) for each in meets])
+        return cls(
+            numbers, batch, np.concatenate([owner[crossing], meeting]),
+            np.concatenate([rows[crossing], *(each.row for each in meets)]),
+            np.concatenate([batch.knot[crossing], *(each.parameter for each in meets)]),
+        )  # fmt: skip
+
+    def interpolate(
+        self, state: HullState, rows: IntArray, every: IntArray, normal: FloatArray
+    ) -> FloatArray:
+        """Give normals at points (k,) of the curves from those at crossings: `every`, `normal`."""
+        place = every.searchsorted(self.row)
+        known = every.take(place, mode="clip") == self.row
+        values = np.where(known[:, None], normal.take(place, axis=0, mode="clip"), 0.0)
+        good = (values != 0.0).any(axis=1)
+        curve = np.searchsorted(self.curves, state.rows.curve.data[rows, 0])
+        knot = self.batch.start[curve] + _defining_points(state).place[rows, 0]
+        blend, told = interpolate_linear(
+            self.of[good], self.at[good], values[good], curve, self.batch.knot[knot]
+        )
+        length, found = np.sqrt((blend * blend).sum(axis=1)), np.zeros((len(rows), 3))
+        found[told] = blend / np.where(length > 1e-12, length, 1.0)[:, None]
+        return found
 
 
 @attrs.frozen(eq=False)

@@ -8,9 +8,9 @@ import numpy as np
 
 from assoc_hull.edit.displacement_field import (
     CLOSE,
+    FieldContext,
     NormalField,
     add_displacements,
-    field_context,
     land_points,
     sub_step_count,
 )
@@ -58,17 +58,19 @@ def run_fields(
     fields, held = pending.fields, pending.held
     across = any(field.across_flats for field in fields)
     pinned, touched = set(pending.values), set(rows.tolist())
-    ground = field_context(state, across_flats=across)
+    ground = FieldContext(state, across)
     shift = add_displacements([field.shift(ground, 1.0) for field in fields], pinned)
-    steps = sub_step_count(state, shift)
+    steps, whole = sub_step_count(state, shift), shift
     landing = np.concatenate([field.exact()[0] for field in fields])
     for step in range(steps + _MORE):
         part = _part(state, fields, step, steps)
         if part == 0.0:
             break
         if step:
-            ground = field_context(state, across_flats=across)
-        shift = add_displacements([field.shift(ground, part) for field in fields], pinned)
+            ground = FieldContext(state, across)
+        shift = whole
+        if step or part != 1.0:
+            shift = add_displacements([field.shift(ground, part) for field in fields], pinned)
         reached = np.union1d(shift.rows, landing)
         before = state.rows.xyz[reached]
         if detach is not None:

@@ -20,6 +20,7 @@ __all__ = [
     "along_normal",
     "crossing_normals",
     "gap_at",
+    "numbered",
     "sides_held",
     "tangents",
     "tangents_of",
@@ -57,7 +58,7 @@ def tangents(
     """
     if not len(curves):
         return np.zeros((0, 3))
-    numbers, local = _numbered(curves)
+    numbers, local = numbered(curves)
     return _tangents([state.spline(curve) for curve in numbers], local, parameters, guess)
 
 
@@ -67,7 +68,7 @@ def tangents_of(
     """Give unit tangents of curves at chord parameters, (k, 3), of splines by number of curve."""
     if not len(curves):
         return np.zeros((0, 3))
-    numbers, local = _numbered(curves)
+    numbers, local = numbered(curves)
     return _tangents([spline[curve] for curve in numbers], local, parameters, None)
 
 
@@ -83,7 +84,7 @@ def _tangents(
     return found
 
 
-def _numbered(items: IntArray) -> tuple[list[int], IntArray]:
+def numbered(items: IntArray) -> tuple[list[int], IntArray]:
     """Give the items that occur, ascending, and for each item its place among these."""
     lowest = int(items.min())
     offset = items - lowest

@@ -14,8 +14,6 @@ from assoc_hull.arguments import pair
 from assoc_hull.edit.displacement_field import (
     FieldContext,
     PullField,
-    field_context,
-    flat_distance,
     row_spacing,
 )
 from assoc_hull.edit.followup.adopted_points import insert_defining_point
@@ -85,7 +83,7 @@ def pull_field(
         reach = (3.0 * row_spacing(state, place), 3.0 * row_spacing(state, place))
     else:
         reach = pair(radius, "radius", positive=True)
-    ground = field_context(state, across_flats=across_flats)
+    ground = FieldContext(state, across_flats)
     border = _border_distance(ground, row)
     if border is None:
         raise PointRoleError(
@@ -94,7 +92,7 @@ def pull_field(
             None,
             "move the border curve, or pull with across_flats=True",
         )
-    fade, normal = min(reach[1], border), ground.normal[row].copy()
+    fade, normal = min(reach[1], border), ground.normals(np.array([row]))[0].copy()
     return PullField(row, place, amount, normal, reach, fade, across_flats)
 
 
@@ -131,10 +129,10 @@ def _hold(edit: Transaction, row: int, curve: int, place: FloatArray) -> None:
 
 def _border_distance(ground: FieldContext, row: int) -> float | None:
     """Give the distance of a point from the next flat; None if it cannot be pulled."""
-    if not (ground.normal[row] != 0.0).any():
+    if not (ground.normals(np.array([row])) != 0.0).any():
         return None
     state = ground.state
     computed = state.rows.driver[row] >= 0 or np.isfinite(state.rows.gap[row])
-    if not computed and not (ground.free == row).any():
+    if not computed and not ground.may_move(row):
         return None
-    return float(flat_distance(state, state.rows.xyz[[row]])[0])
+    return float(ground.flat_distances(np.array([row]))[0])

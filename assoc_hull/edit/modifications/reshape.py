@@ -26,7 +26,7 @@ from assoc_hull.edit.displacement_field import (
     row_spacing,
 )
 from assoc_hull.edit.followup.adopted_points import insertion_index
-from assoc_hull.edit.hull_normals import hull_normals
+from assoc_hull.edit.hull_normals import normals_at
 from assoc_hull.edit.lines.line_planes import checked_in_planes
 from assoc_hull.edit.modifications.points import pin
 from assoc_hull.edit.transaction import Transaction
@@ -104,10 +104,10 @@ class ReshapeField:
         own = part * (self.places - self.start)
         if self.radius is None:
             return PointDisplacements(self.rows, own, np.zeros(0, np.int64))
-        others = ground.free[~np.isin(ground.free, self.rows)]
+        others = np.setdiff1d(ground.free(), self.rows, assume_unique=True)
         others = others[~(ground.state.rows.reader[others] == self.curve).any(axis=1)]
         others = others[~_defines(ground.state, others, _givers(ground.state, self.curve))]
-        distance = ground.flat_distance[np.searchsorted(ground.free, others)]
+        distance = ground.flat_distances(others)
         amount, at = self._amount(ground.state.rows.xyz[others])
         amount = part * amount
         if not self.across_flats:
@@ -296,7 +296,7 @@ def reshape(
     rows = _own_rows(state, curve, old, design, across_flats=across_flats)
     goals = _goals(state, curve, rows, old.xyz + moved, new)
     start = state.rows.xyz[rows].copy()
-    normals = hull_normals(state)[state.curves.rows[curve]]
+    normals = normals_at(state, state.curves.rows[curve])
     made = _place(edit, curve, design.shape, rows, goals)
     edit.pending.fields.append(
         ReshapeField(
