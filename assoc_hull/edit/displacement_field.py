@@ -113,10 +113,11 @@ class FieldContext:
         """Give the unit outward normals at points (k,): (k, 3)."""
         return self._once(("normals", rows.tobytes()), lambda: normals_at(self.state, rows))
 
-    def flat_distances(self, rows: IntArray) -> FloatArray:
-        """Give the distances of points (k,) from the nearest border of a flat, m; inf: none."""
+    def flat_distances(self, rows: IntArray, within: float = np.inf) -> FloatArray:
+        """Give the distances of points (k,) from the nearest border of a flat, as `flat_distance`."""
         return self._once(
-            ("flats", rows.tobytes()), lambda: flat_distance(self.state, self.state.rows.xyz[rows])
+            ("flats", rows.tobytes(), within),
+            lambda: flat_distance(self.state, self.state.rows.xyz[rows], within),
         )
 
     def _near(self, place: FloatArray, radius: tuple[float, float]) -> IntArray:
@@ -236,10 +237,18 @@ def _in_flat_planes(state: HullState, xyz: FloatArray) -> BoolArray:
     return found
 
 
-def flat_distance(state: HullState, places: FloatArray) -> FloatArray:
-    """Measure how far places (k, 3) lie from the nearest border of a flat, (k,), m."""
+def flat_distance(state: HullState, places: FloatArray, within: float = np.inf) -> FloatArray:
+    """Measure how far places (k, 3) lie from the nearest border of a flat, (k,), m.
+
+    inf where there is none; one beyond `within`, m, may be left out.
+    """
     distance = np.full(len(places), np.inf)
-    for border in _flat_borders(state):
+    if not len(places):
+        return distance
+    low, high = places.min(axis=0) - within, places.max(axis=0) + within
+    for border, least, most in _flat_borders(state):
+        if (least > high).any() or (most < low).any():
+            continue
         # coordinate by coordinate: numpy runs several times as fast over long rows
         square = np.zeros((len(places), len(border)))
         for axis in range(3):
@@ -251,14 +260,17 @@ def flat_distance(state: HullState, places: FloatArray) -> FloatArray:
     return distance
 
 
-def _flat_borders(state: HullState) -> list[FloatArray]:
-    """Give places (k, 3), m, along the border curves of flats."""
+def _flat_borders(state: HullState) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
+    """Give places (k, 3), m, along the border curves of flats, with their least and largest."""
     curves = state.lines.curves.data
     flats = _boundary_lines(state, BoundaryKind.FLAT).tolist()
     splines = [state.spline(curve) for line in flats for curve in curves[line]]
-    return state.derived(
-        ("flat borders",), (Objects(splines),), lambda: [sample(each, 4)[1] for each in splines]
-    )
+
+    def find() -> list[tuple[FloatArray, FloatArray, FloatArray]]:
+        borders = [sample(each, 4)[1] for each in splines]
+        return [(each, each.min(axis=0), each.max(axis=0)) for each in borders]
+
+    return state.derived(("flat borders",), (Objects(splines),), find)
 
 
 def move_normal(ground: FieldContext, rows: IntArray, amount: FloatArray) -> PointDisplacements:
@@ -397,7 +409,9 @@ class PullField:
         )
         rows, amount = rows[amount != 0.0], amount[amount != 0.0]
         if not self.across_flats and np.isfinite(self.flat_fade):
-            amount = amount * (1.0 - quintic_fade(ground.flat_distances(rows) / self.flat_fade))
+            amount = amount * (
+                1.0 - quintic_fade(ground.flat_distances(rows, self.flat_fade) / self.flat_fade)
+            )
         reach = amount != 0.0
         return move_normal(ground, rows[reach], amount[reach])
 

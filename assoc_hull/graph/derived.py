@@ -70,10 +70,7 @@ def _stamp(depends_on: tuple[object, ...]) -> tuple[object, ...]:
 
 
 def _state_of(part: object) -> object:
-    if isinstance(part, Column):
-        return part.writes
-    # a column of values does not count its writes: its values never change, but are replaced
-    return Objects(tuple(part.data)) if isinstance(part, ValueColumn) else part
+    return part.writes if isinstance(part, Column | ValueColumn) else part
 
 
 Marked = Mapping[Hashable, Mapping[Key, _Entry]]

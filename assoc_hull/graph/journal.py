@@ -155,6 +155,7 @@ class _ListEntry(Generic[V]):
     index: Sequence[int]
     old: Sequence[V]
     new: Sequence[V]
+    was: int
 
     def undo(self) -> None:
         store = self.column.store
@@ -167,7 +168,7 @@ class _ListEntry(Generic[V]):
             store[index] = value
 
     def restamp(self) -> None:
-        """Do nothing: who derives something from a list holds the objects themselves."""
+        self.column.writes = self.was
 
     def idle(self) -> bool:
         return all(same_value(old, new) for old, new in zip(self.old, self.new, strict=True))
@@ -288,7 +289,7 @@ class Journal:
         rows, new = tuple(index), tuple(values)
         data = column.data
         old = tuple([data[row] for row in rows])
-        entry = _ListEntry(column, rows, old, new)
+        entry = _ListEntry(column, rows, old, new, column.writes)
         self.entries.append(entry)
         entry.redo()
 

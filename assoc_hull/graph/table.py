@@ -175,26 +175,28 @@ class ValueColumn(Generic[V]):
     """A growing list of values that never change, one entry a row.
 
     Without a fill value, a new row is written before anyone reads it. Two columns may share their
-    list as those of numbers do.
+    list, and `writes` tells of the last write, as those of numbers do.
     """
 
     def __init__(self, fill: V | None) -> None:
         self.data: list[V] = []
         self.fill = fill
+        self.writes = 0
         self._shared = False
 
     @property
     def store(self) -> list[V]:
-        """The list, to be written to; nobody else has it from now on."""
+        """The list, to be written to at once; nobody else has it from now on."""
         if self._shared:
             self.data, self._shared = self.data.copy(), False
             _TAKEN[0] += 1
+        self.writes = next(_WRITES)
         return self.data
 
     def share(self) -> Self:
         """Give another column with the same content, as it is now, whatever is written later."""
         found = object.__new__(type(self))
-        found.data, found.fill = self.data, self.fill
+        found.data, found.fill, found.writes = self.data, self.fill, self.writes
         found._shared = self._shared = True
         return found
 
@@ -294,17 +296,13 @@ class Table:
         return len(next(iter(self.columns.values())).data)
 
     def stamps(self) -> dict[str, int]:
-        """Give the number of the last write of every column of numbers."""
-        return {
-            name: each.writes for name, each in self.columns.items() if isinstance(each, Column)
-        }
+        """Give the number of the last write of every column."""
+        return {name: each.writes for name, each in self.columns.items()}
 
     def restamp(self, stamps: Mapping[str, int]) -> None:
         """Say that the columns are again as they were when they had these numbers."""
         for name, each in stamps.items():
-            column = self.columns[name]
-            assert isinstance(column, Column)
-            column.writes = each
+            self.columns[name].writes = each
 
     def resize(self, count: int) -> None:
         """Bring every column to `count` rows."""

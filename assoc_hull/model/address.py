@@ -27,6 +27,7 @@ import numpy as np
 
 from assoc_hull.arguments import shown_name, word
 from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.tables import HullState
 
@@ -86,16 +87,38 @@ class AddressBook:
 
     def crossings(self, one: int, other: int) -> dict[int, int]:
         """Give the live crossings of two lines, the first of lower rank: row by birth."""
+        pairs, rows = self._pairs
+        code = one * self.state.lines.count + other
+        rows = rows[pairs.searchsorted(code) : pairs.searchsorted(code, "right")]
+        return dict(zip(self.state.rows.birth[rows].tolist(), rows.tolist(), strict=True))
+
+    @cached_property
+    def _pairs(self) -> tuple[IntArray, IntArray]:
+        """Live crossings by their two lines: a number for each pair, ascending, and the rows."""
+        rows, line = self.state.rows, self.state.curves.line
+        depends_on = rows.alive, rows.curve, line, self.state.lines.alive
+        return self.state.derived(("crossings by lines",), depends_on, self._find_pairs)
+
+    def _find_pairs(self) -> tuple[IntArray, IntArray]:
         table, line = self.state.rows, self.state.curves.line.data
-        a, b = table.curve.data.T
-        # Of a point on one curve b is -1, and the last curve is looked at in its place.
-        found = (line == one)[a] & (line == other)[b] & (b >= 0) & table.alive.data
-        rows = np.flatnonzero(found)
-        return dict(zip(table.birth[rows].tolist(), rows.tolist(), strict=True))
+        rows = np.flatnonzero((table.curve.data[:, 1] >= 0) & table.alive.data)
+        a, b = line.take(table.curve.data.take(rows, axis=0).T)
+        code = a * self.state.lines.count + b
+        order = np.argsort(code, kind="stable")
+        return code[order], rows[order]
 
     @cached_property
     def keys(self) -> dict[str, ResolvedAddress]:
         """Everything alive by its key or label."""
+        groups, lines = self.state.groups, self.state.lines
+        curves, rows = self.state.curves, self.state.rows
+        depends_on = (
+            groups.alive, groups.name, lines.alive, lines.key, lines.group, curves.alive,
+            curves.key, curves.line, rows.alive, rows.key, rows.label, rows.curve,
+        )  # fmt: skip
+        return self.state.derived(("by key",), depends_on, self._by_key)
+
+    def _by_key(self) -> dict[str, ResolvedAddress]:
         state = self.state
         found = {
             state.groups.name[group]: ResolvedAddress(group)

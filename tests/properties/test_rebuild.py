@@ -307,7 +307,7 @@ def test_verify_sees_every_number_that_is_tampered_with() -> None:
     spline = state.spline(curve)
     leave = spline.leave.copy()
     leave[2, 1] = np.nextafter(leave[2, 1], 9.0)
-    state.curves.spline.data[curve] = attrs.evolve(spline, leave=leave)
+    state.curves.spline.store[curve] = attrs.evolve(spline, leave=leave)
     found = verify(state)
     assert [(each.key, each.field) for each in found] == [(state.curves.key[curve], "spline.leave")]
     assert 0.0 < found[0].amount < 1e-15

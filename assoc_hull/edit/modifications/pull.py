@@ -84,7 +84,7 @@ def pull_field(
     else:
         reach = pair(radius, "radius", positive=True)
     ground = FieldContext(state, across_flats)
-    border = _border_distance(ground, row)
+    border = _border_distance(ground, row, reach[1])
     if border is None:
         raise PointRoleError(
             state.rows.key[row],
@@ -127,12 +127,15 @@ def _hold(edit: Transaction, row: int, curve: int, place: FloatArray) -> None:
     )
 
 
-def _border_distance(ground: FieldContext, row: int) -> float | None:
-    """Give the distance of a point from the next flat; None if it cannot be pulled."""
+def _border_distance(ground: FieldContext, row: int, within: float) -> float | None:
+    """Give the distance of a point from the next flat; None if it cannot be pulled.
+
+    One beyond `within`, m, counts as none.
+    """
     if not (ground.normals(np.array([row])) != 0.0).any():
         return None
     state = ground.state
     computed = state.rows.driver[row] >= 0 or np.isfinite(state.rows.gap[row])
     if not computed and not ground.may_move(row):
         return None
-    return float(ground.flat_distances(np.array([row]))[0])
+    return float(ground.flat_distances(np.array([row]), within)[0])

@@ -26,7 +26,7 @@ def line_number(state: HullState, name: str) -> int:
 
 def rename(state: HullState, name: str, new: str) -> None:
     """Give a line another name."""
-    state.lines.name.data[line_number(state, name)] = new
+    state.lines.name.store[line_number(state, name)] = new
 
 
 def add_second_birth(state: HullState) -> int:
@@ -136,5 +136,5 @@ def test_keys_lines_curves_and_groups_are_addresses_too(state: HullState) -> Non
     assert (
         resolve_address(state, "WL 2.5 [1]").curve == resolve_address(state, "WL 2.5 x ST 7").curve
     )
-    state.rows.label.data[row] = "shoulder"
+    state.rows.label.store[row] = "shoulder"
     assert resolve_address(state, "shoulder").row == row

@@ -206,7 +206,7 @@ def test_a_handle_on_what_has_gone_says_so(state: HullState) -> None:
     assert not one.alive
     with pytest.raises(ForeignPointError, match=r"waterlines:2\.500000"):
         _ = one.position
-    state.curves.key.data[curve.number] = "another"
+    state.curves.key.store[curve.number] = "another"
     with pytest.raises(ForeignPointError, match="curve"):
         _ = curve.points
     beyond = Curve(state, state.curves.count, "none")
