@@ -114,7 +114,7 @@ class FieldContext:
         return self._once(("normals", rows.tobytes()), lambda: normals_at(self.state, rows))
 
     def flat_distances(self, rows: IntArray, within: float = np.inf) -> FloatArray:
-        """Give the distances of points (k,) from the nearest border of a flat, as `flat_distance`."""
+        """Give the distances of points (k,) from the nearest border, as `flat_distance`, m."""
         return self._once(
             ("flats", rows.tobytes(), within),
             lambda: flat_distance(self.state, self.state.rows.xyz[rows], within),
@@ -211,7 +211,8 @@ def _profile_lines(state: HullState) -> IntArray:
     """Give the boundary lines in the centre plane on which others end."""
     ends = _boundary_lines(state, BoundaryKind.END)
     centre = np.abs(state.lines.normal[ends, 1]) == 1.0
-    return ends[state.lines.planar[ends] & centre]
+    found: IntArray = ends[state.lines.planar[ends] & centre]
+    return found
 
 
 def on_profile(state: HullState) -> BoolArray:
@@ -229,12 +230,24 @@ def on_flat(state: HullState) -> BoolArray:
 def _in_flat_planes(state: HullState, xyz: FloatArray) -> BoolArray:
     """Tell which places (k, 3), m, lie in the plane of a flat."""
     found = np.zeros(len(xyz), np.bool_)
-    for line in _boundary_lines(state, BoundaryKind.FLAT).tolist():
-        if state.lines.planar.data[line]:
-            x, y, z = state.lines.normal.data[line].tolist()
-            off = x * xyz[:, 0] + y * xyz[:, 1] + z * xyz[:, 2] - state.lines.offset.data[line]
-            found |= np.abs(off) < _IN_PLANE
+    for x, y, z, offset in _flat_planes(state):
+        off = x * xyz[:, 0] + y * xyz[:, 1] + z * xyz[:, 2] - offset
+        found |= np.abs(off) < _IN_PLANE
     return found
+
+
+def _flat_planes(state: HullState) -> list[tuple[float, float, float, float]]:
+    """Give the planes in which flats lie, each once: normal and offset, m."""
+    lines = state.lines
+    depends_on = lines.alive, lines.boundary, lines.planar, lines.normal, lines.offset
+
+    def find() -> list[tuple[float, float, float, float]]:
+        flats = _boundary_lines(state, BoundaryKind.FLAT)
+        flats = flats[lines.planar[flats]]
+        planes = np.column_stack([lines.normal[flats], lines.offset[flats]])
+        return [(x, y, z, offset) for x, y, z, offset in np.unique(planes, axis=0).tolist()]
+
+    return state.derived(("flat planes",), depends_on, find)
 
 
 def flat_distance(state: HullState, places: FloatArray, within: float = np.inf) -> FloatArray:
@@ -246,9 +259,9 @@ def flat_distance(state: HullState, places: FloatArray, within: float = np.inf) 
     if not len(places):
         return distance
     low, high = places.min(axis=0) - within, places.max(axis=0) + within
-    for border, least, most in _flat_borders(state):
-        if (least > high).any() or (most < low).any():
-            continue
+    borders, least, most = _flat_borders(state)
+    near = ~((least > high) | (most < low)).any(axis=1)
+    for border in (borders[i] for i in np.flatnonzero(near).tolist()):
         # coordinate by coordinate: numpy runs several times as fast over long rows
         square = np.zeros((len(places), len(border)))
         for axis in range(3):
@@ -260,15 +273,16 @@ def flat_distance(state: HullState, places: FloatArray, within: float = np.inf) 
     return distance
 
 
-def _flat_borders(state: HullState) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
-    """Give places (k, 3), m, along the border curves of flats, with their least and largest."""
+def _flat_borders(state: HullState) -> tuple[list[FloatArray], FloatArray, FloatArray]:
+    """Give places (k, 3), m, along each border curve of flats; the least and largest of each."""
     curves = state.lines.curves.data
     flats = _boundary_lines(state, BoundaryKind.FLAT).tolist()
     splines = [state.spline(curve) for line in flats for curve in curves[line]]
 
-    def find() -> list[tuple[FloatArray, FloatArray, FloatArray]]:
+    def find() -> tuple[list[FloatArray], FloatArray, FloatArray]:
         borders = [sample(each, 4)[1] for each in splines]
-        return [(each, each.min(axis=0), each.max(axis=0)) for each in borders]
+        low, high = ([end(each, axis=0) for each in borders] for end in (np.min, np.max))
+        return borders, np.array(low).reshape(-1, 3), np.array(high).reshape(-1, 3)
 
     return state.derived(("flat borders",), (Objects(splines),), find)
 

@@ -87,12 +87,10 @@ class _ArrayEntry:
         self.column.writes = self.was
 
     def undo(self) -> None:
-        self.column.store[self.index] = self.old
-        self.column.written()
+        self.column.put(self.index, self.old)
 
     def redo(self) -> None:
-        self.column.store[self.index] = self.new
-        self.column.written()
+        self.column.put(self.index, self.new)
 
     def idle(self) -> bool:
         return self.old.tobytes() == self.new.tobytes()
@@ -138,12 +136,10 @@ class _PartEntry:
         self.column.writes = self.was
 
     def undo(self) -> None:
-        _scatter(self.column.parts(), self.part, self.old.values())
-        self.column.written()
+        self.column.put_parts(self.part, self.old.values())
 
     def redo(self) -> None:
-        _scatter(self.column.parts(), self.part, self.new.values())
-        self.column.written()
+        self.column.put_parts(self.part, self.new.values())
 
     def idle(self) -> bool:
         return self.old.values().tobytes() == self.new.values().tobytes()
@@ -201,17 +197,6 @@ def same_value(old: object, new: object) -> bool:
     return old is new or bool(old == new)
 
 
-def _scatter(
-    parts: NDArray[np.generic], part: NDArray[np.int64], values: NDArray[np.generic]
-) -> None:
-    """Write rows; whole rows are moved in one piece, which numpy does three times as fast."""
-    if parts.ndim == 1:
-        parts[part] = values
-        return
-    row = np.dtype((np.void, parts.itemsize * parts.shape[1]))
-    parts.view(row)[:, 0][part] = values.view(row)[:, 0]
-
-
 def _same_bits(one: NDArray[np.generic], other: NDArray[np.generic]) -> bool:
     """Tell whether two contiguous arrays of floats or whole numbers agree to the last bit."""
     return one.shape == other.shape and bool((one.view(np.int64) == other.view(np.int64)).all())
@@ -219,10 +204,10 @@ def _same_bits(one: NDArray[np.generic], other: NDArray[np.generic]) -> bool:
 
 def _net_array(column: Column[S], entries: Sequence[_ArrayEntry | _PartEntry]) -> ArrayChange[S]:
     """Run the writes to an array backward over a copy of what they touched."""
-    width = int(np.prod(column.store.shape[1:2])) if column.store.ndim > 1 else 1
+    width = int(np.prod(column.data.shape[1:2])) if column.data.ndim > 1 else 1
     parts = [e.index if isinstance(e, _ArrayEntry) else e.part // width for e in entries]
     rows = np.unique(np.concatenate([np.zeros(0, np.int64), *parts]))
-    new = column.store.take(rows, axis=0)
+    new = column.data.take(rows, axis=0)
     old = new.copy()
     flat = old.reshape(-1, *old.shape[2:])
     for entry in reversed(entries):
@@ -254,13 +239,12 @@ class Journal:
         rows = np.asarray(index, np.int64)
         if not len(rows):
             return
-        new = np.array(values, column.store.dtype)
-        if new.shape != (len(rows), *column.store.shape[1:]):
-            new = np.broadcast_to(new, (len(rows), *column.store.shape[1:])).copy()
-        old = column.store.take(rows, axis=0)
+        new = np.array(values, column.data.dtype)
+        if new.shape != (len(rows), *column.data.shape[1:]):
+            new = np.broadcast_to(new, (len(rows), *column.data.shape[1:])).copy()
+        old = column.data.take(rows, axis=0)
         self.entries.append(_ArrayEntry(column, rows, old, new, column.writes))
-        column.store[rows] = new
-        column.written()
+        column.put(rows, new)
 
     def put_parts(
         self,
@@ -276,13 +260,11 @@ class Journal:
         """
         if not len(part):
             return
-        parts = column.parts()
-        there = parts.take(part, axis=0)
+        there = column.parts().take(part, axis=0)
         if before is None or not _same_bits(before.values(), there):
             before = PickedRows(there)
         self.entries.append(_PartEntry(column, part, before, new, column.writes))
-        _scatter(parts, part, new.values())
-        column.written()
+        column.put_parts(part, new.values())
 
     def set(self, column: ValueColumn[V], index: Iterable[int], values: Iterable[V]) -> None:
         """Write one object each to the rows `index` of a list column."""
@@ -308,7 +290,7 @@ class Journal:
             if isinstance(entry, _ArrayEntry) and entry.column is column
         ]
         rows = np.unique(np.concatenate([np.zeros(0, np.int64), *(entry.index for entry in mine)]))
-        old = column.store.take(rows, axis=0)
+        old = column.data.take(rows, axis=0)
         for entry in reversed(mine):
             old[np.searchsorted(rows, entry.index)] = entry.old
         return rows, old

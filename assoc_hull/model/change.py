@@ -201,10 +201,8 @@ def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
     row, table = places.row[actual], state.rows
     side = (table.curve[row, 0] != places.curve[places.owner[actual]]).astype(np.int64)
     part = 2 * row + side
-    table.parameter.parts()[part] = places.at[actual, 0]
-    table.spot.parts()[part] = places.at[actual, 1:]
-    table.parameter.written()
-    table.spot.written()
+    table.parameter.put_parts(part, places.at[actual, 0])
+    table.spot.put_parts(part, places.at[actual, 1:])
 
 
 # --------------------------------------------------------------------------------------
@@ -449,10 +447,9 @@ def _resize(state: HullState, change: TableChange, which: int) -> None:
 
 
 def _flip(column: Column[np.generic], rows: IntArray, bits: NDArray[np.uint8]) -> None:
-    values = column.store.take(rows, axis=0)
+    values = column.data.take(rows, axis=0)
     flipped = _bytes(values) ^ bits
-    column.store[rows] = flipped.view(column.store.dtype).reshape(values.shape)
-    column.written()
+    column.put(rows, flipped.view(column.data.dtype).reshape(values.shape))
 
 
 def _counted(state: HullState, births: BirthCounts, forward: bool) -> dict[tuple[str, str], int]:

@@ -502,6 +502,8 @@ def run(
     for c in range(len(start) - 1):
         if told[3] != NOTHING:
             break
+        if dirty[c] == 0 and riding_start[c] == riding_start[c + 1]:
+            continue  # most curves of a large hull: at once
         count = _ride(
             c, riding_start, riding, anchor, weight, xyz, base, anchor_from, reader, rider_start,
             rider, held, changed, dirty, due, moved, count,

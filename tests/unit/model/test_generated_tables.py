@@ -192,8 +192,8 @@ def test_a_hull_with_definitions_goes_through_a_pipe(made: HullState) -> None:
 
 def test_a_generated_curve_that_is_not_there_is_found(hull: ah.Hull) -> None:
     """By check and by who opens a file, if other hands have written it."""
-    table = hull.state.produced
+    table = hull.document.state.produced
     table.curve.store[1] = table.curve[1].evolve(curve=10**6, attached=False)
     assert "tables" in {each.kind for each in hull.check()}
     with pytest.raises(ValueError, match="does not exist"):
-        require_sound_tables(hull.state)
+        require_sound_tables(hull.document.state)
