@@ -40,8 +40,9 @@ from assoc_hull.graph.run_update import UpdatePass, run_update
 from assoc_hull.model.generated_curves import attached_curves
 from assoc_hull.model.network import HullNetwork, moved_curves, placed
 from assoc_hull.model.node import Node
-from assoc_hull.model.program.engine import is_compiled
+from assoc_hull.model.program.engine import is_asked_often, is_compiled
 from assoc_hull.model.program.run_program import ProgramRun
+from assoc_hull.model.program.structure import Program
 
 __all__ = ["ProgramEdit"]
 
@@ -79,13 +80,48 @@ class _Pass:
             found |= dict(zip(nodes, curve[differs].tolist(), strict=True))
         return found
 
-    def changed_curves(self) -> list[int]:
-        """Give the curves that differ by a bit from what they were."""
-        pairs = zip(self.curves.tolist(), self.old, self.new, strict=True)
-        return [
-            curve for curve, old, new in pairs
-            if not (np.array_equal(old.xyz, new.xyz) and np.array_equal(old.leave, new.leave))
-        ]  # fmt: skip
+    def changed_curves(self) -> IntArray:
+        """Give the curves that differ from what they were, ascending."""
+        # A curve is lofted as a point of it has changed by a bit; zeros of two signs are equal.
+        differs = [
+            bool((old.xyz != new.xyz).any() or (old.leave != new.leave).any())
+            for old, new in zip(self.old, self.new, strict=True)
+        ]
+        return np.sort(self.curves[np.array(differs, np.bool_)])
+
+
+@attrs.frozen(eq=False)
+class _Meetings:
+    """Where the meetings of some curves stand in a program and in the tables.
+
+    Attributes
+    ----------
+    where : (k,) int
+        Their numbers in the program.
+    spans : list of (int, int)
+        Which of them are those of each curve.
+    pick, part : (n,) int or None, (n,) int
+        Which are crossings, all if None; and the parts of the rows of these, as
+        `Column.put_parts` counts them.
+    """
+
+    where: IntArray
+    spans: list[tuple[int, int]]
+    pick: IntArray | None
+    part: IntArray
+
+    @classmethod
+    def of(cls, program: Program, curve: IntArray, local: IntArray) -> _Meetings:
+        """Find them; `curve` (rows, 2) are the curves of all points."""
+        first, stop = program.meet_start[local], program.meet_start[local + 1]
+        bounds = np.concatenate([[0], np.cumsum(stop - first)])
+        where = np.arange(bounds[-1]) + np.repeat(first - bounds[:-1], stop - first)
+        row = program.meet_row[where]
+        actual = np.flatnonzero(row >= 0)  # a latent meeting (-1) is no crossing yet
+        owner = program.number[program.meet_curve[where[actual]]]
+        part = 2 * row[actual] + (curve[row[actual], 0] != owner)
+        pick = None if len(actual) == len(row) else actual
+        return cls(where, list(itertools.pairwise(bounds.tolist())), pick, part)
 
 
 @attrs.define(eq=False)
@@ -196,9 +232,11 @@ class ProgramEdit:
         """Give what carries out an edit; None where it is not at hand, or not for such an edit."""
         steps = document.history[-_STEADY:]
         steady = len(steps) == _STEADY and not any(each.structural for each in steps)
-        if not (pending.places_only and steady and is_compiled()):
+        if not (pending.places_only and steady):
             return None
-        return cls.begun(document, pending)
+        # In numpy a run of few curves takes as long as the full way; a field reaches many.
+        serves = is_compiled() or (bool(pending.fields) and is_asked_often())
+        return cls.begun(document, pending) if serves else None
 
     @classmethod
     def begun(cls, document: Document, pending: Pending) -> ProgramEdit | None:
@@ -237,13 +275,15 @@ class ProgramEdit:
         findings = tuple(unreached(state, pending.fields, pending.values.keys()))
         if findings:
             raise RefusedEditError(name, findings)
-        work = Work(self.document, name, journal, pending, settings, self.net)
+        changed = distinct(np.concatenate([rows, *(each.rows for each in self.passes)]))
         written = len(journal.entries)
-        settle_features(work, rows, np.concatenate([rows, *(each.rows for each in self.passes)]))
+        if self.numbers.published.program.features.own(changed):
+            work = Work(self.document, name, journal, pending, settings, self.net)
+            settle_features(work, rows, changed)
         if len(journal.entries) == written:  # else the structure is another one from here on
             pending.numbers = self
         seconds = {"run": ran - begin, "check": time.perf_counter() - ran}
-        return self._step(name, rows, away, largest_gap, seconds)
+        return self._step(name, rows, away, changed, largest_gap, seconds)
 
     def _run(self, rows: IntArray) -> bool:
         """Run with points as they are in the tables now; tell whether that is the whole edit."""
@@ -262,7 +302,9 @@ class ProgramEdit:
         state, values, program = (
             self.document.state, self.numbers.values, self.numbers.published.program,
         )  # fmt: skip
-        rows = np.setdiff1d(run.rows, seeds, assume_unique=True)
+        others = np.ones(len(run.rows), np.bool_)
+        others[run.rows.searchsorted(seeds)] = False
+        rows = run.rows[others]
         place = values.xyz[rows]
         step = place - state.rows.xyz[rows]
         self.journal.put(state.rows.xyz, rows, place)
@@ -280,26 +322,24 @@ class ProgramEdit:
         state, values, program = (
             self.document.state, self.numbers.values, self.numbers.published.program,
         )  # fmt: skip
-        first, stop = program.meet_start[local], program.meet_start[local + 1]
-        bounds = np.concatenate([[0], np.cumsum(stop - first)])
-        where = np.arange(bounds[-1]) + np.repeat(first - bounds[:-1], stop - first)
-        at, xyz = values.at[where], values.place[where]
+        # A hand that drags moves the same curves again and again.
+        to = self.net.state.derived(
+            ("written meetings", local.tobytes()), (program,),
+            lambda: _Meetings.of(program, self.net.state.rows.curve.data, local),
+        )  # fmt: skip
+        at, xyz = values.at.take(to.where), values.place.take(to.where, axis=0)
         freeze(at, xyz)
-        met, spans = state.curves.meets.data, itertools.pairwise(bounds.tolist())
+        met = state.curves.meets.data
         self.journal.set(
             state.curves.meets, numbers,
-            [placed(met[c], at[a:b], xyz[a:b]) for c, (a, b) in zip(numbers, spans, strict=True)],
+            [placed(met[c], at[a:b], xyz[a:b])
+             for c, (a, b) in zip(numbers, to.spans, strict=True)],
         )  # fmt: skip
-        rows, row = state.rows, program.meet_row[where]
-        actual = np.flatnonzero(row >= 0)  # a latent meeting (-1) is no crossing yet
-        owner = program.number[program.meet_curve[where[actual]]]
-        part = 2 * row[actual] + (rows.curve[row[actual], 0] != owner)
-        pick = None if len(actual) == len(row) else actual
-        self.journal.put_parts(rows.spot, part, PickedRows(xyz, pick), None)
-        self.journal.put_parts(rows.parameter, part, PickedRows(at, pick), None)
-        guess = self.document.index.guess.reshape(-1)
+        rows, guess = state.rows, self.document.index.guess.reshape(-1)
+        self.journal.put_parts(rows.spot, to.part, PickedRows(xyz, to.pick), None)
+        self.journal.put_parts(rows.parameter, to.part, PickedRows(at, to.pick), None)
         if len(guess) == 2 * rows.count:
-            guess[part] = values.segment[where[actual]]
+            guess[to.part] = values.segment.take(to.where if to.pick is None else to.where[to.pick])
 
     def _note_riding(self) -> None:
         """Let points that a field has carried ride from where they are now."""
@@ -321,12 +361,11 @@ class ProgramEdit:
         return float(gap.max(initial=0.0))
 
     def _step(
-        self, name: str, rows: IntArray, away: FloatArray, largest_gap: float,
+        self, name: str, rows: IntArray, away: FloatArray, changed: IntArray, largest_gap: float,
         seconds: dict[str, float],
     ) -> Step:  # fmt: skip
         """Put the finished step together; only what the history needs is told now."""
         state = self.document.state
-        changed = distinct(np.concatenate([rows, *(each.rows for each in self.passes)]))
         curves, elsewhere = self.passes[0].changed_curves(), (_NONE, away[:0])
         if len(self.passes) > 1:
             elsewhere = points_elsewhere(state, self.journal)
@@ -338,7 +377,7 @@ class ProgramEdit:
         )  # fmt: skip
         if len(self.passes) > 1:  # a curve may have gone away and come back
             return Step(name, structural=False, body=notes.body())
-        return Step.told_later(name, self.journal, changed, distinct(np.array(curves)), notes.body)
+        return Step.told_later(name, self.journal, changed, curves, notes.body)
 
     def publish(self) -> None:
         """Keep the numbers of what has just been published."""

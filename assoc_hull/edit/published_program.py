@@ -21,7 +21,7 @@ from assoc_hull.graph.gate import Gate
 from assoc_hull.model.index import Index
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.program.engine import runner_of
-from assoc_hull.model.program.run_program import ProgramRun, RunProgram
+from assoc_hull.model.program.run_program import NumpyProgram, ProgramRun, RunProgram
 from assoc_hull.model.program.structure import Program, PublishedProgram, Values, compile_program
 from assoc_hull.model.tables import CurveIntersections, HullState
 
@@ -157,6 +157,8 @@ def numbers_for_edit(document: HasProgram) -> tuple[LiveNumbers, HullNetwork] | 
     spare, document.program.spare = document.program.spare, None
     if spare is None or spare.published is not at.found or spare.written:
         spare = LiveNumbers.of(at.found)
+    if isinstance(spare.runner, NumpyProgram):  # the compiled form may have come meanwhile
+        spare.runner = runner_of(at.found.program)
     return spare, at.net
 
 

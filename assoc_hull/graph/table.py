@@ -23,6 +23,7 @@ from __future__ import annotations
 import itertools
 import sys
 from collections.abc import Mapping, Sequence
+from operator import is_
 from types import EllipsisType
 from typing import Generic, Self, SupportsIndex, TypeVar, overload
 
@@ -152,8 +153,18 @@ class Column(Generic[S]):
         self._shared = False
         _TAKEN[0] += 1
 
-    def share(self) -> Self:
-        """Give another column with the same content, as it is now, whatever is written later."""
+    def share(self, before: object = None) -> Self:
+        """Give another column with the same content, as it is now, whatever is written later.
+
+        `before`, which was given earlier, if nothing has been written since.
+        """
+        if (
+            isinstance(before, type(self))
+            and before._store is self._store
+            and before.writes == self.writes
+            and len(before.data) == len(self.data)
+        ):
+            return before
         found = object.__new__(type(self))
         found._store, found.fill, found.data = self._store, self.fill, self.data
         found.writes = self.writes
@@ -267,8 +278,14 @@ class ValueColumn(Generic[V]):
         self.writes = next(_WRITES)
         return self.data
 
-    def share(self) -> Self:
-        """Give another column with the same content, as it is now, whatever is written later."""
+    def share(self, before: object = None) -> Self:
+        """Give another column with the same content; as that of numbers does."""
+        if (
+            isinstance(before, type(self))
+            and before.data is self.data
+            and before.writes == self.writes
+        ):
+            return before
         found = object.__new__(type(self))
         found.data, found.fill, found.writes = self.data, self.fill, self.writes
         found._shared = self._shared = True
@@ -351,10 +368,16 @@ class Table:
         names = [each.name for each in attrs.fields(type(self)) if each.name != "columns"]
         self.columns.update((name, getattr(self, name)) for name in names)
 
-    def share(self) -> Self:
-        """Give a table with the same content, as it is now, whatever is written later."""
+    def share(self, before: Self | None = None) -> Self:
+        """Give a table with the same content, as it is now, whatever is written later.
+
+        What has not been written to since `before` was given is taken from that.
+        """
+        known: Mapping[str, AnyColumn] = {} if before is None else before.columns
+        columns = {name: each.share(known.get(name)) for name, each in self.columns.items()}
+        if before is not None and all(map(is_, columns.values(), known.values())):
+            return before
         found = object.__new__(type(self))
-        columns = {name: each.share() for name, each in self.columns.items()}
         for name, each in columns.items():
             object.__setattr__(found, name, each)  # as attrs does for a frozen class
         object.__setattr__(found, "columns", columns)

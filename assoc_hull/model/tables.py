@@ -450,7 +450,8 @@ class HullState:
         """Give tables that share all columns; what was derived is known there as well."""
         found = object.__new__(HullState)
         for name in TABLES:
-            setattr(found, name, getattr(self, name).share())
+            known = None if before is None else getattr(before, name)
+            setattr(found, name, getattr(self, name).share(known))
         found._given, found.tolerances = self._given, self.tolerances
         found.revision_row, found.revision_curve = (
             dict(self.revision_row),

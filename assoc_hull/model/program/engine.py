@@ -21,7 +21,7 @@ from assoc_hull.graph.gate import Gate
 from assoc_hull.model.program.run_program import NumpyProgram, RunProgram
 from assoc_hull.model.program.structure import Program
 
-__all__ = ["engine_words", "is_compiled", "runner_of", "wait_for_engine"]
+__all__ = ["engine_words", "is_asked_often", "is_compiled", "runner_of", "wait_for_engine"]
 
 _MAKE = """
 import os, sys
@@ -71,6 +71,11 @@ def is_compiled() -> bool:
     """
     _engine.asked += 1
     return _engine.ready or (_engine.asked > _SELDOM and _is_ready())
+
+
+def is_asked_often() -> bool:
+    """Tell whether this process has asked so often that what it compiles is worth while."""
+    return _engine.asked > _SELDOM
 
 
 def engine_words() -> str:

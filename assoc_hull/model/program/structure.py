@@ -63,6 +63,10 @@ class CompiledFeatures:
     numbers: FloatArray
     limit: FloatArray
 
+    def own(self, rows: IntArray) -> bool:
+        """Tell whether some of the points (k,) are owned by a feature."""
+        return bool((self.owner_start.take(rows + 1) != self.owner_start.take(rows)).any())
+
 
 @attrs.frozen(eq=False)
 class Program:
