@@ -13,7 +13,7 @@ from hypothesis.strategies import DrawFn, SearchStrategy
 
 from assoc_hull.edit.adoption.adopt_lines import adopt
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.pending_changes import Settings
+from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray

@@ -14,8 +14,8 @@ import numpy as np
 
 from assoc_hull.creation.design import Design
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
+from assoc_hull.edit.crossings.adopted_points import insert_defining_point
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.followup.adopted_points import insert_defining_point
 from assoc_hull.edit.lines.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError

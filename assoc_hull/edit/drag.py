@@ -31,8 +31,8 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.hull_normals import normals_at
 from assoc_hull.edit.modifications.points import PointFreedom
 from assoc_hull.edit.modifications.pull import curves_to_hold, pull_field
-from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.published_program import LiveNumbers, published_program
+from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit, refusal_of
 from assoc_hull.edit.shapes import joined, lofted_curves

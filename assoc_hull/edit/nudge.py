@@ -7,13 +7,16 @@ displacements. What is computed from curves follows, and no point comes or goes.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Sized
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import attrs
 import numpy as np
 
+from assoc_hull.edit.carried_net import relink_adopted_points
+from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.mapped_planes import TransformedPlanes, snap_into_planes
+from assoc_hull.edit.modification import Modification, Pending, Work
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, freeze
 from assoc_hull.graph.journal import Journal
@@ -21,7 +24,7 @@ from assoc_hull.model.features import Feature
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import Ends, HullState, Particulars
 
-__all__ = ["Nudge", "nudge", "nudged", "write_nudge"]
+__all__ = ["Nudge", "Nudged", "nudge", "nudged", "write_nudge"]
 
 
 @attrs.frozen(eq=False)
@@ -57,19 +60,34 @@ class Nudge:
         freeze(self.move, self.turn, self.level)
 
 
-class _PendingNudge(Protocol):
-    """What `nudge` reads and sets of what an edit asks for, `pending_changes.Pending`."""
+@attrs.define(eq=False)
+class Nudged(Modification):
+    """A nudge that an edit asks for."""
 
-    alone: bool
-    nudge: Nudge | None
+    by: Nudge | None = None
 
     @property
-    def values(self) -> Sized: ...
-    @property
-    def fields(self) -> Sized: ...
-    @property
-    def curves(self) -> Sized: ...
-    def not_alone(self, name: str) -> tuple[str, str, str]: ...
+    def idle(self) -> bool:
+        """Whether there is none."""
+        return self.by is None
+
+    def finish(self, work: Work) -> bool:
+        """Move the hull as it has become by a little, and let what is computed follow."""
+        if self.by is None:
+            return False
+        pending, state = work.pending, work.state
+        curves = state.live("curves")
+        carried = pending.features or CarriedFeatures(state.features, frozenset(), self.by.within)
+        rows, moved = write_nudge(state, work.journal, self.by, carried.features)
+        pending.features = attrs.evolve(carried, features=moved)
+        live = state.live("rows")
+        pending.held |= set(live[state.rows.sort[live] == Sort.ADOPTED].tolist())
+        pending.computed |= set(live[state.rows.driver[live] >= 0].tolist())
+        work.renew()
+        work.go(rows, curves)  # gaps have been mended: points are all there
+        work.settle()
+        relink_adopted_points(work, curves.tolist())
+        return True
 
 
 class _Edit(Protocol):
@@ -78,7 +96,7 @@ class _Edit(Protocol):
     @property
     def name(self) -> str: ...
     @property
-    def pending(self) -> _PendingNudge: ...
+    def pending(self) -> Pending: ...
     @property
     def journal(self) -> Journal: ...
 
@@ -99,10 +117,10 @@ def nudge(edit: _Edit, by: Nudge) -> None:
         Something else but a transformation is in the edit.
     """
     pending = edit.pending
-    others = pending.values or pending.fields or pending.curves or edit.journal.entries
-    if pending.nudge is not None or (others and not pending.alone):
+    others = pending.values or pending.displaces or pending.curves or edit.journal.entries
+    if pending.asked(Nudged) is not None or (others and not pending.alone):
         raise BadInputError(*pending.not_alone(edit.name))
-    pending.alone, pending.nudge = True, by
+    pending.alone, pending.ask(Nudged).by = True, by
 
 
 def write_nudge(

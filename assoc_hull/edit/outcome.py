@@ -6,27 +6,35 @@ after the tables have changed again.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import attrs
 import numpy as np
 
 from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.followup.take_up_definitions import form_changes
-from assoc_hull.edit.net_difference import net_difference, points_elsewhere
+from assoc_hull.edit.modification import Work
 from assoc_hull.edit.report import EditReport, Fairness, Movement
 from assoc_hull.edit.step import Step, StepBody
-from assoc_hull.edit.update_passes import Work
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.network import Readers
 from assoc_hull.graph.run_update import UpdatePass
 from assoc_hull.model.gaps import along_normal, sides_held
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.network import bits_differ
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
-__all__ = ["Movements", "changed_nodes", "joined_causes", "largest_movements", "step_of"]
-
-Sequenced = Sequence[UpdatePass]
+__all__ = [
+    "Movements",
+    "changed_nodes",
+    "joined_causes",
+    "largest_movements",
+    "net_difference",
+    "points_elsewhere",
+    "step_of",
+]
 
 
 @attrs.frozen(eq=False)
@@ -91,7 +99,7 @@ def step_of(work: Work, rows: IntArray, away: FloatArray) -> Step:
 
 
 def changed_nodes(
-    parts: Sequenced, rows: IntArray, away: FloatArray, fresh: IntArray
+    parts: Sequence[UpdatePass], rows: IntArray, away: FloatArray, fresh: IntArray
 ) -> tuple[IntArray, FloatArray]:
     """Give the nodes that changed, and by how much: points that were set, then pass by pass."""
     changed, moved = [Node.point(rows), Node.curve(fresh)], [away, np.full(len(fresh), np.nan)]
@@ -102,12 +110,80 @@ def changed_nodes(
     return np.concatenate(changed), np.concatenate(moved)
 
 
-def joined_causes(parts: Sequenced) -> Readers:
+def joined_causes(parts: Sequence[UpdatePass]) -> Readers:
     """Give which node was evaluated because of which, pass by pass."""
     return Readers(
         np.concatenate([part.cause.reader for part in parts]),
         np.concatenate([part.cause.source for part in parts]),
     )
+
+
+# --------------------------------------------------------------------------------------
+# What an edit of several passes changed in the end: a point may go away and come back.
+
+
+def net_difference(
+    elsewhere: tuple[IntArray, FloatArray],
+    before: Mapping[int, SplineBatch],
+    spline: Callable[[int], SplineBatch],
+    nodes: IntArray,
+    moved: FloatArray,
+) -> tuple[IntArray, FloatArray]:
+    """Keep the nodes that differ by a bit from what they were before the edit.
+
+    Parameters
+    ----------
+    elsewhere : (k,) int, (k,) float, m
+        What `points_elsewhere` gives.
+    before : mapping of int to SplineBatch
+        The splines of the curves before the edit; a new curve has none.
+    spline : callable
+        Gives that of a curve after it.
+    nodes, moved : (k,) int, (k,) float
+        Nodes that changed in any pass, and by how much; a node may stand more than once.
+
+    Returns
+    -------
+    nodes, moved : (n,) int, (n,) float, m
+        Each node once, points first; nan where the edit itself set the point.
+    """
+    odd = Node.is_curve(nodes)
+    rows, away = elsewhere
+    away = np.where(np.isin(Node.point(rows), nodes), away, np.nan)
+    curves = [
+        curve
+        for curve in np.unique(Node.number(nodes[odd])).tolist()
+        if curve not in before or not _same(before[curve], spline(curve))
+    ]
+    widest = np.array([np.max(moved[nodes == Node.curve(curve)]) for curve in curves], np.float64)
+    numbers = np.array(curves, np.int64)
+    return np.concatenate([Node.point(rows), Node.curve(numbers)]), np.concatenate([away, widest])
+
+
+def points_elsewhere(state: HullState, journal: Journal) -> tuple[IntArray, FloatArray]:
+    """Give the points that lie elsewhere than before an edit, and how far.
+
+    Points that the edit made are left out, and watched ones, which have no value.
+    """
+    table = state.rows
+    rows, old = journal.before(table.xyz)
+    marked, was_alive = journal.before(table.alive)
+    watched = (table.sort[rows] == Sort.CROSSING) & (table.role[rows] == Role.WATCHED)
+    differs = table.alive[rows] & ~watched & bits_differ(old, table.xyz[rows])
+    differs &= ~np.isin(rows, marked[~was_alive.astype(bool)])
+    step = table.xyz[rows[differs]] - old[differs]
+    return rows[differs], np.sqrt((step * step).sum(axis=1))
+
+
+def _same(one: SplineBatch, other: SplineBatch) -> bool:
+    return all(
+        np.array_equal(getattr(one, name), getattr(other, name))
+        for name in ("knot", "xyz", "leave", "arrive")
+    )
+
+
+# --------------------------------------------------------------------------------------
+# The report.
 
 
 def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:

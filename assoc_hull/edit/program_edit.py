@@ -16,22 +16,22 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.checks.update_findings import plane_normals
-from assoc_hull.edit.displacement_field import unreached
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.followup.settle_features import settle_features
-from assoc_hull.edit.net_difference import net_difference, points_elsewhere
+from assoc_hull.edit.modification import Pending, Work
 from assoc_hull.edit.outcome import (
     Movements,
     changed_nodes,
     joined_causes,
     largest_movements,
+    net_difference,
+    points_elsewhere,
 )
-from assoc_hull.edit.pending_changes import Pending, Settings
 from assoc_hull.edit.published_program import LiveNumbers, numbers_for_edit
+from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.report import EditReport, Fairness
-from assoc_hull.edit.run_fields import run_fields
 from assoc_hull.edit.step import Step, StepBody
-from assoc_hull.edit.update_passes import Work
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal, PickedRows
@@ -232,11 +232,22 @@ class ProgramEdit:
         """Give what carries out an edit; None where it is not at hand, or not for such an edit."""
         steps = document.history[-_STEADY:]
         steady = len(steps) == _STEADY and not any(each.structural for each in steps)
-        if not (pending.places_only and steady):
+        if not (cls.serves(pending) and steady):
             return None
         # In numpy a run of few curves takes as long as the full way; a field reaches many.
-        serves = is_compiled() or (bool(pending.fields) and is_asked_often())
-        return cls.begun(document, pending) if serves else None
+        good = is_compiled() or (pending.displaces and is_asked_often())
+        return cls.begun(document, pending) if good else None
+
+    @classmethod
+    def serves(cls, pending: Pending) -> bool:
+        """Tell whether nothing but places of points is set, each by itself or by a field."""
+        other = (
+            pending.curves, pending.computed, pending.structural, pending.fresh, pending.alone,
+            pending.features,
+        )  # fmt: skip
+        more = [each for kind, each in pending.modifications.items() if kind is not FieldMoves]
+        some = bool(pending.values) or pending.displaces
+        return some and not any(other) and all(each.idle for each in more)
 
     @classmethod
     def begun(cls, document: Document, pending: Pending) -> ProgramEdit | None:
@@ -261,9 +272,10 @@ class ProgramEdit:
         self.numbers.begin()
         if pending.stopped():
             raise RefusedEditError(name, ("it was stopped",))
-        if pending.fields:
+        moves = pending.asked(FieldMoves)
+        if moves is not None and moves.fields:
             origin = self.numbers.published.values.xyz
-            found = run_fields(state, journal, pending, rows, origin, self._run)
+            found = moves.carry_out(state, journal, pending, rows, origin, self._run)
             if found is None:
                 return None
             rows, away = found
@@ -272,13 +284,13 @@ class ProgramEdit:
             return None
         ran = time.perf_counter()
         largest_gap = self._write_gaps()
-        findings = tuple(unreached(state, pending.fields, pending.values.keys()))
+        work = Work(self.document, name, journal, pending, settings, self.net)
+        findings = () if moves is None else tuple(moves.check(work))
         if findings:
             raise RefusedEditError(name, findings)
         changed = distinct(np.concatenate([rows, *(each.rows for each in self.passes)]))
         written = len(journal.entries)
         if self.numbers.published.program.features.own(changed):
-            work = Work(self.document, name, journal, pending, settings, self.net)
             settle_features(work, rows, changed)
         if len(journal.entries) == written:  # else the structure is another one from here on
             pending.numbers = self

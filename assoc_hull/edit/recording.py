@@ -22,14 +22,13 @@ from typing import Concatenate, ParamSpec, Protocol, Self, TypeVar
 import attrs
 import numpy as np
 
-from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.errors import AssocHullError
 from assoc_hull.graph.run_update import FailurePolicy
 from assoc_hull.model.address import AddressBook, address
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 
-__all__ = ["ANY_FUNCTION", "Recording", "Said", "Script", "recorded", "said"]
+__all__ = ["ANY_FUNCTION", "Recording", "Said", "Script", "Settings", "recorded", "said"]
 
 ANY_FUNCTION = "<a function>"
 """Stands where a function was given: nothing tells it, so the edit cannot be repeated."""
@@ -41,6 +40,23 @@ _DEEPEST = 8
 
 P = ParamSpec("P")
 T = TypeVar("T")
+
+
+@attrs.frozen
+class Settings:
+    """How an edit is carried out.
+
+    Attributes
+    ----------
+    policy : FailurePolicy
+        What becomes of an edit when a curve cannot be made.
+    refuse_gaps : bool
+        Whether a watched gap that stays over its limit refuses the edit; else it is kept
+        as a defect that a check names.
+    """
+
+    policy: FailurePolicy = FailurePolicy.ALL_OR_NOTHING
+    refuse_gaps: bool = True
 
 
 @attrs.frozen

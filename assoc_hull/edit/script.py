@@ -15,7 +15,7 @@ import attrs
 
 from assoc_hull.arguments import choice, shown, shown_name
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.pending_changes import Settings
+from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.step import Step

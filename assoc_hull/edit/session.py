@@ -30,8 +30,7 @@ from assoc_hull.edit.modifications import pull as _pull
 from assoc_hull.edit.modifications import reshape as _reshape
 from assoc_hull.edit.modifications import roles as _renew
 from assoc_hull.edit.modifications import roles as _set_role
-from assoc_hull.edit.pending_changes import Settings
-from assoc_hull.edit.recording import Said, recorded
+from assoc_hull.edit.recording import Said, Settings, recorded
 from assoc_hull.edit.recut import transform as _transform
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.space_map import Jacobian, PointMapping, space_map

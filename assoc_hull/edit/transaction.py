@@ -14,8 +14,8 @@ import numpy as np
 
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.garbage_collection import PausedCollector
-from assoc_hull.edit.pending_changes import Pending, Settings
-from assoc_hull.edit.recording import Said, Script
+from assoc_hull.edit.modification import Pending
+from assoc_hull.edit.recording import Said, Script, Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.update import update
@@ -130,9 +130,9 @@ class Transaction:
             Naming the first such point.
         """
         moved = set(self.pending.values)
-        for field in self.pending.fields:
-            set_by, place = field.exact()
-            moved |= set(set_by[(place != self.state.rows.xyz[set_by]).any(axis=1)].tolist())
+        for modification in self.pending.modifications.values():
+            for set_by, place in modification.landing():
+                moved |= set(set_by[(place != self.state.rows.xyz[set_by]).any(axis=1)].tolist())
         for row in rows.tolist():
             if row in moved:
                 raise BadInputError(
@@ -232,9 +232,7 @@ class Transaction:
     def _idle(self) -> bool:
         """Tell whether all that was asked for is so already: then there is nothing to undo."""
         pending, xyz = self.pending, self.state.rows.xyz.data
-        if pending.fields or pending.curves or pending.computed or pending.nudge is not None:
-            return False
-        if pending.forms or pending.attach:
+        if pending.curves or pending.computed or not pending.empty:
             return False
         asked = [
             xyz[row].tobytes() == (value + 0.0).tobytes() for row, value in pending.values.items()

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.pending_changes import Settings
+from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.tables import copy_state

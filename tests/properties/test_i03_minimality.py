@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import given, settings
 
 import assoc_hull as ah
-from assoc_hull.edit import update_passes as work
+from assoc_hull.edit import modification as work
 from assoc_hull.edit.report import EditReport
 from assoc_hull.graph import run_update as engine
 from assoc_hull.graph.run_update import UpdatePass

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.pending_changes import Pending
+from assoc_hull.edit.modification import Pending
 from assoc_hull.edit.program_edit import ProgramEdit
 from assoc_hull.edit.published_program import published_program
 from assoc_hull.edit.step import Step
@@ -42,7 +42,9 @@ def by_program(count: Count, *, always: bool) -> Iterator[None]:
     """Let every edit that sets places take the program, or none."""
 
     def of(document: Document, pending: Pending) -> ProgramEdit | None:
-        return ProgramEdit.begun(document, pending) if always and pending.places_only else None
+        return (
+            ProgramEdit.begun(document, pending) if always and ProgramEdit.serves(pending) else None
+        )
 
     run = ProgramEdit.run
 

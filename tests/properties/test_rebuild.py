@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.pending_changes import Settings
+from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import IntArray

@@ -29,7 +29,7 @@ from assoc_hull.edit.adoption.match_crossings import (
 )
 from assoc_hull.edit.adoption.thin_net import thin_net
 from assoc_hull.edit.adoption.thinning_state import OmittedPoint, ReferenceNet, ThinnedNet
-from assoc_hull.edit.followup.adopted_points import link_adopted_points
+from assoc_hull.edit.crossings.adopted_points import link_adopted_points
 from assoc_hull.edit.followup.features import find_features
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch

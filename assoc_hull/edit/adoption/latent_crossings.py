@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.edit.followup.crossings import latent_intersections, make_crossing
+from assoc_hull.edit.crossings.settle_crossings import latent_intersections, make_crossing
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.make_objects import Maker

@@ -17,7 +17,7 @@ from assoc_hull.analysis.hydrostatics.flotation import EvenKeelDisplacement, eve
 from assoc_hull.arguments import all_of, flag, text
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain.causes import Thing, Why, node_of, why_after
-from assoc_hull.edit.pending_changes import Settings
+from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit, refusal_of
 from assoc_hull.edit.shapes import Shapes, joined

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from assoc_hull.edit.pending_changes import Pending
+from assoc_hull.edit.modification import Pending
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.edit.followup.generated_curves import recipe_for, remake_points
-from assoc_hull.edit.update_passes import Work
+from assoc_hull.edit.modification import Work
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.form_definition import GeneratedCurve
 from assoc_hull.model.forms.generate_points import marks_suffice

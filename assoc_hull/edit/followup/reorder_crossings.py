@@ -9,12 +9,14 @@ put into their new order, and the role rule chooses again which of them define t
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import attrs
 import numpy as np
 
 from assoc_hull.edit.checks.update_findings import WideGaps
-from assoc_hull.edit.followup.adopted_points import link_adopted_points
-from assoc_hull.edit.update_passes import Work
+from assoc_hull.edit.crossings.adopted_points import link_adopted_points
+from assoc_hull.edit.modification import Work
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.geometry.splines.distance import closest_points
@@ -187,10 +189,10 @@ def _choose(state: HullState, points: _Points) -> BoolArray:
     return choose(Candidates(position, angle, slope, points.fixed), state.tolerances)
 
 
-def limit_watched(work: Work) -> None:
+def limit_watched(work: Work, crossings: Iterable[int]) -> None:
     """Give crossings that have come to be watched their gaps, and limits as at a birth."""
     state = work.state
-    watched = np.array(sorted(set(work.watched)), np.int64)
+    watched = np.array(sorted(crossings), np.int64)
     watched = watched[state.rows.role[watched] == Role.WATCHED]
     if len(watched):
         gap = gap_at(state, watched)

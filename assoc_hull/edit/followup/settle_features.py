@@ -19,7 +19,7 @@ from assoc_hull.edit.followup.features import (
     loose_of,
 )
 from assoc_hull.edit.mapped_features import CarriedFeatures
-from assoc_hull.edit.update_passes import Work
+from assoc_hull.edit.modification import Work
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.feature_geometry import line_numbers, places_off, rounded_gap, rounding_of

@@ -1,89 +1,148 @@
-"""What an edit asks of definitions is taken up before its update runs.
+"""What an edit asks of definitions: most of it is taken up before its update runs.
 
 New values go into the tables; curves that were edited by hand are detached; lines that are to
 come from definitions again are made so; and curves whose pieces become others get other points.
-What remains is done by the update: each point that a definition gives is evaluated.
+What remains is done by the update: each point that a definition gives is evaluated. Then lines are
+put in order on which crossings have passed one another, and generated curves get the points that
+they have come to need.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.detach_curves import detach, edited, tidy
+from assoc_hull.edit.checks.update_findings import WideGaps
+from assoc_hull.edit.followup.detach_curves import (
+    detach,
+    detached_note,
+    edited,
+    off_definitions,
+    tidy,
+)
 from assoc_hull.edit.followup.generated_curves import (
     attachable_curves,
     layout_now,
     recipe_for,
     remake_points,
 )
-from assoc_hull.edit.pending_changes import Pending
+from assoc_hull.edit.followup.refine_curves import refine_forms
+from assoc_hull.edit.followup.reorder_crossings import limit_watched, renew_followers, widen_limits
+from assoc_hull.edit.modification import ROUNDS, Modification, Pending, Work
 from assoc_hull.edit.report import FormChange
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.form_definition import GeneratedCurve
+from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.line_layout import layout_at
-from assoc_hull.model.generated_curves import forms_of, line_offset
+from assoc_hull.model.generated_curves import attached_curves, forms_of, line_offset
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
-__all__ = ["form_changes", "take_up_forms"]
+__all__ = ["DefinitionValues", "form_changes"]
 
 
-def take_up_forms(state: HullState, journal: Journal, pending: Pending) -> IntArray:
-    """Carry out what is asked of definitions, but for the evaluation.
+@attrs.define(eq=False)
+class DefinitionValues(Modification):
+    """What an edit asks of definitions by form parameters, and what it does to them by the way.
 
-    Parameters
+    Attributes
     ----------
-    state : HullState
-        The tables; places that are asked for are not in them yet.
-    journal : Journal
-        Takes every write.
-    pending : Pending
-        What is asked for; curves that were detached or made anew are noted in it.
-
-    Returns
-    -------
-    (k,) int
-        Nodes of the definitions with other values.
-
-    Raises
-    ------
-    AssocHullError
-        A line cannot be made of the definitions.
+    forms : dict of str to FormDefinition
+        By use, definitions with other values.
+    attach : set of int
+        Lines whose points are to come from definitions again.
+    watched : set of int
+        Crossings that define no line any more, as others have passed them.
     """
-    maker = Maker(state, journal)
-    if not state.definitions and not state.generated:
-        return np.zeros(0, np.int64)
-    left = edited(state, journal, pending)
-    _refuse_both(state, pending, left)
-    detach(maker, pending, left)
-    nodes = _write(maker, pending)
-    made = [each for line in sorted(pending.attach) for each in attachable_curves(state, line)]
-    _remake(maker, pending, [*made, *(_other_pieces(state) if pending.forms else ())])
-    if pending.structural:
-        tidy(maker)
-    return nodes
+
+    forms: dict[str, FormDefinition] = attrs.field(factory=dict)
+    attach: set[int] = attrs.field(factory=set)
+    watched: set[int] = attrs.field(factory=set)
+
+    @classmethod
+    def concerns(cls, state: HullState) -> bool:
+        """Tell whether a hull has definitions: any edit may bend a curve off them."""
+        return bool(state.definitions or state.generated)
+
+    @property
+    def idle(self) -> bool:
+        """Whether nothing is asked of definitions."""
+        return not (self.forms or self.attach)
+
+    def plan(self, work: Work) -> None:
+        """Carry out what is asked, but for the evaluation."""
+        state, pending = work.state, work.pending
+        maker = Maker(state, work.journal)
+        left = edited(state, work.journal, pending)
+        _refuse_both(state, pending, left, self.attach)
+        detach(maker, pending, left)
+        work.forms = _write(maker, self.forms)
+        made = [each for line in sorted(self.attach) for each in attachable_curves(state, line)]
+        _remake(maker, pending, [*made, *(_other_pieces(state) if self.forms else ())])
+        if pending.structural:
+            tidy(maker)
+
+    def arrange(self, work: Work) -> None:
+        """Choose anew what defines lines on which crossings have passed one another."""
+        if self.idle:
+            return
+        for _ in range(ROUNDS):
+            curves, watched = renew_followers(work)
+            self.watched |= set(watched)
+            if not curves:
+                return
+            work.go(np.zeros(0, np.int64), np.array(curves, np.int64))
+
+    def refine(self, work: Work) -> None:
+        """Give generated curves the points that they have come to need, and let others follow."""
+        if attached_curves(work.state) and not work.pending.alone:
+            curves = refine_forms(work, work.touched())
+            if curves:
+                work.go(np.zeros(0, np.int64), np.array(curves, np.int64))
+                self.arrange(work)
+                work.settle()
+        limit_watched(work, self.watched)
+
+    def allow(self, work: Work, wide: WideGaps) -> bool:
+        """Set limits anew as of a net that is made of the new definitions."""
+        return bool(self.forms) and widen_limits(work, wide)
+
+    def finish(self, work: Work) -> bool:
+        """Detach what this update has bent off its definitions, and tell what was detached."""
+        pending, state = work.pending, work.state
+        maker = Maker(state, work.journal)
+        if attached_curves(state) and (pending.structural or pending.displaces):
+            off = off_definitions(state, work.touched().tolist())
+            detach(maker, pending, off)
+            if off:
+                work.renew()
+        if pending.structural and state.generated:
+            tidy(maker)
+        pending.notes += detached_note(state, pending.detached)
+        return False
 
 
-def _refuse_both(state: HullState, pending: Pending, left: set[int]) -> None:
+def _refuse_both(state: HullState, pending: Pending, left: set[int], attach: set[int]) -> None:
     asked = {int(state.rows.curve[row, 0]) for row in pending.values}
     for curve in sorted(left | asked | {each for _, each in pending.by_hand if each >= 0}):
         line = state.line_of(curve)
-        if line in pending.attach:
+        if line in attach:
             raise BadInputError(
                 "a line is edited by hand and returned to its definitions in one edit",
                 f"at {state.lines.name[line]}", "use two edits",
             )  # fmt: skip
 
 
-def _write(maker: Maker, pending: Pending) -> IntArray:
+def _write(maker: Maker, forms: Mapping[str, FormDefinition]) -> IntArray:
     """Write definitions with other values; give their nodes."""
     state, table = maker.state, maker.state.formed
-    maker.definitions([pending.forms.get(each.use, each) for each in state.definitions])
+    maker.definitions([forms.get(each.use, each) for each in state.definitions])
     numbers = [n for n in state.live("formed").tolist()
-               if table.definition[n].use in pending.forms]  # fmt: skip
+               if table.definition[n].use in forms]  # fmt: skip
     return Node.form(np.array(numbers, np.int64))
 
 

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.edit.arguments import line_name
-from assoc_hull.edit.followup.adopted_points import insert_defining_point
-from assoc_hull.edit.followup.tangencies import NO_ROOT
+from assoc_hull.edit.crossings.adopted_points import insert_defining_point
+from assoc_hull.edit.crossings.tangencies import NO_ROOT
 from assoc_hull.edit.lines.curve_deviation import deviation_with
 from assoc_hull.edit.lines.kept_runs import NO_KEPT_RUNS, KeptRuns
 from assoc_hull.edit.lines.line_planes import new_plane, ready_group

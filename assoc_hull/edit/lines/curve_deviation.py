@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.followup.adopted_points import insertion_index
+from assoc_hull.edit.crossings.adopted_points import insertion_index
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate, sample

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.crossings import one_place
-from assoc_hull.edit.followup.tangencies import (
+from assoc_hull.edit.crossings.settle_crossings import one_place
+from assoc_hull.edit.crossings.tangencies import (
     NO_ROOT,
     parameter_at_tangency,
     stays_near_plane,
@@ -33,7 +33,7 @@ from assoc_hull.model.roles import BoolArray
 from assoc_hull.model.tables import HullState
 
 if TYPE_CHECKING:
-    from assoc_hull.edit.followup.tangencies import PlaneTangency
+    from assoc_hull.edit.crossings.tangencies import PlaneTangency
 
 __all__ = [
     "Marks",

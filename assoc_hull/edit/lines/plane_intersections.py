@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.followup.adopted_points import mend_gaps
-from assoc_hull.edit.followup.crossings import make_crossing
+from assoc_hull.edit.crossings.adopted_points import mend_gaps
+from assoc_hull.edit.crossings.settle_crossings import make_crossing
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes

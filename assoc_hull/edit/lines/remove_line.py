@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.followup.crossings import make_latent
+from assoc_hull.edit.crossings.settle_crossings import make_latent
 from assoc_hull.edit.lines.curve_deviation import quick_deviation
 from assoc_hull.edit.lines.plane_intersections import remove_line_plane
 from assoc_hull.edit.transaction import Transaction

@@ -12,9 +12,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from assoc_hull.edit.followup.adopted_points import insert_defining_point
-from assoc_hull.edit.followup.crossings import make_latent
-from assoc_hull.edit.followup.tangencies import NO_ROOT
+from assoc_hull.edit.crossings.adopted_points import insert_defining_point
+from assoc_hull.edit.crossings.settle_crossings import make_latent
+from assoc_hull.edit.crossings.tangencies import NO_ROOT
 from assoc_hull.edit.lines.add_line import make_piece, ordered_pieces
 from assoc_hull.edit.lines.kept_runs import (
     NO_KEPT_RUNS,

@@ -13,6 +13,7 @@ import numpy as np
 
 from assoc_hull.arguments import number, shown
 from assoc_hull.edit.followup.generated_curves import attachable_curves
+from assoc_hull.edit.followup.take_up_definitions import DefinitionValues
 from assoc_hull.edit.modifications.roles import change_role
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError, UnknownNameError, WrongTypeError
@@ -108,13 +109,14 @@ def set_form(
     """
     state = edit.state
     found = definition_named(state, name)
-    old = edit.pending.forms.get(found.use, found)
+    forms = edit.pending.ask(DefinitionValues).forms
+    old = forms.get(found.use, found)
     new = _with(state, old, values)
     chain_of(new, state.particulars)
     if new == found:
-        edit.pending.forms.pop(found.use, None)
+        forms.pop(found.use, None)
     else:
-        edit.pending.forms[found.use] = new
+        forms[found.use] = new
 
 
 def _with(
@@ -222,7 +224,7 @@ def reattach(edit: Transaction, line: int) -> None:
         edit.refuse_moved(np.array(made.rows, np.int64))
     for made in found:
         drive_others(edit, made.curve)
-    edit.pending.attach.add(line)
+    edit.pending.ask(DefinitionValues).attach.add(line)
     edit.pending.structural = True
 
 

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import place as one_place
 from assoc_hull.arguments import word
 from assoc_hull.edit.arguments import direction_in
-from assoc_hull.edit.followup.adopted_points import insertion_index, link_adopted_points
+from assoc_hull.edit.crossings.adopted_points import insertion_index, link_adopted_points
 from assoc_hull.edit.lines.line_planes import checked_in_planes, completed_in_planes
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import (

@@ -11,12 +11,13 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.arguments import pair
+from assoc_hull.edit.crossings.adopted_points import insert_defining_point
 from assoc_hull.edit.displacement_field import (
     FieldContext,
     PullField,
     row_spacing,
 )
-from assoc_hull.edit.followup.adopted_points import insert_defining_point
+from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import PointRoleError
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -64,7 +65,7 @@ def pull(
     """
     field = pull_field(edit.state, row, amount, radius, across_flats=across_flats)
     if amount != 0.0:
-        edit.pending.fields.append(field)
+        edit.pending.ask(FieldMoves).fields.append(field)
         for curve, place in curves_to_hold(edit.state, row):
             _hold(edit, row, curve, place)
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import pair, places
+from assoc_hull.edit.crossings.adopted_points import insertion_index
 from assoc_hull.edit.displacement_field import (
     FieldContext,
     PointDisplacements,
@@ -25,7 +26,7 @@ from assoc_hull.edit.displacement_field import (
     quintic_fade,
     row_spacing,
 )
-from assoc_hull.edit.followup.adopted_points import insertion_index
+from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.hull_normals import normals_at
 from assoc_hull.edit.lines.line_planes import checked_in_planes
 from assoc_hull.edit.modifications.points import pin
@@ -298,7 +299,7 @@ def reshape(
     start = state.rows.xyz[rows].copy()
     normals = normals_at(state, state.curves.rows[curve])
     made = _place(edit, curve, design.shape, rows, goals)
-    edit.pending.fields.append(
+    edit.pending.ask(FieldMoves).fields.append(
         ReshapeField(
             curve, old, new, normals, rows, goals, start, radius, section,
             (float(design.at[0]), float(design.at[-1])), flat, across_flats,

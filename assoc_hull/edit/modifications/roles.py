@@ -12,8 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from assoc_hull.arguments import word
-from assoc_hull.edit.followup.adopted_points import insert_defining_point, link_adopted_points
-from assoc_hull.edit.followup.crossings import role_by_rule
+from assoc_hull.edit.crossings.adopted_points import insert_defining_point, link_adopted_points
+from assoc_hull.edit.crossings.settle_crossings import role_by_rule
 from assoc_hull.edit.lines.remove_line import prune_points
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, PointRoleError

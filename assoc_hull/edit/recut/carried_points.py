@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.tangencies import PlaneTangency
+from assoc_hull.edit.crossings.tangencies import PlaneTangency
 from assoc_hull.edit.lines.kept_runs import KeptRuns
 from assoc_hull.edit.mapped_planes import (
     IN_PLANE,

@@ -12,6 +12,7 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.edit.carried_net import CarriedNet
 from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.mapped_planes import TransformedPlanes
 from assoc_hull.edit.recut.carried_points import (
@@ -103,7 +104,7 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
     pending.held |= set(adopted[state.rows.sort[adopted] == Sort.ADOPTED].tolist())
     curves = set(state.live("curves").tolist())
     pending.curves |= curves
-    pending.relink |= curves
+    pending.ask(CarriedNet).relink |= curves
     return work
 
 

@@ -15,8 +15,9 @@ from itertools import permutations
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.crossings import one_place
-from assoc_hull.edit.followup.tangencies import (
+from assoc_hull.edit.carried_net import CarriedNet
+from assoc_hull.edit.crossings.settle_crossings import one_place
+from assoc_hull.edit.crossings.tangencies import (
     NO_ROOT,
     PlaneTangency,
     clear_at_tangencies,
@@ -307,7 +308,7 @@ def take_out_lines(edit: Transaction, work: TransformationState, *, may_go: bool
         put(state.lines.alive, [line], False)
         touches = work.touched(line)
         known = work.anew[line]
-        edit.pending.after.append(
+        edit.pending.ask(CarriedNet).after.append(
             partial(bring_back_line, edit, line, known, touches, stays, may_go=may_go)
         )
 

@@ -12,7 +12,7 @@ from collections import Counter
 
 import numpy as np
 
-from assoc_hull.edit.followup.adopted_points import least_detour
+from assoc_hull.edit.crossings.adopted_points import least_detour
 from assoc_hull.edit.mapped_planes import IN_PLANE, plane_heights, snap_into_planes
 from assoc_hull.edit.recut.carried_points import (
     DefiningPoints,

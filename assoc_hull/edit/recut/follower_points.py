@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.adopted_points import insertion_index
+from assoc_hull.edit.crossings.adopted_points import insertion_index
 from assoc_hull.edit.mapped_planes import snap_into_planes
 from assoc_hull.edit.recut.carried_points import (
     DefiningPoints,

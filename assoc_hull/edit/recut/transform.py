@@ -13,7 +13,8 @@ from collections.abc import Callable, Mapping, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.crossings import make_latent
+from assoc_hull.edit.carried_net import CarriedNet
+from assoc_hull.edit.crossings.settle_crossings import make_latent
 from assoc_hull.edit.mapped_features import carry_features
 from assoc_hull.edit.mapped_planes import TransformedPlanes, carry_planes
 from assoc_hull.edit.recut.carried_points import (
@@ -204,7 +205,7 @@ def driving_lines(state: HullState, drivers: Sequence[int]) -> np.typing.NDArray
 def refuse_others(edit: Transaction) -> None:
     """See that nothing else is in the edit."""
     pending = edit.pending
-    if edit.journal.entries or pending.values or pending.fields or pending.curves:
+    if edit.journal.entries or pending.values or pending.displaces or pending.curves:
         raise BadInputError(*pending.not_alone(edit.name))
 
 
@@ -254,7 +255,7 @@ def _publish(edit: Transaction, work: TransformationState, turned: set[int]) -> 
     pending.held |= set(adopted.tolist())
     pending.curves |= set(state.live("curves").tolist())
     pending.moved_curves |= {curve for curve in work.made if work.drives(curve)}
-    pending.relink |= set(state.live("curves").tolist())
+    pending.ask(CarriedNet).relink |= set(state.live("curves").tolist())
 
 
 def _watch(edit: Transaction, work: TransformationState) -> None:

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.tangencies import PlaneTangency
+from assoc_hull.edit.crossings.tangencies import PlaneTangency
 from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.recut.carried_points import TransformationState
 from assoc_hull.geometry.curves import FloatArray

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
+from assoc_hull.edit.crossings.settle_crossings import make_latent
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.followup.crossings import make_latent
 from assoc_hull.edit.session import Edit
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import resolve_address

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from assoc_hull.edit.followup.adopted_points import mend_gaps
+from assoc_hull.edit.crossings.adopted_points import mend_gaps
 from assoc_hull.graph.journal import Journal
 from assoc_hull.hull import Hull
 from assoc_hull.model.kinds import Role, Sort

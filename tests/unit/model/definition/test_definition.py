@@ -12,9 +12,9 @@ import attrs
 import numpy as np
 import pytest
 
+from assoc_hull.edit.crossings.adopted_points import link_adopted_points
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.followup.adopted_points import link_adopted_points
-from assoc_hull.edit.pending_changes import Settings
+from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, CoincidentPointsError
 from assoc_hull.geometry.curves import IntArray

@@ -35,7 +35,7 @@ def insertion_index(xyz: FloatArray, place: FloatArray) -> int:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.edit.followup.adopted_points import insertion_index
+    >>> from assoc_hull.edit.crossings.adopted_points import insertion_index
     >>> insertion_index(np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0]]), np.array([1.0, 0.5, 0]))
     2
     """

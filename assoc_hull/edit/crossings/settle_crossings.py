@@ -11,8 +11,8 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.edit.followup.adopted_points import insert_defining_point
-from assoc_hull.edit.followup.tangencies import runs_along_tangency
+from assoc_hull.edit.crossings.adopted_points import insert_defining_point
+from assoc_hull.edit.crossings.tangencies import runs_along_tangency
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.align_intersections import Alignment

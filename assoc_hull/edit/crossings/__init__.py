@@ -1,0 +1,1 @@
+"""Crossings of lines: how they come, go and touch, and the points that stand in for them."""
