@@ -13,10 +13,12 @@ import tokenize
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from unittest import mock
 
 import networkx as nx
 
 import assoc_hull as ah
+from assoc_hull.edit.program_edit import ProgramEdit
 
 __all__ = ["TRIPS", "entered", "main"]
 
@@ -145,6 +147,16 @@ def _move() -> Act:
     return act
 
 
+def _move_by_program() -> Act:
+    act = _move()
+
+    def by_program() -> None:
+        with mock.patch.object(ProgramEdit, "of", ProgramEdit.begun):
+            act()
+
+    return by_program
+
+
 def _pull() -> Act:
     hull, step = ah.examples.wigley(), iter(range(1, 9))
 
@@ -167,6 +179,7 @@ def _vary() -> Act:
 
 TRIPS: dict[str, Callable[[], Act]] = {
     "a moved point": _move,
+    "a moved point, by the program": _move_by_program,
     "a pull": _pull,
     "hydrostatics": _hydrostatics,
     "a variation of the breadth": _vary,
