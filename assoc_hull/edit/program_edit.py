@@ -74,7 +74,7 @@ class _Pass:
         found = dict(zip(Node.point(self.rows).tolist(), point.tolist(), strict=True))
         if len(self.curves):
             batch = SplineBatch.join(self.new)
-            curve = moved_curves(list(self.old), None, list(self.new), batch)
+            curve = moved_curves(self.old, self.new, batch)
             differs = curve != 0.0
             nodes = Node.curve(self.curves[differs]).tolist()
             found |= dict(zip(nodes, curve[differs].tolist(), strict=True))
@@ -348,8 +348,8 @@ class ProgramEdit:
              for c, (a, b) in zip(numbers, to.spans, strict=True)],
         )  # fmt: skip
         rows, guess = state.rows, self.document.index.guess.reshape(-1)
-        self.journal.put_parts(rows.spot, to.part, PickedRows(xyz, to.pick), None)
-        self.journal.put_parts(rows.parameter, to.part, PickedRows(at, to.pick), None)
+        self.journal.put_parts(rows.spot, to.part, PickedRows(xyz, to.pick))
+        self.journal.put_parts(rows.parameter, to.part, PickedRows(at, to.pick))
         if len(guess) == 2 * rows.count:
             guess[to.part] = values.segment.take(to.where if to.pick is None else to.where[to.pick])
 

@@ -96,30 +96,16 @@ class _ArrayEntry:
         return self.old.tobytes() == self.new.tobytes()
 
 
-@attrs.define(eq=False)
+@attrs.frozen(eq=False)
 class PickedRows:
-    """Some rows of a frozen array that others hold as well; of all rows if `pick` is None.
-
-    What was picked is at hand as long as it is `taken`, and is picked again when it is not.
-    """
+    """Some rows of a frozen array that others hold as well; all rows if `pick` is None."""
 
     whole: NDArray[np.generic]
     pick: NDArray[np.int64] | None = None
-    taken: NDArray[np.generic] | None = None
 
     def values(self) -> NDArray[np.generic]:
         """Give what was picked."""
-        if self.taken is not None:
-            return self.taken
         return self.whole if self.pick is None else self.whole.take(self.pick, axis=0)
-
-    def take(self) -> None:
-        """Keep what is picked at hand."""
-        self.taken = self.values()
-
-    def release(self) -> None:
-        """Let go of what was picked."""
-        self.taken = None
 
 
 @attrs.frozen(eq=False)
@@ -197,11 +183,6 @@ def same_value(old: object, new: object) -> bool:
     return old is new or bool(old == new)
 
 
-def _same_bits(one: NDArray[np.generic], other: NDArray[np.generic]) -> bool:
-    """Tell whether two contiguous arrays of floats or whole numbers agree to the last bit."""
-    return one.shape == other.shape and bool((one.view(np.int64) == other.view(np.int64)).all())
-
-
 def _net_array(column: Column[S], entries: Sequence[_ArrayEntry | _PartEntry]) -> ArrayChange[S]:
     """Run the writes to an array backward over a copy of what they touched."""
     width = int(np.prod(column.data.shape[1:2])) if column.data.ndim > 1 else 1
@@ -251,19 +232,12 @@ class Journal:
         column: Column[np.generic],
         part: NDArray[np.int64],
         new: PickedRows,
-        before: PickedRows | None,
     ) -> None:
-        """Write to parts of rows, as `Column.parts` numbers them, each named once.
-
-        `before` may be what is thought to stand there now: if it does, to the last bit, it is
-        kept for going back, not a copy.
-        """
+        """Write to parts of rows, as `Column.parts` numbers them, each named once."""
         if not len(part):
             return
-        there = column.parts().take(part, axis=0)
-        if before is None or not _same_bits(before.values(), there):
-            before = PickedRows(there)
-        self.entries.append(_PartEntry(column, part, before, new, column.writes))
+        old = PickedRows(column.parts().take(part, axis=0))
+        self.entries.append(_PartEntry(column, part, old, new, column.writes))
         column.put_parts(part, new.values())
 
     def set(self, column: ValueColumn[V], index: Iterable[int], values: Iterable[V]) -> None:

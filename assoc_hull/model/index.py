@@ -7,7 +7,6 @@ shape only reads it.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable
 
 import attrs
 import numpy as np
@@ -60,9 +59,6 @@ class Index:
         For a definition, the points made of it.
     guess : (r, 2) int32
         In which segment of its two curves each crossing was last found; never relied upon.
-    recall : dict
-        What the update left in the tables for the batches it evaluated last, by their curves;
-        used only where the tables still hold the very same objects.
     """
 
     partners: dict[int, tuple[PlaneSet, ...]]
@@ -72,7 +68,6 @@ class Index:
     makes: dict[int, IntArray]
     forms: dict[int, IntArray]
     guess: np.typing.NDArray[np.int32]
-    recall: dict[Hashable, object] = attrs.field(factory=dict)
 
 
 def build_index(state: HullState) -> Index:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from typing import overload
 
 import attrs
@@ -10,44 +10,16 @@ import numpy as np
 
 from assoc_hull.geometry.curves import (
     CurveData,
-    FloatArray,
     IntArray,
-    PointKind,
     SplineBatch,
-    freeze,
 )
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.graph.derived import Objects
-from assoc_hull.model.tables import Ends, HullState
+from assoc_hull.model.tables import HullState
 
-__all__ = ["curve_data", "loft_curves", "remember"]
-
-_KEPT = 16
-"""So many batches are recalled."""
+__all__ = ["curve_data", "loft_curves"]
 
 
-@attrs.frozen(eq=False)
-class _Plan:
-    """Where the data of a batch of curves lie."""
-
-    start: IntArray
-    row: IntArray
-    part: IntArray
-    end_kind: np.typing.NDArray[np.int8]
-    end_vector: FloatArray
-    nowhere: FloatArray
-    """The directions where no point is given one."""
-
-
-def remember(recall: dict[Hashable, object], key: Hashable, value: object) -> None:
-    """Keep something, and let go of what was not kept again for the longest time."""
-    recall.pop(key, None)
-    recall[key] = value
-    if len(recall) > _KEPT:
-        del recall[next(iter(recall))]
-
-
-def curve_data(state: HullState, curves: IntArray, *, keep: bool = False) -> CurveData:
+def curve_data(state: HullState, curves: IntArray) -> CurveData:
     """Gather the defining points, kinds and end conditions of curves.
 
     Parameters
@@ -56,8 +28,6 @@ def curve_data(state: HullState, curves: IntArray, *, keep: bool = False) -> Cur
         The tables.
     curves : (m,) int
         Numbers of the curves.
-    keep : bool
-        Whether where the data of the batch lie is kept until the next time.
 
     Returns
     -------
@@ -66,37 +36,19 @@ def curve_data(state: HullState, curves: IntArray, *, keep: bool = False) -> Cur
     """
     table, numbers = state.curves, curves.tolist()
     rows = [table.rows.data[curve] for curve in numbers]
-    side = [table.side.data[curve] for curve in numbers]
     ends = [table.ends.data[curve] for curve in numbers]
-    if keep:
-        held = Objects(rows), Objects(side), Objects(ends)
-        key = ("recipe", curves.tobytes())
-        plan = state.derived(key, held, lambda: _plan(rows, side, ends), most=_KEPT)
-    else:
-        plan = _plan(rows, side, ends)
-    points = state.rows
-    kind = points.kind.data.reshape(-1).take(plan.part)
-    directed = bool((kind == PointKind.TANGENT).any())
-    return CurveData(
-        plan.start,
-        points.xyz.data.take(plan.row, axis=0),
-        kind,
-        points.direction.data.reshape(-1, 3).take(plan.part, axis=0) if directed else plan.nowhere,
-        plan.end_kind,
-        plan.end_vector,
-    )
-
-
-def _plan(rows: list[IntArray], side: list[IntArray], ends: list[Ends]) -> _Plan:
-    row = np.concatenate(rows)
-    start = np.zeros(len(rows) + 1, np.int64)
+    row, start = np.concatenate(rows), np.zeros(len(rows) + 1, np.int64)
     np.cumsum([len(part) for part in rows], out=start[1:])
-    kind = np.array([end.kind for end in ends], np.int8)
-    vector = np.array([end.vector for end in ends], np.float64)
-    part = 2 * row + np.concatenate(side)
-    nowhere = np.zeros((len(row), 3))
-    freeze(start, row, part, kind, vector, nowhere)
-    return _Plan(start, row, part, kind, vector, nowhere)
+    part = 2 * row + np.concatenate([table.side.data[curve] for curve in numbers])
+    points = state.rows
+    return CurveData(
+        start,
+        points.xyz.data.take(row, axis=0),
+        points.kind.data.reshape(-1).take(part),
+        points.direction.data.reshape(-1, 3).take(part, axis=0),
+        np.array([end.kind for end in ends], np.int8),
+        np.array([end.vector for end in ends], np.float64),
+    )
 
 
 @attrs.frozen(eq=False)
@@ -121,12 +73,12 @@ class _Names(Sequence[str]):
         return self.state.curves.key[int(self.curves[place])]
 
 
-def loft_curves(state: HullState, curves: IntArray, *, keep: bool = False) -> SplineBatch:
-    """Loft curves from their defining points, in one batch; `keep` as for `curve_data`.
+def loft_curves(state: HullState, curves: IntArray) -> SplineBatch:
+    """Loft curves from their defining points, in one batch.
 
     Raises
     ------
     TooFewPointsError, CoincidentPointsError, BadInputError
         Naming the curve.
     """
-    return loft(curve_data(state, curves, keep=keep), _Names(state, curves))
+    return loft(curve_data(state, curves), _Names(state, curves))

@@ -11,20 +11,21 @@ lofted in one batch.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.graph.journal import Journal, PickedRows
 from assoc_hull.graph.network import Evaluation, Readers, closure
 from assoc_hull.model.align_intersections import Alignment, align_curve
 from assoc_hull.model.generated_curves import attached_curves, points_given, unmade_rows
 from assoc_hull.model.index import Index
-from assoc_hull.model.lofting import loft_curves, remember
+from assoc_hull.model.lofting import loft_curves
 from assoc_hull.model.node import Node
-from assoc_hull.model.plane_intersections import LastIntersections, PartnerIntersections, cut_curves
+from assoc_hull.model.plane_intersections import PartnerIntersections, cut_curves
 from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = ["HullNetwork", "bits_differ", "moved_curves", "placed"]
@@ -186,103 +187,69 @@ class HullNetwork:
 
     def _curves(self, curves: IntArray, journal: Journal) -> Evaluation:
         """Loft, meet the partners' planes, keep the identity of each meeting."""
-        table, numbers, recall = self.state.curves, curves.tolist(), self.index.recall
-        key = curves.tobytes()
+        table, numbers = self.state.curves, curves.tolist()
         old = [table.spline.data[curve] for curve in numbers]
-        met = [table.meets.data[curve] for curve in numbers]
-        recalled = recall.get(key)
-        last = recalled if isinstance(recalled, LastIntersections) else None
-        known = last if last is not None and last.holds(old, met) else None
-        batch = loft_curves(self.state, curves, keep=True)
+        batch = loft_curves(self.state, curves)
         splines = batch.single()
-        found = cut_curves(self.state, self.index, curves, splines, known.found if known else None)
+        found = cut_curves(self.state, self.index, curves, splines)
         for curve, spline in zip(numbers, old, strict=True):
             if spline is not None:
                 self.before.setdefault(curve, spline)
-        moved = moved_curves(old, known.batch if known else None, splines, batch)
+        moved = moved_curves(old, splines, batch)
         journal.set(table.spline, numbers, splines)
-        now = self._attach(numbers, met, splines, batch, found, known)
-        journal.set(table.meets, numbers, now.meets)
-        self._write_spots(now, known, journal)
-        if last is not None:
-            last.spot.release()
-            last.at.release()
-        remember(recall, key, now)
+        meets = self._identified(numbers, found)
+        journal.set(table.meets, numbers, meets)
+        self._write_spots(curves, found, meets, journal)
         differs = moved != 0.0
         return Evaluation(Node.curve(curves[differs]), moved[differs])
 
-    def _attach(
-        self,
-        numbers: list[int],
-        old: list[CurveIntersections],
-        splines: list[SplineBatch],
-        batch: SplineBatch,
-        found: PartnerIntersections,
-        known: LastIntersections | None,
-    ) -> LastIntersections:
-        """Give each meeting the crossing it is: at once where lines and signs are as before."""
-        at, xyz, spans = found.parameter, found.xyz, list(pairwise(found.bounds))
-        if known is not None and found.line is known.found.line:
-            meets = [
-                placed(each, at[a:b], xyz[a:b]) for each, (a, b) in zip(old, spans, strict=True)
+    def _identified(
+        self, numbers: list[int], found: PartnerIntersections
+    ) -> list[CurveIntersections]:
+        """Give each meeting the crossing it is; a curve keeps its arrays where it can."""
+        old = [self.state.curves.meets.data[curve] for curve in numbers]
+        spans = list(pairwise(found.bounds))
+        same = [b - a for a, b in spans] == [len(each.line) for each in old]
+        same = same and np.array_equal(np.concatenate([each.line for each in old]), found.line)
+        if same and np.array_equal(np.concatenate([each.sign for each in old]), found.sign):
+            return [
+                placed(each, found.parameter[a:b], found.xyz[a:b])
+                for each, (a, b) in zip(old, spans, strict=True)
             ]
-            row, actual, part = known.row, known.actual, known.part
-        else:
-            row = self._identify(numbers, old, found)
-            freeze(row)
-            meets = [
-                CurveIntersections(found.line[a:b], found.sign[a:b], row[a:b], at[a:b], xyz[a:b])
-                for a, b in spans
-            ]
-            actual = np.flatnonzero(row >= 0)
-            owner = np.array(numbers, np.int64)[found.curve[actual]]
-            part = 2 * row[actual] + (self.state.rows.curve[row[actual], 0] != owner)
-            actual = None if len(actual) == len(row) else actual
-        spot, place = PickedRows(found.xyz, actual), PickedRows(found.parameter, actual)
-        return LastIntersections(splines, meets, batch, found, row, actual, part, spot, place)
+        return [
+            self._aligned(curve, each, found.take(a, b))
+            for curve, each, (a, b) in zip(numbers, old, spans, strict=True)
+        ]
+
+    def _aligned(
+        self, curve: int, old: CurveIntersections, new: CurveIntersections
+    ) -> CurveIntersections:
+        """Say which crossing each meeting of a curve is; the rows of `new` are not known yet."""
+        if np.array_equal(old.line, new.line) and np.array_equal(old.sign, new.sign):
+            return placed(old, new.parameter, new.xyz)
+        alignment = align_curve(curve, old, new)
+        if alignment.gone.size or alignment.come.size:
+            self.realigned.append(alignment)
+        return attrs.evolve(new, row=alignment.row)
 
     def _write_spots(
-        self, now: LastIntersections, known: LastIntersections | None, journal: Journal
+        self,
+        curves: IntArray,
+        found: PartnerIntersections,
+        meets: list[CurveIntersections],
+        journal: Journal,
     ) -> None:
         """Write where crossings lie on curves; a batch may hold both curves of a crossing."""
         table, guess = self.state.rows, self.index.guess.reshape(-1)
-        before = known if known is not None and known.part is now.part else None
-        for column, new, old in (
-            (table.spot, now.spot, before.spot if before else None),
-            (table.parameter, now.at, before.at if before else None),
-        ):
-            new.take()
-            journal.put_parts(column, now.part, new, old)
+        row = np.concatenate([each.row for each in meets])
+        actual = np.flatnonzero(row >= 0)
+        owner = curves[found.curve[actual]]
+        part = 2 * row[actual] + (table.curve[row[actual], 0] != owner)
+        pick = None if len(actual) == len(row) else actual
+        journal.put_parts(table.spot, part, PickedRows(found.xyz, pick))
+        journal.put_parts(table.parameter, part, PickedRows(found.parameter, pick))
         if len(guess) == 2 * table.count:
-            segment = now.found.segment
-            guess[now.part] = segment if now.actual is None else segment.take(now.actual)
-
-    def _identify(
-        self, numbers: list[int], old: list[CurveIntersections], found: PartnerIntersections
-    ) -> IntArray:
-        """Say which crossing each meeting is, curve by curve where lines or signs changed."""
-        line = np.concatenate([meets.line for meets in old])
-        sign = np.concatenate([meets.sign for meets in old])
-        counts = [len(meets.line) for meets in old]
-        bounds = found.bounds
-        same = [b - a for a, b in pairwise(bounds)] == counts
-        if same and np.array_equal(line, found.line) and np.array_equal(sign, found.sign):
-            return np.concatenate([meets.row for meets in old])
-        parts: list[IntArray] = []
-        for i, curve in enumerate(numbers):
-            span = slice(bounds[i], bounds[i + 1])
-            new = CurveIntersections(
-                found.line[span].copy(),
-                found.sign[span].copy(),
-                np.full(span.stop - span.start, -1),
-                found.parameter[span].copy(),
-                found.xyz[span].copy(),
-            )
-            alignment = align_curve(curve, old[i], new)
-            if alignment.gone.size or alignment.come.size:
-                self.realigned.append(alignment)
-            parts.append(alignment.row)
-        return np.concatenate(parts)
+            guess[part] = found.segment[actual]
 
 
 _set_line, _set_sign, _set_row, _set_parameter, _set_xyz = (
@@ -302,15 +269,11 @@ def placed(meets: CurveIntersections, parameter: FloatArray, xyz: FloatArray) ->
 
 
 def moved_curves(
-    old: list[SplineBatch | None],
-    before: SplineBatch | None,
-    splines: list[SplineBatch],
-    batch: SplineBatch,
+    old: Sequence[SplineBatch | None], splines: Sequence[SplineBatch], batch: SplineBatch
 ) -> FloatArray:
     """Tell how far the defining points of each curve moved (m): 0 only if no bit changed."""
     was = [each for each in old if each is not None]
-    if before is None and len(was) == len(old):
-        before = SplineBatch.join(was)
+    before = SplineBatch.join(was) if len(was) == len(old) else None
     if before is None or not np.array_equal(before.start, batch.start):
         return np.array([_moved_one(a, b) for a, b in zip(old, splines, strict=True)])
     step = np.abs(batch.xyz.T - before.xyz.T)

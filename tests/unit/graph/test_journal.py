@@ -184,7 +184,7 @@ def test_writes_to_parts_are_counted() -> None:
     of, journal = Towers(), Journal()
     journal.grow(of, 2)
     counts = [of.place.writes]
-    journal.put_parts(of.place, np.array([0, 3]), PickedRows(np.array([1.0, 2.0])), None)
+    journal.put_parts(of.place, np.array([0, 3]), PickedRows(np.array([1.0, 2.0])))
     counts.append(of.place.writes)
     journal.back()
     counts.append(of.place.writes)
