@@ -18,7 +18,6 @@ from assoc_hull.analysis.net.curve_net import (
     CurveNet,
     CurvePart,
     bits_of_parts,
-    sections_of,
     station_planes,
 )
 from assoc_hull.analysis.net.strip_anchors import (
@@ -43,7 +42,7 @@ from assoc_hull.geometry.numeric.generic_sums import common_zeros
 from assoc_hull.geometry.numeric.polynomials import hermite
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.paths import Paths, PathShapes, shape_paths
-from assoc_hull.geometry.splines.segments import last_not_above
+from assoc_hull.geometry.splines.segments import bezier_points, last_not_above, sum_per_curve
 from assoc_hull.geometry.surfaces.coons import CoonsCells
 
 __all__ = [
@@ -91,30 +90,35 @@ def parallel_slabs(net: CurveNet, x: FloatArray) -> frozenset[int]:
     np.maximum.at(top, station, np.maximum.reduceat(batch.xyz[:, 2], batch.start[:-1]))
     # Below a common level: sheer must not make equal sections differ.
     level = np.minimum(top[:-1], top[1:])
-    found = []
-    for slab in _large_slabs(batch, station, level).tolist():
-        area = np.bincount(station, section_area(batch, level[slab - 1]), len(x))
-        if area[slab - 1 : slab + 1].min() >= (1.0 - _EQUAL) * area.max():
-            found.append(slab)
-    return frozenset(found)
+    least, count = float(level.min()), len(x)
+    whole = np.bincount(station, section_area(batch, least), count)
+    more = np.bincount(station, _most_above(batch, least), count)
+    # Which sections may be the largest at any level, or as large; a little more than the limit:
+    # what rounding could turn is left to the comparison.
+    large = whole + more >= (1.0 - 2.0 * _EQUAL) * float((whole - more).max())
+    slab, rows = 1 + np.flatnonzero(large[:-1] & large[1:]), np.flatnonzero(large[station])
+    if not len(slab):
+        return frozenset()
+    some = SplineBatch.join([batch.part(i, i + 1) for i in rows.tolist()])
+    below = section_area(SplineBatch.join([some] * len(slab)), level[slab - 1].repeat(len(rows)))
+    owner = (np.arange(len(slab)) * count).repeat(len(rows)) + np.tile(station[rows], len(slab))
+    area = np.bincount(owner, below, len(slab) * count).reshape(-1, count)
+    both = np.minimum(area[np.arange(len(slab)), slab - 1], area[np.arange(len(slab)), slab])
+    return frozenset(slab[both >= (1.0 - _EQUAL) * area.max(axis=1)].tolist())
 
 
-def _large_slabs(batch: SplineBatch, station: IntArray, level: FloatArray) -> IntArray:
-    """Give the slabs of which neither section is less than one large section, below `level` (n,).
+def _most_above(batch: SplineBatch, level: float) -> FloatArray:
+    """Give an area that no part of a section (m,) above a level exceeds, m2.
 
-    Most are told to be no parallel body by this one, and need not be held against all sections.
+    No curve is broader than its control points, nor goes up and down more than these do.
     """
-    count = len(level) + 1
-    whole = np.bincount(station, section_area(batch, float(level.min())), count)
-    slab = np.arange(count - 1)
-    sections = np.stack([slab, slab + 1, np.full(count - 1, whole.argmax())])
-    number, row = np.nonzero(station == sections.T.reshape(-1, 1))
-    parts = SplineBatch.join([batch.part(i, i + 1) for i in row.tolist()])
-    area = section_area(parts, level.repeat(3)[number])
-    one, other, large = np.bincount(number, area, 3 * len(level)).reshape(-1, 3).T
-    # Twice the limit: what rounding could turn is left to the comparison with all.
-    kept: IntArray = 1 + np.flatnonzero(np.minimum(one, other) >= (1.0 - 2.0 * _EQUAL) * large)
-    return kept
+    control = bezier_points(batch)
+    rise = np.abs(np.diff(np.maximum(control[:, :, 2], level), axis=1)).sum(axis=1)
+    broad = np.maximum.reduceat(
+        np.abs(control[:, :, 1]).max(axis=1), batch.start[:-1] - np.arange(batch.count)
+    )
+    found: FloatArray = sum_per_curve(batch, rise) * broad
+    return found
 
 
 # --------------------------------------------------------------------------------------
@@ -624,7 +628,6 @@ class OpenEnd:
 
 def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[OpenEnd, ...]:
     """Find the ends that no line closes; `length` between perpendiculars, m."""
-    found = sections_of(net, closed=False)
     # Slabs are counted between these: parts of sections that end on a raked transom are none.
     stations = station_planes(net)
     slabs = {frame.slab for frame in layout.frames}
@@ -632,7 +635,6 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
     ends = []
     for fore in (False, True):
         x = float(stations[-1 if fore else 0])
-        at = int(np.abs(found.x - x).argmin())
         drawn = float(every.max() if fore else every.min())
         sign = 1.0 if fore else -1.0
         by_lines = sign * drawn > sign * (length if fore else 0.0)
@@ -645,8 +647,15 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
         if sign * (end - x) < NEAR_END * spacing and _is_transom(net, x):
             continue
         source = "where its lines end" if by_lines else "the perpendicular"
-        ends.append(OpenEnd(fore, found.names[at], x, end, source))
+        ends.append(OpenEnd(fore, _section_near(net, x), x, end, source))
     return tuple(ends)
+
+
+def _section_near(net: CurveNet, x: float) -> str:
+    """Give the name of the section that stands nearest to a place."""
+    sections = np.flatnonzero(np.isfinite(net.x) & ~net.end)
+    places = net.x[sections]
+    return net.name[int(sections[np.lexsort((places, np.abs(places - x)))[0]])]
 
 
 def _is_transom(net: CurveNet, x: float) -> bool:
