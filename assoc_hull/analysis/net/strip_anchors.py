@@ -491,34 +491,34 @@ def _in_order(
     taken, sums, beside = [KEEL, DECK], [0.0], list[tuple[int, int]]()
     first = chosen.start
     for i in chosen:
-        a, b = low[i], high[i]
-        place = bisect_right(sums, a + b)
+        aft, fore = low[i], high[i]
+        place = bisect_right(sums, aft + fore)
         below, above = taken[place - 1], taken[place]
-        under, over = (0.0, 0.0), (1.0, 1.0)
-        if below >= 0:
-            under = low[below], high[below]
-        if above >= 0:
-            over = low[above], high[above]
-        if not (_apart(*under, a, b) and _apart(a, b, *over)):
+        if below < 0:
+            apart = _leaves(aft, fore)
+        else:
+            apart = aft - low[below] > _APART and fore - high[below] > _APART
+        if apart and above < 0:
+            apart = _leaves(1.0 - aft, 1.0 - fore)
+        elif apart:
+            apart = low[above] - aft > _APART and high[above] - fore > _APART
+        if not apart:
             continue
-        new = [pair for pair in ((below, i), (i, above)) if min(pair) >= 0]
+        new = [pair for pair in ((below, i), (i, above)) if pair[0] >= 0 <= pair[1]]
         if crossed is not None and any(crossed[j - first, k - first] for j, k in new):
             continue
         taken.insert(place, i)
-        sums.insert(place, a + b)
+        sums.insert(place, aft + fore)
         beside += new
     return taken, beside
 
 
-def _apart(aft: float, fore: float, aft_above: float, fore_above: float) -> bool:
-    """Tell whether one anchor lies above another: apart on both rails, or joined at one end.
+def _leaves(aft: float, fore: float) -> bool:
+    """Tell whether an anchor lies apart from a side on one rail at least, and joins it at most.
 
     A waterline that begins at the keel of a section makes a cell of three sides.
     """
-    low, high = aft_above - aft, fore_above - fore
-    corner = (aft == fore == 0.0) or (aft_above == fore_above == 1.0)
-    least, most = min(low, high), max(low, high)
-    return most > _APART and (least > _APART or (corner and least >= -_APART))
+    return max(aft, fore) > _APART and min(aft, fore) >= -_APART
 
 
 def _crossed(below: FloatArray, above: FloatArray) -> NDArray[np.bool_]:

@@ -118,6 +118,12 @@ def _edges(one: SplineBatch, x: FloatArray, near: float) -> FloatArray:
     cubic, control = power_coefficients(one)[:, :, 0], bezier_points(one)[:, :, 0]
     low, high = control.min(axis=1), control.max(axis=1)
     segment, plane = np.nonzero((low[:, None] <= x) & (high[:, None] >= x))
+    # Most planes are passed at a knot: a segment that only rises, or falls, does not come back.
+    step = np.diff(control, axis=1)
+    steady = (step > 0.0).all(axis=1) | (step < 0.0).all(axis=1)
+    ends = control[segment][:, [0, -1]] == x[plane][:, None]
+    other = ~(steady[segment] & ends.any(axis=1))
+    segment, plane = segment[other], plane[other]
     shifted = cubic[segment].copy()
     shifted[:, 0] -= x[plane]
     roots = unit_roots(shifted)
@@ -291,7 +297,12 @@ def _joined(
         edge = whole[i]
         begin, finish = number(edge.first), number(edge.last)
         if begin != finish or not net.end[edge.part[0]]:
-            edges.append(attrs.evolve(edge, kind=kind, begin=begin, finish=finish))
+            edges.append(
+                _Edge(
+                    edge.part, kind, begin, finish, edge.closing,
+                    edge.first, edge.last, edge.swept, edge.level,
+                )
+            )  # fmt: skip
     return edges
 
 
