@@ -510,9 +510,10 @@ def _knots(
         kept[k + 1] = value[k + 1] - value[k - int(kept[k::-1].argmax())] > _SLIVER
     kept &= (value < 1.0 - _SLIVER) | (bit < 0)
     cell, bit, value = cell[kept], bit[kept], value[kept]
-    new = np.append(cell[1:] != cell[:-1], True)
-    high, end = np.append(value[1:], 1.0), np.append(bit[1:], -1)
-    return cell, bit, value, np.where(new, 1.0, high), np.where(new, -1, end)
+    high, end = np.ones(len(cell)), np.full(len(cell), -1)
+    inner = np.flatnonzero(cell[1:] == cell[:-1])
+    high[inner], end[inner] = value[inner + 1], bit[inner + 1]
+    return cell, bit, value, high, end
 
 
 def _is_edge(net: CurveNet, frame: StripBoundary, every: Sequence[StripBoundary]) -> bool:
@@ -566,23 +567,30 @@ def areas_between(
     station: FloatArray,
     x: FloatArray,
     planes: FloatingPlanes,
-) -> FloatArray | None:
-    """Give the areas (d, n), m2, both sides, of sections at x (n,), m, between two stations.
+) -> FloatArray:
+    """Give the areas (d, n), m2, both sides, of sections at x (n,), m, between stations.
 
-    Stations are at `station` (k,), m, ascending. None beyond the last ones, and where a strip
-    begins or ends at a raked line between the two, so that no curve of it is transverse.
+    Stations are at `station` (k,), m, ascending. nan beyond the last ones, and where a strip
+    begins or ends at a raked line between two of them, so that no curve of it is transverse.
     """
-    slab = int(np.searchsorted(station, x[0]))
-    strip = np.array([i for i, each in enumerate(layout.frames) if each.slab == slab], np.int64)
-    if not (0 < slab < len(station) and len(strip) and layout.cells.plane[strip].all()):
-        return None
-    reach = strip_extents(strips, strip)
-    v = (x[:, None] - reach[:, 0]) / (reach[:, 1] - reach[:, 0])
-    place, which = np.nonzero((v >= 0.0) & (v <= 1.0))
-    total = np.zeros((len(planes.height), len(x)))
-    if len(place):
-        curves = strips.curves(strip[which], v[place, which])
-        np.add.at(total.T, place, sections_below(curves, planes).T)
+    slab, own = np.searchsorted(station, x), np.array([f.slab for f in layout.frames], np.int64)
+    known = np.zeros(len(station) + 1, np.bool_)
+    known[own] = True
+    known[own[~layout.cells.plane]] = known[0] = known[-1] = False
+    total = np.full((len(planes.height), len(x)), np.nan)
+    total[:, known[slab]] = 0.0
+    inner = np.flatnonzero(known[slab])
+    place, strip = np.nonzero(slab[inner][:, None] == own)
+    place = inner[place]
+    some, which = np.unique(strip, return_inverse=True)
+    if not len(some):
+        return total
+    aft, fore = strip_extents(strips, some)[which].T
+    v = (x[place] - aft) / (fore - aft)
+    on = (v >= 0.0) & (v <= 1.0)
+    if on.any():
+        curves = strips.curves(strip[on], v[on])
+        np.add.at(total.T, place[on], sections_below(curves, planes).T)
     return total
 
 
