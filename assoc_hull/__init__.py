@@ -91,7 +91,7 @@ _PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
         "tolerance": ("Tolerances",),
     },
     "variation": {
-        "hull.results": (
+        "hull.variants": (
             "Shifted",
             "Variation",
         ),

@@ -36,7 +36,8 @@ from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
-    from assoc_hull.hull.results import Shifted, Study
+    from assoc_hull.hull.results import Study
+    from assoc_hull.hull.variants import Shifted
 
 __all__ = [
     "add_compare",

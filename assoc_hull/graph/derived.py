@@ -142,7 +142,7 @@ class Derived:
     def restore(self, mark: Marked) -> None:
         """Bring back what was kept, as the columns are again what they were then.
 
-        What was made meanwhile stays where it does not stand in the way, and is true now.
+        What was made meanwhile stays if it is true now: what was kept may have been out of date.
         """
         self._gate.alone(partial(self._restore, mark))
 
@@ -150,7 +150,9 @@ class Derived:
         for kind, entries in self._kinds.items():
             before = mark.get(kind, {})
             for key, entry in tuple(entries.items()):
-                if key not in before and not entry.holds():
+                if entry is not before.get(key) and not entry.holds():
                     del entries[key]
         for kind, known in mark.items():
-            self._kinds.setdefault(kind, {}).update(known)
+            kept = self._kinds.setdefault(kind, {})
+            for key, entry in known.items():
+                kept.setdefault(key, entry)

@@ -84,10 +84,9 @@ if TYPE_CHECKING:
         HullPlates,
         HullSurface,
         ProductionArcs,
-        Shifted,
         Study,
-        Variation,
     )
+    from assoc_hull.hull.variants import Shifted, Variation
     from assoc_hull.io.hull_file.saving import Saved
     from assoc_hull.model.definition.verify import Difference
     from assoc_hull.model.form_definition import FormDefinition
@@ -1726,7 +1725,7 @@ class Hull:
         >>> round(variant.hull.hydrostatics().volume, 7), round(variant.hull.particulars.breadth, 4)
         (2800.0, 10.0812)
         """
-        from assoc_hull.hull.results import Variation
+        from assoc_hull.hull.variants import Variation
         from assoc_hull.variation.request import VariationRequest
         from assoc_hull.variation.vary import vary_document
 
@@ -1763,7 +1762,7 @@ class Hull:
         >>> str(ah.examples.wigley().vary_by({"set": {"breadth": 11.0}}).report.targets[0])
         'breadth 10 -> 11 m'
         """
-        from assoc_hull.hull.results import Variation
+        from assoc_hull.hull.variants import Variation
         from assoc_hull.variation.request import read_script, request_from_data
         from assoc_hull.variation.vary import vary_document
 
@@ -1842,7 +1841,7 @@ class Hull:
         >>> [f"{target.reached:.6f}" for target in found.report.targets]
         ['0.450000', '0.500000']
         """
-        from assoc_hull.hull.results import Shifted
+        from assoc_hull.hull.variants import Shifted
         from assoc_hull.variation.shifts.shift_hull import shift_document
         from assoc_hull.variation.shifts.shift_request import ShiftRequest
 
@@ -1899,7 +1898,7 @@ class Hull:
         >>> variant.state.particulars.draught, round(variant.hydrostatics().cb, 3)
         (5.0, 0.444)
         """
-        from assoc_hull.hull.results import Shifted
+        from assoc_hull.hull.variants import Shifted
         from assoc_hull.variation.shifts.swing_hull import swing_document
 
         asked = {"length": length, "breadth": breadth, "draught": draught}

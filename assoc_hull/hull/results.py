@@ -1,7 +1,7 @@
 """What methods of a hull give back, where it holds hulls or can be written to files.
 
-`Variation`, `Shifted` and `Study` are generic in the class of the hulls that they hold, as they
-stand below it; users meet them with `assoc_hull.Hull` only. The others add to what `surface` and
+`Study` is generic in the class of the hulls that it holds, as it stands below it; users meet it
+with `assoc_hull.Hull` only. The others add to what `surface` and
 `analysis` find that it can be written, which these packages, below `io`, cannot know.
 """
 
@@ -51,9 +51,6 @@ from assoc_hull.surface.plating.hull_seams import HullSeams
 from assoc_hull.surface.plating.rival_fits import other_fits
 from assoc_hull.surface.plating.surface_plates import PlateTable, Seams
 from assoc_hull.surface.plating.surface_plates import plates as find_plates
-from assoc_hull.variation.fields.space_map import VariationMap
-from assoc_hull.variation.shifts.shift_hull import ShiftReport
-from assoc_hull.variation.vary import VariationReport
 
 if TYPE_CHECKING:
     from assoc_hull.io.cad.write import CadReport
@@ -64,9 +61,7 @@ __all__ = [
     "HullSurface",
     "Plates",
     "ProductionArcs",
-    "Shifted",
     "Study",
-    "Variation",
     "arcs_of_hull",
     "make_study",
     "plates",
@@ -88,50 +83,6 @@ class HasDocument(HasState, Protocol):
     def document(self) -> Document:
         """Tables with their history."""
         ...
-
-
-@attrs.frozen(eq=False)
-class Variation(Generic[HullType]):
-    """A varied hull.
-
-    Attributes
-    ----------
-    hull : Hull
-        The variant; undo gives the parent back.
-    report : VariationReport
-        What was asked, reached and changed.
-    map : VariationMap
-        The map that carries places of the parent to those of the variant, m.
-    """
-
-    hull: HullType
-    report: VariationReport
-    map: VariationMap
-
-    def __str__(self) -> str:
-        return str(self.report)
-
-
-@attrs.frozen(eq=False)
-class Shifted(Generic[HullType]):
-    """A hull whose sections were shifted, or that was swung.
-
-    Attributes
-    ----------
-    hull : Hull
-        The variant; undo gives the parent back.
-    report : ShiftReport
-        What was asked, reached and moved.
-    map : VariationMap
-        The map that carries places of the parent to those of the variant, m.
-    """
-
-    hull: HullType
-    report: ShiftReport
-    map: VariationMap
-
-    def __str__(self) -> str:
-        return str(self.report)
 
 
 @attrs.frozen(eq=False)

@@ -325,6 +325,10 @@ _PLACES = 6
 """Places on each segment between which sections are taken as straight, to find crossings."""
 
 
+_WAYS = np.array([[0.0, 1.0, -1.0, 1.0], [1.0, 1.0, 1.0, 0.0]])
+"""Up, up and outward, up and inward, outward; y and z of each."""
+
+
 def doubtful_lines(
     net: CurveNet, layout: SurfaceLayout, sections: NetSections, kinds: NDArray[np.int8]
 ) -> list[str]:
@@ -396,6 +400,9 @@ def _crossing(net: CurveNet, sections: NetSections) -> Iterator[str]:
 def _self_crossing(place: FloatArray) -> FloatArray | None:
     """Give where a polyline (n, 2) first crosses itself, None if nowhere."""
     first, step = place[:-1], np.diff(place, axis=0)
+    # What only goes one way, as up and outward, does not come back to where it was.
+    if (step @ _WAYS > 0.0).all(axis=0).any():
+        return None
     one, other = np.triu_indices(len(step), 2)
     low, high = np.minimum(place[:-1], place[1:]), np.maximum(place[:-1], place[1:])
     near = ((low[one] <= high[other]) & (low[other] <= high[one])).all(axis=1)
@@ -460,20 +467,18 @@ def _unexpected(
     most = own.max(axis=1)
     for each in coarse:
         x = station_planes(each.net)
-        for i, place in enumerate(sections.x.tolist()):
-            if np.abs(x - place).min() > 1e-6:
-                at, strips = np.array([place]), each.prepared.strips
-                found = areas_between(each.layout, strips, x, at, planes)
-                if found is None:
-                    continue
-                area = found[:, 0]
-                off = np.abs(area - own[:, i]) / most
-                if (off > _EXPECTED).any():
-                    k = int(off.argmax())
-                    yield (
-                        f"{sections.names[i]} has {own[k, i]:.2f} m2 where its neighbours "
-                        f"make one expect {area[k]:.2f} m2"
-                    )
+        away = np.abs(sections.x[:, None] - x).min(axis=1) > 1e-6
+        area = np.full_like(own, np.nan)
+        area[:, away] = areas_between(
+            each.layout, each.prepared.strips, x, sections.x[away], planes
+        )
+        off = np.abs(area - own) / most[:, None]
+        for i in np.flatnonzero((off > _EXPECTED).any(axis=0)).tolist():
+            k = int(off[:, i].argmax())
+            yield (
+                f"{sections.names[i]} has {own[k, i]:.2f} m2 where its neighbours "
+                f"make one expect {area[k, i]:.2f} m2"
+            )
 
 
 def _routes(sections: FloatArray, waterplanes: FloatArray) -> Iterator[str]:

@@ -54,6 +54,7 @@ from assoc_hull.geometry.floating.immersion import (
 )
 from assoc_hull.geometry.floating.raked_strips import StripSpans, strip_spans
 from assoc_hull.geometry.floating.sections import sections_and_moments_below
+from assoc_hull.geometry.numeric.dual import is_plain
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
 from assoc_hull.graph.derived import Objects
@@ -104,6 +105,7 @@ class Flotation:
     kinds: NDArray[np.int8]
     ends: tuple[OpenEnd, ...] = ()
     _route: dict[bytes, ImmersedIntegrals] = attrs.field(factory=dict, init=False, repr=False)
+    _below: dict[bytes, ImmersedIntegrals] = attrs.field(factory=dict, init=False, repr=False)
 
     @cached_property
     def prepared(self) -> PreparedStrips:
@@ -143,8 +145,17 @@ class Flotation:
         return WaterplaneLimits(places, deck, self.closed, found.x.copy(), found.names)
 
     def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
-        """Give the integrals below each plane."""
-        return integrate_immersed(self.prepared, planes)
+        """Give the integrals below each plane; the last answer is kept."""
+        if not all(map(is_plain, attrs.astuple(planes, recurse=False))):
+            return integrate_immersed(self.prepared, planes)
+        key = _key(planes)
+        found = self._below.get(key)
+        if found is None:
+            found = integrate_immersed(self.prepared, planes)
+            # Another thread may do the same: what is returned is not read back from the store.
+            self._below.clear()
+            self._below[key] = found
+        return found
 
     def stations(self, planes: FloatingPlanes) -> StationAreas:
         """Give the areas of the stations below each plane."""
@@ -204,7 +215,7 @@ class Flotation:
 
     def by_waterplanes(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Give volume and moments by the vertical route; the last answer is kept."""
-        key = b"".join(np.ascontiguousarray(each).tobytes() for each in attrs.astuple(planes))
+        key = _key(planes)
         found = self._route.get(key)
         if found is None:
             known = self.measure(planes)
@@ -214,6 +225,11 @@ class Flotation:
             self._route.clear()
             self._route[key] = found
         return found
+
+
+def _key(planes: FloatingPlanes) -> bytes:
+    """Give what tells planes of plain numbers from others."""
+    return b"".join(np.ascontiguousarray(each).tobytes() for each in attrs.astuple(planes))
 
 
 def flotation(state: HullState) -> Flotation:

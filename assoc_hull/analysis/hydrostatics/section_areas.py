@@ -160,11 +160,9 @@ def section_areas(body: Flotation, x: FloatArray, planes: FloatingPlanes) -> Flo
     own = body.stations(planes)
     for i in np.flatnonzero(on).tolist():
         found[:, i] = own.area[:, np.abs(own.x - x[i]).argmin()]
-    for s in np.unique(slab[~on]).tolist():
-        here = np.flatnonzero((slab == s) & ~on)
-        areas = areas_between(body.layout, body.strips, station, x[here], planes)
-        if areas is not None:
-            found[:, here] = areas
+    off = np.flatnonzero(~on)
+    areas = areas_between(body.layout, body.strips, station, x[off], planes)
+    found[:, off] = np.where(np.isnan(areas), found[:, off], areas)
     freeze(found)
     return found
 

@@ -9,7 +9,6 @@ a net differ by shows how far they are off.
 from __future__ import annotations
 
 import itertools
-from bisect import bisect_left, bisect_right
 from functools import cached_property
 
 import attrs
@@ -30,8 +29,7 @@ from assoc_hull.geometry.floating.sections import sections_below
 from assoc_hull.geometry.numeric.dual import real
 from assoc_hull.geometry.splines.distance import closest_points_each
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.paths import Bit
-from assoc_hull.geometry.splines.segments import power_coefficients
+from assoc_hull.geometry.splines.segments import last_not_above, power_coefficients
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.tables import HullState
@@ -43,12 +41,12 @@ __all__ = [
     "CurvePart",
     "NetSections",
     "areas_of_flat_ends",
+    "bits_of_parts",
     "every_other_line",
     "every_other_section",
     "flat_ends_below",
     "gather_net",
     "sections_of",
-    "segments_of_part",
     "station_planes",
     "thinned_net",
     "transom_areas_below",
@@ -254,32 +252,44 @@ def _crossings(
     return rows[good], both[good], place[good]
 
 
-def segments_of_part(net: CurveNet, part: CurvePart) -> list[Bit]:
-    """Give the bits of segments that a part of a curve consists of; backward where it runs so."""
-    curve, begin, finish = part
-    knot = net.knots[curve]
-    low, high = (
-        _snapped(knot, t, net.factor * _SNAP) for t in (min(begin, finish), max(begin, finish))
-    )
-    first = min(bisect_right(knot, low), len(knot) - 1) - 1
-    last = max(bisect_left(knot, high), first + 1) - 1
-    base = int(net.batch.start[curve]) - curve
-    bits = []
-    for i in range(first, last + 1):
-        length = knot[i + 1] - knot[i]
-        a = max((low - knot[i]) / length, 0.0)
-        b = 1.0 if i < last else min((high - knot[i]) / length, 1.0)
-        bits.append((base + i, a, b))
-    return bits if begin <= finish else [(s, b, a) for s, a, b in reversed(bits)]
+def bits_of_parts(
+    net: CurveNet, curve: IntArray, begin: FloatArray, finish: FloatArray
+) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
+    """Give the bits of segments that parts of curves consist of; backward where they run so.
+
+    Parts are those of curves (k,) from `begin` to `finish` (k,), m. Given are the number of bits of
+    each, and segment, low and high of all.
+    """
+    knot, start = net.batch.knot, net.batch.start
+    first, last = start[curve], start[curve + 1] - 1
+    low = _snapped(net, first, last, np.minimum(begin, finish))
+    high = _snapped(net, first, last, np.maximum(begin, finish))
+    lower = np.minimum(last_not_above(knot, first, last, low), last - 1)
+    upper = np.clip(_not_below(knot, first, last, high) - 1, lower, last - 1)
+    count = upper - lower + 1
+    part = np.arange(len(curve)).repeat(count)
+    step = np.arange(len(part)) - (np.cumsum(count) - count)[part]
+    back = (begin > finish)[part]
+    at = np.where(back, upper[part] - step, lower[part] + step)
+    length = knot[at + 1] - knot[at]
+    a = np.maximum((low[part] - knot[at]) / length, 0.0)
+    b = np.where(at < upper[part], 1.0, np.minimum((high[part] - knot[at]) / length, 1.0))
+    return count, at - curve[part], np.where(back, b, a), np.where(back, a, b)
 
 
-def _snapped(knot: list[float], t: float, near: float) -> float:
-    """Give the knot for a parameter that is within `near`, m, of one."""
-    i = bisect_left(knot, t)
-    for each in knot[max(i - 1, 0) : i + 1]:
-        if abs(each - t) <= near:
-            return each
-    return t
+def _not_below(knot: FloatArray, first: IntArray, last: IntArray, t: FloatArray) -> IntArray:
+    """Find the first knot of curves that is not below t (k,), m; one more than the last if none."""
+    found = last_not_above(knot, first, last, t)
+    return np.where(knot[found] >= t, found, found + 1)
+
+
+def _snapped(net: CurveNet, first: IntArray, last: IntArray, t: FloatArray) -> FloatArray:
+    """Give parameters (k,), m, that are almost at a knot as that knot."""
+    knot, near = net.batch.knot, net.factor * _SNAP
+    after = _not_below(knot, first, last, t)
+    one, other = knot[np.maximum(after - 1, first)], knot[np.minimum(after, last)]
+    close = np.where(np.abs(other - t) <= near, other, t)
+    return np.where(np.abs(one - t) <= near, one, close)
 
 
 # --------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
@@ -65,37 +66,28 @@ def boundary_arcs(net: CurveNet, x: FloatArray) -> list[BoundaryArc]:
     begins or ends on a raked transom.
     """
     found: list[BoundaryArc] = []
-    ends = _covering(net)
-    for curve in range(net.batch.count):
+    section = np.isfinite(net.x) & ~net.end & ~net.ends_on_transom
+    section &= ~_covered(net)
+    for curve in np.flatnonzero(net.end | section).tolist():
         if net.end[curve]:
             found += _cut(net, curve, x)
-        elif (
-            np.isfinite(net.x[curve])
-            and not net.ends_on_transom[curve]
-            and not _covered(net, curve, ends)
-        ):
-            found.append(
-                BoundaryArc((curve, 0.0, net.length(curve)), -1, _nearest(x, net.x[curve]))
-            )
+        else:
+            part = curve, 0.0, net.length(curve)
+            found.append(BoundaryArc(part, -1, int(np.abs(x - net.x[curve]).argmin())))
     return found
 
 
-def _covering(net: CurveNet) -> FloatArray:
-    """Give first and last points of the ends in transverse planes, (k, 2, 3), m."""
-    chosen = np.flatnonzero(net.end & np.isfinite(net.x))
+def _covered(net: CurveNet) -> NDArray[np.bool_]:
+    """Tell which curves begin and end where an end in a transverse plane does, (m,)."""
     start = net.batch.start
-    return np.stack([net.batch.xyz[start[chosen]], net.batch.xyz[start[chosen + 1] - 1]], axis=1)
-
-
-def _covered(net: CurveNet, curve: int, ends: FloatArray) -> bool:
-    """Tell whether a section begins and ends where such an end does."""
-    own = net.batch.xyz[[net.batch.start[curve], net.batch.start[curve + 1] - 1]]
-    away = [np.abs(ends - each).max(axis=(1, 2), initial=0.0) for each in (own, own[::-1])]
-    return bool(len(ends)) and float(np.min(away)) <= net.factor * _SAME
-
-
-def _nearest(x: FloatArray, place: float) -> int:
-    return int(np.abs(x - place).argmin())
+    ends = np.stack([net.batch.xyz[start[:-1]], net.batch.xyz[start[1:] - 1]], axis=1)
+    closing = ends[net.end & np.isfinite(net.x)]
+    away = [
+        np.abs(ends[:, None] - each).max(axis=(2, 3)).min(axis=1, initial=np.inf)
+        for each in (closing, closing[:, ::-1])
+    ]
+    covered: NDArray[np.bool_] = np.minimum(*away) <= net.factor * _SAME
+    return covered
 
 
 def _cut(net: CurveNet, curve: int, x: FloatArray) -> list[BoundaryArc]:
@@ -105,14 +97,17 @@ def _cut(net: CurveNet, curve: int, x: FloatArray) -> list[BoundaryArc]:
     middle = 0.5 * (edge[1:] + edge[:-1])
     place = _x_at(one, np.concatenate([edge, middle]))
     at, between = place[: len(edge)], place[len(edge) :]
-    found = []
-    for i, (begin, finish) in enumerate(zip(edge[:-1].tolist(), edge[1:].tolist(), strict=True)):
-        near = _nearest(x, float(between[i])) if len(x) else -1
-        spread = np.abs(np.array([at[i], between[i], at[i + 1]]) - x[near]).max()
-        plane = near if spread <= net.on_plane else -1
-        slab = -1 if plane >= 0 else int(np.searchsorted(x, between[i]))
-        found.append(BoundaryArc((curve, begin, finish), slab, plane))
-    return found
+    slab, plane = np.searchsorted(x, between), np.full(len(between), -1)
+    if len(x):
+        near = np.abs(x - between[:, None]).argmin(axis=1)
+        three = np.stack([at[:-1], between, at[1:]])
+        on = np.abs(three - x[near]).max(axis=0) <= net.on_plane
+        slab, plane = np.where(on, -1, slab), np.where(on, near, -1)
+    parts = zip(edge[:-1].tolist(), edge[1:].tolist(), strict=True)
+    return [
+        BoundaryArc((curve, begin, finish), *where)
+        for (begin, finish), *where in zip(parts, slab.tolist(), plane.tolist(), strict=True)
+    ]
 
 
 def _edges(one: SplineBatch, x: FloatArray, near: float) -> FloatArray:
@@ -123,6 +118,12 @@ def _edges(one: SplineBatch, x: FloatArray, near: float) -> FloatArray:
     cubic, control = power_coefficients(one)[:, :, 0], bezier_points(one)[:, :, 0]
     low, high = control.min(axis=1), control.max(axis=1)
     segment, plane = np.nonzero((low[:, None] <= x) & (high[:, None] >= x))
+    # Most planes are passed at a knot: a segment that only rises, or falls, does not come back.
+    step = np.diff(control, axis=1)
+    steady = (step > 0.0).all(axis=1) | (step < 0.0).all(axis=1)
+    ends = control[segment][:, [0, -1]] == x[plane][:, None]
+    other = ~(steady[segment] & ends.any(axis=1))
+    segment, plane = segment[other], plane[other]
     shifted = cubic[segment].copy()
     shifted[:, 0] -= x[plane]
     roots = unit_roots(shifted)
@@ -200,12 +201,16 @@ class UnboundedCurves:
     why: str
 
 
+_Place = tuple[float, float, float]
+
+
 @attrs.frozen(eq=False)
 class _Edge:
     """An arc with its ends as numbers of nodes.
 
     `kind` is A (on the plane aft), F (on the plane forward) or E (between them); `closing` arcs
-    are those that may close an end of the ship: the profile, a transom; not a deck edge.
+    are those that may close an end of the ship: the profile, a transom; not a deck edge. `swept`
+    is the integral of y dz along it, m2, and `level` says that it lies in a plane across the ship.
     """
 
     part: CurvePart
@@ -213,35 +218,37 @@ class _Edge:
     begin: int
     finish: int
     closing: bool
-    first: FloatArray
-    last: FloatArray
+    first: _Place
+    last: _Place
+    swept: float = 0.0
+    level: bool = False
 
     def turned(self) -> _Edge:
         """Give the edge the other way round."""
         curve, t0, t1 = self.part
         return _Edge(
-            (curve, t1, t0), self.kind, self.finish, self.begin, self.closing, self.last, self.first
-        )
+            (curve, t1, t0), self.kind, self.finish, self.begin, self.closing,
+            self.last, self.first, -self.swept, self.level,
+        )  # fmt: skip
 
 
 def strip_boundaries(
     net: CurveNet, arcs: Sequence[BoundaryArc], count: int, length: float
 ) -> tuple[list[StripBoundary], list[UnboundedCurves]]:
     """Find the strips in all slabs of `count` planes, and curves that bound none; `length` in m."""
-    begin = _places(net, [(arc.part[0], arc.part[1]) for arc in arcs])
-    finish = _places(net, [(arc.part[0], arc.part[2]) for arc in arcs])
+    whole = _edges_of(net, arcs)
+    # By slabs for arcs between planes, by planes for those on one.
+    between, on = dict[int, list[int]](), dict[int, list[int]]()
+    for i, arc in enumerate(arcs):
+        (on if arc.plane >= 0 else between).setdefault(max(arc.plane, arc.slab), []).append(i)
     found: list[StripBoundary] = []
     lost: list[UnboundedCurves] = []
     for slab in range(count + 1):
-        kinds = {slab - 1: "A", slab: "F"}
-        chosen = [
-            (i, "E" if arc.plane < 0 else kinds[arc.plane])
-            for i, arc in enumerate(arcs)
-            if arc.slab == slab or (arc.plane >= 0 and arc.plane in kinds)
-        ]
-        if not any(kind != "E" for _, kind in chosen):
+        sections = [(i, "A") for i in on.get(slab - 1, ())] + [(i, "F") for i in on.get(slab, ())]
+        if not sections:
             continue
-        edges = _joined(net, arcs, chosen, begin, finish, _NEAR * length)
+        chosen = sorted(sections + [(i, "E") for i in between.get(slab, ())])
+        edges = _joined(net, whole, chosen, _NEAR * length)
         for loop in _loops(_pruned(edges)):
             frame = _frame(net, loop, slab)
             if isinstance(frame, StripBoundary):
@@ -251,39 +258,57 @@ def strip_boundaries(
     return found, lost
 
 
-def _places(net: CurveNet, where: Sequence[tuple[int, float]]) -> FloatArray:
-    curve = np.array([each[0] for each in where], np.int64)
-    return evaluate(net.batch, curve, np.array([each[1] for each in where]))
+_CHORDS = 32
+"""So many chords stand for an arc where no precision is needed."""
+
+
+def _edges_of(net: CurveNet, arcs: Sequence[BoundaryArc]) -> list[_Edge]:
+    """Give the arcs as edges whose ends have no numbers yet."""
+    curve = np.array([arc.part[0] for arc in arcs], np.int64)
+    begin, finish = (np.array([arc.part[i] for arc in arcs], np.float64) for i in (1, 2))
+    t = np.linspace(begin, finish, _CHORDS + 1, axis=1)
+    place = evaluate(net.batch, curve.repeat(_CHORDS + 1), t.ravel()).reshape(len(arcs), -1, 3)
+    _, y, z = np.moveaxis(place, 2, 0)
+    # By chords: only the sign matters.
+    swept = (0.5 * (y[:, 1:] + y[:, :-1]) * np.diff(z, axis=1)).sum(axis=1)
+    level = np.ptp(place[:, :, 0], axis=1) <= net.on_plane
+    ends = place[:, 0].tolist(), place[:, -1].tolist()
+    return [
+        _Edge(arc.part, "E", -1, -1, closes_end(net, arc.part[0]), tuple(first), tuple(last), *more)
+        for arc, first, last, *more in zip(arcs, *ends, swept.tolist(), level.tolist(), strict=True)
+    ]
 
 
 def _joined(
-    net: CurveNet,
-    arcs: Sequence[BoundaryArc],
-    chosen: Sequence[tuple[int, str]],
-    begin: FloatArray,
-    finish: FloatArray,
-    near: float,
+    net: CurveNet, whole: Sequence[_Edge], chosen: Sequence[tuple[int, str]], near: float
 ) -> list[_Edge]:
-    """Give the chosen arcs as edges; ends within `near` (m) of each other share a node."""
-    node: list[FloatArray] = []
+    """Give the chosen edges with numbers; ends within `near` (m) of each other share a node."""
+    node: list[_Place] = []
 
-    def number(place: FloatArray) -> int:
-        if node:
-            away = np.abs(np.array(node) - place).max(axis=1)
-            if float(away.min()) <= near:
-                return int(away.argmin())
+    def number(place: _Place) -> int:
+        away = [_away(each, place) for each in node]
+        if away and (least := min(away)) <= near:
+            return away.index(least)
         node.append(place)
         return len(node) - 1
 
     edges = []
     for i, kind in chosen:
-        edge = _Edge(
-            arcs[i].part, kind, number(begin[i]), number(finish[i]),
-            closes_end(net, arcs[i].part[0]), begin[i], finish[i],
-        )  # fmt: skip
-        if edge.begin != edge.finish or not net.end[arcs[i].part[0]]:
-            edges.append(edge)
+        edge = whole[i]
+        begin, finish = number(edge.first), number(edge.last)
+        if begin != finish or not net.end[edge.part[0]]:
+            edges.append(
+                _Edge(
+                    edge.part, kind, begin, finish, edge.closing,
+                    edge.first, edge.last, edge.swept, edge.level,
+                )
+            )  # fmt: skip
     return edges
+
+
+def _away(one: _Place, other: _Place) -> float:
+    """Give how far two places are apart, m, along that axis along which it is most."""
+    return max(abs(one[0] - other[0]), abs(one[1] - other[1]), abs(one[2] - other[2]))
 
 
 def closes_end(net: CurveNet, curve: int) -> bool:
@@ -325,11 +350,11 @@ def _capping(edges: Sequence[_Edge], degree: dict[int, int]) -> list[_Edge]:
     loose = [[each for each in ends if degree[each[0]] == 1] for ends in (tops, stems)]
     if not loose[0] or not loose[1]:
         return []
-    (top, place), (stem, there) = (max(ends, key=lambda each: float(each[1][2])) for ends in loose)
+    (top, place), (stem, there) = (max(ends, key=lambda each: each[1][2]) for ends in loose)
     return [_Edge((-1, 0.0, 0.0), "E", top, stem, False, place, there)]
 
 
-def _upper(edge: _Edge) -> tuple[int, FloatArray]:
+def _upper(edge: _Edge) -> tuple[int, _Place]:
     """Give the upper end of an edge."""
     if edge.last[2] >= edge.first[2]:
         return edge.finish, edge.last
@@ -350,7 +375,7 @@ def _degrees(edges: Sequence[_Edge]) -> dict[int, int]:
 
 def _closing(edges: Sequence[_Edge], degree: dict[int, int]) -> list[_Edge]:
     """Join loose ends on the two planes in pairs, the nearest first; upper ends with upper ones."""
-    loose: dict[str, list[tuple[int, FloatArray, bool]]] = {"A": [], "F": []}
+    loose: dict[str, list[tuple[int, _Place, bool]]] = {"A": [], "F": []}
     for edge in edges:
         if edge.kind == "E":
             continue
@@ -359,9 +384,9 @@ def _closing(edges: Sequence[_Edge], degree: dict[int, int]) -> list[_Edge]:
             (edge.finish, edge.last, edge.first),
         ):
             if degree[node] == 1:
-                loose[edge.kind].append((node, place, bool(place[2] >= other[2])))
+                loose[edge.kind].append((node, place, place[2] >= other[2]))
     pairs = sorted(
-        (float(np.abs(a[1] - f[1]).max()), i, j)
+        (_away(a[1], f[1]), i, j)
         for i, a in enumerate(loose["A"])
         for j, f in enumerate(loose["F"])
         if a[2] == f[2]
@@ -479,13 +504,13 @@ def _stem(rest: list[_Edge], near: float) -> tuple[list[_Edge], list[_Edge], lis
 
 
 def _is_upright(edge: _Edge, near: float) -> bool:
-    return bool(np.abs(edge.last[0] - edge.first[0]) <= near)
+    return abs(edge.last[0] - edge.first[0]) <= near
 
 
 def _flat(edge: _Edge) -> bool:
     """Tell whether an edge runs more along the ship than up."""
-    step = np.abs(edge.last - edge.first)
-    return bool(step[0] > _KEEL * step[2])
+    along, up = (abs(edge.last[i] - edge.first[i]) for i in (0, 2))
+    return along > _KEEL * up
 
 
 def _turned(run: list[_Edge]) -> list[_Edge]:
@@ -504,10 +529,10 @@ def _upward(
 
     The integral of y dz is positive upward; against that, rails are reversed and sides swapped.
     """
-    swept = sum(_swept(net, edge) for edge in aft + fore)
+    swept = sum(edge.swept for edge in aft + fore)
     if swept < 0.0:
         aft, fore, keel, deck = _turned(aft), _turned(fore), deck, keel
-    plane = all(_stands(net, edge) for edge in aft + fore)
+    plane = all(edge.kind != "E" or edge.level for edge in aft + fore)
     across = all(edge.kind != "E" or bool(net.transom[edge.part[0]]) for edge in aft + fore)
     return StripBoundary(
         _parts(aft), _parts(fore), _parts(keel), _parts(deck), slab, plane, plane or across
@@ -516,24 +541,3 @@ def _upward(
 
 def _parts(run: list[_Edge]) -> tuple[CurvePart, ...]:
     return tuple(edge.part for edge in run if edge.part[0] >= 0)
-
-
-def _stands(net: CurveNet, edge: _Edge) -> bool:
-    """Tell whether an edge lies in a plane across the ship."""
-    if edge.kind != "E":
-        return True
-    return bool(np.ptp(_along(net, edge.part)[:, 0]) <= net.on_plane)
-
-
-def _along(net: CurveNet, part: CurvePart) -> FloatArray:
-    """Give places along a part of a curve, for what needs no precision."""
-    curve, t0, t1 = part
-    return evaluate(net.batch, np.full(33, curve), np.linspace(t0, t1, 33))
-
-
-def _swept(net: CurveNet, edge: _Edge) -> float:
-    """Integrate y dz along an edge, m2, by chords: only the sign matters."""
-    if edge.part[0] < 0:
-        return 0.0
-    _, y, z = _along(net, edge.part).T
-    return float((0.5 * (y[1:] + y[:-1]) * np.diff(z)).sum())

@@ -8,9 +8,7 @@ is kept while lines only move; the cells themselves are values of `assoc_hull.ge
 
 from __future__ import annotations
 
-import itertools
-from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import attrs
 import numpy as np
@@ -19,9 +17,15 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.net.curve_net import (
     CurveNet,
     CurvePart,
-    sections_of,
-    segments_of_part,
+    bits_of_parts,
     station_planes,
+)
+from assoc_hull.analysis.net.strip_anchors import (
+    LineSpans,
+    StripAnchors,
+    line_spans,
+    runs_monotonic,
+    strip_anchors,
 )
 from assoc_hull.analysis.net.strip_boundaries import (
     StripBoundary,
@@ -30,31 +34,27 @@ from assoc_hull.analysis.net.strip_boundaries import (
     closes_end,
     strip_boundaries,
 )
-from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, Strips, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.sections import sections_below
 from assoc_hull.geometry.integrals.area_moments import section_area
 from assoc_hull.geometry.numeric.generic_sums import common_zeros
 from assoc_hull.geometry.numeric.polynomials import hermite
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate
-from assoc_hull.geometry.splines.paths import Bit, Paths, PathShapes, shape_paths
+from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.paths import Paths, PathShapes, shape_paths
+from assoc_hull.geometry.splines.segments import bezier_points, last_not_above, sum_per_curve
 from assoc_hull.geometry.surfaces.coons import CoonsCells
 
 __all__ = [
     "BROAD_END",
     "NEAR_END",
-    "LineSpans",
     "OpenEnd",
-    "StripAnchor",
     "SurfaceLayout",
     "areas_between",
     "blend_cubics",
     "lay_out_surface",
-    "line_spans",
     "open_ends",
     "parallel_slabs",
-    "strip_anchors",
     "strip_extents",
 ]
 
@@ -64,344 +64,6 @@ station may be missing: farther than this part of a spacing from the end."""
 
 _LEAST_END = 1e-4
 """Parts of the length: where the extent goes on by less, the section is the end."""
-
-# --------------------------------------------------------------------------------------
-# The lines that run along a strip: from a place on one rail to a place on the other.
-
-_PLACES = ("boundary", "waterlines", "buttocks", "diagonals", "frames")
-"""Where two lines cross one another between sections, the family that stands first is taken.
-
-Borders of flats come last: a waterline that leaves the flat between two sections says more of
-the hull there than the border, along which nothing bends.
-"""
-
-_APART = 1e-5
-"""Anchors lie so far apart on both rails, in lengths of the rail."""
-
-_SAMPLES = np.linspace(1e-6, 1.0 - 1e-6, 9)  # a knuckle at the end belongs to what follows
-_STEADY = 0.02
-"""Along an anchor x grows everywhere by this part of its mean growth at least."""
-
-_SAME = 1e-6
-"""Places on one curve so near to one another (m, of a short hull less) are one."""
-
-_CORNER = 1e-4
-"""A line that ends on a side this near to the rail, in lengths of the rail, ends at its corner.
-
-Three curves of digitised lines that run to one place miss it by the rounding of their points.
-"""
-
-CurvePlace = tuple[int, float]
-"""A part of a rail by its number, and the parameter (m) on its curve."""
-
-
-@attrs.frozen
-class StripAnchor:
-    """A line along a strip.
-
-    Attributes
-    ----------
-    parts : tuple of CurvePart
-        The line, from aft forward; none for a straight one.
-    aft, fore : (int, float)
-        Where it lies on the rails.
-    low, high : float
-        How far up the rails that is, from 0 to 1.
-    course : (5, 3) or None, m
-        Its ends and three places between, evenly spaced in x, from aft forward; None for a
-        side of the strip.
-    """
-
-    parts: tuple[CurvePart, ...]
-    aft: CurvePlace
-    fore: CurvePlace
-    low: float
-    high: float
-    course: FloatArray | None = attrs.field(default=None, eq=False)
-
-
-@attrs.frozen
-class LineSpans:
-    """Stretches of lines between neighbouring crossings with sections or ends of the hull.
-
-    Attributes
-    ----------
-    span : tuple of (CurvePart, (int, float), (int, float), int)
-        The stretch, the curve and parameter (m) that it comes from and goes to, and the place
-        of its family.
-    steady : tuple of bool
-        Along the stretch x only grows, or only falls.
-    of : dict of (int, int) to tuple of int
-        Which spans run between two curves.
-    course : (n, 5, 3), m
-        The ends of each stretch and three places between, evenly spaced in x.
-    same : float, m
-        Places on one curve so near to one another are one.
-    """
-
-    span: tuple[tuple[CurvePart, CurvePlace, CurvePlace, int], ...]
-    steady: tuple[bool, ...]
-    of: dict[tuple[int, int], tuple[int, ...]]
-    course: FloatArray
-    same: float = _SAME
-
-
-def line_spans(net: CurveNet) -> LineSpans:
-    """Cut all lines along the ship at sections and ends."""
-    passed = net.ends_on_transom
-    rail = (net.end | np.isfinite(net.x)) & ~passed
-    found: list[tuple[CurvePart, CurvePlace, CurvePlace, int]] = []
-    marks: dict[int, list[tuple[float, int, float]]] = {}
-    for both, place in zip(net.meets.tolist(), net.place.tolist(), strict=True):
-        for own, other in ((0, 1), (1, 0)):
-            if rail[both[other]] and not (rail[both[own]] or passed[both[own]]):
-                marks.setdefault(both[own], []).append((place[own], both[other], place[other]))
-    for curve in sorted(marks):
-        order = sorted(marks[curve])
-        rank = len(_PLACES) if net.flat[curve] else _place(net, curve)
-        for (t0, c0, s0), (t1, c1, s1) in itertools.pairwise(order):
-            if t1 > t0:
-                found.append(((curve, t0, t1), (c0, s0), (c1, s1), rank))
-    of: dict[tuple[int, int], tuple[int, ...]] = {}
-    for i, (_, (c0, _s0), (c1, _s1), _) in enumerate(found):
-        key = (min(c0, c1), max(c0, c1))
-        of[key] = (*of.get(key, ()), i)
-    parts = [each[0] for each in found]
-    return LineSpans(tuple(found), runs_monotonic(net, parts), of, _courses(net, parts),
-                     net.factor * _SAME)  # fmt: skip
-
-
-def _place(net: CurveNet, curve: int) -> int:
-    """Give the place of a line's family among those that run along the ship."""
-    family = net.family[curve]
-    if family not in _PLACES:
-        raise BadInputError(
-            f"{net.name[curve]} of the {family} is a curve in space, in no plane across the ship",
-            "in the surface through the lines", "replace it by lines that lie in planes",
-        )  # fmt: skip
-    return _PLACES.index(family)
-
-
-def runs_monotonic(net: CurveNet, parts: Sequence[CurvePart]) -> tuple[bool, ...]:
-    """Tell along which parts of curves x only grows, or only falls, and nowhere hardly at all."""
-    curve, t = _sampled(parts)
-    slope = derivative(net.batch, curve.repeat(t.shape[1]), t.ravel())[:, 0].reshape(t.shape)
-    ends = evaluate(net.batch, np.tile(curve, 2), np.concatenate([t[:, 0], t[:, -1]]))[:, 0]
-    mean = (ends[len(curve) :] - ends[: len(curve)])[:, None] / (t[:, -1:] - t[:, :1])
-    return tuple(
-        ((slope * np.sign(mean) > _STEADY * np.abs(mean)) & (mean != 0.0)).all(axis=1).tolist()
-    )
-
-
-def _courses(net: CurveNet, parts: Sequence[CurvePart]) -> FloatArray:
-    """Give ends of parts of curves and the places at 1/4, 1/2 and 3/4 of their length, (n, 5, 3).
-
-    The length is that along the ship; places lie on straight lines between samples.
-    """
-    curve, t = _sampled(parts)
-    flat: FloatArray = evaluate(net.batch, curve.repeat(t.shape[1]), t.ravel())
-    place = flat.reshape(*t.shape, 3)
-    ahead = np.where((place[:, -1:, :1] >= place[:, :1, :1]), place, place[:, ::-1])
-    x, rows = ahead[..., 0], np.arange(len(place))[:, None]
-    at = place[:, :1, 0] + (place[:, -1:, 0] - place[:, :1, 0]) * np.array([0.25, 0.5, 0.75])
-    after = np.clip((x[:, None, :] <= at[..., None]).sum(axis=2), 1, x.shape[1] - 1)
-    low, high = ahead[rows, after - 1], ahead[rows, after]
-    width = high[..., 0] - low[..., 0]
-    part = np.divide(at - low[..., 0], width, out=np.zeros_like(width), where=width > 0.0)
-    between = low + (high - low) * np.clip(part, 0.0, 1.0)[..., None]
-    return np.concatenate([place[:, :1], between, place[:, -1:]], axis=1)
-
-
-def _sampled(parts: Sequence[CurvePart]) -> tuple[IntArray, FloatArray]:
-    """Give the curves of parts, (n,), and parameters along them, (n, k), m."""
-    begin, finish = (np.array([part[i] for part in parts], np.float64)[:, None] for i in (1, 2))
-    return np.array([part[0] for part in parts], np.int64), begin + (finish - begin) * _SAMPLES
-
-
-def strip_anchors(
-    frame: StripBoundary, every: LineSpans
-) -> tuple[StripBoundary, list[StripAnchor]]:
-    """Give the anchors of a strip from keel to deck, its sides included.
-
-    Where lines cross between the rails those of the family that stands first stay; the others
-    go through the rails' points all the same. Where all lines run to one point of a rail (the
-    tip of an ellipsoid) the rail is that point, and what lay on either side of it becomes a
-    side: the frame is given back as it is then.
-    """
-    found = _found(frame, every)
-    pointed = _pointed(frame, [anchor for _, anchor in found], every.same)
-    if pointed is not None:
-        frame = pointed
-        found = _found(frame, every)
-    aft, fore = _rails(frame, every.same)
-    keel = StripAnchor(frame.keel, aft.begin, fore.begin, 0.0, 0.0)
-    deck = StripAnchor(frame.deck, aft.finish, fore.finish, 1.0, 1.0)
-    return frame, _in_order(keel, deck, found)
-
-
-def _rails(frame: StripBoundary, same: float) -> tuple[_Rail, _Rail]:
-    return (
-        _Rail.of(frame.aft, frame.keel[:1], frame.deck[:1], 1, same),
-        _Rail.of(frame.fore, frame.keel[-1:], frame.deck[-1:], 2, same),
-    )
-
-
-def _found(frame: StripBoundary, every: LineSpans) -> list[tuple[int, StripAnchor]]:
-    """Find the stretches of lines from one rail to the other."""
-    aft, fore = _rails(frame, every.same)
-    found: list[tuple[int, StripAnchor]] = []
-    for i in (
-        i
-        for a in aft.curves
-        for f in fore.curves
-        for i in every.of.get((min(a, f), max(a, f)), ())
-        # A line that sets off almost athwartships, as over the bottom of a flat run, would skew
-        # the surface between sections and transoms.
-        if every.steady[i] or not frame.across
-    ):
-        part, begin, finish, rank = every.span[i]
-        course = every.course[i]
-        for one, other, way, run in (
-            (begin, finish, part, course),
-            (finish, begin, _turned(part), course[::-1]),
-        ):
-            low, high = aft.spot(one), fore.spot(other)
-            if low is not None and high is not None:
-                at = aft.height(low), fore.height(high)
-                at = (at[1] if aft.is_point else at[0], at[0] if fore.is_point else at[1])
-                found.append((rank, StripAnchor((way,), low, high, *at, run)))
-                break
-    return found
-
-
-def _pointed(frame: StripBoundary, run: Sequence[StripAnchor], same: float) -> StripBoundary | None:
-    """Give the frame with a rail that is a point, if all anchors run to one within `same`, m."""
-    if frame.plane or len(run) < 2:
-        return None
-    if len(frame.fore) == 1 and np.ptp([each.fore[1] for each in run]) <= same:
-        (curve, t0, t1), tip = frame.fore[0], run[0].fore[1]
-        return attrs.evolve(
-            frame,
-            fore=((curve, tip, tip),),
-            keel=(*frame.keel, (curve, t0, tip)),
-            deck=(*frame.deck, (curve, t1, tip)),
-        )
-    if len(frame.aft) == 1 and np.ptp([each.aft[1] for each in run]) <= same:
-        (curve, t0, t1), tip = frame.aft[0], run[0].aft[1]
-        return attrs.evolve(
-            frame,
-            aft=((curve, tip, tip),),
-            keel=((curve, tip, t0), *frame.keel),
-            deck=((curve, tip, t1), *frame.deck),
-        )
-    return None
-
-
-def _in_order(
-    keel: StripAnchor, deck: StripAnchor, found: Sequence[tuple[int, StripAnchor]]
-) -> list[StripAnchor]:
-    """Take anchors one after the other that do not cross those taken."""
-    taken = [keel, deck]
-    for _, anchor in sorted(found, key=lambda each: (each[0], each[1].low, each[1].high)):
-        place = sum(other.low + other.high <= anchor.low + anchor.high for other in taken[:-1])
-        below, above = taken[place - 1], taken[place]
-        if _fits(below, anchor) and _fits(anchor, above):
-            taken.insert(place, anchor)
-    return taken
-
-
-def _fits(below: StripAnchor, above: StripAnchor) -> bool:
-    """Tell whether one anchor lies above another: apart on both rails, or joined at one end.
-
-    A waterline that begins at the keel of a section makes a cell of three sides.
-    """
-    low, high = above.low - below.low, above.high - below.high
-    corner = (below.low == below.high == 0.0) or (above.low == above.high == 1.0)
-    least, most = min(low, high), max(low, high)
-    apart = most > _APART and (least > _APART or (corner and least >= -_APART))
-    return apart and not _cross(below, above)
-
-
-def _cross(below: StripAnchor, above: StripAnchor) -> bool:
-    """Tell whether two anchors change places on their way: there the surface would fold.
-
-    Looked at is at which side one lies of the other, at three places between the rails.
-    """
-    if below.course is None or above.course is None:
-        return False
-    apart = above.course - below.course
-    return bool((apart[1:-1] @ (apart[0] + apart[-1]) <= 0.0).any())
-
-
-def _turned(part: CurvePart) -> CurvePart:
-    return part[0], part[2], part[1]
-
-
-@attrs.frozen
-class _Rail:
-    """A rail, to find places on it."""
-
-    parts: tuple[CurvePart, ...]
-    base: tuple[float, ...]
-    length: float
-    corner: tuple[tuple[CurvePlace, CurvePlace], ...]
-    """Places on the sides at which the rail begins and ends, and where on the rail that is."""
-    same: float
-    """Places on one curve so near to one another (m) are one."""
-
-    @classmethod
-    def of(
-        cls,
-        parts: tuple[CurvePart, ...],
-        keel: Sequence[CurvePart],
-        deck: Sequence[CurvePart],
-        end: int,
-        same: float,
-    ) -> _Rail:
-        """Make a rail; `end` says which end of the sides it joins: 1 their begin, 2 their end."""
-        sizes = [abs(part[2] - part[1]) for part in parts]
-        base = tuple(float(sum(sizes[:i])) for i in range(len(sizes)))
-        begin, finish = (0, parts[0][1]), (len(parts) - 1, parts[-1][2])
-        corner = [((part[0], part[end]), begin) for part in keel]
-        corner += [((part[0], part[end]), finish) for part in deck]
-        return cls(parts, base, float(sum(sizes)), tuple(corner), same)
-
-    @property
-    def curves(self) -> list[int]:
-        every = [part[0] for part in self.parts] + [place[0] for place, _ in self.corner]
-        return list(dict.fromkeys(every))
-
-    @property
-    def is_point(self) -> bool:
-        return self.length == 0.0
-
-    @property
-    def begin(self) -> CurvePlace:
-        return 0, self.parts[0][1]
-
-    @property
-    def finish(self) -> CurvePlace:
-        return len(self.parts) - 1, self.parts[-1][2]
-
-    def spot(self, place: CurvePlace) -> CurvePlace | None:
-        """Find a place on a curve on the rail, None if it is not there."""
-        curve, t = place
-        for i, (c, t0, t1) in enumerate(self.parts):
-            if c == curve and min(t0, t1) - self.same <= t <= max(t0, t1) + self.same:
-                return i, min(max(t, min(t0, t1)), max(t0, t1))
-        for (c, at), spot in self.corner:
-            if c == curve and abs(at - t) <= max(self.same, _CORNER * self.length):
-                return spot
-        return None
-
-    def height(self, spot: CurvePlace) -> float:
-        """Say how far up the rail a place is, from 0 to 1."""
-        if self.is_point:
-            return 0.0
-        if spot == self.finish:
-            return 1.0
-        return (self.base[spot[0]] + abs(spot[1] - self.parts[spot[0]][1])) / self.length
-
 
 # --------------------------------------------------------------------------------------
 # The parallel body. Lines through stations that are equal, and then are not, swing a little past
@@ -428,30 +90,35 @@ def parallel_slabs(net: CurveNet, x: FloatArray) -> frozenset[int]:
     np.maximum.at(top, station, np.maximum.reduceat(batch.xyz[:, 2], batch.start[:-1]))
     # Below a common level: sheer must not make equal sections differ.
     level = np.minimum(top[:-1], top[1:])
-    found = []
-    for slab in _large_slabs(batch, station, level).tolist():
-        area = np.bincount(station, section_area(batch, level[slab - 1]), len(x))
-        if area[slab - 1 : slab + 1].min() >= (1.0 - _EQUAL) * area.max():
-            found.append(slab)
-    return frozenset(found)
+    least, count = float(level.min()), len(x)
+    whole = np.bincount(station, section_area(batch, least), count)
+    more = np.bincount(station, _most_above(batch, least), count)
+    # Which sections may be the largest at any level, or as large; a little more than the limit:
+    # what rounding could turn is left to the comparison.
+    large = whole + more >= (1.0 - 2.0 * _EQUAL) * float((whole - more).max())
+    slab, rows = 1 + np.flatnonzero(large[:-1] & large[1:]), np.flatnonzero(large[station])
+    if not len(slab):
+        return frozenset()
+    some = SplineBatch.join([batch.part(i, i + 1) for i in rows.tolist()])
+    below = section_area(SplineBatch.join([some] * len(slab)), level[slab - 1].repeat(len(rows)))
+    owner = (np.arange(len(slab)) * count).repeat(len(rows)) + np.tile(station[rows], len(slab))
+    area = np.bincount(owner, below, len(slab) * count).reshape(-1, count)
+    both = np.minimum(area[np.arange(len(slab)), slab - 1], area[np.arange(len(slab)), slab])
+    return frozenset(slab[both >= (1.0 - _EQUAL) * area.max(axis=1)].tolist())
 
 
-def _large_slabs(batch: SplineBatch, station: IntArray, level: FloatArray) -> IntArray:
-    """Give the slabs of which neither section is less than one large section, below `level` (n,).
+def _most_above(batch: SplineBatch, level: float) -> FloatArray:
+    """Give an area that no part of a section (m,) above a level exceeds, m2.
 
-    Most are told to be no parallel body by this one, and need not be held against all sections.
+    No curve is broader than its control points, nor goes up and down more than these do.
     """
-    count = len(level) + 1
-    whole = np.bincount(station, section_area(batch, float(level.min())), count)
-    slab = np.arange(count - 1)
-    sections = np.stack([slab, slab + 1, np.full(count - 1, whole.argmax())])
-    number, row = np.nonzero(station == sections.T.reshape(-1, 1))
-    parts = SplineBatch.join([batch.part(i, i + 1) for i in row.tolist()])
-    area = section_area(parts, level.repeat(3)[number])
-    one, other, large = np.bincount(number, area, 3 * len(level)).reshape(-1, 3).T
-    # Twice the limit: what rounding could turn is left to the comparison with all.
-    kept: IntArray = 1 + np.flatnonzero(np.minimum(one, other) >= (1.0 - 2.0 * _EQUAL) * large)
-    return kept
+    control = bezier_points(batch)
+    rise = np.abs(np.diff(np.maximum(control[:, :, 2], level), axis=1)).sum(axis=1)
+    broad = np.maximum.reduceat(
+        np.abs(control[:, :, 1]).max(axis=1), batch.start[:-1] - np.arange(batch.count)
+    )
+    found: FloatArray = sum_per_curve(batch, rise) * broad
+    return found
 
 
 # --------------------------------------------------------------------------------------
@@ -528,64 +195,161 @@ class SurfaceLayout:
         return found
 
 
-@attrs.define(eq=False)
-class _Draft:
-    """Cells in the making: lists that grow strip by strip."""
-
-    net: CurveNet
-    paths: list[list[Bit]] = attrs.field(factory=list)
-    anchor_start: list[int] = attrs.field(factory=lambda: [0])
-    anchor: list[int] = attrs.field(factory=list)
-    blend: list[FloatArray] = attrs.field(factory=list)
-    flat: list[bool] = attrs.field(factory=list)
-    knuckle: list[bool] = attrs.field(factory=list)
-    cell: list[tuple[int, int, int]] = attrs.field(factory=list)
-    cell_start: list[int] = attrs.field(factory=lambda: [0])
-
-    def add(self, parts: Sequence[CurvePart]) -> int:
-        """Add a path; give its number."""
-        self.paths.append([bit for part in parts for bit in segments_of_part(self.net, part)])
-        return len(self.paths) - 1
-
-
 def lay_out_surface(net: CurveNet, length: float, closed: bool) -> SurfaceLayout:
     """Find the strips and cells of a net of a ship of `length` m; `closed`: it has a deck."""
     x = station_planes(net)
-    found, lost = strip_boundaries(net, boundary_arcs(net, x), len(x), length)
+    frames, lost = strip_boundaries(net, boundary_arcs(net, x), len(x), length)
     every = line_spans(net)
     parallel = parallel_slabs(net, x)
-    draft = _Draft(net)
-    for i, given in enumerate(found):
-        # The strip comes back changed where all lines run to one point of a rail.
-        found[i], run = strip_anchors(given, every)
-        if given.plane and given.slab in parallel:
-            # Straight: no anchors but keel and deck, and these without curves of their own.
-            run = [attrs.evolve(each, parts=()) for each in (run[0], run[-1])]
-        for anchor in run:
-            # -1: nothing is drawn there, so it is straight from rail to rail.
-            draft.anchor.append(draft.add(anchor.parts) if anchor.parts else -1)
-        flat = [_side(net, each, net.flat) for each in run]
-        knuckle = [_side(net, each, net.knuckle) for each in run]
-        draft.flat += flat
-        draft.knuckle += knuckle
-        # An anchor may pass the two rails at different parts of their height.
-        height = np.array([0.5 * (each.low + each.high) for each in run])
-        first, blend = blend_cubics(height, flat, knuckle)
-        for j, (below, above) in enumerate(itertools.pairwise(run)):
-            aft = draft.add(_between(found[i].aft, below.aft, above.aft))
-            fore = draft.add(_between(found[i].fore, below.fore, above.fore))
-            draft.cell.append((int(first[j]), aft, fore))
-            draft.blend.append(blend[j])
-        draft.anchor_start.append(len(draft.anchor))
-        draft.cell_start.append(len(draft.cell))
-    paths = Paths.of(draft.paths)
-    edge = np.array([_is_edge(net, frame, found) for frame in found], np.bool_)
+    straight = np.array([each.plane and each.slab in parallel for each in frames], np.bool_)
+    frames, run = strip_anchors(frames, every, straight)
+    # Straight: no anchors but keel and deck, and these without curves of their own.
+    sides = [
+        () if without else side
+        for frame, without in zip(frames, straight.tolist(), strict=True)
+        for side in (frame.keel, frame.deck)
+    ]
+    paths, anchor, rails = _paths(net, frames, run, every, sides)
+    flat, knuckle = (_along(run, every, sides, which) for which in (net.flat, net.knuckle))
+    first, blend = blend_cubics(run.height, flat, knuckle, run.start)
+    edge = np.array([_is_edge(net, frame, frames) for frame in frames], np.bool_)
+    walked = shape_paths(paths, net.batch)
+    cell_start = run.start - np.arange(len(run.start))
     # An open ship has a deck edge too, but no deck to be closed by.
-    cells, cell = _cells(net, draft, found, shape_paths(paths, net.batch), edge & closed)
-    rails = np.array([each[1:] for each in draft.cell], np.int64).reshape(-1, 2)
-    start = np.array(draft.cell_start, np.int64)
-    sides = np.array(draft.flat, np.bool_), np.array(draft.knuckle, np.bool_)
-    return SurfaceLayout(cells, tuple(found), tuple(lost), edge, start, rails, cell, *sides)
+    tiles = _tiles(walked, rails, cell_start, edge & closed)
+    plane = _planes(net, frames)
+    cells = CoonsCells(
+        paths,
+        run.start,
+        anchor,
+        tiles.start,
+        first[tiles.cell],
+        blend[tiles.cell],
+        tiles.aft,
+        tiles.fore,
+        tiles.low,
+        tiles.high,
+        plane,
+        tiles.low == -2,
+        np.where(plane, _ORDER, _END_ORDER).astype(np.int64),
+    )
+    return SurfaceLayout(
+        cells, tuple(frames), tuple(lost), edge, cell_start, rails, tiles.cell, flat, knuckle
+    )
+
+
+def _paths(
+    net: CurveNet,
+    frames: Sequence[StripBoundary],
+    run: StripAnchors,
+    every: LineSpans,
+    sides: Sequence[tuple[CurvePart, ...]],
+) -> tuple[Paths, IntArray, IntArray]:
+    """Give the paths of all anchors and, between these, of rails; which are whose.
+
+    Strip by strip the anchors come first, then the rails of each cell. An anchor of which nothing
+    is drawn has no path, -1: it is straight from rail to rail.
+    """
+    count, line = np.diff(run.start), run.span >= 0
+    strip = np.arange(len(count)).repeat(count)
+    drawn = line.copy()
+    side = np.flatnonzero(~line)
+    drawn[side] = [len(each) > 0 for each in sides]
+    own = np.bincount(strip, drawn, len(count)).astype(np.int64)
+    base = np.cumsum([0, *(own + 2 * (count - 1)).tolist()])
+    before = np.cumsum(drawn) - drawn
+    anchor = np.where(drawn, base[strip] + before - before[run.start[:-1]][strip], -1)
+    lower = np.delete(np.arange(len(line)), run.start[1:] - 1)
+    cell_strip = strip[lower]
+    first = base[cell_strip] + own[cell_strip] + 2 * (lower - run.start[cell_strip])
+    rails = np.stack([first, first + 1], axis=1)
+    # The parts of curves of each path: of lines, of sides, of rails.
+    span = run.span[line]
+    ends = np.where(run.turned[line][:, None], every.part[span][:, ::-1], every.part[span])
+    lines = _Parts(anchor[line], every.curve[span], ends)
+    drawn_sides = [
+        (path, part)
+        for path, each in zip(anchor[side].tolist(), sides, strict=True)
+        for part in each
+    ]
+    parts = _joined_parts([lines, _Parts.of(drawn_sides), *_rail_parts(frames, run, lower, rails)])
+    size, segment, low, high = bits_of_parts(net, parts.curve, parts.ends[:, 0], parts.ends[:, 1])
+    start = np.zeros(int(base[-1]) + 1, np.int64)
+    np.cumsum(np.bincount(parts.path, size, int(base[-1])).astype(np.int64), out=start[1:])
+    return Paths(start, segment, low, high), anchor, rails
+
+
+@attrs.frozen(eq=False)
+class _Parts:
+    """Parts of curves of which paths consist: path (k,), curve (k,), parameters (k, 2), m."""
+
+    path: IntArray
+    curve: IntArray
+    ends: FloatArray
+
+    @classmethod
+    def of(cls, found: Sequence[tuple[int, CurvePart]]) -> _Parts:
+        """Put some into arrays."""
+        return cls(
+            np.array([path for path, _ in found], np.int64),
+            np.array([part[0] for _, part in found], np.int64),
+            np.array([part[1:] for _, part in found], np.float64).reshape(-1, 2),
+        )
+
+
+def _joined_parts(several: Sequence[_Parts]) -> _Parts:
+    """Put the parts of each path one behind the other, in their order."""
+    path, curve, ends = (
+        np.concatenate(each)
+        for each in zip(*(attrs.astuple(one, recurse=False) for one in several), strict=True)
+    )
+    order = np.argsort(path, kind="stable")
+    return _Parts(path[order], curve[order], ends[order])
+
+
+def _rail_parts(
+    frames: Sequence[StripBoundary], run: StripAnchors, lower: IntArray, rails: IntArray
+) -> Iterator[_Parts]:
+    """Give the parts of rails between anchors and those above them, aft and forward."""
+    strip = np.searchsorted(run.start, lower, "right") - 1
+    for side in (0, 1):
+        one, other = run.part[lower, side], run.part[lower + 1, side]
+        same = one == other
+        ends = np.stack([run.t[lower, side], run.t[lower + 1, side]], axis=1)
+        curve = run.rails.curve[run.rails.start[2 * strip + side] + one]
+        yield _Parts(rails[same, side], curve[same], ends[same])
+        # Seldom: where a section has come apart, and stem or stern are between its pieces.
+        found = []
+        for k in np.flatnonzero(~same).tolist():
+            frame = frames[int(strip[k])]
+            low, high = (int(one[k]), float(ends[k, 0])), (int(other[k]), float(ends[k, 1]))
+            parts = _between((frame.aft, frame.fore)[side], low, high)
+            found += [(int(rails[k, side]), part) for part in parts]
+        yield _Parts.of(found)
+
+
+def _along(
+    run: StripAnchors,
+    every: LineSpans,
+    sides: Sequence[tuple[CurvePart, ...]],
+    which: NDArray[np.bool_],
+) -> NDArray[np.bool_]:
+    """Tell which anchors run along curves of a kind."""
+    found = np.zeros(len(run.span), np.bool_)
+    line = run.span >= 0
+    found[line] = which[every.curve[run.span[line]]]
+    found[~line] = [any(which[part[0]] for part in parts) for parts in sides]
+    return found
+
+
+def _planes(net: CurveNet, frames: Sequence[StripBoundary]) -> NDArray[np.bool_]:
+    """Tell which strips lie between planes across the ship, with sides that never turn back."""
+    plane = np.array([frame.plane for frame in frames], np.bool_)
+    sides = [frame.keel + frame.deck for frame in frames]
+    owner = np.arange(len(frames)).repeat([len(each) for each in sides])
+    steady = runs_monotonic(net, [part for each in sides for part in each])
+    plane[owner[~steady]] = False
+    return plane
 
 
 def _top(net: CurveNet, frame: StripBoundary) -> list[CurvePart]:
@@ -604,65 +368,83 @@ def _top(net: CurveNet, frame: StripBoundary) -> list[CurvePart]:
     return [end for end, keep in zip(ends, high, strict=True) if keep]
 
 
-def _side(net: CurveNet, anchor: StripAnchor, which: NDArray[np.bool_]) -> bool:
-    """Tell whether an anchor runs along curves of a kind."""
-    return any(which[part[0]] for part in anchor.parts)
-
-
 def blend_cubics(
     height: FloatArray,
-    flat: Sequence[bool] | NDArray[np.bool_] = (),
-    knuckle: Sequence[bool] | NDArray[np.bool_] = (),
+    flat: NDArray[np.bool_] | None = None,
+    knuckle: NDArray[np.bool_] | None = None,
+    start: IntArray | None = None,
 ) -> tuple[IntArray, FloatArray]:
-    """Give how the cells of a strip carry on between anchors at ascending heights (a,), as cubics.
+    """Give how the cells of strips carry on between anchors at ascending heights (a,), as cubics.
 
-    Each cubic has the values of the two anchors at its ends, and there the slopes of the parabolas
+    The anchors of each strip begin at `start`; without it they are those of one strip. Each cubic
+    has the values of the two anchors at its ends, and there the slopes of the parabolas
     through three neighbouring anchors. At the border of a flat, to which the hull is tangent, the
-    slope is zero; at a knuckle each side has its own, that of the straight line. `first` (a - 1,)
-    is the first of the four anchors that have weight in a cell, `cubic` (a - 1, 4, 4) the weights:
-    ``sum_j cubic[:, i, j] value[first + j]`` is the coefficient of f^i.
+    slope is zero; at a knuckle each side has its own, that of the straight line. `first` (c,)
+    is the first of the four anchors of its strip that have weight in a cell, `cubic` (c, 4, 4) the
+    weights: ``sum_j cubic[:, i, j] value[first + j]`` is the coefficient of f^i.
     """
-    count = len(height)
-    slope = _slopes(height)
-    slope[np.flatnonzero(flat)] = 0.0
-    first = np.clip(np.arange(count - 1) - 1, 0, max(count - 4, 0))
-    column = first[:, None] + np.arange(4)
-    inside = column < count
-    column = np.minimum(column, count - 1)
-    cell = np.arange(count - 1)
-    one = np.eye(count)
-    below, above = (one[(cell + k)[:, None], column] * inside for k in (0, 1))
-    width = np.diff(height)[:, None]
-    leave, arrive = (slope[(cell + k)[:, None], column] * width * inside for k in (0, 1))
+    start = np.array([0, len(height)]) if start is None else start
+    count = np.diff(start)
+    own = np.arange(len(count)).repeat(count)
+    at, slope = _slopes(height, start[own], count[own])
+    if flat is not None:
+        slope[np.flatnonzero(flat)] = 0.0
+    # The lower anchors of all cells, in all anchors and along their strips.
+    lower = np.delete(np.arange(len(height)), start[1:] - 1)
+    strip = own[lower]
+    cell = lower - start[strip]
+    first = np.clip(cell - 1, 0, np.maximum(count[strip] - 4, 0))
+    column = (start[strip] + first)[:, None] + np.arange(4)
+    inside = column < start[strip + 1][:, None]
+    below, above = (1.0 * (column == (lower + k)[:, None]) * inside for k in (0, 1))
+    width = (height[lower + 1] - height[lower])[:, None]
+    leave, arrive = (
+        _spread(at[lower + k], slope[lower + k], column) * width * inside for k in (0, 1)
+    )
     step = above - below
-    sharp = np.zeros(count, np.bool_)
-    sharp[np.flatnonzero(knuckle)] = True
-    leave = np.where(sharp[:-1, None], step, leave)
-    arrive = np.where(sharp[1:, None], step, arrive)
+    if knuckle is not None:
+        leave = np.where(knuckle[lower][:, None], step, leave)
+        arrive = np.where(knuckle[lower + 1][:, None], step, arrive)
     return first, np.stack(hermite(below, above, leave, arrive), axis=1)
 
 
-def _slopes(height: FloatArray) -> FloatArray:
-    """Give the weights (a, a) by which slopes at anchors follow from values there."""
-    count = len(height)
-    if count == 2:
-        both: FloatArray = np.array([[-1.0, 1.0], [-1.0, 1.0]]) / (height[1] - height[0])
-        return both
-    found: FloatArray = common_zeros((count, count), height)
-    at = np.arange(count)
-    three = np.clip(at, 1, count - 2)[:, None] + np.array([-1, 0, 1])
+def _slopes(height: FloatArray, begin: IntArray, count: IntArray) -> tuple[IntArray, FloatArray]:
+    """Give of which three anchors slopes at anchors are made, (a, 3), and the weights of these.
+
+    The anchors of the same strip begin at `begin` (a,); there are `count` (a,) of them. Where
+    there are two, the third is -1.
+    """
+    at = np.arange(len(height)) - begin
+    three = np.clip(at, 1, np.maximum(count - 2, 1))[:, None] + np.array([-1, 0, 1])
+    two = count == 2
+    three += begin[:, None]
+    three[two] = np.stack([begin[two], begin[two] + 1, np.full(int(two.sum()), -1)], axis=1)
     p = height[three]
+    weight: FloatArray = common_zeros((len(height), 3), height)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            weight[:, i] = (2.0 * height - p[:, j] - p[:, k]) / (
+                (p[:, i] - p[:, j]) * (p[:, i] - p[:, k])
+            )
+    both = np.flatnonzero(two)
+    weight[both] = np.array([-1.0, 1.0, 0.0]) / (p[both, 1] - p[both, 0])[:, None]
+    return three, weight
+
+
+def _spread(at: IntArray, weight: FloatArray, column: IntArray) -> FloatArray:
+    """Give the weights (c, 3) of anchors `at` (c, 3) as weights of those in `column` (c, 4)."""
+    found: FloatArray = common_zeros(column.shape, weight)
     for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        weight = (2.0 * height - p[:, j] - p[:, k]) / ((p[:, i] - p[:, j]) * (p[:, i] - p[:, k]))
-        found[at, three[:, i]] = weight
+        row, place = np.nonzero(column == at[:, i, None])
+        found[row, place] = weight[row, i]
     return found
 
 
-def _between(rail: tuple[CurvePart, ...], low: CurvePlace, high: CurvePlace) -> list[CurvePart]:
-    """Give the parts of a rail between two points on it."""
-    if low[0] == high[0]:
-        return [(rail[low[0]][0], low[1], high[1])]
+def _between(
+    rail: tuple[CurvePart, ...], low: tuple[int, float], high: tuple[int, float]
+) -> list[CurvePart]:
+    """Give the parts of a rail between places (part, m) on two different parts of it."""
     first, last = rail[low[0]], rail[high[0]]
     parts = [
         (first[0], low[1], first[2]),
@@ -672,78 +454,66 @@ def _between(rail: tuple[CurvePart, ...], low: CurvePlace, high: CurvePlace) -> 
     return [part for part in parts if part[1] != part[2]] or parts[:1]
 
 
-def _cells(
-    net: CurveNet,
-    draft: _Draft,
-    found: list[StripBoundary],
-    walked: PathShapes,
-    deck: NDArray[np.bool_],
-) -> tuple[CoonsCells, IntArray]:
-    """Cut the cells into tiles; also give the cell of each tile."""
-    tiles: list[tuple[int, int, int, int, int]] = []
-    tile_start, cell = [0], list[int]()
-    # Lists: they are read place by place.
-    start, begin = walked.paths.start.tolist(), walked.begin.tolist()
-    for i in range(len(found)):
-        for j in range(draft.cell_start[i], draft.cell_start[i + 1]):
-            first, aft, fore = draft.cell[j]
-            tiles += [(first, *tile) for tile in _tiles(start, begin, aft, fore)]
-            cell += [j] * (len(tiles) - len(cell))
-        if deck[i]:
-            # The deck is one more tile above the last: -2 says so.
-            tiles.append((*tiles[-1][:3], -2, -1))
-            cell.append(cell[-1])
-        tile_start.append(len(tiles))
-    table = np.array(tiles, np.int64).reshape(-1, 5)
-    anchor_start = np.array(draft.anchor_start, np.int64)
-    anchor = np.array(draft.anchor, np.int64)
-    plane = np.array(
-        [frame.plane and all(runs_monotonic(net, frame.keel + frame.deck)) for frame in found],
-        np.bool_,
-    )
-    column = [table[:, i].copy() for i in range(5)]
-    cells = CoonsCells(
-        walked.paths,
-        anchor_start,
-        anchor,
-        np.array(tile_start, np.int64),
-        column[0],
-        np.array(draft.blend, np.float64).reshape(-1, 4, 4)[cell],
-        column[1],
-        column[2],
-        column[3],
-        column[4],
-        plane,
-        column[3] == -2,
-        np.where(plane, _ORDER, _END_ORDER).astype(np.int64),
-    )
-    return cells, np.array(cell, np.int64)
+@attrs.frozen(eq=False)
+class _Tiles:
+    """Tiles as in `CoonsCells`, and the cell (t,) of each."""
+
+    start: IntArray
+    cell: IntArray
+    aft: IntArray
+    fore: IntArray
+    low: IntArray
+    high: IntArray
 
 
 def _tiles(
-    start: list[int], begin: list[float], aft: int, fore: int
-) -> list[tuple[int, int, int, int]]:
-    """Cut a cell at the knots of both rails: bits aft and fore, and what begins and ends it.
+    walked: PathShapes, rails: IntArray, cell_start: IntArray, deck: NDArray[np.bool_]
+) -> _Tiles:
+    """Cut cells at the knots of both their rails (c, 2); `deck` (s,): a strip has a deck."""
+    cell, bit, low, high, end = _knots(walked, rails)
+    middle = 0.5 * (low + high)
+    start = walked.paths.start
+    one, other = (
+        last_not_above(walked.begin, start[path], start[path + 1] - 1, middle)
+        for path in rails[cell].T
+    )
+    tile_start = np.searchsorted(cell, cell_start)
+    # The deck is one more tile above the last: -2 says so.
+    over = tile_start[1:][deck]
+    made = [np.insert(each, over, each[over - 1]) for each in (cell, one, other)]
+    made += [np.insert(bit, over, -2), np.insert(end, over, -1)]
+    return _Tiles(tile_start + np.cumsum([0, *deck.tolist()]), *made)
 
-    `start` and `begin` say where the bits of each path begin, in all bits and along the path.
+
+def _knots(
+    walked: PathShapes, rails: IntArray
+) -> tuple[IntArray, IntArray, FloatArray, FloatArray, IntArray]:
+    """Give the tiles of cells: the cell, the bit that begins there, from where to where, its end.
+
+    Bits are -1 at the beginning and at the end of a cell.
     """
-    knots = [(0.0, -1)]
-    for path in (aft, fore):
-        knots += [(begin[bit], bit) for bit in range(start[path] + 1, start[path + 1])]
-    knots.sort()
-    kept = knots[:1]
-    for knot in knots[1:]:
-        if knot[0] - kept[-1][0] > _SLIVER and knot[0] < 1.0 - _SLIVER:
-            kept.append(knot)
-    tiles = []
-    for i, (low, bit) in enumerate(kept):
-        high, end = kept[i + 1] if i + 1 < len(kept) else (1.0, -1)
-        middle = 0.5 * (low + high)
-        one, other = (
-            bisect_right(begin, middle, start[path], start[path + 1]) - 1 for path in (aft, fore)
-        )
-        tiles.append((one, other, bit, end))
-    return tiles
+    count, start = len(rails), walked.paths.start
+    path = rails.T.ravel()
+    size = start[path + 1] - start[path] - 1
+    which = np.arange(2 * count).repeat(size)
+    bit = start[path[which]] + 1 + np.arange(len(which)) - (np.cumsum(size) - size)[which]
+    cell = np.concatenate([np.arange(count), which % max(count, 1)])
+    bit = np.concatenate([np.full(count, -1), bit])
+    value = np.where(bit < 0, 0.0, walked.begin[bit])
+    order = np.lexsort((bit, value, cell))
+    cell, bit, value = cell[order], bit[order], value[order]
+    near = np.zeros(len(cell), np.bool_)
+    near[1:] = (cell[1:] == cell[:-1]) & (value[1:] - value[:-1] <= _SLIVER)
+    kept = ~near
+    for k in np.flatnonzero(near[1:] & near[:-1]).tolist():
+        # Three and more in a row: each is held against the last that was kept.
+        kept[k + 1] = value[k + 1] - value[k - int(kept[k::-1].argmax())] > _SLIVER
+    kept &= (value < 1.0 - _SLIVER) | (bit < 0)
+    cell, bit, value = cell[kept], bit[kept], value[kept]
+    high, end = np.ones(len(cell)), np.full(len(cell), -1)
+    inner = np.flatnonzero(cell[1:] == cell[:-1])
+    high[inner], end[inner] = value[inner + 1], bit[inner + 1]
+    return cell, bit, value, high, end
 
 
 def _is_edge(net: CurveNet, frame: StripBoundary, every: Sequence[StripBoundary]) -> bool:
@@ -797,23 +567,30 @@ def areas_between(
     station: FloatArray,
     x: FloatArray,
     planes: FloatingPlanes,
-) -> FloatArray | None:
-    """Give the areas (d, n), m2, both sides, of sections at x (n,), m, between two stations.
+) -> FloatArray:
+    """Give the areas (d, n), m2, both sides, of sections at x (n,), m, between stations.
 
-    Stations are at `station` (k,), m, ascending. None beyond the last ones, and where a strip
-    begins or ends at a raked line between the two, so that no curve of it is transverse.
+    Stations are at `station` (k,), m, ascending. nan beyond the last ones, and where a strip
+    begins or ends at a raked line between two of them, so that no curve of it is transverse.
     """
-    slab = int(np.searchsorted(station, x[0]))
-    strip = np.array([i for i, each in enumerate(layout.frames) if each.slab == slab], np.int64)
-    if not (0 < slab < len(station) and len(strip) and layout.cells.plane[strip].all()):
-        return None
-    reach = strip_extents(strips, strip)
-    v = (x[:, None] - reach[:, 0]) / (reach[:, 1] - reach[:, 0])
-    place, which = np.nonzero((v >= 0.0) & (v <= 1.0))
-    total = np.zeros((len(planes.height), len(x)))
-    if len(place):
-        curves = strips.curves(strip[which], v[place, which])
-        np.add.at(total.T, place, sections_below(curves, planes).T)
+    slab, own = np.searchsorted(station, x), np.array([f.slab for f in layout.frames], np.int64)
+    known = np.zeros(len(station) + 1, np.bool_)
+    known[own] = True
+    known[own[~layout.cells.plane]] = known[0] = known[-1] = False
+    total = np.full((len(planes.height), len(x)), np.nan)
+    total[:, known[slab]] = 0.0
+    inner = np.flatnonzero(known[slab])
+    place, strip = np.nonzero(slab[inner][:, None] == own)
+    place = inner[place]
+    some, which = np.unique(strip, return_inverse=True)
+    if not len(some):
+        return total
+    aft, fore = strip_extents(strips, some)[which].T
+    v = (x[place] - aft) / (fore - aft)
+    on = (v >= 0.0) & (v <= 1.0)
+    if on.any():
+        curves = strips.curves(strip[on], v[on])
+        np.add.at(total.T, place[on], sections_below(curves, planes).T)
     return total
 
 
@@ -859,7 +636,6 @@ class OpenEnd:
 
 def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[OpenEnd, ...]:
     """Find the ends that no line closes; `length` between perpendiculars, m."""
-    found = sections_of(net, closed=False)
     # Slabs are counted between these: parts of sections that end on a raked transom are none.
     stations = station_planes(net)
     slabs = {frame.slab for frame in layout.frames}
@@ -867,7 +643,6 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
     ends = []
     for fore in (False, True):
         x = float(stations[-1 if fore else 0])
-        at = int(np.abs(found.x - x).argmin())
         drawn = float(every.max() if fore else every.min())
         sign = 1.0 if fore else -1.0
         by_lines = sign * drawn > sign * (length if fore else 0.0)
@@ -880,8 +655,15 @@ def open_ends(net: CurveNet, layout: SurfaceLayout, length: float) -> tuple[Open
         if sign * (end - x) < NEAR_END * spacing and _is_transom(net, x):
             continue
         source = "where its lines end" if by_lines else "the perpendicular"
-        ends.append(OpenEnd(fore, found.names[at], x, end, source))
+        ends.append(OpenEnd(fore, _section_near(net, x), x, end, source))
     return tuple(ends)
+
+
+def _section_near(net: CurveNet, x: float) -> str:
+    """Give the name of the section that stands nearest to a place."""
+    sections = np.flatnonzero(np.isfinite(net.x) & ~net.end)
+    places = net.x[sections]
+    return net.name[int(sections[np.lexsort((places, np.abs(places - x)))[0]])]
 
 
 def _is_transom(net: CurveNet, x: float) -> bool:

@@ -16,6 +16,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 
 __all__ = [
     "bezier_points",
+    "last_not_above",
     "locate_by_knots",
     "locate_parameters",
     "power_coefficients",
@@ -296,7 +297,7 @@ def locate_by_knots(
     low, last = batch.start.take(curve), batch.start.take(curve + 1) - 1
     if guess is None:
         t = _inside(t, batch.knot.take(last))
-        segment = _search(batch, low, last - 1, t)
+        segment = last_not_above(batch.knot, low, last - 1, t)
         begin, end = batch.knot.take(segment), batch.knot.take(segment + 1)
     else:
         segment = low + guess
@@ -306,18 +307,23 @@ def locate_by_knots(
         if len(rest):
             t = t.copy()
             t[rest] = _inside(t[rest], batch.knot.take(last[rest]), rest)
-            segment[rest] = _search(batch, low[rest], last[rest] - 1, t[rest])
+            segment[rest] = last_not_above(batch.knot, low[rest], last[rest] - 1, t[rest])
             begin[rest], end[rest] = batch.knot[segment[rest]], batch.knot[segment[rest] + 1]
     length = end - begin
     fraction = np.where(t == end, 1.0, (t - begin) / length)
     return segment, fraction, length
 
 
-def _search(batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray) -> IntArray:
-    """Find the last knot not above each parameter, between given ones."""
+def last_not_above(
+    values: FloatArray, low: IntArray, high: IntArray, wanted: FloatArray
+) -> IntArray:
+    """Find the last of ascending values from `low` to `high` that is not above what is `wanted`.
+
+    All (k,); `low` where there is none. The search is exact in the values' bits.
+    """
     while (high > low).any():
         middle = (low + high + 1) // 2
-        reached = batch.knot[middle] <= t
+        reached = values[middle] <= wanted
         low = np.where(reached, middle, low)
         high = np.where(reached, high, middle - 1)
     return low

@@ -13,13 +13,9 @@ from assoc_hull.analysis.net.curve_net import (
     station_planes,
     thinned_net,
 )
+from assoc_hull.analysis.net.strip_anchors import LineSpans, line_spans, strip_anchors
 from assoc_hull.analysis.net.strip_boundaries import StripBoundary, boundary_arcs, strip_boundaries
-from assoc_hull.analysis.net.surface_layout import (
-    lay_out_surface,
-    line_spans,
-    parallel_slabs,
-    strip_anchors,
-)
+from assoc_hull.analysis.net.surface_layout import lay_out_surface, parallel_slabs
 from assoc_hull.geometry.curves import PointKind
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.splines.evaluation import evaluate
@@ -228,9 +224,14 @@ def test_a_border_that_dips_below_a_waterline_between_sections_holds_no_surface(
         net, boundary_arcs(net, station_planes(net)), len(station_planes(net)), 121.92
     )
     [frame] = [each for each in found if each.slab == 14]
-    held = {net.name[part[0]] for anchor in strip_anchors(frame, every)[1] for part in anchor.parts}
+    held = _held(net, frame, every)
     assert "WL 0.25" in held
     assert "flat of side" not in held
     [frame] = [each for each in found if each.slab == 12]
-    held = {net.name[part[0]] for anchor in strip_anchors(frame, every)[1] for part in anchor.parts}
-    assert {"WL 0.25", "flat of side"} <= held
+    assert {"WL 0.25", "flat of side"} <= _held(net, frame, every)
+
+
+def _held(net: CurveNet, frame: StripBoundary, every: LineSpans) -> set[str]:
+    """Give the lines along which the anchors of a strip run, but for its sides."""
+    span = strip_anchors([frame], every)[1].span
+    return {net.name[i] for i in every.curve[span[span >= 0]].tolist()}

@@ -1,0 +1,64 @@
+"""A hull that a variation or a section shift has made, with its report.
+
+Both are generic in the class of the hulls that they hold, as they stand below it; users meet them
+with `assoc_hull.Hull` only. They stand alone: a variation needs none of what `results` loads.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+import attrs
+
+if TYPE_CHECKING:
+    from assoc_hull.variation.fields.space_map import VariationMap
+    from assoc_hull.variation.shifts.shift_hull import ShiftReport
+    from assoc_hull.variation.vary import VariationReport
+
+__all__ = ["Shifted", "Variation"]
+
+HullType = TypeVar("HullType")
+
+
+@attrs.frozen(eq=False)
+class Variation(Generic[HullType]):
+    """A varied hull.
+
+    Attributes
+    ----------
+    hull : Hull
+        The variant; undo gives the parent back.
+    report : VariationReport
+        What was asked, reached and changed.
+    map : VariationMap
+        The map that carries places of the parent to those of the variant, m.
+    """
+
+    hull: HullType
+    report: VariationReport
+    map: VariationMap
+
+    def __str__(self) -> str:
+        return str(self.report)
+
+
+@attrs.frozen(eq=False)
+class Shifted(Generic[HullType]):
+    """A hull whose sections were shifted, or that was swung.
+
+    Attributes
+    ----------
+    hull : Hull
+        The variant; undo gives the parent back.
+    report : ShiftReport
+        What was asked, reached and moved.
+    map : VariationMap
+        The map that carries places of the parent to those of the variant, m.
+    """
+
+    hull: HullType
+    report: ShiftReport
+    map: VariationMap
+
+    def __str__(self) -> str:
+        return str(self.report)
