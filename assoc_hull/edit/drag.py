@@ -11,7 +11,7 @@ from __future__ import annotations
 import contextlib
 import math
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from types import TracebackType
 from typing import Literal, Self
@@ -35,13 +35,11 @@ from assoc_hull.edit.published_program import LiveNumbers, published_program
 from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit, refusal_of
-from assoc_hull.edit.shapes import joined, lofted_curves
+from assoc_hull.edit.shapes import HullShapes, chosen_curves, joined, section_areas
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.write_lock import WriteLock
 from assoc_hull.errors import AssocHullError, BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.integrals.area_moments import section_area
-from assoc_hull.geometry.splines.distance import closest_points_each
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
@@ -90,7 +88,7 @@ class Live:
     xyz: FloatArray
     relofted: int
     seconds: float
-    _before: _Published = attrs.field(repr=False)
+    _before: HullShapes = attrs.field(repr=False)
     _tell: Callable[[], EditReport | None] = attrs.field(repr=False)
 
     @cached_property
@@ -117,7 +115,7 @@ class Live:
     def areas(self) -> FloatArray:
         """Area of the half section within each of `sections`, below the design draught, m2."""
         chosen = np.flatnonzero(np.isin(self.curves, self.sections))
-        return _areas(_chosen(self.spline, chosen), self._before.draught)
+        return section_areas(chosen_curves(self.spline, chosen), self._before.draught)
 
     @cached_property
     def volume_change(self) -> float:
@@ -126,90 +124,16 @@ class Live:
         Trapezes between the sections that changed and those beside them; the exact number is that
         of `Hull.preview`.
         """
-        return self._moment(0)
+        return self._changes[0]
 
     @cached_property
     def lcb_change(self) -> float:
         """About how much the centre of buoyancy moves, m, forward positive; nan at no volume."""
-        volume, first = self._before.volume
-        after = volume + self.volume_change
-        if not after > 0.0 or not volume > 0.0:
-            return float("nan")
-        return (first + self._moment(1)) / after - first / volume
-
-    def _moment(self, power: int) -> float:
-        """Integrate the changes of sectional areas times a power of x over the length."""
-        before, change = self._before, np.zeros(len(self._before.stations))
-        where = np.searchsorted(before.section_curves, self.sections)
-        np.add.at(change, before.station_of[where], self.areas - before.areas[where])
-        return 2.0 * float(np.trapezoid(change * before.stations**power, before.stations))
-
-
-@attrs.frozen(eq=False, slots=False)
-class _Published:
-    """The published hull, as the answers of a drag are measured from it."""
-
-    splines: Mapping[int, SplineBatch]
-    draught: float
-    section_curves: IntArray
-    station_of: IntArray
-    stations: FloatArray
-
-    @classmethod
-    def of(cls, state: HullState) -> Self:
-        """Take what is there; splines are frozen, so that later edits leave them alone."""
-        curves = lofted_curves(state)
-        splines = {curve: state.spline(curve) for curve in curves.tolist()}
-        line = state.curves.line[curves]
-        across = state.lines.planar[line] & (np.abs(state.lines.normal[line, 0]) == 1.0)
-        across &= state.lines.boundary[line] < 0
-        # An end plate in a plane of its own is a boundary curve: it is no section.
-        mine = curves[across]
-        x = state.lines.offset[line[across]] * state.lines.normal[line[across], 0]
-        stations, station_of = np.unique(x, return_inverse=True)
-        return cls(splines, state.particulars.draught, mine, station_of, stations)
+        return self._changes[1]
 
     @cached_property
-    def areas(self) -> FloatArray:
-        """Area of the half section within each of the section curves, below the draught, m2."""
-        if not len(self.section_curves):
-            return np.zeros(0)
-        batch = SplineBatch.join([self.splines[curve] for curve in self.section_curves.tolist()])
-        return _areas(batch, self.draught)
-
-    @cached_property
-    def volume(self) -> tuple[float, float]:
-        """Volume of both sides by trapezes, m3, and its moment about x = 0, m4."""
-        area = np.zeros(len(self.stations))
-        np.add.at(area, self.station_of, self.areas)
-        return tuple(  # type: ignore[return-value]
-            2.0 * float(np.trapezoid(area * self.stations**power, self.stations))
-            for power in (0, 1)
-        )
-
-    def distances(self, curves: IntArray, spline: SplineBatch) -> FloatArray:
-        """Give the distance of the farthest defining point of each curve from what is published."""
-        found = np.full(len(curves), np.nan)
-        known = np.array([curve in self.splines for curve in curves.tolist()], bool)
-        if not known.any():
-            return found
-        old = SplineBatch.join([self.splines[curve] for curve in curves[known].tolist()])
-        new = _chosen(spline, np.flatnonzero(known))
-        owner = np.repeat(np.arange(new.count), np.diff(new.start))
-        away = closest_points_each(old, owner, new.xyz)[2]
-        found[known] = np.maximum.reduceat(away, new.start[:-1])
-        return found
-
-
-def _chosen(batch: SplineBatch, places: IntArray) -> SplineBatch:
-    """Give some curves of a batch; none may be chosen."""
-    if len(places) == batch.count:
-        return batch
-    return joined([batch.part(place, place + 1) for place in places.tolist()])
-
-
-def _areas(batch: SplineBatch, draught: float) -> FloatArray:
-    return section_area(batch, draught) if batch.count else np.zeros(0)
+    def _changes(self) -> tuple[float, float]:
+        return self._before.changes(self.curves, self.spline)
 
 
 def _come_and_gone(step: Step, state: HullState) -> tuple[IntArray, IntArray]:
@@ -354,7 +278,7 @@ class Drag:
         self.normal: FloatArray | None = normal.copy() if (normal != 0.0).any() else None
         freeze(self.start, *([] if self.normal is None else [self.normal]))
         self._row, self._quick = row, _QuickWay.of(document, row, how, radius, across_flats)
-        self._published = _Published.of(state)
+        self._published = HullShapes.of(state)
         self._number, self._last = document.state_number, dict[str, float]()
         self._over, self._stop_asked, self._turn = False, False, WriteLock()
 

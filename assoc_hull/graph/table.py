@@ -39,19 +39,19 @@ __all__ = [
     "Table",
     "ValueColumn",
     "VectorColumn",
-    "copies_taken",
     "matrices",
     "numbers",
     "values",
     "values_given",
     "vectors",
+    "writes_begun",
 ]
 
 _WRITES = itertools.count(1)
 """No two writes of any column have one number, so a number may come back with its content."""
 
-_TAKEN = [0]
-"""How many columns, of all tables, have ever taken a copy of their own of what they shared."""
+_TOUCHED = [0]
+"""How often columns, of all tables, have been given out or asked to be written to."""
 
 # As an array is, a column of numbers is one of more general numbers as well.
 S = TypeVar("S", bound=np.generic, covariant=True)
@@ -92,6 +92,7 @@ class Column(Generic[S]):
         """The array, to be written to; nobody else has it from now on."""
         self._own()
         self._differ = None  # nobody tells which rows are written
+        _TOUCHED[0] += 1
         return self._store
 
     def put(self, rows: NDArray[np.int64], values: NDArray[np.generic]) -> None:
@@ -128,7 +129,7 @@ class Column(Generic[S]):
         # Whatever line an interrupt comes at, what is said to differ is at least what does.
         self._store, self._spare = spare, old
         self._differ, self._differing = [], 0
-        self._unshare()
+        self._shared = False
         self._show(len(self.data))
 
     def _references(self) -> int:
@@ -149,10 +150,6 @@ class Column(Generic[S]):
         else:
             self._differ.append(rows)
 
-    def _unshare(self) -> None:
-        self._shared = False
-        _TAKEN[0] += 1
-
     def share(self, before: object = None) -> Self:
         """Give another column with the same content, as it is now, whatever is written later.
 
@@ -172,9 +169,15 @@ class Column(Generic[S]):
         found._shared = self._shared = True
         return found
 
-    def shares(self, other: object) -> bool:
-        """Tell whether another column has the same numbers, for they are the very same."""
-        return isinstance(other, Column) and other._store is self._store
+    def equals(self, other: object) -> bool:
+        """Tell whether another column has the same numbers, as it is known without a look at them.
+
+        They are the very same, or all that was written since has been taken back.
+        """
+        if not isinstance(other, Column):
+            return False
+        known = self._differ is not None  # every write has left its number
+        return other._store is self._store or (known and other.writes == self.writes)
 
     def _show(self, count: int) -> None:
         self.data = self._store[:count]
@@ -183,6 +186,7 @@ class Column(Generic[S]):
     def written(self) -> None:
         """Say that something was written."""
         self.writes = next(_WRITES)
+        _TOUCHED[0] += 1
 
     def resize(self, count: int) -> None:
         """Bring the column to `count` rows; new ones hold the fill value."""
@@ -192,7 +196,7 @@ class Column(Generic[S]):
             store = grown.astype(self._store.dtype)
             store[:old] = self._store[:old]
             self._store = store
-            self._unshare()
+            self._shared = False
             self._forget()
         if count > old:
             self.store[old:count] = self.fill
@@ -274,8 +278,8 @@ class ValueColumn(Generic[V]):
         """The list, to be written to at once; nobody else has it from now on."""
         if self._shared:
             self.data, self._shared = self.data.copy(), False
-            _TAKEN[0] += 1
         self.writes = next(_WRITES)
+        _TOUCHED[0] += 1
         return self.data
 
     def share(self, before: object = None) -> Self:
@@ -291,9 +295,9 @@ class ValueColumn(Generic[V]):
         found._shared = self._shared = True
         return found
 
-    def shares(self, other: object) -> bool:
-        """Tell whether another column has the same values, for it is the very same list."""
-        return isinstance(other, ValueColumn) and other.data is self.data
+    def equals(self, other: object) -> bool:
+        """Tell whether another column has the same values, as that of numbers does."""
+        return isinstance(other, ValueColumn) and other.writes == self.writes
 
     def resize(self, count: int) -> None:
         """Bring the column to `count` rows; new ones hold the fill value."""
@@ -318,9 +322,9 @@ AnyColumn = Column[np.generic] | ValueColumn[object]
 """A column taken by its name, which does not tell what it holds."""
 
 
-def copies_taken() -> int:
-    """Tell how often any column had to copy what it shared: unchanged, nobody wrote to such."""
-    return _TAKEN[0]
+def writes_begun() -> int:
+    """Tell how often any column of any table was to be written to: unchanged, none was."""
+    return _TOUCHED[0]
 
 
 # --------------------------------------------------------------------------------------
@@ -383,9 +387,9 @@ class Table:
         object.__setattr__(found, "columns", columns)
         return found
 
-    def shares(self, other: Table) -> bool:
-        """Tell whether another table of the kind has the same content, as nobody wrote since."""
-        return all(each.shares(other.columns[name]) for name, each in self.columns.items())
+    def equals(self, other: Table) -> bool:
+        """Tell whether another table of the kind is known to have the same content."""
+        return all(each.equals(other.columns[name]) for name, each in self.columns.items())
 
     @property
     def count(self) -> int:

@@ -74,7 +74,7 @@ if TYPE_CHECKING:
     from assoc_hull.edit.explain.causes import Thing, Why
     from assoc_hull.edit.explain.compare_states import Comparison
     from assoc_hull.edit.explain.hull_graph import OnlyName
-    from assoc_hull.edit.explain.preview import Preview
+    from assoc_hull.edit.explain.preview import Measure, Preview
     from assoc_hull.edit.script import Replayed
     from assoc_hull.edit.shapes import Shapes
     from assoc_hull.geometry.curves import FloatArray
@@ -276,7 +276,7 @@ class Hull:
         name: str = "preview",
         why: Sequence[Thing | str] = (),
         shapes: bool = False,
-        measure: bool = True,
+        measure: Measure = True,
     ) -> Preview:
         """Run edits, publish nothing, and tell what they would do.
 
@@ -288,8 +288,11 @@ class Hull:
             As for `edit`.
         name, why : str, sequence of objects or addresses
             Name of the edit, for its report; of what to tell why it would change.
-        shapes, measure : bool
-            Whether the curves that would change are given, and volume and LCB measured.
+        shapes : bool
+            Whether the curves that would change are given.
+        measure : bool or "about"
+            Whether volume and LCB are measured, when somebody asks for them: exactly, or about,
+            by differences of sectional areas as a drag does, in a fraction of the time.
 
         Returns
         -------

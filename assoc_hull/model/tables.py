@@ -28,12 +28,12 @@ from assoc_hull.graph.table import (
     Table,
     ValueColumn,
     VectorColumn,
-    copies_taken,
     matrices,
     numbers,
     values,
     values_given,
     vectors,
+    writes_begun,
 )
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
@@ -65,7 +65,7 @@ __all__ = [
 
 T = TypeVar("T")
 
-_OF_THIS_PROCESS = ("_live", "_published", "_written_here", "_taken")
+_OF_THIS_PROCESS = ("_live", "_published", "_written_here", "_looked")
 
 _GATE = Gate()
 """Held for the moment in which a state is published, or one is taken."""
@@ -384,7 +384,7 @@ class HullState:
     _live: HullState | None = attrs.field(default=None, init=False, repr=False)
     _published: HullState | None = attrs.field(default=None, init=False, repr=False)
     _written_here: Callable[[], bool] | None = attrs.field(default=None, init=False, repr=False)
-    _taken: int = attrs.field(default=-1, init=False, repr=False)
+    _looked: int = attrs.field(default=-1, init=False, repr=False)
 
     def __attrs_post_init__(self) -> None:
         if not self.settings.count:
@@ -411,14 +411,14 @@ class HullState:
         return self._published
 
     def _is_current(self) -> bool:
-        """Tell whether nothing was written to the tables since they were published."""
-        published, taken = self._published, copies_taken()
+        """Tell whether the tables are as they were published, or as they were again."""
+        published, taken = self._published, writes_begun()
         if published is None:
             return False
-        if taken != self._taken:  # else nobody has written to any shared column of any hull
-            if not all(getattr(self, name).shares(getattr(published, name)) for name in TABLES):
+        if taken != self._looked:  # else nobody has written to any column of any hull
+            if not all(getattr(self, name).equals(getattr(published, name)) for name in TABLES):
                 return False
-            self._taken = taken
+            self._looked = taken
         return True
 
     def seen_here(self) -> HullState:
@@ -446,6 +446,12 @@ class HullState:
         """Give tables of their own with the published content; nothing is copied until a write."""
         return self.published()._shared(None)
 
+    def as_written(self) -> HullState:
+        """Give tables of their own with what is being written, as it is now; as `snapshot`."""
+        found = self._shared(None)
+        found.memory.add(self.published().memory)
+        return found
+
     def _shared(self, live: HullState | None, before: HullState | None = None) -> HullState:
         """Give tables that share all columns; what was derived is known there as well."""
         found = object.__new__(HullState)
@@ -457,7 +463,7 @@ class HullState:
             dict(self.revision_row),
             dict(self.revision_curve),
         )
-        found._live, found._published, found._written_here, found._taken = live, None, None, -1
+        found._live, found._published, found._written_here, found._looked = live, None, None, -1
         found.memory = Derived()
         # What was made of tables that may be written to is not handed on: it may look at them.
         if (source := self if self._live is not None else before) is not None:
@@ -472,7 +478,7 @@ class HullState:
     def __setstate__(self, state: dict[str, object]) -> None:
         for name, value in state.items():
             setattr(self, name, value)
-        self._live, self._published, self._written_here, self._taken = None, None, None, -1
+        self._live, self._published, self._written_here, self._looked = None, None, None, -1
 
     def derived(
         self, key: Key, depends_on: tuple[object, ...], make: Callable[[], T], most: int = 64

@@ -1,14 +1,15 @@
 """Preview of an edit: everything runs, nothing is published.
 
-The update runs on the hull itself and is taken back by its journal. Before that, its outcome is
-read: the report, which lines change and how far, the volume, and why an object moves.
-`line_changes` works on any committed step as well.
+The update runs on the hull itself and is taken back by its journal. Before that, the tables are
+shared as they are then: which lines change and how far, volume and fingerprint are found when
+somebody asks. `line_changes` works on any committed step as well.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import cast
+from functools import cached_property
+from typing import Literal, cast
 
 import attrs
 import numpy as np
@@ -20,7 +21,7 @@ from assoc_hull.edit.explain.causes import Thing, Why, node_of, why_after
 from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit, refusal_of
-from assoc_hull.edit.shapes import Shapes, joined
+from assoc_hull.edit.shapes import HullShapes, Shapes, joined
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
@@ -33,6 +34,7 @@ from assoc_hull.model.tables import HullState
 
 __all__ = [
     "LineChange",
+    "Measure",
     "Preview",
     "line_changes",
     "preview",
@@ -137,38 +139,76 @@ class _Movements:
 # Previews.
 
 
-@attrs.frozen
+Measure = bool | Literal["about"]
+"""Whether volume and LCB are measured: exactly, or about, as those of a drag."""
+
+
+@attrs.frozen(eq=False)
+class _Seen:
+    """A hull before an edit, and as it would be after; nothing of it changes any more."""
+
+    before: HullState
+    after: HullState
+    step: Step | None
+    measure: Measure
+
+
+@attrs.frozen(eq=False, slots=False)
 class Preview:
     """What an edit would do.
 
     Attributes
     ----------
-    report : EditReport or None
-        The report that the edit would have; None if it would be refused.
     refused : tuple of str
         Every reason why the edit would be refused; empty if it would not.
-    volume_change : float or None, m3
-        At the design draught, both sides; None without two sections, or if refused.
-    lcb_change : float or None, m
-        + forward; None likewise.
-    lines : tuple of LineChange
-        The lines that would change, how far each would move, and where.
     why : mapping of str to Why
         Why each object that was asked for would change.
-    fingerprint : str or None
-        That of the hull after the edit; None if refused.
     shapes : Shapes or None
         The curves that would change, as they would be, if that was asked for.
     """
 
-    report: EditReport | None
     refused: tuple[str, ...]
-    volume_change: float | None
-    lcb_change: float | None
-    lines: tuple[LineChange, ...] = ()
     why: Mapping[str, Why] = attrs.field(factory=dict, repr=False)
-    fingerprint: str | None = None
-    shapes: Shapes | None = attrs.field(default=None, eq=False, repr=False)
+    shapes: Shapes | None = attrs.field(default=None, repr=False)
+    _seen: _Seen | None = attrs.field(default=None, repr=False)
+    _tell: Callable[[], EditReport | None] = attrs.field(default=lambda: None, repr=False)
+
+    @cached_property
+    def report(self) -> EditReport | None:
+        """The report that the edit would have; None if it would be refused."""
+        return self._tell()
+
+    @cached_property
+    def lines(self) -> tuple[LineChange, ...]:
+        """The lines that would change, how far each would move, and where."""
+        return () if self._seen is None else line_changes(self._seen.after, self._seen.step)
+
+    @cached_property
+    def fingerprint(self) -> str | None:
+        """That of the hull after the edit; None if it would be refused."""
+        return None if self._seen is None else fingerprint(self._seen.after)
+
+    @property
+    def volume_change(self) -> float | None:
+        """At the design draught, both sides, m3; None without two sections, or if refused."""
+        return self._measured[0]
+
+    @property
+    def lcb_change(self) -> float | None:
+        """How far the centre of buoyancy would move, m, + forward; None likewise."""
+        return self._measured[1]
+
+    @cached_property
+    def _measured(self) -> tuple[float | None, float | None]:
+        seen = self._seen
+        if seen is None or not seen.measure:
+            return None, None
+        if seen.measure == "about":
+            return _about(seen)
+        before, after = _displacement(seen.before), _displacement(seen.after)
+        if before is None or after is None:
+            return None, None
+        return after.volume - before.volume, after.lcb - before.lcb
 
     def __str__(self) -> str:
         if self.report is None:
@@ -179,6 +219,16 @@ class Preview:
         return words
 
 
+def _about(seen: _Seen) -> tuple[float, float]:
+    """Take the differences of sectional areas."""
+    before, changed = seen.before, _changed_shapes(seen.after, seen.step)
+    shapes = before.derived(
+        ("hull shapes",), (before.curves.spline, before.curves.alive, before.lines.offset),
+        lambda: HullShapes.of(before),
+    )  # fmt: skip
+    return shapes.changes(changed.curves, changed.spline)
+
+
 def preview(
     document: Document,
     carry_out: Callable[[Edit], None],
@@ -187,7 +237,7 @@ def preview(
     why: Sequence[Thing | str] = (),
     *,
     shapes: bool = False,
-    measure: bool = True,
+    measure: Measure = True,
 ) -> Preview:
     """Run an edit beside the published state, and take it back.
 
@@ -203,8 +253,10 @@ def preview(
         Name of the edit, for its report.
     why : sequence of objects or addresses
         Objects whose causes are reported: why they would change.
-    shapes, measure : bool
-        Whether the curves that would change are given, and volume and LCB measured.
+    shapes : bool
+        Whether the curves that would change are given.
+    measure : bool or "about"
+        Whether volume and LCB are measured, when somebody asks for them; about, as a drag does.
 
     Returns
     -------
@@ -220,65 +272,40 @@ def preview(
     # whatever is neither a thing of the hull nor an address, `node_of` refuses
     asked = cast("list[Thing | str]", all_of(why, object, "why", "in preview"))
     flag(shapes, "shapes", "in preview")
-    flag(measure, "measure", "in preview")
+    if measure != "about":
+        flag(measure, "measure", "in preview")
     document.require_ended("preview")
-    before = _measure(document.state.published()) if measure else None
-    after = list[_After]()
-    trial = Edit(
-        document, text(name, "the name", "in preview"), settings,
-        look=lambda step: after.append(
-            _look(document, step, asked, shapes=shapes, measure=before is not None)
-        ),
-    )  # fmt: skip
+    before, found = document.state.published(), list[Preview]()
+
+    def look(step: Step | None) -> None:
+        seen = _Seen(before, document.state.as_written(), step, measure)
+        steps = [*document.history, *([] if step is None else [step])]
+        causes = dict[str, Why]()
+        for thing in asked:
+            node = node_of(document.state, thing)
+            known = thing if isinstance(thing, str) else thing.id
+            causes[known] = why_after(document.state, steps, node)
+        drawn = _changed_shapes(seen.after, step) if shapes else None
+        found.append(Preview((), causes, drawn, seen, lambda: trial.report))
+
+    trial = Edit(document, text(name, "the name", "in preview"), settings, look=look)
     try:
         with trial:
             carry_out(trial)
     except AssocHullError as error:
-        return Preview(None, refusal_of(error), None, None)
-    now, volume, lcb = after[0], None, None
-    if before is not None and now.displaced is not None:
-        volume = now.displaced.volume - before.volume
-        lcb = now.displaced.lcb - before.lcb
-    return Preview(trial.report, (), volume, lcb, now.lines, now.why, now.fingerprint, now.shapes)
+        return Preview(refusal_of(error))
+    return found[0]
 
 
-@attrs.frozen
-class _After:
-    """What is read of a hull before an edit is taken back."""
-
-    displaced: EvenKeelDisplacement | None
-    lines: tuple[LineChange, ...]
-    why: dict[str, Why]
-    fingerprint: str
-    shapes: Shapes | None
-
-
-def _look(
-    document: Document,
-    step: Step | None,
-    asked: Sequence[Thing | str],
-    *,
-    shapes: bool,
-    measure: bool,
-) -> _After:
-    state, steps = document.state, [*document.history, *([] if step is None else [step])]
-    causes = dict[str, Why]()
-    for thing in asked:
-        node = node_of(state, thing)
-        causes[thing if isinstance(thing, str) else thing.id] = why_after(state, steps, node)
-    displaced = _measure(state) if measure else None
-    drawn = _shapes(state, step) if shapes else None
-    return _After(displaced, line_changes(state, step), causes, fingerprint(state), drawn)
-
-
-def _shapes(state: HullState, step: Step | None) -> Shapes:
+def _changed_shapes(state: HullState, step: Step | None) -> Shapes:
+    """Give the curves that a step has changed."""
     curves = np.zeros(0, np.int64) if step is None else np.sort(step.curves)
     curves = curves[state.curves.alive[curves]]
     freeze(curves)
     return Shapes(curves, joined([state.spline(curve) for curve in curves.tolist()]))
 
 
-def _measure(state: HullState) -> EvenKeelDisplacement | None:
+def _displacement(state: HullState) -> EvenKeelDisplacement | None:
     try:
         return even_keel_displacement(state)
     except BadInputError:
