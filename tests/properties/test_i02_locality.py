@@ -9,6 +9,7 @@ from hypothesis import given, settings
 
 import assoc_hull as ah
 from assoc_hull.edit.displacement_field import FieldContext, PointDisplacements
+from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.tables import HullState
@@ -123,7 +124,7 @@ def test_what_goes_away_and_comes_back_in_one_edit_has_not_changed(number: int) 
         if each.crossing_role == "shared" and each.free == ("y",) and each.y > 0.5
     )
     with Transaction(hull.document, "swing") as transaction:
-        transaction.pending.fields.append(Swing(point.row, point.position.copy()))
+        transaction.pending.ask(FieldMoves).fields.append(Swing(point.row, point.position.copy()))
     assert transaction.report is not None
     assert len(transaction.report.relofted) >= 2
     assert hull.fingerprint == start
