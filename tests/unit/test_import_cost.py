@@ -62,6 +62,16 @@ def test_a_hull_loads_what_few_sessions_need_when_they_do(module: str, loaded: s
     assert f"assoc_hull.{module}" not in loaded
 
 
+def test_a_variation_waits_for_nothing_that_it_does_not_need() -> None:
+    """Studies, surfaces, plates and scipy's interpolation are loaded by who asks for them."""
+    ship = "import assoc_hull as ah; ah.examples.wigley().vary(set={'breadth': 11.0})"
+    found = modules_after(ship)
+    assert "assoc_hull.variation.vary" in found
+    late = ("assoc_hull.study.", "assoc_hull.surface.", "assoc_hull.io.tables.")
+    assert not [name for name in found if name.startswith(late)]
+    assert "scipy.interpolate" not in found
+
+
 def test_lofting_loads_geometry_only() -> None:
     """Whoever lofts and cuts curves does not wait for the modules of whole hulls."""
     found = modules_after("from assoc_hull.geometry.splines.loft import loft")

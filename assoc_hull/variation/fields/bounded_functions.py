@@ -10,16 +10,18 @@ same outside the region of a variation.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Literal, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline
 
 from assoc_hull.arguments import numbers
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 __all__ = [
     "BLENDS",
@@ -343,6 +345,9 @@ class Contour:
 
     @cached_property
     def _spline(self) -> CubicSpline:
+        # Few variations have a contour: the others do not wait for scipy's interpolation.
+        from scipy.interpolate import CubicSpline
+
         return CubicSpline(self.x, self.v, bc_type="clamped")
 
     @property
