@@ -3,8 +3,8 @@
 from typing import TypeAlias
 
 from assoc_hull.hull.hull import Hull
-from assoc_hull.hull.results import Shifted as _Shifted
-from assoc_hull.hull.results import Variation as _Variation
+from assoc_hull.hull.variants import Shifted as _Shifted
+from assoc_hull.hull.variants import Variation as _Variation
 from assoc_hull.variation.comparing.comparison import HullComparison as HullComparison
 from assoc_hull.variation.comparing.comparison import compare as compare
 from assoc_hull.variation.direct.least_change import Basis as Basis

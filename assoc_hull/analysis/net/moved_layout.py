@@ -56,15 +56,14 @@ def move_cells(
     """
     paths = _moved(layout.cells.paths, net, batch, points)
     length = np.add.reduceat(bit_lengths(paths, batch), paths.start[:-1])
-    blend = []
-    anchor = itertools.pairwise(layout.cells.anchor_start.tolist())
+    height = []
     for begin, end in itertools.pairwise(layout.cell_start.tolist()):
-        own = slice(*next(anchor))
         aft, fore = (_heights(length[layout.rails[begin:end, i]]) for i in (0, 1))
         either = [each for each in (aft, fore) if each is not None]
-        height = 0.5 * (either[0] + either[-1])
-        blend.append(blend_cubics(height, layout.flat[own], layout.knuckle[own])[1])
-    return attrs.evolve(layout.cells, paths=paths, blend=np.concatenate(blend)[layout.cell])
+        height.append(0.5 * (either[0] + either[-1]))
+    start = layout.cells.anchor_start
+    blend = blend_cubics(np.concatenate(height), layout.flat, layout.knuckle, start)[1]
+    return attrs.evolve(layout.cells, paths=paths, blend=blend[layout.cell])
 
 
 def _heights(length: FloatArray) -> FloatArray | None:

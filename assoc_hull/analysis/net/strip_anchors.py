@@ -102,9 +102,9 @@ def line_spans(net: CurveNet) -> LineSpans:
     rail = (net.end | np.isfinite(net.x)) & ~passed
     other, there = net.meets[:, ::-1], net.place[:, ::-1]
     marks = rail[other] & ~(rail | passed)[net.meets]
-    curve, t, crossed, s = (each[marks] for each in (net.meets, net.place, other, there))
-    order = np.lexsort((s, crossed, t, curve))
-    curve, t, crossed, s = curve[order], t[order], crossed[order], s[order]
+    order = np.lexsort((there[marks], other[marks], net.place[marks], net.meets[marks]))
+    curve, crossed = net.meets[marks][order], other[marks][order]
+    t, s = net.place[marks][order], there[marks][order]
     rank = np.zeros(net.batch.count, np.int64)
     for each in np.unique(curve).tolist():
         rank[each] = len(_PLACES) if net.flat[each] else _place(net, each)

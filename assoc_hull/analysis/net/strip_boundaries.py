@@ -120,7 +120,7 @@ def _edges(one: SplineBatch, x: FloatArray, near: float) -> FloatArray:
     segment, plane = np.nonzero((low[:, None] <= x) & (high[:, None] >= x))
     # Most planes are passed at a knot: a segment that only rises, or falls, does not come back.
     step = np.diff(control, axis=1)
-    steady = (step > 0.0).all(axis=1) | (step < 0.0).all(axis=1)
+    steady = np.asarray((step > 0.0).all(axis=1) | (step < 0.0).all(axis=1))
     ends = control[segment][:, [0, -1]] == x[plane][:, None]
     other = ~(steady[segment] & ends.any(axis=1))
     segment, plane = segment[other], plane[other]

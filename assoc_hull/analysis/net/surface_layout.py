@@ -257,7 +257,7 @@ def _paths(
     drawn[side] = [len(each) > 0 for each in sides]
     own = np.bincount(strip, drawn, len(count)).astype(np.int64)
     base = np.cumsum([0, *(own + 2 * (count - 1)).tolist()])
-    before = np.cumsum(drawn) - drawn
+    before: IntArray = np.cumsum(drawn) - drawn
     anchor = np.where(drawn, base[strip] + before - before[run.start[:-1]][strip], -1)
     lower = np.delete(np.arange(len(line)), run.start[1:] - 1)
     cell_strip = strip[lower]

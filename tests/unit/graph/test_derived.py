@@ -74,3 +74,15 @@ def test_what_was_kept_comes_back_with_the_columns() -> None:
     assert derived.give(("sum",), (table.height,), lambda: [5]) is first
     assert derived.give(("true",), (table.height, table.name), lambda: [6]) is true
     assert derived.give(("false",), (table.height,), lambda: [7]) == [7]
+
+
+def test_what_is_true_again_is_not_replaced_by_what_was_out_of_date() -> None:
+    """Of what was kept and what a trial made before it wrote, that which holds now stays."""
+    height, derived = NumberColumn(np.float64, (), 0.0), Derived()
+    height.resize(1)
+    derived.give(("count",), (height,), lambda: "out of date")
+    height.resize(2)
+    mark = derived.mark()
+    assert derived.give(("count",), (height,), lambda: "true") == "true"
+    derived.restore(mark)
+    assert derived.give(("count",), (height,), lambda: "made anew") == "true"
