@@ -31,7 +31,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.graph.table import AnyColumn, Column, Table, ValueColumn
 
-__all__ = ["ArrayChange", "Journal", "PickedRows", "ValueChange", "same_value"]
+__all__ = ["ArrayChange", "Journal", "PickedRows", "ValueChange", "distinct", "same_value"]
 
 S = TypeVar("S", bound=np.generic, covariant=True)
 V = TypeVar("V")
@@ -193,6 +193,24 @@ class _GrowEntry:
         return self.old == self.new
 
 
+def distinct(numbers: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Give each number once, ascending.
+
+    As `numpy.unique`, which takes four times as long over the few of a drag.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.graph.journal import distinct
+    >>> distinct(np.array([5, 2, 5])).tolist()
+    [2, 5]
+    """
+    ordered = np.sort(numbers)
+    first = np.ones(len(ordered), np.bool_)
+    np.not_equal(ordered[1:], ordered[:-1], out=first[1:])
+    return ordered[first]
+
+
 def same_value(old: object, new: object) -> bool:
     """Tell whether two values of a list column are the same, arrays by what they hold."""
     if isinstance(old, np.ndarray) and isinstance(new, np.ndarray):
@@ -218,18 +236,23 @@ def _same_bits(one: NDArray[np.generic], other: NDArray[np.generic]) -> bool:
 
 def _net_array(column: Column[S], entries: Sequence[_ArrayEntry | _PartEntry]) -> ArrayChange[S]:
     """Run the writes to an array backward over a copy of what they touched."""
-    width = int(np.prod(column.store.shape[1:2])) if column.store.ndim > 1 else 1
+    width = column.data.shape[1] if column.data.ndim > 1 else 1
+    if len(entries) == 1 and isinstance(entry := entries[0], _ArrayEntry):
+        rows, old = entry.index, entry.old
+        if len(rows) < 2 or bool((rows[1:] > rows[:-1]).all()):
+            return ArrayChange(rows, old, column.data.take(rows, axis=0))  # type: ignore[arg-type]
     parts = [e.index if isinstance(e, _ArrayEntry) else e.part // width for e in entries]
-    rows = np.unique(np.concatenate([np.zeros(0, np.int64), *parts]))
-    new = column.store.take(rows, axis=0)
+    rows = distinct(np.concatenate([np.zeros(0, np.int64), *parts]))
+    new = column.data.take(rows, axis=0)
     old = new.copy()
     flat = old.reshape(-1, *old.shape[2:])
     for entry in reversed(entries):
         if isinstance(entry, _ArrayEntry):
             old[np.searchsorted(rows, entry.index)] = entry.old
         else:
-            place = np.searchsorted(rows, entry.part // width) * width + entry.part % width
-            flat[place] = entry.old.values()
+            row = entry.part // width
+            _scatter(flat, np.searchsorted(rows, row) * width + entry.part - row * width,
+                     entry.old.values())  # fmt: skip
     return ArrayChange(rows, old, new)
 
 

@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.journal import ArrayChange, Journal, same_value
+from assoc_hull.graph.journal import ArrayChange, Journal, distinct, same_value
 from assoc_hull.graph.table import AnyColumn, Column, ValueColumn
 from assoc_hull.model.kinds import State
 from assoc_hull.model.lofting import loft_curves
@@ -93,6 +93,8 @@ class CrossingPositions:
 
     def take(self, chosen: NDArray[np.bool_]) -> Self:
         """Give some of the curves, by mask."""
+        if chosen.all():
+            return self
         mine = chosen[self.owner]
         return attrs.evolve(
             self, curve=self.curve[chosen], count=self.count[chosen], line=self.line[mine],
@@ -102,6 +104,11 @@ class CrossingPositions:
     def alike(self, other: CrossingPositions) -> NDArray[np.bool_]:
         """Tell for each curve whether lines, senses and crossings agree in two batches."""
         found: NDArray[np.bool_] = self.count == other.count
+        if found.all() and all(
+            np.array_equal(getattr(self, name), getattr(other, name))
+            for name in ("line", "sign", "row")
+        ):
+            return found
         mine, theirs = self.take(found), other.take(found)
         odd = (mine.line != theirs.line) | (mine.sign != theirs.sign) | (mine.row != theirs.row)
         found[np.flatnonzero(found)[np.unique(mine.owner[odd])]] = False
@@ -111,7 +118,7 @@ class CrossingPositions:
         """Tell for each curve whether two batches that are alike agree in every bit."""
         odd = (self.at.view(np.int64) != other.at.view(np.int64)).any(axis=1)
         found = np.ones(len(self.curve), np.bool_)
-        found[np.unique(self.owner[odd])] = False
+        found[self.owner[odd]] = False
         return found
 
     def same_bits(self, other: CrossingPositions) -> bool:
@@ -121,37 +128,45 @@ class CrossingPositions:
 
 @attrs.frozen(eq=False)
 class EarlierPositions:
-    """The columns that places are taken from, as they were at another time; None: as now."""
+    """What places are taken from, as it was at another time, where it was not as now.
+
+    Attributes
+    ----------
+    meets : dict of int to CurveIntersections
+        Intersections of curves.
+    curve : (rows, 2) int or None
+        The curves that all points lay on; None: as now.
+    spot, parameter : ArrayChange
+        Rows of these columns.
+    """
 
     meets: dict[int, CurveIntersections]
-    curve: IntArray
-    spot: FloatArray
-    parameter: FloatArray
+    curve: IntArray | None
+    spot: ArrayChange[np.float64]
+    parameter: ArrayChange[np.float64]
 
 
 def crossing_positions(
     state: HullState, curves: IntArray, then: EarlierPositions | None = None
 ) -> CrossingPositions:
     """Give the places on curves (m,), each named once; `then` is the time meant, now if None."""
-    table = state.rows
-    now = EarlierPositions({}, table.curve.data, table.spot.data, table.parameter.data)
-    when = then or now
-    meets = [when.meets.get(curve, state.curves.meets[curve]) for curve in curves.tolist()]
+    known = {} if then is None else then.meets
+    meets = [known.get(curve) or state.curves.meets[curve] for curve in curves.tolist()]
     met = _join(meets)
-    stray_owner, row, side = _strays(when, curves, met[0], met[3])
+    stray_owner, stray, at = _strays(state, then, curves, met[0], met[3])
+    count = np.bincount(met[0], minlength=len(curves)).astype(np.int64)
+    if not len(stray):
+        return CrossingPositions(curves.copy(), count, met[1], met[2], met[3], met[4])
     owner = np.concatenate([met[0], stray_owner])
     order = np.argsort(owner, kind="stable")
-    nothing = np.full(len(row), _STRAY)
-    places = np.concatenate(
-        [met[4], np.column_stack([when.parameter[row, side], when.spot[row, side]])]
-    )
+    nothing = np.full(len(stray), _STRAY)
     return CrossingPositions(
         curves.copy(),
         np.bincount(owner, minlength=len(curves)).astype(np.int64),
         np.concatenate([met[1], nothing])[order],
         np.concatenate([met[2], np.zeros_like(nothing)])[order],
-        np.concatenate([met[3], row])[order],
-        np.ascontiguousarray(places[order]),
+        np.concatenate([met[3], stray >> 1])[order],
+        np.concatenate([met[4], at])[order],
     )
 
 
@@ -161,27 +176,69 @@ def _join(
     """Concatenate intersections: owner, line, sign, row, and (n, 4), m, parameter and place."""
     whole = np.zeros(0, np.int64)
     owner = np.repeat(np.arange(len(meets)), [len(each.line) for each in meets])
-    line = np.concatenate([whole, *(each.line for each in meets)])
-    sign = np.concatenate([whole, *(each.sign for each in meets)])
-    row = np.concatenate([whole, *(each.row for each in meets)])
-    at = np.concatenate([np.zeros(0), *(each.parameter for each in meets)])
-    xyz = np.concatenate([np.zeros((0, 3)), *(each.xyz for each in meets)])
-    return owner, line, sign, row, np.column_stack([at, xyz])
+    line = np.concatenate([whole, *[each.line for each in meets]])
+    sign = np.concatenate([whole, *[each.sign for each in meets]])
+    row = np.concatenate([whole, *[each.row for each in meets]])
+    at = np.empty((len(owner), 4))
+    at[:, 0] = np.concatenate([np.zeros(0), *[each.parameter for each in meets]])
+    at[:, 1:] = np.concatenate([np.zeros((0, 3)), *[each.xyz for each in meets]])
+    return owner, line, sign, row, at
 
 
 def _strays(
-    when: EarlierPositions, curves: IntArray, owner: IntArray, met: IntArray
-) -> tuple[IntArray, IntArray, IntArray]:
-    """Find crossings on curves without an intersection: index of the curve, row, side."""
-    place = np.full(max(int(when.curve.max(initial=-1)), int(curves.max(initial=-1))) + 2, -1)
-    place[curves] = np.arange(len(curves))
-    on = place[when.curve]
+    state: HullState,
+    then: EarlierPositions | None,
+    curves: IntArray,
+    owner: IntArray,
+    met: IntArray,
+) -> tuple[IntArray, IntArray, FloatArray]:
+    """Find crossings on curves without an intersection: index of the curve, part, (k, 4) place.
+
+    A part is 2 row + side.
+    """
+    table = state.rows
+    if then is None or then.curve is None:
+        on: IntArray = table.curve.data
+        order, first = state.derived(("points on curves",), (table.curve,), lambda: _by_curve(on))
+    else:
+        on = then.curve
+        order, first = _by_curve(on)
+    here = np.minimum(curves, len(first) - 2)  # a curve that no point lies on may lie beyond
+    start, count = first[here], np.where(here == curves, first[here + 1] - first[here], 0)
+    whose: IntArray = np.repeat(np.arange(len(curves)), count)
+    part = order[np.arange(len(whose)) + np.repeat(start - np.cumsum(count) + count, count)]
     actual = met >= 0
-    side = (when.curve[met[actual], 0] != curves[owner[actual]]).astype(np.int64)
-    on[met[actual], side] = -1
-    known = ~(np.isnan(when.spot).all(axis=2) & np.isnan(when.parameter))
-    row, side = np.nonzero((on >= 0) & known)
-    return on[row, side], row, side
+    row = met[actual]
+    is_met = np.zeros(on.size, np.bool_)
+    is_met[2 * row + (on[row, 0] != curves[owner[actual]])] = True
+    chosen = ~is_met[part]
+    whose, part = whose[chosen], part[chosen]
+    at = np.empty((len(part), 4))
+    at[:, 0] = _parts_then(table.parameter, part, then and then.parameter)
+    at[:, 1:] = _parts_then(table.spot, part, then and then.spot)
+    known = ~np.isnan(at).all(axis=1)
+    return whose[known], part[known], at[known]
+
+
+def _by_curve(on: IntArray) -> tuple[IntArray, IntArray]:
+    """Give the parts of the rows by the curve that they lie on, and where each curve begins."""
+    flat = on.reshape(-1)
+    order = np.argsort(flat, kind="stable")
+    first = np.searchsorted(flat[order], np.arange(int(flat.max(initial=-1)) + 3))
+    return order, first
+
+
+def _parts_then(
+    column: Column[np.float64], part: IntArray, then: ArrayChange[np.float64] | None
+) -> FloatArray:
+    """Give parts of the rows of a column, as they are or as they were."""
+    row, side = part >> 1, part & 1
+    found: FloatArray = column.data[row, side]
+    if then is not None and len(then.rows):
+        place = np.minimum(np.searchsorted(then.rows, row), len(then.rows) - 1)
+        was = then.rows[place] == row
+        found[was] = then.old[place[was], side[was]]
+    return found
 
 
 def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
@@ -262,13 +319,13 @@ class TableChange:
         parts = [np.arange(old, new)]
         parts += [rows for name, (rows, _) in self.bits.items() if _table(name) == table]
         parts += [rows for name, (rows, _, _) in self.objects.items() if _table(name) == table]
-        return np.unique(np.concatenate(parts))
+        return distinct(np.concatenate(parts))
 
     @property
     def curves(self) -> IntArray:
         """Curves with other places or another shape, ascending."""
         parts = (self.moved[0], self.before.curve, self.lofted)
-        return np.unique(np.concatenate(parts))
+        return distinct(np.concatenate(parts))
 
 
 def _table(name: str) -> str:
@@ -355,31 +412,31 @@ def _places(
 def _columns_before(
     state: HullState, journal: Journal, columns: Collection[str]
 ) -> tuple[EarlierPositions, IntArray]:
-    """Give the columns of places before, and the curves that may have other places now."""
+    """Give what places lay in before, and the curves that may have other places now."""
     table, touched = state.rows, [np.zeros(0, np.int64)]
-    nets = journal.net(table.curve), journal.net(table.spot), journal.net(table.parameter)
-    curve = _column_before(table.curve, nets[0])
-    for net in nets:
-        if len(net.rows):
-            odd = np.stack([_differ(net.old[:, side], net.new[:, side]) for side in (0, 1)], axis=1)
-            touched += [each[net.rows][odd] for each in (table.curve.data, curve)]
+    spot, parameter = journal.net(table.spot), journal.net(table.parameter)
+    nets: list[ArrayChange[np.float64] | ArrayChange[np.int64]] = [spot, parameter]
+    on, curve = table.curve.data, None
+    if "rows.curve" in columns:
+        net = journal.net(table.curve)
+        nets.append(net)
+        curve = on.copy()
+        curve[net.rows] = net.old
+    for each in nets:
+        if len(each.rows):
+            odd = np.stack(
+                [_differ(each.old[:, side], each.new[:, side]) for side in (0, 1)], axis=1
+            )
+            touched.append(on[each.rows][odd])
+            if curve is not None:
+                touched.append(curve[each.rows][odd])
     meets: dict[int, CurveIntersections] = {}
     if "curves.meets" in columns:
         met = journal.net(state.curves.meets)
         meets = dict(zip(met.rows.tolist(), met.old, strict=True))
         touched.append(met.rows)
-    curves = np.unique(np.concatenate(touched))
-    spot, parameter = _column_before(table.spot, nets[1]), _column_before(table.parameter, nets[2])
+    curves = distinct(np.concatenate(touched))
     return EarlierPositions(meets, curve, spot, parameter), curves[curves >= 0]
-
-
-def _column_before(column: Column[_S], net: ArrayChange[_S]) -> NDArray[_S]:
-    """Give a column as it was before what a journal did to it."""
-    if not len(net.rows):
-        return column.data
-    found = column.data.copy()
-    found[net.rows] = net.old
-    return found
 
 
 def _shapes(
@@ -388,16 +445,20 @@ def _shapes(
     """Give the curves that were lofted, and the splines that are no loft of their points."""
     if "curves.spline" not in columns:
         return np.zeros(0, np.int64), ({}, {})
-    net, now = journal.net(state.curves.spline), state.curves.state.data
+    net = journal.net(state.curves.spline)
+    now = state.curves.state.data[net.rows]
     was = now.copy()
     if "curves.state" in columns:
         states = journal.net(state.curves.state)
-        was[states.rows] = states.old
+        place = np.minimum(np.searchsorted(states.rows, net.rows), max(len(states.rows) - 1, 0))
+        known = states.rows[place] == net.rows if len(states.rows) else np.zeros(len(now), np.bool_)
+        was[known] = states.old[place[known]]
+    clean = int(State.CLEAN)
     kept = tuple(
         {
-            row: spline
-            for row, spline in zip(net.rows.tolist(), splines, strict=True)
-            if codes[row] != State.CLEAN and spline is not None
+            int(net.rows[i]): spline
+            for i in np.flatnonzero(codes != clean).tolist()
+            if (spline := splines[i]) is not None
         }
         for codes, splines in ((was, net.old), (now, net.new))
     )

@@ -120,9 +120,10 @@ def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> D
             state = read_state(database)
             file = HullFile(path, database, state, wait)
             document = Document(state, keeper=file, author=user_name())
-            document.stand(*file.follow(document))
+            head, tip = file.follow(document)
+            document.stand(*file.catch_up(document, head, tip, damaged=damaged))
             document.start = str(file.recorded(0))
-            file.require_print()
+            file.require_print(document.head)
             if not damaged:
                 require_sound_tables(state)
                 file.require_newest()
@@ -260,8 +261,8 @@ def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, Ta
     write_state(database, state, _version(), document.start)
     write_labels(database, list(document.labels.values()))
     database.execute(
-        "UPDATE hull SET fingerprint = ?, head = ?, tip = ?",
-        (fingerprint(state), document.head, document.tip),
+        "UPDATE hull SET fingerprint = ?, head = ?, tip = ?, base = ?",
+        (fingerprint(state), document.head, document.tip, document.head),
     )
     return changes
 
