@@ -351,7 +351,7 @@ def change_of(state: HullState, journal: Journal) -> TableChange:
         if isinstance(column, Column):
             net = journal.net(column)
             found = _bytes(net.old) ^ _bytes(net.new)
-            odd = found.any(axis=1)
+            odd = _any_bit(found)
             # A row may have been written with the bits that it had, or taken back.
             if odd.any():
                 bits[name] = net.rows[odd], found[odd]
@@ -380,9 +380,10 @@ def _bytes(values: NDArray[np.generic]) -> NDArray[np.uint8]:
     return np.frombuffer(values.tobytes(), np.uint8).reshape(len(values), width)
 
 
-def _differ(old: NDArray[np.generic], new: NDArray[np.generic]) -> NDArray[np.bool_]:
-    """Tell for each row whether a bit differs."""
-    found: NDArray[np.bool_] = (_bytes(old) != _bytes(new)).any(axis=1)
+def _any_bit(bits: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Tell for each row, (k, bytes), whether a bit is set."""
+    words = bits.view(np.int64) if bits.shape[1] % 8 == 0 else bits
+    found: NDArray[np.bool_] = words.any(axis=1)
     return found
 
 
@@ -424,9 +425,8 @@ def _columns_before(
         curve[net.rows] = net.old
     for each in nets:
         if len(each.rows):
-            odd = np.stack(
-                [_differ(each.old[:, side], each.new[:, side]) for side in (0, 1)], axis=1
-            )
+            apart = _bytes(each.old) ^ _bytes(each.new)
+            odd = _any_bit(apart.reshape(2 * len(apart), -1)).reshape(-1, 2)
             touched.append(on[each.rows][odd])
             if curve is not None:
                 touched.append(curve[each.rows][odd])
@@ -477,12 +477,13 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
     """
     if forward:  # new rows must be there before they are written, and go last on the way back
         _resize(state, change, 1)
+    _require_fit(state, change)
     alive = state.curves.alive.data.copy()
     columns = dict(_columns(state))
     for name, (rows, bits) in change.bits.items():
         column = columns[name]
         assert isinstance(column, Column), name
-        _flip(column, rows, bits)
+        _flip(name, column, rows, bits)
     for name, (rows, old, new) in change.objects.items():
         held = columns[name]
         assert isinstance(held, ValueColumn), name
@@ -509,10 +510,57 @@ def _resize(state: HullState, change: TableChange, which: int) -> None:
         getattr(state, name).resize(sizes[which])
 
 
-def _flip(column: Column[np.generic], rows: IntArray, bits: NDArray[np.uint8]) -> None:
-    values = column.store.take(rows, axis=0)
+def _require_fit(state: HullState, change: TableChange) -> None:
+    """Refuse a change that names what these tables do not have, before anything is written."""
+    columns, curves = dict(_columns(state)), state.curves.count
+    for name, (rows, bits) in change.bits.items():
+        column = columns[name]
+        if not isinstance(column, Column) or name in _OWN_WAY:
+            raise ValueError(f"{name} is no column of numbers")
+        width = column.data.itemsize * math.prod(column.data.shape[1:])
+        if bits.shape != (len(rows), width):
+            raise ValueError(f"the bits of {name} are of the shape {bits.shape}")
+        _require_rows(name, rows, len(column.data))
+    for name, (rows, old, new) in change.objects.items():
+        held = columns[name]
+        if not isinstance(held, ValueColumn) or name in _OWN_WAY:
+            raise ValueError(f"{name} is no column of objects")
+        if not len(rows) == len(old) == len(new):
+            raise ValueError(f"{name} has {len(rows)} rows, {len(old)} and {len(new)} objects")
+        _require_rows(name, rows, len(held.data))
+    numbered = {"moved": change.moved[0], "lofted": change.lofted}
+    numbered |= {"before": change.before.curve, "after": change.after.curve}
+    numbered |= {"kept": np.array(sorted({*change.kept[0], *change.kept[1]}), np.int64)}
+    for name, rows in numbered.items():
+        _require_rows(name, rows, curves)
+    for places in (change.before, change.after):
+        for name, numbers, count in (
+            ("lines", places.line, state.lines.count), ("points", places.row, state.rows.count),
+        ):  # fmt: skip
+            if numbers.size and not (numbers.min() >= -1 and numbers.max() < count):
+                raise ValueError(f"a place on a curve is on none of {count} {name}")
+        if not np.isfinite(places.at[places.line >= 0]).all():
+            raise ValueError("a meeting of a curve lies nowhere")
+
+
+def _require_rows(name: str, rows: IntArray, count: int) -> None:
+    if rows.size and not (rows[0] >= 0 and rows[-1] < count and (rows[1:] > rows[:-1]).all()):
+        raise ValueError(f"the rows of {name} are not among {count}, ascending")
+
+
+_MAY_BE_NAN = frozenset({"rows.limit", "rows.gap", "lines.offset"})
+"""Columns of numbers that hold nan where there is nothing."""
+
+
+def _flip(name: str, column: Column[np.generic], rows: IntArray, bits: NDArray[np.uint8]) -> None:
+    values = column.data.take(rows, axis=0)
     flipped = _bytes(values) ^ bits
-    column.store[rows] = flipped.view(column.store.dtype).reshape(values.shape)
+    found = flipped.view(column.data.dtype).reshape(values.shape)
+    if found.dtype == np.float64 and name not in _MAY_BE_NAN and not np.isfinite(found).all():
+        raise ValueError(f"{name} becomes no number")
+    if found.dtype == np.bool_ and flipped.max(initial=0) > 1:
+        raise ValueError(f"{name} becomes neither true nor false")
+    column.store[rows] = found
     column.written()
 
 
@@ -525,7 +573,11 @@ def _move(state: HullState, moved: tuple[IntArray, NDArray[np.uint8]]) -> None:
     curves, bits = moved
     if len(curves):
         now = crossing_positions(state, curves)
+        if bits.shape != (len(now.at), 32):
+            raise ValueError(f"{len(bits)} places are moved, and {len(now.at)} are there")
         at = (_bytes(now.at) ^ bits).view(np.float64)
+        if not np.isfinite(at[now.line >= 0]).all():
+            raise ValueError("a meeting of a curve would lie nowhere")
         put_crossing_positions(state, attrs.evolve(now, at=at))
 
 

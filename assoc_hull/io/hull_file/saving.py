@@ -68,7 +68,7 @@ from assoc_hull.io.hull_json import read_hull_json, write_hull_json
 from assoc_hull.io.open_databases import is_hull_file, is_open_here, log_file
 from assoc_hull.io.write_file import take_place
 from assoc_hull.model.change import TableChange, change_of
-from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.hash_tree import root_of
 from assoc_hull.model.definition.verify import Difference
 
 __all__ = [
@@ -247,14 +247,14 @@ def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, Ta
     with walk_states(document) as walk:
         if not document.start:
             walk.go(0)
-            document.start = fingerprint(state)
+            document.start = root_of(state)
         for number, step in sorted(document.steps.items()):
             journal = step.journal
             # A step that never was in a file holds its journal; its change is what it did there.
             if isinstance(journal, Journal):
                 walk.go(number)
                 changes[number] = change_of(state, journal)
-                step.fingerprint = step.fingerprint or fingerprint(state)
+                step.fingerprint = step.fingerprint or root_of(state)
                 journal = Rerun(state, changes[number])
             assert isinstance(journal, Rerun), "a step holds its journal or its change"
             write_step(database, step, journal.change)
@@ -262,7 +262,7 @@ def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, Ta
     write_labels(database, list(document.labels.values()))
     database.execute(
         "UPDATE hull SET fingerprint = ?, head = ?, tip = ?, base = ?",
-        (fingerprint(state), document.head, document.tip, document.head),
+        (root_of(state), document.head, document.tip, document.head),
     )
     return changes
 

@@ -43,8 +43,9 @@ from typing import Any
 
 import numpy as np
 
+from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.document import Document, Label
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.report import EditReport, Fairness
 from assoc_hull.edit.step import Rerun, Step, StepBody
 from assoc_hull.errors import (
     AssocHullError,
@@ -76,6 +77,7 @@ from assoc_hull.io.hull_file.tables import (
     WRITTEN,
     put_rows,
     read_revisions,
+    read_state,
     require_counts,
     write_births,
     write_settings,
@@ -87,10 +89,11 @@ from assoc_hull.io.open_databases import (
     spared_log,
 )
 from assoc_hull.model.change import TableChange, change_of
-from assoc_hull.model.definition.fingerprint import FingerprintCache, fingerprint, is_shape
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.hash_tree import HashTree, is_root
 from assoc_hull.model.tables import HullState, copy_into, copy_state
 
-__all__ = ["Behind", "HullFile"]
+__all__ = ["Behind", "HullFile", "LateInflections"]
 
 _WRITE = "BEGIN IMMEDIATE"
 
@@ -135,6 +138,99 @@ class Behind:
         database.execute("UPDATE hull SET base = ?", (head,))
 
 
+class LateInflections:
+    """Counts the inflections of a step in a hull file when asked, by running what led there.
+
+    It holds the name of the file, not the hull: a report may be kept longer than that.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    number : int
+        The step.
+    digest : str
+        That of its row, by which another file in the place of this one is told.
+    """
+
+    def __init__(self, path: Path, number: int, digest: str) -> None:
+        self.path, self.number, self.digest = path, number, digest
+        self._found: tuple[tuple[str, int], ...] | None = None
+
+    def added(self) -> tuple[tuple[str, int], ...]:
+        """Give the curves with more curvature sign changes than before, and how many.
+
+        Raises
+        ------
+        BadInputError, DamagedFileError, HullFileError
+            The file is gone, damaged, or another one.
+        """
+        if self._found is None:
+            database = connect_database(self.path, 0.0)
+            try:
+                with (
+                    database_errors(self.path),
+                    damage_errors(self.path, f"step {self.number} cannot be read"),
+                ):
+                    database.execute("BEGIN")
+                    require_schema(database, self.path)
+                    self._found = self._counted(database).added()
+                    database.execute("ROLLBACK")
+            finally:
+                database.close()
+        return self._found
+
+    def _counted(self, database: sqlite3.Connection) -> Fairness:
+        """Give the splines before and after the step."""
+        self._state = state = read_state(database)
+        digest = database.execute(
+            "SELECT digest FROM steps WHERE number = ?", (self.number,)
+        ).fetchone()
+        if digest != (self.digest,):
+            what = "it was replaced by another hull file"
+            raise HullFileError(str(self.path), what, "count from the hull before that is done")
+        parents = dict(database.execute("SELECT number, parent FROM steps"))
+        here, there = (
+            _way(parents, number)
+            for number in (database.execute("SELECT base FROM hull").fetchone()[0], self.number)
+        )
+        there.pop()  # the step itself is run last, also where the tables show it already
+        for number in here[::-1]:
+            if number not in there:
+                self._body(database, number).journal.back()
+        for number in there:
+            if number not in here:
+                self._body(database, number).journal.forth()
+        known = {state.curves.key[i]: i for i in state.live("curves").tolist()}
+        before = {
+            curve: spline
+            for curve in known.values()
+            if (spline := state.curves.spline[curve]) is not None
+        }
+        body = self._body(database, self.number)
+        body.journal.forth()
+        known = {state.curves.key[i]: i for i in state.live("curves").tolist()}
+        keys = tuple(key for key in body.report.relofted if key in known)
+        curves = np.array([known[key] for key in keys], np.int64)
+        after = {curve: state.spline(curve) for curve in curves.tolist()}
+        return Fairness(before, after, plane_normals(state, curves), curves, keys)
+
+    def _body(self, database: sqlite3.Connection, number: int) -> StepBody:
+        row = database.execute("SELECT * FROM steps WHERE number = ?", (number,)).fetchone()
+        return body_of(row or (), self._state)
+
+
+def _way(parents: Mapping[int, int], number: int) -> list[int]:
+    """Give the numbers of the steps that lead to a step, oldest first."""
+    found = list[int]()
+    while number:
+        found.append(number)
+        before, number = number, operator.index(parents[number])
+        if number >= before:
+            raise ValueError(f"step {before} is made upon step {number}")
+    return found[::-1]
+
+
 class HullFile:
     """Keeps the steps of a document in a file.
 
@@ -157,7 +253,7 @@ class HullFile:
         self.serial = 0
         self._known = 0
         self.place = FileIdentity(path)
-        self._known_printer: FingerprintCache | None = None
+        self._known_tree: HashTree | None = None
         self._behind, self._follows = Behind(), False
         self._schema: list[tuple[object, ...]] = []
         self._agreed = False
@@ -286,7 +382,7 @@ class HullFile:
         """Give the right to write back."""
         self._follows = False
         if not self._agreed:
-            self._known_printer = None  # the tables are, or will be, what they were before
+            self._known_tree = None  # the tables are, or will be, what they were before
         if self._open:
             self._roll_back()
             if self._unfolded:
@@ -327,8 +423,9 @@ class HullFile:
             self.place.require_own()
             self._behind.add(change, step.rows, step.curves)
             self._behind.here = True
-            self._look_anew(change)
-            step.fingerprint = self._sign(step.number, step.number)
+            self._tree.note(change)
+            step.fingerprint = self._tree.root()
+            self._sign(step.fingerprint, step.number, step.number)
             write_step(self.database, step, change)
             self._label(branch)
             if self._behind.steps > _MOST_BEHIND:
@@ -359,12 +456,14 @@ class HullFile:
                 journal = step.journal
                 assert isinstance(journal, Rerun), "a step that is kept holds its change"
                 self._behind.add(journal.change, step.rows, step.curves)
-                self._look_anew(journal.change)
+                if self._known_tree is not None:
+                    self._known_tree.note(journal.change)
             # Revisions of what is undone are told by the rows alone, so these do not lag here.
             self._settle(head)
-            found = self._sign(head, tip)
-            if found != self.recorded(head):
+            said = str(self.recorded(head))
+            if self._print(said) != said:
                 raise ValueError(f"the hull after step {head} is not as it was then")
+            self._sign(said, head, tip)
             require_sound_tables(self.state)
             require_counts(self.database, self.state)
             self._label(branch)
@@ -404,26 +503,23 @@ class HullFile:
         self._behind.write(self.database, self.state, head)
         self._follows = True
 
-    def _sign(self, head: int, tip: int) -> str:
+    def _sign(self, found: str, head: int, tip: int) -> None:
         """Write the present fingerprint, and where in the history the hull is."""
-        found = self._printer.take()
         self.database.execute(
             "UPDATE hull SET fingerprint = ?, head = ?, tip = ?, serial = serial + 1",
             (found, head, tip),
         )
-        return found
 
-    def _look_anew(self, change: TableChange) -> None:
-        """Forget what is known of the structure of the hull, if a change has changed it."""
-        if not is_shape(change):
-            self._known_printer = None
+    def _print(self, like: str) -> str:
+        """Take the fingerprint of the tables: the root of the tree, or what files up to 6 have."""
+        return self._tree.root() if is_root(like) else fingerprint(self.state)
 
     @property
-    def _printer(self) -> FingerprintCache:
-        """Takes the fingerprint; made anew when the structure of the hull has changed."""
-        if self._known_printer is None:
-            self._known_printer = FingerprintCache(self.state)
-        return self._known_printer
+    def _tree(self) -> HashTree:
+        """Takes the fingerprint, and knows what has not changed since."""
+        if self._known_tree is None:
+            self._known_tree = HashTree(self.state)
+        return self._known_tree
 
     def recorded(self, head: int) -> object:
         """Give the fingerprint that was written for the state after a step."""
@@ -441,7 +537,7 @@ class HullFile:
         """
         row = self._read("SELECT * FROM steps WHERE number = ?", number)
         with damage_errors(self.path, f"step {number} cannot be read"):
-            return body_of(row, self.state)
+            return body_of(row, self.state, LateInflections(self.path, number, row[7]))
 
     def tell(self, number: int) -> EditReport:
         """Read the report of a step; whether the rest of it is whole is not looked at.
@@ -451,9 +547,9 @@ class HullFile:
         DamagedFileError
             It cannot be read.
         """
-        (text,) = self._read("SELECT report FROM steps WHERE number = ?", number)
+        text, digest = self._read("SELECT report, digest FROM steps WHERE number = ?", number)
         with damage_errors(self.path, f"step {number} cannot be read"):
-            return report_from(text)
+            return report_from(text, LateInflections(self.path, number, digest))
 
     def _read(self, sql: str, number: int) -> Any:
         with self._reader() as database:
@@ -561,8 +657,8 @@ class HullFile:
 
     def refresh(self, document: Document) -> None:
         """Bring a document to the state in the file; if that fails, it is as it was."""
-        self._known_printer = None
-        known = self.serial, self._known
+        self._known_tree = None
+        known = self.serial, self._known, self._behind
         try:
             self._enter("BEGIN")
             self.place.require_log()
@@ -572,7 +668,7 @@ class HullFile:
                 self._take_stock(document, head)
                 self.require_print(head)
         except BaseException:
-            self.serial, self._known = known
+            self.serial, self._known, self._behind = known
             raise
         finally:
             self.end()
@@ -585,9 +681,11 @@ class HullFile:
                 what = f"the curve {keys[curve]!r} has no shape"
                 raise DamagedFileError(what, f"at {self.path}", AGAIN)
         present, said = self._one("SELECT head, fingerprint FROM hull")
-        found, said = fingerprint(self.state), str(said if head == present else self.recorded(head))
+        said = str(said if head == present else self.recorded(head))
+        found = self._print(said)
         if found != said:
-            what = f"the content has the fingerprint {found[:12]}, the file says {said[:12]}"
+            one, other = found[-64:][:12], said[-64:][:12]
+            what = f"the content has the fingerprint {one}, the file says {other}"
             raise DamagedFileError(what, f"at {self.path}", AGAIN)
 
     def require_newest(self) -> None:
