@@ -23,6 +23,7 @@ array([0, 1])
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from typing import Generic, Protocol, TypeVar, overload
 
 import attrs
@@ -364,6 +365,35 @@ class Journal:
             return _net_list(column, [each for each in mine if isinstance(each, _ListEntry)])
         written = [each for each in mine if isinstance(each, _ArrayEntry | _PartEntry)]
         return _net_array(column, written)
+
+    def parts(self, column: Column[np.generic]) -> NDArray[np.int64]:
+        """Give the parts of rows of a column of pairs that were written, as often as they were."""
+        found = [np.zeros(0, np.int64)]
+        for entry in self.entries:
+            if isinstance(entry, _PartEntry) and entry.column is column:
+                found.append(entry.part)
+            elif isinstance(entry, _ArrayEntry) and entry.column is column:
+                found.append((2 * entry.index[:, None] + [0, 1]).reshape(-1))
+        return np.concatenate(found)
+
+    def restore(
+        self, column: Column[S], part: NDArray[np.int64], values: NDArray[np.generic]
+    ) -> None:
+        """Overlay values of parts of rows of a column of pairs, as they are, by what they were."""
+        order = np.argsort(part, kind="stable")
+        known = part[order]
+        for entry in reversed(self.entries if len(part) else ()):
+            if not isinstance(entry, _PartEntry | _ArrayEntry) or entry.column is not column:
+                continue
+            if isinstance(entry, _PartEntry):
+                written, old = entry.part, entry.old.values
+            else:
+                written = (2 * entry.index[:, None] + [0, 1]).reshape(-1)
+                old = partial(entry.old.reshape, -1, *entry.old.shape[2:])
+            place = np.minimum(np.searchsorted(known, written), len(known) - 1)
+            hit = known[place] == written
+            if hit.any():
+                values[order[place[hit]]] = old()[hit]
 
     def sizes(self, table: Table) -> tuple[int, int]:
         """Give how many rows a table had before, and has now."""

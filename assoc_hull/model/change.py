@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.journal import ArrayChange, Journal, distinct, same_value
+from assoc_hull.graph.journal import Journal, distinct, same_value
 from assoc_hull.graph.table import AnyColumn, Column, ValueColumn
 from assoc_hull.model.kinds import State
 from assoc_hull.model.lofting import loft_curves
@@ -128,22 +128,21 @@ class CrossingPositions:
 
 @attrs.frozen(eq=False)
 class EarlierPositions:
-    """What places are taken from, as it was at another time, where it was not as now.
+    """What places were taken from before all that a journal holds.
 
     Attributes
     ----------
     meets : dict of int to CurveIntersections
-        Intersections of curves.
+        Intersections of the curves that had others.
     curve : (rows, 2) int or None
         The curves that all points lay on; None: as now.
-    spot, parameter : ArrayChange
-        Rows of these columns.
+    journal : Journal
+        What was written since.
     """
 
     meets: dict[int, CurveIntersections]
     curve: IntArray | None
-    spot: ArrayChange[np.float64]
-    parameter: ArrayChange[np.float64]
+    journal: Journal
 
 
 def crossing_positions(
@@ -196,12 +195,21 @@ def _strays(
 
     A part is 2 row + side.
     """
-    table = state.rows
-    if then is None or then.curve is None:
-        on: IntArray = table.curve.data
-        order, first = state.derived(("points on curves",), (table.curve,), lambda: _by_curve(on))
+    on: IntArray = state.rows.curve.data if then is None or then.curve is None else then.curve
+    whose, part = _stray_parts(state, on, curves, owner, met)
+    at = _places_of(state, part, then and then.journal)
+    known = ~np.isnan(at).all(axis=1)
+    return whose[known], part[known], at[known]
+
+
+def _stray_parts(
+    state: HullState, on: IntArray, curves: IntArray, owner: IntArray, met: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Find the points that lie on curves and are no crossing there: index of the curve, part."""
+    column = state.rows.curve
+    if on is column.data:
+        order, first = state.derived(("points on curves",), (column,), lambda: _by_curve(on))
     else:
-        on = then.curve
         order, first = _by_curve(on)
     here = np.minimum(curves, len(first) - 2)  # a curve that no point lies on may lie beyond
     start, count = first[here], np.where(here == curves, first[here + 1] - first[here], 0)
@@ -212,12 +220,17 @@ def _strays(
     is_met = np.zeros(on.size, np.bool_)
     is_met[2 * row + (on[row, 0] != curves[owner[actual]])] = True
     chosen = ~is_met[part]
-    whose, part = whose[chosen], part[chosen]
-    at = np.empty((len(part), 4))
-    at[:, 0] = _parts_then(table.parameter, part, then and then.parameter)
-    at[:, 1:] = _parts_then(table.spot, part, then and then.spot)
-    known = ~np.isnan(at).all(axis=1)
-    return whose[known], part[known], at[known]
+    return whose[chosen], part[chosen]
+
+
+def _places_of(state: HullState, part: IntArray, then: Journal | None) -> FloatArray:
+    """Give parameter and place (k, 4) of points on curves, as they are or as they were."""
+    row, side, at = part >> 1, part & 1, np.empty((len(part), 4))
+    at[:, 0], at[:, 1:] = state.rows.parameter.data[row, side], state.rows.spot.data[row, side]
+    if then is not None:
+        then.restore(state.rows.parameter, part, at[:, 0])
+        then.restore(state.rows.spot, part, at[:, 1:])
+    return at
 
 
 def _by_curve(on: IntArray) -> tuple[IntArray, IntArray]:
@@ -226,19 +239,6 @@ def _by_curve(on: IntArray) -> tuple[IntArray, IntArray]:
     order = np.argsort(flat, kind="stable")
     first = np.searchsorted(flat[order], np.arange(int(flat.max(initial=-1)) + 3))
     return order, first
-
-
-def _parts_then(
-    column: Column[np.float64], part: IntArray, then: ArrayChange[np.float64] | None
-) -> FloatArray:
-    """Give parts of the rows of a column, as they are or as they were."""
-    row, side = part >> 1, part & 1
-    found: FloatArray = column.data[row, side]
-    if then is not None and len(then.rows):
-        place = np.minimum(np.searchsorted(then.rows, row), len(then.rows) - 1)
-        was = then.rows[place] == row
-        found[was] = then.old[place[was], side[was]]
-    return found
 
 
 def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
@@ -401,6 +401,10 @@ def _places(
 ) -> tuple[tuple[IntArray, NDArray[np.uint8]], CrossingPositions, CrossingPositions]:
     """Compare the places on all curves that may have others than before."""
     then, curves = _columns_before(state, journal, columns)
+    nothing = np.zeros(0, np.int64)
+    none = CrossingPositions(nothing, nothing, nothing, nothing, nothing, np.zeros((0, 4)))
+    if then.curve is None and (same := _moved_places(state, curves, then)) is not None:
+        return same, none, none
     old, new = crossing_positions(state, curves, then), crossing_positions(state, curves)
     alike = old.alike(new)
     one, two = old.take(alike), new.take(alike)
@@ -410,33 +414,76 @@ def _places(
     return (two.curve, apart), old.take(~alike), new.take(~alike)
 
 
+def _moved_places(
+    state: HullState, curves: IntArray, then: EarlierPositions
+) -> tuple[IntArray, NDArray[np.uint8]] | None:
+    """Compare places on curves that list the same ones as before; None if some do not."""
+    new = [state.curves.meets[curve] for curve in curves.tolist()]
+    old = [then.meets.get(curve, each) for curve, each in zip(curves.tolist(), new, strict=True)]
+    if not all(_same_meetings(one, two) for one, two in zip(old, new, strict=True)):
+        return None
+    counts = [len(each.line) for each in new]
+    owner: IntArray = np.repeat(np.arange(len(new)), counts)
+    met = np.concatenate([np.zeros(0, np.int64), *[each.row for each in new]])
+    whose, part = _stray_parts(state, state.rows.curve.data, curves, owner, met)
+    one, two = _places_of(state, part, then.journal), _places_of(state, part, None)
+    known = ~np.isnan(two).all(axis=1)
+    if not np.array_equal(known, ~np.isnan(one).all(axis=1)):
+        return None
+    whose, one, two = whose[known], one[known], two[known]
+    bits = np.empty((len(owner) + len(whose), 4), np.int64)
+    met_bits = bits[: len(owner)]
+    for column, name, width in ((slice(1), "parameter", 1), (slice(1, 4), "xyz", 3)):
+        were, are = (
+            np.concatenate([np.zeros(0), *[getattr(each, name).ravel() for each in every]])
+            for every in (old, new)
+        )
+        met_bits[:, column] = (were.view(np.int64) ^ are.view(np.int64)).reshape(-1, width)
+    bits[len(owner) :] = one.view(np.int64) ^ two.view(np.int64)
+    if len(whose):
+        owner = np.concatenate([owner, whose])
+        order = np.argsort(owner, kind="stable")
+        owner, bits = owner[order], bits[order]
+    moved = np.zeros(len(curves), np.bool_)
+    moved[owner[bits.any(axis=1)]] = True
+    if not moved.all():
+        bits, curves = bits[moved[owner]], curves[moved]
+    return curves, bits.view(np.uint8)
+
+
+def _same_meetings(one: CurveIntersections, other: CurveIntersections) -> bool:
+    """Tell whether two lists of intersections agree in lines, senses and crossings."""
+    return one is other or all(
+        mine is theirs or np.array_equal(mine, theirs)
+        for mine, theirs in (
+            (one.line, other.line), (one.sign, other.sign), (one.row, other.row),
+        )
+    )  # fmt: skip
+
+
 def _columns_before(
     state: HullState, journal: Journal, columns: Collection[str]
 ) -> tuple[EarlierPositions, IntArray]:
     """Give what places lay in before, and the curves that may have other places now."""
     table, touched = state.rows, [np.zeros(0, np.int64)]
-    spot, parameter = journal.net(table.spot), journal.net(table.parameter)
-    nets: list[ArrayChange[np.float64] | ArrayChange[np.int64]] = [spot, parameter]
-    on, curve = table.curve.data, None
+    parts = [journal.parts(table.spot), journal.parts(table.parameter)]
+    on, curve = table.curve.data.reshape(-1), None
     if "rows.curve" in columns:
         net = journal.net(table.curve)
-        nets.append(net)
-        curve = on.copy()
+        parts.append((2 * net.rows[:, None] + [0, 1]).reshape(-1))
+        curve = table.curve.data.copy()
         curve[net.rows] = net.old
-    for each in nets:
-        if len(each.rows):
-            apart = _bytes(each.old) ^ _bytes(each.new)
-            odd = _any_bit(apart.reshape(2 * len(apart), -1)).reshape(-1, 2)
-            touched.append(on[each.rows][odd])
-            if curve is not None:
-                touched.append(curve[each.rows][odd])
+    for part in parts:
+        touched.append(on[part])
+        if curve is not None:
+            touched.append(curve.reshape(-1)[part])
     meets: dict[int, CurveIntersections] = {}
     if "curves.meets" in columns:
         met = journal.net(state.curves.meets)
         meets = dict(zip(met.rows.tolist(), met.old, strict=True))
         touched.append(met.rows)
     curves = distinct(np.concatenate(touched))
-    return EarlierPositions(meets, curve, spot, parameter), curves[curves >= 0]
+    return EarlierPositions(meets, curve, journal), curves[curves >= 0]
 
 
 def _shapes(

@@ -169,6 +169,8 @@ def _against(before: CrossingPositions, after: CrossingPositions) -> FloatArray:
     lies: what stayed becomes zeros, which compress. Crossings that were not there before stand as
     they are. Applied twice, it gives back what it took.
     """
+    if not len(before.curve):
+        return after.at
     found = after.at.copy()
     keys = [_keys(places) for places in (before, after)]
     _, old, new = np.intersect1d(keys[0][:, 0], keys[1][:, 0], return_indices=True)

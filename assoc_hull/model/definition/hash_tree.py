@@ -19,12 +19,14 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.graph.derived import same_objects
 from assoc_hull.graph.journal import distinct
 from assoc_hull.model.change import TableChange
 from assoc_hull.model.definition.canonical_columns import retired_keys
@@ -99,6 +101,7 @@ class HashTree:
     def _forget(self) -> None:
         self._leaf, self._fixed = dict[int, bytes](), dict[int, _Fixed]()
         self._stale = set[int]()
+        self._last: tuple[list[_Fixed], list[NDArray[Any]]] = [], []
         self._laid = False
         self._owner: IntArray = np.zeros(0, np.int64)
 
@@ -193,16 +196,19 @@ class HashTree:
         fixed = [self._fixed[curve] for curve in curves]
         table, met = self.state.rows, [self._meets(curve) for curve in curves]
         splines = [self._spline(curve) for curve in curves]
-        rows = np.concatenate([each.rows for each in fixed])
-        riding = np.concatenate([each.riding for each in fixed])
-        watched = np.concatenate([each.watched for each in fixed])
+        if not same_objects(self._last[0], fixed):  # a gesture goes on with the same curves
+            joined = [
+                np.concatenate([getattr(each, name) for each in fixed])
+                for name in ("rows", "riding", "watched", "turn")
+            ]
+            counts = [len(each.turn) for each in fixed]
+            joined[3] += np.repeat(np.cumsum(counts) - counts, counts)
+            self._last = fixed, joined
+        rows, riding, watched, turn = self._last[1]
         points, rides = np.empty((len(rows), 4)), np.empty((len(riding), 10))
         points[:, :3], points[:, 3] = table.xyz[rows], np.where(watched, table.gap[rows], 0.0)
         rides[:, :3], rides[:, 3] = table.base[riding], table.anchor_weight[riding]
         rides[:, 4:] = table.anchor_from[riding].reshape(-1, 6)
-        counts = [len(each.line) for each in met]
-        first = np.cumsum(counts) - counts
-        turn = np.concatenate([each.turn for each in fixed]) + np.repeat(first, counts)
         places = np.empty((len(turn), 4))
         places[:, 0] = np.concatenate([each.parameter for each in met])[turn]
         places[:, 1:] = np.concatenate([each.xyz for each in met])[turn]
@@ -213,7 +219,7 @@ class HashTree:
         blocks = [
             _Block(points, [len(each.rows) for each in fixed]),
             _Block(rides, [len(each.riding) for each in fixed]),
-            _Block(places, counts),
+            _Block(places, [len(each.turn) for each in fixed]),
             _Block(knots, [len(each.knot) for each in splines]),
         ]
         for curve, *parts in zip(curves, fixed, *map(_Block.parts, blocks), strict=True):
