@@ -32,7 +32,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.graph.table import AnyColumn, Column, Table, ValueColumn
 
-__all__ = ["ArrayChange", "Journal", "PickedRows", "ValueChange", "distinct", "same_value"]
+__all__ = [
+    "ArrayChange",
+    "Journal",
+    "PickedRows",
+    "ValueChange",
+    "both_parts",
+    "distinct",
+    "same_value",
+]
 
 S = TypeVar("S", bound=np.generic, covariant=True)
 V = TypeVar("V")
@@ -230,6 +238,13 @@ def _scatter(
     parts.view(row)[:, 0][part] = values.view(row)[:, 0]
 
 
+def both_parts(rows: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Give the parts of rows of a column of pairs."""
+    found: NDArray[np.int64] = np.repeat(2 * rows, 2)
+    found[1::2] += 1
+    return found
+
+
 def _same_bits(one: NDArray[np.generic], other: NDArray[np.generic]) -> bool:
     """Tell whether two contiguous arrays of floats or whole numbers agree to the last bit."""
     return one.shape == other.shape and bool((one.view(np.int64) == other.view(np.int64)).all())
@@ -373,7 +388,7 @@ class Journal:
             if isinstance(entry, _PartEntry) and entry.column is column:
                 found.append(entry.part)
             elif isinstance(entry, _ArrayEntry) and entry.column is column:
-                found.append((2 * entry.index[:, None] + [0, 1]).reshape(-1))
+                found.append(both_parts(entry.index))
         return np.concatenate(found)
 
     def restore(
@@ -388,7 +403,7 @@ class Journal:
             if isinstance(entry, _PartEntry):
                 written, old = entry.part, entry.old.values
             else:
-                written = (2 * entry.index[:, None] + [0, 1]).reshape(-1)
+                written = both_parts(entry.index)
                 old = partial(entry.old.reshape, -1, *entry.old.shape[2:])
             place = np.minimum(np.searchsorted(known, written), len(known) - 1)
             hit = known[place] == written

@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.journal import Journal, distinct, same_value
+from assoc_hull.graph.journal import Journal, both_parts, distinct, same_value
 from assoc_hull.graph.table import AnyColumn, Column, ValueColumn
 from assoc_hull.model.kinds import State
 from assoc_hull.model.lofting import loft_curves
@@ -197,7 +197,7 @@ def _strays(
     """
     on: IntArray = state.rows.curve.data if then is None or then.curve is None else then.curve
     whose, part = _stray_parts(state, on, curves, owner, met)
-    at = _places_of(state, part, then and then.journal)
+    at = _places_of(state, part, None if then is None else then.journal)
     known = ~np.isnan(at).all(axis=1)
     return whose[known], part[known], at[known]
 
@@ -383,8 +383,7 @@ def _bytes(values: NDArray[np.generic]) -> NDArray[np.uint8]:
 def _any_bit(bits: NDArray[np.uint8]) -> NDArray[np.bool_]:
     """Tell for each row, (k, bytes), whether a bit is set."""
     words = bits.view(np.int64) if bits.shape[1] % 8 == 0 else bits
-    found: NDArray[np.bool_] = words.any(axis=1)
-    return found
+    return np.asarray(words.any(axis=1))
 
 
 def _births(state: HullState, journal: Journal, columns: Collection[str]) -> BirthCounts:
@@ -470,7 +469,7 @@ def _columns_before(
     on, curve = table.curve.data.reshape(-1), None
     if "rows.curve" in columns:
         net = journal.net(table.curve)
-        parts.append((2 * net.rows[:, None] + [0, 1]).reshape(-1))
+        parts.append(both_parts(net.rows))
         curve = table.curve.data.copy()
         curve[net.rows] = net.old
     for part in parts:

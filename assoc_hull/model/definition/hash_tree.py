@@ -161,7 +161,7 @@ class HashTree:
         groups = _with({*state.live("groups").tolist()}, self._group_of.values())
         for known in (self._leaf, self._fixed):
             for curve in known.keys() - curves:
-                del known[curve]  # type: ignore[attr-defined]
+                del known[curve]
         self._stale = (self._stale & curves) | (curves - self._leaf.keys())
         self._make_leaves(sorted(self._stale))
         self._curves = _below(self._line_of, lines, state.curves.key.data)
@@ -269,7 +269,7 @@ class HashTree:
             ends = curves.ends[curve]
             texts.append([curves.key[curve], bool(curves.alive[curve])])
             texts.append([key[row] for row in curves.rows[curve].tolist()])
-            numbers += [curves.side[curve], curves.state[curve], np.array(ends.kind)]
+            numbers += [curves.side[curve], np.array([curves.state[curve], *ends.kind])]
             reals.append(np.array(ends.vector))
         digest = hashlib.sha256(json.dumps(texts).encode())
         for each in numbers:
@@ -325,7 +325,8 @@ class HashTree:
 
 
 _NO_MEETS = CurveIntersections.none()
-_NO_SPLINE = SplineBatch(np.zeros(2, np.int64), np.zeros(0), *[np.zeros((0, 3))] * 3)
+_NONE = np.zeros((0, 3))
+_NO_SPLINE = SplineBatch(np.zeros(2, np.int64), np.zeros(0), _NONE, _NONE, _NONE)
 
 
 class _Block:
