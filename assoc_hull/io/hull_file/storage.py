@@ -100,6 +100,9 @@ _WRITE = "BEGIN IMMEDIATE"
 _MOST_BEHIND = 32
 """So many steps the rows of the tables may lag behind; opening runs those."""
 
+_TOO_MANY_BEHIND = 8 * _MOST_BEHIND
+"""So many are never written; running the whole of a long history takes minutes."""
+
 _CLOSING = 2.0
 """So long (s) the next act waits for another process that is just closing the file."""
 
@@ -128,8 +131,9 @@ class Behind:
     def write(self, database: sqlite3.Connection, state: HullState, head: int) -> None:
         """Write all those rows as they are now, after step `head`."""
         for table, parts in self._parts.items():
-            if numbers := [part for part in parts if len(part)]:
-                put_rows(database, state, table, distinct(np.concatenate(numbers)))
+            if written := [part for part in parts if len(part)]:
+                numbers = distinct(np.concatenate(written))
+                put_rows(database, state, table, numbers[numbers >= 0])
         if self._settings:
             write_settings(database, state)
         if self._pairs:
@@ -592,8 +596,10 @@ class HullFile:
 
         That is `head` and `tip`; with `damaged` it may be before a step that cannot be run.
         """
-        reached, state = self._base(), self.state
-        for step in self._missing(document, head):
+        reached, state, missing = self._base(), self.state, self._missing(document, head)
+        if len(missing) > _TOO_MANY_BEHIND and not damaged:
+            raise ValueError(f"its tables lag behind by {len(missing)} steps")
+        for step in missing:
             was = copy_state(state) if damaged else None
             try:
                 step.journal.forth()

@@ -198,6 +198,20 @@ def test_a_damaged_step_that_the_tables_lack_refuses_opening(
     assert ah.open(file.with_name("saved.hull.json")).fingerprint == prints[1]
 
 
+def test_a_long_history_is_not_run_because_a_file_says_so(
+    hull: ah.Hull, file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A stranger's file whose tables claim to lag behind by more than they ever do is refused."""
+    monkeypatch.setattr("assoc_hull.io.hull_file.storage._TOO_MANY_BEHIND", 3)
+    for number in range(4):
+        shift(hull, f"edit {number}")
+    with pytest.raises(DamagedFileError, match="lag behind by 4 steps"):
+        ah.open(killed(file))
+    assert stand(ah.open(killed(file), damaged=True)) == stand(hull)
+    hull.close()
+    assert len(ah.open(file).history) == 4
+
+
 def test_a_file_of_version_6_goes_on(file: Path) -> None:
     """Its old fingerprints are still what undo is checked by; new steps have a root instead."""
     shutil.copy(OLD / "version_6.hull", file)
