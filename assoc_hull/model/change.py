@@ -464,7 +464,7 @@ def _columns_before(
     state: HullState, journal: Journal, columns: Collection[str]
 ) -> tuple[EarlierPositions, IntArray]:
     """Give what places lay in before, and the curves that may have other places now."""
-    table, touched = state.rows, [np.zeros(0, np.int64)]
+    table, touched = state.rows, list[IntArray]()
     parts = [journal.parts(table.spot), journal.parts(table.parameter)]
     on, curve = table.curve.data.reshape(-1), None
     if "rows.curve" in columns:
@@ -481,8 +481,12 @@ def _columns_before(
         met = journal.net(state.curves.meets)
         meets = dict(zip(met.rows.tolist(), met.old, strict=True))
         touched.append(met.rows)
-    curves = distinct(np.concatenate(touched))
-    return EarlierPositions(meets, curve, journal), curves[curves >= 0]
+    # By mask: there are a few dozen curves, and thousands of points on them.
+    chosen = np.zeros(state.curves.count + 1, np.bool_)
+    for each in touched:
+        chosen[each] = True  # -1, for no curve, is the last one
+    curves: IntArray = np.flatnonzero(chosen[:-1])
+    return EarlierPositions(meets, curve, journal), curves
 
 
 def _shapes(
