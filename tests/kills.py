@@ -22,6 +22,7 @@ import attrs
 
 import assoc_hull as ah
 from assoc_hull.io.hull_file.storage import HullFile
+from assoc_hull.model.definition.hash_tree import root_of
 
 __all__ = ["Tally", "run"]
 
@@ -58,6 +59,7 @@ class Word:
     act: str
     head: int
     fingerprint: str
+    root: str = ""
 
 
 def make(path: Path) -> None:
@@ -84,7 +86,8 @@ def child(path: Path, seed: int, pipe: int) -> None:
             hull = ah.open(path)
         else:
             _perform(hull, act, rng)
-        os.write(pipe, f"did {act} {hull.document.head} {hull.fingerprint}\n".encode())
+        told = f"did {act} {hull.document.head} {hull.fingerprint} {root_of(hull.state)}\n"
+        os.write(pipe, told.encode())
 
 
 def _say_when_inside(pipe: int) -> None:
@@ -138,7 +141,7 @@ def kill_one(path: Path, rng: random.Random) -> tuple[list[Word], str, bool]:
     with os.fdopen(reader, "rb") as pipe:
         lines = [line.decode() for line in pipe.read().split(b"\n") if line]
     words = [line.split() for line in lines]
-    done = [Word(each[1], int(each[2]), each[3]) for each in words if each[0] == "did"]
+    done = [Word(each[1], int(each[2]), *each[3:]) for each in words if each[0] == "did"]
     faults = [line for line in lines if line.startswith("fault")]
     if faults:
         raise AssertionError(faults[0])
@@ -155,7 +158,7 @@ def judge(path: Path, done: list[Word], began: tuple[int, str], act: str, tally:
         if word.act in ("move", "line"):
             tally.reported += 1
             step = steps.get(word.head)
-            same = step is not None and step.fingerprint == word.fingerprint
+            same = step is not None and step.fingerprint == word.root
             tally.found += same
             tally.lost += not same
     head, last = (done[-1].head, done[-1].fingerprint) if done else began

@@ -40,6 +40,7 @@ from assoc_hull.cli.problems import (
     is_apart,
 )
 from assoc_hull.edit.explain.causes import Why
+from assoc_hull.edit.explain.compare_states import state_at
 from assoc_hull.edit.explain.preview import LineChange, Preview
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import carry_out
@@ -48,6 +49,7 @@ from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError
 from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.model.address import AddressBook
+from assoc_hull.model.definition.fingerprint import fingerprint
 
 __all__ = [
     "HullToChange",
@@ -467,7 +469,8 @@ def _one_step(arguments: argparse.Namespace, hull: Hull) -> int:
     report, script = step.report, step.script
     facts = _history_facts(report) | {
         "parent": step.parent, "policy": script.policy, "gaps": script.gaps,
-        "edits": script.edits, "report": report, "fingerprint": step.fingerprint,
+        "edits": script.edits, "report": report,
+        "fingerprint": fingerprint(state_at(hull.document, step.number)),
     }  # fmt: skip
     asked = [f"  {json.dumps(each, ensure_ascii=False)}" for each in script.edits]
     told = [

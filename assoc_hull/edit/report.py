@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import attrs
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
@@ -9,6 +11,7 @@ from assoc_hull.geometry.fairness.inflections import inflections
 
 __all__ = [
     "SAME_MOVEMENT",
+    "Counting",
     "EditReport",
     "Fairness",
     "FormChange",
@@ -21,6 +24,13 @@ Inflections = tuple[tuple[str, int], ...]
 
 FormChange = tuple[str, str, float | None, float | None]
 """Name of a definition, name of a value, what it was, what it is."""
+
+
+class Counting(Protocol):
+    """What can count inflections when asked."""
+
+    def added(self) -> Inflections:
+        """Give the curves with more curvature sign changes than before, and how many."""
 
 
 @attrs.frozen(eq=False)
@@ -166,8 +176,8 @@ class EditReport:
         Who made the edit.
     time : str
         When it was committed, ISO 8601, UTC.
-    fairness : Fairness or None
-        What `inflections` counts; None where it is `counted` already.
+    fairness : Counting or None
+        Counts `inflections`; None where it is `counted` already.
     counted : tuple of (str, int)
         What was counted.
     """
@@ -188,7 +198,7 @@ class EditReport:
     cut_again: tuple[str, ...] = ()
     definitions: tuple[FormChange, ...] = ()
     seconds: dict[str, float] = attrs.field(factory=dict, eq=False)
-    fairness: Fairness | None = attrs.field(default=None, eq=False, repr=False)
+    fairness: Counting | None = attrs.field(default=None, eq=False, repr=False)
     counted: Inflections = attrs.field(default=(), eq=False, repr=False)
     changed: bool = True
     largest_normal: Movement | None = None

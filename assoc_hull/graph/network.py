@@ -13,7 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.journal import Journal, distinct
 
 __all__ = [
     "Evaluation",
@@ -22,25 +22,6 @@ __all__ = [
     "closure",
     "distinct",
 ]
-
-
-def distinct(nodes: IntArray) -> IntArray:
-    """Give each node once, ascending.
-
-    As `numpy.unique`, which takes four times as long over the few nodes of a drag.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from assoc_hull.graph.network import distinct
-    >>> distinct(np.array([5, 2, 5])).tolist()
-    [2, 5]
-    """
-    ordered: IntArray = nodes.copy()
-    ordered.sort()
-    first = np.ones(len(ordered), np.bool_)
-    np.not_equal(ordered[1:], ordered[:-1], out=first[1:])
-    return ordered[first]
 
 
 @attrs.frozen(eq=False)

@@ -41,6 +41,7 @@ __all__ = [
     "VectorColumn",
     "matrices",
     "numbers",
+    "put_rows",
     "values",
     "values_given",
     "vectors",
@@ -106,13 +107,7 @@ class Column(Generic[S]):
         """Write to parts of rows: row r, part p is r * parts + p."""
         self._own()
         self._note(part // self._store.shape[1])
-        parts = self._store.reshape(-1, *self._store.shape[2:])
-        if parts.ndim == 1:
-            parts[part] = values
-        else:
-            # Whole rows are moved in one piece, which numpy does three times as fast.
-            row = np.dtype((np.void, parts.itemsize * parts.shape[1]))
-            parts.view(row)[:, 0][part] = values.view(row)[:, 0]
+        put_rows(self._store.reshape(-1, *self._store.shape[2:]), part, values)
         self.written()
 
     def _own(self) -> None:
@@ -209,6 +204,17 @@ class Column(Generic[S]):
 
     def __getitem__(self, rows: _Several | _Part) -> NDArray[S]:
         return self.data[rows]
+
+
+def put_rows(
+    array: NDArray[np.generic], rows: NDArray[np.int64], values: NDArray[np.generic]
+) -> None:
+    """Write rows of an array in one piece each, which numpy does three times as fast."""
+    if array.ndim == 1:
+        array[rows] = values
+        return
+    row = np.dtype((np.void, array.itemsize * array.shape[1]))
+    array.view(row)[:, 0][rows] = values.view(row)[:, 0]
 
 
 def _alone() -> int:

@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.journal import ArrayChange, Journal, same_value
+from assoc_hull.graph.journal import Journal, both_parts, distinct, same_value
 from assoc_hull.graph.table import AnyColumn, Column, ValueColumn
 from assoc_hull.model.kinds import State
 from assoc_hull.model.lofting import loft_curves
@@ -93,6 +93,8 @@ class CrossingPositions:
 
     def take(self, chosen: NDArray[np.bool_]) -> Self:
         """Give some of the curves, by mask."""
+        if chosen.all():
+            return self
         mine = chosen[self.owner]
         return attrs.evolve(
             self, curve=self.curve[chosen], count=self.count[chosen], line=self.line[mine],
@@ -102,6 +104,11 @@ class CrossingPositions:
     def alike(self, other: CrossingPositions) -> NDArray[np.bool_]:
         """Tell for each curve whether lines, senses and crossings agree in two batches."""
         found: NDArray[np.bool_] = self.count == other.count
+        if found.all() and all(
+            np.array_equal(getattr(self, name), getattr(other, name))
+            for name in ("line", "sign", "row")
+        ):
+            return found
         mine, theirs = self.take(found), other.take(found)
         odd = (mine.line != theirs.line) | (mine.sign != theirs.sign) | (mine.row != theirs.row)
         found[np.flatnonzero(found)[np.unique(mine.owner[odd])]] = False
@@ -111,7 +118,7 @@ class CrossingPositions:
         """Tell for each curve whether two batches that are alike agree in every bit."""
         odd = (self.at.view(np.int64) != other.at.view(np.int64)).any(axis=1)
         found = np.ones(len(self.curve), np.bool_)
-        found[np.unique(self.owner[odd])] = False
+        found[self.owner[odd]] = False
         return found
 
     def same_bits(self, other: CrossingPositions) -> bool:
@@ -121,37 +128,44 @@ class CrossingPositions:
 
 @attrs.frozen(eq=False)
 class EarlierPositions:
-    """The columns that places are taken from, as they were at another time; None: as now."""
+    """What places were taken from before all that a journal holds.
+
+    Attributes
+    ----------
+    meets : dict of int to CurveIntersections
+        Intersections of the curves that had others.
+    curve : (rows, 2) int or None
+        The curves that all points lay on; None: as now.
+    journal : Journal
+        What was written since.
+    """
 
     meets: dict[int, CurveIntersections]
-    curve: IntArray
-    spot: FloatArray
-    parameter: FloatArray
+    curve: IntArray | None
+    journal: Journal
 
 
 def crossing_positions(
     state: HullState, curves: IntArray, then: EarlierPositions | None = None
 ) -> CrossingPositions:
     """Give the places on curves (m,), each named once; `then` is the time meant, now if None."""
-    table = state.rows
-    now = EarlierPositions({}, table.curve.data, table.spot.data, table.parameter.data)
-    when = then or now
-    meets = [when.meets.get(curve, state.curves.meets[curve]) for curve in curves.tolist()]
+    known = {} if then is None else then.meets
+    meets = [known.get(curve) or state.curves.meets[curve] for curve in curves.tolist()]
     met = _join(meets)
-    stray_owner, row, side = _strays(when, curves, met[0], met[3])
+    stray_owner, stray, at = _strays(state, then, curves, met[0], met[3])
+    count = np.bincount(met[0], minlength=len(curves)).astype(np.int64)
+    if not len(stray):
+        return CrossingPositions(curves.copy(), count, met[1], met[2], met[3], met[4])
     owner = np.concatenate([met[0], stray_owner])
     order = np.argsort(owner, kind="stable")
-    nothing = np.full(len(row), _STRAY)
-    places = np.concatenate(
-        [met[4], np.column_stack([when.parameter[row, side], when.spot[row, side]])]
-    )
+    nothing = np.full(len(stray), _STRAY)
     return CrossingPositions(
         curves.copy(),
         np.bincount(owner, minlength=len(curves)).astype(np.int64),
         np.concatenate([met[1], nothing])[order],
         np.concatenate([met[2], np.zeros_like(nothing)])[order],
-        np.concatenate([met[3], row])[order],
-        np.ascontiguousarray(places[order]),
+        np.concatenate([met[3], stray >> 1])[order],
+        np.concatenate([met[4], at])[order],
     )
 
 
@@ -161,27 +175,70 @@ def _join(
     """Concatenate intersections: owner, line, sign, row, and (n, 4), m, parameter and place."""
     whole = np.zeros(0, np.int64)
     owner = np.repeat(np.arange(len(meets)), [len(each.line) for each in meets])
-    line = np.concatenate([whole, *(each.line for each in meets)])
-    sign = np.concatenate([whole, *(each.sign for each in meets)])
-    row = np.concatenate([whole, *(each.row for each in meets)])
-    at = np.concatenate([np.zeros(0), *(each.parameter for each in meets)])
-    xyz = np.concatenate([np.zeros((0, 3)), *(each.xyz for each in meets)])
-    return owner, line, sign, row, np.column_stack([at, xyz])
+    line = np.concatenate([whole, *[each.line for each in meets]])
+    sign = np.concatenate([whole, *[each.sign for each in meets]])
+    row = np.concatenate([whole, *[each.row for each in meets]])
+    at = np.empty((len(owner), 4))
+    at[:, 0] = np.concatenate([np.zeros(0), *[each.parameter for each in meets]])
+    at[:, 1:] = np.concatenate([np.zeros((0, 3)), *[each.xyz for each in meets]])
+    return owner, line, sign, row, at
 
 
 def _strays(
-    when: EarlierPositions, curves: IntArray, owner: IntArray, met: IntArray
-) -> tuple[IntArray, IntArray, IntArray]:
-    """Find crossings on curves without an intersection: index of the curve, row, side."""
-    place = np.full(max(int(when.curve.max(initial=-1)), int(curves.max(initial=-1))) + 2, -1)
-    place[curves] = np.arange(len(curves))
-    on = place[when.curve]
+    state: HullState,
+    then: EarlierPositions | None,
+    curves: IntArray,
+    owner: IntArray,
+    met: IntArray,
+) -> tuple[IntArray, IntArray, FloatArray]:
+    """Find crossings on curves without an intersection: index of the curve, part, (k, 4) place.
+
+    A part is 2 row + side.
+    """
+    on: IntArray = state.rows.curve.data if then is None or then.curve is None else then.curve
+    whose, part = _stray_parts(state, on, curves, owner, met)
+    at = _places_of(state, part, None if then is None else then.journal)
+    known = ~np.isnan(at).all(axis=1)
+    return whose[known], part[known], at[known]
+
+
+def _stray_parts(
+    state: HullState, on: IntArray, curves: IntArray, owner: IntArray, met: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Find the points that lie on curves and are no crossing there: index of the curve, part."""
+    column = state.rows.curve
+    if on is column.data:
+        order, first = state.derived(("points on curves",), (column,), lambda: _by_curve(on))
+    else:
+        order, first = _by_curve(on)
+    here = np.minimum(curves, len(first) - 2)  # a curve that no point lies on may lie beyond
+    start, count = first[here], np.where(here == curves, first[here + 1] - first[here], 0)
+    whose: IntArray = np.repeat(np.arange(len(curves)), count)
+    part = order[np.arange(len(whose)) + np.repeat(start - np.cumsum(count) + count, count)]
     actual = met >= 0
-    side = (when.curve[met[actual], 0] != curves[owner[actual]]).astype(np.int64)
-    on[met[actual], side] = -1
-    known = ~(np.isnan(when.spot).all(axis=2) & np.isnan(when.parameter))
-    row, side = np.nonzero((on >= 0) & known)
-    return on[row, side], row, side
+    row = met[actual]
+    is_met = np.zeros(on.size, np.bool_)
+    is_met[2 * row + (on[row, 0] != curves[owner[actual]])] = True
+    chosen = ~is_met[part]
+    return whose[chosen], part[chosen]
+
+
+def _places_of(state: HullState, part: IntArray, then: Journal | None) -> FloatArray:
+    """Give parameter and place (k, 4) of points on curves, as they are or as they were."""
+    row, side, at = part >> 1, part & 1, np.empty((len(part), 4))
+    at[:, 0], at[:, 1:] = state.rows.parameter.data[row, side], state.rows.spot.data[row, side]
+    if then is not None:
+        then.restore(state.rows.parameter, part, at[:, 0])
+        then.restore(state.rows.spot, part, at[:, 1:])
+    return at
+
+
+def _by_curve(on: IntArray) -> tuple[IntArray, IntArray]:
+    """Give the parts of the rows by the curve that they lie on, and where each curve begins."""
+    flat = on.reshape(-1)
+    order = np.argsort(flat, kind="stable")
+    first = np.searchsorted(flat[order], np.arange(int(flat.max(initial=-1)) + 3))
+    return order, first
 
 
 def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
@@ -260,13 +317,13 @@ class TableChange:
         parts = [np.arange(old, new)]
         parts += [rows for name, (rows, _) in self.bits.items() if _table(name) == table]
         parts += [rows for name, (rows, _, _) in self.objects.items() if _table(name) == table]
-        return np.unique(np.concatenate(parts))
+        return distinct(np.concatenate(parts))
 
     @property
     def curves(self) -> IntArray:
         """Curves with other places or another shape, ascending."""
         parts = (self.moved[0], self.before.curve, self.lofted)
-        return np.unique(np.concatenate(parts))
+        return distinct(np.concatenate(parts))
 
 
 def _table(name: str) -> str:
@@ -292,7 +349,7 @@ def change_of(state: HullState, journal: Journal) -> TableChange:
         if isinstance(column, Column):
             net = journal.net(column)
             found = _bytes(net.old) ^ _bytes(net.new)
-            odd = found.any(axis=1)
+            odd = _any_bit(found)
             # A row may have been written with the bits that it had, or taken back.
             if odd.any():
                 bits[name] = net.rows[odd], found[odd]
@@ -321,10 +378,10 @@ def _bytes(values: NDArray[np.generic]) -> NDArray[np.uint8]:
     return np.frombuffer(values.tobytes(), np.uint8).reshape(len(values), width)
 
 
-def _differ(old: NDArray[np.generic], new: NDArray[np.generic]) -> NDArray[np.bool_]:
-    """Tell for each row whether a bit differs."""
-    found: NDArray[np.bool_] = (_bytes(old) != _bytes(new)).any(axis=1)
-    return found
+def _any_bit(bits: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Tell for each row, (k, bytes), whether a bit is set."""
+    words = bits.view(np.int64) if bits.shape[1] % 8 == 0 else bits
+    return np.asarray(words.any(axis=1))
 
 
 def _births(state: HullState, journal: Journal, columns: Collection[str]) -> BirthCounts:
@@ -341,6 +398,10 @@ def _places(
 ) -> tuple[tuple[IntArray, NDArray[np.uint8]], CrossingPositions, CrossingPositions]:
     """Compare the places on all curves that may have others than before."""
     then, curves = _columns_before(state, journal, columns)
+    nothing = np.zeros(0, np.int64)
+    none = CrossingPositions(nothing, nothing, nothing, nothing, nothing, np.zeros((0, 4)))
+    if then.curve is None and (same := _moved_places(state, curves, then)) is not None:
+        return same, none, none
     old, new = crossing_positions(state, curves, then), crossing_positions(state, curves)
     alike = old.alike(new)
     one, two = old.take(alike), new.take(alike)
@@ -350,34 +411,80 @@ def _places(
     return (two.curve, apart), old.take(~alike), new.take(~alike)
 
 
+def _moved_places(
+    state: HullState, curves: IntArray, then: EarlierPositions
+) -> tuple[IntArray, NDArray[np.uint8]] | None:
+    """Compare places on curves that list the same ones as before; None if some do not."""
+    new = [state.curves.meets[curve] for curve in curves.tolist()]
+    old = [then.meets.get(curve, each) for curve, each in zip(curves.tolist(), new, strict=True)]
+    if not all(_same_meetings(one, two) for one, two in zip(old, new, strict=True)):
+        return None
+    counts = [len(each.line) for each in new]
+    owner: IntArray = np.repeat(np.arange(len(new)), counts)
+    met = np.concatenate([np.zeros(0, np.int64), *[each.row for each in new]])
+    whose, part = _stray_parts(state, state.rows.curve.data, curves, owner, met)
+    one, two = _places_of(state, part, then.journal), _places_of(state, part, None)
+    known = ~np.isnan(two).all(axis=1)
+    if not np.array_equal(known, ~np.isnan(one).all(axis=1)):
+        return None
+    whose, one, two = whose[known], one[known], two[known]
+    bits = np.empty((len(owner) + len(whose), 4), np.int64)
+    met_bits = bits[: len(owner)]
+    for column, name, width in ((slice(1), "parameter", 1), (slice(1, 4), "xyz", 3)):
+        were, are = (
+            np.concatenate([np.zeros(0), *[getattr(each, name).ravel() for each in every]])
+            for every in (old, new)
+        )
+        met_bits[:, column] = (were.view(np.int64) ^ are.view(np.int64)).reshape(-1, width)
+    bits[len(owner) :] = one.view(np.int64) ^ two.view(np.int64)
+    if len(whose):
+        owner = np.concatenate([owner, whose])
+        order = np.argsort(owner, kind="stable")
+        owner, bits = owner[order], bits[order]
+    moved = np.zeros(len(curves), np.bool_)
+    moved[owner[bits.any(axis=1)]] = True
+    if not moved.all():
+        bits, curves = bits[moved[owner]], curves[moved]
+    return curves, bits.view(np.uint8)
+
+
+def _same_meetings(one: CurveIntersections, other: CurveIntersections) -> bool:
+    """Tell whether two lists of intersections agree in lines, senses and crossings."""
+    return one is other or all(
+        mine is theirs or np.array_equal(mine, theirs)
+        for mine, theirs in (
+            (one.line, other.line), (one.sign, other.sign), (one.row, other.row),
+        )
+    )  # fmt: skip
+
+
 def _columns_before(
     state: HullState, journal: Journal, columns: Collection[str]
 ) -> tuple[EarlierPositions, IntArray]:
-    """Give the columns of places before, and the curves that may have other places now."""
-    table, touched = state.rows, [np.zeros(0, np.int64)]
-    nets = journal.net(table.curve), journal.net(table.spot), journal.net(table.parameter)
-    curve = _column_before(table.curve, nets[0])
-    for net in nets:
-        if len(net.rows):
-            odd = np.stack([_differ(net.old[:, side], net.new[:, side]) for side in (0, 1)], axis=1)
-            touched += [each[net.rows][odd] for each in (table.curve.data, curve)]
+    """Give what places lay in before, and the curves that may have other places now."""
+    table, touched = state.rows, list[IntArray]()
+    parts = [journal.parts(table.spot), journal.parts(table.parameter)]
+    on, curve = table.curve.data.reshape(-1), None
+    if "rows.curve" in columns:
+        net = journal.net(table.curve)
+        parts.append(both_parts(net.rows))
+        curve = table.curve.data.copy()
+        curve[net.rows] = net.old
+    for part in parts:
+        touched.append(on[part])
+        if curve is not None:
+            touched.append(curve.reshape(-1)[part])
     meets: dict[int, CurveIntersections] = {}
     if "curves.meets" in columns:
         met = journal.net(state.curves.meets)
         meets = dict(zip(met.rows.tolist(), met.old, strict=True))
         touched.append(met.rows)
-    curves = np.unique(np.concatenate(touched))
-    spot, parameter = _column_before(table.spot, nets[1]), _column_before(table.parameter, nets[2])
-    return EarlierPositions(meets, curve, spot, parameter), curves[curves >= 0]
-
-
-def _column_before(column: Column[_S], net: ArrayChange[_S]) -> NDArray[_S]:
-    """Give a column as it was before what a journal did to it."""
-    if not len(net.rows):
-        return column.data
-    found = column.data.copy()
-    found[net.rows] = net.old
-    return found
+    # By mask: there are a few dozen curves, and thousands of points on them.
+    chosen = np.zeros(state.curves.count + 1, np.bool_)
+    for each in touched:
+        chosen[each] = True  # -1, for no curve, is the last one
+    curves: IntArray = np.flatnonzero(chosen[:-1])
+    return EarlierPositions(meets, curve, journal), curves
 
 
 def _shapes(
@@ -386,16 +493,20 @@ def _shapes(
     """Give the curves that were lofted, and the splines that are no loft of their points."""
     if "curves.spline" not in columns:
         return np.zeros(0, np.int64), ({}, {})
-    net, now = journal.net(state.curves.spline), state.curves.state.data
+    net = journal.net(state.curves.spline)
+    now = state.curves.state.data[net.rows]
     was = now.copy()
     if "curves.state" in columns:
         states = journal.net(state.curves.state)
-        was[states.rows] = states.old
+        place = np.minimum(np.searchsorted(states.rows, net.rows), max(len(states.rows) - 1, 0))
+        known = states.rows[place] == net.rows if len(states.rows) else np.zeros(len(now), np.bool_)
+        was[known] = states.old[place[known]]
+    clean = int(State.CLEAN)
     kept = tuple(
         {
-            row: spline
-            for row, spline in zip(net.rows.tolist(), splines, strict=True)
-            if codes[row] != State.CLEAN and spline is not None
+            int(net.rows[i]): spline
+            for i in np.flatnonzero(codes != clean).tolist()
+            if (spline := splines[i]) is not None
         }
         for codes, splines in ((was, net.old), (now, net.new))
     )
@@ -414,12 +525,13 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
     """
     if forward:  # new rows must be there before they are written, and go last on the way back
         _resize(state, change, 1)
+    _require_fit(state, change)
     alive = state.curves.alive.data.copy()
     columns = dict(_columns(state))
     for name, (rows, bits) in change.bits.items():
         column = columns[name]
         assert isinstance(column, Column), name
-        _flip(column, rows, bits)
+        _flip(name, column, rows, bits)
     for name, (rows, old, new) in change.objects.items():
         held = columns[name]
         assert isinstance(held, ValueColumn), name
@@ -446,10 +558,57 @@ def _resize(state: HullState, change: TableChange, which: int) -> None:
         getattr(state, name).resize(sizes[which])
 
 
-def _flip(column: Column[np.generic], rows: IntArray, bits: NDArray[np.uint8]) -> None:
+def _require_fit(state: HullState, change: TableChange) -> None:
+    """Refuse a change that names what these tables do not have, before anything is written."""
+    columns, curves = dict(_columns(state)), state.curves.count
+    for name, (rows, bits) in change.bits.items():
+        column = columns[name]
+        if not isinstance(column, Column) or name in _OWN_WAY:
+            raise ValueError(f"{name} is no column of numbers")
+        width = column.data.itemsize * math.prod(column.data.shape[1:])
+        if bits.shape != (len(rows), width):
+            raise ValueError(f"the bits of {name} are of the shape {bits.shape}")
+        _require_rows(name, rows, len(column.data))
+    for name, (rows, old, new) in change.objects.items():
+        held = columns[name]
+        if not isinstance(held, ValueColumn) or name in _OWN_WAY:
+            raise ValueError(f"{name} is no column of objects")
+        if not len(rows) == len(old) == len(new):
+            raise ValueError(f"{name} has {len(rows)} rows, {len(old)} and {len(new)} objects")
+        _require_rows(name, rows, len(held.data))
+    numbered = {"moved": change.moved[0], "lofted": change.lofted}
+    numbered |= {"before": change.before.curve, "after": change.after.curve}
+    numbered |= {"kept": np.array(sorted({*change.kept[0], *change.kept[1]}), np.int64)}
+    for name, rows in numbered.items():
+        _require_rows(name, rows, curves)
+    for places in (change.before, change.after):
+        for name, numbers, count in (
+            ("lines", places.line, state.lines.count), ("points", places.row, state.rows.count),
+        ):  # fmt: skip
+            if numbers.size and not (numbers.min() >= -1 and numbers.max() < count):
+                raise ValueError(f"a place on a curve is on none of {count} {name}")
+        if not np.isfinite(places.at[places.line >= 0]).all():
+            raise ValueError("a meeting of a curve lies nowhere")
+
+
+def _require_rows(name: str, rows: IntArray, count: int) -> None:
+    if rows.size and not (rows[0] >= 0 and rows[-1] < count and (rows[1:] > rows[:-1]).all()):
+        raise ValueError(f"the rows of {name} are not among {count}, ascending")
+
+
+_MAY_BE_NAN = frozenset({"rows.limit", "rows.gap", "lines.offset"})
+"""Columns of numbers that hold nan where there is nothing."""
+
+
+def _flip(name: str, column: Column[np.generic], rows: IntArray, bits: NDArray[np.uint8]) -> None:
     values = column.data.take(rows, axis=0)
     flipped = _bytes(values) ^ bits
-    column.put(rows, flipped.view(column.data.dtype).reshape(values.shape))
+    found = flipped.view(column.data.dtype).reshape(values.shape)
+    if found.dtype == np.float64 and name not in _MAY_BE_NAN and not np.isfinite(found).all():
+        raise ValueError(f"{name} becomes no number")
+    if found.dtype == np.bool_ and flipped.max(initial=0) > 1:
+        raise ValueError(f"{name} becomes neither true nor false")
+    column.put(rows, found)
 
 
 def _counted(state: HullState, births: BirthCounts, forward: bool) -> dict[tuple[str, str], int]:
@@ -461,7 +620,11 @@ def _move(state: HullState, moved: tuple[IntArray, NDArray[np.uint8]]) -> None:
     curves, bits = moved
     if len(curves):
         now = crossing_positions(state, curves)
+        if bits.shape != (len(now.at), 32):
+            raise ValueError(f"{len(bits)} places are moved, and {len(now.at)} are there")
         at = (_bytes(now.at) ^ bits).view(np.float64)
+        if not np.isfinite(at[now.line >= 0]).all():
+            raise ValueError("a meeting of a curve would lie nowhere")
         put_crossing_positions(state, attrs.evolve(now, at=at))
 
 

@@ -8,8 +8,9 @@ import assoc_hull as ah
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import Column
 from assoc_hull.model.change import apply_change, change_of
-from assoc_hull.model.definition.fingerprint import FingerprintCache, fingerprint, is_shape
-from assoc_hull.model.tables import TABLES, HullState
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.hash_tree import HashTree, root_of
+from assoc_hull.model.tables import TABLES, HullState, copy_state
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 
 
@@ -75,17 +76,36 @@ def compare(hull: ah.Hull, then: dict[str, object]) -> None:
 
 @settings(max_examples=30)
 @given(st.integers(0, POOL - 1), tasks((*SHAPES, *STRUCTURE), most=5))
-def test_a_printer_takes_the_fingerprint_while_the_structure_stays(
+def test_a_tree_of_which_branches_are_made_anew_is_the_one_made_from_nothing(
     which: int, todo: list[Task]
 ) -> None:
-    """Made anew where a change is not one of shape only, it never differs from the slow way."""
+    """After every edit of a session, and on the way back and forward through it.
+
+    Its root tells apart what the fingerprint does.
+    """
     hull = fresh(which)
-    printer = FingerprintCache(hull.document.state)
+    state = hull.document.state
+    tree, changes = HashTree(state), []
+    roots, prints = [tree.root()], [fingerprint(state)]
     for task in todo:
-        if carry_out(hull, task) is None:
-            continue
-        journal = hull.document.history[-1].journal
-        assert isinstance(journal, Journal)
-        if not is_shape(change_of(hull.document.state, journal)):
-            printer = FingerprintCache(hull.document.state)
-        assert printer.take() == fingerprint(hull.document.state)
+        count = len(hull.history)
+        carry_out(hull, task)
+        if len(hull.history) > count:
+            journal = hull.document.history[-1].journal
+            assert isinstance(journal, Journal)
+            changes.append(change_of(state, journal))
+            tree.note(changes[-1])
+            roots.append(tree.root())
+            prints.append(fingerprint(state))
+            assert roots[-1] == root_of(state)
+    assert len(set(roots)) == len(set(prints)) == len({*zip(roots, prints, strict=True)})
+    for i in range(len(changes) - 1, -1, -1):
+        apply_change(state, changes[i], forward=False)
+        tree.note(changes[i])
+        assert tree.root() == roots[i]
+    for i, change in enumerate(changes, start=1):
+        apply_change(state, change, forward=True)
+        tree.note(change)
+        if i % 2:
+            assert tree.root() == roots[i]
+    assert tree.root() == roots[-1] == root_of(copy_state(state))

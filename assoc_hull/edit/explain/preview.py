@@ -19,12 +19,12 @@ from assoc_hull.arguments import all_of, flag, text
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain.causes import Thing, Why, node_of, why_after
 from assoc_hull.edit.recording import Settings
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.report import EditReport, Fairness
 from assoc_hull.edit.session import Edit, refusal_of
 from assoc_hull.edit.shapes import HullShapes, Shapes, joined
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import AssocHullError, BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.address import AddressBook
@@ -125,7 +125,8 @@ class _Movements:
     def _between(self, curve: int) -> tuple[float | None, tuple[float, float, float] | None]:
         """Give how far a curve lies from where it was, m, and where that is most; None if new."""
         fairness = self.step.report.fairness
-        old: SplineBatch | None = None if fairness is None else fairness.before.get(curve)
+        # A trial was just made, and holds the splines that it counts on.
+        old = fairness.before.get(curve) if isinstance(fairness, Fairness) else None
         if old is None:
             return None, None
         places = sample(self.state.spline(curve), _PER_SEGMENT)[1]

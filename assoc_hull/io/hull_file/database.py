@@ -60,7 +60,7 @@ AGAIN = (
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
 
-SCHEMA = 6
+SCHEMA = 7
 
 TABLES = """
 CREATE TABLE hull (
@@ -78,7 +78,8 @@ CREATE TABLE hull (
     head INTEGER NOT NULL,
     tip INTEGER NOT NULL,
     serial INTEGER NOT NULL,
-    deck TEXT NOT NULL DEFAULT 'open'
+    deck TEXT NOT NULL DEFAULT 'open',
+    base INTEGER NOT NULL DEFAULT 0
 );
 CREATE TABLE groups (
     number INTEGER PRIMARY KEY, name TEXT NOT NULL, family TEXT NOT NULL, alive INTEGER NOT NULL
@@ -185,19 +186,26 @@ def _add_definitions(database: sqlite3.Connection) -> None:
     )
 
 
+def _add_base(database: sqlite3.Connection) -> None:
+    """From 6 to 7: the tables may lag behind the steps; those of older files never do."""
+    database.execute("ALTER TABLE hull ADD COLUMN base INTEGER NOT NULL DEFAULT 0")
+    database.execute("UPDATE hull SET base = head")
+
+
 MIGRATIONS: Mapping[int, Migration] = {
     1: _add_label_authors, 2: _add_gone, 3: _add_deck, 4: _add_features,
-    5: _add_definitions,
+    5: _add_definitions, 6: _add_base,
 }  # fmt: skip
 """By version: what brings a file of it to the next one."""
 
 
 _CAME = {"gone": 3, "features": 5, "definitions": 6, "generated": 6}
-_GREW = {
-    "labels": (2, ",author TEXT NOT NULL DEFAULT '',time TEXT NOT NULL DEFAULT ''"),
-    "hull": (4, ",deck TEXT NOT NULL DEFAULT 'open'"),
-}
-"""Versions in which tables came, and in which one got columns, without white space."""
+_GREW = (
+    ("labels", 2, ",author TEXT NOT NULL DEFAULT '',time TEXT NOT NULL DEFAULT ''"),
+    ("hull", 4, ",deck TEXT NOT NULL DEFAULT 'open'"),
+    ("hull", 7, ",base INTEGER NOT NULL DEFAULT 0"),
+)
+"""Versions in which tables came, and in which they got columns, without white space."""
 
 
 @functools.cache
@@ -206,7 +214,7 @@ def known_schema(version: int) -> Schema:
     found = {
         name: each for name, each in schema_of(TABLES).items() if _CAME.get(name, 1) <= version
     }
-    for name, (since, columns) in _GREW.items():
+    for name, since, columns in _GREW:
         if version < since:
             kind, table, text = found[name]
             found[name] = kind, table, text.replace(columns, "")

@@ -68,7 +68,7 @@ from assoc_hull.io.hull_json import read_hull_json, write_hull_json
 from assoc_hull.io.open_databases import is_hull_file, is_open_here, log_file
 from assoc_hull.io.write_file import take_place
 from assoc_hull.model.change import TableChange, change_of
-from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.hash_tree import root_of
 from assoc_hull.model.definition.verify import Difference
 
 __all__ = [
@@ -120,9 +120,10 @@ def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> D
             state = read_state(database)
             file = HullFile(path, database, state, wait)
             document = Document(state, keeper=file, author=user_name())
-            document.stand(*file.follow(document))
+            head, tip = file.follow(document)
+            document.stand(*file.catch_up(document, head, tip, damaged=damaged))
             document.start = str(file.recorded(0))
-            file.require_print()
+            file.require_print(document.head)
             if not damaged:
                 require_sound_tables(state)
                 file.require_newest()
@@ -246,22 +247,22 @@ def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, Ta
     with walk_states(document) as walk:
         if not document.start:
             walk.go(0)
-            document.start = fingerprint(state)
+            document.start = root_of(state)
         for number, step in sorted(document.steps.items()):
             journal = step.journal
             # A step that never was in a file holds its journal; its change is what it did there.
             if isinstance(journal, Journal):
                 walk.go(number)
                 changes[number] = change_of(state, journal)
-                step.fingerprint = step.fingerprint or fingerprint(state)
+                step.fingerprint = step.fingerprint or root_of(state)
                 journal = Rerun(state, changes[number])
             assert isinstance(journal, Rerun), "a step holds its journal or its change"
             write_step(database, step, journal.change)
     write_state(database, state, _version(), document.start)
     write_labels(database, list(document.labels.values()))
     database.execute(
-        "UPDATE hull SET fingerprint = ?, head = ?, tip = ?",
-        (fingerprint(state), document.head, document.tip),
+        "UPDATE hull SET fingerprint = ?, head = ?, tip = ?, base = ?",
+        (root_of(state), document.head, document.tip, document.head),
     )
     return changes
 

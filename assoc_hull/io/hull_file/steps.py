@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.edit.document import Label
 from assoc_hull.edit.recording import Script
-from assoc_hull.edit.report import EditReport, Movement
+from assoc_hull.edit.report import Counting, EditReport, Movement
 from assoc_hull.edit.step import Rerun, Step, StepBody
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
@@ -58,16 +58,81 @@ _SHAPE = ("knot", "xyz", "leave", "arrive")
 def pack_change(change: TableChange) -> bytes:
     """Put a change into bytes."""
     arrays: Arrays = {"lofted": _short(change.lofted), "moved": _short(change.moved[0])}
-    # Bytes of equal weight lie side by side: most of them agree, which is what compresses.
-    arrays["moved.bits"] = change.moved[1].T
+    arrays |= _pack_bits("moved", change.moved[1])
+    arrays["moved.odd"] = np.zeros(len(change.moved[1]) % 2, np.uint8)
     for name, (rows, bits) in change.bits.items():
-        arrays |= {f"{name}.rows": _short(rows), f"{name}.bits": bits.T}
+        arrays |= {f"{name}.rows": _short(rows), **_pack_bits(name, bits)}
     arrays |= _pack_places("before", change.before, change.before.at)
     arrays |= _pack_places("after", change.after, _against(change.before, change.after))
     for when, shapes in enumerate(change.kept):
         for curve, spline in shapes.items():
             arrays |= {f"kept.{when}.{curve}.{part}": getattr(spline, part) for part in _SHAPE}
-    return pack_arrays(arrays, _facts(change))
+    # The bits of an edit of shape are noise but for the zeros, which are left out already.
+    keeps_structure = not (change.objects or change.sizes or len(change.before.curve))
+    return pack_arrays(arrays, _facts(change), 0 if keeps_structure else _LEVEL)
+
+
+_LEVEL = 6
+"""How hard changes of structure are compressed, which name all that came and went."""
+
+_WORD, _WIDEST = 8, 48
+"""Bytes of a word, and of the widest row: two vectors."""
+
+
+def _pack_bits(name: str, bits: NDArray[np.uint8]) -> Arrays:
+    """Put the bits of rows, (k, bytes), into arrays: only words that are not nil, where there are.
+
+    A place of which one coordinate changed, as in a plane, is nil for the most part.
+    """
+    if bits.shape[1] % _WORD:
+        return {f"{name}.bits": bits.T}
+    words = np.ascontiguousarray(bits).view("<i8").reshape(-1)
+    there = words != 0
+    return {f"{name}.mask": np.packbits(there), f"{name}.words": words[there]}
+
+
+def _unpack_bits(arrays: Arrays, name: str, count: int, width: int | None) -> NDArray[np.uint8]:
+    """Give the bits of so many rows, (count, bytes); early files do not tell the width.
+
+    Raises
+    ------
+    ValueError, KeyError
+        They are of another shape, or do not lie there as they should.
+    """
+    if f"{name}.mask" not in arrays:
+        bits = np.ascontiguousarray(_array(arrays, f"{name}.bits", np.uint8, 2).T)
+        if len(bits) != count or width not in (None, bits.shape[1]):
+            raise ValueError(f"{name} has the shape {bits.shape}")
+        return bits
+    if width is None or width % _WORD or not 0 < width <= _WIDEST:
+        raise ValueError(f"{name} has rows of {width} bytes")
+    mask, words = (
+        _array(arrays, f"{name}.mask", np.uint8),
+        _array(arrays, f"{name}.words", np.int64),
+    )
+    size = count * width // _WORD
+    if len(mask) != -(-size // 8):
+        raise ValueError(f"{name} has a mask of {len(mask)} bytes for {count} rows")
+    there = np.unpackbits(mask).view(np.bool_)
+    if there[size:].any() or np.count_nonzero(there) != len(words):
+        raise ValueError(f"{name} has {len(words)} words, and its mask another number")
+    found = np.zeros(size, np.int64)
+    found[there[:size]] = words
+    return found.view(np.uint8).reshape(count, width)
+
+
+def _array(arrays: Arrays, name: str, kind: type[np.generic], axes: int = 1) -> NDArray[Any]:
+    """Give an array of a type and number of axes.
+
+    Raises
+    ------
+    ValueError, KeyError
+        It is missing, or another.
+    """
+    found = arrays[name]
+    if found.dtype != np.dtype(kind).newbyteorder("<") or found.ndim != axes:
+        raise ValueError(f"{name} is of {found.dtype} with {found.ndim} axes")
+    return found
 
 
 def _facts(change: TableChange) -> dict[str, Any]:
@@ -82,7 +147,7 @@ def _facts(change: TableChange) -> dict[str, Any]:
     }
     return {
         "sizes": change.sizes,
-        "bits": list(change.bits),
+        "bits": {name: bits.shape[1] for name, (_, bits) in change.bits.items()},
         "objects": objects,
         "births": [[*pair, *counts] for pair, counts in change.births.items()],
         "kept": [list(shapes) for shapes in change.kept],
@@ -104,6 +169,8 @@ def _against(before: CrossingPositions, after: CrossingPositions) -> FloatArray:
     lies: what stayed becomes zeros, which compress. Crossings that were not there before stand as
     they are. Applied twice, it gives back what it took.
     """
+    if not len(before.curve):
+        return after.at
     found = after.at.copy()
     keys = [_keys(places) for places in (before, after)]
     _, old, new = np.intersect1d(keys[0][:, 0], keys[1][:, 0], return_indices=True)
@@ -123,19 +190,32 @@ def _pack_places(title: str, places: CrossingPositions, at: FloatArray) -> Array
     if not len(places.curve):
         return {}
     whole = {f"{title}.{name}": _short(getattr(places, name)) for name in _PLACES}
-    bits = np.frombuffer(at.tobytes(), np.uint8).reshape(len(at), 32)
-    return {**whole, f"{title}.bits": bits.T}
+    bits = np.frombuffer(at.tobytes(), np.uint8).reshape(len(at), _PLACE_BYTES)
+    return {**whole, **_pack_bits(title, bits)}
+
+
+_PLACE_BYTES = 32
+"""Parameter, x, y, z."""
 
 
 def _unpack_places(title: str, arrays: Arrays) -> CrossingPositions:
     if f"{title}.curve" not in arrays:
-        arrays = {f"{title}.{name}": np.zeros(0, np.int32) for name in _PLACES}
-        arrays[f"{title}.bits"] = np.zeros((32, 0), np.uint8)
-    curve, count, line, sign, row = (_long(arrays[f"{title}.{name}"]) for name in _PLACES)
+        none = np.zeros(0, np.int64)
+        return CrossingPositions(none, none, none, none, none, np.zeros((0, 4)))
+    curve, count, line, sign, row = (
+        _long(_array(arrays, f"{title}.{name}", np.int32)) for name in _PLACES
+    )
+    if len(curve) != len(count) or (count < 0).any() or count.sum() != len(row):
+        raise ValueError(f"the counts of places {title} do not fit")
+    if not len(line) == len(sign) == len(row):
+        raise ValueError(f"the places {title} are of several lengths")
     if f"{title}.at" in arrays:  # as early files of versions 1 and 2 hold it
-        at = arrays[f"{title}.at"]
+        at = _array(arrays, f"{title}.at", np.float64, 2)
     else:
-        at = np.frombuffer(arrays[f"{title}.bits"].T.tobytes(), "<f8").reshape(-1, 4)
+        bits = _unpack_bits(arrays, title, len(row), _PLACE_BYTES)
+        at = np.frombuffer(bits.tobytes(), "<f8").reshape(-1, 4)
+    if at.shape != (len(row), 4):
+        raise ValueError(f"the places {title} have the shape {at.shape}")
     return CrossingPositions(curve, count, line, sign, row, at.astype(np.float64))
 
 
@@ -166,13 +246,13 @@ def unpack_change(data: bytes) -> TableChange:
     }
     return TableChange(
         _sizes(facts),
-        {name: _bits(arrays, name) for name in facts["bits"]},
+        _all_bits(arrays, facts["bits"]),
         objects,
         {(a, b): (int(old), int(new)) for a, b, old, new in facts["births"]},
-        (_long(arrays["moved"]), np.ascontiguousarray(arrays["moved.bits"].T)),
+        (_long(_array(arrays, "moved", np.int32)), _moved_bits(arrays)),
         before,
         after,
-        _long(arrays["lofted"]),
+        _long(_array(arrays, "lofted", np.int32)),
         (_kept(arrays, facts, 0), _kept(arrays, facts, 1)),
     )
 
@@ -189,14 +269,38 @@ def _sizes(facts: dict[str, Any]) -> dict[str, tuple[int, int]]:
     return found
 
 
-def _bits(arrays: Arrays, name: str) -> tuple[IntArray, NDArray[np.uint8]]:
-    return _long(arrays[f"{name}.rows"]), np.ascontiguousarray(arrays[f"{name}.bits"].T)
+def _all_bits(
+    arrays: Arrays, said: list[str] | dict[str, int]
+) -> dict[str, tuple[IntArray, NDArray[np.uint8]]]:
+    """Give rows and bits by column; early files list the names alone."""
+    found = {}
+    for name in said:
+        rows = _long(_array(arrays, f"{name}.rows", np.int32))
+        width = said[name] if isinstance(said, dict) else None
+        found[name] = rows, _unpack_bits(arrays, name, len(rows), width)
+    return found
+
+
+def _moved_bits(arrays: Arrays) -> NDArray[np.uint8]:
+    """Give the bits of the places that moved; how many there are is told by those alone."""
+    if "moved.mask" not in arrays:
+        return np.ascontiguousarray(_array(arrays, "moved.bits", np.uint8, 2).T)
+    count = 2 * len(_array(arrays, "moved.mask", np.uint8))  # a byte for two places of four
+    odd = _array(arrays, "moved.odd", np.uint8)
+    if len(odd) > 1 or len(odd) > count:
+        raise ValueError("it is not told how many places moved")
+    return _unpack_bits(arrays, "moved", count - len(odd), _PLACE_BYTES)
 
 
 def _kept(arrays: Arrays, facts: dict[str, Any], when: int) -> dict[int, SplineBatch]:
     found = {}
     for curve in facts["kept"][when]:
-        knot, xyz, leave, arrive = (arrays[f"kept.{when}.{curve}.{part}"] for part in _SHAPE)
+        knot, xyz, leave, arrive = (
+            _array(arrays, f"kept.{when}.{curve}.{part}", np.float64, 1 if part == "knot" else 2)
+            for part in _SHAPE
+        )
+        if len(knot) < 2 or any(each.shape != (len(knot), 3) for each in (xyz, leave, arrive)):
+            raise ValueError(f"the shape of curve {curve} is none")
         start = np.array([0, len(knot)], np.int64)
         found[int(curve)] = SplineBatch(start, knot, xyz, leave, arrive)
     return found
@@ -278,10 +382,11 @@ def _from_json(name: str, said: Any) -> Any:
 
 def write_step(database: sqlite3.Connection, step: Step, change: TableChange) -> None:
     """Write a step, with the fingerprint of the hull after it; the file is inside a transaction."""
-    report = step.report
+    report, cause = step.report, step.cause
+    nodes = {"reader": cause.reader, "source": cause.source, "changed": step.changed}
     trace = pack_arrays(
-        {"reader": step.cause.reader, "source": step.cause.source, "changed": step.changed,
-         "moved": step.moved, "seeds": step.seeds}
+        {name: _short(each) for name, each in nodes.items()}
+        | {"moved": step.moved, "seeds": _short(step.seeds)}, None, 0,
     )  # fmt: skip
     row = (
         step.number, step.parent, step.name, report.author, report.time, int(step.structural),
@@ -327,9 +432,13 @@ def script_from(text: str) -> Script:
 
 
 def report_text(report: EditReport) -> str:
-    """Give a report as JSON; lengths in m, times in s."""
+    """Give a report as JSON; lengths in m, times in s.
+
+    Inflections are in it if they are counted: that takes longer than all else of a commit.
+    """
     said = attrs.asdict(report, filter=lambda field, _: field.name not in ("fairness", "counted"))
-    return json.dumps({**said, "inflections": report.inflections}, separators=(",", ":"))
+    known = {"inflections": report.counted} if report.fairness is None else {}
+    return json.dumps({**said, **known}, separators=(",", ":"))
 
 
 def _movement(said: Any) -> Movement | None:
@@ -338,8 +447,8 @@ def _movement(said: Any) -> Movement | None:
     return Movement(said["point"], said["distance"], tuple(said["place"]))
 
 
-def report_from(text: str) -> EditReport:
-    """Give a report from JSON.
+def report_from(text: str, late: Counting | None = None) -> EditReport:
+    """Give a report from JSON; `late` counts inflections that were not.
 
     Raises
     ------
@@ -347,14 +456,20 @@ def report_from(text: str) -> EditReport:
         It is no report.
     """
     said = parse_json(text)
-    counted = tuple((key, int(count)) for key, count in said.pop("inflections"))
+    known = said.pop("inflections", None)
+    counted = tuple((key, int(count)) for key, count in known or ())
     largest, normal = (_movement(said.pop(name, None)) for name in ("largest", "largest_normal"))
     changes = tuple(tuple(each) for each in said.pop("definitions", ()))
     plain: dict[str, Any] = {
         name: tuple(x) if isinstance(x, list) else x for name, x in said.items()
     }
     return EditReport(
-        **plain, largest=largest, largest_normal=normal, counted=counted, definitions=changes
+        **plain,
+        largest=largest,
+        largest_normal=normal,
+        counted=counted,
+        definitions=changes,
+        fairness=late if known is None else None,
     )
 
 
@@ -379,8 +494,10 @@ def steps_of(
     ]  # fmt: skip
 
 
-def body_of(row: tuple[Any, ...], state: HullState) -> StepBody:
+def body_of(row: tuple[Any, ...], state: HullState, late: Counting | None = None) -> StepBody:
     """Give the body of a step from its row (``SELECT *``); its change runs over the tables `state`.
+
+    `late` counts the inflections of its report.
 
     Raises
     ------
@@ -392,12 +509,20 @@ def body_of(row: tuple[Any, ...], state: HullState) -> StepBody:
         raise ValueError("its digest is another one")
     trace = unpack_arrays(row[10])[0]
     reader, source, changed, seeds = (
-        trace[name].astype(np.int64) for name in ("reader", "source", "changed", "seeds")
+        _nodes(trace, name) for name in ("reader", "source", "changed", "seeds")
     )
+    moved = _array(trace, "moved", np.float64)
+    if len(reader) != len(source) or len(changed) != len(moved):
+        raise ValueError("its trace is of several lengths")
     return StepBody(
         Rerun(state, unpack_change(row[11])), Readers(reader, source), changed,
-        trace["moved"].astype(np.float64), seeds, report_from(row[9]),
+        moved.astype(np.float64), seeds, report_from(row[9], late),
     )  # fmt: skip
+
+
+def _nodes(trace: Arrays, name: str) -> IntArray:
+    """Give nodes; up to version 6 they lie there as eight bytes each."""
+    return _long(_array(trace, name, np.int64 if trace[name].dtype == np.int64 else np.int32))
 
 
 _NEWEST = 1 << 22

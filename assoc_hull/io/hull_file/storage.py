@@ -1,9 +1,11 @@
 """The hull file: one database that holds a hull with all that was ever committed to it.
 
-`HullFile` is what a `Document` keeps its steps in. A step is written, with every row of the
-tables that it changed, in one transaction of the database, and brought to the disk before the
-edit counts as committed; a process that is killed leaves the file as the last commit did. Then the
-log is folded into the file (`HullFile.fold`), so that a plain copy of the file has it all.
+`HullFile` is what a `Document` keeps its steps in. A step is one row: it is written in one
+transaction of the database, and brought to the disk before the edit counts as committed; a process
+that is killed leaves the file as the last commit did. Then the log is folded into the file
+(`HullFile.fold`), so that a plain copy of the file has it all. The rows of the tables follow later,
+many steps at once (`Behind`): at an undo, at closing, and when too many steps have come together.
+Opening runs the steps that the tables lack.
 
 Examples
 --------
@@ -29,6 +31,7 @@ Examples
 from __future__ import annotations
 
 import contextlib
+import itertools
 import operator
 import sqlite3
 import time
@@ -40,12 +43,19 @@ from typing import Any
 
 import numpy as np
 
+from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.document import Document, Label
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.report import EditReport, Fairness
 from assoc_hull.edit.step import Rerun, Step, StepBody
-from assoc_hull.errors import DamagedFileError, FileBusyError, HullFileError, StaleHullError
+from assoc_hull.errors import (
+    AssocHullError,
+    DamagedFileError,
+    FileBusyError,
+    HullFileError,
+    StaleHullError,
+)
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.journal import Journal, distinct
 from assoc_hull.io.hull_file.check import require_sound_tables, require_whole_history
 from assoc_hull.io.hull_file.database import (
     AGAIN,
@@ -67,6 +77,7 @@ from assoc_hull.io.hull_file.tables import (
     WRITTEN,
     put_rows,
     read_revisions,
+    read_state,
     require_counts,
     write_births,
     write_settings,
@@ -78,15 +89,150 @@ from assoc_hull.io.open_databases import (
     spared_log,
 )
 from assoc_hull.model.change import TableChange, change_of
-from assoc_hull.model.definition.fingerprint import FingerprintCache, fingerprint, is_shape
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.hash_tree import HashTree, is_root
+from assoc_hull.model.tables import HullState, copy_into, copy_state
 
-__all__ = ["HullFile"]
+__all__ = ["Behind", "HullFile", "LateInflections"]
 
 _WRITE = "BEGIN IMMEDIATE"
 
+_MOST_BEHIND = 32
+"""So many steps the rows of the tables may lag behind; opening runs those."""
+
+_TOO_MANY_BEHIND = 8 * _MOST_BEHIND
+"""So many are never written; running the whole of a long history takes minutes."""
+
 _CLOSING = 2.0
 """So long (s) the next act waits for another process that is just closing the file."""
+
+
+class Behind:
+    """What steps changed in the tables that the rows of the file do not show yet."""
+
+    def __init__(self) -> None:
+        self.steps = 0
+        self.here = False
+        """Whether any of them was committed by this process."""
+        self._parts: dict[str, list[IntArray]] = {table: [] for table in WRITTEN}
+        self._pairs = set[tuple[str, str]]()
+        self._settings = False
+
+    def add(self, change: TableChange, rows: IntArray, curves: IntArray) -> None:
+        """Note what a step changed, and the points and curves whose revisions it raised."""
+        self.steps += 1
+        for table, parts in self._parts.items():
+            parts.append(change.touched(table))
+        self._parts["rows"].append(rows)
+        self._parts["curves"] += [curves, change.curves]
+        self._pairs |= change.births.keys()
+        self._settings |= any(name.startswith("settings.") for name in change.objects)
+
+    def write(self, database: sqlite3.Connection, state: HullState, head: int) -> None:
+        """Write all those rows as they are now, after step `head`."""
+        for table, parts in self._parts.items():
+            if written := [part for part in parts if len(part)]:
+                numbers = distinct(np.concatenate(written))
+                put_rows(database, state, table, numbers[numbers >= 0])
+        if self._settings:
+            write_settings(database, state)
+        if self._pairs:
+            births = state.births
+            write_births(database, {pair: births.get(pair, 0) for pair in sorted(self._pairs)})
+        database.execute("UPDATE hull SET base = ?", (head,))
+
+
+class LateInflections:
+    """Counts the inflections of a step in a hull file when asked, by running what led there.
+
+    It holds the name of the file, not the hull: a report may be kept longer than that.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    number : int
+        The step.
+    digest : str
+        That of its row, by which another file in the place of this one is told.
+    """
+
+    def __init__(self, path: Path, number: int, digest: str) -> None:
+        self.path, self.number, self.digest = path, number, digest
+        self._found: tuple[tuple[str, int], ...] | None = None
+
+    def added(self) -> tuple[tuple[str, int], ...]:
+        """Give the curves with more curvature sign changes than before, and how many.
+
+        Raises
+        ------
+        BadInputError, DamagedFileError, HullFileError
+            The file is gone, damaged, or another one.
+        """
+        if self._found is None:
+            database = connect_database(self.path, 0.0)
+            try:
+                with (
+                    database_errors(self.path),
+                    damage_errors(self.path, f"step {self.number} cannot be read"),
+                ):
+                    database.execute("BEGIN")
+                    require_schema(database, self.path)
+                    self._found = self._counted(database).added()
+                    database.execute("ROLLBACK")
+            finally:
+                database.close()
+        return self._found
+
+    def _counted(self, database: sqlite3.Connection) -> Fairness:
+        """Give the splines before and after the step."""
+        self._state = state = read_state(database)
+        digest = database.execute(
+            "SELECT digest FROM steps WHERE number = ?", (self.number,)
+        ).fetchone()
+        if digest != (self.digest,):
+            what = "it was replaced by another hull file"
+            raise HullFileError(str(self.path), what, "count from the hull before that is done")
+        parents = dict(database.execute("SELECT number, parent FROM steps"))
+        here, there = (
+            _way(parents, number)
+            for number in (database.execute("SELECT base FROM hull").fetchone()[0], self.number)
+        )
+        there.pop()  # the step itself is run last, also where the tables show it already
+        for number in here[::-1]:
+            if number not in there:
+                self._body(database, number).journal.back()
+        for number in there:
+            if number not in here:
+                self._body(database, number).journal.forth()
+        known = {state.curves.key[i]: i for i in state.live("curves").tolist()}
+        before = {
+            curve: spline
+            for curve in known.values()
+            if (spline := state.curves.spline[curve]) is not None
+        }
+        body = self._body(database, self.number)
+        body.journal.forth()
+        known = {state.curves.key[i]: i for i in state.live("curves").tolist()}
+        keys = tuple(key for key in body.report.relofted if key in known)
+        curves = np.array([known[key] for key in keys], np.int64)
+        after = {curve: state.spline(curve) for curve in curves.tolist()}
+        return Fairness(before, after, plane_normals(state, curves), curves, keys)
+
+    def _body(self, database: sqlite3.Connection, number: int) -> StepBody:
+        row = database.execute("SELECT * FROM steps WHERE number = ?", (number,)).fetchone()
+        return body_of(row or (), self._state)
+
+
+def _way(parents: Mapping[int, int], number: int) -> list[int]:
+    """Give the numbers of the steps that lead to a step, oldest first."""
+    found = list[int]()
+    while number:
+        found.append(number)
+        before, number = number, operator.index(parents[number])
+        if number >= before:
+            raise ValueError(f"step {before} is made upon step {number}")
+    return found[::-1]
 
 
 class HullFile:
@@ -111,7 +257,9 @@ class HullFile:
         self.serial = 0
         self._known = 0
         self.place = FileIdentity(path)
-        self._known_printer: FingerprintCache | None = None
+        self._known_tree: HashTree | None = None
+        self._behind, self._follows = Behind(), False
+        self._schema: list[tuple[object, ...]] = []
         self._agreed = False
         self._open = True
         self._unfolded = False
@@ -126,12 +274,29 @@ class HullFile:
 
     def close(self) -> None:
         """Let go of the file; edits are refused from then on."""
+        if self._open and self._behind.here:
+            self._catch_up_rows()
         self._open = False
         if self.place.has_log:
             self.database.close()
         else:
             with spared_log(self.path):
                 self.database.close()
+
+    def _catch_up_rows(self) -> None:
+        """Bring the rows of the tables up to date, if that can be done at once; else it is not."""
+        with contextlib.suppress(AssocHullError, sqlite3.Error, OSError):
+            try:
+                self.place.require_file()
+                self._roll_back()
+                if self.place.has_log and self.place.hold():
+                    self.database.execute("PRAGMA busy_timeout = 0")
+                    self._begin(_WRITE)
+                    self._refuse_stale()
+                    self._settle(self._one("SELECT head FROM hull")[0])
+                    self._keep()
+            finally:
+                self.end()
 
     def begin(self) -> None:
         """Take the right to write.
@@ -173,7 +338,12 @@ class HullFile:
 
     def _begin(self, how: str) -> None:
         self.database.execute(how)
-        require_schema(self.database, self.path)
+        # The schema is looked at to the word once, and then whether it is the very same.
+        query = "SELECT type, name, tbl_name, rootpage, sql FROM sqlite_master"
+        found = itertools.zip_longest(self.database.execute(query), self._schema)
+        if not self._schema or any(one != other for one, other in found):
+            require_schema(self.database, self.path)
+            self._schema = self.database.execute(query).fetchall()
 
     def _roll_back(self) -> None:
         try:
@@ -214,8 +384,9 @@ class HullFile:
 
     def end(self) -> None:
         """Give the right to write back."""
+        self._follows = False
         if not self._agreed:
-            self._known_printer = None  # the tables are, or will be, what they were before
+            self._known_tree = None  # the tables are, or will be, what they were before
         if self._open:
             self._roll_back()
             if self._unfolded:
@@ -254,11 +425,15 @@ class HullFile:
         change = change_of(self.state, journal)
         with database_errors(self.path):
             self.place.require_own()
-            self._put(change, step.rows, step.curves)
-            self._look_anew(change)
-            step.fingerprint = self._sign(step.number, step.number)
+            self._behind.add(change, step.rows, step.curves)
+            self._behind.here = True
+            self._tree.note(change)
+            step.fingerprint = self._tree.root()
+            self._sign(step.fingerprint, step.number, step.number)
             write_step(self.database, step, change)
             self._label(branch)
+            if self._behind.steps > _MOST_BEHIND:
+                self._settle(step.number)
             self._keep()
         self.keep(step, change)
 
@@ -284,11 +459,15 @@ class HullFile:
             for step in steps:
                 journal = step.journal
                 assert isinstance(journal, Rerun), "a step that is kept holds its change"
-                self._put(journal.change, step.rows, step.curves)
-                self._look_anew(journal.change)
-            found = self._sign(head, tip)
-            if found != self.recorded(head):
+                self._behind.add(journal.change, step.rows, step.curves)
+                if self._known_tree is not None:
+                    self._known_tree.note(journal.change)
+            # Revisions of what is undone are told by the rows alone, so these do not lag here.
+            self._settle(head)
+            said = str(self.recorded(head))
+            if self._print(said) != said:
                 raise ValueError(f"the hull after step {head} is not as it was then")
+            self._sign(said, head, tip)
             require_sound_tables(self.state)
             require_counts(self.database, self.state)
             self._label(branch)
@@ -306,6 +485,8 @@ class HullFile:
         """Commit to the disk; nothing that may fail stands behind it, `end` folds the log."""
         self._unfolded = True
         self.database.execute("COMMIT")
+        if self._follows:
+            self._behind = Behind()
 
     def agree(self, steps: int) -> None:
         """Take note that what was kept last is in memory as well, where there are so many steps.
@@ -321,37 +502,28 @@ class HullFile:
         if label is not None:
             write_labels(self.database, [label])
 
-    def _put(self, change: TableChange, rows: IntArray, curves: IntArray) -> None:
-        """Write the rows of the tables that a change touched, as they are now."""
-        also = {"rows": rows, "curves": np.union1d(change.curves, curves)}
-        for table in WRITTEN:
-            touched = np.union1d(change.touched(table), also.get(table, rows[:0]))
-            put_rows(self.database, self.state, table, touched)
-        if any(name.startswith("settings.") for name in change.objects):
-            write_settings(self.database, self.state)
-        births = self.state.births
-        write_births(self.database, {pair: births.get(pair, 0) for pair in change.births})
+    def _settle(self, head: int) -> None:
+        """Write the rows that lag behind, as they are now, after step `head`."""
+        self._behind.write(self.database, self.state, head)
+        self._follows = True
 
-    def _sign(self, head: int, tip: int) -> str:
+    def _sign(self, found: str, head: int, tip: int) -> None:
         """Write the present fingerprint, and where in the history the hull is."""
-        found = self._printer.take()
         self.database.execute(
             "UPDATE hull SET fingerprint = ?, head = ?, tip = ?, serial = serial + 1",
             (found, head, tip),
         )
-        return found
 
-    def _look_anew(self, change: TableChange) -> None:
-        """Forget what is known of the structure of the hull, if a change has changed it."""
-        if not is_shape(change):
-            self._known_printer = None
+    def _print(self, like: str) -> str:
+        """Take the fingerprint of the tables: the root of the tree, or what files up to 6 have."""
+        return self._tree.root() if is_root(like) else fingerprint(self.state)
 
     @property
-    def _printer(self) -> FingerprintCache:
-        """Takes the fingerprint; made anew when the structure of the hull has changed."""
-        if self._known_printer is None:
-            self._known_printer = FingerprintCache(self.state)
-        return self._known_printer
+    def _tree(self) -> HashTree:
+        """Takes the fingerprint, and knows what has not changed since."""
+        if self._known_tree is None:
+            self._known_tree = HashTree(self.state)
+        return self._known_tree
 
     def recorded(self, head: int) -> object:
         """Give the fingerprint that was written for the state after a step."""
@@ -369,7 +541,7 @@ class HullFile:
         """
         row = self._read("SELECT * FROM steps WHERE number = ?", number)
         with damage_errors(self.path, f"step {number} cannot be read"):
-            return body_of(row, self.state)
+            return body_of(row, self.state, LateInflections(self.path, number, row[7]))
 
     def tell(self, number: int) -> EditReport:
         """Read the report of a step; whether the rest of it is whole is not looked at.
@@ -379,9 +551,9 @@ class HullFile:
         DamagedFileError
             It cannot be read.
         """
-        (text,) = self._read("SELECT report FROM steps WHERE number = ?", number)
+        text, digest = self._read("SELECT report, digest FROM steps WHERE number = ?", number)
         with damage_errors(self.path, f"step {number} cannot be read"):
-            return report_from(text)
+            return report_from(text, LateInflections(self.path, number, digest))
 
     def _read(self, sql: str, number: int) -> Any:
         with self._reader() as database:
@@ -417,6 +589,54 @@ class HullFile:
         self._known, self.serial = len(document.steps), serial
         return head, tip
 
+    def catch_up(
+        self, document: Document, head: int, tip: int, *, damaged: bool = False
+    ) -> tuple[int, int]:
+        """Run the steps that the rows of the tables lack; give where the hull stands then.
+
+        That is `head` and `tip`; with `damaged` it may be before a step that cannot be run.
+        """
+        reached, state, missing = self._base(), self.state, self._missing(document, head)
+        if len(missing) > _TOO_MANY_BEHIND and not damaged:
+            raise ValueError(f"its tables lag behind by {len(missing)} steps")
+        for step in missing:
+            was = copy_state(state) if damaged else None
+            try:
+                step.journal.forth()
+            except DamagedFileError:
+                if was is None:
+                    raise
+                copy_into(state, was)
+                head, tip = reached, reached
+                break
+            reached = step.number
+        self._take_stock(document, head)
+        return head, tip
+
+    def _base(self) -> int:
+        return operator.index(self._one("SELECT base FROM hull")[0])
+
+    def _missing(self, document: Document, head: int) -> list[Step]:
+        """Give the steps that lead from the rows of the tables to step `head`."""
+        base, way = self._base(), document.path(head)
+        numbers = [0, *(step.number for step in way)]
+        if base not in numbers:
+            raise ValueError(f"the tables are those after step {base}, which leads elsewhere")
+        return way[numbers.index(base) :]
+
+    def _take_stock(self, document: Document, head: int) -> None:
+        """Take note of what the rows of the tables lack, and raise revisions to what they are."""
+        self._behind = Behind()
+        found = read_revisions(self.database)
+        for step in self._missing(document, head):
+            rows, curves, journal = step.rows, step.curves, step.journal
+            assert isinstance(journal, Rerun), "a step that is kept holds its change"
+            self._behind.add(journal.change, rows, curves)
+            for known, numbers in zip(found, (rows, curves), strict=True):
+                known |= {number: known.get(number, 0) + 1 for number in numbers.tolist()}
+            step.release()
+        document.keep_revisions(*found)
+
     def take_over(self, document: Document, changes: Mapping[int, TableChange]) -> None:
         """Keep the steps of a document that was just written; `changes` are those it held."""
         self.follow(document)
@@ -434,36 +654,44 @@ class HullFile:
             try:
                 self._refuse_stale()
                 self.database.backup(database)
+                if self._behind.steps:
+                    database.execute("BEGIN")
+                    self._behind.write(database, self.state, self._one("SELECT head FROM hull")[0])
+                    database.execute("COMMIT")
             finally:
                 self.end()
 
     def refresh(self, document: Document) -> None:
         """Bring a document to the state in the file; if that fails, it is as it was."""
-        self._known_printer = None
-        known = self.serial, self._known
+        self._known_tree = None
+        known = self.serial, self._known, self._behind
         try:
             self._enter("BEGIN")
             self.place.require_log()
             with document.unharmed():
-                document.follow(*self.follow(document))
-                document.keep_revisions(*read_revisions(self.database))
-                self.require_print()
+                head, tip = self.follow(document)
+                document.follow(head, tip)
+                self._take_stock(document, head)
+                self.require_print(head)
         except BaseException:
-            self.serial, self._known = known
+            self.serial, self._known, self._behind = known
             raise
         finally:
             self.end()
 
-    def require_print(self) -> None:
-        """Refuse tables whose fingerprint is not the one in the file."""
+    def require_print(self, head: int) -> None:
+        """Refuse tables whose fingerprint is not the one in the file for the state after a step."""
         splines, keys = self.state.curves.spline, self.state.curves.key
         for curve in self.state.live("curves").tolist():
             if splines[curve] is None:  # a curve without a shape has no fingerprint
                 what = f"the curve {keys[curve]!r} has no shape"
                 raise DamagedFileError(what, f"at {self.path}", AGAIN)
-        found, said = fingerprint(self.state), str(self._one("SELECT fingerprint FROM hull")[0])
+        present, said = self._one("SELECT head, fingerprint FROM hull")
+        said = str(said if head == present else self.recorded(head))
+        found = self._print(said)
         if found != said:
-            what = f"the content has the fingerprint {found[:12]}, the file says {said[:12]}"
+            one, other = found[-64:][:12], said[-64:][:12]
+            what = f"the content has the fingerprint {one}, the file says {other}"
             raise DamagedFileError(what, f"at {self.path}", AGAIN)
 
     def require_newest(self) -> None:

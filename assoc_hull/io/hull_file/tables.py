@@ -253,7 +253,7 @@ def write_state(
     ship = state.particulars
     tolerances = json.dumps(attrs.asdict(state.tolerances))
     database.execute(
-        "INSERT INTO hull VALUES (1, ?, ?, ?, ?, ?, ?, '[]', ?, ?, ?, 0, 0, 0, ?)",
+        "INSERT INTO hull VALUES (1, ?, ?, ?, ?, ?, ?, '[]', ?, ?, ?, 0, 0, 0, ?, 0)",
         (ship.name, ship.length, ship.breadth, ship.depth, ship.draught, tolerances, written_by,
          fingerprint, fingerprint, ship.deck),
     )  # fmt: skip

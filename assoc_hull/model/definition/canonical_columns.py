@@ -34,7 +34,6 @@ __all__ = [
     "feature_columns",
     "line_columns",
     "meet_columns",
-    "meet_turn",
     "point_columns",
     "retired_keys",
     "spline_columns",
@@ -134,7 +133,7 @@ def meet_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     """
     parts = [state.curves.meets[curve] for curve in order.curves.tolist()]
     whole, reals = np.zeros(0, np.int64), np.zeros(0)
-    owner, line, turn = meet_turn(state, order)
+    owner, line, turn = _meet_turn(state, order)
     return {
         "owner": owner,
         "line": line[turn],
@@ -145,7 +144,7 @@ def meet_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     }
 
 
-def meet_turn(state: HullState, order: CanonicalOrder) -> tuple[IntArray, IntArray, IntArray]:
+def _meet_turn(state: HullState, order: CanonicalOrder) -> tuple[IntArray, IntArray, IntArray]:
     """Give owner and line of the meetings as the curves list them, and the canonical order."""
     parts = [state.curves.meets[curve].line for curve in order.curves.tolist()]
     owner: IntArray = np.repeat(np.arange(len(parts)), [len(part) for part in parts])

@@ -8,17 +8,21 @@ import time
 import zlib
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import assoc_hull as ah
 from assoc_hull.cli import main
 from assoc_hull.edit.document import Document
 from assoc_hull.errors import AssocHullError, DamagedFileError
-from assoc_hull.io.hull_file.database import known_schema
+from assoc_hull.io.hull_file.database import SCHEMA, known_schema
+from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
 from assoc_hull.io.hull_file.steps import step_digest
 from assoc_hull.io.hull_file.tables import read_state
-from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.model.definition.hash_tree import root_of
 
 POINT = "WL 4.6875 x ST 3"
 OLD = Path(__file__).parents[1] / "old_files"
@@ -89,7 +93,7 @@ def signed(database: sqlite3.Connection) -> None:
     for row in database.execute("SELECT * FROM steps").fetchall():
         made = step_digest((*row[:7], *row[8:]))
         database.execute("UPDATE steps SET digest = ? WHERE number = ?", (made, row[0]))
-    found = fingerprint(read_state(database))
+    found = root_of(read_state(database))
     database.execute("UPDATE hull SET fingerprint = ?", (found,))
 
 
@@ -164,6 +168,11 @@ HARMS: dict[str, Harm] = {
         "DELETE FROM steps WHERE number > 1", "UPDATE hull SET head = 1, tip = 1"
     ),
     "step that leads to itself": cell("steps", "parent", 2, "number = 2"),
+    "tables after a step that was undone": run("UPDATE hull SET base = 3"),
+    "tables after a step that is not there": run("UPDATE hull SET base = 99"),
+    "tables before all steps": run("UPDATE hull SET base = -1"),
+    "tables after a word": run("UPDATE hull SET base = 'x'"),
+    "tables that say that they lag": run("UPDATE hull SET base = 1"),
     "head elsewhere": run("UPDATE hull SET head = 1"),
     "name that is no text": run("INSERT INTO labels VALUES (x'00ff', 1, 0, '', '')"),
     "row that is missing": run("DELETE FROM points WHERE number = 4"),
@@ -271,10 +280,8 @@ def test_a_change_that_asks_for_all_memory_is_refused(file: Path) -> None:
     """The sizes of tables that a step names are those that its rows fill."""
     database = sqlite3.connect(file, isolation_level=None)
     data = database.execute("SELECT change FROM steps WHERE number = 2").fetchone()[0]
-    head, body = zlib.decompress(data).split(b"\n", 1)
-    said = json.loads(head)
-    said["facts"]["sizes"] = {"rows": [10, 4_000_000_000]}
-    made = zlib.compress(json.dumps(said).encode() + b"\n" + body)
+    arrays, facts = unpack_arrays(data)
+    made = pack_arrays(arrays, {**facts, "sizes": {"rows": [10, 4_000_000_000]}})
     database.execute("UPDATE steps SET change = ? WHERE number = 2", (made,))
     row = database.execute("SELECT * FROM steps WHERE number = 2").fetchone()
     digest = step_digest((*row[:7], *row[8:]))
@@ -285,6 +292,148 @@ def test_a_change_that_asks_for_all_memory_is_refused(file: Path) -> None:
     with pytest.raises(DamagedFileError, match="step 2 cannot be read"):
         hull.undo()
     assert hull.fingerprint == before
+
+
+Arrays = dict[str, NDArray[Any]]
+
+
+def altered(**parts: Callable[[NDArray[Any]], NDArray[Any]]) -> Callable[[Arrays, Any], bytes]:
+    """Alter arrays of a change; `__` stands for the dot in their names."""
+
+    def alter(arrays: Arrays, facts: Any) -> bytes:
+        named = {name.replace("__", "."): act for name, act in parts.items()}
+        assert named.keys() <= arrays.keys()
+        changed = {name: act(arrays[name].copy()) for name, act in named.items()}
+        return pack_arrays({**arrays, **changed}, facts, 0)
+
+    return alter
+
+
+def told(**facts: Any) -> Callable[[Arrays, Any], bytes]:
+    """Alter what a change says of itself."""
+    return lambda arrays, known: pack_arrays(arrays, {**known, **facts}, 0)
+
+
+def put(place: int, value: object) -> Callable[[NDArray[Any]], NDArray[Any]]:
+    """Put a value into an array."""
+
+    def act(array: NDArray[Any]) -> NDArray[Any]:
+        array.flat[place] = value
+        return array
+
+    return act
+
+
+def headed(head: bytes, more: bytes = b"") -> Callable[[Arrays, Any], bytes]:
+    """Give a piece of this head, whatever was there."""
+    return lambda _, __: b"AH" + head + b"\n" + more
+
+
+NAN = 0x7FF8000000000000
+
+BLOBS: dict[str, Callable[[Arrays, Any], bytes]] = {
+    "nothing": lambda _, __: b"",
+    "two letters": lambda _, __: b"AH",
+    "no JSON": headed(b"arrays"),
+    "another JSON": headed(b"[]"),
+    "cut off": lambda arrays, facts: pack_arrays(arrays, facts, 0)[:-9],
+    "longer": lambda arrays, facts: pack_arrays(arrays, facts, 0) + b"x",
+    "gigabytes": headed(b'{"facts": 0, "arrays": [["lofted", "<f8", [9999999999]]]}'),
+    "sizes that cancel": headed(b'{"facts": 0, "arrays": [["lofted", "<f8", [99999999, 0]]]}'),
+    "negative size": headed(b'{"facts": 0, "arrays": [["lofted", "<i4", [-1]]]}'),
+    "size that is no number": headed(b'{"facts": 0, "arrays": [["lofted", "<i4", ["9"]]]}'),
+    "objects": headed(b'{"facts": 0, "arrays": [["lofted", "|O", [1]]]}', bytes(8)),
+    "a type that is no text": headed(b'{"facts": 0, "arrays": [["lofted", 7, [1]]]}', bytes(8)),
+    "deep brackets": headed(b"[" * 100_000),
+    "array that is missing": lambda arrays, facts: pack_arrays(
+        {name: each for name, each in arrays.items() if name != "lofted"}, facts, 0
+    ),
+    "rows of another type": altered(rows__xyz__rows=lambda each: each.astype(np.float64)),
+    "rows of two axes": altered(rows__xyz__rows=lambda each: each.reshape(-1, 1)),
+    "row beyond the end": altered(rows__xyz__rows=put(-1, 2**31 - 1)),
+    "row below nil": altered(rows__xyz__rows=put(0, -1)),
+    "row that stands twice": altered(
+        rows__xyz__rows=lambda each: np.repeat(each, 2),
+        rows__xyz__mask=lambda each: np.packbits(np.repeat(np.unpackbits(each)[:3], 2)),
+        rows__xyz__words=lambda each: np.repeat(each, 2),
+    ),
+    "rows and bits of two lengths": altered(rows__xyz__rows=lambda each: np.append(each, 5)),
+    "mask of another length": altered(rows__xyz__mask=lambda each: np.append(each, np.uint8(0))),
+    "mask beyond the rows": altered(rows__xyz__mask=put(0, 255)),
+    "words too few": altered(moved__words=lambda each: each[:-1]),
+    "words of another type": altered(moved__words=lambda each: each.view(np.float64)),
+    "a place more": altered(moved__odd=lambda each: each[:0] if len(each) else np.zeros(1, "u1")),
+    "curve that is not there": altered(moved=put(-1, 10_000)),
+    "curves in another order": altered(moved=lambda each: each[::-1]),
+    "lofted curve below nil": altered(lofted=put(0, -7)),
+    "width of nothing": told(bits={"rows.xyz": 0}),
+    "width of more": told(bits={"rows.xyz": 8_000_000_000}),
+    "width that is no number": told(bits={"rows.xyz": "24"}),
+    "column that is none": told(bits={"rows.xyz": 24, "rows.more": 8}),
+    "facts that are none": told(bits=7),
+    "texts as numbers": told(objects={"rows.xyz": [[1], [2], [3]]}),
+    "an object for a row that is not there": told(objects={"lines.note": [[99], ["a"], ["b"]]}),
+    "objects too few": told(objects={"lines.note": [[1, 2], ["a"], ["b"]]}),
+    "spline that is not there": told(kept=[[1], []]),
+    "sizes of all memory": told(sizes={"rows": [10, 4_000_000_000]}),
+    "counts of births that are texts": told(births=[["a", "b", "x", "y"]]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("harm", BLOBS.values(), ids=BLOBS)
+def test_a_change_that_was_never_written_is_refused(
+    file: Path, harm: Callable[[Arrays, Any], bytes]
+) -> None:
+    """Well signed: by undo, and by opening where the tables lag behind; the hull is as it was."""
+    alter(file, lambda database: blob(database, 2, harm))
+    hull = ah.open(file)
+    before = hull.fingerprint
+    start = time.process_time()
+    with pytest.raises(DamagedFileError) as caught:
+        hull.undo()
+    assert time.process_time() - start < 1.0
+    assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 1000
+    assert hull.fingerprint == before
+    hull.close()
+
+
+def blob(database: sqlite3.Connection, number: int, harm: Callable[[Arrays, Any], bytes]) -> None:
+    """Put another change into a step, and sign it."""
+    (data,) = database.execute("SELECT change FROM steps WHERE number = ?", (number,)).fetchone()
+    made = harm(*unpack_arrays(data))
+    database.execute("UPDATE steps SET change = ? WHERE number = ?", (made, number))
+    row = database.execute("SELECT * FROM steps WHERE number = ?", (number,)).fetchone()
+    digest = step_digest((*row[:7], *row[8:]))
+    database.execute("UPDATE steps SET digest = ? WHERE number = ?", (digest, number))
+
+
+def test_a_place_that_becomes_no_number_is_refused(file: Path) -> None:
+    """The bits that lead to nan or to infinity, of a point or of a meeting."""
+    hull = ah.open(file)
+    place = hull.points[POINT].y
+    hull.close()
+    bits = np.array(place).view(np.int64)
+
+    def harm(arrays: Arrays, facts: Any) -> bytes:
+        words = arrays["rows.xyz.words"].copy()
+        words[0] = bits ^ NAN
+        return pack_arrays({**arrays, "rows.xyz.words": words}, facts, 0)
+
+    alter(file, lambda database: blob(database, 2, harm))
+    hull = ah.open(file)
+    with pytest.raises(DamagedFileError, match=r"rows\.xyz becomes no number"):
+        hull.undo()
+    hull.close()
+
+    def other(arrays: Arrays, facts: Any) -> bytes:
+        words = np.full(len(arrays["moved.words"]), 0x7FF0000000000000)
+        return pack_arrays({**arrays, "moved.words": words}, facts, 0)
+
+    alter(file, lambda database: blob(database, 1, other))
+    hull = ah.open(file)
+    with pytest.raises(DamagedFileError):
+        hull.undo(2)
 
 
 def test_a_journal_beside_it_is_not_run(file: Path) -> None:
@@ -299,7 +448,7 @@ def test_a_journal_beside_it_is_not_run(file: Path) -> None:
     assert ah.open(file).history
 
 
-@pytest.mark.parametrize("version", range(1, 6))
+@pytest.mark.parametrize("version", range(1, SCHEMA))
 def test_an_old_file_with_a_trigger_is_not_brought_up_to_date(tmp_path: Path, version: int) -> None:
     """The schema is looked at before anything is written; without the trigger it opens."""
     path = tmp_path / "old.hull"
@@ -355,7 +504,8 @@ def test_a_step_whose_name_an_interrupt_cost_does_not_cost_the_file(
 
 def test_each_version_is_told_from_the_others() -> None:
     """A file of one version is not taken with the schema of another."""
-    assert len({tuple(sorted(known_schema(each).items())) for each in range(1, 7)}) == 6
+    every = range(1, SCHEMA + 1)
+    assert len({tuple(sorted(known_schema(each).items())) for each in every}) == SCHEMA
 
 
 def test_a_long_note_is_no_harm(file: Path) -> None:
