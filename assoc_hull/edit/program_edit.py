@@ -47,7 +47,7 @@ from assoc_hull.model.program.structure import Program
 __all__ = ["ProgramEdit"]
 
 _STEADY = 3
-"""After so many edits that kept the structure a program is compiled for the next ones."""
+"""After so many edits or previews of one structure a program is compiled for the next ones."""
 
 _NONE: IntArray = np.zeros(0, np.int64)
 
@@ -230,9 +230,7 @@ class ProgramEdit:
     @classmethod
     def of(cls, document: Document, pending: Pending) -> ProgramEdit | None:
         """Give what carries out an edit; None where it is not at hand, or not for such an edit."""
-        steps = document.history[-_STEADY:]
-        steady = len(steps) == _STEADY and not any(each.structural for each in steps)
-        if not (cls.serves(pending) and steady):
+        if not cls.serves(pending) or document.program.asked_for(document.index) <= _STEADY:
             return None
         # In numpy a run of few curves takes as long as the full way; a field reaches many.
         good = is_compiled() or (pending.displaces and is_asked_often())

@@ -85,11 +85,22 @@ class _AtHand:
 
 @attrs.define(eq=False)
 class KeptProgram:
-    """What a hull keeps of its program: the numbers published last, and those for the next edit."""
+    """What a hull keeps of its program: the numbers published last, and those for the next edit.
+
+    `asked` counts how often edits have asked for the program of one structure.
+    """
 
     at_hand: _AtHand | None = None
     spare: LiveNumbers | None = None
+    asked: int = 0
+    index: Index | None = None
     gate: Gate = attrs.field(factory=Gate)
+
+    def asked_for(self, index: Index) -> int:
+        """Count that an edit asks for the program; look-ups are made anew with the structure."""
+        self.asked = self.asked + 1 if index is self.index else 1
+        self.index = index
+        return self.asked
 
     def publish(
         self, state: HullState, numbers: LiveNumbers, runs: Sequence[ProgramRun], ridden: IntArray
