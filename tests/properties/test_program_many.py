@@ -308,6 +308,18 @@ def test_derivatives_are_differences_of_runs_of_ships(name: str, shipped: Shippe
     assert sum(assert_derivatives_are_differences(found, rng) for _ in range(5)) >= 10
 
 
+def test_meetings_stay_in_the_planes_of_their_curves(shipped: Shipped) -> None:
+    """Also where a point of the curve is led out of its plane: a run puts its meetings back."""
+    found = published_program(shipped("series60_70").document)
+    assert found is not None
+    program, rows = found.program, np.unique(found.program.row)[::50]
+    told = tangents(program, found.values, rows, np.ones((1, len(rows), 3)), rows)
+    axis = program.own_axis[program.meet_curve]
+    flat = np.flatnonzero(axis >= 0)
+    assert told.place[0, flat].any()
+    assert not told.place[0, flat, axis[flat]].any()
+
+
 def test_a_jacobian_has_the_derivatives_by_each_coordinate(shipped: Shipped) -> None:
     """Column by column those of single moves, of a point that rides too; all else is left out."""
     found = published_program(shipped("series60_70").document)

@@ -168,6 +168,17 @@ def insert_and_fail(hull: ah.Hull, made: list[ah.Point], before: object, count: 
         edit.move("WL 2.5 x ST 7", y=1e9)
 
 
+def test_an_edit_of_nothing_but_the_name_is_published() -> None:
+    """It lies in the settings, and in no other table; undo brings the old one back."""
+    hull = ah.examples.wigley()
+    before, read = hull.particulars.name, hull.state
+    with hull.edit("name") as edit:
+        edit.rename(hull, "Thetis")
+    assert (hull.particulars.name, read.particulars.name) == ("Thetis", before)
+    hull.undo()
+    assert hull.particulars.name == before
+
+
 def test_what_an_edit_has_deleted_is_not_given_to_it_again() -> None:
     """A handle that the published hull still knows is one on nothing in this edit."""
     hull = ah.examples.wigley()
