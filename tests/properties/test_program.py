@@ -6,6 +6,9 @@ program carries out the whole edit. Both look at the same hull, which neither ch
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Callable
+
 import attrs
 import numpy as np
 import pytest
@@ -15,9 +18,25 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.edit.drag import Drag, Live
 from assoc_hull.edit.published_program import published_program
-from assoc_hull.model.program.run_program import NumpyProgram, RunProgram, run_program, write_points
-from assoc_hull.model.program.structure import PublishedProgram, Values
-from assoc_hull.model.tables import HullState
+from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.model.feature_geometry import off_shapes, places_off
+from assoc_hull.model.index import build_index
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.program.run_program import (
+    NumpyProgram,
+    RunProgram,
+    _features_left,
+    differs,
+    run_program,
+    write_points,
+)
+from assoc_hull.model.program.structure import (
+    CompiledFeatures,
+    PublishedProgram,
+    Values,
+    compile_program,
+)
+from assoc_hull.model.tables import HullState, copy_state
 from tests.conftest import Shipped
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 
@@ -179,3 +198,121 @@ def test_compiled_and_numpy_give_the_same_bits_and_doubts(name: str, shipped: Sh
             runner.restore(values, before, run)
             same_numbers(values, before)
     assert len(doubts) >= 4, doubts
+
+
+@pytest.mark.parametrize(
+    ("role", "side"),
+    [("shared", 0), ("shared", 1), ("driven", 0), ("watched", 0), ("watched", 1)],
+    ids=["shared, a", "shared, b", "driven, the driver", "watched, a", "watched, b"],
+)
+def test_curves_that_lack_a_meeting_go_the_full_way(role: str, side: int, shipped: Shipped) -> None:
+    """A crossing that one of its curves does not meet: no run can tell where it goes."""
+    state = copy_state(shipped("bulk_carrier").state)
+    table, lacked = state.rows, 0
+    crossing = table.alive.data & (table.sort.data == Sort.CROSSING) & ~table.contact.data
+    for row in np.flatnonzero(crossing).tolist():
+        curves, driver = table.curve[row].tolist(), int(table.driver[row])
+        is_role = "shared" if driver < 0 else "driven"
+        if table.role[row] == Role.WATCHED:
+            is_role = "watched"
+        if is_role != role or (role == "driven" and driver != curves[side]):
+            continue
+        curve, lacked = curves[side], lacked + 1
+        met = state.curves.meets[curve]
+        without = attrs.evolve(met, row=np.where(met.row == row, -1, met.row))
+        state.curves.meets.store[curve] = without
+        program = compile_program(state, build_index(state))
+        state.curves.meets.store[curve] = met
+        assert program is not None
+        unsure = program.number[program.unsure != 0].tolist()
+        assert sorted(unsure) == (sorted(curves) if role == "watched" else [curve])
+        if lacked == 3:
+            break
+    assert lacked
+
+
+@pytest.mark.parametrize("arithmetic", ["numpy", "compiled"])
+def test_points_are_off_a_feature_by_what_it_says_itself(arithmetic: str, shipped: Shipped) -> None:
+    """Whichever of its points has moved; a run has a doubt of those that are off, and no other."""
+    hull = shipped("bulk_carrier")
+    found, features = program_of(hull), hull.state.features
+    assert found is not None
+    table, values, shapes = found.program.features, found.values.copy(), set[int]()
+    owners: dict[int, list[int]] = {}
+    for number, each in enumerate(features):
+        for row in set(each.points):
+            owners.setdefault(row, []).append(number)
+    assert [each.points for each in features] == [
+        tuple(table.point[a:b].tolist()) for a, b in itertools.pairwise(table.start.tolist())
+    ]
+    for number, each in enumerate(features):
+        shape = int(table.shape[number])
+        for row in {each.points[0], each.points[len(each.points) // 2], each.points[-1]}:
+            values.xyz[row] += (0.02, 0.03, -0.01)
+            places = values.xyz[list(each.points)]
+            wanted = float(places_off(each, places).max())
+            if arithmetic == "numpy":
+                off = float(off_shapes(shape, table.numbers[number], places).max())
+                left = [
+                    i for i in owners[row]
+                    if places_off(features[i], values.xyz[list(features[i].points)]).max()
+                    > table.limit[i]
+                ]  # fmt: skip
+                told = _features_left(found.program, values, np.array([row]))
+                assert told.tolist() == left
+            else:
+                off = compiled_off(table, number, values.xyz)
+            assert abs(off - wanted) <= 1e-12
+            shapes.add(shape)
+            values.xyz[row] = found.values.xyz[row]
+    assert shapes >= {0, 1, 2}
+
+
+def compiled_off(table: CompiledFeatures, number: int, xyz: FloatArray) -> float:
+    """What the compiled form measures; as Python, which spares the compiler."""
+    pytest.importorskip("numba")
+    from assoc_hull.model.program.compiled_program import _off_feature
+
+    measure: Callable[..., float] = _off_feature.py_func  # type: ignore[attr-defined]
+    return measure(number, table.start, table.point, table.shape, table.numbers, xyz)
+
+
+def test_a_meeting_in_another_sense_is_another_structure(shipped: Shipped) -> None:
+    """Each curve that meets what it did, but passes a plane the other way, is doubted."""
+    found = program_of(shipped("bulk_carrier"))
+    assert found is not None
+    program, before = found.program, found.values
+    for curve in np.unique(program.meet_curve)[::40].tolist():
+        sign, meeting = program.meet_sign.copy(), int(program.meet_start[curve])
+        sign[meeting] = -sign[meeting]
+        flipped = attrs.evolve(program, meet_sign=sign)
+        run = run_program(flipped, before.copy(), before, NONE, NONE, np.array([curve]))
+        assert (run.doubt.name, run.where) == ("MEETINGS", curve)
+
+
+def test_numbers_that_are_read_tell_of_folds_and_of_the_centre_plane(shipped: Shipped) -> None:
+    """A curve that turns back on itself, or lies beyond, does so before any edit."""
+    state = copy_state(shipped("series60_70").state)
+    curve = int(state.live("curves")[7])
+    spline = state.spline(curve)
+    xyz = spline.xyz - np.array([0.0, 1.0 + spline.xyz[:, 1].max(), 0.0])
+    turned = SplineBatch(spline.start, spline.knot, xyz, -spline.leave, -spline.arrive)
+    state.curves.spline.store[curve] = turned
+    found = program_of(ah.Hull(state))
+    assert found is not None
+    here = found.program.local[curve]
+    assert found.values.folds[here] == len(xyz)
+    assert found.values.lowest[here] == xyz[:, 1].min() < -1.0
+    assert np.flatnonzero(found.values.folds).tolist() == [here]
+
+
+def test_nil_has_a_sign_for_both_arithmetics() -> None:
+    """A bit that differs passes a change on, whatever the numbers are worth."""
+    pytest.importorskip("numba")
+    from assoc_hull.model.program.compiled_program import _differs
+
+    compiled: Callable[..., bool] = _differs.py_func  # type: ignore[attr-defined]
+    cases = [0.0, -0.0, 1.0, np.nextafter(1.0, 2.0), -1.0]
+    for one, other in itertools.product(cases, cases):
+        told = differs(np.array([[one]]), np.array([[other]]))[0]
+        assert compiled(one, other) == told, (one, other)

@@ -6,6 +6,7 @@ edit; the other always goes the full way. Tables, steps, causes and reports must
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from unittest import mock
@@ -156,4 +157,22 @@ def test_edits_of_ships_by_the_program(name: str, shipped: Shipped, backend_in_u
                     break
     assert_same(*hulls)
     assert count.kept > 5
+    assert_numbers_are_those_of_the_tables(hulls[0])
+
+
+def test_pulls_in_several_sub_steps_by_the_program(shipped: Shipped) -> None:
+    """What is told of them begins before the first sub-step."""
+    hulls, several = (shipped("bulk_carrier"), shipped("bulk_carrier")), 0
+    points = [key for key, point in hulls[0].points.items() if point.free == ("y",)]
+    for hull, always in zip(hulls, (True, False), strict=True):
+        rng = np.random.default_rng(29)
+        for number in range(10):
+            point, count = points[int(rng.integers(len(points)))], Count()
+            size, radius = float(rng.normal(0.0, 0.2)), float(rng.uniform(10.0, 60.0))
+            with contextlib.suppress(ah.errors.AssocHullError), by_program(count, always=always):
+                with hull.edit(f"edit {number}", author="x") as edit:
+                    edit.pull(point, size, (radius, 0.4 * radius))
+                several += count.kept == count.asked > 1
+    assert_same(*hulls)
+    assert several >= 1
     assert_numbers_are_those_of_the_tables(hulls[0])

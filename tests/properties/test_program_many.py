@@ -130,6 +130,45 @@ def test_every_doubt_is_told_of_its_own_variant(shipped: Shipped) -> None:
     mixed = [part for each in by_doubt.values() for part in (each, kept)]
     assert_many_are_single_runs(found, mixed, len(mixed))
     assert_many_are_single_runs(found, mixed[::-1], 5)
+    # Two that are in doubt of the same, at the same level, stop each by itself.
+    assert_many_are_single_runs(found, mixed + mixed, 2 * len(mixed))
+
+
+def test_what_was_so_before_is_doubted_of_no_variant(shipped: Shipped) -> None:
+    """A curve beyond the centre plane, or one that folds, was it before: the doubt is of others."""
+    found = published_program(shipped("series60_70").document)
+    assert found is not None
+    program = attrs.evolve(found.program, limit=np.full_like(found.program.limit, np.inf))
+    before = attrs.evolve(found.values, folds=np.full_like(found.values.folds, 99))
+    near = np.unique(program.row[(before.xyz[program.row, 1] > 0.0)])
+    beyond = dict[int, Variant]()
+    for row in near[np.argsort(before.xyz[near, 1])][:200].tolist():
+        place = before.xyz[[row]] - (0.0, before.xyz[row, 1] + 0.01, 0.0)
+        values = before.copy()
+        run = run_program(
+            program, values, before, write_points(values, np.array([row]), place), NONE
+        )
+        if run.doubt.name == "BEYOND":
+            beyond[run.where] = Variant(np.array([row]), place, NONE)
+    assert len(beyond) >= 2
+    variants = [*beyond.values()][:6]
+    for curve in [*beyond][:2]:
+        so = before.lowest.copy()
+        so[curve] = -1e3
+        known = attrs.evolve(before, lowest=so)
+        assert_many_are_single_runs(PublishedProgram(program, known), variants, len(variants))
+        each, values = beyond[curve], before.copy()
+        moved = write_points(values, each.rows, each.places)
+        run = run_program(program, values, known, moved, NONE)
+        assert (run.doubt.name, run.where) != ("BEYOND", curve)
+    folds = found.values.folds.copy()
+    folds[3] = -1
+    fewer = attrs.evolve(before, folds=folds)
+    still = [Variant(NONE, np.zeros((0, 3)), NONE)] * 4
+    every = np.arange(program.curves)
+    told = assert_many_are_single_runs(PublishedProgram(program, fewer), still, 4, every)
+    assert told == {"FOLD"}
+    assert run_program(program, before.copy(), fewer, NONE, NONE, every).where == 3
 
 
 def test_the_same_points_are_written_to_all_variants(shipped: Shipped) -> None:
@@ -271,6 +310,18 @@ def test_derivatives_are_differences_of_runs_of_ships(name: str, shipped: Shippe
     assert found is not None
     rng = np.random.default_rng(12)
     assert sum(assert_derivatives_are_differences(found, rng) for _ in range(5)) >= 10
+
+
+def test_meetings_stay_in_the_planes_of_their_curves(shipped: Shipped) -> None:
+    """Also where a point of the curve is led out of its plane: a run puts its meetings back."""
+    found = published_program(shipped("series60_70").document)
+    assert found is not None
+    program, rows = found.program, np.unique(found.program.row)[::50]
+    told = tangents(program, found.values, rows, np.ones((1, len(rows), 3)), rows)
+    axis = program.own_axis[program.meet_curve]
+    flat = np.flatnonzero(axis >= 0)
+    assert told.place[0, flat].any()
+    assert not told.place[0, flat, axis[flat]].any()
 
 
 def test_a_jacobian_has_the_derivatives_by_each_coordinate(shipped: Shipped) -> None:

@@ -11,13 +11,23 @@ import threading
 import time
 from collections.abc import Callable
 
+import attrs
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, HullBusyError
+from assoc_hull.graph.table import (
+    NumberColumn,
+    Table,
+    ValueColumn,
+    VectorColumn,
+    numbers,
+    values,
+    vectors,
+)
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.tables import HullState
 from tests.conftest import Shipped
@@ -77,6 +87,58 @@ def test_an_edit_of_a_snapshot_and_one_of_its_hull_do_not_meet(
     assert snapshot.fingerprint == hull.fingerprint
 
 
+@attrs.frozen(eq=False)
+class Towers(Table):
+    """A column of each kind."""
+
+    height: NumberColumn[np.int64] = numbers(np.int64)
+    place: VectorColumn[np.int64] = vectors(np.int64, 2)
+    name: ValueColumn[str] = values("")
+
+
+WRITES = ("number", "vector", "value", "resize", "share")
+
+
+@example([("resize", 0, 9), ("number", 0, 8), ("share", 0, 0), ("resize", 0, 4), ("resize", 0, 9)])
+@example([("resize", 0, 9), ("share", 0, 0), ("number", 1, 1), ("share", 1, 0)])
+@given(st.lists(st.tuples(st.sampled_from(WRITES), st.integers(0, 99), st.integers(0, 24))))
+def test_tables_that_share_columns_hold_what_was_written_to_each(
+    acts: list[tuple[str, int, int]],
+) -> None:
+    """As lists of their own would, whichever of them grows, shrinks or is written to first."""
+    tables, wanted = [Towers()], [list[tuple[int, int, str]]()]
+    by_stamp = dict[int, list[int]]()
+    for turn, (act, which, amount) in enumerate(acts, 1):
+        table, rows = tables[which % len(tables)], wanted[which % len(tables)]
+        if act == "share":
+            tables.append(table.share())
+            wanted.append(rows.copy())
+        elif act == "resize":
+            table.resize(amount)
+            rows[:] = (rows + [(0, 0, "")] * amount)[:amount]
+        elif rows:
+            row = amount % len(rows)
+            number, vector, value = rows[row]
+            if act == "number":
+                table.height.store[row] = number = turn
+                table.height.written()
+            elif act == "vector":
+                table.place.store[row, 1] = vector = turn
+            else:
+                table.name.store[row] = value = str(turn)
+            rows[row] = number, vector, value
+        for each, known in zip(tables, wanted, strict=True):
+            assert each.count == len(known)
+            assert each.height.data.tolist() == [number for number, _, _ in known]
+            # What was derived from one of them is true of all that have the stamp.
+            stamp = each.height.writes
+            assert (
+                by_stamp.setdefault(stamp, each.height.data.tolist()) == each.height.data.tolist()
+            )
+            assert each.place.data.tolist() == [[0, vector] for _, vector, _ in known]
+            assert each.name.data == [value for _, _, value in known]
+
+
 def test_inside_an_edit_the_hull_reads_as_published() -> None:
     """What the edit has made answers, and is seen by nobody else; a refusal leaves no trace."""
     hull = ah.examples.wigley()
@@ -104,6 +166,17 @@ def insert_and_fail(hull: ah.Hull, made: list[ah.Point], before: object, count: 
         thread.join()
         assert seen == [False]
         edit.move("WL 2.5 x ST 7", y=1e9)
+
+
+def test_an_edit_of_nothing_but_the_name_is_published() -> None:
+    """It lies in the settings, and in no other table; undo brings the old one back."""
+    hull = ah.examples.wigley()
+    before, read = hull.particulars.name, hull.state
+    with hull.edit("name") as edit:
+        edit.rename(hull, "Thetis")
+    assert (hull.particulars.name, read.particulars.name) == ("Thetis", before)
+    hull.undo()
+    assert hull.particulars.name == before
 
 
 def test_what_an_edit_has_deleted_is_not_given_to_it_again() -> None:

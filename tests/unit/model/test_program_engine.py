@@ -95,3 +95,17 @@ def test_the_command_tells(
     assert capsys.readouterr().out == "numpy: ASSOC_HULL_FAST=0 asks for it\n"
     assert main(["info"]) == 2
     assert "give HULL, or --engine" in capsys.readouterr().err
+
+
+def test_who_asks_seldom_has_nothing_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twenty asks are answered with no; from the next one on the compiled form serves."""
+    looked = list[bool]()
+
+    def ready() -> bool:
+        looked.append(True)
+        return True
+
+    monkeypatch.setattr(program_engine, "_is_ready", ready)
+    told = [program_engine.is_compiled() for _ in range(23)]
+    assert told == [False] * 20 + [True] * 3
+    assert len(looked) == 3
