@@ -16,6 +16,7 @@ import contextlib
 import operator
 from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
+from functools import partial
 from typing import Protocol
 
 import attrs
@@ -28,7 +29,7 @@ from assoc_hull.edit.write_lock import PATIENCE, WriteLock
 from assoc_hull.errors import AssocHullError, BadInputError, NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import IntArray, freeze
 from assoc_hull.graph.network import distinct
-from assoc_hull.model.index import Index, build_index
+from assoc_hull.model.index import Index, build_index, index_columns
 from assoc_hull.model.tables import HullState, copy_into, copy_state
 
 __all__ = ["Changed", "Document", "Keeper", "Label"]
@@ -174,10 +175,15 @@ class Document:
         """Derive the look-ups anew, after the structure changed."""
         self.known_index = build_index(self.state)
 
+    def index_of(self, state: HullState, known: Index | None = None) -> Index:
+        """Give the look-ups of a published state; `known` may be those of just that one."""
+        make = partial(build_index, state) if known is None else lambda: known
+        return state.derived(("look-ups",), index_columns(state), make, most=2)
+
     @property
     def state_number(self) -> int:
         """Number of the published state: it rises with commit, undo, redo, go and refresh."""
-        return len(self._states)
+        return self.state.published().number
 
     def since(self, number: int) -> Changed:
         """Tell what has changed since the state with a number.
@@ -188,8 +194,8 @@ class Document:
             There was no such state.
         """
         state = self.state.published()
-        first = integer(number, "the state", "in since", least=0, most=self.state_number)
-        steps = [step for state in self._states[first:] for step in state]
+        first = integer(number, "the state", "in since", least=0, most=state.number)
+        steps = [step for each in self._states[first : state.number] for step in each]
         none = np.zeros(0, np.int64)
         curves = distinct(np.concatenate([none, *(step.curves for step in steps)]))
         rows = distinct(np.concatenate([none, *(step.rows for step in steps)]))
@@ -253,6 +259,8 @@ class Document:
                 self.keeper.end()
         finally:
             self.state.end_writing()
+            if self.known_index is not None:
+                self.index_of(self.state.published(), self.known_index)
             act, self.when_published = self.when_published, None
             try:
                 if act is not None:
@@ -302,11 +310,12 @@ class Document:
             self.undone.clear()
             self.history.append(step)
             self.steps[step.number] = step
-            self._states.append((step,))
+            self._note_state((step,))
             self._agree()
         except BaseException:
             # What the keeper holds of it by then comes back with `settle`.
             del self.history[places[0] :], self._states[places[1] :]
+            self.state.number = len(self._states)
             self.undone[:] = undone
             self.steps.pop(step.number, None)
             if branch is not None:
@@ -431,7 +440,7 @@ class Document:
             self._turn(step, forward)
         self.stand(head, tip)
         if moves:
-            self._states.append(tuple(step for step, _ in moves))
+            self._note_state(tuple(step for step, _ in moves))
 
     def keep_revisions(self, rows: dict[int, int], curves: dict[int, int]) -> None:
         """Raise revisions to those that are known elsewhere; none is lowered."""
@@ -488,16 +497,26 @@ class Document:
             self.settle()
 
     @contextlib.contextmanager
-    def unharmed(self) -> Iterator[None]:
-        """Bring tables and history back to what they were, if what is done meanwhile fails."""
-        was = None if self.keeper is None else copy_state(self.state)  # in memory nothing fails
+    def unharmed(self, turned: Sequence[tuple[Step, bool]] = ()) -> Iterator[None]:
+        """Bring tables and history back to what they were, if what is done meanwhile fails.
+
+        `turned` are the steps that have been run by then, or half run; of a hull that is kept the
+        tables are copied, as their changes cannot be run from the middle.
+        """
+        was = None if self.keeper is None else copy_state(self.state)
         before = list(self.history), list(self.undone)
         try:
             yield
         except BaseException:
             if was is not None:
                 copy_into(self.state, was)
-                self.refresh()
+            else:
+                # Half run in whatever way, a journal can be run forward from its beginning.
+                for step, forward in reversed(turned):
+                    step.journal.forth()
+                    if forward:
+                        step.journal.back()
+            self.refresh()
             self.history[:], self.undone[:] = before
             raise
 
@@ -508,9 +527,10 @@ class Document:
 
         Only with the right to write.
         """
-        steps = [step for step, _ in moves]
-        with self.unharmed():
+        steps, turned = [step for step, _ in moves], list[tuple[Step, bool]]()
+        with self.unharmed(turned):
             for step, forward in moves:
+                turned.append((step, forward))
                 self._turn(step, forward)
             if leaves:
                 self.undone.clear()
@@ -518,7 +538,7 @@ class Document:
                 self.unsettled = True
                 self.keeper.move(self.head, self.tip, steps, branch)
         self._name(branch)
-        self._states.append(tuple(steps))
+        self._note_state(tuple(steps))
         self._agree()
         return steps
 
@@ -534,6 +554,11 @@ class Document:
         if step.structural:
             self.refresh()
         self._revise(self._revisions(step))
+
+    def _note_state(self, steps: tuple[Step, ...]) -> None:
+        """Note that steps were run; what is published next has another number."""
+        self._states.append(steps)
+        self.state.number = len(self._states)
 
     def _branch(self, tip: int | None) -> Label | None:
         """Give a name for steps that are left, unless they can be reached by one already."""

@@ -156,12 +156,11 @@ class _QuickWay:
 
     @classmethod
     def of(
-        cls, document: Document, row: int, how: DragWay, radius: tuple[float, float] | None,
-        across_flats: bool,
+        cls, document: Document, state: HullState, row: int, how: DragWay,
+        radius: tuple[float, float] | None, across_flats: bool,
     ) -> Self | None:  # fmt: skip
-        """Give what is read; None where every step has to go the full way."""
-        state = document.state.published()
-        published = published_program(document)
+        """Give what is read of a published state; None where every step has to go the full way."""
+        published = published_program(document, state)
         if published is None:
             return None
         numbers = LiveNumbers.of(published)
@@ -277,9 +276,9 @@ class Drag:
         normal = normals_at(state, np.array([row]))[0]
         self.normal: FloatArray | None = normal.copy() if (normal != 0.0).any() else None
         freeze(self.start, *([] if self.normal is None else [self.normal]))
-        self._row, self._quick = row, _QuickWay.of(document, row, how, radius, across_flats)
+        self._row, self._quick = row, _QuickWay.of(document, state, row, how, radius, across_flats)
         self._published = HullShapes.of(state)
-        self._number, self._last = document.state_number, dict[str, float]()
+        self._number, self._last = state.number, dict[str, float]()
         self._over, self._stop_asked, self._turn = False, False, WriteLock()
 
     def __enter__(self) -> Self:

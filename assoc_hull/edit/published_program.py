@@ -143,17 +143,18 @@ class HasProgram(Protocol):
     def state(self) -> HullState:
         """The tables."""
 
-    @property
-    def index(self) -> Index:
-        """Look-ups derived from them."""
+    def index_of(self, state: HullState) -> Index:
+        """Look-ups derived from a published state of them."""
 
 
-def published_program(document: HasProgram) -> PublishedProgram | None:
-    """Give the program of the present state; None of a hull with curves that cannot be made.
+def published_program(
+    document: HasProgram, state: HullState | None = None
+) -> PublishedProgram | None:
+    """Give the program of a published state; None of a hull with curves that cannot be made.
 
-    Its numbers stay as they are for ever.
+    That is the present one if none is given. Its numbers stay as they are for ever.
     """
-    at = _at_hand(document, lend=True)
+    at = _at_hand(document, document.state.published() if state is None else state, lend=True)
     return None if at is None else at.found
 
 
@@ -162,7 +163,7 @@ def numbers_for_edit(document: HasProgram) -> tuple[LiveNumbers, HullNetwork] | 
 
     Of the net only the structure is looked at: its numbers may be those of an earlier state.
     """
-    at = _at_hand(document, lend=False)
+    at = _at_hand(document, document.state.published(), lend=False)
     if at is None:
         return None
     spare, document.program.spare = document.program.spare, None
@@ -173,9 +174,9 @@ def numbers_for_edit(document: HasProgram) -> tuple[LiveNumbers, HullNetwork] | 
     return spare, at.net
 
 
-def _at_hand(document: HasProgram, *, lend: bool) -> _AtHand | None:
-    """Give the program with the numbers of the published state."""
-    kept, state = document.program, document.state.published()
+def _at_hand(document: HasProgram, state: HullState, *, lend: bool) -> _AtHand | None:
+    """Give the program with the numbers of a published state."""
+    kept = document.program
 
     def known() -> _AtHand | None:
         at = kept.at_hand
@@ -189,7 +190,7 @@ def _at_hand(document: HasProgram, *, lend: bool) -> _AtHand | None:
 
 def _find(document: HasProgram, state: HullState) -> _AtHand | None:
     """Compile, where the structure is another than before; and read what has changed."""
-    index, kept = document.index, document.program
+    index, kept = document.index_of(state), document.program
     net = state.derived(
         ("net",), _structure(state, index), lambda: HullNetwork(state, index), most=1
     )

@@ -80,6 +80,7 @@ class Transaction:
         self._over = False
         self._index: Index | None = None
         self._known: Marked = {}
+        self._begun = self._taken_back = False
 
     @property
     def report(self) -> EditReport | None:
@@ -169,16 +170,31 @@ class Transaction:
         keep, what = self.look is None, f"the edit {self.name!r}"
         self.document.begin(self, what, self.author, where=where, keep=keep, wait=wait)
         self._index, self._known = self.document.known_index, self.state.memory.mark()
+        self._begun = True
         self.document.writer = self
 
     def _end(self) -> None:
-        """Give the right to write back, and bring memory to what is kept if that is ahead."""
+        """Give the right to write back, and bring memory to what is kept if that is ahead.
+
+        What was being taken back when it was broken off is taken back first: else it would be
+        published. An edit that is in the history stays.
+        """
+        left = self.journal.entries or not self._taken_back
+        if self._begun and left and not self._committed:
+            self._restore()
+        self._begun = False
         if self.document.writer is self:
             self.document.writer = None
         try:
             self.document.end(self, keep=self.look is None)
         finally:
             self.document.try_to_settle()
+
+    @property
+    def _committed(self) -> bool:
+        """Whether its step is in the history."""
+        step = self._step
+        return step is not None and self.document.steps.get(step.number) is step
 
     def __exit__(
         self,
@@ -219,7 +235,7 @@ class Transaction:
                 self._publish()
         except BaseException:
             # Behind the commit nothing is taken back: the step is in the history, and kept.
-            if self._step is None or self.document.steps.get(self._step.number) is not self._step:
+            if not self._committed:
                 self._restore()
                 self._step = None
             raise
@@ -252,12 +268,15 @@ class Transaction:
         self._step = step
 
     def _restore(self) -> None:
-        """Take everything back; what was derived from the tables before is true again."""
-        numbers, structural = self.pending.numbers, self.pending.structural
-        self.pending = Pending()
+        """Take everything back; what was derived from the tables before is true again.
+
+        Broken off at any line, it may be run again.
+        """
+        structural = self.pending.structural
         self.journal.undo()
-        if numbers is not None:
-            numbers.take_back()
+        if self.pending.numbers is not None:
+            self.pending.numbers.take_back()
         self.state.memory.restore(self._known)
         if structural:
             self.document.known_index = self._index
+        self.pending, self._taken_back = Pending(), True

@@ -17,7 +17,7 @@ from assoc_hull.model.forms.generate_points import definitions_read
 from assoc_hull.model.generated_curves import attached_curves
 from assoc_hull.model.tables import HullState
 
-__all__ = ["Index", "PlaneSet", "build_index", "driven_levels"]
+__all__ = ["Index", "PlaneSet", "build_index", "driven_levels", "index_columns"]
 
 
 @attrs.frozen(eq=False)
@@ -68,6 +68,18 @@ class Index:
     makes: dict[int, IntArray]
     forms: dict[int, IntArray]
     guess: np.typing.NDArray[np.int32]
+
+
+def index_columns(state: HullState) -> tuple[object, ...]:
+    """Give the columns that look-ups are derived from."""
+    rows, curves, lines, groups = state.rows, state.curves, state.lines, state.groups
+    return (
+        rows.alive, rows.sort, rows.curve, rows.reader, rows.driver, rows.anchor,
+        curves.alive, curves.line, curves.rows, lines.alive, lines.planar, lines.normal,
+        lines.offset, lines.group, groups.alive, groups.name, groups.family,
+        state.settings.associations, state.formed.alive, state.formed.definition,
+        state.produced.alive, state.produced.curve,
+    )  # fmt: skip
 
 
 def build_index(state: HullState) -> Index:

@@ -65,7 +65,7 @@ __all__ = [
 
 T = TypeVar("T")
 
-_OF_THIS_PROCESS = ("_live", "_published", "_written_here", "_looked")
+_OF_THIS_PROCESS = ("number", "_live", "_published", "_written_here", "_looked")
 
 _GATE = Gate()
 """Held for the moment in which a state is published, or one is taken."""
@@ -363,6 +363,8 @@ class HullState:
         change, so the particulars lie here too.
     revision_row, revision_curve : dict of int to int
         Revisions; outside the journal, as they never run backward.
+    number : int
+        Number of the state in the history of the hull; what is published keeps that of its time.
     memory : Derived
         What was made of the tables, see `derived`. It lies here to go with the hull: a store by
         hull elsewhere would keep it for ever.
@@ -380,6 +382,7 @@ class HullState:
     settings: HullSettings = attrs.field(factory=HullSettings)
     revision_row: dict[int, int] = attrs.field(factory=dict)
     revision_curve: dict[int, int] = attrs.field(factory=dict)
+    number: int = attrs.field(default=0, init=False)
     memory: Derived = attrs.field(factory=Derived, init=False, repr=False)
     _live: HullState | None = attrs.field(default=None, init=False, repr=False)
     _published: HullState | None = attrs.field(default=None, init=False, repr=False)
@@ -413,7 +416,7 @@ class HullState:
     def _is_current(self) -> bool:
         """Tell whether the tables are as they were published, or as they were again."""
         published, taken = self._published, writes_begun()
-        if published is None:
+        if published is None or published.number != self.number:
             return False
         if taken != self._looked:  # else nobody has written to any column of any hull
             if not all(getattr(self, name).equals(getattr(published, name)) for name in TABLES):
@@ -459,6 +462,7 @@ class HullState:
             known = None if before is None else getattr(before, name)
             setattr(found, name, getattr(self, name).share(known))
         found._given, found.tolerances = self._given, self.tolerances
+        found.number = 0 if live is None else self.number
         found.revision_row, found.revision_curve = (
             dict(self.revision_row),
             dict(self.revision_curve),
@@ -479,6 +483,7 @@ class HullState:
         for name, value in state.items():
             setattr(self, name, value)
         self._live, self._published, self._written_here, self._looked = None, None, None, -1
+        self.number = 0
 
     def derived(
         self, key: Key, depends_on: tuple[object, ...], make: Callable[[], T], most: int = 64
