@@ -34,10 +34,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.splines.loft import loft_with_signed_zeros
 from assoc_hull.graph.journal import Journal, both_parts, distinct, same_value
 from assoc_hull.graph.table import AnyColumn, Column, ValueColumn
 from assoc_hull.model.kinds import State
-from assoc_hull.model.lofting import loft_curves
+from assoc_hull.model.lofting import curve_data, loft_curves
 from assoc_hull.model.tables import TABLES, CurveIntersections, HullState
 
 __all__ = [
@@ -49,6 +50,7 @@ __all__ = [
     "crossing_positions",
     "put_crossing_positions",
     "shape_curves",
+    "with_signed_zeros",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -626,6 +628,17 @@ def _move(state: HullState, moved: tuple[IntArray, NDArray[np.uint8]]) -> None:
         if not np.isfinite(at[now.line >= 0]).all():
             raise ValueError("a meeting of a curve would lie nowhere")
         put_crossing_positions(state, attrs.evolve(now, at=at))
+
+
+def with_signed_zeros(state: HullState) -> HullState:
+    """Give tables of their own whose curves were lofted as files up to version 6 had them."""
+    found = state.as_written()
+    curves = np.flatnonzero(found.curves.alive.data & (found.curves.state.data == State.CLEAN))
+    if len(curves):
+        batch = loft_with_signed_zeros(curve_data(found, curves))
+        for curve, spline in zip(curves.tolist(), batch.single(), strict=True):
+            found.curves.spline.store[curve] = spline
+    return found
 
 
 def shape_curves(state: HullState, curves: IntArray, kept: dict[int, SplineBatch]) -> None:

@@ -309,11 +309,11 @@ def _solve_curve(
         _restore(tables, level, size >> level)
     step = 1 if bound else size - 1
     for k in range(3):
+        # The sums turn -0.0 into 0.0.
         for i in range(0, size, step):
-            leave[k, begin + i] += tables[0, i, 1 + k]
-            arrive[k, begin + i] += tables[0, i, 1 + k]
+            leave[k, begin + i] = 0.0 + (leave[k, begin + i] + tables[0, i, 1 + k])
+            arrive[k, begin + i] = 0.0 + (arrive[k, begin + i] + tables[0, i, 1 + k])
         for i in range(1, 0 if bound else size - 1):
-            # The sum turns -0.0 into 0.0.
             leave[k, begin + i] = 0.0 + tables[0, i, 1 + k]
             arrive[k, begin + i] = 0.0 + tables[0, i, 1 + k]
 

@@ -45,7 +45,7 @@ from assoc_hull.geometry.splines.loft_rules import (
 )
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["derivative", "evaluate", "loft", "sample"]
+__all__ = ["derivative", "evaluate", "loft", "loft_with_signed_zeros", "sample"]
 
 _COINCIDENT = Tolerances().coincident
 
@@ -98,7 +98,17 @@ def loft(data: CurveData, names: Sequence[str] | None = None) -> SplineBatch:
     return _loft(data, names)
 
 
-def _loft(data: CurveData, names: Sequence[str] | None) -> SplineBatch:
+def loft_with_signed_zeros(data: CurveData) -> SplineBatch:
+    """Loft as once was done: zeros of derivatives had signs, which hung on the company of a curve.
+
+    For files that hold fingerprints of such splines.
+    """
+    return _loft(data, None, signed_zeros=True)
+
+
+def _loft(
+    data: CurveData, names: Sequence[str] | None, *, signed_zeros: bool = False
+) -> SplineBatch:
     """Loft with numpy."""
     slots = slots_of(data.start)
     if slots.shortest < 2:
@@ -115,9 +125,12 @@ def _loft(data: CurveData, names: Sequence[str] | None) -> SplineBatch:
         rows = _rows(data, slots, state, chord, slope, workspace)
         _detach_known(rows, state, leave, arrive, workspace)
         solved = solve_tridiagonal(slots, rows, workspace)
-        # A sum, not a choice: known rows solve to zero; it also turns -0.0 into 0.0.
-        leave += solved
-        arrive += solved
+        # A sum, not a choice: known rows solve to zero. The sign of that zero hangs on the company
+        # of the curve, and shows where a direction is given as -0.0: so no zero keeps its sign.
+        for derivatives in (leave, arrive):
+            derivatives += solved
+            if not signed_zeros:
+                derivatives += 0.0
     chord[slots.first] = 0.0
     chord[-1] = 0.0
     return SplineBatch(data.start, running_sums(slots, chord), points.T, leave.T, arrive.T)

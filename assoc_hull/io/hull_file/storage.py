@@ -88,7 +88,7 @@ from assoc_hull.io.open_databases import (
     log_file,
     spared_log,
 )
-from assoc_hull.model.change import TableChange, change_of
+from assoc_hull.model.change import TableChange, change_of, with_signed_zeros
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.definition.hash_tree import HashTree, is_root
 from assoc_hull.model.tables import HullState, copy_into, copy_state
@@ -515,8 +515,14 @@ class HullFile:
         )
 
     def _print(self, like: str) -> str:
-        """Take the fingerprint of the tables: the root of the tree, or what files up to 6 have."""
-        return self._tree.root() if is_root(like) else fingerprint(self.state)
+        """Take the fingerprint of the tables: the root of the tree, or what files up to 6 have.
+
+        Those may hold that of curves whose zeros have signs, which is the same hull.
+        """
+        if is_root(like):
+            return self._tree.root()
+        found = fingerprint(self.state)
+        return found if found == like else fingerprint(with_signed_zeros(self.state))
 
     @property
     def _tree(self) -> HashTree:
