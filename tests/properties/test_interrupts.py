@@ -5,6 +5,7 @@ drawn from all that the act passes: in edits, undo, redo, checkpoints and variat
 lives in a hull file.
 """
 
+import contextlib
 import os
 import sys
 import threading
@@ -12,11 +13,13 @@ from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
 from typing import Any
+from unittest import mock
 
 import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.edit.drag import _QuickWay
 from tests.properties.test_program_edits import Count, by_program
 from tests.properties.test_published_states import content
 
@@ -53,25 +56,53 @@ def _move_by_program(hull: ah.Hull) -> None:
         _move(hull)
 
 
+def _refused(hull: ah.Hull) -> None:
+    with contextlib.suppress(ah.errors.AssocHullError), hull.edit("refused") as edit:
+        edit.move("WL 2.5 x ST 7", y=1e6)
+
+
+def _given_up(hull: ah.Hull) -> None:
+    with contextlib.suppress(LookupError), hull.edit("given up") as edit:
+        edit.insert("ST 7", (35.0, 0.5, 0.35))
+        raise LookupError
+
+
+def _preview(hull: ah.Hull) -> None:
+    hull.preview([{"op": "move", "point": "WL 2.5 x ST 7", "y": 2.8}], measure=False)
+
+
+def _drag(hull: ah.Hull) -> None:
+    with mock.patch.object(_QuickWay, "of", return_value=None):
+        hull.drag("WL 2.5 x ST 7", radius=(20.0, 4.0)).to(d=0.02)
+
+
+TAKEN_BACK: dict[str, Callable[[ah.Hull], None]] = {
+    "a refused edit": _refused, "an edit given up": _given_up, "a preview": _preview,
+    "a step of a drag": _drag,
+}  # fmt: skip
+BACK = ("/graph/journal.py", "/graph/table.py", "/edit/transaction.py")
+"""Where what was done is taken back."""
+
 ACTS: dict[str, tuple[Callable[[ah.Hull], None], int]] = {
     "a moved point": (_move, 1), "a point moved by the program": (_move_by_program, 1),
     "an inserted point": (_insert, 1), "undo": (_undo, 1), "redo": (_redo, 2),
-    "a checkpoint": (_name, 1),
+    "a checkpoint": (_name, 1), **{name: (act, 1) for name, act in TAKEN_BACK.items()},
 }  # fmt: skip
 """Each with what is done before: 1 an edit, 2 an edit that is taken back."""
 
 
 class Tracer:
-    """Counts the lines of the package that are passed, and raises at one of them."""
+    """Counts the lines of the package, or of some modules, that are passed; raises at one."""
 
-    def __init__(self, at: int = -1) -> None:
+    def __init__(self, at: int = -1, only: tuple[str, ...] = ("",)) -> None:
         self.at, self.seen, self.where = at, 0, ""
+        self.only = tuple(ROOT + each for each in only)
 
     def __call__(self, frame: FrameType, event: str, argument: Any) -> Any:
         """Trace the package only."""
         if not frame.f_code.co_filename.startswith(ROOT):
             return None
-        if event == "line":
+        if event == "line" and frame.f_code.co_filename.startswith(self.only):
             self.seen += 1
             if self.seen == self.at:
                 self.where = f"{frame.f_code.co_filename[len(ROOT) :]}:{frame.f_lineno}"
@@ -114,9 +145,12 @@ def in_thread(hull: ah.Hull) -> str:
 def test_an_interrupt_anywhere_leaves_one_truth(name: str, tmp_path: Path) -> None:
     """Whatever line it comes at, hull and file are as before the act or as after it."""
     act, done = ACTS[name]
-    counter = Tracer()
-    first = tmp_path / "first"
+    only = BACK if name in TAKEN_BACK else ("",)
+    counter = Tracer(only=only)
+    first, once = tmp_path / "first", tmp_path / "once"
     first.mkdir()
+    once.mkdir()
+    act(ready(once, done))  # what is imported or made once in a process is not counted
     hull = ready(first, done)
     before = hull.fingerprint
     traced(act, hull, counter)
@@ -126,7 +160,7 @@ def test_an_interrupt_anywhere_leaves_one_truth(name: str, tmp_path: Path) -> No
     for number, at in enumerate(sorted(draw.integers(1, counter.seen + 1, COUNT).tolist())):
         folder = tmp_path / str(number)
         folder.mkdir()
-        hull, tracer = ready(folder, done), Tracer(at)
+        hull, tracer = ready(folder, done), Tracer(at, only)
         with pytest.raises(KeyboardInterrupt):
             traced(act, hull, tracer)
         again = ah.open(folder / "ship.hull")
@@ -149,3 +183,58 @@ def test_an_interrupt_anywhere_leaves_one_truth(name: str, tmp_path: Path) -> No
         assert again.verify() == (), told
         hull.close()
         again.close()
+
+
+def _undo_two(hull: ah.Hull) -> None:
+    hull.undo(2)
+
+
+def _redo_two(hull: ah.Hull) -> None:
+    hull.redo(2)
+
+
+def _go(hull: ah.Hull) -> None:
+    hull.go("first")
+
+
+def edited(back: int) -> ah.Hull:
+    """A small hull in memory with three edits, one of them of the structure; some taken back."""
+    hull = ah.examples.wigley()
+    _move(hull)
+    hull.checkpoint("first")
+    _insert(hull)
+    with hull.edit("after") as edit:
+        edit.move("WL 3.75 x ST 9", y=3.9)
+    if back:
+        hull.undo(back)
+    return hull
+
+
+IN_MEMORY: dict[str, tuple[Callable[[ah.Hull], None], int]] = {
+    "undo": (_undo_two, 0), "redo": (_redo_two, 2), "go": (_go, 0),
+    **{name: (act, 0) for name, act in TAKEN_BACK.items()},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", IN_MEMORY)
+def test_an_interrupt_in_memory_leaves_what_was_or_what_was_asked(name: str) -> None:
+    """Without a file nothing but memory tells what the hull is."""
+    act, back = IN_MEMORY[name]
+    only = BACK if name in TAKEN_BACK else ("/graph", "/edit/document.py", "/model/tables.py")
+    act(edited(back))
+    hull, counter = edited(back), Tracer(only=only)
+    known = {hull.fingerprint: len(hull.history)}
+    traced(act, hull, counter)
+    known[hull.fingerprint] = len(hull.history)
+    draw = np.random.default_rng(29)
+    for at in sorted(draw.integers(1, counter.seen + 1, 2 * COUNT).tolist()):
+        hull, tracer = edited(back), Tracer(at, only)
+        with pytest.raises(KeyboardInterrupt):
+            traced(act, hull, tracer)
+        told = f"interrupted at {tracer.where}"
+        assert known.get(hull.fingerprint) == len(hull.history), told
+        assert hull.verify() == (), told
+        assert in_thread(hull) == hull.fingerprint, told
+        with hull.edit("next") as edit:
+            edit.move("WL 3.75 x ST 5", y=3.17)
+        assert hull.verify() == (), told

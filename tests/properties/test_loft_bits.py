@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from assoc_hull.geometry.curves import CurveData, SplineBatch
 from assoc_hull.geometry.splines.backend import backend, set_backend
-from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.loft import loft, loft_with_signed_zeros
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 
 FIELDS = ("knot", "xyz", "leave", "arrive")
@@ -82,6 +82,18 @@ def test_a_curve_alone_has_the_bits_it_has_in_a_batch(seed: int, sizes: list[int
     batch = loft(joined(parts))
     for index, part in enumerate(parts):
         assert same_bits(loft(part), batch.curve(index))
+
+
+@settings(max_examples=60, deadline=None)
+@given(seeds, counts)
+def test_zeros_of_derivatives_have_no_sign(seed: int, sizes: list[int]) -> None:
+    """Those of versions before had, and are the same splines but for that."""
+    data = joined([curve_data(seed + index, size) for index, size in enumerate(sizes)])
+    spline, before = loft(data), loft_with_signed_zeros(data)
+    for name in ("leave", "arrive"):
+        one, other = getattr(spline, name), getattr(before, name)
+        assert (one == other).all()
+        assert not np.signbit(one[one == 0.0]).any()
 
 
 @settings(max_examples=60, deadline=None)
