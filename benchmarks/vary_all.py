@@ -20,7 +20,7 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.hull.results import Variation
+from assoc_hull.hull.variants import Variation
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.comparing.line_fairness import (
     LineFairness,

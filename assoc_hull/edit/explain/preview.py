@@ -273,7 +273,7 @@ def preview(
     # whatever is neither a thing of the hull nor an address, `node_of` refuses
     asked = cast("list[Thing | str]", all_of(why, object, "why", "in preview"))
     flag(shapes, "shapes", "in preview")
-    if measure != "about":
+    if not (isinstance(measure, str) and measure == "about"):
         flag(measure, "measure", "in preview")
     document.require_ended("preview")
     before, found = document.state.published(), list[Preview]()
