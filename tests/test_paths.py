@@ -8,10 +8,11 @@ MOST = {
     # every edit asks `model.node` how the nodes of the network are numbered, which alone knows it;
     # reports name the movement along the normal, which `model.gaps` measures; `edit.write_lock`
     # lets one write at a time; `edit.program_edit` asks whether the program answers for the edit
-    "a moved point": 52,
+    # what is published has look-ups of its own, for others who read it meanwhile: `model.index`
+    "a moved point": 53,
     # one run stands in the place of the passes; in numpy it enters what they do to loft and cut
-    "a moved point, by the program": 47,
-    "a pull": 59,
+    "a moved point, by the program": 48,
+    "a pull": 60,
     "hydrostatics": 31,  # columns are read through `graph.table`, by `column[row]`
     # what is made of the tables is kept by `graph.derived`, behind the lock of `graph.gate`
     # its result stands in a module that loads nothing of studies and surfaces
