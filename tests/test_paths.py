@@ -11,7 +11,7 @@ MOST = {
     # what is published has look-ups of its own, for others who read it meanwhile: `model.index`
     "a moved point": 53,
     # one run stands in the place of the passes; in numpy it enters what they do to loft and cut
-    "a moved point, by the program": 48,
+    "a moved point, by the program": 47,
     "a pull": 60,
     "hydrostatics": 31,  # columns are read through `graph.table`, by `column[row]`
     # what is made of the tables is kept by `graph.derived`, behind the lock of `graph.gate`

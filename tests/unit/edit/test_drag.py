@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 import attrs
 import numpy as np
@@ -12,8 +14,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
+from assoc_hull.edit.document import Document
 from assoc_hull.edit.drag import Live
 from assoc_hull.edit.published_program import LiveNumbers
+from assoc_hull.edit.session import Edit
 from assoc_hull.errors import (
     BadInputError,
     PointRoleError,
@@ -25,6 +29,8 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import NumberColumn, Table, numbers
 from assoc_hull.model.program.run_program import ProgramRun
 from tests.twins import packed, twin
+
+T = TypeVar("T")
 
 POINT = "WL 2.5 x ST 7"
 PACK = packed(ah.examples.wigley())
@@ -387,3 +393,52 @@ def test_a_radius_that_is_changed_later_changes_nothing() -> None:
     assert again.spline.xyz.tobytes() == first.spline.xyz.tobytes()
     assert first.report is not None
     assert len(first.curves) == len(first.report.relofted)
+
+
+def in_another_thread(act: Callable[[], T]) -> T:
+    """What an act gives there."""
+    found = list[T]()
+    thread = threading.Thread(target=lambda: found.append(act()))
+    thread.start()
+    thread.join()
+    assert found, "it has raised"
+    return found[0]
+
+
+def test_a_drag_begun_while_another_thread_changes_the_structure_has_the_published_net() -> None:
+    """Tables and look-ups are both those of the published state, whatever is half written."""
+    ship = hull()
+
+    def drawn() -> tuple[bytes, bytes]:
+        drag = ship.drag(POINT, radius=RADIUS)
+        assert drag._quick is not None
+        with drag._quick.tried(*drag._quick.written({"d": 0.01}) or (), 0.01) as run:
+            assert run is not None
+            return run.rows.tobytes(), drag._quick.numbers.values.xyz.tobytes()
+
+    before, seen = drawn(), list[tuple[bytes, bytes]]()
+    trial = Edit(ship.document, "lines", look=lambda step: seen.append(in_another_thread(drawn)))
+    with trial:
+        trial.remove_line("ST 7")
+        trial.add_line("waterlines", 2.9)
+        trial.set_role("WL 5 x ST 9", "watched")
+    assert seen == [before]
+    assert drawn() == before
+
+
+def test_the_number_of_the_state_is_that_of_the_published_one() -> None:
+    """A step that is in the history counts from when it is published."""
+    ship, seen = hull(), list[tuple[int, int]]()
+    agree = Document._agree
+
+    def told(self: Document) -> None:
+        agree(self)
+        seen.append(in_another_thread(lambda: (ship.state_number, len(ship.since(0).rows))))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Document, "_agree", told)
+        with ship.edit("move") as edit:
+            edit.move(POINT, y=2.95)
+    assert seen == [(0, 0)]
+    assert ship.state_number == 1
+    assert len(ship.since(0).rows)
