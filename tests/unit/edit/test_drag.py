@@ -411,10 +411,13 @@ def test_a_drag_begun_while_another_thread_changes_the_structure_has_the_publish
 
     def drawn() -> tuple[bytes, bytes]:
         drag = ship.drag(POINT, radius=RADIUS)
-        assert drag._quick is not None
-        with drag._quick.tried(*drag._quick.written({"d": 0.01}) or (), 0.01) as run:
+        quick = drag._quick
+        assert quick is not None
+        written = quick.written({"d": 0.01})
+        assert written is not None
+        with quick.tried(*written, 0.01) as run:
             assert run is not None
-            return run.rows.tobytes(), drag._quick.numbers.values.xyz.tobytes()
+            return run.rows.tobytes(), quick.numbers.values.xyz.tobytes()
 
     before, seen = drawn(), list[tuple[bytes, bytes]]()
     trial = Edit(ship.document, "lines", look=lambda step: seen.append(in_another_thread(drawn)))
