@@ -268,7 +268,7 @@ class Hull:
         text(name, "the name", "in edit")
         if author is not None:
             text(author, "author", "in edit")
-        not_negative(wait, "wait", "in edit")
+        not_negative(wait, "wait", "in edit", unit="s")
         if outer is not None:
             return join_edit(outer, settings, author)
         return Edit(self.document, name, settings, author=author, wait=wait)
