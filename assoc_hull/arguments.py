@@ -93,8 +93,8 @@ def _array(values: object) -> Floats:
         return np.full(1, np.nan)
 
 
-def number(value: object, name: str, where: str = _CALL) -> float:
-    """Take a finite number of at most 1e6 m, or say which argument is none.
+def number(value: object, name: str, where: str = _CALL, *, unit: str = "m") -> float:
+    """Take a finite number of at most 1e6 m, or of another unit, or say which argument is none.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def number(value: object, name: str, where: str = _CALL) -> float:
         found = float("nan")
     if isinstance(value, _TRUTH) or not abs(found) <= _LARGEST:
         raise BadInputError(
-            f"{name} is {shown(value)}", where, f"give a finite number up to {_LARGEST:g} m"
+            f"{name} is {shown(value)}", where, f"give a finite number up to {_LARGEST:g} {unit}"
         )
     return found
 
@@ -132,7 +132,7 @@ def positive(value: object, name: str, where: str = _CALL) -> float:
     return found
 
 
-def not_negative(value: object, name: str, where: str = _CALL) -> float:
+def not_negative(value: object, name: str, where: str = _CALL, *, unit: str = "m") -> float:
     """Take a finite number of 0 or more.
 
     Raises
@@ -140,7 +140,7 @@ def not_negative(value: object, name: str, where: str = _CALL) -> float:
     BadInputError
         Anything else.
     """
-    found = number(value, name, where)
+    found = number(value, name, where, unit=unit)
     if found < 0.0:
         raise BadInputError(f"{name} is {shown(value)}", where, "give 0 or more")
     return found

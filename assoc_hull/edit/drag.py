@@ -74,7 +74,7 @@ class Live:
         Curves that were lofted.
     report : EditReport or None
         The report that the edit would have; made when it is first asked for, and None where the
-        hull has been changed by then.
+        hull has been changed by then, or another thread is at work on it.
     seconds : float
         How long it took, by the clock.
     """
@@ -90,11 +90,15 @@ class Live:
     seconds: float
     _before: HullShapes = attrs.field(repr=False)
     _tell: Callable[[], EditReport | None] = attrs.field(repr=False)
+    _told: list[EditReport] = attrs.field(factory=list, init=False, repr=False)
 
-    @cached_property
+    @property
     def report(self) -> EditReport | None:
         """The report that the edit would have."""
-        return self._tell()
+        # None is not kept: somebody may just be writing who takes it all back.
+        if not self._told and (found := self._tell()) is not None:
+            self._told.append(found)
+        return self._told[0] if self._told else None
 
     @cached_property
     def moved(self) -> FloatArray:
@@ -221,6 +225,9 @@ class _QuickWay:
 
 _NUMBERS = (float, int, np.floating, np.integer)
 
+_LARGEST = 1e6
+"""What an edit takes at most, m: see `assoc_hull.arguments.number`."""
+
 
 def _as_float(value: float) -> float:
     """Give a number; one that is too large for one is infinite, and refused as that is."""
@@ -345,8 +352,8 @@ class Drag:
         if self._quick is None or self._document.lock.held:
             return None
         asked = self._last
-        if not all(map(math.isfinite, asked.values())):
-            return None
+        if not all(abs(value) <= _LARGEST for value in asked.values()):
+            return None  # also of nan: the full way says what is wrong
         written = self._quick.written(asked)
         if written is None:
             return None

@@ -203,20 +203,22 @@ class Edit:
 
     @property
     def _transaction(self) -> Transaction:
-        """The transaction, for a modification: only while the edit is open."""
+        """The transaction, for a modification: only while the edit is open, and where it is."""
+        where = f"in the edit {self._held.name!r}"
         if not self.active:
-            raise BadInputError("it is not open", f"in the edit {self._held.name!r}", _USE)
+            raise BadInputError("it is not open", where, _USE)
+        self._held.document.lock.refuse_others(where)
         if self._held.pending.alone:
             raise BadInputError(*self._held.pending.not_alone(self._held.name))
         return self._held
 
     @property
     def _tables(self) -> HullState:
-        return self._held.state
+        return self._transaction.state
 
     @property
     def _given(self) -> GivenObjects:
-        return GivenObjects(self._held.state)
+        return GivenObjects(self._transaction.state)
 
     @recorded
     def move(

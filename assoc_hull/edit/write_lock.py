@@ -53,6 +53,13 @@ class Activity:
             task = None
         return cls(threading.get_ident(), task)
 
+    def waits_beside(self, other: Activity) -> bool:
+        """Tell whether the loop that runs the other one runs this task as well, if it goes on."""
+        one, two = self.task, other.task
+        if one is None or two is None or one is two or one.done():
+            return False
+        return one.get_loop() is two.get_loop()
+
 
 @attrs.frozen(eq=False)
 class _Turn:
@@ -60,6 +67,16 @@ class _Turn:
     whose: Activity
     what: str
     author: str
+    awaits: bool = False
+    """Whether it was lined up: then the loop of its task runs on while it waits."""
+
+    def comes_after(self, first: _Turn, silent: float) -> bool:
+        """Tell whether it lets another one that waits go first, which has not looked so long, s."""
+        if first.whose.thread != self.whose.thread:
+            return silent < _GONE
+        # One of this thread can look only when the thread is free again, and then does so surely:
+        # in the meantime who waits without the loop would stop it, and who awaits does not.
+        return self.awaits and first.awaits and first.whose.waits_beside(self.whose)
 
 
 @attrs.frozen(eq=False)
@@ -93,8 +110,8 @@ class WriteLock:
         HullBusyError
             Another task of this thread has it, or another thread has not given it back in time.
         """
-        own, begin = _Turn(holder, Activity.here(), what, author), time.monotonic()
-        new = holder not in self._line
+        begin, new = time.monotonic(), holder not in self._line
+        own = _Turn(holder, Activity.here(), what, author, awaits=not new)
         try:
             while (turn := self._next(own)).holder is not holder:
                 if turn.whose == own.whose:
@@ -109,7 +126,8 @@ class WriteLock:
 
     def line_up(self, holder: object, what: str, author: str = "") -> None:
         """Have a place among those that wait, for one who takes it without waiting there."""
-        self._line[holder] = _Turn(holder, Activity.here(), what, author), time.monotonic()
+        turn = _Turn(holder, Activity.here(), what, author, awaits=True)
+        self._line[holder] = turn, time.monotonic()
 
     def leave(self, holder: object) -> None:
         """Give up the place among those that wait, if this has one."""
@@ -122,8 +140,7 @@ class WriteLock:
         for first, seen in list(self._line.values()):
             if first is own or "now" in self._turn:
                 break
-            # One of this thread cannot look before the thread is free again.
-            if now - seen < _GONE and first.whose.thread != own.whose.thread:
+            if own.comes_after(first, now - seen):
                 return first
         # At once: of several that come together one gets it.
         return self._turn.setdefault("now", own)

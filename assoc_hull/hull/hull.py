@@ -148,15 +148,20 @@ class Hull:
     @property
     def groups(self) -> Mapping[str, Group]:
         """The groups of lines by name, in the order of the ranks."""
-        found = [Group.of(self.state, i) for i in self.state.live("groups").tolist()]
-        found.sort(key=lambda each: (FAMILIES[each.family].rank, each.name))
-        return NamedMapping("group", {each.name: each for each in found})
+        state = self.state
+        table = state.groups
+        order = sorted(
+            state.live("groups").tolist(),
+            key=lambda i: (FAMILIES[table.family[i]].rank, table.name[i]),
+        )
+        return NamedMapping("group", {str(table.name[i]): Group.of(state, i) for i in order})
 
     @property
     def lines(self) -> Mapping[str, Line]:
         """All lines by name; by group and name where two groups have one of the same name."""
-        book, live = AddressBook(self.state), self.state.live("lines").tolist()
-        return NamedMapping("line", {book.line_name(i): Line.of(self.state, i) for i in live})
+        state = self.state
+        book, live = AddressBook(state), state.live("lines").tolist()
+        return NamedMapping("line", {book.line_name(i): Line.of(state, i) for i in live})
 
     @property
     def points(self) -> Points:
@@ -166,9 +171,10 @@ class Hull:
     @property
     def crossings(self) -> Mapping[str, Crossing]:
         """All crossings by address."""
-        book, table = AddressBook(self.state), self.state.rows
-        live = [row for row in self.state.live("rows").tolist() if table.curve[row, 1] >= 0]
-        return NamedMapping("crossing", {book.address(i): Crossing.of(self.state, i) for i in live})
+        state = self.state
+        book, table = AddressBook(state), state.rows
+        live = [row for row in state.live("rows").tolist() if table.curve[row, 1] >= 0]
+        return NamedMapping("crossing", {book.address(i): Crossing.of(state, i) for i in live})
 
     @property
     def features(self) -> Mapping[str, FeatureHandle]:
@@ -192,12 +198,12 @@ class Hull:
     @property
     def history(self) -> tuple[EditReport, ...]:
         """The reports of all committed edits, oldest first."""
-        return tuple(step.report for step in self.document.history)
+        return tuple(step.report for step in tuple(self.document.history))
 
     @property
     def undone(self) -> tuple[EditReport, ...]:
         """The reports of edits that were taken back, the last one taken back last."""
-        return tuple(step.report for step in self.document.undone)
+        return tuple(step.report for step in tuple(self.document.undone))
 
     @property
     def author(self) -> str:
@@ -262,7 +268,7 @@ class Hull:
         text(name, "the name", "in edit")
         if author is not None:
             text(author, "author", "in edit")
-        not_negative(wait, "wait", "in edit")
+        not_negative(wait, "wait", "in edit", unit="s")
         if outer is not None:
             return join_edit(outer, settings, author)
         return Edit(self.document, name, settings, author=author, wait=wait)

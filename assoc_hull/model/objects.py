@@ -12,7 +12,7 @@ Associative Geometry Objects", J. SNAK 36(4), 1999.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import ItemsView, Iterable, Iterator, Mapping, ValuesView
+from collections.abc import ItemsView, Iterator, Mapping, ValuesView
 from typing import ClassVar, Self
 
 import attrs
@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import instance, integer, numbers, word
 from assoc_hull.arguments import place as one_place
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError
-from assoc_hull.geometry.curves import FloatArray, PointKind, SplineBatch, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch, freeze
 from assoc_hull.geometry.plane import Plane, as_plane
 from assoc_hull.geometry.splines.arc_length import arc_length
 from assoc_hull.geometry.splines.distance import closest_points
@@ -118,12 +118,26 @@ class Handle:
         ForeignPointError
             It has gone.
         """
-        if not self.alive:
+        return self._here()[1]
+
+    def _here(self) -> tuple[HullState, int]:
+        """Give tables and `row`, for all that one call reads: another thread may commit meanwhile.
+
+        Raises
+        ------
+        ForeignPointError
+            It has gone.
+        """
+        tables = self.tables
+        if not is_in(self, tables):
             raise ForeignPointError(f"{type(self).__name__.lower()} {self.id!r}")
-        return self.number
+        return tables, self.number
 
     def __repr__(self) -> str:
-        name = getattr(self, "name", self.id) if self.alive else f"{self.id}, gone"
+        try:
+            name = getattr(self, "name", self.id)
+        except ForeignPointError:
+            name = f"{self.id}, gone"
         return f"<{type(self).__name__} {name}>"
 
 
@@ -141,6 +155,17 @@ def is_in(handle: Handle, tables: HullState) -> bool:
 
 def _curve(tables: HullState, number: int) -> Curve:
     return Curve.of(tables, number)
+
+
+def _handles(tables: HullState, rows: IntArray, sides: IntArray) -> tuple[Point, ...]:
+    keys = tables.rows.key.data
+    places = zip(rows.tolist(), sides.tolist(), strict=True)
+    return tuple(Point(tables, row, keys[row], side) for row, side in places)
+
+
+def _points_along(tables: HullState, curve: int) -> tuple[Point, ...]:
+    on = points_on(tables, curve)
+    return _handles(tables, on.row, on.side)
 
 
 @attrs.frozen(repr=False)
@@ -167,15 +192,15 @@ class Point(Handle):
     @property
     def name(self) -> str:
         """The label that was given, else the address, for instance ``WL 0.5 x ST 7``."""
-        label = self.tables.rows.label[self.row]
-        return str(label) if label else AddressBook(self.tables).address(self.row, self.side)
+        tables, row = self._here()
+        label = tables.rows.label[row]
+        return str(label) if label else AddressBook(tables).address(row, self.side)
 
     @property
     def position(self) -> FloatArray:
         """The place, (3,), m; frozen."""
-        found: FloatArray = point_positions(
-            self.tables, np.array([self.row]), np.array([self.side])
-        )[0]
+        tables, row = self._here()
+        found: FloatArray = point_positions(tables, np.array([row]), np.array([self.side]))[0]
         freeze(found)
         return found
 
@@ -197,67 +222,82 @@ class Point(Handle):
     @property
     def kind(self) -> str:
         """How its curve passes: ``"smooth"``, ``"tangent"`` or ``"knuckle"``."""
-        return PointKind(int(self.tables.rows.kind[self.row, self.side])).name.lower()
+        tables, row = self._here()
+        return PointKind(int(tables.rows.kind[row, self.side])).name.lower()
 
     @property
     def sort(self) -> str:
         """``"crossing"``, ``"placed"`` or ``"adopted"``."""
-        return Sort(int(self.tables.rows.sort[self.row])).name.lower()
+        tables, row = self._here()
+        return Sort(int(tables.rows.sort[row])).name.lower()
 
     @property
     def role(self) -> str:
         """``"defining"`` if its curve is made through it, else ``"derived"``."""
-        return "defining" if defines(self.tables, self.row, self.side) else "derived"
+        tables, row = self._here()
+        return "defining" if defines(tables, row, self.side) else "derived"
 
     @property
     def crossing_role(self) -> str | None:
         """``"shared"``, ``"drives a"``, ``"drives b"`` or ``"watched"``; None if no crossing."""
-        return None if self.crossing is None else self.crossing.role
+        tables, row = self._here()
+        if tables.rows.sort[row] != Sort.CROSSING:
+            return None
+        return Role(int(tables.rows.role[row])).text
 
     @property
     def crossing(self) -> Crossing | None:
         """The crossing this point belongs to, if it does."""
-        if self.tables.rows.sort[self.row] != Sort.CROSSING:
+        tables, row = self._here()
+        if tables.rows.sort[row] != Sort.CROSSING:
             return None
-        return Crossing(self.tables, self.number, self.id)
+        return Crossing(tables, row, self.id)
 
     @property
     def container_curve(self) -> Curve:
         """The curve it lies on."""
-        return _curve(self.tables, int(self.tables.rows.curve[self.row, self.side]))
+        tables, row = self._here()
+        return _curve(tables, int(tables.rows.curve[row, self.side]))
 
     @property
     def parent_curve(self) -> Curve | None:
         """The curve that generated it; None for a placed or adopted point."""
-        return None if self.friend_point is None else self.friend_point.container_curve
+        tables, row = self._here()
+        parent = int(tables.rows.curve[row, 1 - self.side])
+        return None if parent < 0 else _curve(tables, parent)
 
     @property
     def friend_point(self) -> Point | None:
         """The same crossing on the parent curve; None for a placed or adopted point."""
-        if self.tables.rows.curve[self.row, 1 - self.side] < 0:
+        tables, row = self._here()
+        if tables.rows.curve[row, 1 - self.side] < 0:
             return None
-        return Point(self.tables, self.number, self.id, 1 - self.side)
+        return Point(tables, row, self.id, 1 - self.side)
 
     @property
     def free(self) -> tuple[str, ...]:
         """Coordinates along which it may move; an edit gives exactly these."""
-        return free_axes(self.tables, self.row)
+        tables, row = self._here()
+        return free_axes(tables, row)
 
     @property
     def driver(self) -> Curve | None:
         """The curve it is computed from, if it is."""
-        driver = int(self.tables.rows.driver[self.row])
+        tables, row = self._here()
+        driver = int(tables.rows.driver[row])
         return None if driver < 0 else _curve(self.tables, driver)
 
     @property
     def state(self) -> str:
         """``"clean"``, ``"failed"`` or ``"blocked"``."""
-        return State(int(self.tables.rows.state[self.row])).name.lower()
+        tables, row = self._here()
+        return State(int(tables.rows.state[row])).name.lower()
 
     @property
     def revision(self) -> int:
         """Rises by one each time it really moved."""
-        return self.tables.revision_row.get(self.row, 0)
+        tables, row = self._here()
+        return tables.revision_row.get(row, 0)
 
 
 @attrs.frozen(repr=False)
@@ -269,44 +309,54 @@ class Crossing(Handle):
     @property
     def name(self) -> str:
         """Its address, the line of higher rank first."""
-        return AddressBook(self.tables).address(self.row)
+        tables, row = self._here()
+        return AddressBook(tables).address(row)
 
     @property
     def points(self) -> tuple[Point, Point]:
         """The friend points on curve a and on curve b."""
-        first, second = (Point(self.tables, self.row, self.id, side) for side in (0, 1))
+        tables, row = self._here()
+        first, second = (Point(tables, row, self.id, side) for side in (0, 1))
         return first, second
 
     @property
     def a(self) -> Curve:
         """The curve of lower rank."""
-        return self.points[0].container_curve
+        return self._curve(0)
 
     @property
     def b(self) -> Curve:
         """The curve of higher rank."""
-        return self.points[1].container_curve
+        return self._curve(1)
+
+    def _curve(self, side: int) -> Curve:
+        tables, row = self._here()
+        return _curve(tables, int(tables.rows.curve[row, side]))
 
     @property
     def role(self) -> str:
         """``"shared"``, ``"drives a"``, ``"drives b"`` or ``"watched"``."""
-        return Role(int(self.tables.rows.role[self.row])).text
+        tables, row = self._here()
+        return Role(int(tables.rows.role[row])).text
 
     @property
     def override(self) -> str | None:
         """The role the designer gave it in place of the rule's, if so."""
-        role = int(self.tables.rows.override[self.row])
+        tables, row = self._here()
+        role = int(tables.rows.override[row])
         return None if role < 0 else Role(role).text
 
     @property
     def sign(self) -> int:
         """+1 where a passes to the positive side of b's plane, else -1; 0 if neither."""
-        return int(self.tables.rows.sign[self.row])
+        tables, row = self._here()
+        return int(tables.rows.sign[row])
 
     @property
     def birth(self) -> int:
         """Number of its birth for this pair of lines, from 1."""
-        return int(self.tables.rows.birth[self.row])
+        tables, row = self._here()
+        return int(tables.rows.birth[row])
 
     @property
     def gap(self) -> float | None:
@@ -319,15 +369,17 @@ class Crossing(Handle):
         return self._length("limit")
 
     def _length(self, column: str) -> float | None:
-        if self.tables.rows.role[self.row] != Role.WATCHED:
+        tables, row = self._here()
+        if tables.rows.role[row] != Role.WATCHED:
             return None
-        value = float(getattr(self.tables.rows, column).data[self.number])
+        value = float(getattr(tables.rows, column).data[row])
         return value if np.isfinite(value) else None
 
     @property
     def state(self) -> str:
         """``"clean"``, ``"failed"`` or ``"blocked"``."""
-        return State(int(self.tables.rows.state[self.row])).name.lower()
+        tables, row = self._here()
+        return State(int(tables.rows.state[row])).name.lower()
 
 
 # --------------------------------------------------------------------------------------
@@ -368,48 +420,46 @@ class Curve(Handle):
     @property
     def name(self) -> str:
         """The name of its line, with a number if it is one of several."""
-        return AddressBook(self.tables).curve_name(self.row)
+        tables, row = self._here()
+        return AddressBook(tables).curve_name(row)
 
     @property
     def line(self) -> Line:
         """The line it belongs to."""
-        return Line.of(self.tables, self.tables.line_of(self.row))
+        tables, row = self._here()
+        return Line.of(tables, tables.line_of(row))
 
     @property
     def points(self) -> tuple[Point, ...]:
         """All its points in order along it, those that define it and those that lie on it."""
-        on = points_on(self.tables, self.row)
-        return self._handles(zip(on.row.tolist(), on.side.tolist(), strict=True))
+        return _points_along(*self._here())
 
     @property
     def defining(self) -> tuple[Point, ...]:
         """The points it is made through, in order."""
-        rows, side = (getattr(self.tables.curves, name).data[self.row] for name in ("rows", "side"))
-        return self._handles(zip(rows.tolist(), side.tolist(), strict=True))
-
-    def _handles(self, places: Iterable[tuple[int, int]]) -> tuple[Point, ...]:
-        keys = self.tables.rows.key.data
-        return tuple(Point(self.tables, row, keys[row], side) for row, side in places)
+        tables, row = self._here()
+        rows, side = (getattr(tables.curves, name).data[row] for name in ("rows", "side"))
+        return _handles(tables, rows, side)
 
     @property
     def touch_objects(self) -> GeneratedPoints:
         """The points it has generated on other curves, and the curves it may come to meet."""
-        group = self.tables.lines.group[self.tables.line_of(self.row)]
+        tables, row = self._here()
         # a one-way association generates points on the lines of the other group only
-        reach = set(generates_on(self.tables, int(group)).tolist())
-        friends = [point.friend_point for point in self.points]
-        actual = tuple(
-            friend
-            for friend in friends
-            if friend is not None and friend.container_curve.line.group.number in reach
-        )
-        latent = latent_curves(self.tables, self.number).tolist()
-        return GeneratedPoints(actual, tuple(Curve.of(self.tables, curve) for curve in latent))
+        reach = generates_on(tables, int(tables.lines.group[tables.line_of(row)]))
+        on = points_on(tables, row)
+        there = tables.rows.curve.data[on.row, 1 - on.side]
+        line = tables.curves.line.data[there]
+        met = (there >= 0) & np.isin(tables.lines.group.data[line], reach)
+        actual = _handles(tables, on.row[met], 1 - on.side[met])
+        latent = latent_curves(tables, row).tolist()
+        return GeneratedPoints(actual, tuple(_curve(tables, curve) for curve in latent))
 
     @property
     def spline(self) -> SplineBatch:
         """The published spline, a batch of one."""
-        return self.tables.spline(self.row)
+        tables, row = self._here()
+        return tables.spline(row)
 
     @property
     def length(self) -> float:
@@ -436,7 +486,8 @@ class Curve(Handle):
     def tangent(self, t: ArrayLike) -> FloatArray:
         """Give the unit tangent at chord parameter t (m): (3,) or (k, 3)."""
         many, one = self._parameters(t)
-        return self._shaped(tangents(self.tables, np.full(len(many), self.row), many), one)
+        tables, row = self._here()
+        return self._shaped(tangents(tables, np.full(len(many), row), many), one)
 
     def curvature(self, t: ArrayLike) -> FloatArray:
         """Give the curvature vector at chord parameter t (m), 1/m: (3,) or (k, 3)."""
@@ -471,12 +522,14 @@ class Curve(Handle):
     @property
     def state(self) -> str:
         """``"clean"``, ``"failed"`` or ``"blocked"``."""
-        return State(int(self.tables.curves.state[self.row])).name.lower()
+        tables, row = self._here()
+        return State(int(tables.curves.state[row])).name.lower()
 
     @property
     def revision(self) -> int:
         """Rises by one each time its geometry really changed."""
-        return self.tables.revision_curve.get(self.row, 0)
+        tables, row = self._here()
+        return tables.revision_curve.get(row, 0)
 
 
 # --------------------------------------------------------------------------------------
@@ -492,46 +545,57 @@ class Line(Handle):
     @property
     def name(self) -> str:
         """Its name, unique in its group."""
-        return str(self.tables.lines.name[self.row])
+        tables, row = self._here()
+        return str(tables.lines.name[row])
 
     @property
     def group(self) -> Group:
         """The group it belongs to."""
-        return Group.of(self.tables, int(self.tables.lines.group[self.row]))
+        tables, row = self._here()
+        return Group.of(tables, int(tables.lines.group[row]))
 
     @property
     def plane(self) -> Plane | None:
         """The plane it lies in, ``normal . P = offset``; None for a space curve."""
-        table, row = self.tables.lines, self.row
+        tables, row = self._here()
+        table = tables.lines
         return Plane(table.normal[row], table.offset[row]) if table.planar[row] else None
 
     @property
     def position(self) -> float | None:
         """Offset of its plane (m): x of a section, z of a waterline, y of a buttock."""
-        return None if self.plane is None else self.plane.offset
+        plane = self.plane
+        return None if plane is None else plane.offset
 
     @property
     def boundary(self) -> str | None:
         """What it does to lines that meet it: ``"end"``, ``"flat"``, ``"knuckle"`` or None."""
-        kind = int(self.tables.lines.boundary[self.row])
+        tables, row = self._here()
+        kind = int(tables.lines.boundary[row])
         return None if kind < 0 else BoundaryKind(kind).name.lower()
 
     @property
     def note(self) -> str:
         """What was assumed when it was made; empty if nothing."""
-        return str(self.tables.lines.note[self.row])
+        tables, row = self._here()
+        return str(tables.lines.note[row])
 
     @property
     def curves(self) -> tuple[Curve, ...]:
         """Its curves."""
-        alive = self.tables.curves.alive.data
-        numbers = self.tables.lines.curves[self.row]
-        return tuple(Curve.of(self.tables, curve) for curve in numbers if alive[curve])
+        tables, curves = self._curves()
+        return tuple(_curve(tables, curve) for curve in curves)
+
+    def _curves(self) -> tuple[HullState, list[int]]:
+        tables, row = self._here()
+        alive = tables.curves.alive.data
+        return tables, [int(curve) for curve in tables.lines.curves[row] if alive[curve]]
 
     @property
     def points(self) -> tuple[Point, ...]:
         """The points of all its curves, curve by curve."""
-        return tuple(point for curve in self.curves for point in curve.points)
+        tables, curves = self._curves()
+        return tuple(point for curve in curves for point in _points_along(tables, curve))
 
     def meet(self, plane: Plane | tuple[ArrayLike, float]) -> FloatArray:
         """Give the places where its curves pass a plane, (k, 3), m; frozen.
@@ -550,7 +614,10 @@ class Line(Handle):
         """
         cut = as_plane(plane)
         offsets = np.array([cut.offset])
-        found = [intersect_planes(curve.spline, cut.normal, offsets).xyz for curve in self.curves]
+        tables, curves = self._curves()
+        found = [
+            intersect_planes(tables.spline(curve), cut.normal, offsets).xyz for curve in curves
+        ]
         out = np.concatenate([*found, np.zeros((0, 3))])
         freeze(out)
         return out
@@ -565,23 +632,26 @@ class Group(Handle):
     @property
     def name(self) -> str:
         """Its name."""
-        return str(self.tables.groups.name[self.row])
+        tables, row = self._here()
+        return str(tables.groups.name[row])
 
     @property
     def family(self) -> str:
         """The family of its lines, for instance ``"waterlines"``."""
-        return str(self.tables.groups.family[self.row])
+        tables, row = self._here()
+        return str(tables.groups.family[row])
 
     @property
     def lines(self) -> Mapping[str, Line]:
         """Its lines by name, by position; read-only."""
-        table = self.tables.lines
-        live = self.tables.live("lines")
-        mine = live[table.group[live] == self.row]
+        tables, row = self._here()
+        table = tables.lines
+        live = tables.live("lines")
+        mine = live[table.group[live] == row]
         # space curves have no position and come last
         place = np.where(table.planar.data, table.offset.data, np.inf).tolist()
         order = sorted(mine.tolist(), key=lambda i: (place[i], table.key[i]))
-        return NamedMapping("line", {table.name[i]: Line.of(self.tables, i) for i in order})
+        return NamedMapping("line", {table.name[i]: Line.of(tables, i) for i in order})
 
 
 # --------------------------------------------------------------------------------------
@@ -733,7 +803,7 @@ def numbers_of(
     >>> numbers_of(handle(wigley(), "sections"))
     ResolvedAddress(group=1, line=-1, curve=-1, row=-1, side=-1)
     """
-    number, state = (thing.row, thing.tables) if tables is None else (thing.number, tables)
+    state, number = (tables, thing.number) if tables is not None else thing._here()
     if isinstance(thing, Group):
         return ResolvedAddress(number)
     row = number if isinstance(thing, Point | Crossing) else -1
@@ -788,14 +858,16 @@ class Points(Mapping[str, Point]):
 
     def _all(self) -> Iterator[tuple[str, Point]]:
         """Give all points by address from one book: a look-up each would make one each."""
-        book, keys = AddressBook(self._state), self._state.rows.key.data
-        for row in self._state.live("rows").tolist():
+        state = self._state
+        book, keys = AddressBook(state), state.rows.key.data
+        for row in state.live("rows").tolist():
             side = book.usual_side(row)
-            yield book.address(row, side), Point(self._state, row, keys[row], side)
+            yield book.address(row, side), Point(state, row, keys[row], side)
 
     def __iter__(self) -> Iterator[str]:
-        book = AddressBook(self._state)
-        return (book.address(row) for row in self._state.live("rows").tolist())
+        state = self._state
+        book = AddressBook(state)
+        return (book.address(row) for row in state.live("rows").tolist())
 
     def __len__(self) -> int:
         return len(self._state.live("rows"))

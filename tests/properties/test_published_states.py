@@ -10,6 +10,7 @@ import os
 import threading
 import time
 from collections.abc import Callable
+from typing import Any
 
 import attrs
 import numpy as np
@@ -216,6 +217,44 @@ def _readings(hull: ah.Hull, point: str) -> dict[str, Callable[[], object]]:
         "preview": tried,
         "again": lambda: hull.fingerprint,
     }
+
+
+_READ_AT_ONCE: dict[str, tuple[Callable[[ah.Hull], Any], Callable[[Any], object]]] = {
+    "lines": (lambda hull: hull, lambda hull: dict(hull.lines)),
+    "crossings": (lambda hull: hull, lambda hull: dict(hull.crossings)),
+    "groups": (lambda hull: hull, lambda hull: dict(hull.groups)),
+    "points": (lambda hull: hull.points, lambda points: dict(points.items())),
+    "group": (lambda hull: hull.groups["waterlines"], lambda group: dict(group.lines)),
+    "line": (lambda hull: hull.lines["ST 7"], lambda line: line.points),
+    "curve": (lambda hull: hull.lines["ST 7"].curves[0], lambda curve: curve.points),
+    "reach": (lambda hull: hull.lines["ST 7"].curves[0], lambda curve: curve.touch_objects),
+    "crossing": (lambda hull: hull.crossings["WL 1.111 x ST 7"], lambda met: met.b),
+    "driver": (lambda hull: hull.points["WL 1.111 x ST 7"], lambda point: point.driver),
+    "place": (lambda hull: hull.points["WL 1.111 x ST 7"], lambda point: tuple(point.position)),
+}
+"""By name: what is looked up first, and what is read of it."""
+
+
+@pytest.mark.parametrize("what", _READ_AT_ONCE)
+def test_one_reading_is_of_one_state(what: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever another thread commits as soon as the reading has begun."""
+    hull = ah.examples.wigley()
+    with hull.edit("one more") as edit:
+        edit.add_line("waterlines", 1.111)
+    find, read = _READ_AT_ONCE[what]
+    thing, published, begun = find(hull), HullState.published, list[HullState]()
+    known = read(thing)
+
+    def overtaken(state: HullState) -> HullState:
+        found = published(state)
+        if state is hull.document.state and not begun:
+            begun.append(found)
+            hull.undo()
+        return found
+
+    monkeypatch.setattr(HullState, "published", overtaken)
+    assert read(thing) == known
+    assert begun
 
 
 @pytest.mark.parametrize("name", ["wigley", *(["series60_70"] if LONG else [])])

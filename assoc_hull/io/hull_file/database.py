@@ -357,10 +357,11 @@ def _may(path: Path, mode: int) -> bool:
     return os.access(path, mode, effective_ids=os.access in os.supports_effective_ids)
 
 
-def connect_database(path: Path, wait: float) -> GuardedConnection:
+def connect_database(path: Path, wait: float, *, beside: bool = False) -> GuardedConnection:
     """Open the database in a hull file, migrated to this version of the schema.
 
-    `wait` (s) is how long to wait while another process writes.
+    `wait` (s) is how long to wait while another process writes. `beside`: only to read, by the side
+    of a connection of this process that is closed later.
 
     Raises
     ------
@@ -373,10 +374,13 @@ def connect_database(path: Path, wait: float) -> GuardedConnection:
     with database_errors(path, wait):
         database = _connect(_address(path), wait)
     try:
-        database.know(path)
+        if not beside:
+            database.know(path)
         with database_errors(path, wait):
             database.guard(path)
             _set_up(database, path)
+            if beside:
+                database.execute("PRAGMA query_only = ON")
     except BaseException:
         database.close()
         raise

@@ -34,6 +34,7 @@ import contextlib
 import itertools
 import operator
 import sqlite3
+import threading
 import time
 import weakref
 from collections.abc import Iterator, Mapping, Sequence
@@ -224,6 +225,12 @@ class LateInflections:
         return body_of(row or (), self._state)
 
 
+def _close_all(opened: list[HullFileConnection]) -> None:
+    """Close connections, the first one last: the last one to close tidies the log away."""
+    while opened:
+        opened.pop().close()
+
+
 def _way(parents: Mapping[int, int], number: int) -> list[int]:
     """Give the numbers of the steps that lead to a step, oldest first."""
     found = list[int]()
@@ -263,8 +270,11 @@ class HullFile:
         self._agreed = False
         self._open = True
         self._unfolded = False
-        # The last one to close tidies the log away.
-        self._closing = weakref.finalize(self, database.close)
+        self._thread = threading.get_ident()
+        """The one that has begun the last transaction of the database."""
+        self._opened, self._reads = [database], threading.Lock()
+        """The database, and a second connection where threads have read beside one that writes."""
+        self._closing = weakref.finalize(self, _close_all, self._opened)
 
     def _one(self, sql: str, *values: object) -> Any:
         found = self.database.execute(sql, values).fetchone()
@@ -277,11 +287,12 @@ class HullFile:
         if self._open and self._behind.here:
             self._catch_up_rows()
         self._open = False
-        if self.place.has_log:
-            self.database.close()
-        else:
-            with spared_log(self.path):
-                self.database.close()
+        with self._reads:
+            if self.place.has_log:
+                _close_all(self._opened)
+            else:
+                with spared_log(self.path):
+                    _close_all(self._opened)
 
     def _catch_up_rows(self) -> None:
         """Bring the rows of the tables up to date, if that can be done at once; else it is not."""
@@ -337,6 +348,7 @@ class HullFile:
             self._begin(how)
 
     def _begin(self, how: str) -> None:
+        self._thread = threading.get_ident()  # before: see `_is_writing_here`
         self.database.execute(how)
         # The schema is looked at to the word once, and then whether it is the very same.
         query = "SELECT type, name, tbl_name, rootpage, sql FROM sqlite_master"
@@ -367,12 +379,12 @@ class HullFile:
         It could, as a copy that was made in this process had given the locks up; all that was
         committed here is in the file, and whether somebody wrote since is looked at as ever.
         """
-        with spared_log(self.path):
-            self.database.close()
-        self._closing.detach()
-        self.database = connect_database(self.path, self.wait)
-        self._closing = weakref.finalize(self, self.database.close)
-        self.place = FileIdentity(self.path)
+        with self._reads:
+            with spared_log(self.path):
+                _close_all(self._opened)
+            self.database = connect_database(self.path, self.wait)
+            self._opened.append(self.database)
+            self.place = FileIdentity(self.path)
         self._hold()
 
     def _refuse_stale(self) -> None:
@@ -414,8 +426,16 @@ class HullFile:
         """
         if not self.place.has_log or not self.place.hold():
             return False
-        # Passive: whoever reads is not waited for.
-        busy, frames, folded = self.database.execute("PRAGMA wal_checkpoint(PASSIVE)").fetchone()
+        try:
+            # Passive: whoever reads is not waited for, but threads of this process that read a row.
+            with self._reads:
+                told = self.database.execute("PRAGMA wal_checkpoint(PASSIVE)").fetchone()
+        except sqlite3.OperationalError as error:
+            # Somebody else is at it; a disk that is full, or fails, is told.
+            if error.sqlite_errorname.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
+                return False
+            raise
+        busy, frames, folded = told
         return bool(not busy and frames == folded)
 
     def commit(self, step: Step, branch: Label | None) -> None:
@@ -566,15 +586,47 @@ class HullFile:
             return database.execute(sql, (number,)).fetchone() or ()
 
     @contextlib.contextmanager
-    def _reader(self) -> Iterator[sqlite3.Connection]:
-        """Give the database; where the file has been let go of, it is opened for that long."""
+    def _reader(self, *, long: bool = False) -> Iterator[sqlite3.Connection]:
+        """Give a connection to read from that is in nobody's way: for one row, or for `long`.
+
+        A thread that writes reads from its own; all others share one, and what takes long has one
+        for itself, as has all that is read when the file has been let go of.
+        """
         with database_errors(self.path, self.wait):
-            database = self.database if self._open else connect_database(self.path, self.wait)
-            try:
+            if self._open and (self._is_writing_here() or not self._is_there()):
+                yield self.database
+                return
+            if not long:
+                with self._reads:
+                    if self._open:
+                        yield self._second()
+                        return
+            with contextlib.closing(connect_database(self.path, self.wait)) as database:
                 yield database
-            finally:
-                if not self._open:
-                    database.close()
+
+    def _is_writing_here(self) -> bool:
+        """Tell whether the transaction of the database, if there is one, is of this thread."""
+        # In this order: who begins one says so before.
+        return self.database.in_transaction and self._thread == threading.get_ident()
+
+    def _is_there(self) -> bool:
+        """Tell whether what is opened by the name of the file is the same, and so is its log.
+
+        If not, nothing can be written, and what was opened first is all that there is to read.
+        """
+        with contextlib.suppress(HullFileError):
+            self.place.require_file()
+            return self.place.has_log
+        return False
+
+    def _second(self) -> sqlite3.Connection:
+        """Give the connection that threads share which read; only with the right to read."""
+        if len(self._opened) == 1:
+            database = connect_database(self.path, self.wait, beside=True)
+            self._opened.append(database)
+            if not self._is_there():  # it was taken away just now
+                self._opened.pop().close()
+        return self._opened[-1]
 
     def follow(self, document: Document) -> tuple[int, int]:
         """Tell a document of steps and names it does not know; give where the file stands.
@@ -715,7 +767,7 @@ class HullFile:
 
     def damages(self) -> list[str]:
         """Look through the whole file for what is not as it was written; one line each."""
-        with self._reader() as database:
+        with self._reader(long=True) as database:
             told = database.execute("PRAGMA integrity_check(20)").fetchall()
             numbers = database.execute("SELECT number FROM steps ORDER BY number").fetchall()
         found = [str(line) for (line,) in told if line != "ok"]

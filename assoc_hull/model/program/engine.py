@@ -128,6 +128,7 @@ def _begin() -> None:
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             env={**os.environ, "MAKE": _MAKE, "ASSOC_HULL_FAST": "0"},
+            start_new_session=True,  # Ctrl-C in the terminal is not meant for it
         )
         _engine.told = "the compiled form is being made"
     except OSError as error:

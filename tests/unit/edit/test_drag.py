@@ -346,6 +346,34 @@ def test_a_drag_begins_on_the_published_hull_while_another_thread_tries_somethin
     assert seen == {start}
 
 
+def test_a_report_asked_for_while_another_thread_tries_something_comes_later() -> None:
+    """The hull has not changed: only then is there none for good."""
+    ship = ah.examples.wigley()
+    with ship.drag(POINT) as drag:
+        live = drag.to(d=0.004)
+    begun, over = threading.Event(), threading.Event()
+
+    def look(_: object) -> None:
+        begun.set()
+        over.wait(20.0)
+
+    thread = threading.Thread(target=lambda: ship.preview(look, measure=False))
+    thread.start()
+    begun.wait(20.0)
+    assert live.report is None
+    over.set()
+    thread.join()
+    assert live.report is not None
+    assert live.report is live.report
+
+
+@pytest.mark.parametrize("d", [1e150, -1e308, 2e6], ids=["no square", "largest", "no length"])
+def test_a_pull_beyond_what_an_edit_takes_is_refused_without_a_word_of_numpy(d: float) -> None:
+    """As the edit refuses it; a warning is an error here."""
+    with ah.examples.wigley().drag(POINT, radius=(20.0, 4.0)) as drag:
+        assert "give a finite number up to 1e+06 m" in drag.to(d=d).refused[0]
+
+
 @pytest.mark.parametrize("name", ["", "a\nb", 3.5, None, b"x"])
 def test_commit_takes_names_as_an_edit_does(name: object) -> None:
     """Nothing is published under another."""

@@ -4,12 +4,14 @@ import asyncio
 import gc
 import os
 import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.edit.session import Edit
 from assoc_hull.edit.write_lock import WriteLock
 from assoc_hull.errors import BadInputError, HullBusyError
 
@@ -129,6 +131,30 @@ def test_an_edit_that_waits_in_vain_leaves_the_other_one_whole(hull: ah.Hull) ->
     with late:
         late.move(POINT, y=2.8)
     assert names(hull) == ["one", "late"]
+
+
+@pytest.mark.parametrize("act", [
+    lambda edit: edit.move(OTHER, y=2.2),
+    lambda edit: edit.delete("no such point"),
+    lambda edit: edit.add_line("waterlines", 1.1),
+], ids=["move", "look-up", "line"])  # fmt: skip
+def test_an_open_edit_takes_nothing_from_another_thread(
+    hull: ah.Hull, act: Callable[[Edit], object]
+) -> None:
+    """Nor does it look anything up there in what is half written; it goes on where it is."""
+    with hull.edit("one") as edit:
+        edit.move(POINT, y=2.9)
+        (error,) = in_thread(lambda: act(edit))
+    assert isinstance(error, HullBusyError)
+    assert error.what == "the edit 'one'"
+    assert [each["point"] for each in hull.document.history[-1].script.edits] == [POINT]
+    assert hull.points[OTHER].y != 2.2
+
+
+def test_a_wait_that_is_none_is_told_in_seconds(hull: ah.Hull) -> None:
+    """It is no length."""
+    with pytest.raises(BadInputError, match=r"up to 1e\+06 s$"):
+        hull.edit("one", wait="x")  # type: ignore[arg-type]
 
 
 # --------------------------------------------------------------------------------------
@@ -331,6 +357,55 @@ def test_a_task_that_waits_does_not_stop_its_own_thread() -> None:
     lock.line_up(object(), "the first")
     lock.take(mine := object(), "the second", where="in the second", wait=0.0)
     assert lock.held_by(mine)
+
+
+@pytest.mark.parametrize("pause", [0.0, 0.6], ids=["at once", "after long work"])
+def test_of_tasks_in_one_loop_who_came_first_is_next(hull: ah.Hull, pause: float) -> None:
+    """One that comes again and again keeps no other out, also where its edits stop the loop."""
+    ended = list[str]()
+
+    async def busy() -> None:
+        turn = 0
+        while "other" not in ended and turn < 8:
+            turn += 1
+            async with hull.edit(f"busy {turn}", wait=30.0) as edit:
+                await asyncio.sleep(0.005)
+                edit.move(POINT, y=2.9 - 1e-4 * turn)
+                time.sleep(pause if turn == 1 else 0.0)  # as an edit of a large hull does
+            ended.append("busy")
+
+    async def other() -> None:
+        await asyncio.sleep(0)
+        async with hull.edit("other", wait=30.0) as edit:
+            edit.move(OTHER, y=2.2)
+        ended.append("other")
+
+    async def both() -> None:
+        await asyncio.gather(busy(), other())
+
+    asyncio.run(both())
+    assert ended[:2] == ["busy", "other"]
+
+
+def test_a_task_that_edits_without_waiting_is_not_kept_out_by_one_that_waits() -> None:
+    """What stops the loop can let nobody of that loop go first."""
+    lock = WriteLock()
+
+    async def both() -> None:
+        over = asyncio.Event()
+
+        async def waits() -> None:
+            lock.line_up(object(), "the first")
+            await over.wait()
+
+        first = asyncio.create_task(waits())
+        await asyncio.sleep(0)
+        lock.take(mine := object(), "the second", where="in the second", wait=0.0)
+        over.set()
+        await first
+        assert lock.held_by(mine)
+
+    asyncio.run(both())
 
 
 def test_two_editors_in_one_loop_for_many_turns(hull: ah.Hull) -> None:

@@ -1,6 +1,7 @@
 """Several handles on one hull file, other names of it, and what may not be done meanwhile."""
 
 import os
+import shutil
 import sqlite3
 import subprocess
 import sys
@@ -323,6 +324,33 @@ def test_no_thread_joins_the_edit_of_another(file: Path) -> None:
     assert len(said) == 1
     assert "another thread is at work" in said[0]
     assert names(ah.open(file)) == ["one", "one more"]
+
+
+def test_who_reads_the_history_in_another_thread_is_in_no_writers_way(file: Path) -> None:
+    """Every edit is made, and every report is there; a plain copy has them all at the end."""
+    hull, over, seen = ah.open(file), threading.Event(), [["one"]]
+    raised = list[BaseException]()
+
+    def read() -> None:
+        while not over.is_set():
+            try:
+                seen.append(names(hull))
+            except BaseException as error:
+                raised.append(error)
+
+    reader = threading.Thread(target=read)
+    reader.start()
+    try:
+        for number in range(20):
+            shift(hull, str(number))
+    finally:
+        over.set()
+        reader.join()
+    made = ["one", *map(str, range(20))]
+    assert not raised
+    assert all(each == made[: len(each)] for each in seen)
+    copy = Path(shutil.copy(file, file.with_name("copy.hull")))
+    assert names(ah.open(copy)) == names(hull) == made
 
 
 def test_a_refresh_that_fails_leaves_all_as_it_was(file: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -70,6 +71,15 @@ def test_a_child_that_fails_leaves_numpy_and_says_why(
     assert words in wait_for_engine()
     monkeypatch.setattr(program_engine, "_begin", lambda: pytest.fail("a second child"))
     assert words in engine_words()
+
+
+@pytest.mark.skipif(not hasattr(os, "getsid"), reason="no sessions here")
+def test_an_interrupt_from_the_terminal_does_not_reach_the_child(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It is in a session of its own."""
+    child_that(monkeypatch, "import os, sys; sys.exit(os.getsid(0) != os.getpid())")
+    assert wait_for_engine() == "compiled by numba"
 
 
 def test_what_a_child_compiles_is_found_by_another_process() -> None:
