@@ -143,7 +143,7 @@ class Step:
         body, later = self._body, self._later
         if body is None:
             if later is not None:
-                body = later.tell()
+                body = self._entered(later.tell())
             else:
                 assert self.load is not None, "a step holds its body, or can load it"
                 body = self.load()

@@ -92,7 +92,9 @@ def told(step: Step) -> tuple[object, ...]:
     fairness = step.report.fairness
     lines = None if fairness is None else str(fairness)
     numbers = (step.changed, step.moved, step.seeds, step.cause.reader, step.cause.source)
-    return step.name, step.structural, report, lines, [each.tobytes() for each in numbers]
+    assert (step.report.number, bool(step.report.time)) == (step.number, True)
+    entered = step.number, step.author, step.report.author
+    return step.name, step.structural, entered, report, lines, [each.tobytes() for each in numbers]
 
 
 def assert_same(one: ah.Hull, other: ah.Hull) -> None:
