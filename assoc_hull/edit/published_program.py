@@ -96,6 +96,10 @@ class KeptProgram:
     index: Index | None = None
     gate: Gate = attrs.field(factory=Gate)
 
+    def __reduce__(self) -> tuple[type[KeptProgram], tuple[()]]:
+        # In another process, or in a copy, it is made anew.
+        return KeptProgram, ()
+
     def asked_for(self, index: Index) -> int:
         """Count that an edit asks for the program; look-ups are made anew with the structure."""
         self.asked = self.asked + 1 if index is self.index else 1

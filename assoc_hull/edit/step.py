@@ -137,6 +137,16 @@ class Step:
         """
         return cls(name, structural=False, later=_ToldLater(writes, rows, curves, tell))
 
+    def __getstate__(self) -> dict[str, object]:
+        # What tells the body looks at the net of this process: it tells it now.
+        if self._later is not None:
+            self.replace(self.body)
+        return {each.name: getattr(self, each.name) for each in attrs.fields(Step)}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        for name, value in state.items():
+            setattr(self, name, value)
+
     @property
     def body(self) -> StepBody:
         """The large part; made or loaded where it is not held."""

@@ -31,6 +31,10 @@ class Gate:
     # A lock of this kind alone refuses to be released by a thread that has not taken it.
     _lock: threading.RLock = attrs.field(factory=threading.RLock, init=False)
 
+    def __reduce__(self) -> tuple[type[Gate], tuple[()]]:
+        # In another process, or in a copy, nobody is inside.
+        return Gate, ()
+
     def alone(self, act: Callable[[], T]) -> T:
         """Do something while no other thread is inside."""
         try:

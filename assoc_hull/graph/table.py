@@ -82,6 +82,17 @@ class Column(Generic[S]):
         self.writes = 0
         self._forget()
 
+    def __getstate__(self) -> tuple[NDArray[S], float]:
+        return self.data.copy(), self.fill
+
+    def __setstate__(self, state: tuple[NDArray[S], float]) -> None:
+        self._store, self.fill = state
+        self._shared = False
+        # Numbers of writes count in one process: in another they stand for other content.
+        self.writes = next(_WRITES)
+        self._forget()
+        self._show(len(self._store))
+
     def _forget(self) -> None:
         """Know of no earlier array."""
         self._spare: NDArray[S] | None = None
@@ -121,11 +132,13 @@ class Column(Generic[S]):
                 spare[rows] = old[rows]
         else:
             spare = old.copy()
-        # Whatever line an interrupt comes at, what is said to differ is at least what does.
-        self._store, self._spare = spare, old
+        shown = spare[: len(self.data)]
+        shown.setflags(write=False)
+        # Whatever line an interrupt comes at: the array that is written to is the one that is
+        # shown, and what is said to differ from the earlier one is at least what does.
+        self._store, self.data, self._spare = spare, shown, old
         self._differ, self._differing = [], 0
         self._shared = False
-        self._show(len(self.data))
 
     def _references(self) -> int:
         """Give how many references there are to the earlier array.
@@ -278,6 +291,14 @@ class ValueColumn(Generic[V]):
         self.fill = fill
         self.writes = 0
         self._shared = False
+
+    def __getstate__(self) -> tuple[list[V], V | None]:
+        return list(self.data), self.fill
+
+    def __setstate__(self, state: tuple[list[V], V | None]) -> None:
+        self.data, self.fill = state
+        self._shared = False
+        self.writes = next(_WRITES)  # as for numbers
 
     @property
     def store(self) -> list[V]:

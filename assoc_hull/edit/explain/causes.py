@@ -183,7 +183,7 @@ def why(document: Document, node: int) -> Why:
     >>> print(why(Document(wigley()), 0))
     ST 1 x profile: as it was made: no edit has reached it
     """
-    return why_after(document.state.published(), document.history, node)
+    return why_after(document.state.published(), list(document.history), node)
 
 
 def why_after(state: HullState, steps: Sequence[Step], node: int) -> Why:

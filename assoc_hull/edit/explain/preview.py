@@ -154,6 +154,10 @@ class _Seen:
     measure: Measure
 
 
+_FOUND = ("report", "lines", "fingerprint", "_measured")
+"""What a preview finds when it is read."""
+
+
 @attrs.frozen(eq=False, slots=False)
 class Preview:
     """What an edit would do.
@@ -173,6 +177,14 @@ class Preview:
     shapes: Shapes | None = attrs.field(default=None, repr=False)
     _seen: _Seen | None = attrs.field(default=None, repr=False)
     _tell: Callable[[], EditReport | None] = attrs.field(default=lambda: None, repr=False)
+
+    def __getstate__(self) -> dict[str, object]:
+        """Give all values: what they are found from stays here."""
+        found = {name: getattr(self, name) for name in ("refused", "why", "shapes", *_FOUND)}
+        return found | {"_seen": None, "_tell": None}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        self.__dict__.update(state)
 
     @cached_property
     def report(self) -> EditReport | None:

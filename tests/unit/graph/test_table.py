@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
+import pickle
+import sys
+from types import FrameType
+from typing import Any
+
 import attrs
 import numpy as np
 import pytest
@@ -9,7 +15,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.table import NumberColumn, Table, ValueColumn, VectorColumn, numbers, values
+from assoc_hull.graph.table import (
+    Column,
+    NumberColumn,
+    Table,
+    ValueColumn,
+    VectorColumn,
+    numbers,
+    values,
+)
 
 ROWS = 12
 
@@ -90,3 +104,49 @@ def test_the_number_of_the_last_write_comes_back_when_all_is_taken_back(what: st
     journal.undo()
     assert column.writes == before
     assert column.share().writes == before
+
+
+def test_an_interrupt_at_any_line_leaves_a_column_that_shows_what_is_written() -> None:
+    """The array that is written to is the one that is shown, and what was shared stays."""
+    lines, first = inspect.getsourcelines(Column._own)
+    met = 0
+    for line in range(first + 1, first + len(lines)):
+        column = NumberColumn(np.float64, (), 0.0)
+        column.resize(ROWS)
+        for number in range(3):  # so that there is an earlier array to be used again
+            held = column.share()
+            column.put(np.array([number]), np.array([1.0]))
+        held = column.share()
+        before = column.data.tolist()
+
+        def broken(frame: FrameType, event: str, _: object, at: int = line) -> Any:
+            if event == "line" and frame.f_code is Column._own.__code__ and frame.f_lineno == at:
+                raise KeyboardInterrupt
+            return broken
+
+        was = sys.gettrace()
+        sys.settrace(broken)
+        try:
+            column.put(np.array([5]), np.array([2.0]))
+        except KeyboardInterrupt:
+            met += 1
+        finally:
+            sys.settrace(was)
+        column.put(np.array([5]), np.array([3.0]))
+        assert held.data.tolist() == before, line
+        before[5] = 3.0
+        assert column.data.tolist() == before, line
+        assert column.share().data.tolist() == before, line
+    assert met > 5
+
+
+def test_a_table_from_elsewhere_has_numbers_of_writes_of_its_own() -> None:
+    """Those of another process stand for other content here."""
+    table = Named()
+    table.resize(2)
+    table.size.put(np.array([1]), np.array([4.0]))
+    again = pickle.loads(pickle.dumps(table))
+    assert again.size.data.tolist() == [0.0, 4.0]
+    assert {each.writes for each in again.columns.values()}.isdisjoint(table.stamps().values())
+    again.size.put(np.array([0]), np.array([5.0]))
+    assert again.size.data.tolist() == [5.0, 4.0]

@@ -1,11 +1,15 @@
 """A preview tells what the edit then does: lines, movements, causes, fingerprint."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.explain.preview import line_changes
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
+from tests.properties.test_program_edits import Count, by_program
 
 POINT = "WL 2.5 x ST 7"
 PULL = [{"op": "pull", "point": POINT, "d": 0.02, "radius": (25.0, 3.0)}]
@@ -151,3 +155,24 @@ def test_a_preview_waits_for_the_end_of_an_open_edit(hull: ah.Hull) -> None:
     """It would show what that edit has not published."""
     with hull.edit("open"), pytest.raises(BadInputError, match="an edit is open"):
         hull.preview(PULL)
+
+
+def test_hulls_and_previews_go_to_other_processes() -> None:
+    """By pickle or as a copy, with all that they can tell, and are edited there."""
+    hull = ah.examples.wigley()
+    with by_program(Count(), always=True):
+        for number in range(3):
+            with hull.edit(f"edit {number}") as edit:
+                edit.move("WL 3.75 x ST 9", y=3.9 + 0.01 * number)
+    found = hull.preview(PULL)
+    again = pickle.loads(pickle.dumps(found))
+    assert (again.lines, again.volume_change) == (found.lines, found.volume_change)
+    assert again.fingerprint == found.fingerprint
+    assert str(again.report) == str(found.report)
+    for other in (pickle.loads(pickle.dumps(hull)), copy.deepcopy(hull), hull.snapshot()):
+        assert other.fingerprint == hull.fingerprint
+        with other.edit("there") as edit:
+            edit.move("WL 3.75 x ST 9", y=3.85)
+        assert other.points["WL 3.75 x ST 9"].y == 3.85
+        assert other.verify() == ()
+    assert hull.points["WL 3.75 x ST 9"].y == 3.92
