@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from unittest import mock
 
@@ -18,6 +18,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit import update
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.program_edit import ProgramEdit
 from assoc_hull.edit.script import PolicyName
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import AssocHullError, TooFewPointsError
@@ -34,7 +35,19 @@ from tests.cases import places
 from tests.independent import closure, curve_bits, snapshot
 from tests.net_strategies import live_points
 from tests.properties.test_i03_minimality import passes
+from tests.properties.test_program_edits import Count, by_program
 from tests.strategies import wigley_sources
+
+
+@pytest.fixture(autouse=True)
+def by_the_full_way(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Failures are put where the full way passes; the program has a test of its own."""
+    if "program" in request.node.name:
+        yield
+        return
+    with mock.patch.object(ProgramEdit, "of", return_value=None):
+        yield
+
 
 Change = Callable[[Edit], object]
 FAILED = TooFewPointsError("the injected failure", 1)
@@ -502,4 +515,57 @@ def test_a_failed_nested_edit_takes_the_outer_one_with_it() -> None:
     assert whole(hull) == before
     with hull.edit("after") as edit:
         change(edit)
+    assert hull.verify() == ()
+
+
+@contextmanager
+def _failing_write(number: int) -> Iterator[None]:
+    """Let the write of that number to the tables fail."""
+    calls = iter(range(1, 1000))
+
+    def failing(write: Callable[..., object]) -> Callable[..., object]:
+        def run(*given: object) -> object:
+            if next(calls) == number:
+                raise FAILED
+            return write(*given)
+
+        return run
+
+    with ExitStack() as stack:
+        for name in ("put", "set", "put_parts"):
+            write = failing(getattr(Journal, name))
+            stack.enter_context(mock.patch.object(Journal, name, write))
+        yield
+
+
+@pytest.mark.parametrize("act", ["move", "pull"])
+def test_a_failure_at_any_write_of_the_program_is_taken_back(act: str) -> None:
+    """Whichever write of an edit by the program fails, the hull is as it was; then it works."""
+    hull = smallest()
+    point = shared(hull)[0]
+    name, place = point.id, point.y
+
+    def edit() -> None:
+        with by_program(Count(), always=True), hull.edit("by the program") as opened:
+            if act == "move":
+                opened.move(name, y=place - 0.004)
+            else:
+                opened.pull(name, -0.004, (20.0, 4.0))
+
+    edit()
+    hull.undo()
+    hull.document.undone.clear()
+    before, done = whole(hull), False
+    for at in range(1, 60):
+        with _failing_write(at):
+            try:
+                edit()
+            except AssocHullError:
+                assert whole(hull) == before
+            else:
+                done = True
+        if done:
+            break
+    assert done
+    assert at > 4
     assert hull.verify() == ()
