@@ -11,6 +11,7 @@ from hypothesis import given, settings
 
 import assoc_hull as ah
 from assoc_hull.edit import modification as work
+from assoc_hull.edit.program_edit import ProgramEdit
 from assoc_hull.edit.report import EditReport
 from assoc_hull.graph import run_update as engine
 from assoc_hull.graph.run_update import UpdatePass
@@ -38,7 +39,8 @@ def passes() -> Iterator[list[UpdatePass]]:
         heard.append(run(*given, **named))  # type: ignore[arg-type]
         return heard[-1]
 
-    with mock.patch.object(work, "run_update", listen):
+    full_way = mock.patch.object(ProgramEdit, "of", return_value=None)
+    with full_way, mock.patch.object(work, "run_update", listen):
         yield heard
 
 
