@@ -31,7 +31,7 @@ def shift(hull: ah.Hull, name: str, by: float = 0.01, **asked: object) -> None:
         edit.move(POINT, y=hull.points[POINT].y + by)
 
 
-def in_thread(act: Callable[[], None]) -> list[BaseException]:
+def in_thread(act: Callable[[], object]) -> list[BaseException]:
     """Carry out an act in another thread, and give what it raised."""
     raised = list[BaseException]()
 
