@@ -90,10 +90,13 @@ def _of_ship(name: str, ship: Ship, rounds: int) -> list[Figure]:
     jobs = _jobs(hull, ship)
     for _ in range(5):  # a program serves after a few edits that kept the structure
         jobs["move"]()
+    # Mending changes the structure, and the next edits go the full way: it has its own turns.
+    mending = {"move with mending": jobs.pop("move with mending")}
     hot: dict[str, Callable[[], object]] = dict(jobs)
     hot |= {f"{each}, the full way": _without(jobs[each]) for each in ("move", "pull")}
     times = side_by_side(hot, rounds, dict.fromkeys(hot, 8) | {"preview": 1})
     cold = _cold(hull, jobs, rounds)
+    times |= side_by_side(mending, rounds, dict.fromkeys(mending, 8))
     found = [_figure(f"{name}, {each}", each, seconds, 0) for each, seconds in times.items()]
     found += [_figure(f"{name}, {each}, cold", each, seconds, 1) for each, seconds in cold.items()]
     times |= _commits(ship, rounds)
