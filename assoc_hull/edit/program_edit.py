@@ -41,7 +41,7 @@ from assoc_hull.model.generated_curves import attached_curves
 from assoc_hull.model.network import HullNetwork, moved_curves, placed
 from assoc_hull.model.node import Node
 from assoc_hull.model.program.engine import is_asked_often, is_compiled
-from assoc_hull.model.program.run_program import ProgramRun
+from assoc_hull.model.program.run_program import ProgramRun, spans
 from assoc_hull.model.program.structure import Program
 
 __all__ = ["ProgramEdit"]
@@ -113,9 +113,8 @@ class _Meetings:
     @classmethod
     def of(cls, program: Program, curve: IntArray, local: IntArray) -> _Meetings:
         """Find them; `curve` (rows, 2) are the curves of all points."""
-        first, stop = program.meet_start[local], program.meet_start[local + 1]
-        bounds = np.concatenate([[0], np.cumsum(stop - first)])
-        where = np.arange(bounds[-1]) + np.repeat(first - bounds[:-1], stop - first)
+        count = program.meet_start[local + 1] - program.meet_start[local]
+        bounds, where = np.concatenate([[0], np.cumsum(count)]), spans(program.meet_start, local)
         row = program.meet_row[where]
         actual = np.flatnonzero(row >= 0)  # a latent meeting (-1) is no crossing yet
         owner = program.number[program.meet_curve[where[actual]]]

@@ -64,7 +64,13 @@ def update(
     # What was written by now (a role, a limit, a name) the program does not know of.
     program = None if journal.entries else ProgramEdit.of(document, pending)
     if program is not None:
-        step = program.run(name, journal, settings, *_set_values(document.state, journal, pending))
+        try:
+            set_by = _set_values(document.state, journal, pending)
+            step = program.run(name, journal, settings, *set_by)
+        except RefusedEditError:
+            raise
+        except (AssocHullError, ArithmeticError):
+            step = None  # the full way says what is wrong, in its words
         if step is not None:
             return step
         journal.undo()

@@ -190,3 +190,17 @@ def test_pulls_in_several_sub_steps_by_the_program(shipped: Shipped) -> None:
     assert_same(*hulls)
     assert several >= 1
     assert_numbers_are_those_of_the_tables(hulls[0])
+
+
+def test_an_edit_that_no_program_can_try_is_refused_as_the_full_way_does() -> None:
+    """A pull over more sub-steps than there may be is refused in the same words."""
+    told = list[tuple[type[Exception], str]]()
+    for always in (True, False):
+        hull = ah.examples.wigley()
+        refused = pytest.raises(ah.errors.AssocHullError)
+        with by_program(Count(), always=always), refused as raised, hull.edit("far") as edit:
+            edit.pull("WL 2.5 x ST 7", 1e3, (20.0, 4.0))
+        told.append((raised.type, str(raised.value)))
+        assert hull.verify() == ()
+    assert told[0] == told[1]
+    assert told[0][0] is ah.errors.RefusedEditError
