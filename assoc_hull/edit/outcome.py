@@ -17,7 +17,7 @@ from assoc_hull.edit.modification import Work
 from assoc_hull.edit.report import EditReport, Fairness, Movement
 from assoc_hull.edit.step import Step, StepBody
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.journal import Journal, distinct
 from assoc_hull.graph.network import Readers
 from assoc_hull.graph.run_update import UpdatePass
 from assoc_hull.model.gaps import along_normal, sides_held
@@ -30,6 +30,7 @@ __all__ = [
     "Movements",
     "changed_nodes",
     "joined_causes",
+    "joined_step",
     "largest_movements",
     "net_difference",
     "points_elsewhere",
@@ -98,6 +99,53 @@ def step_of(work: Work, rows: IntArray, away: FloatArray) -> Step:
     return Step(work.name, work.pending.structural, body=body)
 
 
+def joined_step(state: HullState, name: str, stages: Sequence[Step]) -> Step:
+    """Give the one step of an edit that was carried out in stages, from the steps of these."""
+    bodies = [step.body for step in stages]
+    journal = Journal()
+    for step in stages:
+        assert isinstance(step.journal, Journal), "a step that was just made holds its journal"
+        journal.entries += step.journal.entries
+    before, curves = _shapes_before(state, bodies)
+    nodes = np.concatenate([body.changed for body in bodies])
+    moved = np.concatenate([body.moved for body in bodies])
+    point, curve, form = Node.is_point(nodes), Node.is_curve(nodes), Node.is_form(nodes)
+    number = np.where(form, 0, Node.number(nodes))
+    here = np.zeros(len(nodes), np.bool_)  # what a later stage took out is no more
+    here[point] = state.rows.alive[number[point]]
+    here[curve] = state.curves.alive[number[curve]]
+    changed, distance = net_difference(
+        points_elsewhere(state, journal), before, state.spline, nodes[here], moved[here]
+    )
+    changed = np.concatenate([changed, distinct(nodes[form])])
+    distance = np.concatenate([distance, np.full(len(changed) - len(distance), np.nan)])
+    cause = _joined([body.cause for body in bodies])
+    seeds = distinct(np.concatenate([body.seeds for body in bodies]))
+    report = _joined_report(
+        state, name, [body.report for body in bodies], _fairness(state, before, curves),
+        _largest_written(state, journal, changed, distance),
+    )  # fmt: skip
+    structural = any(step.structural for step in stages)
+    body = StepBody(journal, cause, changed, distance, seeds, report)
+    return Step(name, structural, body=body)
+
+
+def _shapes_before(
+    state: HullState, bodies: Sequence[StepBody]
+) -> tuple[dict[int, SplineBatch], IntArray]:
+    """Give splines as before the first stage, and all curves that were lofted and are there."""
+    before, seen = dict[int, SplineBatch](), list[int]()
+    for body in bodies:
+        told = body.report.fairness
+        assert isinstance(told, Fairness), "a step that was just made holds its splines"
+        # A curve that a stage made has no shape before, whatever later stages found there.
+        fresh = [curve for curve in told.curves.tolist() if curve not in seen]
+        before |= {curve: told.before[curve] for curve in fresh if curve in told.before}
+        seen += fresh
+    there = [curve for curve in seen if state.curves.alive[curve]]
+    return before, np.array(there, np.int64)
+
+
 def changed_nodes(
     parts: Sequence[UpdatePass], rows: IntArray, away: FloatArray, fresh: IntArray
 ) -> tuple[IntArray, FloatArray]:
@@ -112,9 +160,13 @@ def changed_nodes(
 
 def joined_causes(parts: Sequence[UpdatePass]) -> Readers:
     """Give which node was evaluated because of which, pass by pass."""
+    return _joined([part.cause for part in parts])
+
+
+def _joined(causes: Sequence[Readers]) -> Readers:
     return Readers(
-        np.concatenate([part.cause.reader for part in parts]),
-        np.concatenate([part.cause.source for part in parts]),
+        np.concatenate([cause.reader for cause in causes]),
+        np.concatenate([cause.source for cause in causes]),
     )
 
 
@@ -191,17 +243,12 @@ def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:
     curves = work.touched()
     if work.pending.fresh:
         curves = curves[np.sort(np.unique(curves, return_index=True)[1])]
-    key = state.curves.key.data
-    after = {curve: state.curves.spline[curve] for curve in curves.tolist()}
-    keys = tuple(key[curve] for curve in curves.tolist())
-    places = work.journal.net(state.rows.xyz)
-    alive = state.rows.alive[places.rows]
-    movements = Movements.of(state, places.rows[alive], places.old[alive])
-    largest, normal = largest_movements(state.rows.key.data, movements, changed, moved)
+    fairness = _fairness(state, work.network.before, curves)
+    largest, normal = _largest_written(state, work.journal, changed, moved)
     return EditReport(
         work.name,
         planned=work.planned,
-        relofted=keys,
+        relofted=fairness.keys,
         cut_off=sum(len(part.cut_off) for part in parts),
         born=(*work.pending.born, *work.born),
         gone=(*work.pending.gone, *work.gone),
@@ -216,8 +263,62 @@ def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:
         cut_again=tuple(work.pending.cut_again),
         definitions=form_changes(state, work.journal),
         seconds=work.seconds,
-        fairness=Fairness(work.network.before, after, plane_normals(state, curves), curves, keys),
+        fairness=fairness,
     )
+
+
+def _joined_report(
+    state: HullState, name: str, reports: Sequence[EditReport], fairness: Fairness,
+    largest: tuple[Movement | None, Movement | None],
+) -> EditReport:  # fmt: skip
+    """Put the reports of stages together; what one made and a later one took out is not told."""
+    born = _once(reports, "born")
+    gone = _once(reports, "gone")
+    phases = dict.fromkeys(phase for each in reports for phase in each.seconds)
+    cut_again = _once(reports, "cut_again")
+    return EditReport(
+        name,
+        planned=max(each.planned for each in reports),
+        relofted=fairness.keys,
+        cut_off=sum(each.cut_off for each in reports),
+        born=tuple(each for each in born if each not in gone),
+        gone=tuple(each for each in gone if each not in born),
+        mended=_once(reports, "mended"),
+        failed=reports[-1].failed,
+        blocked=reports[-1].blocked,
+        largest=largest[0],
+        largest_normal=largest[1],
+        largest_gap=reports[-1].largest_gap,
+        notes=_once(reports, "notes"),
+        # Carried is what no stage cut again.
+        carried=tuple(each for each in _once(reports, "carried") if each not in cut_again),
+        cut_again=cut_again,
+        definitions=tuple(each for report in reports for each in report.definitions),
+        seconds={phase: sum(each.seconds.get(phase, 0.0) for each in reports) for phase in phases},
+        fairness=fairness,
+    )
+
+
+def _once(reports: Sequence[EditReport], field: str) -> tuple[str, ...]:
+    """Give the words of a field of all reports, each once, in order."""
+    return tuple(dict.fromkeys(each for report in reports for each in getattr(report, field)))
+
+
+def _fairness(state: HullState, before: dict[int, SplineBatch], curves: IntArray) -> Fairness:
+    """Hold the shapes of curves before and after, for counting when asked."""
+    after = {curve: state.curves.spline[curve] for curve in curves.tolist()}
+    keys = tuple(state.curves.key[curve] for curve in curves.tolist())
+    return Fairness(before, after, plane_normals(state, curves), curves, keys)
+
+
+def _largest_written(
+    state: HullState, journal: Journal, changed: IntArray, moved: FloatArray
+) -> tuple[Movement | None, Movement | None]:
+    """Find the largest movements of an edit that has just been carried out."""
+    places = journal.net(state.rows.xyz)
+    alive = state.rows.alive[places.rows]
+    movements = Movements.of(state, places.rows[alive], places.old[alive])
+    return largest_movements(state.rows.key.data, movements, changed, moved)
 
 
 def largest_movements(

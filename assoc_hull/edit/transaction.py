@@ -10,11 +10,13 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Self
 
+import attrs
 import numpy as np
 
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.garbage_collection import PausedCollector
 from assoc_hull.edit.modification import Pending
+from assoc_hull.edit.outcome import joined_step
 from assoc_hull.edit.recording import Said, Script, Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Step
@@ -31,6 +33,15 @@ from assoc_hull.model.tables import HullState
 __all__ = ["Transaction"]
 
 _IDLE = "nothing was changed: all that was asked for is so already; there is no step to undo"
+
+
+@attrs.frozen(eq=False)
+class _Stage:
+    """A part of an edit that has been carried out: its writes, and the look-ups after it."""
+
+    journal: Journal
+    step: Step
+    index: Index | None
 
 
 class Transaction:
@@ -81,6 +92,7 @@ class Transaction:
         self._index: Index | None = None
         self._known: Marked = {}
         self._begun = self._taken_back = False
+        self._stages: list[_Stage] = []
 
     @property
     def report(self) -> EditReport | None:
@@ -101,6 +113,46 @@ class Transaction:
     def maker(self) -> Maker:
         """Writes structure through this transaction's journal."""
         return Maker(self.state, self.journal)
+
+    def end_stage(self) -> None:
+        """Carry out what is pending, so that what comes next finds the hull that comes of it.
+
+        All stages are one step, refused as a whole. Who looks from elsewhere sees none of them.
+
+        Raises
+        ------
+        RefusedEditError
+            As at the end of the edit; the stage may be taken back with all before it.
+        """
+        with PausedCollector():
+            if not self._idle():
+                # The program knows the published hull, not what stages have made of it.
+                step = update(self.document, self.name, self.journal, self.pending, self.settings,
+                              by_program=False)  # fmt: skip
+                self._stages.append(_Stage(self.journal, step, self.document.known_index))
+                self.journal = Journal()
+        self.pending = Pending()
+
+    @property
+    def stages(self) -> int:
+        """How many stages have ended."""
+        return len(self._stages)
+
+    def take_back(self, keep: int = 0) -> None:
+        """Take back all after the first `keep` stages, to try something else."""
+        gone = self._stages[keep:]
+        structural = self.pending.structural or any(each.step.structural for each in gone)
+        self.journal.undo()
+        for each in reversed(gone):
+            each.journal.undo()
+        if self.pending.numbers is not None:
+            self.pending.numbers.take_back()
+        # What is true of the hull as it is now is kept.
+        self.state.memory.restore(self._known)
+        if structural:
+            self.document.known_index = self._stages[keep - 1].index if keep else self._index
+        self.pending = Pending()
+        del self._stages[keep:]
 
     def write(self, rows: IntArray, values: FloatArray, what: str) -> None:
         """Set the places of points; they are written when the transaction ends.
@@ -179,7 +231,7 @@ class Transaction:
         What was being taken back when it was broken off is taken back first: else it would be
         published. An edit that is in the history stays.
         """
-        left = self.journal.entries or not self._taken_back
+        left = self.journal.entries or self._stages or not self._taken_back
         if self._begun and left and not self._committed:
             self._restore()
         self._begun = False
@@ -226,7 +278,7 @@ class Transaction:
             if self._broken:
                 reason = "an edit nested in it failed, so all of it was taken back"
                 raise RefusedEditError(self.name, (reason,))
-            if self._idle():
+            if self._idle() and not self._stages:
                 self._told = EditReport(
                     self.name, changed=False, notes=(*self.pending.notes, _IDLE)
                 )
@@ -257,7 +309,11 @@ class Transaction:
 
     def _publish(self) -> None:
         """Run the update, and take its step into the history unless it is only looked at."""
-        step = update(self.document, self.name, self.journal, self.pending, self.settings)
+        if self._stages:
+            self.end_stage()
+            step = joined_step(self.state, self.name, [each.step for each in self._stages])
+        else:
+            step = update(self.document, self.name, self.journal, self.pending, self.settings)
         if self.look is None:
             step.script = Script.of(self.script, self.settings)
             # Known before it is committed: behind that nothing is taken back.
@@ -272,11 +328,5 @@ class Transaction:
 
         Broken off at any line, it may be run again.
         """
-        structural = self.pending.structural
-        self.journal.undo()
-        if self.pending.numbers is not None:
-            self.pending.numbers.take_back()
-        self.state.memory.restore(self._known)
-        if structural:
-            self.document.known_index = self._index
-        self.pending, self._taken_back = Pending(), True
+        self.take_back()
+        self._taken_back = True

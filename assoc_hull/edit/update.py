@@ -50,9 +50,10 @@ of an update turns to them: a nudge moves a hull before curves are found to be o
 
 
 def update(
-    document: Document, name: str, journal: Journal, pending: Pending, settings: Settings
-) -> Step:
-    """Carry out what is pending, and give the finished step.
+    document: Document, name: str, journal: Journal, pending: Pending, settings: Settings,
+    *, by_program: bool = True,
+) -> Step:  # fmt: skip
+    """Carry out what is pending, and give the finished step; by the program, where that can.
 
     Raises
     ------
@@ -62,7 +63,8 @@ def update(
         If driven links would run in a ring.
     """
     # What was written by now (a role, a limit, a name) the program does not know of.
-    program = None if journal.entries else ProgramEdit.of(document, pending)
+    quick = by_program and not journal.entries
+    program = ProgramEdit.of(document, pending) if quick else None
     if program is not None:
         try:
             set_by = _set_values(document.state, journal, pending)

@@ -8,7 +8,7 @@ planes that went along, values that changed as well.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import attrs
@@ -17,26 +17,28 @@ import numpy as np
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.mapped_planes import IN_PLANE
 from assoc_hull.edit.report import EditReport
-from assoc_hull.errors import BadInputError
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.tables import HullState, copy_state
-from assoc_hull.variation.aiming.reach_targets import (
-    SettledMap,
-    measure_requested,
-    settle_map,
-    settle_reach,
-)
+from assoc_hull.model.tables import HullState
+from assoc_hull.variation.aiming.reach_targets import SettledPlan, measure_requested, settle_plan
 from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
-from assoc_hull.variation.carrying.carry_hull import carry_out
+from assoc_hull.variation.carrying.carry_stages import StagedCarry
 from assoc_hull.variation.certificate.fold_check import Certificate, fold_outside
+from assoc_hull.variation.comparing.line_fairness import (
+    FairnessComparison,
+    compare_fairness,
+    measure_fairness,
+)
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.parameter_fields import shift_terminals
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent
-from assoc_hull.variation.parameters.value_limits import hull_box, present_values
+from assoc_hull.variation.parameters.stages import Plan, class_plan, single_plan
+from assoc_hull.variation.parameters.value_limits import present_values
 from assoc_hull.variation.request import VariationRequest, script_of
 
 __all__ = [
@@ -56,9 +58,9 @@ _SEEN = 1e-3
 """A named value that changes by less (m, degrees) is not reported."""
 
 
-def folds_outside(vmap: VariationMap, state: HullState, tolerance: float) -> tuple[str, ...]:
-    """Give a note where a map folds beyond the hull; none where it does not."""
-    beyond = fold_outside(vmap, hull_box(state, tolerance))
+def folds_outside(vmap: VariationMap, box: FloatArray) -> tuple[str, ...]:
+    """Give a note where a map folds beyond the box (2, 3), m, of a hull; none if nowhere."""
+    beyond = fold_outside(vmap, box)
     if beyond is None:
         return ()
     x, _, z = beyond.witness
@@ -108,6 +110,18 @@ def also_changed(
         and abs(after[name] - before[name]) > _SEEN
     ]  # fmt: skip
     return (f"also changed: {', '.join(told)}",) if told else ()
+
+
+def unfair_lines(fairness: FairnessComparison) -> tuple[str, ...]:
+    """Give a note on the lines that have a kink after a variation; none if there is none."""
+    told = [
+        f"{line.name} ({line.comb_ratio:.3g} times the parent's)" for line in fairness.changed
+        if line.comb_ratio > _KINK
+    ]  # fmt: skip
+    if not told:
+        return ()
+    added = f"{fairness.added} changes of curvature sign added in all"
+    return (f"lines less fair than those of the parent by their combs: {', '.join(told)}; {added}",)
 
 
 def shifted_without_body(
@@ -182,6 +196,12 @@ class VariationReport:
         None where layers were given that are not data.
     aim : AimReport or None
         How targets of outputs were reached; None where none were given.
+    stages : tuple of str
+        What was carried by one map after the other.
+    worst_comb : float
+        The largest ratio of a line's comb integral to that of the parent's.
+    added_sign_changes : int
+        Changes of sign of curvature that lines of the parent have more.
     """
 
     targets: tuple[Target, ...]
@@ -194,11 +214,15 @@ class VariationReport:
     notes: tuple[str, ...] = ()
     script: Mapping[str, Any] | None = None
     aim: AimReport | None = None
+    stages: tuple[str, ...] = ()
+    worst_comb: float = 1.0
+    added_sign_changes: int = 0
 
     def __str__(self) -> str:
         aimed = () if self.aim is None else (str(self.aim),)
         targets = (str(each) for each in self.targets)
-        return "\n".join([*targets, *aimed, *self.notes, str(self.edit)])
+        stages = () if len(self.stages) < 2 else (f"in stages: {'; '.join(self.stages)}",)
+        return "\n".join([*targets, *aimed, *stages, *self.notes, str(self.edit)])
 
 
 def vary_document(
@@ -218,57 +242,84 @@ def vary_document(
     BadInputError, FoldError, RefusedEditError
         What is asked for cannot be had; the hull is unchanged.
     """
-    room = AdmissibleValues.of(document.state, ask.layout, ask.tolerance)
-    parent, was = room.parent, room.present
-    for name in ask.values:
-        if name in parent.absent:
-            raise BadInputError(
-                f"cannot vary '{name}': {parent.absent[name]}", "in vary", "leave it out"
-            )
-    found = _settled(document, room, ask)
-    levels = document.state.lines.offset.data.copy()
-    applied, report = carry_out(document, found.map, parent, ask, was, found.values, found.nudge)
-    reached = measure_requested(document.state, ask)
+    with Transaction(document, ask.name) as edit:
+        room = AdmissibleValues.of(edit.state, ask.layout, ask.tolerance)
+        parent, was = room.parent, room.present
+        for name in ask.values:
+            if name in parent.absent:
+                raise BadInputError(
+                    f"cannot vary '{name}': {parent.absent[name]}", "in vary", "leave it out"
+                )
+        room.check(ask.values)
+        levels = edit.state.lines.offset.data.copy()
+        found, fairness = _carried(edit, room, ask)
+        reached = measure_requested(edit.state, ask)
+        now = present_values(measure_all(edit.state), ask.layout)
+        beyond = folds_outside(found.carry.map, room.box)
+        along = went_along(levels, edit.state)
+    report = edit.report
+    if report is None:
+        raise BadInputError("an edit is open", "in vary", "finish it before")
     targets = tuple(
         Target(name, CATALOGUE[name].unit, was[name], value, reached[name])
         for name, value in ask.values.items()
     )
-    regions = (*found.whole.regions(), *applied.regions)
-    now = present_values(measure_all(document.state), ask.layout)
+    carried, whole = found.carry.carried, found.carry.map
     notes = (
-        *shifted_without_body(parent, found.values),
-        *folds_outside(found.whole, document.state, ask.tolerance),
-        *went_along(levels, document.state), *also_changed(was, now, found.values),
+        *shifted_without_body(parent, found.values), *beyond, *along,
+        *also_changed(was, now, found.values), *unfair_lines(fairness),
     )  # fmt: skip
-    return found.whole, VariationReport(
-        targets, found.rounds, regions, applied.drivers, applied.added, found.certificate, report,
-        notes, script_of(ask),
+    drivers = [each.applied.drivers for each in carried]
+    regions = dict.fromkeys(one for each in carried for one in each.regions)
+    return whole, VariationReport(
+        targets, found.rounds, tuple(regions),
+        tuple(name for name in drivers[0] if all(name in each for each in drivers)),
+        sum(each.applied.added for each in carried), found.carry.certificate, report, notes,
+        script_of(ask),
         None if found.aimed is None else attrs.evolve(found.aimed, hull=None),  # a hull is large
+        tuple(map(str, found.carry.plan)), fairness.worst, fairness.added,
     )  # fmt: skip
 
 
-def _settled(document: Document, room: AdmissibleValues, ask: VariationRequest) -> SettledMap:
-    """Find the map whose applied values are the asked ones, and what is nudged after it."""
-    room.check(ask.values)
-    if ask.reach is not None:
-        return settle_reach(document.state, room, ask, ask.reach)
-    return settle_map(
-        ask, room.present, lambda aim, rounds: _tried(document.state, room, ask, aim, rounds)
-    )
+# --------------------------------------------------------------------------------------
+# Which plan: the first that is taken and leaves no line with a kink; else the fairest.
+
+_KINK = 10.0
+"""A line whose comb is larger than this many times the parent's has a kink, though nothing folds:
+4 times is usual, and a line that folds nearly has hundreds."""
 
 
-def _tried(
-    state: HullState,
-    room: AdmissibleValues,
-    ask: VariationRequest,
-    aim: Mapping[str, float],
-    rounds: int,
-) -> SettledMap:
-    """Lay out the map of an aim, and measure what it gives beside the published hull."""
-    vmap = VariationMap((*room.map(aim).layers, *ask.layers))
-    certificate = room.certified(vmap, aim)
-    trial = Document(copy_state(state))
-    carry_out(trial, vmap, room.parent, ask, room.present)
-    reached = measure_requested(trial.state, ask)
-    miss = {name: value - reached[name] for name, value in ask.values.items()}
-    return SettledMap(vmap, rounds, certificate, miss, ask.values, vmap)
+def _carried(
+    edit: Transaction, room: AdmissibleValues, ask: VariationRequest
+) -> tuple[SettledPlan, FairnessComparison]:
+    """Carry the hull of an edit by the best plan there is."""
+    before = measure_fairness(edit.state)
+    best, refusal = list[tuple[float, int, SettledPlan]](), None
+    for plan in _plans(ask):
+        carry = StagedCarry(edit, ask, plan)
+        try:
+            found = settle_plan(carry, room)
+        except AssocHullError as error:
+            refusal = refusal or error
+            continue
+        fair = compare_fairness(before, measure_fairness(edit.state, like=before))
+        if fair.worst <= _KINK:
+            return found, fair
+        best.append((fair.worst, fair.added, found))
+    if not best:
+        assert refusal is not None, "there is a plan at least"
+        raise refusal
+    found = min(best, key=lambda each: each[:2])[2]
+    if found is not best[-1][2] or refusal is not None:
+        found = settle_plan(StagedCarry(edit, ask, found.carry.plan), room)
+    return found, compare_fairness(before, measure_fairness(edit.state, like=before))
+
+
+def _plans(ask: VariationRequest) -> Iterator[Plan]:
+    """Give plans in the order in which they are tried; each is refined where it is refused."""
+    layers = bool(ask.layers)
+    first = class_plan(ask.values, layers=layers)
+    yield first
+    whole = single_plan(ask.values, layers=layers)
+    if whole != first:
+        yield whole

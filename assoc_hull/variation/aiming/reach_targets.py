@@ -1,30 +1,29 @@
-"""Set values and targets met on the lofted hull: lay out, measure, correct, until both hold.
+"""Set values and targets met on the lofted hull: carry, measure, correct, until both hold.
 
 A map moves the measured places exactly, but the hull that is lofted again through its images keeps
-them only within a tolerance. What is missing is added to what is asked of the map. Targets of
-outputs are reached on hulls that have the set values but for what lofting leaves over; then that
-is added, and the targets are solved for again.
+them only within a tolerance, and maps that come later move what earlier ones have placed. So what
+the maps are to give, the aims, is corrected, and the whole plan is carried out anew from the
+parent: corrections on top of a carried hull would come with an error of lofting of their own each
+time. Targets of outputs are reached on the hull that the plan gives, in each round.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import attrs
 import numpy as np
 
-from assoc_hull.edit.nudge import Nudge
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.variation.aiming.hull_problem import HullProblem, Reached
 from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.aiming.target_solver import solve_targets
 from assoc_hull.variation.carrying.admissible_values import SAME, AdmissibleValues
+from assoc_hull.variation.carrying.carry_stages import StagedCarry
 from assoc_hull.variation.carrying.hull_maps import HullMaps
-from assoc_hull.variation.certificate.fold_check import Certificate
-from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE, Freedom
 from assoc_hull.variation.parameters.compose_map import refuse_clashes
 from assoc_hull.variation.parameters.parameter_measures import measure_all
@@ -32,57 +31,65 @@ from assoc_hull.variation.parameters.value_limits import present_values
 from assoc_hull.variation.request import TargetRequest, VariationRequest
 
 __all__ = [
-    "SettledMap",
+    "PROMISED",
+    "SettledPlan",
     "changed_values",
     "freedoms",
     "measure_requested",
     "problem_of",
-    "settle_map",
-    "settle_reach",
+    "settle_plan",
 ]
 
 # --------------------------------------------------------------------------------------
-# Set values, without targets.
+# Aims: corrected by the rule of C. G. Broyden, "A class of methods for solving nonlinear
+# simultaneous equations", Mathematics of Computation 19, 1965: with e the misses, d the last step
+# of the aims and B at first the identity,
+#
+#     a <- a + B e        B <- B + (d - B y) (d B) / (d . B y)        y = e_old - e_new
 
 _MET = 1e-7
 """A set value (m, degrees) is met where its residual is less than this; 1e-6 is promised."""
 
-_PROMISED = 1e-6
-_ROUNDS = 6
+PROMISED = 1e-6
+_ROUNDS = 7
+
+_JUMPED = 0.1
+"""A miss of more than this part of a value, and than the change that was asked for, is no miss of
+a map: what is measured has jumped to another place of the hull."""
+
+_JUMP = 2e-2
+"""Nor is one of less than this times Lpp, m, or than this many times 100 degrees."""
 
 
 @attrs.frozen(eq=False)
-class SettledMap:
-    """A map whose applied values are nearly the asked ones, how it was found, its residuals.
+class SettledPlan:
+    """A plan carried out so that all set values are met, and how that was found.
 
     Attributes
     ----------
-    map : VariationMap
-        The map by which the hull is carried.
-    rounds : int
-        How often it was laid out.
-    certificate : Certificate
-        Of the whole map.
-    miss : dict of str to float, m or degrees
+    carry : StagedCarry
+        The maps, which have carried the hull of the edit.
+    aims : mapping of str to float, m or degrees
+        What they were to give the parameters.
+    miss : mapping of str to float, m or degrees
         Asked less measured values, by name.
-    values : mapping of str to float
-        What named parameters get by it, free ones among them.
-    whole : VariationMap
-        The map together with what is nudged after it.
-    nudge : Nudge or None
-        What moves when the map has been applied.
+    start : (k,) or None
+        The amplitudes of what is free from which targets were sought; None for none.
     aimed : AimReport or None
         What was found for targets that were to be reached.
+    values : mapping of str to float
+        What named parameters get, free ones among them.
+    rounds : int
+        How often the plan was carried out.
     """
 
-    map: VariationMap
-    rounds: int
-    certificate: Certificate
-    miss: dict[str, float]
+    carry: StagedCarry
+    aims: Mapping[str, float]
+    miss: Mapping[str, float]
+    start: FloatArray | None
+    aimed: AimReport | None
     values: Mapping[str, float]
-    whole: VariationMap
-    nudge: Nudge | None = None
-    aimed: AimReport | None = None
+    rounds: int = 1
 
     @property
     def worst(self) -> float:
@@ -90,49 +97,114 @@ class SettledMap:
         return max((abs(each) for each in self.miss.values()), default=0.0)
 
 
-Attempt = Callable[[Mapping[str, float], int], SettledMap]
-"""Takes what the map is to give to parameters, and the number of the round."""
+@attrs.frozen(eq=False)
+class _Aims:
+    """Aims of set values, and what the rounds have told of how they act."""
+
+    names: tuple[str, ...]
+    aim: FloatArray
+    inverse: FloatArray
+    step: FloatArray | None = None
+    miss: FloatArray | None = None
+
+    @classmethod
+    def of(cls, ask: VariationRequest) -> _Aims:
+        names = tuple(ask.values)
+        return cls(names, np.array([ask.values[name] for name in names]), np.eye(len(names)))
+
+    @property
+    def values(self) -> dict[str, float]:
+        return dict(zip(self.names, self.aim.tolist(), strict=True))
+
+    def corrected(self, miss: Mapping[str, float]) -> _Aims:
+        """Give the aims of the next round."""
+        now, inverse = np.array([miss[name] for name in self.names]), self.inverse
+        if self.step is not None and self.miss is not None:
+            gone = inverse @ (self.miss - now)
+            along = float(self.step @ gone)
+            if along:
+                inverse = inverse + np.outer(self.step - gone, self.step @ inverse) / along
+        step = inverse @ now
+        return _Aims(self.names, self.aim + step, inverse, step, now)
 
 
-def changed_values(ask: VariationRequest, was: Mapping[str, float]) -> dict[str, float]:
-    """Give the values that are set, without those that the hull has already."""
-    return {name: value for name, value in ask.values.items() if abs(value - was[name]) > SAME}
-
-
-def settle_map(ask: VariationRequest, was: Mapping[str, float], attempt: Attempt) -> SettledMap:
-    """Find what is to be asked of a map so that its applied values are the asked ones.
+def settle_plan(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
+    """Carry out a plan so that the set values are met, and targets are reached if there are any.
 
     Parameters
     ----------
-    ask : VariationRequest
-        What is asked for.
-    was : mapping of str to float
-        Present values.
-    attempt : callable
-        Lays out a map, and measures what it gives beside the published hull.
+    carry : StagedCarry
+        The plan; when this returns, the hull of its edit is the varied one.
+    room : AdmissibleValues
+        What is measured of the parent.
 
     Raises
     ------
     BadInputError
         A value cannot be had to 1e-6.
+    UnreachableError, DependentTargetsError, TooFewFreeError
+        Targets that cannot be reached.
     AssocHullError
-        What the first attempt raises.
+        What the first round raises.
     """
-    aim = changed_values(ask, was)
-    best = found = attempt(aim, 1)
-    for rounds in range(2, _ROUNDS + 1):
-        if best.worst <= _MET:
-            break
-        aim = _corrected(aim, ask, found.miss)
+    ask, aims, start = carry.ask, _Aims.of(carry.ask), None
+    before = None
+    if ask.reach is not None:
+        freedoms(room, ask, ask.reach)  # refused before anything is carried
+        before = Outputs.of(room.state, tuple(ask.reach.targets)).values(room.state)
+    best = found = _attempt(carry, aims.values, before, start)
+    _refuse_jump(found, room)
+    there: SettledPlan | None = found
+    rounds = 1
+    while best.worst > _MET and rounds < _ROUNDS:
+        aims, rounds = aims.corrected(found.miss), rounds + 1
+        start = None if found.aimed is None else _hull(found.aimed).amplitudes
         try:
-            found = attempt(aim, rounds)
+            found = there = _attempt(carry, aims.values, before, start)
         except AssocHullError:
-            break  # the correction went astray: what was asked for is not at fault
+            there = None  # the correction went astray: what was asked for is not at fault
+            break
         if found.worst < best.worst:
             best = found
-    if best.worst > _PROMISED:
+    if best.worst > PROMISED:
         raise _missed(best, ask)
-    return best
+    if best is not there:
+        best = _attempt(carry, best.aims, before, best.start)
+    return attrs.evolve(best, rounds=rounds)
+
+
+def _attempt(
+    carry: StagedCarry,
+    aims: Mapping[str, float],
+    before: FloatArray | None,
+    start: FloatArray | None,
+) -> SettledPlan:
+    """Carry out the plan with some aims, and measure what it gives."""
+    ask, aimed, values = carry.ask, None, dict(carry.ask.values)
+    carry.run(aims)
+    if before is not None and ask.reach is not None:
+        aimed, free = _reached(carry, ask.reach, before, start)
+        values |= free
+    elif not carry.carried:
+        carry.carry_by_nothing()
+    reached = measure_requested(carry.edit.state, ask)
+    miss = {name: value - reached[name] for name, value in ask.values.items()}
+    return SettledPlan(carry, dict(aims), miss, start, aimed, values)
+
+
+def _refuse_jump(found: SettledPlan, room: AdmissibleValues) -> None:
+    """Refuse a measure that has jumped: its miss tells nothing of the map."""
+    for name, miss in found.miss.items():
+        asked = found.carry.ask.values[name]
+        change = abs(asked - room.present[name])
+        least = _JUMP * (100.0 if CATALOGUE[name].unit == "deg" else room.parent.length)
+        if abs(miss) > max(change, _JUMPED * abs(asked), least):
+            unit = CATALOGUE[name].unit
+            raise BadInputError(
+                f"{name} is measured at another place of the varied hull: {asked - miss:.6g} "
+                f"{unit}, asked {asked:.6g} {unit}", "in vary",
+                f"leave {name} out, or ask for less",
+            )  # fmt: skip
 
 
 def measure_requested(state: HullState, ask: VariationRequest) -> dict[str, float]:
@@ -153,20 +225,7 @@ def measure_requested(state: HullState, ask: VariationRequest) -> dict[str, floa
     return {name: found.get(name, value) for name, value in ask.values.items()}
 
 
-def _corrected(
-    aim: Mapping[str, float], ask: VariationRequest, miss: Mapping[str, float]
-) -> dict[str, float]:
-    """Add the residuals to what the map is to give.
-
-    A value that was to stay, but that others move away, is asked for as well.
-    """
-    return {
-        name: aim.get(name, ask.values[name]) + each
-        for name, each in miss.items() if name in aim or abs(each) > _MET
-    }  # fmt: skip
-
-
-def _missed(best: SettledMap, ask: VariationRequest) -> BadInputError:
+def _missed(best: SettledPlan, ask: VariationRequest) -> BadInputError:
     """Say which value cannot be had, and what came nearest to it."""
     name, miss = max(best.miss.items(), key=lambda each: abs(each[1]))
     asked, unit = ask.values[name], CATALOGUE[name].unit
@@ -183,36 +242,30 @@ _RESIDUAL = 1e-10
 """Targets are met where their residual is no more than this part of their size."""
 
 
-def settle_reach(
-    state: HullState, room: AdmissibleValues, ask: VariationRequest, reach: TargetRequest
-) -> SettledMap:
-    """Find the map at which targets are reached and values are as they are set.
+def changed_values(ask: VariationRequest, was: Mapping[str, float]) -> dict[str, float]:
+    """Give the values that are set, without those that the hull has already."""
+    return {name: value for name, value in ask.values.items() if abs(value - was[name]) > SAME}
 
-    Parameters
-    ----------
-    state : HullState
-        The tables of the parent.
-    room : AdmissibleValues
-        Lays out maps of named parameters.
-    ask : VariationRequest
-        What is asked for.
-    reach : TargetRequest
-        Its targets.
 
-    Raises
-    ------
-    UnknownNameError, BadInputError
-        Targets, or what is free, that the hull has not.
-    UnreachableError, DependentTargetsError, TooFewFreeError
-        Targets that cannot be reached.
+def _reached(
+    carry: StagedCarry, reach: TargetRequest, before: FloatArray, start: FloatArray | None
+) -> tuple[AimReport, dict[str, float]]:
+    """Carry the hull by what is free so that targets are reached.
+
+    Gives the solver's report, and the values of what is free.
     """
-    free = freedoms(room, ask, reach)
-    outputs = Outputs.of(state, tuple(reach.targets))
-    before = outputs.values(state)
-    return settle_map(
-        ask, room.present,
-        lambda aim, rounds: _aimed(HullMaps(room, ask, aim, free), outputs, before, reach, rounds),
-    )  # fmt: skip
+    ask = carry.ask
+    # What is set is there now, and raw layers have acted.
+    state = copy_state(carry.edit.state)
+    room = AdmissibleValues.of(state, ask.layout, ask.tolerance)
+    rest = attrs.evolve(ask, values={}, layers=())
+    maps = HullMaps(room, rest, {}, freedoms(room, rest, reach))
+    aimed = _aimed(maps, Outputs.of(state, tuple(reach.targets)), before, reach, start)
+    hull = _hull(aimed)
+    base = hull.base
+    values = maps.values(base.amplitudes)
+    carry.carry(room, maps.map(base.amplitudes), values, by=base.nudge_to(hull.amplitudes))
+    return aimed, maps.values(hull.amplitudes)
 
 
 def problem_of(state: HullState, ask: VariationRequest) -> HullProblem:
@@ -272,9 +325,13 @@ def freedoms(
 
 
 def _aimed(
-    maps: HullMaps, outputs: Outputs, before: FloatArray, reach: TargetRequest, rounds: int
-) -> SettledMap:
-    """Solve for the targets, with the values that are set as a map gives them."""
+    maps: HullMaps,
+    outputs: Outputs,
+    before: FloatArray,
+    reach: TargetRequest,
+    start: FloatArray | None,
+) -> AimReport:
+    """Solve for the targets on a hull that has what is set."""
     targets = np.array(list(reach.targets.values()))
     sizes = np.maximum(np.abs(before), np.abs(targets))
     scales = np.where(sizes > 0.0, sizes, 1.0)
@@ -282,14 +339,14 @@ def _aimed(
     for quick in (True, False):
         aimed = solve_targets(
             HullProblem(maps, outputs, quick=quick), targets,
-            start=np.zeros(len(maps.free)),
+            start=np.zeros(len(maps.free)) if start is None else start,
             scales_free=[each.usual for each in maps.free], scales_out=scales,
             bounds=reach.limits([each.present for each in maps.free]),
             exact=reach.exact, units=outputs.units, before=before,
         )  # fmt: skip
         if not aimed.reached or _holds(aimed, outputs, scales):
             break
-    return _settled(maps, aimed, rounds)
+    return aimed
 
 
 def _holds(aimed: AimReport, outputs: Outputs, scales: FloatArray) -> bool:
@@ -302,16 +359,3 @@ def _hull(aimed: AimReport) -> Reached:
     """Give the hull that the solver ended at."""
     assert isinstance(aimed.hull, Reached), "the problem gives no other"
     return aimed.hull
-
-
-def _settled(maps: HullMaps, aimed: AimReport, rounds: int) -> SettledMap:
-    """Say how the hull that was found comes of the parent, and its residuals of set values."""
-    hull = _hull(aimed)
-    whole, certificate = maps.certified(hull.amplitudes)
-    got = measure_requested(hull.state, maps.ask)
-    miss = {name: value - got[name] for name, value in maps.ask.values.items()}
-    base = hull.base
-    return SettledMap(
-        maps.map(base.amplitudes), rounds, certificate, miss, maps.values(base.amplitudes),
-        whole, base.nudge_to(hull.amplitudes), aimed,
-    )  # fmt: skip

@@ -33,6 +33,7 @@ from assoc_hull.variation.request import VariationRequest
 __all__ = [
     "AppliedMap",
     "apply_map",
+    "carry_map",
     "carry_out",
     "resized_particulars",
 ]
@@ -155,22 +156,38 @@ def carry_out(
     BadInputError, RefusedEditError
         The hull cannot be carried; it is unchanged.
     """
-    drivers = None if ask.drivers is None else GivenObjects(document.state).driving(ask.drivers)
-    asked = ask.values if values is None else values
-    size = resized_particulars(document.state, vmap, parent, asked)
     with Transaction(document, ask.name) as edit:
-        applied = apply_map(
-            edit, vmap, drivers=drivers, stations=ask.stations,
-            follow=ask.planes == "follow", tolerance=ask.tolerance,
-            particulars=None if size == document.state.particulars else size,
-            radii=requested_radii(document.state, parent, asked, was),
-        )  # fmt: skip
-        if by is not None:
-            nudge(edit, by)
+        applied = carry_map(
+            edit, vmap, parent, ask, was, ask.values if values is None else values, by
+        )
     report = edit.report
     if report is None:
         raise BadInputError("an edit is open", "in vary", "finish it before")
     return applied, report
+
+
+def carry_map(
+    edit: Transaction,
+    vmap: VariationMap,
+    parent: Parent,
+    ask: VariationRequest,
+    was: Mapping[str, float],
+    values: Mapping[str, float],
+    by: Nudge | None = None,
+) -> AppliedMap:
+    """Carry the hull of an open edit by a map; the rest as `carry_out`."""
+    state = edit.state
+    drivers = None if ask.drivers is None else GivenObjects(state).driving(ask.drivers)
+    size = resized_particulars(state, vmap, parent, values)
+    applied = apply_map(
+        edit, vmap, drivers=drivers, stations=ask.stations,
+        follow=ask.planes == "follow", tolerance=ask.tolerance,
+        particulars=None if size == state.particulars else size,
+        radii=requested_radii(state, parent, values, was),
+    )  # fmt: skip
+    if by is not None:
+        nudge(edit, by)
+    return applied
 
 
 def resized_particulars(

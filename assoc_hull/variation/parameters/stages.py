@@ -1,0 +1,120 @@
+"""Which parameters one map carries, and which come after it, where several are asked for.
+
+One map for all would bend the planes of most lines: a field that moves heights at the stern bends
+every waterline, one that moves half-breadths every buttock, and little is left to drive the rest.
+A map that moves one coordinate keeps the planes of the other two whole. So parameters are taken
+class by class, and each map is laid out on the hull that the one before has made. Where a class is
+refused it is taken end by end, then parameter by parameter, then in parts of its change.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import attrs
+
+__all__ = ["CLASSES", "Plan", "Stage", "class_plan", "refined_plan", "single_plan"]
+
+CLASSES: tuple[tuple[tuple[str, ...], ...], ...] = (
+    (("length", "breadth", "draught", "depth", "deck_height"),),
+    # Before anything along the ship: a bilge fades out beyond the parallel body, and so moves its
+    # ends.
+    (("bilge_radius", "deadrise_deg", "flat_of_bottom"),),
+    (
+        ("parallel_body_start", "aft_shift"),
+        ("parallel_body_end", "fore_shift", "bulb_length", "stem_rake_deg"),
+    ),
+    (("transom_height", "shaft_height"), ("bulb_height",)),
+    (("transom_half_breadth",), ("bulb_half_breadth",)),
+    (("bossing_radius",),),
+)
+"""Classes of parameters in the order in which they are taken; of each what is aft, then the fore
+body, in the order in which they are taken one by one."""
+
+_MOST = 8
+"""In no more parts is a change taken."""
+
+
+@attrs.frozen
+class Stage:
+    """Parameters that one map carries.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The parameters, in the order of their class.
+    parts : int
+        In how many equal parts their change is taken, each part by a map of its own.
+    layers : bool
+        Whether raw layers act after them.
+    """
+
+    names: tuple[str, ...]
+    parts: int = 1
+    layers: bool = False
+
+    def __str__(self) -> str:
+        what = ", ".join([*self.names, *(["raw fields"] if self.layers else [])])
+        return what if self.parts == 1 else f"{what} in {self.parts} parts"
+
+
+Plan = tuple[Stage, ...]
+"""Stages in their order."""
+
+
+def class_plan(names: Iterable[str], *, layers: bool = False) -> Plan:
+    """Give a stage for each class of parameters, and one for raw layers if there are any.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.parameters.stages import class_plan
+    >>> [str(stage) for stage in class_plan(["bulb_height", "draught", "shaft_height", "breadth"])]
+    ['breadth, draught', 'shaft_height, bulb_height']
+    """
+    asked = set(names)
+    stages = [Stage(found) for each in CLASSES if (found := _in_order(each, asked))]
+    return (*stages, Stage((), layers=True)) if layers or not stages else tuple(stages)
+
+
+def single_plan(names: Iterable[str], *, layers: bool = False) -> Plan:
+    """Give one stage of all parameters."""
+    asked = set(names)
+    return (Stage(tuple(one for each in CLASSES for one in _in_order(each, asked)), 1, layers),)
+
+
+def refined_plan(plan: Plan, at: int) -> Plan | None:
+    """Give a plan with one of its stages refined; None where that cannot be refined.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.parameters.stages import Stage, refined_plan
+    >>> plan = (Stage(("bulb_height", "shaft_height")),)
+    >>> for _ in range(3):
+    ...     plan = refined_plan(plan, 0)
+    ...     print("; ".join(str(stage) for stage in plan))
+    shaft_height; bulb_height
+    shaft_height in 2 parts; bulb_height
+    shaft_height in 4 parts; bulb_height
+    """
+    stage = plan[at]
+    finer = tuple(_finer(stage))
+    return (*plan[:at], *finer, *plan[at + 1 :]) if finer else None
+
+
+def _finer(stage: Stage) -> Iterator[Stage]:
+    """Give what a stage is refined to: its ends, else its parameters, else twice as many parts."""
+    if stage.layers and stage.names:
+        yield Stage(stage.names, stage.parts)
+        yield Stage((), layers=True)
+        return
+    asked = set(stage.names)
+    ends = [found for each in CLASSES for end in each if (found := _in_order((end,), asked))]
+    groups = ends if len(ends) > 1 else [(name,) for end in ends for name in end]
+    if len(groups) > 1:
+        yield from (Stage(group, stage.parts) for group in groups)
+    elif stage.names and stage.parts < _MOST:
+        yield attrs.evolve(stage, parts=2 * stage.parts)
+
+
+def _in_order(ends: tuple[tuple[str, ...], ...], asked: set[str]) -> tuple[str, ...]:
+    return tuple(name for end in ends for name in end if name in asked)
