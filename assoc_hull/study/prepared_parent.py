@@ -171,7 +171,7 @@ class StudyParent:
 
 def _driving(maps: HullMaps) -> tuple[IntArray, bool]:
     """Find which lines drive when all parameters change."""
-    usual = np.array([each.usual for each in maps.free])
+    usual = Freedom.probe(maps.free)
     for part in _PROBES[:-1]:
         try:
             return maps.driving(part * usual)

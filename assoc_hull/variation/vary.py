@@ -8,7 +8,7 @@ planes that went along, values that changed as well.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import attrs
@@ -37,7 +37,7 @@ from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.parameter_fields import shift_terminals
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent
-from assoc_hull.variation.parameters.stages import Plan, class_plan, single_plan
+from assoc_hull.variation.parameters.stages import Plan, class_plan, finer_plan, single_plan
 from assoc_hull.variation.parameters.value_limits import present_values
 from assoc_hull.variation.request import VariationRequest, script_of
 
@@ -115,8 +115,8 @@ def also_changed(
 def unfair_lines(fairness: FairnessComparison) -> tuple[str, ...]:
     """Give a note on the lines that have a kink after a variation; none if there is none."""
     told = [
-        f"{line.name} ({line.comb_ratio:.3g} times the parent's)" for line in fairness.changed
-        if line.comb_ratio > _KINK
+        f"{line.name} ({line.comb_ratio:.3g} times the parent's, {line.shape_ratio:.3g} at the "
+        "size it had)" for line in fairness.changed if line.comb_ratio > _KINK
     ]  # fmt: skip
     if not told:
         return ()
@@ -295,31 +295,31 @@ def _carried(
     """Carry the hull of an edit by the best plan there is."""
     before = measure_fairness(edit.state)
     best, refusal = list[tuple[float, int, SettledPlan]](), None
-    for plan in _plans(ask):
+    first = class_plan(ask.values, layers=bool(ask.layers))
+    left = [first, finer_plan(first), finer_plan(finer_plan(first))]
+    left.append(single_plan(ask.values, layers=bool(ask.layers)))
+    tried, there = set[Plan](), None
+    while left:
+        plan = left.pop(0)
+        if plan in tried:
+            continue
         carry = StagedCarry(edit, ask, plan)
         try:
-            found = settle_plan(carry, room)
+            found = there = settle_plan(carry, room)
         except AssocHullError as error:
-            refusal = refusal or error
+            refusal, there = refusal or error, None
+            left = left[-1:]  # at its finest it is refused as well
             continue
+        finally:
+            tried |= {plan, carry.plan}
         fair = compare_fairness(before, measure_fairness(edit.state, like=before))
-        if fair.worst <= _KINK:
+        if fair.worst_shape <= _KINK:
             return found, fair
-        best.append((fair.worst, fair.added, found))
+        best.append((fair.worst_shape, fair.added, found))
     if not best:
         assert refusal is not None, "there is a plan at least"
         raise refusal
     found = min(best, key=lambda each: each[:2])[2]
-    if found is not best[-1][2] or refusal is not None:
+    if found is not there:
         found = settle_plan(StagedCarry(edit, ask, found.carry.plan), room)
     return found, compare_fairness(before, measure_fairness(edit.state, like=before))
-
-
-def _plans(ask: VariationRequest) -> Iterator[Plan]:
-    """Give plans in the order in which they are tried; each is refined where it is refused."""
-    layers = bool(ask.layers)
-    first = class_plan(ask.values, layers=layers)
-    yield first
-    whole = single_plan(ask.values, layers=layers)
-    if whole != first:
-        yield whole

@@ -170,10 +170,12 @@ def test_a_variant_is_kept_in_its_file(
 
 
 def test_sections_that_were_bent_are_told_where_they_cannot_serve(parent: ah.Hull) -> None:
-    """Named as drivers, they become curves in space; what needs planes across the ship says so."""
+    """Named as drivers, they become curves in space; what needs planes across the ship says so.
+
+    What is measured on single lines is there still.
+    """
     bent = parent.vary(set={"stem_rake_deg": 4.0}, drivers=["sections"]).hull
     found = bent.measure()
     assert found["stem_rake_deg"] == pytest.approx(4.0, abs=1e-6)
-    assert "is a curve in space" in found.absent["parallel_body_start"]
     with pytest.raises(AssocHullError, match="is a curve in space"):
         bent.hydrostatics()

@@ -25,6 +25,7 @@ from assoc_hull.edit.lines.marks import (
     Marks,
     distinct_marks,
     find_marks,
+    one_end_a_place,
     required_marks,
     with_guides,
 )
@@ -218,6 +219,7 @@ def ordered_pieces(edit: Transaction, line: int, marks: Marks) -> list[Marks]:
     """
     state = edit.state
     axis = 2 if state.family(line).axis == 0 else 0
+    marks = one_end_a_place(state, marks)
     trails = through_facets(state, marks, state.lines.normal[line])
     if trails is None:
         ordered = nearest_order(marks.xyz, marks.boundary == BoundaryKind.END, axis)

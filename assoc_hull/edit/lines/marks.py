@@ -40,6 +40,7 @@ __all__ = [
     "distinct_marks",
     "find_guides",
     "find_marks",
+    "one_end_a_place",
     "required_marks",
     "with_guides",
     "with_tangencies",
@@ -250,17 +251,42 @@ def _misses(state: HullState, group: int, normal: FloatArray, position: float) -
     )
 
 
+_ONE_MARK = 1e-3
+"""Times `Tolerances.factor`: marks nearer than this (m) are one: the role rule would take none."""
+
+
 def distinct_marks(state: HullState, marks: Marks) -> Marks:
     """Drop marks that coincide with one that is kept: contacts first, then lower rank."""
+    return marks.take(_distinct(state, marks))
+
+
+def one_end_a_place(state: HullState, marks: Marks) -> Marks:
+    """Drop marks that coincide at a corner of two boundary curves on which lines end.
+
+    Two of them would make a piece of no length. One stays where the line begins there; none where
+    it only touches the corner, which shows by the number of ends: every piece has two.
+    """
+    ends = np.flatnonzero(marks.boundary == BoundaryKind.END)
+    kept = ends[_distinct(state, marks.take(ends))]
+    double = np.setdiff1d(ends, kept)
+    if len(double) and len(kept) % 2:
+        least = state.tolerances.factor * _ONE_MARK
+        away = np.abs(marks.xyz[kept] - marks.xyz[double[0]]).max(axis=1)
+        kept = kept[away > least]
+    others = np.flatnonzero(marks.boundary != BoundaryKind.END)
+    return marks.take(np.union1d(others, kept))
+
+
+def _distinct(state: HullState, marks: Marks) -> IntArray:
+    """Give the numbers of marks that stay, rising."""
     order = np.lexsort((np.arange(len(marks.curve)), -marks.boundary, marks.guide))
     kept: list[int] = []
-    # Nearer marks than this are one: the role rule would take neither.
-    least = state.tolerances.factor * 1e-3
+    least = state.tolerances.factor * _ONE_MARK
     for item in order.tolist():
         away = np.abs(marks.xyz[kept] - marks.xyz[item]).max(axis=1) if kept else np.array([np.inf])
         if away.min() > least:
             kept.append(item)
-    return marks.take(np.array(sorted(kept), np.int64))
+    return np.array(sorted(kept), np.int64)
 
 
 # --------------------------------------------------------------------------------------
@@ -278,7 +304,11 @@ def with_guides(state: HullState, line: int, pieces: list[Marks]) -> list[Marks]
     guides = find_guides(state, int(state.lines.group[line]), normal, offset)
     if not len(guides.curve) or not pieces:
         return pieces
-    shapes = SplineBatch.join([loft(CurveData.single(piece.xyz)) for piece in pieces])
+    # Two marks may lie at one place, where a line begins at the corner of two boundary curves.
+    kept = [_distinct(state, piece) for piece in pieces]
+    shapes = SplineBatch.join([
+        loft(CurveData.single(piece.xyz[some])) for piece, some in zip(pieces, kept, strict=True)
+    ])  # fmt: skip
     feet = [closest_points(shapes, i, guides.xyz) for i in range(len(pieces))]
     away = np.array([foot[2] for foot in feet])
     nearest = np.where(away.min(axis=0) <= one_place(state), away.argmin(axis=0), -1)
@@ -286,7 +316,9 @@ def with_guides(state: HullState, line: int, pieces: list[Marks]) -> list[Marks]
     for i, piece in enumerate(pieces):
         mine = np.flatnonzero(nearest == i)
         knots = shapes.knot[shapes.start[i] : shapes.start[i + 1]]
-        at = np.concatenate([knots, _between(feet[i][0][mine], knots)])
+        off = np.abs(piece.xyz[:, None] - piece.xyz[kept[i]][None]).max(axis=2)
+        own = knots[off.argmin(axis=1)]
+        at = np.concatenate([own, _between(feet[i][0][mine], knots)])
         found.append(piece.join(guides.take(mine)).take(np.argsort(at, kind="stable")))
     return found
 

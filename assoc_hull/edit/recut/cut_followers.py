@@ -198,14 +198,17 @@ def _crossings(work: TransformationState, curve: int) -> list[int]:
 
 
 def _check_cut(work: TransformationState, curve: int) -> None:
-    """Require that a follower is defined by a driver, or by a follower cut before it."""
+    """Require that a follower is defined by a driver, or by a follower cut before it.
+
+    A crossing whose image lies in the planes of both lines is known whatever drives.
+    """
     state = work.state
     boundary = state.lines.boundary.data >= 0
     inner = [
         row for row in _crossings(work, curve)
         if not boundary[state.line_of(work.other(row, curve))]
     ]  # fmt: skip
-    given = [row for row in inner if _before(work, row, curve)]
+    given = [row for row in inner if work.known[row] or _before(work, row, curve)]
     own = len(state.curves.rows[curve]) - len(inner)
     if (inner and not given) or own + len(given) < 2:
         name = state.lines.name[state.line_of(curve)]

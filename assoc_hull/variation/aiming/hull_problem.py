@@ -25,6 +25,7 @@ from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.carrying.carry_hull import carry_out
 from assoc_hull.variation.carrying.hull_maps import HullMaps
 from assoc_hull.variation.carrying.velocities import Velocities, velocities
+from assoc_hull.variation.parameters.catalogue import Freedom
 
 __all__ = ["HullProblem", "Reached"]
 
@@ -205,7 +206,7 @@ class HullProblem:
     def _parent(self, at: FloatArray) -> Base:
         """Take the parent as it is: lines will drive as they do when all parameters move a hair."""
         maps = self.maps
-        lines, follow = maps.driving(np.array([_HAIR * each.usual for each in maps.free]))
+        lines, follow = maps.driving(_HAIR * Freedom.probe(maps.free))
         return Base(maps.state, at, lines, follow, still=True, maps=maps)
 
     def _carried(self, at: FloatArray) -> Base:

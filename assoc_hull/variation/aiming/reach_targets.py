@@ -22,7 +22,7 @@ from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.aiming.target_solver import solve_targets
 from assoc_hull.variation.carrying.admissible_values import SAME, AdmissibleValues
-from assoc_hull.variation.carrying.carry_stages import StagedCarry
+from assoc_hull.variation.carrying.carry_stages import CarriedMap, StagedCarry
 from assoc_hull.variation.carrying.hull_maps import HullMaps
 from assoc_hull.variation.parameters.catalogue import CATALOGUE, Freedom
 from assoc_hull.variation.parameters.compose_map import refuse_clashes
@@ -263,8 +263,11 @@ def _reached(
     aimed = _aimed(maps, Outputs.of(state, tuple(reach.targets)), before, reach, start)
     hull = _hull(aimed)
     base = hull.base
+    whole, certificate = maps.certified(hull.amplitudes)
     values = maps.values(base.amplitudes)
     carry.carry(room, maps.map(base.amplitudes), values, by=base.nudge_to(hull.amplitudes))
+    # What is nudged after the map belongs to it.
+    carry.carried[-1] = CarriedMap(whole, certificate, carry.carried[-1].applied)
     return aimed, maps.values(hull.amplitudes)
 
 

@@ -96,7 +96,8 @@ def choose_drivers(
     """
     kept, goes = find_kept_planes(state, space), follow and planes_go(state, space)
     if given is not None:
-        return DrivingLines(tuple(sorted(given)), goes, kept)
+        left = [line for line in sorted(given) if not _hardly_bent(state, space, line, kept)]
+        return DrivingLines(tuple(left or sorted(given)), goes, kept)
     return DrivingLines(default_drivers(state, kept, stations, follow=goes), goes, kept)
 
 
@@ -128,6 +129,23 @@ def find_kept_planes(state: HullState, space: SpaceMap) -> KeptPlanes:
         np.logical_or.at(gone[:, axis], line, moved[:, axis])
         bent[:, axis] |= _spread(line, image[:, axis], state.lines.count) > IN_PLANE
     return KeptPlanes(~bent, ~gone)
+
+
+_HARDLY = 1e-4
+"""m: a line that leaves its plane by less is no curve in space that anybody asked for."""
+
+
+def _hardly_bent(state: HullState, space: SpaceMap, line: int, kept: KeptPlanes) -> bool:
+    """Tell whether a named driver leaves its plane by a hair: it follows then, and stays plane.
+
+    A circle that is drawn anew corrects all within six radii, mostly by less than a micron.
+    """
+    axis = state.family(line).axis
+    if axis is None or state.lines.boundary[line] >= 0 or kept.plane[line, axis]:
+        return False
+    splines = [state.spline(curve) for curve in state.lines.curves[line]]
+    level = space.places(sample(SplineBatch.join(splines), _SAMPLES)[1])[:, axis]
+    return float(level.max() - level.min()) <= _HARDLY
 
 
 def _spread(line: IntArray, level: FloatArray, count: int) -> FloatArray:

@@ -32,6 +32,7 @@ from assoc_hull.geometry.fairness.combs import (
     curvature_sign_changes,
     greatest_curvatures,
 )
+from assoc_hull.geometry.splines.arc_length import arc_length
 from assoc_hull.model.tables import HullState
 
 __all__ = [
@@ -62,6 +63,8 @@ class LineFairness:
         Integral of (dk/ds)^2 ds over all its curves.
     greatest : float, 1/m
         Greatest curvature.
+    length : float, m
+        Of all its curves.
     """
 
     key: str
@@ -70,6 +73,7 @@ class LineFairness:
     sign_changes: int
     comb: float
     greatest: float
+    length: float
 
     @property
     def is_straight(self) -> bool:
@@ -107,6 +111,16 @@ class FairnessChange:
         if self.before.comb == 0.0:
             return 1.0 if self.after.comb == 0.0 else float("inf")
         return self.after.comb / self.before.comb
+
+    @property
+    def shape_ratio(self) -> float:
+        """The same of the line at the size that it had in the parent.
+
+        A section of a bulb that becomes half as large has eight times the comb and is as fair.
+        """
+        if not self.before.length:
+            return self.comb_ratio
+        return self.comb_ratio * (self.after.length / self.before.length) ** 3
 
 
 @attrs.frozen(eq=False)
@@ -157,6 +171,12 @@ class FairnessComparison:
     def _ratios(self) -> FloatArray:
         ratios = np.array([line.comb_ratio for line in self.changed], np.float64)
         return ratios[~np.isnan(ratios)]
+
+    @property
+    def worst_shape(self) -> float:
+        """Greatest `shape_ratio` of the lines that have changed; 1 if none has one."""
+        ratios = [line.shape_ratio for line in self.changed]
+        return max((each for each in ratios if not np.isnan(each)), default=1.0)
 
     @property
     def worst_line(self) -> FairnessChange | None:
@@ -216,11 +236,12 @@ def measure_fairness(
     place = {line: i for i, line in enumerate(wanted)}
     owner = np.array([place[line] for line, _, _ in seen])
     found = _summed(batch, normals, owner, band)
+    lengths = np.bincount(owner, arc_length(batch))
     return {
         str(table.key[line]): LineFairness(
-            str(table.key[line]), str(table.name[line]), views[line], *each
+            str(table.key[line]), str(table.name[line]), views[line], *each, length
         )
-        for line, each in zip(wanted, found, strict=True)
+        for line, each, length in zip(wanted, found, lengths.tolist(), strict=True)
     }
 
 

@@ -7,10 +7,12 @@ change, by which changes of different kinds are compared.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import attrs
+import numpy as np
 
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.layers import Layer, scaled_layer
 from assoc_hull.variation.parameters import parameter_fields
 from assoc_hull.variation.parameters.field_layout import Layout, Share
@@ -225,6 +227,9 @@ CATALOGUE = {each.name: each for each in _entries()}
 NAMES = tuple(CATALOGUE)
 
 
+_GOLDEN = 0.6180339887
+"""Its multiples leave parts that are nowhere alike."""
+
 _SHIFT, _SIZE, _ANGLE = 0.01, 0.05, 2.0
 """Usual changes: of shifts in parts of Lpp, of lengths in parts of themselves, of angles in deg."""
 
@@ -265,6 +270,17 @@ class Freedom:
     def raw(cls, layer: Layer) -> Freedom:
         """Take a layer: at amplitude 1 it acts as it was given."""
         return cls(layer.name, "", 0.0, 1.0, layer)
+
+    @staticmethod
+    def probe(free: Sequence[Freedom]) -> FloatArray:
+        """Give changes (k,) that show what all parameters together move, near the usual ones.
+
+        Never all in one proportion: breadth and draught that grow alike keep circles round, which
+        no other change of them does.
+        """
+        part = np.modf(_GOLDEN * np.arange(1, 1 + len(free)))[0]
+        found: FloatArray = np.array([each.usual for each in free]) * (1.0 - 0.5 * part)
+        return found
 
     def scaled(self, amplitude: float) -> Layer | None:
         """Give the layer times the amplitude; None for nothing."""

@@ -8,19 +8,15 @@ parameter; what it puts into `numbers` stands in its docstring, in m or degrees.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 
 import attrs
 import numpy as np
-from scipy.optimize import brentq
 
-from assoc_hull.analysis.form.form_parameters import shape_of
-from assoc_hull.analysis.form.longitudinal_parts import EQUAL, parallel_body
-from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
-from assoc_hull.geometry.floating.sections import areas_at
 from assoc_hull.geometry.numeric.circle_fit import CircleFit, fit_circle
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate
+from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.geometry.splines.evaluation import derivative, evaluate, sample
 from assoc_hull.geometry.splines.plane_intersections import points_at_coordinate, points_on_plane
 from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter
 
@@ -39,6 +35,9 @@ __all__ = [
 
 _ROUND = 1e-4
 """Defining points of an arc lie as near as this to its circle, in parts of the radius."""
+
+_SAMPLES = 4
+"""Places a segment at which sections are compared."""
 
 _STRAIGHT = 1e-6
 """A segment whose unit tangents differ from its chord by no more is straight."""
@@ -314,15 +313,16 @@ def _edge(place: FloatArray, how: str, hull: DrawnCurves, curves: list[int]) -> 
 
 
 # --------------------------------------------------------------------------------------
-# The parallel middle body. Ends of level borders are defining points, which a map carries exactly.
-# Section areas would tell less: they are within 1e-4 of the largest over many metres more, and a
-# waterline that is a millimetre off moves the end of that by as many.
+# The parallel middle body. Ends of level borders are defining points, and equal sections are lines,
+# both of which a map carries exactly. Section areas would tell less: they are within 1e-4 of the
+# largest over many metres more, and a waterline that is a millimetre off moves the end of that by
+# as many, or to the next station.
 
 _SHORT = 0.02
 """What is level over less than this part of Lpp is no parallel middle body."""
 
-_NEAR = 1e-4
-"""m: the end of a level stretch of areas is known to this before it is sought finely."""
+_EQUAL = 2e-5
+"""Sections are equal in shape where they are as near to each other as this part of the breadth."""
 
 
 @attrs.frozen
@@ -359,7 +359,7 @@ def _parallel_end(hull: DrawnCurves, name: str, end: int) -> MeasuredParameter:
 
 def _ends(hull: DrawnCurves) -> _Ends | str:
     """Give where the parallel body begins and ends, or say why there is none."""
-    return hull.take(_of_flats) or _of_areas(hull)
+    return hull.take(_of_flats) or _of_sections(hull)
 
 
 def _of_flats(hull: DrawnCurves) -> _Ends | None:
@@ -392,29 +392,38 @@ def _level_run(xyz: FloatArray, axis: int, within: float) -> tuple[float, float]
     return ends[0], ends[1]
 
 
-def _of_areas(hull: DrawnCurves) -> _Ends | str:
-    """Give the stretch along which sections are as large as the largest but for 1e-4 of it."""
-    try:
-        shape = shape_of(hull)
-        found = parallel_body(shape)
-    except (BadInputError, OutOfRangeError) as error:
-        return f"parent has no section areas: {error}"
-    if found.level is None:
+def _of_sections(hull: DrawnCurves) -> _Ends | str:
+    """Give the longest stretch along which sections below the draught are equal in shape."""
+    across = np.flatnonzero(np.isfinite(hull.net.x))  # flat ends among them
+    x = hull.net.x[across]
+    stations = [across[x == each].tolist() for each in np.unique(x)]
+    if not stations:
+        return "parent has no section across the ship"
+    within = _EQUAL * hull.ship.breadth
+    runs = [[stations[0]]]
+    for station in stations[1:]:
+        if _apart(hull, runs[-1][0], station) <= within:
+            runs[-1].append(station)
+        else:
+            runs.append([station])
+    found = [(float(hull.net.x[run[0][0]]), float(hull.net.x[run[-1][0]]), run) for run in runs]
+    start, end, run = max(found, key=lambda each: each[1] - each[0])
+    if end - start < _SHORT * hull.length:
         return "parent has no parallel middle body"
-    least, spans = (1.0 - EQUAL) * found.largest, shape.body.spans
-
-    def spare(x: float) -> float:
-        return float(areas_at(spans, np.array([x]), shape.planes)[0]) - least
-
-    ends = float(spans.aft.min()), float(spans.fore.max())
-    start, end = (_sought(spare, x, ends) for x in found.level)
-    how = "where section areas below the draught are the largest but for 1e-4 of it"
-    return _Ends(start, end, how)
+    curves = tuple(curve for station in run for curve in station)
+    return _Ends(start, end, "where sections below the draught are equal in shape", curves)
 
 
-def _sought(spare: Callable[[float], float], x: float, ends: tuple[float, float]) -> float:
-    """Find finely where something becomes zero within a hull, m; x if it does not near there."""
-    low, high = max(x - _NEAR, ends[0]), min(x + _NEAR, ends[1])
-    if spare(low) * spare(high) >= 0.0:
-        return x
-    return float(brentq(spare, low, high, xtol=1e-12, rtol=1e-14))
+def _apart(hull: DrawnCurves, one: Sequence[int], other: Sequence[int]) -> float:
+    """Give how far two sections are apart below the draught, seen along the ship, m."""
+    ship, away = hull.ship, 0.0
+    for mine, theirs in ((one, other), (other, one)):
+        xyz = sample(hull.some(mine), _SAMPLES)[1]
+        xyz = xyz[xyz[:, 2] <= ship.draught]
+        if not len(xyz):
+            return np.inf
+        beside = np.column_stack([np.full(len(xyz), hull.net.x[theirs[0]]), xyz[:, 1:]])
+        curves = hull.some(theirs)
+        off = [closest_points(curves, i, beside)[2] for i in range(len(theirs))]
+        away = max(away, float(np.min(off, axis=0).max()))
+    return away

@@ -13,7 +13,15 @@ from collections.abc import Iterable, Iterator
 
 import attrs
 
-__all__ = ["CLASSES", "Plan", "Stage", "class_plan", "refined_plan", "single_plan"]
+__all__ = [
+    "CLASSES",
+    "Plan",
+    "Stage",
+    "class_plan",
+    "finer_plan",
+    "refined_plan",
+    "single_plan",
+]
 
 CLASSES: tuple[tuple[tuple[str, ...], ...], ...] = (
     (("length", "breadth", "draught", "depth", "deck_height"),),
@@ -33,6 +41,10 @@ body, in the order in which they are taken one by one."""
 
 _MOST = 8
 """In no more parts is a change taken."""
+
+_AT_ONCE = {*CLASSES[0][0], "fore_shift", "aft_shift"}
+"""Never taken in parts: ratios of the whole hull, which would be the same, and movements, of which
+several are not one of their sum."""
 
 
 @attrs.frozen
@@ -63,7 +75,7 @@ Plan = tuple[Stage, ...]
 
 
 def class_plan(names: Iterable[str], *, layers: bool = False) -> Plan:
-    """Give a stage for each class of parameters, and one for raw layers if there are any.
+    """Give a stage for each class of parameters; raw layers act after the last.
 
     Examples
     --------
@@ -73,13 +85,19 @@ def class_plan(names: Iterable[str], *, layers: bool = False) -> Plan:
     """
     asked = set(names)
     stages = [Stage(found) for each in CLASSES if (found := _in_order(each, asked))]
-    return (*stages, Stage((), layers=True)) if layers or not stages else tuple(stages)
+    stages = stages or [Stage(())]
+    return (*stages[:-1], attrs.evolve(stages[-1], layers=layers))
 
 
 def single_plan(names: Iterable[str], *, layers: bool = False) -> Plan:
     """Give one stage of all parameters."""
     asked = set(names)
     return (Stage(tuple(one for each in CLASSES for one in _in_order(each, asked)), 1, layers),)
+
+
+def finer_plan(plan: Plan) -> Plan:
+    """Give a plan with every stage refined that can be."""
+    return tuple(finer for stage in plan for finer in (tuple(_finer(stage)) or (stage,)))
 
 
 def refined_plan(plan: Plan, at: int) -> Plan | None:
@@ -112,7 +130,7 @@ def _finer(stage: Stage) -> Iterator[Stage]:
     groups = ends if len(ends) > 1 else [(name,) for end in ends for name in end]
     if len(groups) > 1:
         yield from (Stage(group, stage.parts) for group in groups)
-    elif stage.names and stage.parts < _MOST:
+    elif stage.names and stage.parts < _MOST and not set(stage.names) <= _AT_ONCE:
         yield attrs.evolve(stage, parts=2 * stage.parts)
 
 

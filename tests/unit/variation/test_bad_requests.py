@@ -213,7 +213,7 @@ def test_values_that_fold_together_are_told_how_much_of_them_does_not(
     bulk_carrier: ah.Hull, room: AdmissibleValues
 ) -> None:
     """Each is within its interval; so much of both changes that is told is certified."""
-    given = {"parallel_body_start": 150.0, "parallel_body_end": 165.0}
+    given = {"draught": 30.0, "depth": 22.5}
     error = refused(bulk_carrier, asked(**given))
     assert isinstance(error, FoldError)
     assert error.part is not None
