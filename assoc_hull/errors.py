@@ -40,6 +40,7 @@ __all__ = [
     "OutOfRangeError",
     "PointRoleError",
     "RefusedEditError",
+    "RefusedSetError",
     "RingError",
     "StaleHullError",
     "TooFewFreeError",
@@ -135,6 +136,25 @@ class OutOfRangeError(AssocHullError, ValueError):
         what = f"{self.name} of {size} {self.why}".rstrip()
         span = f"give one {_span(self.least, self.most, self.unit)}"
         return f"{what}, {self.where}; {span}" + (f", or {self.remedy}" if self.remedy else "")
+
+
+@attrs.define(slots=False, eq=False)
+class RefusedSetError(BadInputError):
+    """Values that were asked for together cannot be had together; the hull is unchanged.
+
+    Attributes
+    ----------
+    leave_out : str or None
+        The value of which leaving it out lets all others be had; None if none does alone.
+    part : float
+        So much of all changes together can be had, 0 to 1.
+    values : mapping of str to float
+        What that makes of the values; m or degrees.
+    """
+
+    leave_out: str | None
+    part: float
+    values: Mapping[str, float]
 
 
 @attrs.define(slots=False, eq=False)

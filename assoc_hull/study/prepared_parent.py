@@ -14,17 +14,20 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.recut.carry_structure import NetMap, carry_net
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.errors import AssocHullError, BadInputError, FoldError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.study.design import StudyDesign
 from assoc_hull.variation.aiming.outputs import Outputs
+from assoc_hull.variation.aiming.reach_targets import settle_plan
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
+from assoc_hull.variation.carrying.carry_stages import StagedCarry
 from assoc_hull.variation.carrying.hull_maps import HullMaps
 from assoc_hull.variation.certificate.fold_check import Certificate, certify
 from assoc_hull.variation.parameters.catalogue import Freedom
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import parent_of
+from assoc_hull.variation.parameters.stages import class_plan
 from assoc_hull.variation.parameters.value_limits import hull_box, present_values
 from assoc_hull.variation.request import TOLERANCE, VariationRequest
 
@@ -45,12 +48,15 @@ class Variant:
     certificate : Certificate
         That the map folds nothing.
     shift : float, m
-        The largest movement of a point.
+        The largest movement of a point that the parent has as well.
+    anew : bool
+        Whether its lines were cut anew, by the plan of `vary`: the parent's structure would not do.
     """
 
     document: Document
     certificate: Certificate
     shift: float
+    anew: bool = False
 
 
 @attrs.frozen(eq=False)
@@ -132,19 +138,53 @@ class StudyParent:
             There is no such hull of this structure; why.
         """
         amplitudes = values - self.present
-        maps, state = self.maps, self.maps.state
-        maps.room.check(maps.values(amplitudes))
+        self.maps.room.check(self.maps.values(amplitudes))
+        try:
+            document, certificate = self._kept(amplitudes, name)
+        except AssocHullError as error:
+            return self._anew(amplitudes, name, error)
+        return Variant(document, certificate, self._shift(document))
+
+    def _shift(self, document: Document) -> float:
+        """Give the largest movement of a point, m."""
+        state = self.maps.state
+        live = document.state.live("rows")
+        live = live[live < state.rows.count]
+        step = document.state.rows.xyz[live] - state.rows.xyz[live]
+        return float(np.sqrt((step * step).sum(axis=1).max(initial=0.0)))
+
+    def _kept(self, amplitudes: FloatArray, name: str) -> tuple[Document, Certificate]:
+        """Carry the net with the structure of the parent, by one map."""
+        maps = self.maps
         certificate = certify(maps.map(amplitudes), maps.room.box)
         certificate.check()
         laid = maps.laid(amplitudes, self.lines, follow=self.follow)
         space = SpaceMap(laid.map, laid.map.jacobian)
-        document = Document(copy_state(state))
+        document = Document(copy_state(maps.state))
         with Transaction(document, name) as edit:
             carry_net(edit, NetMap(space, self.lines, laid.planes, laid.features, laid.particulars))
-        live = document.state.live("rows")
-        live = live[live < state.rows.count]
-        step = document.state.rows.xyz[live] - state.rows.xyz[live]
-        return Variant(document, certificate, float(np.sqrt((step * step).sum(axis=1).max())))
+        return document, certificate
+
+    def _anew(self, amplitudes: FloatArray, name: str, error: AssocHullError) -> Variant:
+        """Vary the parent as `vary` does; where that cannot be either, the reason is the first one.
+
+        A map that folds is not taken in parts here: rows that cannot be are many, and should be
+        refused soon.
+        """
+        maps = self.maps
+        pairs = list(zip(maps.free, amplitudes.tolist(), strict=True))
+        values = {each.name: each.present + by for each, by in pairs if each.layer is None and by}
+        layers = [layer for each, by in pairs if (layer := each.scaled(by)) is not None]
+        ask = attrs.evolve(maps.ask, values=values, layers=tuple(layers), name=name)
+        document = Document(copy_state(maps.state))
+        try:
+            with Transaction(document, name) as edit:
+                plan = class_plan(values, layers=bool(layers))
+                carry = StagedCarry(edit, ask, plan, refines=not isinstance(error, FoldError))
+                settle_plan(carry, maps.room)
+        except AssocHullError:
+            raise error from None
+        return Variant(document, carry.certificate, self._shift(document), anew=True)
 
     def measured(self, variant: Variant) -> FloatArray:
         """Give the outputs that are aimed at, (m,), by the layout of the parent's surface.

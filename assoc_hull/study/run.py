@@ -90,6 +90,8 @@ class StudyRow:
         The largest residual of a target, in parts of the parent's value; nan without a hull.
     trials : int
         Hulls that were made for it; 0 without one.
+    anew : bool
+        Whether its lines were cut anew, as in `vary`: the parent's structure would not do.
     failure, reason : str
         What went wrong, in a word and in a line; empty if nothing did.
     """
@@ -103,6 +105,7 @@ class StudyRow:
     trials: int
     failure: str = ""
     reason: str = ""
+    anew: bool = False
 
     def __attrs_post_init__(self) -> None:
         freeze(self.values, self.outputs)
@@ -160,6 +163,7 @@ def make_row(run: StudyRun, number: int) -> StudyRow:
     return StudyRow(
         number, found.values, found.outputs,
         found.variant.certificate.least, found.variant.shift, found.residual, found.trials,
+        anew=found.variant.anew,
     )  # fmt: skip
 
 
@@ -281,7 +285,7 @@ def study_columns(design: StudyDesign, rows: Sequence[StudyRow]) -> dict[str, ND
     found |= dict(zip(design.names, values.T, strict=True))
     found |= {f"asked {name}": design.targets[number, i] for i, name in enumerate(design.aims)}
     found |= dict(zip(design.outputs, outputs.T, strict=True))
-    for name in ("margin", "shift", "residual", "trials"):
+    for name in ("margin", "shift", "residual", "trials", "anew"):
         found[name] = np.array([getattr(row, name) for row in rows])
     for name in ("failure", "reason"):
         found[name] = np.array([getattr(row, name) for row in rows], object)

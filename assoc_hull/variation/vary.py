@@ -18,27 +18,22 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.mapped_planes import IN_PLANE
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.tables import HullState
-from assoc_hull.variation.aiming.reach_targets import SettledPlan, measure_requested, settle_plan
+from assoc_hull.variation.aiming.reach_targets import measure_requested
 from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
-from assoc_hull.variation.carrying.carry_stages import StagedCarry
 from assoc_hull.variation.certificate.fold_check import Certificate, fold_outside
-from assoc_hull.variation.comparing.line_fairness import (
-    FairnessComparison,
-    compare_fairness,
-    measure_fairness,
-)
+from assoc_hull.variation.comparing.line_fairness import FairnessComparison
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.parameter_fields import shift_terminals
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent
-from assoc_hull.variation.parameters.stages import Plan, class_plan, finer_plan, single_plan
 from assoc_hull.variation.parameters.value_limits import present_values
+from assoc_hull.variation.plan_choice import KINK, choose_plan
 from assoc_hull.variation.request import VariationRequest, script_of
 
 __all__ = [
@@ -116,7 +111,7 @@ def unfair_lines(fairness: FairnessComparison) -> tuple[str, ...]:
     """Give a note on the lines that have a kink after a variation; none if there is none."""
     told = [
         f"{line.name} ({line.comb_ratio:.3g} times the parent's, {line.shape_ratio:.3g} at the "
-        "size it had)" for line in fairness.changed if line.comb_ratio > _KINK
+        "size it had)" for line in fairness.changed if line.comb_ratio > KINK
     ]  # fmt: skip
     if not told:
         return ()
@@ -252,7 +247,7 @@ def vary_document(
                 )
         room.check(ask.values)
         levels = edit.state.lines.offset.data.copy()
-        found, fairness = _carried(edit, room, ask)
+        found, fairness = choose_plan(edit, room, ask)
         reached = measure_requested(edit.state, ask)
         now = present_values(measure_all(edit.state), ask.layout)
         beyond = folds_outside(found.carry.map, room.box)
@@ -279,47 +274,3 @@ def vary_document(
         None if found.aimed is None else attrs.evolve(found.aimed, hull=None),  # a hull is large
         tuple(map(str, found.carry.plan)), fairness.worst, fairness.added,
     )  # fmt: skip
-
-
-# --------------------------------------------------------------------------------------
-# Which plan: the first that is taken and leaves no line with a kink; else the fairest.
-
-_KINK = 10.0
-"""A line whose comb is larger than this many times the parent's has a kink, though nothing folds:
-4 times is usual, and a line that folds nearly has hundreds."""
-
-
-def _carried(
-    edit: Transaction, room: AdmissibleValues, ask: VariationRequest
-) -> tuple[SettledPlan, FairnessComparison]:
-    """Carry the hull of an edit by the best plan there is."""
-    before = measure_fairness(edit.state)
-    best, refusal = list[tuple[float, int, SettledPlan]](), None
-    first = class_plan(ask.values, layers=bool(ask.layers))
-    left = [first, finer_plan(first), finer_plan(finer_plan(first))]
-    left.append(single_plan(ask.values, layers=bool(ask.layers)))
-    tried, there = set[Plan](), None
-    while left:
-        plan = left.pop(0)
-        if plan in tried:
-            continue
-        carry = StagedCarry(edit, ask, plan)
-        try:
-            found = there = settle_plan(carry, room)
-        except AssocHullError as error:
-            refusal, there = refusal or error, None
-            left = left[-1:]  # at its finest it is refused as well
-            continue
-        finally:
-            tried |= {plan, carry.plan}
-        fair = compare_fairness(before, measure_fairness(edit.state, like=before))
-        if fair.worst_shape <= _KINK:
-            return found, fair
-        best.append((fair.worst_shape, fair.added, found))
-    if not best:
-        assert refusal is not None, "there is a plan at least"
-        raise refusal
-    found = min(best, key=lambda each: each[:2])[2]
-    if found is not there:
-        found = settle_plan(StagedCarry(edit, ask, found.carry.plan), room)
-    return found, compare_fairness(before, measure_fairness(edit.state, like=before))

@@ -26,6 +26,10 @@ from assoc_hull.variation.request import VariationRequest
 __all__ = ["CarriedMap", "StagedCarry"]
 
 
+_PINNED = 5e-8
+"""m or degrees: what is to stay is asked for so far off, less than what counts as met."""
+
+
 @attrs.frozen(eq=False)
 class CarriedMap:
     """One map that has carried a hull.
@@ -62,6 +66,8 @@ class StagedCarry:
         What is asked for.
     plan : Plan
         Its parameters, stage by stage; finer than it was where a stage was refused as it stood.
+    refines : bool
+        Whether stages are taken more finely where they are refused.
     carried : list of CarriedMap
         What has been carried by now.
     refused : Stage or None
@@ -71,6 +77,7 @@ class StagedCarry:
     edit: Transaction
     ask: VariationRequest
     plan: Plan
+    refines: bool = True
     carried: list[CarriedMap] = attrs.field(factory=list)
     refused: Stage | None = None
 
@@ -95,7 +102,7 @@ class StagedCarry:
             try:
                 self._carry(stage, aims)
             except AssocHullError as error:
-                finer = refined_plan(self.plan, at)
+                finer = refined_plan(self.plan, at) if self.refines else None
                 for name in stage.names:
                     first.setdefault(name, error)
                 if finer is None:
@@ -129,6 +136,9 @@ class StagedCarry:
             layers = self.ask.layers if stage.layers and last else ()
             if not asked and not layers:
                 continue
+            # What is to stay is solved for with what moves it: a field of no size has no say.
+            pins = [name for name in stage.names if name not in asked] if asked else []
+            asked |= {name: self._present(room, name) + _PINNED for name in pins}
             vmap = VariationMap((*room.map(asked).layers, *layers))
             told = {name: self.ask.values[name] if last else goal[name] for name in asked}
             self.carry(room, vmap, asked, told)

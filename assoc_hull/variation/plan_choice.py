@@ -1,0 +1,172 @@
+"""Which plan carries a set of values: the first that is taken and leaves no kink, else the fairest.
+
+A plan that is refused at a stage is refined there. What no plan can do is refused by values of the
+request: which one stands in the way of the others, and how much of all changes can be had.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import attrs
+
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import (
+    AssocHullError,
+    DependentTargetsError,
+    FoldError,
+    OutOfRangeError,
+    RefusedSetError,
+    TooFewFreeError,
+    UnknownNameError,
+    UnreachableError,
+)
+from assoc_hull.variation.aiming.reach_targets import SettledPlan, settle_plan
+from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
+from assoc_hull.variation.carrying.carry_stages import StagedCarry
+from assoc_hull.variation.comparing.line_fairness import (
+    FairnessComparison,
+    LineFairness,
+    compare_fairness,
+    measure_fairness,
+)
+from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.stages import Plan, class_plan, finer_plan, single_plan
+from assoc_hull.variation.request import VariationRequest
+
+__all__ = ["KINK", "choose_plan"]
+
+KINK = 10.0
+"""A line whose comb is larger than this many times the parent's has a kink, though nothing folds:
+4 times is usual, and a line that folds nearly has hundreds."""
+
+_OF_TARGETS = (UnreachableError, DependentTargetsError, TooFewFreeError, UnknownNameError)
+"""What is wrong with targets is so whatever the plan."""
+
+_HALVINGS = 3
+"""How often the part of all changes that can be had is halved."""
+
+
+def choose_plan(
+    edit: Transaction, room: AdmissibleValues, ask: VariationRequest
+) -> tuple[SettledPlan, FairnessComparison]:
+    """Carry the hull of an edit by the best plan there is.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit, which holds nothing yet; afterwards it holds the varied hull.
+    room : AdmissibleValues
+        What is measured of the parent.
+    ask : VariationRequest
+        What is asked for.
+
+    Raises
+    ------
+    RefusedSetError
+        Several values that no plan can give together; what can be had.
+    AssocHullError
+        What is wrong with a single value, or with targets.
+    """
+    before = measure_fairness(edit.state)
+    best = list[tuple[float, int, SettledPlan]]()
+    refusal: tuple[AssocHullError, StagedCarry] | None = None
+    tried, there = set[Plan](), None
+    first = class_plan(ask.values, layers=bool(ask.layers))
+    left = [first, finer_plan(first), finer_plan(finer_plan(first))]
+    left.append(single_plan(ask.values, layers=bool(ask.layers)))
+    while left:
+        plan = left.pop(0)
+        if plan in tried:
+            continue
+        carry = StagedCarry(edit, ask, plan, refines=not best)
+        try:
+            if best:  # one round shows whether it is worth more
+                there = None
+                carry.run(ask.values)
+                if _fairness(edit, before).worst_shape >= min(each[0] for each in best):
+                    continue
+            found = there = settle_plan(carry, room)
+        except _OF_TARGETS:
+            raise
+        except AssocHullError as error:
+            refusal, there = refusal or (error, carry), None
+            # At its finest it is refused as well.
+            left = left if best else left[-1:]
+            continue
+        finally:
+            tried |= {plan, carry.plan}
+        fair = _fairness(edit, before)
+        if fair.worst_shape <= KINK:
+            return found, fair
+        best.append((fair.worst_shape, fair.added, found))
+    if not best:
+        assert refusal is not None, "there is a plan at least"
+        raise _refused(edit, room, ask, *refusal) from None
+    found = min(best, key=lambda each: each[:2])[2]
+    if found is not there:
+        found = settle_plan(StagedCarry(edit, ask, found.carry.plan), room)
+    return found, _fairness(edit, before)
+
+
+def _fairness(edit: Transaction, before: Mapping[str, LineFairness]) -> FairnessComparison:
+    """Compare the lines of the hull as it is by now with those of the parent."""
+    return compare_fairness(before, measure_fairness(edit.state, like=before))
+
+
+# --------------------------------------------------------------------------------------
+# Refusals.
+
+
+def _refused(
+    edit: Transaction,
+    room: AdmissibleValues,
+    ask: VariationRequest,
+    error: AssocHullError,
+    carry: StagedCarry,
+) -> AssocHullError:
+    """Say what of the request can be had, of several values."""
+    alone = isinstance(error, OutOfRangeError) or (isinstance(error, FoldError) and not error.part)
+    if len(ask.values) < 2 or ask.reach is not None or alone:
+        return error  # it names a value, and what may be asked for
+    blamed = () if carry.refused is None else carry.refused.names
+    leave_out = next((name for name in blamed if _goes(edit, room, _without(ask, name))), None)
+    part, low, high = 0.0, 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        if _goes(edit, room, _part(ask, room, middle)):
+            low = part = middle
+        else:
+            high = middle
+    edit.take_back()
+    values = dict(_part(ask, room, part).values)
+    told = ", ".join(f"{name}={value:.6g}" for name, value in values.items())
+    remedies = [] if leave_out is None else [f"leave out {leave_out}: the rest can be had"]
+    remedies += [f"ask for {100.0 * part:.3g} % of all changes: {told}"] if part else []
+    return RefusedSetError(
+        f"{', '.join(ask.values)} cannot be had together ({error})", "in vary",
+        "; or ".join(remedies) or "ask for less", leave_out, part, values,
+    )  # fmt: skip
+
+
+def _goes(edit: Transaction, room: AdmissibleValues, ask: VariationRequest) -> bool:
+    """Tell whether a request is taken."""
+    plan = class_plan(ask.values, layers=bool(ask.layers))
+    try:
+        settle_plan(StagedCarry(edit, ask, plan), room)
+    except AssocHullError:
+        return False
+    return True
+
+
+def _without(ask: VariationRequest, name: str) -> VariationRequest:
+    return attrs.evolve(ask, values={key: each for key, each in ask.values.items() if key != name})
+
+
+def _part(ask: VariationRequest, room: AdmissibleValues, part: float) -> VariationRequest:
+    """Ask for a part of all changes, with the digits that a message has."""
+    now = {name: 0.0 if CATALOGUE[name].amplitude else room.present[name] for name in ask.values}
+    return attrs.evolve(ask, values={
+        name: float(f"{now[name] + part * (value - now[name]):.6g}")
+        for name, value in ask.values.items()
+    })  # fmt: skip
