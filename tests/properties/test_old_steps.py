@@ -27,7 +27,6 @@ from assoc_hull.edit import document as documents
 from assoc_hull.edit.past_states import PackedWrites
 from assoc_hull.edit.step import Step
 from assoc_hull.model import change as changes
-from tests.conftest import Shipped
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 from tests.properties.test_program_edits import Count, by_program, content
 
@@ -85,7 +84,7 @@ def edited(number: int, edits: list[Task], back: int, held: int) -> ah.Hull:
 @settings(max_examples=12, deadline=None)
 @given(number=st.integers(0, POOL - 1), edits=tasks(SHAPES + STRUCTURE), back=st.integers(0, 2))
 def test_old_steps_run_and_tell_as_new_ones(number: int, edits: list[Task], back: int) -> None:
-    """Causes, reports and inflections read late, undo and redo of each and of all: the same bits."""
+    """Causes, reports and inflections read late, undo and redo of each and all: the same bits."""
     one, other = (edited(number, edits, back, held) for held in (1, NEVER))
     assert not any(map(is_old, other.document.steps.values()))
     assert all(map(is_old, list(one.document.steps.values())[:-1]))
@@ -191,9 +190,11 @@ def test_an_undo_of_old_steps_that_is_broken_off_leaves_the_hull_as_it_was() -> 
 
         for act in (lambda: hull.undo(count), lambda: hull.undo(3), lambda: hull.undo(count)):
             left[0] = min(allowed, left[0])
-            with mock.patch.object(changes, "shape_curves", broken):
-                with contextlib.suppress(KeyboardInterrupt):
-                    act()
+            with (
+                mock.patch.object(changes, "shape_curves", broken),
+                contextlib.suppress(KeyboardInterrupt),
+            ):
+                act()
             if len(hull.history) < count:
                 hull.redo(count - len(hull.history))
             assert (hull.fingerprint, len(hull.history)) == (before, count)
