@@ -236,8 +236,11 @@ class _PackedBody:
 
 def pack_step(step: Step, past: PastStates) -> None:
     """Let a step hold no more than is needed to run it and to find the rest again."""
+    if step.load is not None:  # of a hull that was kept once: it is read from there
+        step.release()
+        return
     state, journal = past.document.state, step.journal
-    if not isinstance(journal, Journal):  # it is packed, or its change lies in a file
+    if not isinstance(journal, Journal):  # it is packed already
         return
     change = change_of_shape(state, journal) if step.change is None else step.change
     writes = PackedWrites(state, PackedChange.of(change))

@@ -27,7 +27,8 @@ from __future__ import annotations
 
 import math
 import zlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from typing import cast
 
 import attrs
@@ -126,6 +127,8 @@ def _read(
 # Changes.
 
 _PLACES = ("curve", "count", "line", "sign", "row")
+_OF_SHAPE = frozenset({"rows.xyz", "rows.gap", "rows.base", "rows.anchor_from"})
+"""Columns of numbers that tell nothing of the structure."""
 
 
 def _nothing() -> TableChange:
@@ -156,16 +159,17 @@ class PackedChange:
             arrays += [rows, bits]
         before, after = change.before, change.after
         plain = not (change.sizes or change.objects or change.births or any(change.kept))
-        of_shape = plain and not (len(change.moved[0]) or len(before.curve) or len(after.curve))
-        if of_shape:
-            return cls(True, _NOTHING, tuple(change.bits), PackedArrays.of(arrays))
+        plain = plain and not (len(before.curve) or len(after.curve))
+        of_shape, columns = plain and _OF_SHAPE.issuperset(change.bits), tuple(change.bits)
+        if plain and not len(change.moved[0]):
+            return cls(of_shape, _NOTHING, columns, PackedArrays.of(arrays))
         for places, at in ((before, before.at), (after, positions_against(before, after))):
             arrays += [getattr(places, name) for name in _PLACES] + [at]
         rest = attrs.evolve(
             _NOTHING, sizes=change.sizes, objects=change.objects, births=change.births,
             kept=change.kept,
         )  # fmt: skip
-        return cls(False, rest, tuple(change.bits), PackedArrays.of([*arrays, *change.moved]))
+        return cls(of_shape, rest, columns, PackedArrays.of([*arrays, *change.moved]))
 
     def unpack(self) -> TableChange:
         """Give the change."""
@@ -223,28 +227,59 @@ def joined_shapes(state: HullState, changes: Iterable[TableChange]) -> TableChan
     An exclusive or runs both ways and in any order, so that the curves need be lofted but once.
     """
     bits: dict[str, tuple[list[IntArray], list[NDArray[np.uint8]]]] = {}
-    met: dict[int, NDArray[np.uint8]] = {}
+    met, moved = _ByCurve(partial(_meetings, state)), _ByCurve(partial(_places, state))
     lofted = [np.zeros(0, np.int64)]
     for change in changes:
         for name, (rows, bit) in change.bits.items():
             every = bits.setdefault(name, ([], []))
             every[0].append(rows)
             every[1].append(bit)
-        start, curves = 0, change.met[0].tolist()
-        for curve in curves:
-            stop = start + len(state.curves.meets[curve].line)
-            apart = change.met[1][start:stop]
-            met[curve], start = met[curve] ^ apart if curve in met else apart, stop
-        if start != len(change.met[1]):
-            raise ValueError(f"{len(change.met[1])} meetings are moved, and {start} are there")
+        met.join(*change.met)
+        moved.join(*change.moved)
         lofted.append(change.lofted)
-    none, curves = nothing_lies_elsewhere(), sorted(met)
     return attrs.evolve(
         _NOTHING,
         bits={name: _taken_together(*every) for name, every in bits.items()},
-        met=(np.array(curves, np.int64), np.concatenate([none[1], *(met[c] for c in curves)])),
-        lofted=distinct(np.concatenate(lofted)),
-    )
+        met=met.together(), moved=moved.together(), lofted=distinct(np.concatenate(lofted)),
+    )  # fmt: skip
+
+
+def _meetings(state: HullState, curve: int) -> int:
+    """Give how many meetings a curve has."""
+    return len(state.curves.meets[curve].line)
+
+
+def _places(state: HullState, curve: int) -> int:
+    """Give how many places lie on a curve."""
+    return len(crossing_positions(state, np.array([curve])).line)
+
+
+@attrs.define(eq=False)
+class _ByCurve:
+    """Bits of places on curves, joined curve by curve; `count` tells how many places each has."""
+
+    count: Callable[[int], int]
+    known: dict[int, int] = attrs.field(factory=dict)
+    bits: dict[int, NDArray[np.uint8]] = attrs.field(factory=dict)
+
+    def join(self, curves: IntArray, bits: NDArray[np.uint8]) -> None:
+        """Take up what one change does."""
+        start, joined = 0, self.bits
+        for curve in curves.tolist():
+            if curve not in self.known:
+                self.known[curve] = self.count(curve)
+            stop = start + self.known[curve]
+            apart = bits[start:stop]
+            joined[curve] = joined[curve] ^ apart if curve in joined else apart
+            start = stop
+        if start != len(bits):
+            raise ValueError(f"{len(bits)} places on curves are moved, and {start} are there")
+
+    def together(self) -> tuple[IntArray, NDArray[np.uint8]]:
+        """Give what all of them do."""
+        curves = sorted(self.bits)
+        every = [nothing_lies_elsewhere()[1], *(self.bits[curve] for curve in curves)]
+        return np.array(curves, np.int64), np.concatenate(every)
 
 
 def _taken_together(

@@ -247,3 +247,28 @@ def test_old_steps_on_a_branch_are_old_as_well() -> None:
     steps = list(hull.document.steps.values())
     assert all(map(is_old, steps[:-4]))
     assert not any(map(is_old, steps[-4:]))
+
+
+def test_a_hull_that_is_saved_and_detached_runs_and_tells_all_its_steps(tmp_path: Path) -> None:
+    """Packed steps, those that lie in the file, and packed ones made after it was let go of."""
+    one, other = ah.examples.wigley(), ah.examples.wigley()
+    points = _points(one, 5)
+    for hull, held in ((one, 2), (other, NEVER)):
+        hull.document.author = "x"  # saving names who is at work
+        with old_after(held):
+            for number in range(30):
+                _move(hull, points, number)
+                if number == 9 and hull is one:
+                    hull.save(tmp_path / "ship.hull")
+                if number == 19 and hull is one:
+                    hull.detach()
+    assert told(one) == told(other)
+    count = len(one.history)
+    for _ in range(2):
+        for hull in (one, other):
+            hull.undo(count)
+        assert tables(one) == tables(other)
+        for hull in (one, other):
+            hull.redo(count)
+        assert tables(one) == tables(other)
+    assert one.verify() == ()
