@@ -188,13 +188,13 @@ def test_an_undo_of_old_steps_that_is_broken_off_leaves_the_hull_as_it_was() -> 
             left[0] -= 1
             shape(*given)  # type: ignore[arg-type]
 
-        for act in (lambda: hull.undo(count), lambda: hull.undo(3), lambda: hull.undo(count)):
+        for back in (count, 3, count):
             left[0] = min(allowed, left[0])
             with (
                 mock.patch.object(changes, "shape_curves", broken),
                 contextlib.suppress(KeyboardInterrupt),
             ):
-                act()
+                hull.undo(back)
             if len(hull.history) < count:
                 hull.redo(count - len(hull.history))
             assert (hull.fingerprint, len(hull.history)) == (before, count)
