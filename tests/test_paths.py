@@ -9,7 +9,7 @@ MOST = {
     # reports name the movement along the normal, which `model.gaps` measures; `edit.write_lock`
     # lets one write at a time; `edit.program_edit` asks whether the program answers for the edit
     # what is published has look-ups of its own, for others who read it meanwhile: `model.index`
-    # `model.change` tells what an edit changed: old steps of a hull in memory hold no more than that
+    # `model.change` tells what an edit changed: old steps of a hull in memory hold that alone
     "a moved point": 54,
     # one run stands in the place of the passes; in numpy it enters what they do to loft and cut
     "a moved point, by the program": 47,
