@@ -13,6 +13,7 @@ taken back; where an act is broken off behind that, memory follows what is kept:
 from __future__ import annotations
 
 import contextlib
+import itertools
 import operator
 from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
@@ -23,12 +24,15 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import integer, shown, shown_name, text
+from assoc_hull.edit.past_states import PastStates, pack_step, run_together, steps_together
 from assoc_hull.edit.published_program import KeptProgram
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.write_lock import PATIENCE, WriteLock
 from assoc_hull.errors import AssocHullError, BadInputError, NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import IntArray, freeze
+from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.network import distinct
+from assoc_hull.model.change import change_of
 from assoc_hull.model.index import Index, build_index, index_columns
 from assoc_hull.model.tables import HullState, copy_into, copy_state
 
@@ -36,6 +40,9 @@ __all__ = ["Changed", "Document", "Keeper", "Label"]
 
 _HELD = 16
 """So many steps are held in full where a keeper has them all."""
+
+_HELD_IN_MEMORY = 32
+"""So many are where nobody else has them: those behind take longer to run, and a fiftieth."""
 
 
 @attrs.frozen
@@ -106,6 +113,14 @@ class Changed:
     structural: bool
 
 
+@attrs.frozen(eq=False)
+class _Reached:
+    """A state that was published: the steps that were run to reach it, and the last one made."""
+
+    steps: tuple[Step, ...]
+    head: int
+
+
 def _live_tables(state: HullState) -> HullState:
     """Give the tables that a published state is one of."""
     return state.live_tables
@@ -157,9 +172,23 @@ class Document:
     known_index: Index | None = attrs.field(default=None, init=False)
     unsettled: bool = attrs.field(default=False, init=False)
     when_published: Callable[[], None] | None = attrs.field(default=None, init=False)
-    _states: list[tuple[Step, ...]] = attrs.field(factory=list, init=False)
+    _states: list[_Reached] = attrs.field(factory=list, init=False)
+    _origin: int = attrs.field(default=0, init=False)
+    _past: PastStates | None = attrs.field(default=None, init=False)
     program: KeptProgram = attrs.field(factory=KeptProgram, init=False)
     lock: WriteLock = attrs.field(factory=WriteLock, init=False)
+
+    def __attrs_post_init__(self) -> None:
+        self._origin = self.head
+
+    def __getstate__(self) -> dict[str, object]:
+        # In another process, or in a copy, the tables begin with state 0, which is this one.
+        held = {each.name: getattr(self, each.name) for each in attrs.fields(Document)}
+        return held | {"_states": [], "_origin": self.head}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        for name, value in state.items():
+            object.__setattr__(self, name, value)
 
     @property
     def index(self) -> Index:
@@ -195,7 +224,7 @@ class Document:
         """
         state = self.state.published()
         first = integer(number, "the state", "in since", least=0, most=state.number)
-        steps = [step for each in self._states[first : state.number] for step in each]
+        steps = [step for each in self._states[first : state.number] for step in each.steps]
         none = np.zeros(0, np.int64)
         curves = distinct(np.concatenate([none, *(step.curves for step in steps)]))
         rows = distinct(np.concatenate([none, *(step.rows for step in steps)]))
@@ -209,6 +238,10 @@ class Document:
     def head(self) -> int:
         """Number of the step that led to the present state; 0 as the hull came."""
         return self.history[-1].number if self.history else 0
+
+    def head_of(self, state: HullState) -> int:
+        """Give the number of the step that led to a published state."""
+        return self._states[state.number - 1].head if state.number else self._origin
 
     @property
     def tip(self) -> int:
@@ -298,6 +331,11 @@ class Document:
         """Take a finished step into the history; whatever fails, it is not in it."""
         author = self.author if author is None else author
         branch = self._branch(self.tip if self.undone else None)
+        if self.keeper is None and not step.told_by_writes:
+            # The tables tell it now, and never again.
+            journal = step.journal
+            assert isinstance(journal, Journal), "a step that was just made holds its journal"
+            step.change = change_of(self.state, journal)
         step.enter(len(self.steps) + 1, self.head, author, _now())
         revised, places = self._revisions(step), (len(self.history), len(self._states))
         undone = list(self.undone)
@@ -322,8 +360,18 @@ class Document:
                 self.labels.pop(branch.name, None)
             _forget(revised)
             raise
-        if len(self.history) > _HELD:
-            self.history[-1 - _HELD].release()
+        if self.keeper is not None:
+            if len(self.history) > _HELD:
+                self.history[-1 - _HELD].release()
+        elif (old := self.steps.get(step.number - _HELD_IN_MEMORY)) is not None:
+            # By number: steps that were undone and left grow old as well.
+            if self._past is None:
+                self._past = PastStates(self)
+            pack_step(old, self._past)
+
+    def forget_past(self) -> None:
+        """Let go of what finds past states again: a keeper has all steps."""
+        self._past = None
 
     def undo(self, count: int = 1, author: str | None = None) -> list[Step]:
         """Take back the last steps; of one author if one is named, and only if they are his.
@@ -430,6 +478,8 @@ class Document:
     def stand(self, head: int, tip: int) -> None:
         """Say that the tables are as after step `head`, on the way to step `tip`."""
         self.history[:] = self.path(head)
+        if not self._states:
+            self._origin = head
         self.undone[:] = self.path(tip)[len(self.history) :][::-1]
 
     def follow(self, head: int, tip: int) -> None:
@@ -437,7 +487,7 @@ class Document:
         self.require_ended("refresh")
         moves = self._moves(head)
         for step, forward in moves:
-            self._turn(step, forward)
+            self._turn((step,), forward)
         self.stand(head, tip)
         if moves:
             self._note_state(tuple(step for step, _ in moves))
@@ -497,13 +547,15 @@ class Document:
             self.settle()
 
     @contextlib.contextmanager
-    def unharmed(self, turned: Sequence[tuple[Step, bool]] = ()) -> Iterator[None]:
+    def unharmed(
+        self, turned: Sequence[tuple[Step, bool]] = (), *, copy: bool = True
+    ) -> Iterator[None]:
         """Bring tables and history back to what they were, if what is done meanwhile fails.
 
-        `turned` are the steps that have been run by then, or half run; of a hull that is kept the
-        tables are copied, as their changes cannot be run from the middle.
+        `turned` are the steps that have been run by then, or half run; `copy` is for steps that
+        cannot be run from the middle, as changes cannot: the tables are copied.
         """
-        was = None if self.keeper is None else copy_state(self.state)
+        was = copy_state(self.state) if copy else None
         before = list(self.history), list(self.undone)
         try:
             yield
@@ -528,10 +580,12 @@ class Document:
         Only with the right to write.
         """
         steps, turned = [step for step, _ in moves], list[tuple[Step, bool]]()
-        with self.unharmed(turned):
-            for step, forward in moves:
-                turned.append((step, forward))
-                self._turn(step, forward)
+        whole = self.keeper is None and all(isinstance(step.journal, Journal) for step in steps)
+        with self.unharmed(turned, copy=not whole):
+            for forward, group in itertools.groupby(moves, operator.itemgetter(1)):
+                for run in steps_together([step for step, _ in group]):
+                    turned += [(step, forward) for step in run]
+                    self._turn(run, forward)
             if leaves:
                 self.undone.clear()
             if self.keeper is not None:
@@ -542,22 +596,23 @@ class Document:
         self._agree()
         return steps
 
-    def _turn(self, step: Step, forward: bool) -> None:
-        if forward:
-            step.journal.forth()
-            if self.undone and self.undone[-1] is step:
-                self.undone.pop()
-            self.history.append(step)
-        else:
-            step.journal.back()
-            self.undone.append(self.history.pop())
-        if step.structural:
-            self.refresh()
-        self._revise(self._revisions(step))
+    def _turn(self, steps: Sequence[Step], forward: bool) -> None:
+        """Run steps that can be run as one."""
+        run_together(steps, forward=forward)
+        for step in steps:
+            if not forward:
+                self.undone.append(self.history.pop())
+            else:
+                if self.undone and self.undone[-1] is step:
+                    self.undone.pop()
+                self.history.append(step)
+            if step.structural:
+                self.refresh()
+            self._revise(self._revisions(step))
 
     def _note_state(self, steps: tuple[Step, ...]) -> None:
         """Note that steps were run; what is published next has another number."""
-        self._states.append(steps)
+        self._states.append(_Reached(steps, self.head))
         self.state.number = len(self._states)
 
     def _branch(self, tip: int | None) -> Label | None:

@@ -28,21 +28,24 @@ from assoc_hull.edit.outcome import (
     net_difference,
     points_elsewhere,
 )
+from assoc_hull.edit.past_states import late_report
 from assoc_hull.edit.published_program import LiveNumbers, numbers_for_edit
 from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.report import EditReport, Fairness
-from assoc_hull.edit.step import Step, StepBody
+from assoc_hull.edit.step import Notes, Past, Step, StepBody, Writes
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal, PickedRows
 from assoc_hull.graph.network import Evaluation, distinct
 from assoc_hull.graph.run_update import UpdatePass, run_update
 from assoc_hull.model.generated_curves import attached_curves
+from assoc_hull.model.index import build_index, index_columns
 from assoc_hull.model.network import HullNetwork, moved_curves, placed
 from assoc_hull.model.node import Node
 from assoc_hull.model.program.engine import is_asked_often, is_compiled
 from assoc_hull.model.program.run_program import ProgramRun, spans
 from assoc_hull.model.program.structure import Program
+from assoc_hull.model.tables import HullState
 
 __all__ = ["ProgramEdit"]
 
@@ -143,7 +146,7 @@ class _Notes:
 
     net: HullNetwork
     name: str
-    journal: Journal
+    journal: Writes
     passes: Sequence[_Pass]
     rows: IntArray
     away: FloatArray
@@ -152,6 +155,16 @@ class _Notes:
     notes: tuple[str, ...]
     largest_gap: float
     seconds: dict[str, float]
+
+    lasting = False  # the net lives in this process
+
+    def packed(self, past: Past, step: Step, writes: Writes) -> Notes:
+        """Give what of this cannot be found again, of an edit in one run."""
+        (run,) = self.passes
+        return _PackedNotes(
+            past, step.number, writes, self.name, run.seeds, run.held, run.rows, run.curves,
+            self.rows, self.away, self.movements.rows, self.notes, self.largest_gap, self.seconds,
+        )  # fmt: skip
 
     def body(self) -> StepBody:
         """Tell what changed, and why."""
@@ -208,6 +221,67 @@ class _Notes:
                 plane_normals(state, curves), curves, keys,
             ),
         )  # fmt: skip
+
+
+@attrs.frozen(eq=False)
+class _Before:
+    """What was before an edit: places of some points and all curves."""
+
+    xyz: FloatArray
+    spline: Sequence[SplineBatch | None]
+
+
+@attrs.frozen(eq=False)
+class _PackedNotes:
+    """All that is told of an old edit in one run, but what is found again in the tables of then.
+
+    `set_by` are points that were set, `changed` all that moved; else as in `_Notes` and `_Pass`.
+    """
+
+    past: Past
+    number: int
+    writes: Writes
+    name: str
+    seeds: IntArray
+    held: IntArray
+    rows: IntArray
+    curves: IntArray
+    set_by: IntArray
+    away: FloatArray
+    changed: IntArray
+    notes: tuple[str, ...]
+    largest_gap: float
+    seconds: dict[str, float]
+
+    lasting = True
+
+    def body(self) -> StepBody:
+        """Tell what changed, and why, from the tables as they were."""
+        return self.past.tell(self.number, self._before, self._body)
+
+    def packed(self, past: Past, step: Step, writes: Writes) -> Notes:
+        """Give them as they are."""
+        return self
+
+    def _before(self, state: HullState) -> _Before:
+        return _Before(state.rows.xyz.data.copy(), tuple(state.curves.spline.data))
+
+    def _body(self, state: HullState, before: _Before) -> StepBody:
+        index = state.derived(
+            ("look-ups",), index_columns(state), lambda: build_index(state), most=2
+        )
+        xyz, numbers = state.rows.xyz, self.curves.tolist()
+        old = [spline for each in numbers if (spline := before.spline[each]) is not None]
+        run = _Pass(
+            self.seeds, self.held, self.rows, xyz[self.rows] - before.xyz[self.rows], self.curves,
+            old, [state.spline(each) for each in numbers],
+        )  # fmt: skip
+        movements = Movements.of(state, self.changed, before.xyz[self.changed])
+        body = _Notes(
+            HullNetwork(state, index), self.name, self.writes, (run,), self.set_by, self.away,
+            movements, (_NONE, self.away[:0]), self.notes, self.largest_gap, self.seconds,
+        ).body()  # fmt: skip
+        return attrs.evolve(body, report=late_report(body.report, self.past, self.number))
 
 
 @attrs.define(eq=False)
@@ -289,10 +363,13 @@ class ProgramEdit:
         written = len(journal.entries)
         if self.numbers.published.program.features.own(changed):
             settle_features(work, rows, changed)
-        if len(journal.entries) == written:  # else the structure is another one from here on
+        plain = len(journal.entries) == written
+        if plain:  # else the structure is another one from here on
             pending.numbers = self
         seconds = {"run": ran - begin, "check": time.perf_counter() - ran}
-        return self._step(name, rows, away, changed, largest_gap, seconds)
+        step = self._step(name, rows, away, changed, largest_gap, seconds)
+        step.told_by_writes = plain
+        return step
 
     def _run(self, rows: IntArray) -> bool:
         """Run with points as they are in the tables now; tell whether that is the whole edit."""
@@ -335,6 +412,7 @@ class ProgramEdit:
         to = self.net.state.derived(
             ("written meetings", local.tobytes()), (program,),
             lambda: _Meetings.of(program, self.net.state.rows.curve.data, local),
+            most=8,  # each of them keeps its program, which is as large as the hull
         )  # fmt: skip
         at, xyz = values.at.take(to.where), values.place.take(to.where, axis=0)
         freeze(at, xyz)
@@ -386,7 +464,7 @@ class ProgramEdit:
         )  # fmt: skip
         if len(self.passes) > 1:  # a curve may have gone away and come back
             return Step(name, structural=False, body=notes.body())
-        return Step.told_later(name, self.journal, changed, curves, notes.body)
+        return Step.told_later(name, self.journal, changed, curves, notes)
 
     def publish(self) -> None:
         """Keep the numbers of what has just been published."""

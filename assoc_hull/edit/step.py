@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 import attrs
 
@@ -16,7 +16,10 @@ from assoc_hull.model.change import TableChange, apply_change
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
-__all__ = ["Rerun", "Step", "StepBody", "Writes"]
+__all__ = ["Notes", "Past", "Rerun", "Step", "StepBody", "Writes"]
+
+B = TypeVar("B")
+T = TypeVar("T")
 
 
 class Writes(Protocol):
@@ -81,6 +84,29 @@ class StepBody:
     report: EditReport
 
 
+class Past(Protocol):
+    """Finds again how the tables were."""
+
+    def tell(
+        self, number: int, before: Callable[[HullState], B], after: Callable[[HullState, B], T]
+    ) -> T:
+        """Tell of a step from the tables before it and after it."""
+
+
+class Notes(Protocol):
+    """What makes the body of a step."""
+
+    @property
+    def lasting(self) -> bool:
+        """Whether it holds nothing of this process alone."""
+
+    def body(self) -> StepBody:
+        """Make it."""
+
+    def packed(self, past: Past, step: Step, writes: Writes) -> Notes:
+        """Give notes that hold nothing which `past` finds again; `writes` are those of the step."""
+
+
 @attrs.frozen(eq=False)
 class _ToldLater:
     """What the history needs of a step whose body has not been asked for, and what makes that."""
@@ -88,7 +114,7 @@ class _ToldLater:
     writes: Writes
     rows: IntArray
     curves: IntArray
-    tell: Callable[[], StepBody]
+    notes: Notes
 
 
 @attrs.define(eq=False)
@@ -112,6 +138,10 @@ class Step:
         Gives the body; the step then need not hold it.
     tell : callable or None
         Gives the report alone, which is a small part of the body.
+    told_by_writes : bool
+        Whether its writes tell at any later time what it changed.
+    change : TableChange or None
+        What it changed, where they do not.
     """
 
     name: str
@@ -122,24 +152,25 @@ class Step:
     fingerprint: str = ""
     load: Callable[[], StepBody] | None = None
     tell: Callable[[], EditReport] | None = None
+    told_by_writes: bool = False
+    change: TableChange | None = None
     _body: StepBody | None = None
     _later: _ToldLater | None = None
     _entry: tuple[str, str] | None = attrs.field(default=None, init=False)
 
     @classmethod
     def told_later(
-        cls, name: str, writes: Writes, rows: IntArray, curves: IntArray,
-        tell: Callable[[], StepBody],
-    ) -> Step:  # fmt: skip
+        cls, name: str, writes: Writes, rows: IntArray, curves: IntArray, notes: Notes
+    ) -> Step:
         """Give a step that keeps the structure, of which the body is made when it is asked for.
 
         `rows` and `curves` are the points and curves that changed, ascending.
         """
-        return cls(name, structural=False, later=_ToldLater(writes, rows, curves, tell))
+        return cls(name, structural=False, later=_ToldLater(writes, rows, curves, notes))
 
     def __getstate__(self) -> dict[str, object]:
-        # What tells the body looks at the net of this process: it tells it now.
-        if self._later is not None:
+        # What looks at the net of this process tells the body now.
+        if self._later is not None and not self._later.notes.lasting:
             self.replace(self.body)
         return {each.name: getattr(self, each.name) for each in attrs.fields(Step)}
 
@@ -153,7 +184,7 @@ class Step:
         body, later = self._body, self._later
         if body is None:
             if later is not None:
-                body = self._entered(later.tell())
+                body = self._entered(later.notes.body())
             else:
                 assert self.load is not None, "a step holds its body, or can load it"
                 body = self.load()
@@ -168,7 +199,18 @@ class Step:
     def release(self) -> None:
         """Let go of the body, if it can be loaded again."""
         if self.load is not None:
-            self._body, self._later = None, None
+            self._body, self._later, self.change = None, None, None
+
+    @property
+    def notes(self) -> Notes | None:
+        """What makes the body, where that has not been asked for."""
+        return None if self._later is None else self._later.notes
+
+    def let_go(self, writes: Writes, notes: Notes) -> None:
+        """Hold writes that run as those it has, and what makes the body anew, and no more."""
+        later = _ToldLater(writes, self.rows, self.curves, notes)
+        # What is known besides goes last: another thread may be asking.
+        self._later, self._body, self.change = later, None, None
 
     def enter(self, number: int, parent: int, author: str, time: str) -> None:
         """Note under which number it enters the history, and who made it when."""

@@ -85,6 +85,7 @@ class Derived:
     """
 
     _kinds: dict[Hashable, dict[Key, _Entry]] = attrs.field(factory=dict, init=False)
+    _most: dict[Hashable, int] = attrs.field(factory=dict, init=False)
     _gate: Gate = attrs.field(factory=Gate, init=False)
 
     def __reduce__(self) -> tuple[type[Derived], tuple[()]]:
@@ -120,7 +121,13 @@ class Derived:
         kind = self._kinds.setdefault(key[0], {})
         kind.pop(key, None)
         kind[key] = entry
-        while len(kind) > most:
+        self._most[key[0]] = most
+        self._trim(key[0])
+
+    def _trim(self, name: Hashable) -> None:
+        """Let go of what was not asked for longest, where there is more of a kind than is kept."""
+        kind, most = self._kinds[name], self._most.get(name)
+        while most is not None and len(kind) > most:
             del kind[next(iter(kind))]
 
     def mark(self) -> Marked:
@@ -131,13 +138,16 @@ class Derived:
 
     def add(self, other: Derived) -> None:
         """Keep what another one does as well; it is true where the columns are the same."""
-        self._gate.alone(partial(self._add, other.mark()))
+        self._gate.alone(partial(self._add, other.mark(), dict(other._most)))
 
-    def _add(self, known: Marked) -> None:
+    def _add(self, known: Marked, most: Mapping[Hashable, int]) -> None:
+        self._most.update(most)
         for kind, entries in known.items():
             mine = self._kinds.setdefault(kind, {})
             for key, entry in entries.items():
                 mine.setdefault(key, entry)
+            # Else what states hand on from one to the next would pile up.
+            self._trim(kind)
 
     def restore(self, mark: Marked) -> None:
         """Bring back what was kept, as the columns are again what they were then.
@@ -156,3 +166,4 @@ class Derived:
             kept = self._kinds.setdefault(kind, {})
             for key, entry in known.items():
                 kept.setdefault(key, entry)
+            self._trim(kind)

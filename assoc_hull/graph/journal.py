@@ -22,9 +22,9 @@ array([0, 1])
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import Generic, Protocol, TypeVar, overload
+from typing import Generic, NamedTuple, Protocol, TypeVar, overload
 
 import attrs
 import numpy as np
@@ -34,6 +34,7 @@ from assoc_hull.graph.table import AnyColumn, Column, Table, ValueColumn, put_ro
 
 __all__ = [
     "ArrayChange",
+    "ArrayWrite",
     "Journal",
     "PickedRows",
     "ValueChange",
@@ -71,6 +72,15 @@ class ValueChange(Generic[V]):
     rows: NDArray[np.int64]
     old: list[V]
     new: list[V]
+
+
+class ArrayWrite(NamedTuple):
+    """One write to rows of a column of numbers, each named once."""
+
+    column: Column[np.generic]
+    rows: NDArray[np.int64]
+    old: NDArray[np.generic]
+    new: NDArray[np.generic]
 
 
 class _Entry(Protocol):
@@ -371,6 +381,27 @@ class Journal:
         """Give how many rows a table had before, and has now."""
         grown = [e for e in self.entries if isinstance(e, _GrowEntry) and e.table is table]
         return (grown[0].old if grown else table.count), table.count
+
+    def array_writes(self) -> Iterator[ArrayWrite]:
+        """Give each write to whole rows of numbers in turn."""
+        for entry in self.entries:
+            if isinstance(entry, _ArrayEntry):
+                yield ArrayWrite(entry.column, entry.index, entry.old, entry.new)
+
+    def first_and_last(self, column: ValueColumn[V]) -> ValueChange[V]:
+        """Give what `net` does, by what was written alone: at any later time as well."""
+        old, new = dict[int, V](), dict[int, V]()
+        for entry in self.entries:
+            if isinstance(entry, _ListEntry) and entry.column is column:
+                for row, before, after in zip(entry.index, entry.old, entry.new, strict=True):
+                    old.setdefault(row, before)
+                    new[row] = after
+        numbers = sorted(old)
+        return ValueChange(
+            np.array(numbers, np.int64),
+            [old[row] for row in numbers],
+            [new[row] for row in numbers],
+        )
 
     def columns(self) -> list[AnyColumn]:
         """Give every column that was written, each once, in the order of the first writes."""

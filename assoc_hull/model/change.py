@@ -48,8 +48,12 @@ __all__ = [
     "apply_change",
     "change_of",
     "crossing_positions",
+    "nothing_lies_elsewhere",
+    "positions_against",
     "put_crossing_positions",
+    "row_bits",
     "shape_curves",
+    "table_columns",
     "with_signed_zeros",
 ]
 
@@ -126,6 +130,36 @@ class CrossingPositions:
     def same_bits(self, other: CrossingPositions) -> bool:
         """Tell whether two batches of the same curves agree in all."""
         return bool(self.alike(other).all() and self.still(other).all())
+
+    @classmethod
+    def none(cls) -> CrossingPositions:
+        """Give no places."""
+        whole = np.zeros(0, np.int64)
+        return cls(whole, whole, whole, whole, whole, np.zeros((0, 4)))
+
+
+def positions_against(before: CrossingPositions, after: CrossingPositions) -> FloatArray:
+    """Give positions as the exclusive or with where the same crossing lay on the curve before.
+
+    A line that is added or taken away changes what many curves list, and where nothing of that
+    lies: what stayed becomes zeros, which compress. Crossings that were not there before stand as
+    they are. Applied twice, it gives back what it took.
+    """
+    if not len(before.curve):
+        return after.at
+    found = after.at.copy()
+    keys = [_keys(places) for places in (before, after)]
+    _, old, new = np.intersect1d(keys[0][:, 0], keys[1][:, 0], return_indices=True)
+    old, new = keys[0][old, 1], keys[1][new, 1]
+    found[new] = (before.at[old].view(np.int64) ^ found[new].view(np.int64)).view(np.float64)
+    return found
+
+
+def _keys(places: CrossingPositions) -> IntArray:
+    """Give a number for each crossing on a curve, and its place in the arrays, (k, 2)."""
+    actual = np.flatnonzero(places.row >= 0)
+    curve = places.curve[places.owner[actual]]
+    return np.column_stack([(curve << 32) + places.row[actual], actual])
 
 
 @attrs.frozen(eq=False)
@@ -301,6 +335,8 @@ class TableChange:
     kept : (dict, dict)
         Splines of those of them that could not be made and kept their last good shape, before
         and after, by curve.
+    met : (curves, bits)
+        As `moved`, of curves on which nothing but meetings lies elsewhere: of these alone.
     """
 
     sizes: dict[str, tuple[int, int]]
@@ -312,6 +348,7 @@ class TableChange:
     after: CrossingPositions
     lofted: IntArray
     kept: tuple[dict[int, SplineBatch], dict[int, SplineBatch]]
+    met: tuple[IntArray, NDArray[np.uint8]] = attrs.field(factory=lambda: nothing_lies_elsewhere())
 
     def touched(self, table: str) -> IntArray:
         """Give the rows of a table whose own columns changed, ascending, new rows included."""
@@ -324,15 +361,21 @@ class TableChange:
     @property
     def curves(self) -> IntArray:
         """Curves with other places or another shape, ascending."""
-        parts = (self.moved[0], self.before.curve, self.lofted)
+        parts = (self.moved[0], self.met[0], self.before.curve, self.lofted)
         return distinct(np.concatenate(parts))
+
+
+def nothing_lies_elsewhere() -> tuple[IntArray, NDArray[np.uint8]]:
+    """Give what a change holds of places where none differs."""
+    return np.zeros(0, np.int64), np.zeros((0, 32), np.uint8)
 
 
 def _table(name: str) -> str:
     return name.partition(".")[0]
 
 
-def _columns(state: HullState) -> Iterator[tuple[str, AnyColumn]]:
+def table_columns(state: HullState) -> Iterator[tuple[str, AnyColumn]]:
+    """Give all columns of the tables by ``"table.column"``, in their order."""
     for table in TABLES:
         for name, column in getattr(state, table).columns.items():
             yield f"{table}.{name}", column
@@ -341,7 +384,7 @@ def _columns(state: HullState) -> Iterator[tuple[str, AnyColumn]]:
 def change_of(state: HullState, journal: Journal) -> TableChange:
     """Give the net effect of a journal on the tables, right after it has run forward."""
     written = {id(column) for column in journal.columns()}
-    columns = {name: column for name, column in _columns(state) if id(column) in written}
+    columns = {name: column for name, column in table_columns(state) if id(column) in written}
     sizes = {name: journal.sizes(getattr(state, name)) for name in TABLES}
     bits: dict[str, tuple[IntArray, NDArray[np.uint8]]] = {}
     objects: dict[str, tuple[IntArray, list[object], list[object]]] = {}
@@ -350,7 +393,7 @@ def change_of(state: HullState, journal: Journal) -> TableChange:
             continue
         if isinstance(column, Column):
             net = journal.net(column)
-            found = _bytes(net.old) ^ _bytes(net.new)
+            found = row_bits(net.old) ^ row_bits(net.new)
             odd = _any_bit(found)
             # A row may have been written with the bits that it had, or taken back.
             if odd.any():
@@ -374,7 +417,7 @@ def change_of(state: HullState, journal: Journal) -> TableChange:
     )  # fmt: skip
 
 
-def _bytes(values: NDArray[np.generic]) -> NDArray[np.uint8]:
+def row_bits(values: NDArray[np.generic]) -> NDArray[np.uint8]:
     """Give each row as bytes, (k, bytes)."""
     width = values.itemsize * math.prod(values.shape[1:])
     return np.frombuffer(values.tobytes(), np.uint8).reshape(len(values), width)
@@ -400,8 +443,7 @@ def _places(
 ) -> tuple[tuple[IntArray, NDArray[np.uint8]], CrossingPositions, CrossingPositions]:
     """Compare the places on all curves that may have others than before."""
     then, curves = _columns_before(state, journal, columns)
-    nothing = np.zeros(0, np.int64)
-    none = CrossingPositions(nothing, nothing, nothing, nothing, nothing, np.zeros((0, 4)))
+    none = CrossingPositions.none()
     if then.curve is None and (same := _moved_places(state, curves, then)) is not None:
         return same, none, none
     old, new = crossing_positions(state, curves, then), crossing_positions(state, curves)
@@ -409,7 +451,7 @@ def _places(
     one, two = old.take(alike), new.take(alike)
     still = one.still(two)
     one, two = one.take(~still), two.take(~still)
-    apart = _bytes(one.at) ^ _bytes(two.at)
+    apart = row_bits(one.at) ^ row_bits(two.at)
     return (two.curve, apart), old.take(~alike), new.take(~alike)
 
 
@@ -529,7 +571,7 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
         _resize(state, change, 1)
     _require_fit(state, change)
     alive = state.curves.alive.data.copy()
-    columns = dict(_columns(state))
+    columns = dict(table_columns(state))
     for name, (rows, bits) in change.bits.items():
         column = columns[name]
         assert isinstance(column, Column), name
@@ -543,6 +585,7 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
         state.settings.births.store[0] = _counted(state, change.births, forward)
     # the crossings know their curves now, as both of these need it
     _move(state, change.moved)
+    _move_meetings(state, change.met)
     put_crossing_positions(state, change.after if forward else change.before)
     revived = np.flatnonzero(state.curves.alive.data & ~alive)
     if not forward:
@@ -562,7 +605,7 @@ def _resize(state: HullState, change: TableChange, which: int) -> None:
 
 def _require_fit(state: HullState, change: TableChange) -> None:
     """Refuse a change that names what these tables do not have, before anything is written."""
-    columns, curves = dict(_columns(state)), state.curves.count
+    columns, curves = dict(table_columns(state)), state.curves.count
     for name, (rows, bits) in change.bits.items():
         column = columns[name]
         if not isinstance(column, Column) or name in _OWN_WAY:
@@ -578,7 +621,7 @@ def _require_fit(state: HullState, change: TableChange) -> None:
         if not len(rows) == len(old) == len(new):
             raise ValueError(f"{name} has {len(rows)} rows, {len(old)} and {len(new)} objects")
         _require_rows(name, rows, len(held.data))
-    numbered = {"moved": change.moved[0], "lofted": change.lofted}
+    numbered = {"moved": change.moved[0], "met": change.met[0], "lofted": change.lofted}
     numbered |= {"before": change.before.curve, "after": change.after.curve}
     numbered |= {"kept": np.array(sorted({*change.kept[0], *change.kept[1]}), np.int64)}
     for name, rows in numbered.items():
@@ -604,7 +647,7 @@ _MAY_BE_NAN = frozenset({"rows.limit", "rows.gap", "lines.offset"})
 
 def _flip(name: str, column: Column[np.generic], rows: IntArray, bits: NDArray[np.uint8]) -> None:
     values = column.data.take(rows, axis=0)
-    flipped = _bytes(values) ^ bits
+    flipped = row_bits(values) ^ bits
     found = flipped.view(column.data.dtype).reshape(values.shape)
     if found.dtype == np.float64 and name not in _MAY_BE_NAN and not np.isfinite(found).all():
         raise ValueError(f"{name} becomes no number")
@@ -624,10 +667,37 @@ def _move(state: HullState, moved: tuple[IntArray, NDArray[np.uint8]]) -> None:
         now = crossing_positions(state, curves)
         if bits.shape != (len(now.at), 32):
             raise ValueError(f"{len(bits)} places are moved, and {len(now.at)} are there")
-        at = (_bytes(now.at) ^ bits).view(np.float64)
+        at = (row_bits(now.at) ^ bits).view(np.float64)
         if not np.isfinite(at[now.line >= 0]).all():
             raise ValueError("a meeting of a curve would lie nowhere")
         put_crossing_positions(state, attrs.evolve(now, at=at))
+
+
+def _move_meetings(state: HullState, met: tuple[IntArray, NDArray[np.uint8]]) -> None:
+    """Move meetings along curves; they stay the meetings that they were."""
+    curves, bits = met
+    if not len(curves):
+        return
+    meets = [state.curves.meets[curve] for curve in curves.tolist()]
+    owner, _, _, row, at = _join(meets)
+    if bits.shape != (len(at), 32):
+        raise ValueError(f"{len(bits)} meetings are moved, and {len(at)} are there")
+    at = (row_bits(at) ^ bits).view(np.float64)
+    if not np.isfinite(at).all():
+        raise ValueError("a meeting of a curve would lie nowhere")
+    stop = np.cumsum([len(each.line) for each in meets]).tolist()
+    moved = [
+        attrs.evolve(each, parameter=at[b - len(each.line) : b, 0].copy(),
+                     xyz=at[b - len(each.line) : b, 1:].copy())
+        for each, b in zip(meets, stop, strict=True)
+    ]  # fmt: skip
+    store = state.curves.meets.store
+    for curve, each in zip(curves.tolist(), moved, strict=True):
+        store[curve] = each
+    table, actual = state.rows, row >= 0
+    part = 2 * row[actual] + (table.curve[row[actual], 0] != curves[owner[actual]])
+    table.parameter.put_parts(part, at[actual, 0])
+    table.spot.put_parts(part, at[actual, 1:])
 
 
 def with_signed_zeros(state: HullState) -> HullState:

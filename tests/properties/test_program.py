@@ -290,6 +290,41 @@ def test_a_meeting_in_another_sense_is_another_structure(shipped: Shipped) -> No
         assert (run.doubt.name, run.where) == ("MEETINGS", curve)
 
 
+@pytest.mark.parametrize("by", [1, -1], ids=["one more", "one fewer"])
+def test_a_plane_met_once_more_and_its_neighbour_once_less_is_another_structure(
+    by: int, shipped: Shipped
+) -> None:
+    """Each curve that meets as many planes in the same senses, but not the same ones, is doubted.
+
+    Curves of which segments lie in planes, as those of flats do, are cut in a way of their own.
+    """
+    pytest.importorskip("numba")
+    from assoc_hull.model.program.compiled_program import CompiledProgram
+
+    found = program_of(shipped("bulk_carrier"))
+    assert found is not None
+    program, before, tried = found.program, found.values, 0
+    cell, owner = program.cell.copy(), np.repeat(
+        np.arange(program.curves), np.diff(program.set_start)
+    )  # fmt: skip
+    view = cell.view()
+    view.setflags(write=False)
+    runner, values = CompiledProgram(attrs.evolve(program, cell=view)), before.copy()
+    for q, (cells, each) in enumerate(zip(program.cell_start, program.sets, strict=True)):
+        planes = int(program.first[each + 1] - program.first[each])
+        counts = np.diff(cell[cells : cells + planes + 1])
+        giving = counts[1:] if by > 0 else counts[:-1]
+        for between in np.flatnonzero(giving)[:2].tolist():
+            cell[cells + between + 1] += by
+            run = runner.run(values, before, NONE, NONE, owner[q : q + 1])
+            assert (run.doubt.name, run.where) == ("MEETINGS", owner[q]), (q, between)
+            cell[cells + between + 1] -= by
+            tried += 1
+    assert tried > 100
+    run = runner.run(values, before, NONE, NONE, np.arange(program.curves))
+    assert run.kept
+
+
 def test_numbers_that_are_read_tell_of_folds_and_of_the_centre_plane(shipped: Shipped) -> None:
     """A curve that turns back on itself, or lies beyond, does so before any edit."""
     state = copy_state(shipped("series60_70").state)

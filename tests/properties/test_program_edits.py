@@ -24,6 +24,7 @@ from assoc_hull.edit.program_edit import ProgramEdit
 from assoc_hull.edit.published_program import published_program
 from assoc_hull.edit.step import Step
 from assoc_hull.geometry.curves import IntArray
+from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.program.structure import Values
 from tests.conftest import Shipped
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
@@ -190,6 +191,59 @@ def test_pulls_in_several_sub_steps_by_the_program(shipped: Shipped) -> None:
     assert_same(*hulls)
     assert several >= 1
     assert_numbers_are_those_of_the_tables(hulls[0])
+
+
+def _watched_points(hull: ah.Hull, free: list[str]) -> list[str]:
+    """Points of curves that pass one another, whose gaps are measured when the points move."""
+    table = hull.state.rows
+    watched = table.alive.data & (table.sort.data == Sort.CROSSING)
+    watched &= table.role.data == Role.WATCHED
+    curves = set(table.curve[np.flatnonzero(watched)].ravel().tolist())
+    return [key for key in free if table.curve[hull.points[key].row, 0] in curves]
+
+
+APART = (
+    ("WL 10 x ST 18.75", "WL 22 x ST 2"), ("WL 20 x ST 1.75", "WL 22 x ST 17"),
+    ("WL 10 x ST 19.2", "WL 11 x ST 16.5"), ("WL 20 x ST 1.75", "WL 11 x ST 16.5"),
+)  # fmt: skip
+"""Points near watched gaps, and others far from them that are pulled in several sub-steps."""
+
+
+def test_what_only_the_first_sub_step_reaches_is_kept_like_the_rest(shipped: Shipped) -> None:
+    """A point moved far from a pull: gaps near it are measured once, and numbers written once."""
+    hulls, several = (shipped("bulk_carrier"), shipped("bulk_carrier")), 0
+    for hull, always in zip(hulls, (True, False), strict=True):
+        for number, (moved, pulled) in enumerate(APART + APART[::-1]):
+            count, way = Count(), 1 if number < len(APART) else -1
+            with contextlib.suppress(ah.errors.AssocHullError), by_program(count, always=always):
+                with hull.edit(f"edit {number}", author="x") as edit:
+                    edit.move(moved, y=hull.points[moved].y + way * 2e-4)
+                    edit.pull(pulled, way * 0.2, (20.0, 8.0))
+                several += count.kept == 1 < count.runs
+    # Whoever looks at numbers keeps them: those that edits hand on are looked at in the end only.
+    assert_numbers_are_those_of_the_tables(hulls[0])
+    assert_same(*hulls)
+    assert several >= 4
+
+
+@pytest.mark.parametrize("always", [True, False], ids=["by the program", "the full way"])
+def test_where_a_segment_is_thought_to_be_changes_no_bit(always: bool, shipped: Shipped) -> None:
+    """Gaps are measured alike whatever segments the search for their parameters begins at."""
+    hulls = shipped("series60_70"), shipped("series60_70")
+    free = [key for key, point in hulls[0].points.items() if point.free == ("y",)]
+    points = _watched_points(hulls[0], free)[:8]
+    for hull, wrong in zip(hulls, (True, False), strict=True):
+        rng = np.random.default_rng(33)
+        with by_program(Count(), always=always):
+            for number, point in enumerate(points * 2):
+                if wrong:
+                    guess = hull.document.index.guess
+                    guess[:] = rng.integers(-5, 200, guess.shape)
+                with contextlib.suppress(ah.errors.AssocHullError), hull.edit(f"{number}") as edit:
+                    edit.move(point, y=hull.points[point].y + 1e-3 * (-1) ** number)
+    assert len(hulls[0].history) > 5
+    assert_same(*hulls)
+    assert hulls[0].verify() == ()
 
 
 def test_an_edit_that_no_program_can_try_is_refused_as_the_full_way_does() -> None:

@@ -8,12 +8,14 @@ whatever happens in between. The document is not changed.
 from __future__ import annotations
 
 import contextlib
+import itertools
 from collections.abc import Iterator, Sequence
 
 import attrs
 
 from assoc_hull.analysis.hydrostatics.flotation import even_keel_displacement
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.past_states import run_together, steps_together
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import SplineBatch
@@ -178,11 +180,13 @@ class StateWalk:
         """Go to the state after the step with a number, 0 for the hull as it came."""
         target = self.document.path(number)
         there = {step.number for step in target}
-        while self.way and self.way[-1].number not in there:
-            self.way.pop().journal.back()
-        for step in target[len(self.way) :]:
-            step.journal.forth()
-            self.way.append(step)
+        back = list(itertools.takewhile(lambda step: step.number not in there, self.way[::-1]))
+        for run in steps_together(back):
+            run_together(run, forward=False)
+            del self.way[-len(run) :]
+        for run in steps_together(target[len(self.way) :]):
+            run_together(run, forward=True)
+            self.way += run
 
 
 @contextlib.contextmanager
@@ -197,10 +201,12 @@ def walk_states(document: Document) -> Iterator[StateWalk]:
     document.require_ended("the history")
     with document.held("the history", keep=False):
         walk = StateWalk(document)
-        try:
-            yield walk
-        finally:
-            walk.go(document.head)
+        # Some steps cannot be run from the middle: broken off there, all is copied back.
+        with document.unharmed():
+            try:
+                yield walk
+            finally:
+                walk.go(document.head)
 
 
 def state_at(document: Document, number: int) -> HullState:

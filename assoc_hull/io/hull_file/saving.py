@@ -49,6 +49,7 @@ import attrs
 from assoc_hull.arguments import file_path
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain.compare_states import walk_states
+from assoc_hull.edit.past_states import PackedWrites
 from assoc_hull.edit.step import Rerun
 from assoc_hull.errors import AssocHullError, BadInputError, HullFileError
 from assoc_hull.graph.journal import Journal
@@ -70,6 +71,7 @@ from assoc_hull.io.write_file import take_place
 from assoc_hull.model.change import TableChange, change_of
 from assoc_hull.model.definition.hash_tree import root_of
 from assoc_hull.model.definition.verify import Difference
+from assoc_hull.model.packed_change import with_strays
 
 __all__ = [
     "FILE_ENDING",
@@ -241,8 +243,12 @@ def _fill(document: Document, name: str) -> dict[int, TableChange]:
     return changes
 
 
+_RECENT = 16
+"""So many of the last steps stay in memory; older ones are read where they are asked."""
+
+
 def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, TableChange]:
-    """Write every step, then the hull as it is now."""
+    """Write every step, then the hull as it is now; give the changes of the last steps."""
     state, changes = document.state, dict[int, TableChange]()
     with walk_states(document) as walk:
         if not document.start:
@@ -251,11 +257,16 @@ def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, Ta
         for number, step in sorted(document.steps.items()):
             journal = step.journal
             # A step that never was in a file holds its journal; its change is what it did there.
-            if isinstance(journal, Journal):
+            if isinstance(journal, Journal | PackedWrites):
                 walk.go(number)
-                changes[number] = change_of(state, journal)
                 step.fingerprint = step.fingerprint or root_of(state)
-                journal = Rerun(state, changes[number])
+                if isinstance(journal, Journal):
+                    change = change_of(state, journal)
+                else:
+                    change = with_strays(state, journal.change)
+                if number > len(document.steps) - _RECENT:
+                    changes[number] = change
+                journal = Rerun(state, change)
             assert isinstance(journal, Rerun), "a step holds its journal or its change"
             write_step(database, step, journal.change)
     write_state(database, state, _version(), document.start)

@@ -27,7 +27,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.network import Readers
 from assoc_hull.io.hull_file.guard import MOST_BYTES, MOST_TEXT, parse_json, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
-from assoc_hull.model.change import CrossingPositions, TableChange
+from assoc_hull.model.change import CrossingPositions, TableChange, positions_against
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.tables import Association, Ends, HullState, Particulars
@@ -63,7 +63,7 @@ def pack_change(change: TableChange) -> bytes:
     for name, (rows, bits) in change.bits.items():
         arrays |= {f"{name}.rows": _short(rows), **_pack_bits(name, bits)}
     arrays |= _pack_places("before", change.before, change.before.at)
-    arrays |= _pack_places("after", change.after, _against(change.before, change.after))
+    arrays |= _pack_places("after", change.after, positions_against(change.before, change.after))
     for when, shapes in enumerate(change.kept):
         for curve, spline in shapes.items():
             arrays |= {f"kept.{when}.{curve}.{part}": getattr(spline, part) for part in _SHAPE}
@@ -162,30 +162,6 @@ def _long(numbers: NDArray[Any]) -> IntArray:
     return numbers.astype(np.int64)
 
 
-def _against(before: CrossingPositions, after: CrossingPositions) -> FloatArray:
-    """Give positions as the exclusive or with where the same crossing lay on the curve before.
-
-    A line that is added or taken away changes what many curves list, and where nothing of that
-    lies: what stayed becomes zeros, which compress. Crossings that were not there before stand as
-    they are. Applied twice, it gives back what it took.
-    """
-    if not len(before.curve):
-        return after.at
-    found = after.at.copy()
-    keys = [_keys(places) for places in (before, after)]
-    _, old, new = np.intersect1d(keys[0][:, 0], keys[1][:, 0], return_indices=True)
-    old, new = keys[0][old, 1], keys[1][new, 1]
-    found[new] = (before.at[old].view(np.int64) ^ found[new].view(np.int64)).view(np.float64)
-    return found
-
-
-def _keys(places: CrossingPositions) -> IntArray:
-    """Give a number for each crossing on a curve, and its place in the arrays, (k, 2)."""
-    actual = np.flatnonzero(places.row >= 0)
-    curve = places.curve[places.owner[actual]]
-    return np.column_stack([(curve << 32) + places.row[actual], actual])
-
-
 def _pack_places(title: str, places: CrossingPositions, at: FloatArray) -> Arrays:
     if not len(places.curve):
         return {}
@@ -223,7 +199,7 @@ def _both_places(arrays: Arrays) -> tuple[CrossingPositions, CrossingPositions]:
     """Give the positions on curves that list other crossings, before and after."""
     before, after = _unpack_places("before", arrays), _unpack_places("after", arrays)
     plain = "after.at" in arrays or not len(before.curve)
-    return before, after if plain else attrs.evolve(after, at=_against(before, after))
+    return before, after if plain else attrs.evolve(after, at=positions_against(before, after))
 
 
 def unpack_change(data: bytes) -> TableChange:

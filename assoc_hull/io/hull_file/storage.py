@@ -703,6 +703,8 @@ class HullFile:
                 self.keep(step, changes[number])
             else:
                 self._lend(step)
+                step.release()
+        document.forget_past()
 
     def copy_to(self, database: sqlite3.Connection) -> None:
         """Copy the whole file into another database."""

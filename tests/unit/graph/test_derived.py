@@ -86,3 +86,21 @@ def test_what_is_true_again_is_not_replaced_by_what_was_out_of_date() -> None:
     assert derived.give(("count",), (height,), lambda: "true") == "true"
     derived.restore(mark)
     assert derived.give(("count",), (height,), lambda: "made anew") == "true"
+
+
+def test_what_is_handed_on_is_no_more_than_is_kept() -> None:
+    """States take over from one another what was made of them: of each kind so many, no more."""
+    column, live = NumberColumn(np.float64, (), 0.0), Derived()
+    for number in range(20):
+        published = Derived()
+        published.give(("kind", number), (column,), lambda: [0], most=3)
+        published.give(("single",), (column, number), lambda: [0], most=1)
+        live.add(published)
+    held = live.mark()
+    assert {kind: len(entries) for kind, entries in held.items()} == {"kind": 3, "single": 1}
+    assert ("kind", 19) in held["kind"]
+    other = Derived()
+    other.add(live)
+    other.give(("kind", 20), (column,), lambda: [0], most=3)
+    other.restore(held)
+    assert len(other.mark()["kind"]) == 3
