@@ -9,20 +9,25 @@ delta = U U^T n d / |U^T n|^2. The update runs a `NormalField` in sub-steps wher
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable, Iterator, Sequence
-from typing import Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
 import attrs
 import numpy as np
 
-from assoc_hull.edit.hull_normals import free_normals, normals_at
+from assoc_hull.edit.hull_normals import SHORT, free_normals, normals_at
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.graph.derived import Objects
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
+from assoc_hull.model.program.engine import fields_of
+from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.model.tables import HullState
+
+if TYPE_CHECKING:
+    from assoc_hull.model.program.compiled_fields import CompiledFields
 
 __all__ = [
     "CLOSE",
@@ -82,10 +87,14 @@ class FieldContext:
         The tables as they stand; they stay so.
     across_flats : bool
         Whether flats are moved too.
+    numbers : (Program, Values) or None
+        A program of the hull, and its curves as they are in the tables: where it is compiled it
+        gives the same bits.
     """
 
     state: HullState
     across_flats: bool
+    numbers: tuple[Program, Values] | None = None
     _known: dict[Hashable, object] = attrs.field(factory=dict, init=False, repr=False)
 
     def _once(self, key: Hashable, make: Callable[[], T]) -> T:
@@ -94,6 +103,60 @@ class FieldContext:
             self._known[key] = make()
         # One key is made by one function, so its type is that of `make`.
         return cast("T", self._known[key])
+
+    def compiled(self) -> CompiledFields | None:
+        """Give what has the bits of all this in a compiled form, if it is at hand."""
+        if self.numbers is None:
+            return None
+        program, state = self.numbers[0], self.state
+        return self._once(
+            "compiled", lambda: fields_of(state, program, state.tolerances.factor * SHORT)
+        )
+
+    def displaced(self, rows: IntArray, amount: FloatArray) -> tuple[FloatArray, BoolArray]:
+        """Give how points (k,) move along their freedom, (k, 3), m, and which do.
+
+        `amount` (k,), m, is how far along the normal; the freedom of those that do not move is
+        almost tangential.
+        """
+        found = self._compiled_displacements(rows, amount)
+        if found is not None:
+            return found[1:]
+        normal = self.normals(rows)
+        along = free_normals(self.state, rows, normal)
+        square = (along * along).sum(axis=1)
+        good = np.sqrt(square) >= self.state.tolerances.field_normal
+        return along * (amount / np.where(good, square, 1.0))[:, None], good
+
+    def _compiled_displacements(
+        self, rows: IntArray, amount: FloatArray
+    ) -> tuple[FloatArray, FloatArray, BoolArray] | None:
+        """Give normals as well; None where numpy has to."""
+        compiled = self.compiled()
+        if compiled is None or self.numbers is None:
+            return None
+        return compiled.displace(self.state.rows.xyz.data, self.numbers[1], rows, amount)
+
+    def pulled(
+        self, place: FloatArray, radius: tuple[float, float], amount: float, flat_fade: float
+    ) -> tuple[IntArray, FloatArray] | None:
+        """Give the points that a pull reaches, and how far each is to move; None if not compiled.
+
+        Towards flats it fades within `flat_fade`, m; nothing does so where that is infinite.
+        """
+        if self.compiled() is None:
+            return None
+        from assoc_hull.model.program.compiled_fields import Borders, field_amounts
+
+        state, planes = self.state, [] if self.across_flats else _flat_planes(self.state)
+        borders = _flat_borders(state)[0]
+        runs = state.derived(
+            ("runs of flat borders",), (Objects([borders]),), lambda: Borders.of(borders)
+        )
+        return field_amounts(
+            state.rows.xyz.data, _movable(state, self.across_flats), place, radius, amount,
+            np.array(planes).reshape(-1, 4), runs, flat_fade, _IN_PLANE,
+        )  # fmt: skip
 
     def free(self) -> IntArray:
         """Give the points that fields may move, ascending."""
@@ -107,11 +170,20 @@ class FieldContext:
     def may_move(self, row: int) -> bool:
         """Tell whether fields may move a point."""
         movable = _movable(self.state, self.across_flats)
-        return bool(len(self._off_planes(movable[movable == row])))
+        place = int(movable.searchsorted(row))
+        here = movable[place : place + 1]
+        return bool(len(self._off_planes(here[here == row])))
 
     def normals(self, rows: IntArray) -> FloatArray:
         """Give the unit outward normals at points (k,): (k, 3)."""
-        return self._once(("normals", rows.tobytes()), lambda: normals_at(self.state, rows))
+        return self._once(("normals", rows.tobytes()), lambda: self._find_normals(rows))
+
+    def _find_normals(self, rows: IntArray) -> FloatArray:
+        found = self._compiled_displacements(rows, np.zeros(len(rows)))
+        if found is None:
+            return normals_at(self.state, rows)
+        freeze(found[0])
+        return found[0]
 
     def flat_distances(self, rows: IntArray, within: float = np.inf) -> FloatArray:
         """Give the distances of points (k,) from the nearest border, as `flat_distance`, m."""
@@ -292,11 +364,7 @@ def move_normal(ground: FieldContext, rows: IntArray, amount: FloatArray) -> Poi
 
     `amount` (k,), m, is positive outward. Points whose freedom is almost tangential stay.
     """
-    normal = ground.normals(rows)
-    along = free_normals(ground.state, rows, normal)
-    square = (along * along).sum(axis=1)
-    good = np.sqrt(square) >= ground.state.tolerances.field_normal
-    delta = along * (amount / np.where(good, square, 1.0))[:, None]
+    delta, good = ground.displaced(rows, amount)
     moved = good & (amount != 0.0)
     return PointDisplacements(rows[moved], delta[moved], rows[~good & (amount != 0.0)])
 
@@ -412,6 +480,10 @@ class PullField:
 
     def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
         """Give the displacements for a part of the whole pull."""
+        fade = np.inf if self.across_flats else self.flat_fade
+        found = ground.pulled(self.place, self.radius, part * self.amount, fade)
+        if found is not None:
+            return move_normal(ground, *found)
         rows = ground.free_near(self.place, self.radius)
         step = ground.state.rows.xyz[rows] - self.place
         girth = np.sqrt(step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])

@@ -25,6 +25,7 @@ from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.network import bits_differ
+from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.model.tables import HullState
 
 __all__ = ["FieldMoves"]
@@ -87,6 +88,7 @@ class FieldMoves(Modification):
         self, state: HullState, journal: Journal, pending: Pending, rows: IntArray,
         origin: FloatArray, update: Callable[[IntArray], bool],
         detach: Callable[[IntArray], None] | None = None,
+        numbers: tuple[Program, Values] | None = None,
     ) -> tuple[IntArray, FloatArray] | None:  # fmt: skip
         """Run the fields; give all points that were set, and how far they lie from before, m.
 
@@ -104,11 +106,13 @@ class FieldMoves(Modification):
             done, and None is given.
         detach : callable or None
             Called with the points of a sub-step before they are written.
+        numbers : (Program, Values) or None
+            A program, whose numbers `update` brings to what is in the tables.
         """
         fields, held = self.fields, pending.held
         across = any(field.across_flats for field in fields)
         pinned, touched = set(pending.values), set(rows.tolist())
-        ground = FieldContext(state, across)
+        ground = FieldContext(state, across, numbers)
         shift = add_displacements([field.shift(ground, 1.0) for field in fields], pinned)
         steps, whole = sub_step_count(state, shift), shift
         landing = np.concatenate([field.exact()[0] for field in fields])
@@ -117,7 +121,7 @@ class FieldMoves(Modification):
             if part == 0.0:
                 break
             if step:
-                ground = FieldContext(state, across)
+                ground = FieldContext(state, across, numbers)
             shift = whole
             if step or part != 1.0:
                 shift = add_displacements([field.shift(ground, part) for field in fields], pinned)

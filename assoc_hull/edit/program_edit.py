@@ -272,7 +272,10 @@ class ProgramEdit:
         moves = pending.asked(FieldMoves)
         if moves is not None and moves.fields:
             origin = self.numbers.published.values.xyz
-            found = moves.carry_out(state, journal, pending, rows, origin, self._run)
+            numbers = self.numbers.published.program, self.numbers.values
+            found = moves.carry_out(
+                state, journal, pending, rows, origin, self._run, numbers=numbers
+            )
             if found is None:
                 return None
             rows, away = found

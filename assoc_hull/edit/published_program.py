@@ -25,7 +25,14 @@ from assoc_hull.model.program.run_program import NumpyProgram, ProgramRun, RunPr
 from assoc_hull.model.program.structure import Program, PublishedProgram, Values, compile_program
 from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["HasProgram", "KeptProgram", "LiveNumbers", "numbers_for_edit", "published_program"]
+__all__ = [
+    "HasProgram",
+    "KeptProgram",
+    "LiveNumbers",
+    "known_numbers",
+    "numbers_for_edit",
+    "published_program",
+]
 
 
 @attrs.define(eq=False)
@@ -160,6 +167,20 @@ def published_program(
     """
     at = _at_hand(document, document.state.published() if state is None else state, lend=True)
     return None if at is None else at.found
+
+
+def known_numbers(document: HasProgram) -> tuple[Program, Values] | None:
+    """Give the program with its published numbers if they are at hand, to be read at once.
+
+    For whoever has the right to write, and has not written yet.
+    """
+    kept, state = document.program, document.state.published()
+
+    def known() -> tuple[Program, Values] | None:
+        at = kept.at_hand
+        return (at.found.program, at.found.values) if at and at.state is state else None
+
+    return kept.gate.alone(known)
 
 
 def numbers_for_edit(document: HasProgram) -> tuple[LiveNumbers, HullNetwork] | None:
