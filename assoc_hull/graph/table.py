@@ -54,6 +54,9 @@ _WRITES = itertools.count(1)
 _TOUCHED = [0]
 """How often columns, of all tables, have been given out or asked to be written to."""
 
+_SINGLY = 16
+"""A row by itself takes longer to copy than so many in one piece."""
+
 # As an array is, a column of numbers is one of more general numbers as well.
 S = TypeVar("S", bound=np.generic, covariant=True)
 V = TypeVar("V")
@@ -111,7 +114,12 @@ class Column(Generic[S]):
         """Write to rows, each named once."""
         self._own()
         self._note(rows)
-        self._store[rows] = values
+        store = self._store
+        if store.ndim > 1 and values.dtype == store.dtype and values.size:
+            whole = np.ascontiguousarray(values).reshape(len(rows), -1)
+            put_rows(store.reshape(len(store), -1), rows, whole)
+        else:
+            store[rows] = values
         self.written()
 
     def put_parts(self, part: NDArray[np.int64], values: NDArray[np.generic]) -> None:
@@ -128,8 +136,11 @@ class Column(Generic[S]):
         ours, old = self._references() == _ALONE, self._store
         if ours and self._spare is not None and self._differ is not None:
             spare = self._spare
-            for rows in self._differ:
-                spare[rows] = old[rows]
+            if _SINGLY * self._differing > len(old):
+                np.copyto(spare, old)
+            else:
+                for rows in self._differ:
+                    spare[rows] = old[rows]
         else:
             spare = old.copy()
         shown = spare[: len(self.data)]
