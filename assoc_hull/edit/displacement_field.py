@@ -392,6 +392,11 @@ def add_displacements(shifts: list[PointDisplacements], pinned: set[int]) -> Poi
     Summed in the order in which the fields were asked for, so the bits do not depend on
     anything else.
     """
+    if len(shifts) == 1 and not pinned:
+        only = shifts[0]
+        ascends = bool((only.rows[1:] > only.rows[:-1]).all())
+        if ascends and not len(only.left):
+            return PointDisplacements(only.rows, 0.0 + only.delta, only.left)
     rows = np.unique(np.concatenate([shift.rows for shift in shifts]))
     rows = rows[~np.isin(rows, sorted(pinned))]
     total = np.zeros((len(rows), 3))
@@ -507,7 +512,7 @@ class PullField:
 
     def left(self, state: HullState, done: float) -> float:
         """Give the part of the pull that the point lacks, whatever part was `done`."""
-        if not state.rows.alive[self.row]:
+        if not state.rows.alive.data[self.row]:
             return 1.0 - done
         return 1.0 - self.reached(state) / self.amount
 
@@ -516,11 +521,13 @@ class PullField:
 
         A watched crossing has no value: it lies where its first curve passes.
         """
-        watched = state.rows.role[self.row] == Role.WATCHED
-        crossing = state.rows.sort[self.row] == Sort.CROSSING
         table = state.rows
-        now = table.spot[self.row, 0] if watched and crossing else table.xyz[self.row]
-        return float(((now - self.place) * self.normal).sum())
+        watched = table.role.data[self.row] == Role.WATCHED
+        crossing = table.sort.data[self.row] == Sort.CROSSING
+        now = table.spot.data[self.row, 0] if watched and crossing else table.xyz.data[self.row]
+        way = zip(now.tolist(), self.place.tolist(), self.normal.tolist(), strict=True)
+        x, y, z = [(to - at) * along for to, at, along in way]
+        return float(x + y + z)
 
 
 def unreached(
@@ -533,17 +540,16 @@ def unreached(
     pull = fields[0] if len(fields) == 1 else None
     if not isinstance(pull, PullField) or pull.row in pinned:
         return
-    where = address(state, pull.row)
     if not state.rows.alive[pull.row]:
-        yield f"{where} was pulled and has gone: pull by less, or another point"
+        yield f"{address(state, pull.row)} was pulled and has gone: pull by less, or another point"
         return
-    driver = int(state.rows.driver[pull.row])
+    driver = int(state.rows.driver.data[pull.row])
     if driver >= 0 and state.curves.state[driver] != State.CLEAN:
         return
     reached = pull.reached(state)
     if abs(reached - pull.amount) > _NEARLY * abs(pull.amount):
         yield (
-            f"{where} came {1e3 * reached:.1f} mm along the normal where {1e3 * pull.amount:.1f} "
+            f"{address(state, pull.row)} came {1e3 * reached:.1f} mm along the normal where {1e3 * pull.amount:.1f} "
             f"mm were asked{_what_held(state, pull)}"
         )
 

@@ -13,6 +13,7 @@ from typing import Protocol
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.curve_order import curve_folds
@@ -67,14 +68,11 @@ class LiveNumbers:
 
     def splines(self, curves: IntArray) -> SplineBatch:
         """Give curves, as the program counts them, as they are in these numbers; there is one."""
-        program, values = self.published.program, self.values
-        spans = [(int(program.start[c]), int(program.start[c + 1])) for c in curves.tolist()]
-        start = np.zeros(len(spans) + 1, np.int64)
-        np.cumsum([b - a for a, b in spans], out=start[1:])
-        blocks = [values.block[9 * a : 9 * b].reshape(9, b - a) for a, b in spans]
-        block = np.concatenate(blocks, axis=1)
-        knot = np.concatenate([values.knot[a:b] for a, b in spans])
-        return SplineBatch(start, knot, block[:3].T, block[3:6].T, block[6:].T)
+        return self.told_splines(curves)[0]
+
+    def told_splines(self, curves: IntArray) -> tuple[SplineBatch, NDArray[np.bool_]]:
+        """Give these curves, and which differ from the published ones."""
+        return self.runner.splines(self.values, self.published.values, curves)
 
 
 @attrs.define(eq=False)

@@ -15,7 +15,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.numeric.compiled_roots import find_roots, safe_root
 from assoc_hull.geometry.numeric.jit import jit, was_loaded
 from assoc_hull.geometry.numeric.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
@@ -28,7 +28,7 @@ from assoc_hull.geometry.splines.compiled_intersections import (
 from assoc_hull.geometry.splines.compiled_loft import loft_curves
 from assoc_hull.geometry.splines.loft_rules import LEAST_COSINE, NO_DIRECTION
 from assoc_hull.geometry.splines.plane_heights import CONTACT
-from assoc_hull.model.program.run_program import Doubt, ProgramRun
+from assoc_hull.model.program.run_program import Doubt, ProgramRun, begins
 from assoc_hull.model.program.structure import CompiledFeatures, Program, Values
 from assoc_hull.tolerance import Tolerances
 
@@ -642,8 +642,30 @@ def restore(
             xyz[watch[w], k] = xyz_0[watch[w], k]
 
 
+@jit
+def gather(
+    start: IntArray, curves: IntArray, begin: IntArray, knot: FloatArray, block: FloatArray,
+    block_0: FloatArray, knots: FloatArray, blocks: FloatArray, odd: Flags,
+) -> None:  # fmt: skip
+    """Put curves one behind the other, and tell which have other points or slopes than before."""
+    for i in range(len(curves)):
+        b, e = start[curves[i]], start[curves[i] + 1]
+        size, differs = e - b, False
+        for j in range(size):
+            knots[begin[i] + j] = knot[b + j]
+        for k in range(9):
+            first = 9 * b + k * size
+            for j in range(size):
+                blocks[k, begin[i] + j] = block[first + j]
+            if k < 6:
+                for j in range(size):
+                    differs = differs or block[first + j] != block_0[first + j]
+        odd[i] = 1 if differs else 0
+
+
 _run: Callable[..., None] = run
 _restore: Callable[..., None] = restore
+_gather: Callable[..., None] = gather
 """They are called with the arrays of a program, in the order above."""
 
 
@@ -712,6 +734,18 @@ class CompiledProgram:
             *there[3:], run.rows, run.curves, run.watched,
         )  # fmt: skip
 
+    def splines(
+        self, values: Values, before: Values, curves: IntArray
+    ) -> tuple[SplineBatch, NDArray[np.bool_]]:
+        """Give curves, and which differ from before: as `NumpyProgram.splines`."""
+        begin = begins(self.program.start, curves)
+        knots, blocks = np.empty(int(begin[-1])), np.empty((9, int(begin[-1])))
+        odd = np.empty(len(curves), np.int8)
+        arrays = curves, begin, values.knot, values.block, before.block
+        _gather(self.program.start, *map(read_only, arrays), knots, blocks, odd)
+        batch = SplineBatch(begin, knots, blocks[:3].T, blocks[3:6].T, blocks[6:].T)
+        return batch, odd.view(np.bool_)
+
 
 def _columns(values: Values) -> tuple[NDArray[np.generic], ...]:
     return (
@@ -753,7 +787,8 @@ def warm() -> bool:
     )  # fmt: skip
     compiled = CompiledProgram(program)
     compiled.restore(values, values.copy(), compiled.run(values, values.copy(), none, none))
-    return was_loaded(run) and was_loaded(restore)
+    compiled.splines(values, values, none)
+    return was_loaded(run) and was_loaded(restore) and was_loaded(gather)
 
 
 def _blank(name: str, kind: str) -> object:
