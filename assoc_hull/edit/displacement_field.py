@@ -549,8 +549,8 @@ def unreached(
     reached = pull.reached(state)
     if abs(reached - pull.amount) > _NEARLY * abs(pull.amount):
         yield (
-            f"{address(state, pull.row)} came {1e3 * reached:.1f} mm along the normal where {1e3 * pull.amount:.1f} "
-            f"mm were asked{_what_held(state, pull)}"
+            f"{address(state, pull.row)} came {1e3 * reached:.1f} mm along the normal where "
+            f"{1e3 * pull.amount:.1f} mm were asked{_what_held(state, pull)}"
         )
 
 

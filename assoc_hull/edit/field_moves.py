@@ -126,7 +126,9 @@ class FieldMoves(Modification):
             shift = whole
             if step or part != 1.0:
                 shift = add_displacements([field.shift(ground, part) for field in fields], pinned)
-            reached = distinct(np.concatenate([shift.rows, landing])) if len(landing) else shift.rows
+            reached = (
+                distinct(np.concatenate([shift.rows, landing])) if len(landing) else shift.rows
+            )
             before = xyz.data.take(reached, axis=0)
             if detach is not None:
                 detach(shift.rows)

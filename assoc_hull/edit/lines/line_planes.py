@@ -8,7 +8,7 @@ by which it falls outward from the horizontal.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import attrs
 import numpy as np
@@ -176,7 +176,7 @@ def _refuse_taken(state: HullState, group: str, cut: CuttingPlane, own: int) -> 
 
 
 def checked_in_planes(
-    state: HullState, lines: list[int], xyz: FloatArray, where: str
+    state: HullState, lines: list[int], xyz: FloatArray, where: str | Callable[[], str]
 ) -> FloatArray:
     """Check that places lie in the planes of lines; put them there to the bit.
 
@@ -188,8 +188,8 @@ def checked_in_planes(
         The lines; space curves among them are passed over.
     xyz : (3,) or (k, 3), m
         The places.
-    where : str
-        For the error.
+    where : str or callable
+        For the error; or what tells it.
 
     Returns
     -------
@@ -210,7 +210,8 @@ def checked_in_planes(
         if most > IN_PLANE:
             name = state.lines.name[line]
             what = f"the place lies {most:.3g} m off the plane of {name}"
-            raise BadInputError(what, where, "give a place in that plane")
+            told = where if isinstance(where, str) else where()
+            raise BadInputError(what, told, "give a place in that plane")
         if (normal == 1.0).any():
             out[..., normal == 1.0] = offset
         elif most > _ROUNDED:
