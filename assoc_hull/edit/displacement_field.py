@@ -27,7 +27,7 @@ from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.model.tables import HullState
 
 if TYPE_CHECKING:
-    from assoc_hull.model.program.compiled_fields import CompiledFields
+    from assoc_hull.model.program.compiled_fields import Borders, CompiledFields
 
 __all__ = [
     "CLOSE",
@@ -144,19 +144,27 @@ class FieldContext:
 
         Towards flats it fades within `flat_fade`, m; nothing does so where that is infinite.
         """
-        if self.compiled() is None:
+        compiled = self.compiled()
+        if compiled is None:
             return None
-        from assoc_hull.model.program.compiled_fields import Borders, field_amounts
-
         state, planes = self.state, [] if self.across_flats else _flat_planes(self.state)
-        borders = _flat_borders(state)[0]
-        runs = state.derived(
-            ("runs of flat borders",), (Objects([borders]),), lambda: Borders.of(borders)
-        )
-        return field_amounts(
+        return compiled.pulled(
             state.rows.xyz.data, _movable(state, self.across_flats), place, radius, amount,
-            np.array(planes).reshape(-1, 4), runs, flat_fade, _IN_PLANE,
+            np.array(planes).reshape(-1, 4), self._borders(compiled), flat_fade, _IN_PLANE,
         )  # fmt: skip
+
+    def _borders(self, compiled: CompiledFields) -> Borders:
+        state, borders = self.state, _flat_borders(self.state)[0]
+        return state.derived(
+            ("runs of flat borders",), (Objects([borders]),), lambda: compiled.runs_of(borders)
+        )
+
+    def flat_distance(self, row: int, within: float) -> float:
+        """Give the distance of a point from the nearest border, m; beyond `within` perhaps inf."""
+        compiled = self.compiled()
+        if compiled is None:
+            return float(self.flat_distances(np.array([row]), within)[0])
+        return compiled.distance(self.state.rows.xyz.data[row], self._borders(compiled), within)
 
     def free(self) -> IntArray:
         """Give the points that fields may move, ascending."""
@@ -347,9 +355,16 @@ def flat_distance(state: HullState, places: FloatArray, within: float = np.inf) 
 
 def _flat_borders(state: HullState) -> tuple[list[FloatArray], FloatArray, FloatArray]:
     """Give places (k, 3), m, along each border curve of flats; the least and largest of each."""
-    curves = state.lines.curves.data
-    flats = _boundary_lines(state, BoundaryKind.FLAT).tolist()
-    splines = [state.spline(curve) for line in flats for curve in curves[line]]
+    lines, shape = state.lines, state.curves.spline.data
+    curves = state.derived(
+        ("curves of flats",), (lines.alive, lines.boundary, lines.curves),
+        lambda: [
+            curve for line in _boundary_lines(state, BoundaryKind.FLAT).tolist()
+            for curve in lines.curves.data[line]
+        ],
+    )  # fmt: skip
+    # A published curve has a shape.
+    splines = [cast("SplineBatch", shape[curve]) for curve in curves]
 
     def find() -> tuple[list[FloatArray], FloatArray, FloatArray]:
         borders = [sample(each, 4)[1] for each in splines]

@@ -413,7 +413,9 @@ class HullState:
 
     def _published_now(self) -> HullState:
         if self._written_here is None and not self._is_current():
+            taken = writes_begun()
             self._published = self._shared(self, self._published)
+            self._looked = taken
         assert self._published is not None, "made above, or before anybody began to write"
         return self._published
 

@@ -144,4 +144,4 @@ def _border_distance(ground: FieldContext, row: int, within: float) -> float | N
     computed = state.rows.driver[row] >= 0 or np.isfinite(state.rows.gap[row])
     if not computed and not ground.may_move(row):
         return None
-    return float(ground.flat_distances(np.array([row]), within)[0])
+    return ground.flat_distance(row, within)

@@ -25,7 +25,7 @@ from assoc_hull.model.program.compiled_program import read_only, tangent_at
 from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.model.tables import HullState
 
-__all__ = ["CompiledFields", "FieldStructure", "field_amounts", "warm"]
+__all__ = ["Borders", "CompiledFields", "FieldStructure", "warm"]
 
 Flags = NDArray[np.int8]
 
@@ -344,44 +344,6 @@ def displace(
 _displace: Callable[..., bool] = displace
 
 
-class CompiledFields:
-    """Displacements of the points of a program; for one thread at a time."""
-
-    def __init__(self, structure: FieldStructure, program: Program) -> None:
-        self._structure = (
-            *structure.arrays(), structure.short, structure.depth, structure.least,
-            program.start, program.row, program.meet_start, program.meet_row,
-        )  # fmt: skip
-        self._room = np.zeros(1)
-
-    def displace(
-        self, xyz: FloatArray, values: Values, rows: IntArray, amount: FloatArray
-    ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]] | None:
-        """Give normals (k, 3), displacements (k, 3), m, and which points may move.
-
-        Parameters
-        ----------
-        xyz : (n, 3), m
-            Places of all points.
-        values : Values
-            The numbers of the curves.
-        rows, amount : (k,) int, (k,) m
-            The points, and how far each is to move along the outward normal.
-
-        Returns
-        -------
-        normal, delta, good
-            As `edit.displacement_field.move_normal` has them; None where numpy has to tell.
-        """
-        normal, delta = np.empty((len(rows), 3)), np.empty((len(rows), 3))
-        good = np.empty(len(rows), np.int8)
-        numbers = (xyz, values.knot, values.block, values.at, values.segment, rows, amount)
-        known = _displace(
-            *self._structure, *map(read_only, numbers), self._room, normal, delta, good
-        )
-        return (normal, delta, good.view(np.bool_)) if known else None
-
-
 # --------------------------------------------------------------------------------------
 # How far points are to move.
 
@@ -393,6 +355,40 @@ def _fade(part: float) -> float:
     if not s < 1.0:
         return 0.0
     return float(1.0 - s * s * s * (10.0 - s * (15.0 - 6.0 * s)))
+
+
+@jit
+def _nearest(
+    x: float, y: float, z: float, border: FloatArray, box_start: IntArray, box: FloatArray,
+    box_of: IntArray, near: NDArray[np.bool_], best: float,
+) -> float:  # fmt: skip
+    """Give the square of the distance from borders that are near, m2; `best` if it is no less."""
+    for q in range(len(box)):
+        if not near[box_of[q]]:
+            continue
+        a = max(box[q, 0, 0] - x, x - box[q, 1, 0], 0.0)
+        b = max(box[q, 0, 1] - y, y - box[q, 1, 1], 0.0)
+        c = max(box[q, 0, 2] - z, z - box[q, 1, 2], 0.0)
+        if (a * a + b * b + c * c) * 0.999999 >= best:
+            continue
+        for j in range(box_start[q], box_start[q + 1]):
+            a, b, c = x - border[j, 0], y - border[j, 1], z - border[j, 2]
+            best = min(best, a * a + b * b + c * c)
+    return best
+
+
+@jit
+def distance(
+    place: FloatArray, border: FloatArray, box_start: IntArray, box: FloatArray, box_of: IntArray,
+    border_box: FloatArray, within: float,
+) -> float:  # fmt: skip
+    """Give the distance of a place from the nearest border, m; inf far beyond `within`."""
+    near = np.ones(len(border_box), np.bool_)
+    reach = (within * 1.000001) ** 2
+    best = _nearest(
+        place[0], place[1], place[2], border, box_start, box, box_of, near, reach
+    )  # fmt: skip
+    return sqrt(best) if best < reach else np.inf
 
 
 @jit
@@ -440,25 +436,10 @@ def pull(
                 near[b] = False
     kept = 0
     for i in range(count):
-        r, best = rows[i], reach
-        for q in range(len(box)):
-            if not near[box_of[q]]:
-                continue
-            least = 0.0
-            for k in range(3):
-                away = max(box[q, 0, k] - xyz[r, k], xyz[r, k] - box[q, 1, k])
-                if away > 0.0:
-                    least += away * away
-            if least * 0.999999 >= best:
-                continue
-            for j in range(box_start[q], box_start[q + 1]):
-                square = 0.0
-                for k in range(3):
-                    step = xyz[r, k] - border[j, k]
-                    square += step * step
-                if square < best:
-                    best = square
-        mine = amounts[i]
+        r, mine = rows[i], amounts[i]
+        best = _nearest(
+            xyz[r, 0], xyz[r, 1], xyz[r, 2], border, box_start, box, box_of, near, reach
+        )  # fmt: skip
         if best < reach:
             mine = mine * (1.0 - _fade(sqrt(best) / flat_fade))
         if mine != 0.0:
@@ -468,6 +449,7 @@ def pull(
 
 
 _pull: Callable[..., int] = pull
+_distance: Callable[..., float] = distance
 
 
 @attrs.frozen(eq=False)
@@ -514,31 +496,76 @@ def _boxes(runs: list[FloatArray]) -> FloatArray:
     return np.array([(each.min(axis=0), each.max(axis=0)) for each in runs]).reshape(-1, 2, 3)
 
 
-def field_amounts(
-    xyz: FloatArray, movable: IntArray, place: FloatArray, radius: tuple[float, float],
-    amount: float, planes: FloatArray, borders: Borders, flat_fade: float, in_plane: float,
-) -> tuple[IntArray, FloatArray]:  # fmt: skip
-    """Give the points that a pull reaches, ascending, and by how much each is to move, m.
+class CompiledFields:
+    """Displacements of the points of a program; for one thread at a time."""
 
-    Parameters
-    ----------
-    xyz : (n, 3), m
-        Places of all points.
-    movable : (k,) int
-        Those that may be moved but for where they lie.
-    place, radius, amount : (3,) m, (float, float) m, float m
-        Of the pull.
-    planes : (p, 4), m
-        Normals and offsets of planes that points stay in, `in_plane` (m) to either side.
-    borders, flat_fade : Borders, float m
-        Within this distance of them the pull fades.
-    """
-    rows, amounts = np.empty(len(movable), np.int64), np.empty(len(movable))
-    count = _pull(
-        *map(read_only, (movable, xyz, place, planes)), *borders.arrays(), amount, *radius,
-        flat_fade, in_plane, rows, amounts,
-    )  # fmt: skip
-    return rows[:count], amounts[:count]
+    def __init__(self, structure: FieldStructure, program: Program) -> None:
+        self._structure = (
+            *structure.arrays(), structure.short, structure.depth, structure.least,
+            program.start, program.row, program.meet_start, program.meet_row,
+        )  # fmt: skip
+        self._room = np.zeros(1)
+
+    def displace(
+        self, xyz: FloatArray, values: Values, rows: IntArray, amount: FloatArray
+    ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]] | None:
+        """Give normals (k, 3), displacements (k, 3), m, and which points may move.
+
+        Parameters
+        ----------
+        xyz : (n, 3), m
+            Places of all points.
+        values : Values
+            The numbers of the curves.
+        rows, amount : (k,) int, (k,) m
+            The points, and how far each is to move along the outward normal.
+
+        Returns
+        -------
+        normal, delta, good
+            As `edit.displacement_field.move_normal` has them; None where numpy has to tell.
+        """
+        normal, delta = np.empty((len(rows), 3)), np.empty((len(rows), 3))
+        good = np.empty(len(rows), np.int8)
+        numbers = (xyz, values.knot, values.block, values.at, values.segment, rows, amount)
+        known = _displace(
+            *self._structure, *map(read_only, numbers), self._room, normal, delta, good
+        )
+        return (normal, delta, good.view(np.bool_)) if known else None
+
+    def pulled(
+        self, xyz: FloatArray, movable: IntArray, place: FloatArray, radius: tuple[float, float],
+        amount: float, planes: FloatArray, borders: Borders, flat_fade: float, in_plane: float,
+    ) -> tuple[IntArray, FloatArray]:  # fmt: skip
+        """Give the points that a pull reaches, ascending, and by how much each is to move, m.
+
+        Parameters
+        ----------
+        xyz : (n, 3), m
+            Places of all points.
+        movable : (k,) int
+            Those that may be moved but for where they lie.
+        place, radius, amount : (3,) m, (float, float) m, float m
+            Of the pull.
+        planes : (p, 4), m
+            Normals and offsets of planes that points stay in, `in_plane` (m) to either side.
+        borders, flat_fade : Borders, float m
+            Within this distance of them the pull fades.
+        """
+        rows, amounts = np.empty(len(movable), np.int64), np.empty(len(movable))
+        count = _pull(
+            *map(read_only, (movable, xyz, place, planes)), *borders.arrays(), amount, *radius,
+            flat_fade, in_plane, rows, amounts,
+        )  # fmt: skip
+        return rows[:count], amounts[:count]
+
+    def distance(self, place: FloatArray, borders: Borders, within: float) -> float:
+        """Give how far a place (3,), m, lies from the nearest border; inf far beyond `within`."""
+        return _distance(read_only(place), *borders.arrays(), within)
+
+    def runs_of(self, borders: list[FloatArray]) -> Borders:
+        """Give borders (k, 3), m, as the others take them."""
+        return Borders.of(borders)
 
 
 def warm() -> bool:
@@ -554,5 +581,8 @@ def warm() -> bool:
         none, wide, *room,
     )  # fmt: skip
     place, planes, borders = np.zeros(3), np.zeros((0, 4)), Borders.of([])
-    field_amounts(nowhere, none, place, (1.0, 1.0), 0.0, planes, borders, 1.0, 0.0)
-    return was_loaded(displace) and was_loaded(pull)
+    freeze(place, planes)
+    _pull(none, nowhere, place, planes, *borders.arrays(), 0.0, 1.0, 1.0, 1.0, 0.0,
+          np.zeros(0, np.int64), np.zeros(0))  # fmt: skip
+    _distance(place, *borders.arrays(), 1.0)
+    return was_loaded(displace) and was_loaded(pull) and was_loaded(distance)

@@ -113,5 +113,5 @@ def test_nothing_is_compiled_for_what_an_edit_asks() -> None:
         for _ in range(3):
             with hull.edit("pull") as edit:
                 edit.pull("WL 2.5 x ST 7", 1e-3, (20.0, 5.0))
-    found = [getattr(each, "signatures", ()) for each in (made.displace, made.pull)]
-    assert [len(each) for each in found] == [1, 1]
+    found = [getattr(each, "signatures", ()) for each in (made.displace, made.pull, made.distance)]
+    assert [len(each) for each in found] == [1, 1, 1]
