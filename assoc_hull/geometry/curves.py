@@ -197,6 +197,15 @@ class SplineBatch:
             self.arrive[a:b],
         )
 
+    def take(self, places: IntArray) -> SplineBatch:
+        """Give some of the curves, in any order; the arrays are copies."""
+        count = (self.start[1:] - self.start[:-1]).take(places)
+        start = np.zeros(len(places) + 1, np.int64)
+        np.cumsum(count, out=start[1:])
+        knots = np.arange(start[-1]) + np.repeat(self.start.take(places) - start[:-1], count)
+        columns = self.knot, self.xyz, self.leave, self.arrive
+        return SplineBatch(start, *(column.take(knots, axis=0) for column in columns))
+
     def single(self) -> list[SplineBatch]:
         """Give each curve as a batch of one; the arrays are views."""
         knot, xyz, leave, arrive = self.knot, self.xyz, self.leave, self.arrive
@@ -216,6 +225,14 @@ class SplineBatch:
     @classmethod
     def join(cls, parts: Sequence[SplineBatch]) -> SplineBatch:
         """Put batches one behind the other; neighbours in one batch need no copy."""
+        homes = [part.home for part in parts]
+        batch = homes[0][0] if homes and homes[0] is not None else None
+        places = [home[1] for home in homes if home is not None and home[0] is batch]
+        if batch is not None and len(places) == len(homes) > 1:
+            first, last = places[0], places[-1]
+            if places == list(range(first, last + 1)):
+                return batch.part(first, last + 1)
+            return batch.take(np.array(places))
         runs = list(_runs(parts))
         if len(runs) == 1:
             return runs[0]
