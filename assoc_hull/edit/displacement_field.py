@@ -78,6 +78,29 @@ T = TypeVar("T")
 
 
 @attrs.frozen(eq=False)
+class PointFreedoms:
+    """Points with the normals of the hull, and what their freedom is of these.
+
+    Attributes
+    ----------
+    normal, along : (k, 3)
+        n and U U^T n.
+    square : (k,)
+        The square of the length of `along`; 1 for points that are not `good`.
+    good : (k,) bool
+        Whether a point may be moved: the freedom of the others is almost tangential.
+    """
+
+    normal: FloatArray
+    along: FloatArray
+    square: FloatArray
+    good: BoolArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.normal, self.along, self.square, self.good)
+
+
+@attrs.frozen(eq=False)
 class FieldContext:
     """What all fields of one (sub-)step read of a hull, as far as they ask for it.
 
@@ -113,29 +136,21 @@ class FieldContext:
             "compiled", lambda: fields_of(state, program, state.tolerances.factor * SHORT)
         )
 
-    def displaced(self, rows: IntArray, amount: FloatArray) -> tuple[FloatArray, BoolArray]:
-        """Give how points (k,) move along their freedom, (k, 3), m, and which do.
+    def freedoms(self, rows: IntArray) -> PointFreedoms:
+        """Give the normals at points (k,), and along what these points are free."""
+        return self._once(("freedoms", rows.tobytes()), lambda: self._find_freedoms(rows))
 
-        `amount` (k,), m, is how far along the normal; the freedom of those that do not move is
-        almost tangential.
-        """
-        found = self._compiled_displacements(rows, amount)
-        if found is not None:
-            return found[1:]
-        normal = self.normals(rows)
+    def _find_freedoms(self, rows: IntArray) -> PointFreedoms:
+        compiled = self.compiled()
+        if compiled is not None and self.numbers is not None:
+            found = compiled.freedoms(self.state.rows.xyz.data, self.numbers[1], rows)
+            if found is not None:
+                return PointFreedoms(*found)
+        normal = normals_at(self.state, rows)
         along = free_normals(self.state, rows, normal)
         square = (along * along).sum(axis=1)
         good = np.sqrt(square) >= self.state.tolerances.field_normal
-        return along * (amount / np.where(good, square, 1.0))[:, None], good
-
-    def _compiled_displacements(
-        self, rows: IntArray, amount: FloatArray
-    ) -> tuple[FloatArray, FloatArray, BoolArray] | None:
-        """Give normals as well; None where numpy has to."""
-        compiled = self.compiled()
-        if compiled is None or self.numbers is None:
-            return None
-        return compiled.displace(self.state.rows.xyz.data, self.numbers[1], rows, amount)
+        return PointFreedoms(normal, along, np.where(good, square, 1.0), good)
 
     def pulled(
         self, place: FloatArray, radius: tuple[float, float], amount: float, flat_fade: float
@@ -184,14 +199,7 @@ class FieldContext:
 
     def normals(self, rows: IntArray) -> FloatArray:
         """Give the unit outward normals at points (k,): (k, 3)."""
-        return self._once(("normals", rows.tobytes()), lambda: self._find_normals(rows))
-
-    def _find_normals(self, rows: IntArray) -> FloatArray:
-        found = self._compiled_displacements(rows, np.zeros(len(rows)))
-        if found is None:
-            return normals_at(self.state, rows)
-        freeze(found[0])
-        return found[0]
+        return self.freedoms(rows).normal
 
     def flat_distances(self, rows: IntArray, within: float = np.inf) -> FloatArray:
         """Give the distances of points (k,) from the nearest border, as `flat_distance`, m."""
@@ -379,9 +387,13 @@ def move_normal(ground: FieldContext, rows: IntArray, amount: FloatArray) -> Poi
 
     `amount` (k,), m, is positive outward. Points whose freedom is almost tangential stay.
     """
-    delta, good = ground.displaced(rows, amount)
-    moved = good & (amount != 0.0)
-    return PointDisplacements(rows[moved], delta[moved], rows[~good & (amount != 0.0)])
+    free = ground.freedoms(rows)
+    delta = free.along * (amount / free.square)[:, None]
+    asked = amount != 0.0
+    moved = free.good & asked
+    if moved.all():
+        return PointDisplacements(rows, delta, rows[:0])
+    return PointDisplacements(rows[moved], delta[moved], rows[~free.good & asked])
 
 
 def row_spacing(state: HullState, place: FloatArray) -> float:

@@ -110,7 +110,7 @@ class FieldStructure:
         return found
 
     def arrays(self) -> tuple[NDArray[np.generic], ...]:
-        """Give the arrays in the order in which `displace` takes them."""
+        """Give the arrays in the order in which `find_freedoms` takes them."""
         return (
             self.sort, self.curve, self.knot, self.meeting, self.freedom, self.free, self.told,
             self.across, self.plane, self.live,
@@ -294,7 +294,7 @@ def _normal_between(
 
 
 @jit
-def displace(
+def find_freedoms(
     # The structure.
     sort: Flags, curve: IntArray, knot_of: IntArray, meeting: IntArray, freedom: Flags,
     free: FloatArray, told: Flags, across: Flags, plane: FloatArray, live: IntArray, short: float,
@@ -302,14 +302,14 @@ def displace(
     meet_row: IntArray,
     # The numbers, and what is asked.
     xyz: FloatArray, knot: FloatArray, block: FloatArray, at: FloatArray, segment: IntArray,
-    rows: IntArray, amount: FloatArray,
+    rows: IntArray,
     # Room to work in, and what is answered.
-    top: FloatArray, normal: FloatArray, delta: FloatArray, good: Flags,
+    top: FloatArray, normal: FloatArray, along: FloatArray, squares: FloatArray, good: Flags,
 ) -> bool:  # fmt: skip
-    """Set normals (k, 3) at points (k,), and how they move along their freedom by amounts, m.
+    """Set normals at points (k,) and what their freedom is of these, both (k, 3).
 
-    `good` tells which may: the freedom of the others is almost tangential. False where a normal
-    is left to numpy.
+    `good` tells which may move: the freedom of the others is almost tangential. False where a
+    normal is left to numpy.
     """
     top[0] = np.nan
     for i in range(len(rows)):
@@ -336,12 +336,12 @@ def displace(
                 x, y, z = n[0] - x, n[1] - y, n[2] - z
         square = x * x + y * y + z * z
         good[i] = 1 if sqrt(square) >= least else 0
-        scale = amount[i] / (square if good[i] != 0 else 1.0)
-        delta[i, 0], delta[i, 1], delta[i, 2] = x * scale, y * scale, z * scale
+        squares[i] = square if good[i] != 0 else 1.0
+        along[i, 0], along[i, 1], along[i, 2] = x, y, z
     return True
 
 
-_displace: Callable[..., bool] = displace
+_find_freedoms: Callable[..., bool] = find_freedoms
 
 
 # --------------------------------------------------------------------------------------
@@ -497,7 +497,7 @@ def _boxes(runs: list[FloatArray]) -> FloatArray:
 
 
 class CompiledFields:
-    """Displacements of the points of a program; for one thread at a time."""
+    """Normals, freedoms and pulls of the points of a program; for one thread at a time."""
 
     def __init__(self, structure: FieldStructure, program: Program) -> None:
         self._structure = (
@@ -506,10 +506,10 @@ class CompiledFields:
         )  # fmt: skip
         self._room = np.zeros(1)
 
-    def displace(
-        self, xyz: FloatArray, values: Values, rows: IntArray, amount: FloatArray
-    ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]] | None:
-        """Give normals (k, 3), displacements (k, 3), m, and which points may move.
+    def freedoms(
+        self, xyz: FloatArray, values: Values, rows: IntArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]] | None:
+        """Give what `edit.displacement_field.PointFreedoms` has; None where numpy has to tell.
 
         Parameters
         ----------
@@ -517,21 +517,17 @@ class CompiledFields:
             Places of all points.
         values : Values
             The numbers of the curves.
-        rows, amount : (k,) int, (k,) m
-            The points, and how far each is to move along the outward normal.
-
-        Returns
-        -------
-        normal, delta, good
-            As `edit.displacement_field.move_normal` has them; None where numpy has to tell.
+        rows : (k,) int
+            The points.
         """
-        normal, delta = np.empty((len(rows), 3)), np.empty((len(rows), 3))
-        good = np.empty(len(rows), np.int8)
-        numbers = (xyz, values.knot, values.block, values.at, values.segment, rows, amount)
-        known = _displace(
-            *self._structure, *map(read_only, numbers), self._room, normal, delta, good
+        count = len(rows)
+        normal, along = np.empty((count, 3)), np.empty((count, 3))
+        square, good = np.empty(count), np.empty(count, np.int8)
+        numbers = (xyz, values.knot, values.block, values.at, values.segment, rows)
+        known = _find_freedoms(
+            *self._structure, *map(read_only, numbers), self._room, normal, along, square, good
         )
-        return (normal, delta, good.view(np.bool_)) if known else None
+        return (normal, along, square, good.view(np.bool_)) if known else None
 
     def pulled(
         self, xyz: FloatArray, movable: IntArray, place: FloatArray, radius: tuple[float, float],
@@ -575,14 +571,15 @@ def warm() -> bool:
     structure = FieldStructure(flags, two, two, two, flags, nowhere, flags, flags, nowhere, none,
                                0.0, 0.0, 0.0)  # fmt: skip
     freeze(none, nowhere, flags, two, wide)
-    room = np.zeros(1), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0, np.int8)
-    _displace(
+    room = (np.zeros(1), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0),
+            np.zeros(0, np.int8))  # fmt: skip
+    _find_freedoms(
         *structure.arrays(), 0.0, 0.0, 0.0, none, none, none, none, nowhere, wide, wide, wide, none,
-        none, wide, *room,
+        none, *room,
     )  # fmt: skip
     place, planes, borders = np.zeros(3), np.zeros((0, 4)), Borders.of([])
     freeze(place, planes)
     _pull(none, nowhere, place, planes, *borders.arrays(), 0.0, 1.0, 1.0, 1.0, 0.0,
           np.zeros(0, np.int64), np.zeros(0))  # fmt: skip
     _distance(place, *borders.arrays(), 1.0)
-    return was_loaded(displace) and was_loaded(pull) and was_loaded(distance)
+    return was_loaded(find_freedoms) and was_loaded(pull) and was_loaded(distance)

@@ -96,7 +96,7 @@ def test_what_is_not_known_is_left_to_numpy() -> None:
         rows = ground.free()
         compiled = ground.compiled()
         assert compiled is not None
-        assert compiled.displace(state.rows.xyz.data, numbers[1], rows, np.ones(len(rows))) is None
+        assert compiled.freedoms(state.rows.xyz.data, numbers[1], rows) is None
         assert ground.normals(rows).tobytes() == FieldContext(state, False).normals(rows).tobytes()
 
 
@@ -113,5 +113,7 @@ def test_nothing_is_compiled_for_what_an_edit_asks() -> None:
         for _ in range(3):
             with hull.edit("pull") as edit:
                 edit.pull("WL 2.5 x ST 7", 1e-3, (20.0, 5.0))
-    found = [getattr(each, "signatures", ()) for each in (made.displace, made.pull, made.distance)]
+    found = [
+        getattr(each, "signatures", ()) for each in (made.find_freedoms, made.pull, made.distance)
+    ]
     assert [len(each) for each in found] == [1, 1, 1]
