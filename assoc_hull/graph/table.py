@@ -23,6 +23,7 @@ from __future__ import annotations
 import itertools
 import sys
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from operator import attrgetter, eq, is_
 from types import EllipsisType
 from typing import Generic, Self, SupportsIndex, TypeVar, overload
@@ -230,14 +231,19 @@ class Column(Generic[S]):
         return self.data[rows]
 
 
+@lru_cache
+def _bytes_of(count: int) -> np.dtype[np.void]:
+    return np.dtype((np.void, count))
+
+
 def put_rows(
     array: NDArray[np.generic], rows: NDArray[np.int64], values: NDArray[np.generic]
 ) -> None:
     """Write rows of an array in one piece each, which numpy does three times as fast."""
-    if array.ndim == 1 or array.shape[1] == 1:
+    if array.ndim == 1 or array.shape[1] == 1 or len(rows) < _SINGLY:
         array[rows] = values.reshape(len(rows), *array.shape[1:])
         return
-    row = np.dtype((np.void, array.itemsize * array.shape[1]))
+    row = _bytes_of(array.itemsize * array.shape[1])
     whole = np.ascontiguousarray(values).reshape(len(rows), array.shape[1])
     array.view(row)[:, 0][rows] = whole.view(row)[:, 0]
 
