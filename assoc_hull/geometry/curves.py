@@ -204,8 +204,10 @@ class SplineBatch:
         start = np.zeros(len(places) + 1, np.int64)
         np.cumsum(count, out=start[1:])
         knots = np.arange(start[-1]) + np.repeat(self.start.take(places) - start[:-1], count)
-        columns = self.knot, self.xyz, self.leave, self.arrive
-        return SplineBatch(start, *(column.take(knots, axis=0) for column in columns))
+        return SplineBatch(
+            start, self.knot.take(knots), self.xyz.take(knots, axis=0),
+            self.leave.take(knots, axis=0), self.arrive.take(knots, axis=0),
+        )  # fmt: skip
 
     def single(self) -> list[SplineBatch]:
         """Give each curve as a batch of one; the arrays are views."""

@@ -73,7 +73,7 @@ def _state_of(part: object) -> object:
     return part.writes if isinstance(part, Column | ValueColumn) else part
 
 
-Marked = Mapping[Hashable, Mapping[Key, _Entry]]
+Marked = Mapping[Hashable, dict[Key, _Entry]]
 """All that was kept at one time."""
 
 _NOTHING: dict[Key, _Entry] = {}
@@ -87,7 +87,7 @@ class Derived:
     stand in a dict that is never changed, so that marks and other tables share it.
     """
 
-    _kinds: dict[Hashable, Mapping[Key, _Entry]] = attrs.field(factory=dict, init=False)
+    _kinds: dict[Hashable, dict[Key, _Entry]] = attrs.field(factory=dict, init=False)
     _gate: Gate = attrs.field(factory=Gate, init=False)
 
     def __reduce__(self) -> tuple[type[Derived], tuple[()]]:
