@@ -9,20 +9,25 @@ delta = U U^T n d / |U^T n|^2. The update runs a `NormalField` in sub-steps wher
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable, Iterator, Sequence
-from typing import Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
 import attrs
 import numpy as np
 
-from assoc_hull.edit.hull_normals import free_normals, normals_at
+from assoc_hull.edit.hull_normals import SHORT, free_normals, normals_at
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.graph.derived import Objects
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
+from assoc_hull.model.program.engine import fields_of
+from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.model.tables import HullState
+
+if TYPE_CHECKING:
+    from assoc_hull.model.program.compiled_fields import Borders, CompiledFields
 
 __all__ = [
     "CLOSE",
@@ -73,6 +78,29 @@ T = TypeVar("T")
 
 
 @attrs.frozen(eq=False)
+class PointFreedoms:
+    """Points with the normals of the hull, and what their freedom is of these.
+
+    Attributes
+    ----------
+    normal, along : (k, 3)
+        n and U U^T n.
+    square : (k,)
+        The square of the length of `along`; 1 for points that are not `good`.
+    good : (k,) bool
+        Whether a point may be moved: the freedom of the others is almost tangential.
+    """
+
+    normal: FloatArray
+    along: FloatArray
+    square: FloatArray
+    good: BoolArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.normal, self.along, self.square, self.good)
+
+
+@attrs.frozen(eq=False)
 class FieldContext:
     """What all fields of one (sub-)step read of a hull, as far as they ask for it.
 
@@ -82,10 +110,14 @@ class FieldContext:
         The tables as they stand; they stay so.
     across_flats : bool
         Whether flats are moved too.
+    numbers : (Program, Values) or None
+        A program of the hull, and its curves as they are in the tables: where it is compiled it
+        gives the same bits.
     """
 
     state: HullState
     across_flats: bool
+    numbers: tuple[Program, Values] | None = None
     _known: dict[Hashable, object] = attrs.field(factory=dict, init=False, repr=False)
 
     def _once(self, key: Hashable, make: Callable[[], T]) -> T:
@@ -94,6 +126,60 @@ class FieldContext:
             self._known[key] = make()
         # One key is made by one function, so its type is that of `make`.
         return cast("T", self._known[key])
+
+    def compiled(self) -> CompiledFields | None:
+        """Give what has the bits of all this in a compiled form, if it is at hand."""
+        if self.numbers is None:
+            return None
+        program, state = self.numbers[0], self.state
+        return self._once(
+            "compiled", lambda: fields_of(state, program, state.tolerances.factor * SHORT)
+        )
+
+    def freedoms(self, rows: IntArray) -> PointFreedoms:
+        """Give the normals at points (k,), and along what these points are free."""
+        return self._once(("freedoms", rows.tobytes()), lambda: self._find_freedoms(rows))
+
+    def _find_freedoms(self, rows: IntArray) -> PointFreedoms:
+        compiled = self.compiled()
+        if compiled is not None and self.numbers is not None:
+            found = compiled.freedoms(self.state.rows.xyz.data, self.numbers[1], rows)
+            if found is not None:
+                return PointFreedoms(*found)
+        normal = normals_at(self.state, rows)
+        along = free_normals(self.state, rows, normal)
+        square = (along * along).sum(axis=1)
+        good = np.sqrt(square) >= self.state.tolerances.field_normal
+        return PointFreedoms(normal, along, np.where(good, square, 1.0), good)
+
+    def pulled(
+        self, place: FloatArray, radius: tuple[float, float], amount: float, flat_fade: float
+    ) -> tuple[IntArray, FloatArray] | None:
+        """Give the points that a pull reaches, and how far each is to move; None if not compiled.
+
+        Towards flats it fades within `flat_fade`, m; nothing does so where that is infinite.
+        """
+        compiled = self.compiled()
+        if compiled is None:
+            return None
+        state, planes = self.state, [] if self.across_flats else _flat_planes(self.state)
+        return compiled.pulled(
+            state.rows.xyz.data, _movable(state, self.across_flats), place, radius, amount,
+            np.array(planes).reshape(-1, 4), self._borders(compiled), flat_fade, _IN_PLANE,
+        )  # fmt: skip
+
+    def _borders(self, compiled: CompiledFields) -> Borders:
+        state, borders = self.state, _flat_borders(self.state)[0]
+        return state.derived(
+            ("runs of flat borders",), (Objects([borders]),), lambda: compiled.runs_of(borders)
+        )
+
+    def flat_distance(self, row: int, within: float) -> float:
+        """Give the distance of a point from the nearest border, m; beyond `within` perhaps inf."""
+        compiled = self.compiled()
+        if compiled is None:
+            return float(self.flat_distances(np.array([row]), within)[0])
+        return compiled.distance(self.state.rows.xyz.data[row], self._borders(compiled), within)
 
     def free(self) -> IntArray:
         """Give the points that fields may move, ascending."""
@@ -107,11 +193,13 @@ class FieldContext:
     def may_move(self, row: int) -> bool:
         """Tell whether fields may move a point."""
         movable = _movable(self.state, self.across_flats)
-        return bool(len(self._off_planes(movable[movable == row])))
+        place = int(movable.searchsorted(row))
+        here = movable[place : place + 1]
+        return bool(len(self._off_planes(here[here == row])))
 
     def normals(self, rows: IntArray) -> FloatArray:
         """Give the unit outward normals at points (k,): (k, 3)."""
-        return self._once(("normals", rows.tobytes()), lambda: normals_at(self.state, rows))
+        return self.freedoms(rows).normal
 
     def flat_distances(self, rows: IntArray, within: float = np.inf) -> FloatArray:
         """Give the distances of points (k,) from the nearest border, as `flat_distance`, m."""
@@ -275,9 +363,16 @@ def flat_distance(state: HullState, places: FloatArray, within: float = np.inf) 
 
 def _flat_borders(state: HullState) -> tuple[list[FloatArray], FloatArray, FloatArray]:
     """Give places (k, 3), m, along each border curve of flats; the least and largest of each."""
-    curves = state.lines.curves.data
-    flats = _boundary_lines(state, BoundaryKind.FLAT).tolist()
-    splines = [state.spline(curve) for line in flats for curve in curves[line]]
+    lines, shape = state.lines, state.curves.spline.data
+    curves = state.derived(
+        ("curves of flats",), (lines.alive, lines.boundary, lines.curves),
+        lambda: [
+            curve for line in _boundary_lines(state, BoundaryKind.FLAT).tolist()
+            for curve in lines.curves.data[line]
+        ],
+    )  # fmt: skip
+    # A published curve has a shape.
+    splines = [cast("SplineBatch", shape[curve]) for curve in curves]
 
     def find() -> tuple[list[FloatArray], FloatArray, FloatArray]:
         borders = [sample(each, 4)[1] for each in splines]
@@ -292,13 +387,13 @@ def move_normal(ground: FieldContext, rows: IntArray, amount: FloatArray) -> Poi
 
     `amount` (k,), m, is positive outward. Points whose freedom is almost tangential stay.
     """
-    normal = ground.normals(rows)
-    along = free_normals(ground.state, rows, normal)
-    square = (along * along).sum(axis=1)
-    good = np.sqrt(square) >= ground.state.tolerances.field_normal
-    delta = along * (amount / np.where(good, square, 1.0))[:, None]
-    moved = good & (amount != 0.0)
-    return PointDisplacements(rows[moved], delta[moved], rows[~good & (amount != 0.0)])
+    free = ground.freedoms(rows)
+    delta = free.along * (amount / free.square)[:, None]
+    asked = amount != 0.0
+    moved = free.good & asked
+    if moved.all():
+        return PointDisplacements(rows, delta, rows[:0])
+    return PointDisplacements(rows[moved], delta[moved], rows[~free.good & asked])
 
 
 def row_spacing(state: HullState, place: FloatArray) -> float:
@@ -324,6 +419,11 @@ def add_displacements(shifts: list[PointDisplacements], pinned: set[int]) -> Poi
     Summed in the order in which the fields were asked for, so the bits do not depend on
     anything else.
     """
+    if len(shifts) == 1 and not pinned:
+        only = shifts[0]
+        ascends = bool((only.rows[1:] > only.rows[:-1]).all())
+        if ascends and not len(only.left):
+            return PointDisplacements(only.rows, 0.0 + only.delta, only.left)
     rows = np.unique(np.concatenate([shift.rows for shift in shifts]))
     rows = rows[~np.isin(rows, sorted(pinned))]
     total = np.zeros((len(rows), 3))
@@ -412,6 +512,10 @@ class PullField:
 
     def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
         """Give the displacements for a part of the whole pull."""
+        fade = np.inf if self.across_flats else self.flat_fade
+        found = ground.pulled(self.place, self.radius, part * self.amount, fade)
+        if found is not None:
+            return move_normal(ground, *found)
         rows = ground.free_near(self.place, self.radius)
         step = ground.state.rows.xyz[rows] - self.place
         girth = np.sqrt(step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
@@ -435,7 +539,7 @@ class PullField:
 
     def left(self, state: HullState, done: float) -> float:
         """Give the part of the pull that the point lacks, whatever part was `done`."""
-        if not state.rows.alive[self.row]:
+        if not state.rows.alive.data[self.row]:
             return 1.0 - done
         return 1.0 - self.reached(state) / self.amount
 
@@ -444,11 +548,13 @@ class PullField:
 
         A watched crossing has no value: it lies where its first curve passes.
         """
-        watched = state.rows.role[self.row] == Role.WATCHED
-        crossing = state.rows.sort[self.row] == Sort.CROSSING
         table = state.rows
-        now = table.spot[self.row, 0] if watched and crossing else table.xyz[self.row]
-        return float(((now - self.place) * self.normal).sum())
+        watched = table.role.data[self.row] == Role.WATCHED
+        crossing = table.sort.data[self.row] == Sort.CROSSING
+        now = table.spot.data[self.row, 0] if watched and crossing else table.xyz.data[self.row]
+        way = zip(now.tolist(), self.place.tolist(), self.normal.tolist(), strict=True)
+        x, y, z = [(to - at) * along for to, at, along in way]
+        return float(x + y + z)
 
 
 def unreached(
@@ -461,18 +567,17 @@ def unreached(
     pull = fields[0] if len(fields) == 1 else None
     if not isinstance(pull, PullField) or pull.row in pinned:
         return
-    where = address(state, pull.row)
     if not state.rows.alive[pull.row]:
-        yield f"{where} was pulled and has gone: pull by less, or another point"
+        yield f"{address(state, pull.row)} was pulled and has gone: pull by less, or another point"
         return
-    driver = int(state.rows.driver[pull.row])
+    driver = int(state.rows.driver.data[pull.row])
     if driver >= 0 and state.curves.state[driver] != State.CLEAN:
         return
     reached = pull.reached(state)
     if abs(reached - pull.amount) > _NEARLY * abs(pull.amount):
         yield (
-            f"{where} came {1e3 * reached:.1f} mm along the normal where {1e3 * pull.amount:.1f} "
-            f"mm were asked{_what_held(state, pull)}"
+            f"{address(state, pull.row)} came {1e3 * reached:.1f} mm along the normal where "
+            f"{1e3 * pull.amount:.1f} mm were asked{_what_held(state, pull)}"
         )
 
 

@@ -18,6 +18,7 @@ import operator
 from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
 from functools import partial
+from itertools import repeat
 from typing import Protocol
 
 import attrs
@@ -659,18 +660,20 @@ class Document:
 
     def _revisions(self, step: Step) -> _Revisions:
         """Give the revisions of everything whose geometry a step changes, as they are."""
-        return [
-            (revisions, {number: revisions.get(number, 0) for number in numbers.tolist()})
-            for numbers, revisions in (
-                (step.rows, self.state.revision_row), (step.curves, self.state.revision_curve),
-            )
-        ]  # fmt: skip
+        found = list[tuple[dict[int, int], dict[int, int]]]()
+        for changed, revisions in (
+            (step.rows, self.state.revision_row), (step.curves, self.state.revision_curve),
+        ):  # fmt: skip
+            numbers = changed.tolist()
+            was = zip(numbers, map(revisions.get, numbers, repeat(0)), strict=True)
+            found.append((revisions, dict(was)))
+        return found
 
     def _revise(self, revised: _Revisions) -> None:
         """Raise those revisions."""
         for revisions, was in revised:
             # At once: an interrupt finds all of them raised or none.
-            revisions.update({number: before + 1 for number, before in was.items()})
+            revisions.update(dict(zip(was, map((1).__add__, was.values()), strict=True)))
 
 
 _Revisions = list[tuple[dict[int, int], dict[int, int]]]

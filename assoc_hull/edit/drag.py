@@ -174,10 +174,11 @@ class _QuickWay:
                 adopted = state.rows.sort[row] == Sort.ADOPTED
                 freedom = PointFreedom.of(state, row)
                 return None if adopted else cls(numbers, state, row, freedom, None, None)
-            pull = pull_field(state, row, 1.0, radius, across_flats=across_flats)
+            mine = published.program, published.values
+            pull = pull_field(state, row, 1.0, radius, across_flats=across_flats, numbers=mine)
         except AssocHullError:
             return None  # each step says why
-        ground = FieldContext(state, across_flats)
+        ground = FieldContext(state, across_flats, mine)
         return None if curves_to_hold(state, row) else cls(numbers, state, row, None, pull, ground)
 
     def written(self, asked: dict[str, float]) -> tuple[IntArray, FloatArray] | None:

@@ -20,11 +20,12 @@ from assoc_hull.edit.displacement_field import (
 from assoc_hull.edit.followup.detach_curves import detach_rows
 from assoc_hull.edit.modification import Modification, Pending, Work
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.journal import Journal, distinct
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.network import bits_differ
+from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.model.tables import HullState
 
 __all__ = ["FieldMoves"]
@@ -87,6 +88,7 @@ class FieldMoves(Modification):
         self, state: HullState, journal: Journal, pending: Pending, rows: IntArray,
         origin: FloatArray, update: Callable[[IntArray], bool],
         detach: Callable[[IntArray], None] | None = None,
+        numbers: tuple[Program, Values] | None = None,
     ) -> tuple[IntArray, FloatArray] | None:  # fmt: skip
         """Run the fields; give all points that were set, and how far they lie from before, m.
 
@@ -104,45 +106,52 @@ class FieldMoves(Modification):
             done, and None is given.
         detach : callable or None
             Called with the points of a sub-step before they are written.
+        numbers : (Program, Values) or None
+            A program, whose numbers `update` brings to what is in the tables.
         """
         fields, held = self.fields, pending.held
         across = any(field.across_flats for field in fields)
-        pinned, touched = set(pending.values), set(rows.tolist())
-        ground = FieldContext(state, across)
+        pinned, touched = set(pending.values), [rows]
+        ground = FieldContext(state, across, numbers)
         shift = add_displacements([field.shift(ground, 1.0) for field in fields], pinned)
         steps, whole = sub_step_count(state, shift), shift
         landing = np.concatenate([field.exact()[0] for field in fields])
+        xyz = state.rows.xyz
         for step in range(steps + _MORE):
             part = _part(state, fields, step, steps)
             if part == 0.0:
                 break
             if step:
-                ground = FieldContext(state, across)
+                ground = FieldContext(state, across, numbers)
             shift = whole
             if step or part != 1.0:
                 shift = add_displacements([field.shift(ground, part) for field in fields], pinned)
-            reached = np.union1d(shift.rows, landing)
-            before = state.rows.xyz[reached]
+            reached = (
+                distinct(np.concatenate([shift.rows, landing])) if len(landing) else shift.rows
+            )
+            before = xyz.data.take(reached, axis=0)
             if detach is not None:
                 detach(shift.rows)
-            journal.put(state.rows.xyz, shift.rows, state.rows.xyz[shift.rows] + shift.delta)
-            if step == steps - 1:
+            journal.put(xyz, shift.rows, xyz.data.take(shift.rows, axis=0) + shift.delta)
+            if step == steps - 1 and len(landing):
                 land_points(state, journal, fields)
-            shifted = reached[bits_differ(before, state.rows.xyz[reached])]
-            held |= set(shifted[state.rows.sort[shifted] == Sort.ADOPTED].tolist())
-            touched |= set(shifted.tolist())
-            if not update(np.union1d(shifted, rows) if step == 0 else shifted):
+            shifted = reached[bits_differ(before, xyz.data.take(reached, axis=0))]
+            held |= set(shifted[state.rows.sort.data.take(shifted) == Sort.ADOPTED].tolist())
+            touched.append(shifted)
+            first = step == 0 and len(rows) > 0
+            if not update(distinct(np.concatenate([shifted, rows])) if first else shifted):
                 return None
         pending.notes += [
             f"{address(state, row)}: left alone, it is free almost along the hull only"
             for row in shift.left.tolist()
         ]
         rebase_adopted_points(state, np.array(sorted(held), np.int64), journal)
-        every = np.array(sorted(touched), np.int64)
+        every = distinct(np.concatenate(touched))
         every = every[every < len(origin)]
-        every = every[bits_differ(state.rows.xyz[every], origin[every])]
-        moved = state.rows.xyz[every] - origin[every]
-        return every, np.sqrt((moved * moved).sum(axis=1))
+        now, then = xyz.data.take(every, axis=0), origin.take(every, axis=0)
+        odd = np.flatnonzero(bits_differ(now, then))
+        moved = now.take(odd, axis=0) - then.take(odd, axis=0)
+        return every[odd], np.sqrt((moved * moved).sum(axis=1))
 
 
 def _part(state: HullState, fields: list[NormalField], step: int, steps: int) -> float:

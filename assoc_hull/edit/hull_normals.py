@@ -20,6 +20,7 @@ from assoc_hull.model.lofting import loft_curves
 from assoc_hull.model.tables import HullState
 
 __all__ = [
+    "SHORT",
     "curve_tangents",
     "free_normals",
     "hull_normals",
@@ -27,7 +28,7 @@ __all__ = [
     "shape_columns",
 ]
 
-_SHORT = 1e-6
+SHORT = 1e-6
 """Times `Tolerances.factor`: ends nearer than this (m) along a curve's course do not tell its
 direction."""
 
@@ -72,7 +73,7 @@ def _course(state: HullState, curves: IntArray) -> FloatArray:
     across = np.abs(state.lines.normal.data.take(line, axis=0)[:, 0]) > 0.5
     away = ends[:, 1] - ends[:, 0]
     run = np.where(across, away[:, 2], away[:, 0])
-    short = np.abs(run) < state.tolerances.factor * _SHORT
+    short = np.abs(run) < state.tolerances.factor * SHORT
     # A closed curve: the sense in which it goes round decides.
     for i in np.flatnonzero(short).tolist():
         xyz = state.rows.xyz.data[state.curves.rows.data[int(curves[i])]]

@@ -11,9 +11,11 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Mapping, Sequence
+from typing import cast
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.document import Document
@@ -59,7 +61,8 @@ _NONE: IntArray = np.zeros(0, np.int64)
 class _Pass:
     """One run: the points that were set, those that moved for it, the curves that were lofted.
 
-    `held` are adopted points that did not ride, `step` (k, 3), m, is how far `rows` moved.
+    `held` are adopted points that did not ride, `step` (k, 3), m, is how far `rows` moved; `odd`
+    (c,) tells which curves differ from the published ones.
     """
 
     seeds: IntArray
@@ -69,6 +72,7 @@ class _Pass:
     curves: IntArray
     old: Sequence[SplineBatch]
     new: Sequence[SplineBatch]
+    odd: NDArray[np.bool_]
 
     def distances(self) -> dict[int, float]:
         """Give how far each node moved, m; curves that came out as they were are left out."""
@@ -84,13 +88,8 @@ class _Pass:
         return found
 
     def changed_curves(self) -> IntArray:
-        """Give the curves that differ from what they were, ascending."""
-        # A curve is lofted as a point of it has changed by a bit; zeros of two signs are equal.
-        differs = [
-            bool((old.xyz != new.xyz).any() or (old.leave != new.leave).any())
-            for old, new in zip(self.old, self.new, strict=True)
-        ]
-        return np.sort(self.curves[np.array(differs, np.bool_)])
+        """Give the curves that differ from the published ones, ascending."""
+        return np.sort(self.curves[self.odd])
 
 
 @attrs.frozen(eq=False)
@@ -346,7 +345,10 @@ class ProgramEdit:
         moves = pending.asked(FieldMoves)
         if moves is not None and moves.fields:
             origin = self.numbers.published.values.xyz
-            found = moves.carry_out(state, journal, pending, rows, origin, self._run)
+            numbers = self.numbers.published.program, self.numbers.values
+            found = moves.carry_out(
+                state, journal, pending, rows, origin, self._run, numbers=numbers
+            )
             if found is None:
                 return None
             rows, away = found
@@ -395,13 +397,16 @@ class ProgramEdit:
         step = place - state.rows.xyz[rows]
         self.journal.put(state.rows.xyz, rows, place)
         curves = program.number[run.curves]
-        numbers, table = curves.tolist(), state.curves
-        old, new = [state.spline(curve) for curve in numbers], list[SplineBatch]()
+        numbers, table, shape = curves.tolist(), state.curves, state.curves.spline.data
+        # A program has a shape of every curve.
+        old = [cast("SplineBatch", shape[curve]) for curve in numbers]
+        new, odd = list[SplineBatch](), np.zeros(0, np.bool_)
         if numbers:
-            new = self.numbers.splines(run.curves).single()
+            batch, odd = self.numbers.told_splines(run.curves)
+            new = batch.single()
             self.journal.set(table.spline, numbers, new)
             self._write_meetings(run.curves, numbers)
-        self.passes.append(_Pass(seeds, held, rows, step, curves, old, new))
+        self.passes.append(_Pass(seeds, held, rows, step, curves, old, new, odd))
 
     def _write_meetings(self, local: IntArray, numbers: list[int]) -> None:
         """Write where curves meet the planes of others, and crossings lie on them."""

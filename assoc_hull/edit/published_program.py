@@ -13,6 +13,7 @@ from typing import Protocol
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.curve_order import curve_folds
@@ -25,7 +26,14 @@ from assoc_hull.model.program.run_program import NumpyProgram, ProgramRun, RunPr
 from assoc_hull.model.program.structure import Program, PublishedProgram, Values, compile_program
 from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["HasProgram", "KeptProgram", "LiveNumbers", "numbers_for_edit", "published_program"]
+__all__ = [
+    "HasProgram",
+    "KeptProgram",
+    "LiveNumbers",
+    "known_numbers",
+    "numbers_for_edit",
+    "published_program",
+]
 
 
 @attrs.define(eq=False)
@@ -60,14 +68,11 @@ class LiveNumbers:
 
     def splines(self, curves: IntArray) -> SplineBatch:
         """Give curves, as the program counts them, as they are in these numbers; there is one."""
-        program, values = self.published.program, self.values
-        spans = [(int(program.start[c]), int(program.start[c + 1])) for c in curves.tolist()]
-        start = np.zeros(len(spans) + 1, np.int64)
-        np.cumsum([b - a for a, b in spans], out=start[1:])
-        blocks = [values.block[9 * a : 9 * b].reshape(9, b - a) for a, b in spans]
-        block = np.concatenate(blocks, axis=1)
-        knot = np.concatenate([values.knot[a:b] for a, b in spans])
-        return SplineBatch(start, knot, block[:3].T, block[3:6].T, block[6:].T)
+        return self.told_splines(curves)[0]
+
+    def told_splines(self, curves: IntArray) -> tuple[SplineBatch, NDArray[np.bool_]]:
+        """Give these curves, and which differ from the published ones."""
+        return self.runner.splines(self.values, self.published.values, curves)
 
 
 @attrs.define(eq=False)
@@ -160,6 +165,20 @@ def published_program(
     """
     at = _at_hand(document, document.state.published() if state is None else state, lend=True)
     return None if at is None else at.found
+
+
+def known_numbers(document: HasProgram) -> tuple[Program, Values] | None:
+    """Give the program with its published numbers if they are at hand, to be read at once.
+
+    For whoever has the right to write, and has not written yet.
+    """
+    kept, state = document.program, document.state.published()
+
+    def known() -> tuple[Program, Values] | None:
+        at = kept.at_hand
+        return (at.found.program, at.found.values) if at and at.state is state else None
+
+    return kept.gate.alone(known)
 
 
 def numbers_for_edit(document: HasProgram) -> tuple[LiveNumbers, HullNetwork] | None:

@@ -159,7 +159,7 @@ def chosen_curves(batch: SplineBatch, places: IntArray) -> SplineBatch:
     """Give some curves of a batch; none may be chosen."""
     if len(places) == batch.count:
         return batch
-    return joined([batch.part(place, place + 1) for place in places.tolist()])
+    return batch.take(places)
 
 
 def section_areas(batch: SplineBatch, draught: float) -> FloatArray:

@@ -154,8 +154,10 @@ class Transaction:
         self.pending = Pending()
         del self._stages[keep:]
 
-    def write(self, rows: IntArray, values: FloatArray, what: str) -> None:
+    def write(self, rows: IntArray, values: FloatArray, what: str | Callable[[], str]) -> None:
         """Set the places of points; they are written when the transaction ends.
+
+        `what` is told, or tells, in errors.
 
         Raises
         ------
@@ -163,13 +165,14 @@ class Transaction:
             If a point is written twice, or a number is not finite.
         """
         if not np.isfinite(values).all():
-            raise BadInputError("a coordinate is not finite", f"in {what}", "give finite numbers")
+            where = f"in {what if isinstance(what, str) else what()}"
+            raise BadInputError("a coordinate is not finite", where, "give finite numbers")
         for row, value in zip(rows.tolist(), values, strict=True):
             if row in self.pending.values:
                 key = self.state.rows.key[row]
                 raise BadInputError(
                     "a point is written twice in one transaction",
-                    f"{key}, in {what}",
+                    f"{key}, in {what if isinstance(what, str) else what()}",
                     "leave one of the two out, or use two transactions",
                 )
             self.pending.values[row] = value

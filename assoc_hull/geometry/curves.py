@@ -153,9 +153,9 @@ class SplineBatch:
         The defining points.
     leave, arrive : (n, 3)
         Derivative after and before each knot; they differ at knuckles only.
-    home : (SplineBatch, int) or None
+    home, place : SplineBatch or None, int
         The batch that a single curve is a view of, and its place there; `join` then need not
-        copy.
+        copy. The two are no tuple: the collector of garbage would have one more thing to look at.
     """
 
     start: IntArray
@@ -163,7 +163,8 @@ class SplineBatch:
     xyz: FloatArray
     leave: FloatArray
     arrive: FloatArray
-    home: tuple[SplineBatch, int] | None = attrs.field(default=None, repr=False)
+    home: SplineBatch | None = attrs.field(default=None, repr=False)
+    place: int = attrs.field(default=0, repr=False)
 
     def __attrs_post_init__(self) -> None:
         freeze(self.start, self.knot, self.xyz, self.leave, self.arrive)
@@ -197,6 +198,17 @@ class SplineBatch:
             self.arrive[a:b],
         )
 
+    def take(self, places: IntArray) -> SplineBatch:
+        """Give some of the curves, in any order; the arrays are copies."""
+        count = (self.start[1:] - self.start[:-1]).take(places)
+        start = np.zeros(len(places) + 1, np.int64)
+        np.cumsum(count, out=start[1:])
+        knots = np.arange(start[-1]) + np.repeat(self.start.take(places) - start[:-1], count)
+        return SplineBatch(
+            start, self.knot.take(knots), self.xyz.take(knots, axis=0),
+            self.leave.take(knots, axis=0), self.arrive.take(knots, axis=0),
+        )  # fmt: skip
+
     def single(self) -> list[SplineBatch]:
         """Give each curve as a batch of one; the arrays are views."""
         knot, xyz, leave, arrive = self.knot, self.xyz, self.leave, self.arrive
@@ -209,13 +221,21 @@ class SplineBatch:
             _set_xyz(one, xyz[a:b])
             _set_leave(one, leave[a:b])
             _set_arrive(one, arrive[a:b])
-            _set_home(one, (self, place))
+            _set_home(one, self)
+            _set_place(one, place)
             found.append(one)
         return found
 
     @classmethod
     def join(cls, parts: Sequence[SplineBatch]) -> SplineBatch:
         """Put batches one behind the other; neighbours in one batch need no copy."""
+        batch = parts[0].home if len(parts) > 1 else None
+        if batch is not None and all(part.home is batch for part in parts):
+            places = [part.place for part in parts]
+            first, last = places[0], places[-1]
+            if places == list(range(first, last + 1)):
+                return batch.part(first, last + 1)
+            return batch.take(np.array(places))
         runs = list(_runs(parts))
         if len(runs) == 1:
             return runs[0]
@@ -232,7 +252,7 @@ class SplineBatch:
 
 
 _new = object.__new__
-_set_start, _set_knot, _set_xyz, _set_leave, _set_arrive, _set_home = (
+_set_start, _set_knot, _set_xyz, _set_leave, _set_arrive, _set_home, _set_place = (
     getattr(SplineBatch, field.name).__set__ for field in attrs.fields(SplineBatch)
 )
 
@@ -248,15 +268,14 @@ def _runs(parts: Sequence[SplineBatch]) -> Iterator[SplineBatch]:
     """Put curves that are neighbours in the batch they come from together again."""
     i = 0
     while i < len(parts):
-        home = parts[i].home
+        batch, first = parts[i].home, parts[i].place
         stop = i + 1
-        if home is None:
+        if batch is None:
             yield parts[i]
         else:
-            batch, first = home
             while stop < len(parts):
-                other = parts[stop].home
-                if other is None or other[0] is not batch or other[1] != first + stop - i:
+                other = parts[stop]
+                if other.home is not batch or other.place != first + stop - i:
                     break
                 stop += 1
             yield batch.part(first, first + stop - i)

@@ -73,15 +73,18 @@ def _state_of(part: object) -> object:
     return part.writes if isinstance(part, Column | ValueColumn) else part
 
 
-Marked = Mapping[Hashable, Mapping[Key, _Entry]]
+Marked = Mapping[Hashable, dict[Key, _Entry]]
 """All that was kept at one time."""
+
+_NOTHING: dict[Key, _Entry] = {}
 
 
 @attrs.frozen(eq=False)
 class Derived:
     """Things by kind and key, the last one of each, those that were asked for last at the end.
 
-    Several threads may ask; what two ask for at once may be made twice.
+    Several threads may ask; what two ask for at once may be made twice. The things of one kind
+    stand in a dict that is never changed, so that marks and other tables share it.
     """
 
     _kinds: dict[Hashable, dict[Key, _Entry]] = attrs.field(factory=dict, init=False)
@@ -108,33 +111,32 @@ class Derived:
         most : int
             So many of a kind are kept; the one that was not asked for longest goes.
         """
-        stamp = _stamp(depends_on)
-        entry = self._kinds.get(key[0], {}).get(key)
+        stamp, kind = _stamp(depends_on), self._kinds.get(key[0], _NOTHING)
+        entry = kind.get(key)
         if entry is None or entry.stamp != stamp:
             entry = _Entry(depends_on, stamp, make())
+        elif kind[next(reversed(kind))] is entry:
+            return cast("T", entry.value)  # it is the last of its kind already
         self._gate.alone(partial(self._put, key, entry, most))
         # One kind is made by one function, so its type is that of `make`.
         return cast("T", entry.value)
 
     def _put(self, key: Key, entry: _Entry, most: int) -> None:
         """Keep an entry as the last of its kind."""
-        kind = self._kinds.setdefault(key[0], {})
+        kind = dict(self._kinds.get(key[0], _NOTHING))
         kind.pop(key, None)
         kind[key] = entry
         self._most[key[0]] = most
-        self._trim(key[0])
+        self._kinds[key[0]] = self._trimmed(key[0], kind)
 
-    def _trim(self, name: Hashable) -> None:
+    def _trimmed(self, name: Hashable, kind: dict[Key, _Entry]) -> dict[Key, _Entry]:
         """Let go of what was not asked for longest, where there is more of a kind than is kept."""
-        kind, most = self._kinds[name], self._most.get(name)
-        while most is not None and len(kind) > most:
-            del kind[next(iter(kind))]
+        most = self._most.get(name, len(kind))
+        return dict(tuple(kind.items())[-most:]) if len(kind) > most else kind
 
     def mark(self) -> Marked:
         """Give all that is kept now, for `restore`."""
-        return self._gate.alone(
-            lambda: {kind: dict(entries) for kind, entries in self._kinds.items()}
-        )
+        return self._gate.alone(self._kinds.copy)
 
     def add(self, other: Derived) -> None:
         """Keep what another one does as well; it is true where the columns are the same."""
@@ -143,11 +145,13 @@ class Derived:
     def _add(self, known: Marked, most: Mapping[Hashable, int]) -> None:
         self._most.update(most)
         for kind, entries in known.items():
-            mine = self._kinds.setdefault(kind, {})
-            for key, entry in entries.items():
-                mine.setdefault(key, entry)
-            # Else what states hand on from one to the next would pile up.
-            self._trim(kind)
+            mine = self._kinds.get(kind)
+            if mine is None:
+                self._kinds[kind] = entries
+            elif mine is not entries and not entries.keys() <= mine.keys():
+                both = {**mine, **{k: entries[k] for k in entries if k not in mine}}
+                # Else what states hand on from one to the next would pile up.
+                self._kinds[kind] = self._trimmed(kind, both)
 
     def restore(self, mark: Marked) -> None:
         """Bring back what was kept, as the columns are again what they were then.
@@ -157,13 +161,11 @@ class Derived:
         self._gate.alone(partial(self._restore, mark))
 
     def _restore(self, mark: Marked) -> None:
-        for kind, entries in self._kinds.items():
-            before = mark.get(kind, {})
-            for key, entry in tuple(entries.items()):
-                if entry is not before.get(key) and not entry.holds():
-                    del entries[key]
-        for kind, known in mark.items():
-            kept = self._kinds.setdefault(kind, {})
-            for key, entry in known.items():
-                kept.setdefault(key, entry)
-            self._trim(kind)
+        for kind, entries in tuple(self._kinds.items()):
+            before = mark.get(kind, _NOTHING)
+            if entries is not before:
+                self._kinds[kind] = {
+                    key: entry for key, entry in entries.items()
+                    if entry is before.get(key) or entry.holds()
+                }  # fmt: skip
+        self._add(mark, {})

@@ -12,7 +12,6 @@ Examples
 
 from __future__ import annotations
 
-import contextlib
 import threading
 from collections.abc import Callable
 from typing import TypeVar
@@ -41,5 +40,7 @@ class Gate:
             with self._lock:
                 return act()
         finally:
-            with contextlib.suppress(RuntimeError):  # it has been given back: the usual case
+            try:  # noqa: SIM105  # `suppress` takes three times as long, thirty times an edit
                 self._lock.release()
+            except RuntimeError:  # it has been given back: the usual case
+                pass

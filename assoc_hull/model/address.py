@@ -165,7 +165,15 @@ class AddressBook:
 
     def resolve(self, text: str) -> ResolvedAddress:
         """Find what an address leads to; see the function `resolve_address`."""
-        found = self._lookup(word(text, "the address", "in a look-up").strip())
+        plain = word(text, "the address", "in a look-up").strip()
+        groups, lines, curves = self.state.groups, self.state.lines, self.state.curves
+        rows = self.state.rows
+        depends_on = (
+            groups.alive, groups.name, lines.alive, lines.key, lines.group, lines.name,
+            lines.curves, curves.alive, curves.key, curves.line, curves.rows, rows.alive, rows.key,
+            rows.label, rows.curve, rows.sort, rows.birth,
+        )  # fmt: skip
+        found = self.state.derived(("looked up", plain), depends_on, lambda: self._lookup(plain))
         if found is None:
             raise UnknownNameError("object", shown_name(text), tuple(self._known(text)))
         return found

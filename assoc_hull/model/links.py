@@ -147,13 +147,16 @@ def free_axes(state: HullState, row: int) -> tuple[str, ...]:
     """
     curves = [curve for curve in state.rows.curve[row].tolist() if curve >= 0]
     lines = [state.line_of(curve) for curve in curves]
-    normals = [state.lines.normal[line] for line in lines if state.lines.planar[line]]
+    planar, normal = state.lines.planar.data, state.lines.normal.data
+    normals: list[list[float]] = [normal[line].tolist() for line in lines if planar[line]]
     if len(normals) == 2:
-        along = np.abs(np.cross(normals[0], normals[1]))
-        if along.max() > _PARALLEL:
-            return (AXES[int(along.argmax())],)
+        a, b = normals
+        along = [abs(a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2]) for i in range(3)]
+        if max(along) > _PARALLEL:
+            return (AXES[along.index(max(along))],)
     if normals:
-        steepest = int(np.abs(normals[0]).argmax())
+        sizes = [abs(part) for part in normals[0]]
+        steepest = sizes.index(max(sizes))
         return tuple(axis for i, axis in enumerate(AXES) if i != steepest)
     return AXES
 

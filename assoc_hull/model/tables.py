@@ -405,11 +405,17 @@ class HullState:
 
         While somebody writes that is how they were before. Numbers are copied by whoever writes.
         """
-        return self if self._live is not None else _GATE.alone(self._published_now)
+        if self._live is not None:
+            return self
+        if self._written_here is not None and self._published is not None:
+            return self._published  # it was made before anybody began to write, and stays
+        return _GATE.alone(self._published_now)
 
     def _published_now(self) -> HullState:
         if self._written_here is None and not self._is_current():
+            taken = writes_begun()
             self._published = self._shared(self, self._published)
+            self._looked = taken
         assert self._published is not None, "made above, or before anybody began to write"
         return self._published
 

@@ -8,7 +8,7 @@ by which it falls outward from the horizontal.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import attrs
 import numpy as np
@@ -176,7 +176,7 @@ def _refuse_taken(state: HullState, group: str, cut: CuttingPlane, own: int) -> 
 
 
 def checked_in_planes(
-    state: HullState, lines: list[int], xyz: FloatArray, where: str
+    state: HullState, lines: list[int], xyz: FloatArray, where: str | Callable[[], str]
 ) -> FloatArray:
     """Check that places lie in the planes of lines; put them there to the bit.
 
@@ -188,8 +188,8 @@ def checked_in_planes(
         The lines; space curves among them are passed over.
     xyz : (3,) or (k, 3), m
         The places.
-    where : str
-        For the error.
+    where : str or callable
+        For the error; or what tells it.
 
     Returns
     -------
@@ -201,20 +201,22 @@ def checked_in_planes(
         A place is farther off a plane than `IN_PLANE`.
     """
     out = np.array(xyz, np.float64)
-    planar = [line for line in lines if state.lines.planar[line]]
-    for line in sorted(planar, key=lambda each: float(state.lines.normal[each].max())):
-        normal, offset = state.lines.normal[line], float(state.lines.offset[line])
-        terms = out * normal
-        away = terms[..., 0] + terms[..., 1] + terms[..., 2] - offset
-        most = float(np.abs(away).max())
+    planar = [line for line in lines if state.lines.planar.data[line]]
+    for line in sorted(planar, key=lambda each: max(state.lines.normal.data[each].tolist())):
+        normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
+        # Column by column, which of one place are plain numbers.
+        x, y, z = (out[..., axis] * normal[axis] for axis in range(3))
+        away = x + y + z - offset
+        most = abs(float(away)) if out.ndim == 1 else float(np.abs(away).max())
         if most > IN_PLANE:
             name = state.lines.name[line]
             what = f"the place lies {most:.3g} m off the plane of {name}"
-            raise BadInputError(what, where, "give a place in that plane")
-        if (normal == 1.0).any():
+            told = where if isinstance(where, str) else where()
+            raise BadInputError(what, told, "give a place in that plane")
+        if 1.0 in normal.tolist():
             out[..., normal == 1.0] = offset
         elif most > _ROUNDED:
-            out -= away[..., None] * normal
+            out -= np.asarray(away)[..., None] * normal
     return out
 
 
@@ -238,9 +240,9 @@ def completed_in_planes(
     for axis, value in given.items():
         out[axis] = value
     table = state.lines
-    planar = [line for line in lines if table.planar[line]]
-    oblique = [line for line in planar if table.normal[line].max() < 1.0]
-    held = {int(table.normal[line].argmax()) for line in planar if line not in oblique}
+    normals = {line: table.normal.data[line].tolist() for line in lines if table.planar.data[line]}
+    oblique = [line for line in lines if line in normals and max(normals[line]) < 1.0]
+    held = {each.index(max(each)) for line, each in normals.items() if line not in oblique}
     open_axes = [axis for axis in range(3) if axis not in given and axis not in held]
     if len(oblique) == len(open_axes) == 1:
         normal, axis = table.normal[oblique[0]], open_axes[0]

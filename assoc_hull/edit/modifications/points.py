@@ -65,7 +65,7 @@ def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
         A number that is not finite.
     """
     state, freedom = edit.state, PointFreedom.of(edit.state, row)
-    edit.write(np.array([row]), freedom.place(to)[None], f"move of {freedom.name}")
+    edit.write(np.array([row]), freedom.place(to)[None], lambda: f"move of {freedom.name}")
     curves = state.rows.curve[row]
     edit.pending.moved_curves |= set(curves[curves >= 0].tolist())
     if state.rows.sort[row] == Sort.ADOPTED:
@@ -80,8 +80,6 @@ class PointFreedom:
     ----------
     state, row : HullState, int
         The tables and the point.
-    name : str
-        Its address.
     axes : tuple of str
         The coordinates that it is free in.
     lines : list of int
@@ -90,7 +88,6 @@ class PointFreedom:
 
     state: HullState
     row: int
-    name: str
     axes: tuple[str, ...]
     lines: list[int]
 
@@ -100,7 +97,12 @@ class PointFreedom:
         _refuse_computed(state, row)
         curves = [curve for curve in state.rows.curve[row].tolist() if curve >= 0]
         lines = [state.line_of(curve) for curve in curves]
-        return cls(state, row, address(state, row), free_axes(state, row), lines)
+        return cls(state, row, free_axes(state, row), lines)
+
+    @property
+    def name(self) -> str:
+        """Its address."""
+        return address(self.state, self.row)
 
     def place(self, to: Mapping[str, float]) -> FloatArray:
         """Give where the point comes to lie, (3,), m; it raises as `move` does."""
@@ -109,7 +111,7 @@ class PointFreedom:
         given = {_AXES[axis]: value for axis, value in to.items()}
         now = self.state.rows.xyz[self.row]
         place = completed_in_planes(self.state, self.lines, now, given)
-        return checked_in_planes(self.state, self.lines, place, f"in a move of {self.name}")
+        return checked_in_planes(self.state, self.lines, place, lambda: f"in a move of {self.name}")
 
 
 def _refuse_computed(state: HullState, row: int) -> None:

@@ -18,12 +18,14 @@ from assoc_hull.edit.displacement_field import (
     row_spacing,
 )
 from assoc_hull.edit.field_moves import FieldMoves
+from assoc_hull.edit.published_program import known_numbers
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import PointRoleError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.make_objects import PointSpec
+from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.model.tables import HullState
 
 __all__ = ["curves_to_hold", "pull", "pull_field"]
@@ -63,7 +65,9 @@ def pull(
     PointRoleError
         The point lies on a flat, or on the profile.
     """
-    field = pull_field(edit.state, row, amount, radius, across_flats=across_flats)
+    # What was written by now the published numbers do not know of.
+    numbers = None if edit.journal.entries else known_numbers(edit.document)
+    field = pull_field(edit.state, row, amount, radius, across_flats=across_flats, numbers=numbers)
     if amount != 0.0:
         edit.pending.ask(FieldMoves).fields.append(field)
         for curve, place in curves_to_hold(edit.state, row):
@@ -77,14 +81,15 @@ def pull_field(
     radius: tuple[float, float] | None,
     *,
     across_flats: bool,
+    numbers: tuple[Program, Values] | None = None,
 ) -> PullField:
-    """Give the field of a pull; it raises as `pull`."""
+    """Give the field of a pull; it raises as `pull`. `numbers` are as `FieldContext` takes them."""
     place = state.rows.xyz[row].copy()
     if radius is None:
         reach = (3.0 * row_spacing(state, place), 3.0 * row_spacing(state, place))
     else:
         reach = pair(radius, "radius", positive=True)
-    ground = FieldContext(state, across_flats)
+    ground = FieldContext(state, across_flats, numbers)
     border = _border_distance(ground, row, reach[1])
     if border is None:
         raise PointRoleError(
@@ -139,4 +144,4 @@ def _border_distance(ground: FieldContext, row: int, within: float) -> float | N
     computed = state.rows.driver[row] >= 0 or np.isfinite(state.rows.gap[row])
     if not computed and not ground.may_move(row):
         return None
-    return float(ground.flat_distances(np.array([row]), within)[0])
+    return ground.flat_distance(row, within)

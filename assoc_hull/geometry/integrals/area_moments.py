@@ -282,7 +282,7 @@ def _strips(plane: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
     """Integrate the first coordinate over the second between two parameters, (s,)."""
     nodes, weights = gauss(_POINTS)
     u = low[:, None] + (high - low)[:, None] * nodes
-    first, _, _, step = _at_nodes(plane, u)
+    first, step = horner(plane[:, :, 0], u), horner(differentiate(plane[:, :, 1]), u)
     integral: FloatArray = (first * step * weights).sum(axis=1) * (high - low)
     return integral
 

@@ -15,7 +15,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.numeric.compiled_roots import find_roots, safe_root
 from assoc_hull.geometry.numeric.jit import jit, was_loaded
 from assoc_hull.geometry.numeric.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
@@ -28,11 +28,11 @@ from assoc_hull.geometry.splines.compiled_intersections import (
 from assoc_hull.geometry.splines.compiled_loft import loft_curves
 from assoc_hull.geometry.splines.loft_rules import LEAST_COSINE, NO_DIRECTION
 from assoc_hull.geometry.splines.plane_heights import CONTACT
-from assoc_hull.model.program.run_program import Doubt, ProgramRun
+from assoc_hull.model.program.run_program import Doubt, ProgramRun, begins
 from assoc_hull.model.program.structure import CompiledFeatures, Program, Values
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["CompiledProgram", "warm"]
+__all__ = ["CompiledProgram", "read_only", "tangent_at", "warm"]
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 Flags = NDArray[np.int8]
@@ -345,11 +345,11 @@ def _meet_lying(
 
 
 @jit
-def _set_tangent(
+def tangent_at(
     m: int, curve: int, start: IntArray, knot: FloatArray, block: FloatArray, at: FloatArray,
-    segment: IntArray, slope: FloatArray,
-) -> None:  # fmt: skip
-    """Set the unit tangent of a curve where it meets a plane; at a knot that after it."""
+    segment: IntArray,
+) -> tuple[float, float, float]:  # fmt: skip
+    """Give the unit tangent of a curve where it meets a plane; at a knot that after it."""
     b = start[curve]
     count = start[curve + 1] - b
     i = segment[m]
@@ -358,30 +358,34 @@ def _set_tangent(
     begin, end = knot[b + i], knot[b + i + 1]
     length = end - begin
     u = 1.0 if at[m] == end else (at[m] - begin) / length
-    for k in range(3):
-        here = 9 * b + k * count + i
-        step = block[here + 1] - block[here]
-        first = block[here + 3 * count] * length
-        both = first + block[here + 6 * count + 1] * length
-        second = 3.0 * step - first - both
-        third = both - step * 2.0
-        slope[k] = (first + u * (2.0 * second + u * (3.0 * third))) / length
-    size = sqrt(slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2])
-    for k in range(3):
-        slope[k] /= size
+    here = 9 * b + i
+    x = _slope(here, count, block, length, u)
+    y = _slope(here + count, count, block, length, u)
+    z = _slope(here + 2 * count, count, block, length, u)
+    size = sqrt(x * x + y * y + z * z)
+    return x / size, y / size, z / size
+
+
+@jit
+def _slope(here: int, count: int, block: FloatArray, length: float, u: float) -> float:
+    """Give the derivative of one coordinate of a segment."""
+    step = block[here + 1] - block[here]
+    first = block[here + 3 * count] * length
+    both = first + block[here + 6 * count + 1] * length
+    second = 3.0 * step - first - both
+    third = both - step * 2.0
+    return float((first + u * (2.0 * second + u * (3.0 * third))) / length)
 
 
 @jit
 def _gap(
     w: int, watch_a: IntArray, watch_b: IntArray, meet_curve: IntArray, start: IntArray,
     knot: FloatArray, block: FloatArray, at: FloatArray, place: FloatArray, segment: IntArray,
-    slopes: FloatArray,
 ) -> float:  # fmt: skip
     """Measure a watched crossing along the normal of its two curves, m."""
     one, other = watch_a[w], watch_b[w]
-    _set_tangent(one, meet_curve[one], start, knot, block, at, segment, slopes[0])
-    _set_tangent(other, meet_curve[other], start, knot, block, at, segment, slopes[1])
-    f, s = slopes[0], slopes[1]
+    f = tangent_at(one, meet_curve[one], start, knot, block, at, segment)
+    s = tangent_at(other, meet_curve[other], start, knot, block, at, segment)
     x = f[1] * s[2] - f[2] * s[1]
     y = f[2] * s[0] - f[0] * s[2]
     z = f[0] * s[1] - f[1] * s[0]
@@ -484,7 +488,7 @@ def run(
     folds: IntArray, lowest: FloatArray, old_folds: IntArray, old_lowest: FloatArray,
     # Room to work in, and what is answered.
     points: FloatArray, span: IntArray, scratch: FloatArray, courses: FloatArray,
-    slopes: FloatArray, taken: IntArray, held: Flags, changed: Flags, dirty: Flags, due: Flags,
+    taken: IntArray, held: Flags, changed: Flags, dirty: Flags, due: Flags,
     seen: Flags, moved: IntArray, lofted: IntArray, measured: IntArray, told: IntArray, whole: int,
 ) -> None:  # fmt: skip
     """Bring all numbers up to date.
@@ -579,7 +583,7 @@ def run(
                 measured[crossings] = w
                 crossings += 1
                 gap[w] = _gap(
-                    w, watch_a, watch_b, meet_curve, start, knot, block, at, place, segment, slopes
+                    w, watch_a, watch_b, meet_curve, start, knot, block, at, place, segment
                 )
                 for k in range(3):
                     xyz[watch[w], k] = place[watch_a[w], k]
@@ -638,8 +642,30 @@ def restore(
             xyz[watch[w], k] = xyz_0[watch[w], k]
 
 
+@jit
+def gather(
+    start: IntArray, curves: IntArray, begin: IntArray, knot: FloatArray, block: FloatArray,
+    block_0: FloatArray, knots: FloatArray, blocks: FloatArray, odd: Flags,
+) -> None:  # fmt: skip
+    """Put curves one behind the other, and tell which have other points or slopes than before."""
+    for i in range(len(curves)):
+        b, e = start[curves[i]], start[curves[i] + 1]
+        size, differs = e - b, False
+        for j in range(size):
+            knots[begin[i] + j] = knot[b + j]
+        for k in range(9):
+            first = 9 * b + k * size
+            for j in range(size):
+                blocks[k, begin[i] + j] = block[first + j]
+            if k < 6:
+                for j in range(size):
+                    differs = differs or block[first + j] != block_0[first + j]
+        odd[i] = 1 if differs else 0
+
+
 _run: Callable[..., None] = run
 _restore: Callable[..., None] = restore
+_gather: Callable[..., None] = gather
 """They are called with the arrays of a program, in the order above."""
 
 
@@ -670,7 +696,7 @@ class CompiledProgram:
         self._measured, self._told = np.zeros(len(program.watch), np.int64), np.zeros(5, np.int64)
         self._room = (
             np.zeros((most, 3)), np.zeros(2, np.int64), np.zeros((9, most)), np.zeros((4, most)),
-            np.zeros((2, 3)), np.zeros(len(program.offset) + 1, np.int64), self._held,
+            np.zeros(len(program.offset) + 1, np.int64), self._held,
             np.zeros(points, np.int8), self._dirty, np.zeros(points, np.int8),
             np.zeros(len(program.watch), np.int8), self._moved, self._lofted, self._measured,
             self._told,
@@ -687,8 +713,8 @@ class CompiledProgram:
             self._dirty[curves] = 1
         self._held[held] = 1
         _run(
-            *self._structure, *_columns(values), _read_only(before.folds),
-            _read_only(before.lowest), *self._room, int(curves is not None),
+            *self._structure, *_columns(values), read_only(before.folds),
+            read_only(before.lowest), *self._room, int(curves is not None),
         )  # fmt: skip
         if curves is not None:
             self._dirty[:] = 0
@@ -702,11 +728,23 @@ class CompiledProgram:
     def restore(self, values: Values, before: Values, run: ProgramRun) -> None:
         """Put back what a run has written, from numbers as they were."""
         program = self.program
-        here, there = _columns(values), [_read_only(each) for each in _columns(before)]
+        here, there = _columns(values), [read_only(each) for each in _columns(before)]
         _restore(
             program.start, program.meet_start, program.watch, here[0], *here[3:], there[0],
             *there[3:], run.rows, run.curves, run.watched,
         )  # fmt: skip
+
+    def splines(
+        self, values: Values, before: Values, curves: IntArray
+    ) -> tuple[SplineBatch, NDArray[np.bool_]]:
+        """Give curves, and which differ from before: as `NumpyProgram.splines`."""
+        begin = begins(self.program.start, curves)
+        knots, blocks = np.empty(int(begin[-1])), np.empty((9, int(begin[-1])))
+        odd = np.empty(len(curves), np.int8)
+        arrays = curves, begin, values.knot, values.block, before.block
+        _gather(self.program.start, *map(read_only, arrays), knots, blocks, odd)
+        batch = SplineBatch(begin, knots, blocks[:3].T, blocks[3:6].T, blocks[6:].T)
+        return batch, odd.view(np.bool_)
 
 
 def _columns(values: Values) -> tuple[NDArray[np.generic], ...]:
@@ -716,7 +754,7 @@ def _columns(values: Values) -> tuple[NDArray[np.generic], ...]:
     )  # fmt: skip
 
 
-def _read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
+def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
     """Give a view that cannot be written to: numba compiles anew for one that can."""
     if not array.flags.writeable:
         return array
@@ -749,7 +787,8 @@ def warm() -> bool:
     )  # fmt: skip
     compiled = CompiledProgram(program)
     compiled.restore(values, values.copy(), compiled.run(values, values.copy(), none, none))
-    return was_loaded(run) and was_loaded(restore)
+    compiled.splines(values, values, none)
+    return was_loaded(run) and was_loaded(restore) and was_loaded(gather)
 
 
 def _blank(name: str, kind: str) -> object:
@@ -757,4 +796,4 @@ def _blank(name: str, kind: str) -> object:
     if kind == "float":
         return 1.0
     dtype = {"Flags": np.int8, "IntArray": np.int64}.get(kind, np.float64)
-    return _read_only(np.zeros(_SHAPES.get(name, (2,)), dtype))
+    return read_only(np.zeros(_SHAPES.get(name, (2,)), dtype))

@@ -13,6 +13,7 @@ import importlib.util
 import os
 import subprocess
 import sys
+from typing import TYPE_CHECKING
 
 import attrs
 
@@ -20,16 +21,27 @@ from assoc_hull.geometry.splines.backend import backend
 from assoc_hull.graph.gate import Gate
 from assoc_hull.model.program.run_program import NumpyProgram, RunProgram
 from assoc_hull.model.program.structure import Program
+from assoc_hull.model.tables import HullState
 
-__all__ = ["engine_words", "is_asked_often", "is_compiled", "runner_of", "wait_for_engine"]
+if TYPE_CHECKING:
+    from assoc_hull.model.program.compiled_fields import CompiledFields
+
+__all__ = [
+    "engine_words",
+    "fields_of",
+    "is_asked_often",
+    "is_compiled",
+    "runner_of",
+    "wait_for_engine",
+]
 
 _MAKE = """
 import os, sys
 again, *sys.path[:] = sys.argv[1:]
 if again == "no" and hasattr(os, "nice"):
     os.nice(5)
-from assoc_hull.model.program.compiled_program import warm
-if not warm():
+from assoc_hull.model.program import compiled_fields, compiled_program
+if not (compiled_program.warm() & compiled_fields.warm()):
     if again == "yes":
         sys.exit("what numba compiles cannot be kept on this disk: see NUMBA_CACHE_DIR")
     os.execv(sys.executable, [sys.executable, "-c", os.environ["MAKE"], "yes", *sys.path])
@@ -62,6 +74,22 @@ def runner_of(program: Program) -> RunProgram:
 
         return CompiledProgram(program)
     return NumpyProgram(program)
+
+
+def fields_of(state: HullState, program: Program, short: float) -> CompiledFields | None:
+    """Give what displaces points of a hull along its normals; None where numpy serves.
+
+    Ends of a curve nearer than `short`, m, do not tell its course.
+    """
+    if not _is_ready():
+        return None
+    from assoc_hull.model.program.compiled_fields import CompiledFields, FieldStructure
+
+    depends_on = program, state.lines.boundary, state.settings.particulars, short
+    structure = state.derived(
+        ("field structure",), depends_on, lambda: FieldStructure.of(state, program, short), most=1
+    )
+    return None if structure is None else CompiledFields(structure, program)
 
 
 def is_compiled() -> bool:

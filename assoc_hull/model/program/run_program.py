@@ -35,6 +35,7 @@ __all__ = [
     "NumpyProgram",
     "ProgramRun",
     "RunProgram",
+    "begins",
     "curve_data",
     "ranges",
     "run_program",
@@ -107,6 +108,14 @@ class RunProgram(Protocol):
     def restore(self, values: Values, before: Values, run: ProgramRun) -> None:
         """Put back what a run has written, from numbers as they were."""
 
+    def splines(
+        self, values: Values, before: Values, curves: IntArray
+    ) -> tuple[SplineBatch, NDArray[np.bool_]]:
+        """Give curves as they are in the numbers, and which differ from what they were before.
+
+        That is: in a point or a slope behind one; zeros of two signs are equal. There is a curve.
+        """
+
 
 @attrs.frozen(eq=False)
 class NumpyProgram:
@@ -129,6 +138,20 @@ class NumpyProgram:
             ("segment", met), ("gap", run.watched), ("folds", curves), ("lowest", curves),
         ):  # fmt: skip
             getattr(values, name)[items] = getattr(before, name)[items]
+
+    def splines(
+        self, values: Values, before: Values, curves: IntArray
+    ) -> tuple[SplineBatch, NDArray[np.bool_]]:
+        """Give curves, and which differ from before."""
+        begin, start = begins(self.program.start, curves), self.program.start
+        bounds = [(int(start[c]), int(start[c + 1])) for c in curves.tolist()]
+        block, old = (
+            np.concatenate([each.block[9 * a : 9 * b].reshape(9, -1) for a, b in bounds], axis=1)
+            for each in (values, before)
+        )
+        knot = np.concatenate([values.knot[a:b] for a, b in bounds])
+        odd = np.logical_or.reduceat((block[:6] != old[:6]).any(axis=0), begin[:-1])
+        return SplineBatch(begin, knot, block[:3].T, block[3:6].T, block[6:].T), odd
 
 
 def differs(old: FloatArray, new: FloatArray) -> NDArray[np.bool_]:
@@ -199,6 +222,13 @@ def run_tile(
             work.evaluate(chosen)
     watched = work.check(before)
     return work.runs(watched)
+
+
+def begins(start: IntArray, owners: IntArray) -> IntArray:
+    """Give where the items of each owner begin if they stand one behind the other, and the end."""
+    found = np.zeros(len(owners) + 1, np.int64)
+    np.cumsum(start.take(owners + 1) - start.take(owners), out=found[1:])
+    return found
 
 
 def spans(start: IntArray, owners: IntArray) -> IntArray:

@@ -214,7 +214,7 @@ def test_a_value_that_makes_no_ship_is_told_with_its_interval(
 def test_values_that_fold_together_are_told_how_much_of_them_does_not(
     bulk_carrier: ah.Hull, room: AdmissibleValues
 ) -> None:
-    """Each is within its interval; so much of both changes that is told goes by one map, no more."""
+    """Each is within its interval; so much of both as is told goes by one map."""
     given = {"draught": 30.0, "depth": 22.5}
     error = refused(bulk_carrier, asked(**given))
     assert isinstance(error, RefusedSetError)
