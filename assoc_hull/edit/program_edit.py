@@ -271,9 +271,11 @@ class _PackedNotes:
         )
         xyz, numbers = state.rows.xyz, self.curves.tolist()
         old = [spline for each in numbers if (spline := before.spline[each]) is not None]
+        new = [state.spline(each) for each in numbers]
+        odd = moved_curves(old, new, SplineBatch.join(new)) != 0.0 if new else np.zeros(0, np.bool_)
         run = _Pass(
             self.seeds, self.held, self.rows, xyz[self.rows] - before.xyz[self.rows], self.curves,
-            old, [state.spline(each) for each in numbers],
+            old, new, odd,
         )  # fmt: skip
         movements = Movements.of(state, self.changed, before.xyz[self.changed])
         body = _Notes(
