@@ -12,7 +12,6 @@ from collections.abc import Callable
 
 import attrs
 import numpy as np
-from scipy.optimize import brentq
 
 from assoc_hull.analysis.form.form_parameters import shape_of
 from assoc_hull.analysis.form.longitudinal_parts import EQUAL, parallel_body
@@ -20,6 +19,7 @@ from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.floating.sections import areas_at
 from assoc_hull.geometry.numeric.circle_fit import CircleFit, fit_circle
+from assoc_hull.geometry.numeric.roots import brent_root
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.plane_intersections import points_at_coordinate, points_on_plane
 from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter
@@ -417,4 +417,4 @@ def _sought(spare: Callable[[float], float], x: float, ends: tuple[float, float]
     low, high = max(x - _NEAR, ends[0]), min(x + _NEAR, ends[1])
     if spare(low) * spare(high) >= 0.0:
         return x
-    return float(brentq(spare, low, high, xtol=1e-12, rtol=1e-14))
+    return brent_root(spare, low, high, xtol=1e-12, rtol=1e-14)
