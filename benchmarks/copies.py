@@ -10,6 +10,7 @@ import numpy as np
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import Column
 from assoc_hull.model.index import build_index
+from assoc_hull.model.kinds import Sort
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import Association, CurveIntersections, HullState
@@ -29,7 +30,7 @@ REFERS = {
 }
 """Columns that hold numbers of rows of another table, or -1."""
 
-PLACES = {("rows", "xyz"), ("rows", "spot"), ("rows", "base")}
+PLACES = {("rows", "xyz"), ("rows", "spot")}
 
 
 def copies_of(net: HullState, count: int) -> HullState:
@@ -51,14 +52,17 @@ def _array_copy(
     net: HullState, target: Any, source: Any, which: tuple[str, str], number: int
 ) -> None:
     size = len(source.data)
-    block = target.store[number * size : (number + 1) * size]
-    block[...] = source.data
+    block = source.data.copy()
     if which in REFERS:
         block[source.data >= 0] += number * getattr(net, REFERS[which]).count
     elif which in PLACES:
         block[..., 0] += number * STEP
+    elif which == ("rows", "base"):
+        # Crossings ride with nothing, and have none.
+        block[net.rows.sort.data != Sort.CROSSING, 0] += number * STEP
     elif which == ("lines", "offset"):
         block += number * STEP * net.lines.normal[:, 0]
+    target.put(np.arange(number * size, (number + 1) * size), block)
 
 
 def _list_copy(

@@ -21,11 +21,12 @@ Examples
 from __future__ import annotations
 
 import itertools
+import math
 import sys
 from collections.abc import Mapping, Sequence
 from operator import is_
 from types import EllipsisType
-from typing import Generic, Self, SupportsIndex, TypeVar, overload
+from typing import TYPE_CHECKING, Generic, Self, SupportsIndex, TypeVar, overload
 
 import attrs
 import numpy as np
@@ -215,6 +216,29 @@ class Column(Generic[S]):
         """Give the first two axes as one: row r, part p is at r * parts + p."""
         return self.data.reshape(-1, *self.data.shape[2:])
 
+    @property
+    def dtype(self) -> np.dtype[S]:
+        """Of the numbers."""
+        return self.data.dtype
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Of one row."""
+        return self.data.shape[1:]
+
+    def take(self, rows: NDArray[np.int64]) -> NDArray[S]:
+        """Give a copy of rows (k,)."""
+        return self.data.take(rows, axis=0)
+
+    def take_parts(self, part: NDArray[np.int64]) -> NDArray[S]:
+        """Give a copy of parts of rows, as `parts` numbers them."""
+        return self.parts().take(part, axis=0)
+
+    def take_over(self, other: Column[S]) -> None:
+        """Become a copy of a column of as many rows."""
+        self.store[: len(other.data)] = other.data
+        self.written()
+
     def __getitem__(self, rows: _Several | _Part) -> NDArray[S]:
         return self.data[rows]
 
@@ -277,6 +301,193 @@ class MatrixColumn(Column[S]):
 
     def __getitem__(self, rows: _Row | _Several | _Part) -> S | NDArray[S]:
         return self.data[rows]
+
+
+# --------------------------------------------------------------------------------------
+# Columns of which few rows hold anything.
+
+
+class _Sparse(Column[S]):
+    """A column of which only those rows take memory that hold anything but the fill value.
+
+    What is held is never written to, but made anew with every write; so columns that share it need
+    no copies. `data` is made whenever it is asked for: `take` and `column[rows]` are for few rows.
+    """
+
+    def __init__(self, dtype: type[S] | np.dtype[S], shape: tuple[int, ...], fill: float) -> None:
+        blank: NDArray[S] = np.full((0, *shape), fill, dtype)
+        self._held = _Held(np.zeros(0, np.int64), blank)
+        self._count = 0
+        self.fill = fill
+        self.writes = 0
+
+    def __getstate__(self) -> tuple[NDArray[S], float]:
+        return self.data, self.fill
+
+    def __setstate__(self, state: tuple[NDArray[S], float]) -> None:
+        whole, self.fill = state
+        self._held, self._count = _Held(np.zeros(0, np.int64), whole[:0]), len(whole)
+        self.put(np.arange(len(whole)), whole)
+
+    @property
+    def data(self) -> NDArray[S]:  # type: ignore[override]  # an attribute of dense columns
+        """All rows, as an array of one's own that cannot be written to."""
+        found = np.full((self._count, *self.shape), self.fill, self.dtype)
+        found[self._held.rows] = self._held.values
+        found.setflags(write=False)
+        return found
+
+    @property
+    def store(self) -> NDArray[S]:
+        raise TypeError("the rows of this column are written by put")
+
+    @property
+    def dtype(self) -> np.dtype[S]:
+        return self._held.values.dtype
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return self._held.values.shape[1:]
+
+    def put(self, rows: NDArray[np.int64], values: NDArray[np.generic]) -> None:
+        held, given = self._held, np.asarray(values, self.dtype)
+        blank: NDArray[S] = np.full((1, *self.shape), self.fill, self.dtype)
+        given = np.broadcast_to(given, (len(rows), *self.shape))
+        # By bits: -0.0 is not what a new row holds.
+        odd = (_words(given) != _words(blank)).any(axis=1)
+        kept = ~np.isin(held.rows, rows)
+        every = np.concatenate([held.rows[kept], rows[odd]])
+        order = np.argsort(every, kind="stable")
+        self._held = _Held(every[order], np.concatenate([held.values[kept], given[odd]])[order])
+        self.written()
+
+    def put_parts(self, part: NDArray[np.int64], values: NDArray[np.generic]) -> None:
+        row, which = np.divmod(part, self.shape[0])
+        rows = np.unique(row)
+        whole = self.take(rows)
+        whole[np.searchsorted(rows, row), which] = values
+        self.put(rows, whole)
+
+    def take_over(self, other: Column[S]) -> None:
+        assert isinstance(other, _Sparse)
+        self._held, self._count = other._held, other._count
+        self.written()
+
+    def share(self, before: object = None) -> Self:
+        if isinstance(before, type(self)) and self._same(before) and before.writes == self.writes:
+            return before
+        found = object.__new__(type(self))
+        found._held, found._count, found.fill = self._held, self._count, self.fill
+        found.writes = self.writes
+        return found
+
+    def equals(self, other: object) -> bool:
+        return isinstance(other, _Sparse) and (self._same(other) or other.writes == self.writes)
+
+    def _same(self, other: _Sparse[np.generic]) -> bool:
+        return other._held is self._held and other._count == self._count
+
+    def resize(self, count: int) -> None:
+        held = self._held
+        if len(held.rows) and held.rows[-1] >= count:
+            kept = int(np.searchsorted(held.rows, count))
+            self._held = _Held(held.rows[:kept].copy(), held.values[:kept].copy())
+        self._count = count
+        self.written()
+
+    def take(self, rows: NDArray[np.int64]) -> NDArray[S]:
+        found = np.full((len(rows), *self.shape), self.fill, self.dtype)
+        place, at = self._held.find(rows)
+        found[place] = self._held.values[at]
+        return found
+
+    def take_parts(self, part: NDArray[np.int64]) -> NDArray[S]:
+        parts = self.shape[0]
+        found = np.full((len(part), *self.shape[1:]), self.fill, self.dtype)
+        if len(self._held.rows):
+            row = part // parts
+            place, at = self._held.find(row)
+            found[place] = self._held.values[at, part[place] - parts * row[place]]
+        return found
+
+    if not TYPE_CHECKING:  # the overloads of the kinds of columns hold here, too
+
+        def __getitem__(self, rows):
+            if isinstance(rows, tuple):
+                first, rest = rows[0], rows[1:]
+                if isinstance(first, int | np.integer):
+                    return self._one(int(first))[rest]
+                if isinstance(first, np.ndarray) and first.ndim == 1:
+                    found = self[first]
+                    paired = any(isinstance(each, np.ndarray) for each in rest)
+                    return found[(np.arange(len(found)) if paired else slice(None), *rest)]
+                return self.data[rows]
+            if isinstance(rows, int | np.integer):
+                return self._one(int(rows))
+            if isinstance(rows, np.ndarray) and rows.dtype.kind == "i":
+                flat = np.where(rows < 0, rows + self._count, rows).reshape(-1)
+                if len(flat) and not 0 <= flat.min() <= flat.max() < self._count:
+                    raise IndexError(f"a row is none of {self._count}")
+                return self.take(flat).reshape(*rows.shape, *self.shape)
+            if isinstance(rows, np.ndarray) and rows.dtype == np.bool_ and rows.ndim == 1:
+                return self[np.flatnonzero(rows)]
+            return self.data[rows]
+
+    def _one(self, row: int) -> NDArray[S]:
+        """Give one row."""
+        row = row + self._count if row < 0 else row
+        if not 0 <= row < self._count:
+            raise IndexError(f"row {row} is none of {self._count}")
+        found: NDArray[S] = self.take(np.array([row]))[0]
+        return found
+
+
+class _Held(Generic[S]):
+    """The rows of a sparse column, ascending, and what they hold."""
+
+    def __init__(self, rows: NDArray[np.int64], values: NDArray[S]) -> None:
+        rows.setflags(write=False)
+        values.setflags(write=False)
+        self.rows, self.values = rows, values
+        self._has: NDArray[np.bool_] | None = None
+
+    def find(self, rows: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Give which of some rows, of any order, are held, and where."""
+        nothing = np.zeros(0, np.int64)
+        if not len(self.rows) or not len(rows):
+            return nothing, nothing
+        if len(rows) <= _FEW_ROWS:
+            at = np.minimum(np.searchsorted(self.rows, rows), len(self.rows) - 1)
+            place = np.flatnonzero(self.rows[at] == rows)
+            return place, at[place]
+        if self._has is None:
+            # A search for each of many rows takes ten times as long.
+            has = np.zeros(int(self.rows[-1]) + 2, np.bool_)
+            has[self.rows] = True
+            self._has = has
+        place = np.flatnonzero(self._has.take(rows, mode="clip"))
+        return place, np.searchsorted(self.rows, rows[place])
+
+
+_FEW_ROWS = 32
+
+
+def _words(values: NDArray[np.generic]) -> NDArray[np.generic]:
+    """Give rows as the bits of their numbers, (k, n)."""
+    whole = np.ascontiguousarray(values).view(f"u{values.itemsize}")
+    return whole.reshape(len(values), math.prod(values.shape[1:]))
+
+
+class SparseNumbers(_Sparse[S], NumberColumn[S]):
+    """One number a row, of few rows."""
+
+
+class SparseVectors(_Sparse[S], VectorColumn[S]):
+    """Several numbers a row, of few rows."""
+
+
+class SparseMatrices(_Sparse[S], MatrixColumn[S]):
+    """Several vectors a row, of few rows."""
 
 
 class ValueColumn(Generic[V]):
@@ -358,19 +569,24 @@ def writes_begun() -> int:
 # How columns are declared.
 
 
-def numbers(dtype: type[S], fill: float = 0) -> NumberColumn[S]:
-    """Declare a column of one number a row."""
-    return attrs.field(factory=lambda: NumberColumn(dtype, (), fill), init=False)
+def numbers(dtype: type[S], fill: float = 0, *, sparse: bool = False) -> NumberColumn[S]:
+    """Declare a column of one number a row; `sparse` if few rows hold anything but the fill."""
+    kind = SparseNumbers if sparse else NumberColumn
+    return attrs.field(factory=lambda: kind(dtype, (), fill), init=False)
 
 
-def vectors(dtype: type[S], size: int, fill: float = 0) -> VectorColumn[S]:
-    """Declare a column of `size` numbers a row."""
-    return attrs.field(factory=lambda: VectorColumn(dtype, (size,), fill), init=False)
+def vectors(dtype: type[S], size: int, fill: float = 0, *, sparse: bool = False) -> VectorColumn[S]:
+    """Declare a column of `size` numbers a row; `sparse` as for `numbers`."""
+    kind = SparseVectors if sparse else VectorColumn
+    return attrs.field(factory=lambda: kind(dtype, (size,), fill), init=False)
 
 
-def matrices(dtype: type[S], shape: tuple[int, int], fill: float = 0) -> MatrixColumn[S]:
-    """Declare a column of vectors, as many and as long as `shape` says."""
-    return attrs.field(factory=lambda: MatrixColumn(dtype, shape, fill), init=False)
+def matrices(
+    dtype: type[S], shape: tuple[int, int], fill: float = 0, *, sparse: bool = False
+) -> MatrixColumn[S]:
+    """Declare a column of vectors, as many and as long as `shape` says; `sparse` as before."""
+    kind = SparseMatrices if sparse else MatrixColumn
+    return attrs.field(factory=lambda: kind(dtype, shape, fill), init=False)
 
 
 def values(fill: V) -> ValueColumn[V]:

@@ -567,10 +567,10 @@ def _require_fit(state: HullState, change: TableChange) -> None:
         column = columns[name]
         if not isinstance(column, Column) or name in _OWN_WAY:
             raise ValueError(f"{name} is no column of numbers")
-        width = column.data.itemsize * math.prod(column.data.shape[1:])
+        width = column.dtype.itemsize * math.prod(column.shape)
         if bits.shape != (len(rows), width):
             raise ValueError(f"the bits of {name} are of the shape {bits.shape}")
-        _require_rows(name, rows, len(column.data))
+        _require_rows(name, rows, getattr(state, _table(name)).count)
     for name, (rows, old, new) in change.objects.items():
         held = columns[name]
         if not isinstance(held, ValueColumn) or name in _OWN_WAY:
@@ -603,9 +603,9 @@ _MAY_BE_NAN = frozenset({"rows.limit", "rows.gap", "lines.offset"})
 
 
 def _flip(name: str, column: Column[np.generic], rows: IntArray, bits: NDArray[np.uint8]) -> None:
-    values = column.data.take(rows, axis=0)
+    values = column.take(rows)
     flipped = _bytes(values) ^ bits
-    found = flipped.view(column.data.dtype).reshape(values.shape)
+    found = flipped.view(column.dtype).reshape(values.shape)
     if found.dtype == np.float64 and name not in _MAY_BE_NAN and not np.isfinite(found).all():
         raise ValueError(f"{name} becomes no number")
     if found.dtype == np.bool_ and flipped.max(initial=0) > 1:

@@ -240,7 +240,7 @@ class Rows(Table):
     sort: NumberColumn[np.int8] = numbers(np.int8)
     xyz: VectorColumn[np.float64] = vectors(np.float64, 3)
     kind: VectorColumn[np.int8] = vectors(np.int8, 2)
-    direction: MatrixColumn[np.float64] = matrices(np.float64, (2, 3))
+    direction: MatrixColumn[np.float64] = matrices(np.float64, (2, 3), sparse=True)
     curve: VectorColumn[np.int64] = vectors(np.int64, 2, -1)
     role: NumberColumn[np.int8] = numbers(np.int8)
     override: NumberColumn[np.int8] = numbers(np.int8, -1)
@@ -253,10 +253,10 @@ class Rows(Table):
     gap: NumberColumn[np.float64] = numbers(np.float64, np.nan)
     spot: MatrixColumn[np.float64] = matrices(np.float64, (2, 3), np.nan)
     parameter: VectorColumn[np.float64] = vectors(np.float64, 2, np.nan)
-    anchor: VectorColumn[np.int64] = vectors(np.int64, 2, -1)
-    anchor_from: MatrixColumn[np.float64] = matrices(np.float64, (2, 3))
-    anchor_weight: NumberColumn[np.float64] = numbers(np.float64)
-    base: VectorColumn[np.float64] = vectors(np.float64, 3)
+    anchor: VectorColumn[np.int64] = vectors(np.int64, 2, -1, sparse=True)
+    anchor_from: MatrixColumn[np.float64] = matrices(np.float64, (2, 3), sparse=True)
+    anchor_weight: NumberColumn[np.float64] = numbers(np.float64, sparse=True)
+    base: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
     state: NumberColumn[np.int8] = numbers(np.int8)
     label: ValueColumn[str] = values("")
 
@@ -590,7 +590,6 @@ def _copy(given: Table, found: Table) -> None:
     for name, column in given.columns.items():
         other = found.columns[name]
         if isinstance(column, Column) and isinstance(other, Column):
-            other.store[: given.count] = column.data
-            other.written()
+            other.take_over(column)
         elif isinstance(column, ValueColumn) and isinstance(other, ValueColumn):
             other.store[:] = column.data

@@ -356,7 +356,7 @@ def pack_spline(spline: SplineBatch) -> bytes:
 def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     table, revision = state.rows, state.revision_row
     whole = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _WHOLES}
-    pairs = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _PAIRS}
+    pairs = {name: getattr(table, name).take(numbers).astype(int).tolist() for name in _PAIRS}
     reals = {name: _blobs(getattr(table, name), numbers) for name in _REALS}
     xyz = [_real_blob(each) for each in table.xyz[numbers]]
     for place, i in enumerate(numbers.tolist()):
@@ -376,9 +376,9 @@ def _real_blob(values: object) -> bytes:
 
 def _blobs(column: Any, numbers: IntArray) -> list[bytes | None]:
     """Give the bytes of rows of a column, None where they are what a new row holds."""
-    values = column.data[numbers]
+    values = column.take(numbers)
     # By bytes, not by value: nan equals nan, and -0.0 does not equal 0.0.
-    nothing = _real_blob(np.full(column.store.shape[1:], column.fill))
+    nothing = _real_blob(np.full(column.shape, column.fill))
     found = [_real_blob(each) for each in values]
     return [None if each == nothing else each for each in found]
 
@@ -439,16 +439,15 @@ def _columns(rows: Sequence[Row], count: int) -> list[tuple[Any, ...]]:
 
 def _put_whole(column: Any, values: Sequence[Any]) -> None:
     """Put whole numbers, or several to a row, into a column."""
-    column.store[: len(values)] = np.array(values, np.int64).reshape(-1, *column.store.shape[1:])
-    column.writes += 1
+    given = np.array(values, np.int64).reshape(-1, *column.shape)
+    column.put(np.arange(len(given)), given.astype(column.dtype))
 
 
 def _put_reals(column: Any, blobs: Sequence[bytes | None]) -> None:
     """Put real numbers into a column; None leaves the fill value."""
     here = [i for i, blob in enumerate(blobs) if blob is not None]
     given = np.frombuffer(b"".join(blobs[i] for i in here), "<f8")  # type: ignore[misc]
-    column.store[here] = given.reshape(len(here), *column.store.shape[1:])
-    column.writes += 1
+    column.put(np.array(here, np.int64), given.reshape(len(here), *column.shape))
 
 
 def _read_groups(state: HullState, rows: Sequence[Row]) -> None:
