@@ -315,25 +315,23 @@ class _Sparse(Column[S]):
     """
 
     def __init__(self, dtype: type[S] | np.dtype[S], shape: tuple[int, ...], fill: float) -> None:
-        blank: NDArray[S] = np.full((0, *shape), fill, dtype)
-        self._held = _Held(np.zeros(0, np.int64), blank)
+        self._held: _Held[S] = _Held(np.zeros(0, np.int64), np.full((1, *shape), fill, dtype))
         self._count = 0
         self.fill = fill
         self.writes = 0
 
-    def __getstate__(self) -> tuple[NDArray[S], float]:
-        return self.data, self.fill
-
     def __setstate__(self, state: tuple[NDArray[S], float]) -> None:
         whole, self.fill = state
-        self._held, self._count = _Held(np.zeros(0, np.int64), whole[:0]), len(whole)
+        blank: NDArray[S] = np.full((1, *whole.shape[1:]), self.fill, whole.dtype)
+        self._held, self._count = _Held(np.zeros(0, np.int64), blank), len(whole)
         self.put(np.arange(len(whole)), whole)
 
     @property
     def data(self) -> NDArray[S]:  # type: ignore[override]  # an attribute of dense columns
         """All rows, as an array of one's own that cannot be written to."""
-        found = np.full((self._count, *self.shape), self.fill, self.dtype)
-        found[self._held.rows] = self._held.values
+        held = self._held
+        found: NDArray[S] = np.full((self._count, *self.shape), self.fill, self.dtype)
+        found[held.rows] = held.values[:-1]
         found.setflags(write=False)
         return found
 
@@ -350,15 +348,23 @@ class _Sparse(Column[S]):
         return self._held.values.shape[1:]
 
     def put(self, rows: NDArray[np.int64], values: NDArray[np.generic]) -> None:
-        held, given = self._held, np.asarray(values, self.dtype)
-        blank: NDArray[S] = np.full((1, *self.shape), self.fill, self.dtype)
-        given = np.broadcast_to(given, (len(rows), *self.shape))
-        # By bits: -0.0 is not what a new row holds.
-        odd = (_words(given) != _words(blank)).any(axis=1)
-        kept = ~np.isin(held.rows, rows)
-        every = np.concatenate([held.rows[kept], rows[odd]])
-        order = np.argsort(every, kind="stable")
-        self._held = _Held(every[order], np.concatenate([held.values[kept], given[odd]])[order])
+        held, at = self._held, self._held.find(rows)
+        if len(rows) and int(at.min()) >= 0:
+            # Riders that are carried on: the rows stay the same.
+            written = held.values.copy()
+            written[at] = values
+            self._held = _Held(held.rows, written, held.place)
+        else:
+            given = np.broadcast_to(np.asarray(values, self.dtype), (len(rows), *self.shape))
+            blank = held.values[-1:]
+            # By bits: -0.0 is not what a new row holds.
+            odd = (_words(given) != _words(blank)).any(axis=1)
+            kept = np.ones(len(held.rows), np.bool_)
+            kept[at[at >= 0]] = False
+            every = np.concatenate([held.rows[kept], rows[odd]])
+            order = np.argsort(every, kind="stable")
+            mine = np.concatenate([held.values[:-1][kept], given[odd]])[order]
+            self._held = _Held(every[order], np.concatenate([mine, blank]))
         self.written()
 
     def put_parts(self, part: NDArray[np.int64], values: NDArray[np.generic]) -> None:
@@ -391,28 +397,30 @@ class _Sparse(Column[S]):
         held = self._held
         if len(held.rows) and held.rows[-1] >= count:
             kept = int(np.searchsorted(held.rows, count))
-            self._held = _Held(held.rows[:kept].copy(), held.values[:kept].copy())
+            mine = np.concatenate([held.values[:kept], held.values[-1:]])
+            self._held = _Held(held.rows[:kept].copy(), mine)
         self._count = count
         self.written()
 
     def take(self, rows: NDArray[np.int64]) -> NDArray[S]:
-        found = np.full((len(rows), *self.shape), self.fill, self.dtype)
-        place, at = self._held.find(rows)
-        found[place] = self._held.values[at]
-        return found
+        return self._held.values.take(self._held.find(rows), axis=0)
 
     def take_parts(self, part: NDArray[np.int64]) -> NDArray[S]:
-        parts = self.shape[0]
-        found = np.full((len(part), *self.shape[1:]), self.fill, self.dtype)
-        if len(self._held.rows):
-            row = part // parts
-            place, at = self._held.find(row)
-            found[place] = self._held.values[at, part[place] - parts * row[place]]
-        return found
+        held, parts = self._held, self.shape[0]
+        if not len(held.rows):
+            return np.full((len(part), *self.shape[1:]), self.fill, self.dtype)
+        row = part // parts
+        # From the end where a row is not held: there stands the fill value.
+        flat = parts * (held.find(row) - row) + part
+        return held.values.reshape(-1, *self.shape[1:]).take(flat, axis=0)
 
     if not TYPE_CHECKING:  # the overloads of the kinds of columns hold here, too
 
         def __getitem__(self, rows):
+            if isinstance(rows, int | np.integer):
+                return self._one(int(rows))
+            if isinstance(rows, np.ndarray) and rows.dtype.kind == "i":
+                return self._several(rows)
             if isinstance(rows, tuple):
                 first, rest = rows[0], rows[1:]
                 if isinstance(first, int | np.integer):
@@ -421,16 +429,8 @@ class _Sparse(Column[S]):
                     found = self[first]
                     paired = any(isinstance(each, np.ndarray) for each in rest)
                     return found[(np.arange(len(found)) if paired else slice(None), *rest)]
-                return self.data[rows]
-            if isinstance(rows, int | np.integer):
-                return self._one(int(rows))
-            if isinstance(rows, np.ndarray) and rows.dtype.kind == "i":
-                flat = np.where(rows < 0, rows + self._count, rows).reshape(-1)
-                if len(flat) and not 0 <= flat.min() <= flat.max() < self._count:
-                    raise IndexError(f"a row is none of {self._count}")
-                return self.take(flat).reshape(*rows.shape, *self.shape)
-            if isinstance(rows, np.ndarray) and rows.dtype == np.bool_ and rows.ndim == 1:
-                return self[np.flatnonzero(rows)]
+            elif isinstance(rows, np.ndarray) and rows.dtype == np.bool_ and rows.ndim == 1:
+                return self.take(np.flatnonzero(rows))
             return self.data[rows]
 
     def _one(self, row: int) -> NDArray[S]:
@@ -438,35 +438,47 @@ class _Sparse(Column[S]):
         row = row + self._count if row < 0 else row
         if not 0 <= row < self._count:
             raise IndexError(f"row {row} is none of {self._count}")
-        found: NDArray[S] = self.take(np.array([row]))[0]
+        held = self._held
+        at = int(held.rows.searchsorted(row))
+        there = at < len(held.rows) and held.rows[at] == row
+        found: NDArray[S] = held.values[at if there else -1]
         return found
+
+    def _several(self, rows: NDArray[np.int64]) -> NDArray[S]:
+        """Give rows by an array of any shape, from the end where numbers are negative."""
+        if rows.size:
+            low, high = int(rows.min()), int(rows.max())
+            if low < -self._count or high >= self._count:
+                raise IndexError(f"row {high if low >= 0 else low} is none of {self._count}")
+            rows = np.where(rows < 0, rows + self._count, rows) if low < 0 else rows
+        if rows.ndim == 1:
+            return self.take(rows)
+        return self.take(rows.reshape(-1)).reshape(*rows.shape, *self.shape)
 
 
 class _Held(Generic[S]):
-    """The rows of a sparse column, ascending, and what they hold."""
+    """The rows of a sparse column, ascending, and what they hold; last, what other rows hold."""
 
-    def __init__(self, rows: NDArray[np.int64], values: NDArray[S]) -> None:
+    def __init__(
+        self, rows: NDArray[np.int64], values: NDArray[S], place: NDArray[np.int32] | None = None
+    ) -> None:
         rows.setflags(write=False)
         values.setflags(write=False)
-        self.rows, self.values = rows, values
-        self._has: NDArray[np.bool_] | None = None
+        self.rows, self.values, self.place = rows, values, place
 
-    def find(self, rows: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Give which of some rows, of any order, are held, and where."""
-        nothing = np.zeros(0, np.int64)
-        if not len(self.rows) or not len(rows):
-            return nothing, nothing
-        if len(rows) <= _FEW_ROWS:
-            at = np.minimum(np.searchsorted(self.rows, rows), len(self.rows) - 1)
-            place = np.flatnonzero(self.rows[at] == rows)
-            return place, at[place]
-        if self._has is None:
+    def find(self, rows: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Give where rows (k,), of any order, stand here; -1 where they are not held."""
+        if not len(self.rows):
+            return np.full(len(rows), -1)
+        if self.place is None:
+            if len(rows) <= _FEW_ROWS:
+                at = self.rows.searchsorted(rows)
+                return np.where(self.rows.take(at, mode="clip") == rows, at, -1)
             # A search for each of many rows takes ten times as long.
-            has = np.zeros(int(self.rows[-1]) + 2, np.bool_)
-            has[self.rows] = True
-            self._has = has
-        place = np.flatnonzero(self._has.take(rows, mode="clip"))
-        return place, np.searchsorted(self.rows, rows[place])
+            place = np.full(int(self.rows[-1]) + 2, -1, np.int32)
+            place[self.rows] = np.arange(len(self.rows))
+            self.place = place
+        return self.place.take(rows, mode="clip").astype(np.int64)
 
 
 _FEW_ROWS = 32
