@@ -9,6 +9,7 @@ import numpy as np
 
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import Column
+from assoc_hull.model.births import Births
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.network import HullNetwork
@@ -106,7 +107,7 @@ def _settings(net: HullState, state: HullState, count: int) -> None:
             (_named(a, number), _named(b, number)): born for (a, b), born in net.births.items()
         }
     state.settings.associations.data[0] = tuple(links)
-    state.settings.births.data[0] = births
+    state.settings.births.data[0] = Births.of(births)
 
 
 def _loft(state: HullState) -> None:

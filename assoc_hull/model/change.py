@@ -37,6 +37,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.loft import loft_with_signed_zeros
 from assoc_hull.graph.journal import Journal, both_parts, distinct, same_value
 from assoc_hull.graph.table import AnyColumn, Column, ValueColumn
+from assoc_hull.model.births import Births
 from assoc_hull.model.kinds import State
 from assoc_hull.model.lofting import curve_data, loft_curves
 from assoc_hull.model.tables import TABLES, CurveIntersections, HullState
@@ -390,9 +391,8 @@ def _births(state: HullState, journal: Journal, columns: Collection[str]) -> Bir
     if "settings.births" not in columns:
         return {}
     net = journal.net(state.settings.births)
-    old, new = net.old[0] or {}, net.new[0]
-    pairs = sorted(pair for pair in {*old, *new} if old.get(pair) != new.get(pair))
-    return {pair: (old.get(pair, 0), new.get(pair, 0)) for pair in pairs}
+    old, new = net.old[0] or Births.of({}), net.new[0]
+    return {pair: (old.get(pair, 0), new.get(pair, 0)) for pair in old.differing(new)}
 
 
 def _places(
@@ -540,7 +540,8 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
         for row, value in zip(rows.tolist(), new if forward else old, strict=True):
             held.store[row] = value
     if change.births:
-        state.settings.births.store[0] = _counted(state, change.births, forward)
+        counts = {pair: both[forward] for pair, both in change.births.items()}
+        state.settings.births.store[0] = state.births.counted(counts)
     # the crossings know their curves now, as both of these need it
     _move(state, change.moved)
     put_crossing_positions(state, change.after if forward else change.before)
@@ -611,11 +612,6 @@ def _flip(name: str, column: Column[np.generic], rows: IntArray, bits: NDArray[n
     if found.dtype == np.bool_ and flipped.max(initial=0) > 1:
         raise ValueError(f"{name} becomes neither true nor false")
     column.put(rows, found)
-
-
-def _counted(state: HullState, births: BirthCounts, forward: bool) -> dict[tuple[str, str], int]:
-    found = {**state.births, **{pair: counts[forward] for pair, counts in births.items()}}
-    return {pair: count for pair, count in found.items() if count}
 
 
 def _move(state: HullState, moved: tuple[IntArray, NDArray[np.uint8]]) -> None:

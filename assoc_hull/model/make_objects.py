@@ -18,6 +18,7 @@ from assoc_hull.errors import NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, freeze
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ValueColumn
+from assoc_hull.model.births import Pair
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.kinds import Role, Sort
@@ -166,16 +167,16 @@ class Maker:
         rows = self.journal.grow(self.state.rows, len(specs))
         if not len(specs):
             return rows
-        table, births = self.state.rows, dict(self.state.births)
+        table, births, fresh = self.state.rows, self.state.births, dict[Pair, int]()
         keys: list[str] = []
         numbers: list[int] = []
         for spec in specs:
             pair = self._pair(spec)
-            births[pair] = births.get(pair, 0) + 1
-            numbers.append(births[pair])
+            fresh[pair] = (fresh.get(pair) or births.get(pair, 0)) + 1
+            numbers.append(fresh[pair])
             mark = {1: "+", -1: "-", 0: "o"}[spec.sign]
-            keys.append(f"{pair[0]} x {pair[1]} {mark}{births[pair]}")
-        self.journal.set(self.state.settings.births, [0], [births])
+            keys.append(f"{pair[0]} x {pair[1]} {mark}{fresh[pair]}")
+        self.journal.set(self.state.settings.births, [0], [births.counted(fresh)])
         self.journal.set(table.key, rows.tolist(), keys)
         put = self.journal.put
         put(table.birth, rows, numbers)
@@ -201,7 +202,7 @@ class Maker:
         put(table.direction, [row], _stack([((0.0, 0.0, 0.0), spec.direction_b)]))
         self.roles(np.array([row]), np.array([int(spec.role)]))
 
-    def _pair(self, spec: CrossingSpec) -> tuple[str, str]:
+    def _pair(self, spec: CrossingSpec) -> Pair:
         keys = self.state.lines.key.data
         return keys[self.state.line_of(spec.a)], keys[self.state.line_of(spec.b)]
 

@@ -9,7 +9,7 @@ or adopted point has a curve on side 0 only. Tables are written through a `Journ
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from typing import Protocol, TypeVar
 
@@ -35,6 +35,7 @@ from assoc_hull.graph.table import (
     vectors,
     writes_begun,
 )
+from assoc_hull.model.births import Births
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.kinds import FAMILIES, Family
@@ -44,7 +45,6 @@ __all__ = [
     "DECKS",
     "TABLES",
     "Association",
-    "Births",
     "CurveIntersections",
     "Curves",
     "Ends",
@@ -325,10 +325,6 @@ class Produced(Table):
     curve: ValueColumn[GeneratedCurve] = values_given()
 
 
-Births = Mapping[tuple[str, str], int]
-"""How many crossings each pair of lines has ever had, by the keys of the lines."""
-
-
 @attrs.frozen(eq=False)
 class HullSettings(Table):
     """What belongs to the hull as a whole; one row."""
@@ -392,7 +388,7 @@ class HullState:
     def __attrs_post_init__(self) -> None:
         if not self.settings.count:
             self.settings.resize(1)
-            self.settings.births.data[0] = {}
+            self.settings.births.data[0] = Births.of({})
             self.settings.particulars.data[0] = self._given
 
     @property
@@ -581,7 +577,6 @@ def copy_into(found: HullState, state: HullState) -> None:
     """Give tables the content of a copy; they stay the same objects, so handles on them hold."""
     for name in TABLES:
         _copy(getattr(state, name), getattr(found, name))
-    found.settings.births.store[0] = dict(state.births)
     found.revision_row, found.revision_curve = dict(state.revision_row), dict(state.revision_curve)
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import operator
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import attrs
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.io.hull_file.guard import parse_json, read_numbered, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
+from assoc_hull.model.births import Births, Pair
 from assoc_hull.model.change import (
     CrossingPositions,
     crossing_positions,
@@ -258,7 +259,7 @@ def write_state(
          fingerprint, fingerprint, ship.deck),
     )  # fmt: skip
     write_settings(database, state)
-    write_births(database, dict(state.births))
+    write_births(database, state.births)
     for table in WRITTEN:
         put_rows(database, state, table, np.arange(getattr(state, table).count))
     for table, known in (("rows", state.revision_row), ("curves", state.revision_curve)):
@@ -280,7 +281,7 @@ def write_settings(database: sqlite3.Connection, state: HullState) -> None:
     database.executemany("INSERT INTO associations VALUES (?, ?, ?)", links)
 
 
-def write_births(database: sqlite3.Connection, counts: dict[tuple[str, str], int]) -> None:
+def write_births(database: sqlite3.Connection, counts: Mapping[Pair, int]) -> None:
     """Write how many crossings some pairs of lines have ever had; 0 takes the pair out."""
     rows = [(*pair, count) for pair, count in counts.items()]
     database.executemany("INSERT OR REPLACE INTO births VALUES (?, ?, ?)", rows)
@@ -404,7 +405,7 @@ def read_state(database: sqlite3.Connection) -> HullState:
     links = read_rows(database, "SELECT a, b, two_way FROM associations ORDER BY a, b")
     state.settings.associations.data[0] = tuple(Association(a, b, bool(w)) for a, b, w in links)
     births = read_rows(database, "SELECT a, b, count FROM births ORDER BY a, b")
-    state.settings.births.data[0] = {(a, b): int(count) for a, b, count in births}
+    state.settings.births.data[0] = Births.of({(a, b): int(count) for a, b, count in births})
     state.settings.failed.data[0] = tuple(parse_json(said[7]))
     _read_groups(state, read_numbered(database, "groups"))
     _read_lines(state, read_numbered(database, "lines"))
