@@ -37,6 +37,10 @@ __all__ = [
     "Column",
     "MatrixColumn",
     "NumberColumn",
+    "SparseColumn",
+    "SparseMatrices",
+    "SparseNumbers",
+    "SparseVectors",
     "Table",
     "ValueColumn",
     "VectorColumn",
@@ -307,7 +311,7 @@ class MatrixColumn(Column[S]):
 # Columns of which few rows hold anything.
 
 
-class _Sparse(Column[S]):
+class SparseColumn(Column[S]):
     """A column of which only those rows take memory that hold anything but the fill value.
 
     What is held is never written to, but made anew with every write; so columns that share it need
@@ -337,17 +341,21 @@ class _Sparse(Column[S]):
 
     @property
     def store(self) -> NDArray[S]:
+        """The rows are written by `put`: there is no array of them all."""
         raise TypeError("the rows of this column are written by put")
 
     @property
     def dtype(self) -> np.dtype[S]:
+        """Of the numbers."""
         return self._held.values.dtype
 
     @property
     def shape(self) -> tuple[int, ...]:
+        """Of one row."""
         return self._held.values.shape[1:]
 
     def put(self, rows: NDArray[np.int64], values: NDArray[np.generic]) -> None:
+        """Write to rows, each named once."""
         held, at = self._held, self._held.find(rows)
         if len(rows) and int(at.min()) >= 0:
             # Riders that are carried on: the rows stay the same.
@@ -368,6 +376,7 @@ class _Sparse(Column[S]):
         self.written()
 
     def put_parts(self, part: NDArray[np.int64], values: NDArray[np.generic]) -> None:
+        """Write to parts of rows: row r, part p is r * parts + p."""
         row, which = np.divmod(part, self.shape[0])
         rows = np.unique(row)
         whole = self.take(rows)
@@ -375,11 +384,13 @@ class _Sparse(Column[S]):
         self.put(rows, whole)
 
     def take_over(self, other: Column[S]) -> None:
-        assert isinstance(other, _Sparse)
+        """Become a copy of a column of as many rows."""
+        assert isinstance(other, SparseColumn)
         self._held, self._count = other._held, other._count
         self.written()
 
     def share(self, before: object = None) -> Self:
+        """Give another column with the same content, as it is now; see `Column.share`."""
         if isinstance(before, type(self)) and self._same(before) and before.writes == self.writes:
             return before
         found = object.__new__(type(self))
@@ -388,12 +399,16 @@ class _Sparse(Column[S]):
         return found
 
     def equals(self, other: object) -> bool:
-        return isinstance(other, _Sparse) and (self._same(other) or other.writes == self.writes)
+        """Tell whether another column has the same numbers; see `Column.equals`."""
+        return isinstance(other, SparseColumn) and (
+            self._same(other) or other.writes == self.writes
+        )
 
-    def _same(self, other: _Sparse[np.generic]) -> bool:
+    def _same(self, other: SparseColumn[np.generic]) -> bool:
         return other._held is self._held and other._count == self._count
 
     def resize(self, count: int) -> None:
+        """Bring the column to `count` rows; new ones hold the fill value."""
         held = self._held
         if len(held.rows) and held.rows[-1] >= count:
             kept = int(np.searchsorted(held.rows, count))
@@ -403,9 +418,11 @@ class _Sparse(Column[S]):
         self.written()
 
     def take(self, rows: NDArray[np.int64]) -> NDArray[S]:
+        """Give a copy of rows (k,)."""
         return self._held.values.take(self._held.find(rows), axis=0)
 
     def take_parts(self, part: NDArray[np.int64]) -> NDArray[S]:
+        """Give a copy of parts of rows, as `parts` numbers them."""
         held, parts = self._held, self.shape[0]
         if not len(held.rows):
             return np.full((len(part), *self.shape[1:]), self.fill, self.dtype)
@@ -490,15 +507,15 @@ def _words(values: NDArray[np.generic]) -> NDArray[np.generic]:
     return whole.reshape(len(values), math.prod(values.shape[1:]))
 
 
-class SparseNumbers(_Sparse[S], NumberColumn[S]):
+class SparseNumbers(SparseColumn[S], NumberColumn[S]):
     """One number a row, of few rows."""
 
 
-class SparseVectors(_Sparse[S], VectorColumn[S]):
+class SparseVectors(SparseColumn[S], VectorColumn[S]):
     """Several numbers a row, of few rows."""
 
 
-class SparseMatrices(_Sparse[S], MatrixColumn[S]):
+class SparseMatrices(SparseColumn[S], MatrixColumn[S]):
     """Several vectors a row, of few rows."""
 
 

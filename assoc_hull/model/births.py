@@ -14,7 +14,7 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import ItemsView, Iterator, Mapping
+from collections.abc import ItemsView, Iterator, Mapping, ValuesView
 
 import numpy as np
 from numpy.typing import NDArray
@@ -109,6 +109,10 @@ class Births(Mapping[Pair, int]):
 
     def __len__(self) -> int:
         return len(self._codes)
+
+    def values(self) -> ValuesView[int]:
+        """Give all counts."""
+        return dict(self.items()).values()
 
     def items(self) -> ItemsView[Pair, int]:
         """Give all at once, which is faster than pair by pair."""

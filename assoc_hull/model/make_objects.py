@@ -21,6 +21,7 @@ from assoc_hull.graph.table import ValueColumn
 from assoc_hull.model.births import Pair
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.keys import crossing_key
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import Association, Ends, Featured, Formed, HullState, Produced
 
@@ -174,8 +175,7 @@ class Maker:
             pair = self._pair(spec)
             fresh[pair] = (fresh.get(pair) or births.get(pair, 0)) + 1
             numbers.append(fresh[pair])
-            mark = {1: "+", -1: "-", 0: "o"}[spec.sign]
-            keys.append(f"{pair[0]} x {pair[1]} {mark}{fresh[pair]}")
+            keys.append(crossing_key(*pair, spec.sign, fresh[pair]))
         self.journal.set(self.state.settings.births, [0], [births.counted(fresh)])
         self.journal.set(table.key, rows.tolist(), keys)
         put = self.journal.put

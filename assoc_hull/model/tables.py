@@ -38,6 +38,7 @@ from assoc_hull.graph.table import (
 from assoc_hull.model.births import Births
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.keys import KeyColumn, keys
 from assoc_hull.model.kinds import FAMILIES, Family
 from assoc_hull.tolerance import Tolerances
 
@@ -235,7 +236,7 @@ class Rows(Table):
     points ``anchor``, which lay at ``anchor_from`` then; the second one counts ``anchor_weight``.
     """
 
-    key: ValueColumn[str] = values("")
+    key: KeyColumn = keys()
     alive: NumberColumn[np.bool_] = numbers(np.bool_)
     sort: NumberColumn[np.int8] = numbers(np.int8)
     xyz: VectorColumn[np.float64] = vectors(np.float64, 3)
@@ -249,8 +250,8 @@ class Rows(Table):
     contact: NumberColumn[np.bool_] = numbers(np.bool_)
     sign: NumberColumn[np.int8] = numbers(np.int8)
     birth: NumberColumn[np.int64] = numbers(np.int64)
-    limit: NumberColumn[np.float64] = numbers(np.float64, np.nan)
-    gap: NumberColumn[np.float64] = numbers(np.float64, np.nan)
+    limit: NumberColumn[np.float64] = numbers(np.float64, np.nan, sparse=True)
+    gap: NumberColumn[np.float64] = numbers(np.float64, np.nan, sparse=True)
     spot: MatrixColumn[np.float64] = matrices(np.float64, (2, 3), np.nan)
     parameter: VectorColumn[np.float64] = vectors(np.float64, 2, np.nan)
     anchor: VectorColumn[np.int64] = vectors(np.int64, 2, -1, sparse=True)

@@ -360,9 +360,10 @@ def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     pairs = {name: getattr(table, name).take(numbers).astype(int).tolist() for name in _PAIRS}
     reals = {name: _blobs(getattr(table, name), numbers) for name in _REALS}
     xyz = [_real_blob(each) for each in table.xyz[numbers]]
+    key = table.key.data.for_looks(len(numbers))
     for place, i in enumerate(numbers.tolist()):
         yield (
-            i, table.key[i], table.label[i],
+            i, key[i], table.label[i],
             *(whole[name][place] for name in ("alive", "sort", "role", "override")),
             *pairs["curve"][place], *pairs["kind"][place], *pairs["reader"][place],
             *(whole[name][place] for name in ("driver", "contact", "sign", "birth", "state")),

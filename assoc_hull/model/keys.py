@@ -1,0 +1,169 @@
+"""Keys of points: those of crossings are numbers here, and text when somebody asks for one.
+
+A crossing is called by its two lines, its sense and its birth: ``WL 1 x ST 4 +1``. As text that is
+100 bytes and more for each, which all say the names of a few hundred lines again; as the numbers of
+the lines, the sense and the birth it is 12. Keys of other points stay as they are.
+
+Examples
+--------
+>>> from assoc_hull.model.keys import Keys, crossing_key
+>>> keys = Keys([crossing_key("WL 1", "ST 4", 1, 1), "ST 4/1 @ (1.0, 2.0, 3.0)"])
+>>> keys[0], len(keys), "ST 4/1 @ (1.0, 2.0, 3.0)" in keys
+('WL 1 x ST 4 +1', 2, True)
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Self, SupportsIndex, overload
+
+import attrs
+import numpy as np
+
+from assoc_hull.graph.table import ValueColumn
+
+__all__ = ["KeyColumn", "Keys", "crossing_key", "keys"]
+
+_MARKS = {1: "+", -1: "-", 0: "o"}
+_SENSES = "+-o"
+_BETWEEN = " x "
+_DIGITS = 8
+"""Births of more digits, which no hull has, are left as text; a mark fits into an int32."""
+
+_NONE = 0, -1, 0
+"""The key of a new row: the first text, which is empty."""
+
+
+def crossing_key(a: str, b: str, sign: int, birth: int) -> str:
+    """Give the key of a crossing, by the keys of its lines; the sense is nil where they touch."""
+    return f"{a}{_BETWEEN}{b} {_MARKS[sign]}{birth}"
+
+
+class Keys(Sequence[str]):
+    """A growing list of keys that takes the room of numbers."""
+
+    def __init__(self, texts: Iterable[str] = ()) -> None:
+        self._parts, self._numbers = [""], dict[str, int]()
+        self._codes = np.zeros((0, 3), np.int32)
+        self._count = 0
+        self.extend(texts)
+
+    def copy(self) -> Self:
+        """Give a list of the same keys."""
+        found = object.__new__(type(self))
+        found._parts, found._numbers = self._parts.copy(), self._numbers.copy()
+        found._codes, found._count = self._codes.copy(), self._count
+        return found
+
+    def for_looks(self, count: int) -> Sequence[str]:
+        """Give the same keys for so many looks at single ones: many are faster in a plain list."""
+        return self if 2 * count < self._count else list(self)
+
+    def extend(self, texts: Iterable[str]) -> None:
+        """Put keys behind the last one."""
+        codes = [self._code(text) for text in texts]
+        count = self._count + len(codes)
+        if count > len(self._codes):
+            # Few hulls grow much once they are made: a half more is room enough.
+            grown = np.zeros((max(count, self._count + self._count // 2), 3), np.int32)
+            grown[: self._count] = self._codes[: self._count]
+            self._codes = grown
+        self._codes[self._count : count] = np.array(codes, np.int32).reshape(-1, 3)
+        self._count = count
+
+    def _code(self, text: str) -> tuple[int, int, int]:
+        """Give the numbers of both lines and the mark; or of a text, -1, and nil."""
+        if not text:
+            return _NONE
+        lines, _, mark = text.rpartition(" ")
+        a, between, b = lines.partition(_BETWEEN)
+        digits = mark[1:]
+        if (
+            between and mark[:1] in _SENSES and digits.isascii() and digits.isdecimal()
+            and digits[0] != "0" and len(digits) <= _DIGITS
+        ):  # fmt: skip
+            # The same text comes back, wherever a key of a line says " x " as well.
+            return self._part(a), self._part(b), 3 * int(digits) + _SENSES.index(mark[0])
+        self._parts.append(text)
+        return len(self._parts) - 1, -1, 0
+
+    def _part(self, line: str) -> int:
+        """Give the number of a line."""
+        number = self._numbers.get(line)
+        if number is None:
+            number = len(self._parts)
+            # In this order: broken off between the two, the number is given to nobody.
+            self._parts.append(line)
+            self._numbers[line] = number
+        return number
+
+    def _texts(self, codes: np.typing.NDArray[np.int32]) -> Iterator[str]:
+        parts = self._parts
+        for a, b, mark in codes.tolist():
+            if b < 0:
+                yield parts[a]
+            else:
+                yield f"{parts[a]}{_BETWEEN}{parts[b]} {_SENSES[mark % 3]}{mark // 3}"
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __iter__(self) -> Iterator[str]:
+        return self._texts(self._codes[: self._count])
+
+    @overload
+    def __getitem__(self, row: SupportsIndex) -> str: ...
+
+    @overload
+    def __getitem__(self, row: slice) -> list[str]: ...
+
+    def __getitem__(self, row: SupportsIndex | slice) -> str | list[str]:
+        if isinstance(row, slice):
+            return list(self._texts(self._codes[: self._count][row]))
+        place, count = operator.index(row), self._count
+        if not -count <= place < count:
+            raise IndexError(f"row {place} is none of {count}")
+        codes: list[int] = self._codes[place if place >= 0 else place + count].tolist()
+        a, b, mark = codes
+        if b < 0:
+            return self._parts[a]
+        return f"{self._parts[a]}{_BETWEEN}{self._parts[b]} {_SENSES[mark % 3]}{mark // 3}"
+
+    def __setitem__(self, row: SupportsIndex | slice, text: str | Sequence[str]) -> None:
+        mine = self._codes[: self._count]
+        if isinstance(text, str):
+            mine[row] = self._code(text)
+        else:
+            mine[row] = np.array([self._code(each) for each in text], np.int32).reshape(-1, 3)
+
+    def __delitem__(self, rows: slice) -> None:
+        """Take out the last ones; what is left of them is of no row."""
+        if rows.start < self._count:
+            self._count = rows.start
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and list(self) == list(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class KeyColumn(ValueColumn[str]):
+    """A column of keys."""
+
+    def __init__(self, fill: str | None = "") -> None:
+        super().__init__(fill)
+
+    @property  # type: ignore[override]  # a list in other columns
+    def data(self) -> Keys:
+        """The keys, which are texts where they are asked for."""
+        return self._keys
+
+    @data.setter
+    def data(self, texts: Sequence[str]) -> None:
+        self._keys = texts if isinstance(texts, Keys) else Keys(texts)
+
+
+def keys() -> KeyColumn:
+    """Declare a column of keys; those of new rows are empty."""
+    return attrs.field(factory=KeyColumn, init=False)
