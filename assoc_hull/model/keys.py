@@ -40,6 +40,21 @@ def crossing_key(a: str, b: str, sign: int, birth: int) -> str:
     return f"{a}{_BETWEEN}{b} {_MARKS[sign]}{birth}"
 
 
+def _read(key: str) -> tuple[str, str, int] | None:
+    """Take the key of a crossing apart: its lines, and birth and sense as one number; or None.
+
+    The same text comes back, wherever the key of a line says " x " as well.
+    """
+    lines, _, mark = key.rpartition(" ")
+    a, between, b = lines.partition(_BETWEEN)
+    digits = mark[1:]
+    if not between or mark[:1] not in _SENSES or len(digits) > _DIGITS:
+        return None
+    if not (digits.isascii() and digits.isdecimal()) or digits[0] == "0":
+        return None
+    return a, b, 3 * int(digits) + _SENSES.index(mark[0])
+
+
 class Keys(Sequence[str]):
     """A growing list of keys that takes the room of numbers."""
 
@@ -76,15 +91,8 @@ class Keys(Sequence[str]):
         """Give the numbers of both lines and the mark; or of a text, -1, and nil."""
         if not text:
             return _NONE
-        lines, _, mark = text.rpartition(" ")
-        a, between, b = lines.partition(_BETWEEN)
-        digits = mark[1:]
-        if (
-            between and mark[:1] in _SENSES and digits.isascii() and digits.isdecimal()
-            and digits[0] != "0" and len(digits) <= _DIGITS
-        ):  # fmt: skip
-            # The same text comes back, wherever a key of a line says " x " as well.
-            return self._part(a), self._part(b), 3 * int(digits) + _SENSES.index(mark[0])
+        if (found := _read(text)) is not None:
+            return self._part(found[0]), self._part(found[1]), found[2]
         self._parts.append(text)
         return len(self._parts) - 1, -1, 0
 
@@ -105,6 +113,25 @@ class Keys(Sequence[str]):
                 yield parts[a]
             else:
                 yield f"{parts[a]}{_BETWEEN}{parts[b]} {_SENSES[mark % 3]}{mark // 3}"
+
+    def __contains__(self, text: object) -> bool:
+        # Texts of all keys would have to be made, to be compared.
+        if not isinstance(text, str):
+            return False
+        mine = self._codes[: self._count]
+        if (found := _read(text)) is not None:
+            a, b = self._numbers.get(found[0]), self._numbers.get(found[1])
+            known = a is not None and b is not None
+            return known and bool((mine == np.array([a, b, found[2]])).all(axis=1).any())
+        place = -1
+        while True:
+            try:
+                place = self._parts.index(text, place + 1)
+            except ValueError:
+                return False
+            # It may be the key of a line alone, or one that was taken back.
+            if ((mine[:, 0] == place) & (mine[:, 1] < 0)).any():
+                return True
 
     def __len__(self) -> int:
         return self._count

@@ -7,7 +7,7 @@ birth for that pair, a placed or adopted point's from its curve and first place.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from typing import Protocol, TypeVar
 
 import attrs
@@ -26,6 +26,9 @@ from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import Association, Ends, Featured, Formed, HullState, Produced
 
 __all__ = ["CrossingSpec", "Maker", "PointSpec"]
+
+_FEW = 8
+"""So many new keys are looked for among those that there are; for more, these are made texts."""
 
 
 class _HasKey(Protocol):
@@ -129,7 +132,7 @@ class Maker:
         number = int(self.journal.grow(table, 1)[0])
         place = name if plane is None or boundary >= 0 else f"{plane[1]:.6f}"
         self.journal.set(
-            table.key, [number], [self._fresh(table.key.data, key or f"{title}:{place}")]
+            table.key, [number], [self._fresh(key or f"{title}:{place}", table.key.data)]
         )
         self.journal.set(table.name, [number], [name])
         self.journal.put(table.group, [number], [group])
@@ -142,10 +145,10 @@ class Maker:
         return number
 
     @staticmethod
-    def _fresh(taken: Collection[str], wish: str) -> str:
+    def _fresh(wish: str, *taken: Container[str]) -> str:
         """Give a key that no object has or had."""
         key, number = wish, 1
-        while key in taken:
+        while any(key in each for each in taken):
             number += 1
             key = f"{wish}~{number}"
         return key
@@ -155,7 +158,7 @@ class Maker:
         table = self.state.curves
         number = int(self.journal.grow(table, 1)[0])
         before = self.state.lines.curves[line]
-        key = self._fresh(table.key.data, f"{self.state.lines.key[line]}/{len(before) + 1}")
+        key = self._fresh(f"{self.state.lines.key[line]}/{len(before) + 1}", table.key.data)
         self.journal.set(table.key, [number], [key])
         self.journal.put(table.line, [number], [line])
         self.journal.put(table.alive, [number], [True])
@@ -225,12 +228,14 @@ class Maker:
         if not len(specs):
             return rows
         table, put = self.state.rows, self.journal.put
-        taken, keys = set(table.key.data), []
+        # One or two are looked for among all keys, for many these are made texts once.
+        taken: Container[str] = table.key.data if len(specs) <= _FEW else set(table.key.data)
+        mine, keys = set[str](), list[str]()
         for spec in specs:
             x, y, z = np.asarray(spec.xyz, np.float64).tolist()
             wish = f"{self.state.curves.key[spec.curve]} @ ({x:.4f}, {y:.4f}, {z:.4f})"
-            keys.append(self._fresh(taken, wish))
-            taken.add(keys[-1])
+            keys.append(self._fresh(wish, taken, mine))
+            mine.add(keys[-1])
         self.journal.set(table.key, rows.tolist(), keys)
         put(table.alive, rows, True)
         put(table.sort, rows, [int(spec.sort) for spec in specs])

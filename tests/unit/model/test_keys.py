@@ -42,6 +42,7 @@ def test_keys_are_what_a_list_of_texts_would_be(acts: list[tuple[str, int, str]]
             column.resize(count)
             wanted = [*wanted[:count], *[""] * (count - len(wanted))]
         assert list(column.data) == wanted
+        assert all((text in column.data) == (text in wanted) for text in [*ODD, text])
     for shared, texts in kept:
         assert shared.data == texts
     assert pickle.loads(pickle.dumps(column)).data == wanted
