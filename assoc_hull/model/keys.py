@@ -1,8 +1,9 @@
-"""Keys of points: those of crossings are numbers here, and text when somebody asks for one.
+"""Keys and labels of points: keys of crossings are numbers, and text when somebody asks for one.
 
 A crossing is called by its two lines, its sense and its birth: ``WL 1 x ST 4 +1``. As text that is
 100 bytes and more for each, which all say the names of a few hundred lines again; as the numbers of
-the lines, the sense and the birth it is 12. Keys of other points stay as they are.
+the lines, the sense and the birth it is 12. Keys of other points stay as they are. Of labels, which
+designers give to few points, only those are held that there are.
 
 Examples
 --------
@@ -23,7 +24,7 @@ import numpy as np
 
 from assoc_hull.graph.table import ValueColumn
 
-__all__ = ["KeyColumn", "Keys", "crossing_key", "keys"]
+__all__ = ["KeyColumn", "Keys", "LabelColumn", "Labels", "crossing_key", "keys", "labels"]
 
 _MARKS = {1: "+", -1: "-", 0: "o"}
 _SENSES = "+-o"
@@ -175,11 +176,95 @@ class Keys(Sequence[str]):
     __hash__ = None  # type: ignore[assignment]
 
 
+class Labels(Sequence[str]):
+    """A growing list of texts of which most are empty: only the others take room."""
+
+    def __init__(self, texts: Sequence[str] = ()) -> None:
+        self._given, self._count = dict[int, str](), 0
+        self.extend(texts)
+
+    def copy(self) -> Self:
+        """Give a list of the same texts."""
+        found = object.__new__(type(self))
+        found._given, found._count = self._given.copy(), self._count
+        return found
+
+    def extend(self, texts: Sequence[str]) -> None:
+        """Put texts behind the last one."""
+        first = self._count
+        self._count = first + len(texts)
+        self[first:] = texts
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __iter__(self) -> Iterator[str]:
+        return (self._given.get(row, "") for row in range(self._count))
+
+    @overload
+    def __getitem__(self, row: SupportsIndex) -> str: ...
+
+    @overload
+    def __getitem__(self, row: slice) -> list[str]: ...
+
+    def __getitem__(self, row: SupportsIndex | slice) -> str | list[str]:
+        rows = range(self._count)[row]
+        if isinstance(rows, int):
+            return self._given.get(rows, "")
+        return [self._given.get(each, "") for each in rows]
+
+    def __setitem__(self, row: SupportsIndex | slice, text: str | Sequence[str]) -> None:
+        rows = range(self._count)[row]
+        if isinstance(rows, int):
+            self._set(rows, str(text))
+        else:
+            for each, one in zip(rows, text, strict=True):
+                self._set(each, one)
+
+    def _set(self, row: int, text: str) -> None:
+        if text == "":
+            self._given.pop(row, None)
+        else:
+            self._given[row] = text
+
+    def __delitem__(self, rows: slice) -> None:
+        """Take out the last ones."""
+        for row in range(rows.start, self._count):
+            self._given.pop(row, None)
+        self._count = min(self._count, rows.start)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and list(self) == list(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class LabelColumn(ValueColumn[str]):
+    """A column of texts of which most are empty."""
+
+    def __init__(self) -> None:
+        super().__init__("")
+
+    @property  # type: ignore[override]  # a list in other columns
+    def data(self) -> Labels:
+        """The texts."""
+        return self._labels
+
+    @data.setter
+    def data(self, texts: Sequence[str]) -> None:
+        self._labels = texts if isinstance(texts, Labels) else Labels(texts)
+
+
+def labels() -> LabelColumn:
+    """Declare a column of labels; new rows have none."""
+    return attrs.field(factory=LabelColumn, init=False)
+
+
 class KeyColumn(ValueColumn[str]):
     """A column of keys."""
 
-    def __init__(self, fill: str | None = "") -> None:
-        super().__init__(fill)
+    def __init__(self) -> None:
+        super().__init__("")
 
     @property  # type: ignore[override]  # a list in other columns
     def data(self) -> Keys:

@@ -38,7 +38,7 @@ from assoc_hull.graph.table import (
 from assoc_hull.model.births import Births
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
-from assoc_hull.model.keys import KeyColumn, keys
+from assoc_hull.model.keys import KeyColumn, LabelColumn, keys, labels
 from assoc_hull.model.kinds import FAMILIES, Family
 from assoc_hull.tolerance import Tolerances
 
@@ -259,7 +259,7 @@ class Rows(Table):
     anchor_weight: NumberColumn[np.float64] = numbers(np.float64, sparse=True)
     base: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
     state: NumberColumn[np.int8] = numbers(np.int8)
-    label: ValueColumn[str] = values("")
+    label: LabelColumn = labels()
 
 
 @attrs.frozen(eq=False)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.keys import KeyColumn, Keys, crossing_key
+from assoc_hull.model.keys import KeyColumn, Keys, LabelColumn, Labels, crossing_key
 
 ODD = [
     "", " ", " x ", "a x b", "a x b ", "a x b +", "a x b +0", "a x b +01", "a x b 1", "a x b +1 ",
@@ -25,11 +25,14 @@ ACTS = st.one_of(
 )
 
 
+@pytest.mark.parametrize("kind", [KeyColumn, LabelColumn])
 @given(acts=st.lists(ACTS, max_size=50))
-def test_keys_are_what_a_list_of_texts_would_be(acts: list[tuple[str, int, str]]) -> None:
+def test_a_column_holds_what_a_list_of_texts_would(
+    kind: type[KeyColumn | LabelColumn], acts: list[tuple[str, int, str]]
+) -> None:
     """Whatever text is written, and whatever is shared meanwhile."""
-    column, wanted = KeyColumn(), list[str]()
-    kept = list[tuple[KeyColumn, list[str]]]()
+    column, wanted = kind(), list[str]()
+    kept = list[tuple[KeyColumn | LabelColumn, list[str]]]()
     for act, size, text in acts:
         if act == "share":
             kept.append((column.share(), list(wanted)))
@@ -48,9 +51,10 @@ def test_keys_are_what_a_list_of_texts_would_be(acts: list[tuple[str, int, str]]
     assert pickle.loads(pickle.dumps(column)).data == wanted
 
 
-def test_keys_are_read_as_a_list_is() -> None:
+@pytest.mark.parametrize("kind", [Keys, Labels])
+def test_texts_are_read_as_a_list_is(kind: type[Keys | Labels]) -> None:
     """By number, from the end, by slices, and whether they are there."""
-    keys = Keys(ODD)
+    keys = kind(ODD)
     assert [keys[row] for row in range(-len(ODD), len(ODD))] == ODD + ODD
     assert keys[3:9:2] == ODD[3:9:2]
     assert ("a x b +0" in keys, "b x a +1" in keys) == (True, False)
