@@ -316,6 +316,7 @@ class SparseColumn(Column[S]):
 
     What is held is never written to, but made anew with every write; so columns that share it need
     no copies. `data` is made whenever it is asked for: `take` and `column[rows]` are for few rows.
+    A row that held something once is held on until the table gets shorter.
     """
 
     def __init__(self, dtype: type[S] | np.dtype[S], shape: tuple[int, ...], fill: float) -> None:
@@ -357,22 +358,25 @@ class SparseColumn(Column[S]):
     def put(self, rows: NDArray[np.int64], values: NDArray[np.generic]) -> None:
         """Write to rows, each named once."""
         held, at = self._held, self._held.find(rows)
-        if len(rows) and int(at.min()) >= 0:
+        given = np.asarray(values, self.dtype)
+        order, place, fresh = held.rows, held.place, at < 0
+        written = held.values.copy()
+        if not fresh.any():
             # Riders that are carried on: the rows stay the same.
-            written = held.values.copy()
-            written[at] = values
-            self._held = _Held(held.rows, written, held.place)
+            written[at] = given
         else:
-            given = np.broadcast_to(np.asarray(values, self.dtype), (len(rows), *self.shape))
-            blank = held.values[-1:]
+            given = np.broadcast_to(given, (len(rows), *self.shape))
+            written[at[~fresh]] = given[~fresh]
+            some = given[fresh]
             # By bits: -0.0 is not what a new row holds.
-            odd = (_words(given) != _words(blank)).any(axis=1)
-            kept = np.ones(len(held.rows), np.bool_)
-            kept[at[at >= 0]] = False
-            every = np.concatenate([held.rows[kept], rows[odd]])
-            order = np.argsort(every, kind="stable")
-            mine = np.concatenate([held.values[:-1][kept], given[odd]])[order]
-            self._held = _Held(every[order], np.concatenate([mine, blank]))
+            odd = (_words(some) != _words(held.values[-1:])).any(axis=1)
+            if odd.any():
+                every = np.concatenate([held.rows, rows[fresh][odd]])
+                turn = np.argsort(every, kind="stable")
+                mine = np.concatenate([written[:-1], some[odd]])[turn]
+                order, place = every[turn], None
+                written = np.concatenate([mine, held.values[-1:]])
+        self._held = _Held(order, written, place)
         self.written()
 
     def put_parts(self, part: NDArray[np.int64], values: NDArray[np.generic]) -> None:
