@@ -10,14 +10,16 @@ MOST = {
     # lets one write at a time; `edit.program_edit` asks whether the program answers for the edit
     # what is published has look-ups of its own, for others who read it meanwhile: `model.index`
     # `model.change` tells what an edit changed: old steps of a hull in memory hold that alone
-    "a moved point": 54,
+    # keys of points are texts when they are asked for, of `model.keys`
+    "a moved point": 55,
     # one run stands in the place of the passes; in numpy it enters what they do to loft and cut
-    "a moved point, by the program": 47,
+    "a moved point, by the program": 48,
     "a pull": 61,
     "hydrostatics": 31,  # columns are read through `graph.table`, by `column[row]`
     # what is made of the tables is kept by `graph.derived`, behind the lock of `graph.gate`
     # its result stands in a module that loads nothing of studies and surfaces
-    "a variation of the breadth": 113,
+    # counts of crossings by pairs of lines are `model.births`, arrays of their own
+    "a variation of the breadth": 114,
 }
 """Modules entered, at most. A change that raises a number says why in its commit."""
 

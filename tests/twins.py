@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.graph.table import Column
+from assoc_hull.graph.table import Column, SparseColumn
 
 __all__ = ["made_once", "packed", "twin"]
 
@@ -35,6 +35,11 @@ def _column(
 ) -> Column[Any]:
     """Make a column whose rows in use are a view of its store, as it must be."""
     column = kind(store.dtype, store.shape[1:], fill)
+    if isinstance(column, SparseColumn):
+        column.resize(count)
+        column.put(np.arange(count), store)
+        column.writes = writes
+        return column
     column._store, column.data, column.writes = store, _frozen(store[:count]), writes
     return column
 
@@ -53,7 +58,8 @@ class _Pickler(pickle.Pickler):
             assert not value.history, "the history stays behind"
             return _hull, (value.document.state, value.adoption)
         if isinstance(value, Column):
-            what = type(value), value._store, value.fill, len(value.data), value.writes
+            store = value.data if isinstance(value, SparseColumn) else value._store
+            what = type(value), store, value.fill, len(value.data), value.writes
             return _column, what
         if type(value) is np.ndarray and not value.flags.writeable:
             return _frozen, (value.copy(),)

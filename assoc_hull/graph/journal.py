@@ -229,14 +229,14 @@ def both_parts(rows: NDArray[np.int64]) -> NDArray[np.int64]:
 
 def _net_array(column: Column[S], entries: Sequence[_ArrayEntry | _PartEntry]) -> ArrayChange[S]:
     """Run the writes to an array backward over a copy of what they touched."""
-    width = column.data.shape[1] if column.data.ndim > 1 else 1
+    width = column.shape[0] if column.shape else 1
     if len(entries) == 1 and isinstance(entry := entries[0], _ArrayEntry):
         rows, old = entry.index, entry.old
         if len(rows) < 2 or bool((rows[1:] > rows[:-1]).all()):
-            return ArrayChange(rows, old, column.data.take(rows, axis=0))  # type: ignore[arg-type]
+            return ArrayChange(rows, old, column.take(rows))  # type: ignore[arg-type]
     parts = [e.index if isinstance(e, _ArrayEntry) else e.part // width for e in entries]
     rows = distinct(np.concatenate([np.zeros(0, np.int64), *parts]))
-    new = column.data.take(rows, axis=0)
+    new = column.take(rows)
     old = new.copy()
     flat = old.reshape(-1, *old.shape[2:])
     for entry in reversed(entries):
@@ -269,10 +269,10 @@ class Journal:
         rows = np.asarray(index, np.int64)
         if not len(rows):
             return
-        new = np.array(values, column.data.dtype)
-        if new.shape != (len(rows), *column.data.shape[1:]):
-            new = np.broadcast_to(new, (len(rows), *column.data.shape[1:])).copy()
-        old = column.data.take(rows, axis=0)
+        new = np.array(values, column.dtype)
+        if new.shape != (len(rows), *column.shape):
+            new = np.broadcast_to(new, (len(rows), *column.shape)).copy()
+        old = column.take(rows)
         self.entries.append(_ArrayEntry(column, rows, old, new, column.writes))
         column.put(rows, new)
 
@@ -285,7 +285,7 @@ class Journal:
         """Write to parts of rows, as `Column.parts` numbers them, each named once."""
         if not len(part):
             return
-        old = PickedRows(column.parts().take(part, axis=0))
+        old = PickedRows(column.take_parts(part))
         self.entries.append(_PartEntry(column, part, old, new, column.writes))
         column.put_parts(part, new.values())
 
@@ -313,7 +313,7 @@ class Journal:
             if isinstance(entry, _ArrayEntry) and entry.column is column
         ]
         rows = np.unique(np.concatenate([np.zeros(0, np.int64), *(entry.index for entry in mine)]))
-        old = column.data.take(rows, axis=0)
+        old = column.take(rows)
         for entry in reversed(mine):
             old[np.searchsorted(rows, entry.index)] = entry.old
         return rows, old

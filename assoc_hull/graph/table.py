@@ -21,12 +21,13 @@ Examples
 from __future__ import annotations
 
 import itertools
+import math
 import sys
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from operator import attrgetter, eq, is_
 from types import EllipsisType
-from typing import Generic, Self, SupportsIndex, TypeVar, overload
+from typing import TYPE_CHECKING, Generic, Self, SupportsIndex, TypeVar, overload
 
 import attrs
 import numpy as np
@@ -37,6 +38,10 @@ __all__ = [
     "Column",
     "MatrixColumn",
     "NumberColumn",
+    "SparseColumn",
+    "SparseMatrices",
+    "SparseNumbers",
+    "SparseVectors",
     "Table",
     "ValueColumn",
     "VectorColumn",
@@ -227,6 +232,29 @@ class Column(Generic[S]):
         """Give the first two axes as one: row r, part p is at r * parts + p."""
         return self.data.reshape(-1, *self.data.shape[2:])
 
+    @property
+    def dtype(self) -> np.dtype[S]:
+        """Of the numbers."""
+        return self.data.dtype
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Of one row."""
+        return self.data.shape[1:]
+
+    def take(self, rows: NDArray[np.int64]) -> NDArray[S]:
+        """Give a copy of rows (k,)."""
+        return self.data.take(rows, axis=0)
+
+    def take_parts(self, part: NDArray[np.int64]) -> NDArray[S]:
+        """Give a copy of parts of rows, as `parts` numbers them."""
+        return self.parts().take(part, axis=0)
+
+    def take_over(self, other: Column[S]) -> None:
+        """Become a copy of a column of as many rows."""
+        self.store[: len(other.data)] = other.data
+        self.written()
+
     def __getitem__(self, rows: _Several | _Part) -> NDArray[S]:
         return self.data[rows]
 
@@ -295,6 +323,222 @@ class MatrixColumn(Column[S]):
 
     def __getitem__(self, rows: _Row | _Several | _Part) -> S | NDArray[S]:
         return self.data[rows]
+
+
+# --------------------------------------------------------------------------------------
+# Columns of which few rows hold anything.
+
+
+class SparseColumn(Column[S]):
+    """A column of which only those rows take memory that hold anything but the fill value.
+
+    What is held is never written to, but made anew with every write; so columns that share it need
+    no copies. `data` is made whenever it is asked for: `take` and `column[rows]` are for few rows.
+    A row that held something once is held on until the table gets shorter.
+    """
+
+    def __init__(self, dtype: type[S] | np.dtype[S], shape: tuple[int, ...], fill: float) -> None:
+        self._held: _Held[S] = _Held(np.zeros(0, np.int64), np.full((1, *shape), fill, dtype))
+        self._count = 0
+        self.fill = fill
+        self.writes = 0
+
+    def __setstate__(self, state: tuple[NDArray[S], float]) -> None:
+        whole, self.fill = state
+        blank: NDArray[S] = np.full((1, *whole.shape[1:]), self.fill, whole.dtype)
+        self._held, self._count = _Held(np.zeros(0, np.int64), blank), len(whole)
+        self.put(np.arange(len(whole)), whole)
+
+    @property
+    def data(self) -> NDArray[S]:  # type: ignore[override]  # an attribute of dense columns
+        """All rows, as an array of one's own that cannot be written to."""
+        held = self._held
+        found: NDArray[S] = np.full((self._count, *self.shape), self.fill, self.dtype)
+        found[held.rows] = held.values[:-1]
+        found.setflags(write=False)
+        return found
+
+    @property
+    def store(self) -> NDArray[S]:
+        """The rows are written by `put`: there is no array of them all."""
+        raise TypeError("the rows of this column are written by put")
+
+    @property
+    def dtype(self) -> np.dtype[S]:
+        """Of the numbers."""
+        return self._held.values.dtype
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Of one row."""
+        return self._held.values.shape[1:]
+
+    def put(self, rows: NDArray[np.int64], values: NDArray[np.generic]) -> None:
+        """Write to rows, each named once."""
+        held, at = self._held, self._held.find(rows)
+        given = np.asarray(values, self.dtype)
+        order, place, fresh = held.rows, held.place, at < 0
+        written = held.values.copy()
+        if not fresh.any():
+            # Riders that are carried on: the rows stay the same.
+            written[at] = given
+        else:
+            given = np.broadcast_to(given, (len(rows), *self.shape))
+            written[at[~fresh]] = given[~fresh]
+            some = given[fresh]
+            # By bits: -0.0 is not what a new row holds.
+            odd = (_words(some) != _words(held.values[-1:])).any(axis=1)
+            if odd.any():
+                every = np.concatenate([held.rows, rows[fresh][odd]])
+                turn = np.argsort(every, kind="stable")
+                mine = np.concatenate([written[:-1], some[odd]])[turn]
+                order, place = every[turn], None
+                written = np.concatenate([mine, held.values[-1:]])
+        self._held = _Held(order, written, place)
+        self.written()
+
+    def put_parts(self, part: NDArray[np.int64], values: NDArray[np.generic]) -> None:
+        """Write to parts of rows: row r, part p is r * parts + p."""
+        row, which = np.divmod(part, self.shape[0])
+        rows = np.unique(row)
+        whole = self.take(rows)
+        whole[np.searchsorted(rows, row), which] = values
+        self.put(rows, whole)
+
+    def take_over(self, other: Column[S]) -> None:
+        """Become a copy of a column of as many rows."""
+        assert isinstance(other, SparseColumn)
+        self._held, self._count = other._held, other._count
+        self.written()
+
+    def share(self, before: object = None) -> Self:
+        """Give another column with the same content, as it is now; see `Column.share`."""
+        if isinstance(before, type(self)) and self._same(before) and before.writes == self.writes:
+            return before
+        found = object.__new__(type(self))
+        found._held, found._count, found.fill = self._held, self._count, self.fill
+        found.writes = self.writes
+        return found
+
+    def equals(self, other: object) -> bool:
+        """Tell whether another column has the same numbers; see `Column.equals`."""
+        return isinstance(other, SparseColumn) and (
+            self._same(other) or other.writes == self.writes
+        )
+
+    def _same(self, other: SparseColumn[np.generic]) -> bool:
+        return other._held is self._held and other._count == self._count
+
+    def resize(self, count: int) -> None:
+        """Bring the column to `count` rows; new ones hold the fill value."""
+        held = self._held
+        if len(held.rows) and held.rows[-1] >= count:
+            kept = int(np.searchsorted(held.rows, count))
+            mine = np.concatenate([held.values[:kept], held.values[-1:]])
+            self._held = _Held(held.rows[:kept].copy(), mine)
+        self._count = count
+        self.written()
+
+    def take(self, rows: NDArray[np.int64]) -> NDArray[S]:
+        """Give a copy of rows (k,)."""
+        return self._held.values.take(self._held.find(rows), axis=0)
+
+    def take_parts(self, part: NDArray[np.int64]) -> NDArray[S]:
+        """Give a copy of parts of rows, as `parts` numbers them."""
+        held, parts = self._held, self.shape[0]
+        if not len(held.rows):
+            return np.full((len(part), *self.shape[1:]), self.fill, self.dtype)
+        row = part // parts
+        # From the end where a row is not held: there stands the fill value.
+        flat = parts * (held.find(row) - row) + part
+        return held.values.reshape(-1, *self.shape[1:]).take(flat, axis=0)
+
+    if not TYPE_CHECKING:  # the overloads of the kinds of columns hold here, too
+
+        def __getitem__(self, rows):
+            if isinstance(rows, int | np.integer):
+                return self._one(int(rows))
+            if isinstance(rows, np.ndarray) and rows.dtype.kind == "i":
+                return self._several(rows)
+            if isinstance(rows, tuple):
+                first, rest = rows[0], rows[1:]
+                if isinstance(first, int | np.integer):
+                    return self._one(int(first))[rest]
+                if isinstance(first, np.ndarray) and first.ndim == 1:
+                    found = self[first]
+                    paired = any(isinstance(each, np.ndarray) for each in rest)
+                    return found[(np.arange(len(found)) if paired else slice(None), *rest)]
+            elif isinstance(rows, np.ndarray) and rows.dtype == np.bool_ and rows.ndim == 1:
+                return self.take(np.flatnonzero(rows))
+            return self.data[rows]
+
+    def _one(self, row: int) -> NDArray[S]:
+        """Give one row."""
+        row = row + self._count if row < 0 else row
+        if not 0 <= row < self._count:
+            raise IndexError(f"row {row} is none of {self._count}")
+        held = self._held
+        at = int(held.rows.searchsorted(row))
+        there = at < len(held.rows) and held.rows[at] == row
+        found: NDArray[S] = held.values[at if there else -1]
+        return found
+
+    def _several(self, rows: NDArray[np.int64]) -> NDArray[S]:
+        """Give rows by an array of any shape, from the end where numbers are negative."""
+        if rows.size:
+            low, high = int(rows.min()), int(rows.max())
+            if low < -self._count or high >= self._count:
+                raise IndexError(f"row {high if low >= 0 else low} is none of {self._count}")
+            rows = np.where(rows < 0, rows + self._count, rows) if low < 0 else rows
+        if rows.ndim == 1:
+            return self.take(rows)
+        return self.take(rows.reshape(-1)).reshape(*rows.shape, *self.shape)
+
+
+class _Held(Generic[S]):
+    """The rows of a sparse column, ascending, and what they hold; last, what other rows hold."""
+
+    def __init__(
+        self, rows: NDArray[np.int64], values: NDArray[S], place: NDArray[np.int32] | None = None
+    ) -> None:
+        rows.setflags(write=False)
+        values.setflags(write=False)
+        self.rows, self.values, self.place = rows, values, place
+
+    def find(self, rows: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Give where rows (k,), of any order, stand here; -1 where they are not held."""
+        if not len(self.rows):
+            return np.full(len(rows), -1)
+        if self.place is None:
+            if len(rows) <= _FEW_ROWS:
+                at = self.rows.searchsorted(rows)
+                return np.where(self.rows.take(at, mode="clip") == rows, at, -1)
+            # A search for each of many rows takes ten times as long.
+            place = np.full(int(self.rows[-1]) + 2, -1, np.int32)
+            place[self.rows] = np.arange(len(self.rows))
+            self.place = place
+        return self.place.take(rows, mode="clip").astype(np.int64)
+
+
+_FEW_ROWS = 32
+
+
+def _words(values: NDArray[np.generic]) -> NDArray[np.generic]:
+    """Give rows as the bits of their numbers, (k, n)."""
+    whole = np.ascontiguousarray(values).view(f"u{values.itemsize}")
+    return whole.reshape(len(values), math.prod(values.shape[1:]))
+
+
+class SparseNumbers(SparseColumn[S], NumberColumn[S]):
+    """One number a row, of few rows."""
+
+
+class SparseVectors(SparseColumn[S], VectorColumn[S]):
+    """Several numbers a row, of few rows."""
+
+
+class SparseMatrices(SparseColumn[S], MatrixColumn[S]):
+    """Several vectors a row, of few rows."""
 
 
 class ValueColumn(Generic[V]):
@@ -379,19 +623,24 @@ def writes_begun() -> int:
 # How columns are declared.
 
 
-def numbers(dtype: type[S], fill: float = 0) -> NumberColumn[S]:
-    """Declare a column of one number a row."""
-    return attrs.field(factory=lambda: NumberColumn(dtype, (), fill), init=False)
+def numbers(dtype: type[S], fill: float = 0, *, sparse: bool = False) -> NumberColumn[S]:
+    """Declare a column of one number a row; `sparse` if few rows hold anything but the fill."""
+    kind = SparseNumbers if sparse else NumberColumn
+    return attrs.field(factory=lambda: kind(dtype, (), fill), init=False)
 
 
-def vectors(dtype: type[S], size: int, fill: float = 0) -> VectorColumn[S]:
-    """Declare a column of `size` numbers a row."""
-    return attrs.field(factory=lambda: VectorColumn(dtype, (size,), fill), init=False)
+def vectors(dtype: type[S], size: int, fill: float = 0, *, sparse: bool = False) -> VectorColumn[S]:
+    """Declare a column of `size` numbers a row; `sparse` as for `numbers`."""
+    kind = SparseVectors if sparse else VectorColumn
+    return attrs.field(factory=lambda: kind(dtype, (size,), fill), init=False)
 
 
-def matrices(dtype: type[S], shape: tuple[int, int], fill: float = 0) -> MatrixColumn[S]:
-    """Declare a column of vectors, as many and as long as `shape` says."""
-    return attrs.field(factory=lambda: MatrixColumn(dtype, shape, fill), init=False)
+def matrices(
+    dtype: type[S], shape: tuple[int, int], fill: float = 0, *, sparse: bool = False
+) -> MatrixColumn[S]:
+    """Declare a column of vectors, as many and as long as `shape` says; `sparse` as before."""
+    kind = SparseMatrices if sparse else MatrixColumn
+    return attrs.field(factory=lambda: kind(dtype, shape, fill), init=False)
 
 
 def values(fill: V) -> ValueColumn[V]:

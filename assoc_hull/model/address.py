@@ -131,11 +131,13 @@ class AddressBook:
             state.curves.key[curve]: self._curve_place(curve)
             for curve in state.live("curves").tolist()
         }
-        for row in state.live("rows").tolist():
-            found[state.rows.key[row]] = self._row_place(row, self.usual_side(row))
+        rows = state.live("rows").tolist()
+        keys = state.rows.key.data.for_looks(len(rows))
+        for row in rows:
+            place = found[keys[row]] = self._row_place(row, self.usual_side(row))
             label = state.rows.label[row]
             if label:
-                found.setdefault(label, found[state.rows.key[row]])
+                found.setdefault(label, place)
         return found
 
     def line_name(self, line: int) -> str:

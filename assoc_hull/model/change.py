@@ -37,6 +37,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.loft import loft_with_signed_zeros
 from assoc_hull.graph.journal import Journal, both_parts, distinct, same_value
 from assoc_hull.graph.table import AnyColumn, Column, ValueColumn
+from assoc_hull.model.births import Births
 from assoc_hull.model.kinds import State
 from assoc_hull.model.lofting import curve_data, loft_curves
 from assoc_hull.model.tables import TABLES, CurveIntersections, HullState
@@ -433,9 +434,8 @@ def _births(state: HullState, journal: Journal, columns: Collection[str]) -> Bir
     if "settings.births" not in columns:
         return {}
     net = journal.net(state.settings.births)
-    old, new = net.old[0] or {}, net.new[0]
-    pairs = sorted(pair for pair in {*old, *new} if old.get(pair) != new.get(pair))
-    return {pair: (old.get(pair, 0), new.get(pair, 0)) for pair in pairs}
+    old, new = net.old[0] or Births.of({}), net.new[0]
+    return {pair: (old.get(pair, 0), new.get(pair, 0)) for pair in old.differing(new)}
 
 
 def _places(
@@ -582,7 +582,8 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
         for row, value in zip(rows.tolist(), new if forward else old, strict=True):
             held.store[row] = value
     if change.births:
-        state.settings.births.store[0] = _counted(state, change.births, forward)
+        counts = {pair: both[forward] for pair, both in change.births.items()}
+        state.settings.births.store[0] = state.births.counted(counts)
     # the crossings know their curves now, as both of these need it
     _move(state, change.moved)
     _move_meetings(state, change.met)
@@ -610,10 +611,10 @@ def _require_fit(state: HullState, change: TableChange) -> None:
         column = columns[name]
         if not isinstance(column, Column) or name in _OWN_WAY:
             raise ValueError(f"{name} is no column of numbers")
-        width = column.data.itemsize * math.prod(column.data.shape[1:])
+        width = column.dtype.itemsize * math.prod(column.shape)
         if bits.shape != (len(rows), width):
             raise ValueError(f"the bits of {name} are of the shape {bits.shape}")
-        _require_rows(name, rows, len(column.data))
+        _require_rows(name, rows, getattr(state, _table(name)).count)
     for name, (rows, old, new) in change.objects.items():
         held = columns[name]
         if not isinstance(held, ValueColumn) or name in _OWN_WAY:
@@ -646,19 +647,14 @@ _MAY_BE_NAN = frozenset({"rows.limit", "rows.gap", "lines.offset"})
 
 
 def _flip(name: str, column: Column[np.generic], rows: IntArray, bits: NDArray[np.uint8]) -> None:
-    values = column.data.take(rows, axis=0)
+    values = column.take(rows)
     flipped = row_bits(values) ^ bits
-    found = flipped.view(column.data.dtype).reshape(values.shape)
+    found = flipped.view(column.dtype).reshape(values.shape)
     if found.dtype == np.float64 and name not in _MAY_BE_NAN and not np.isfinite(found).all():
         raise ValueError(f"{name} becomes no number")
     if found.dtype == np.bool_ and flipped.max(initial=0) > 1:
         raise ValueError(f"{name} becomes neither true nor false")
     column.put(rows, found)
-
-
-def _counted(state: HullState, births: BirthCounts, forward: bool) -> dict[tuple[str, str], int]:
-    found = {**state.births, **{pair: counts[forward] for pair, counts in births.items()}}
-    return {pair: count for pair, count in found.items() if count}
 
 
 def _move(state: HullState, moved: tuple[IntArray, NDArray[np.uint8]]) -> None:

@@ -126,9 +126,10 @@ def _by_value(values: IntArray, items: IntArray) -> dict[int, IntArray]:
 
 def _riders(state: HullState) -> dict[int, IntArray]:
     found: defaultdict[int, list[int]] = defaultdict(list)
-    riding = state.rows.alive.data & (state.rows.anchor.data >= 0).any(axis=1)
-    for row in np.flatnonzero(riding).tolist():
-        for anchor in sorted(set(state.rows.anchor[row].tolist()) - {-1}):
+    anchors = state.rows.anchor.data
+    riding = np.flatnonzero(state.rows.alive.data & (anchors >= 0).any(axis=1))
+    for row, pair in zip(riding.tolist(), anchors[riding].tolist(), strict=True):
+        for anchor in sorted(set(pair) - {-1}):
             found[anchor].append(row)
     return {anchor: np.array(riders, np.int64) for anchor, riders in found.items()}
 

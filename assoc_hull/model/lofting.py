@@ -45,7 +45,7 @@ def curve_data(state: HullState, curves: IntArray) -> CurveData:
         start,
         points.xyz.data.take(row, axis=0),
         points.kind.data.reshape(-1).take(part),
-        points.direction.data.reshape(-1, 3).take(part, axis=0),
+        points.direction.take_parts(part),
         np.array([end.kind for end in ends], np.int8),
         np.array([end.vector for end in ends], np.float64),
     )

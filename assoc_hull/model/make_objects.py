@@ -7,7 +7,7 @@ birth for that pair, a placed or adopted point's from its curve and first place.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from typing import Protocol, TypeVar
 
 import attrs
@@ -18,12 +18,17 @@ from assoc_hull.errors import NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, freeze
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ValueColumn
+from assoc_hull.model.births import Pair
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.keys import crossing_key
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import Association, Ends, Featured, Formed, HullState, Produced
 
 __all__ = ["CrossingSpec", "Maker", "PointSpec"]
+
+_FEW = 8
+"""So many new keys are looked for among those that there are; for more, these are made texts."""
 
 
 class _HasKey(Protocol):
@@ -127,7 +132,7 @@ class Maker:
         number = int(self.journal.grow(table, 1)[0])
         place = name if plane is None or boundary >= 0 else f"{plane[1]:.6f}"
         self.journal.set(
-            table.key, [number], [self._fresh(table.key.data, key or f"{title}:{place}")]
+            table.key, [number], [self._fresh(key or f"{title}:{place}", table.key.data)]
         )
         self.journal.set(table.name, [number], [name])
         self.journal.put(table.group, [number], [group])
@@ -140,10 +145,10 @@ class Maker:
         return number
 
     @staticmethod
-    def _fresh(taken: Collection[str], wish: str) -> str:
+    def _fresh(wish: str, *taken: Container[str]) -> str:
         """Give a key that no object has or had."""
         key, number = wish, 1
-        while key in taken:
+        while any(key in each for each in taken):
             number += 1
             key = f"{wish}~{number}"
         return key
@@ -153,7 +158,7 @@ class Maker:
         table = self.state.curves
         number = int(self.journal.grow(table, 1)[0])
         before = self.state.lines.curves[line]
-        key = self._fresh(table.key.data, f"{self.state.lines.key[line]}/{len(before) + 1}")
+        key = self._fresh(f"{self.state.lines.key[line]}/{len(before) + 1}", table.key.data)
         self.journal.set(table.key, [number], [key])
         self.journal.put(table.line, [number], [line])
         self.journal.put(table.alive, [number], [True])
@@ -166,16 +171,15 @@ class Maker:
         rows = self.journal.grow(self.state.rows, len(specs))
         if not len(specs):
             return rows
-        table, births = self.state.rows, dict(self.state.births)
+        table, births, fresh = self.state.rows, self.state.births, dict[Pair, int]()
         keys: list[str] = []
         numbers: list[int] = []
         for spec in specs:
             pair = self._pair(spec)
-            births[pair] = births.get(pair, 0) + 1
-            numbers.append(births[pair])
-            mark = {1: "+", -1: "-", 0: "o"}[spec.sign]
-            keys.append(f"{pair[0]} x {pair[1]} {mark}{births[pair]}")
-        self.journal.set(self.state.settings.births, [0], [births])
+            fresh[pair] = (fresh.get(pair) or births.get(pair, 0)) + 1
+            numbers.append(fresh[pair])
+            keys.append(crossing_key(*pair, spec.sign, fresh[pair]))
+        self.journal.set(self.state.settings.births, [0], [births.counted(fresh)])
         self.journal.set(table.key, rows.tolist(), keys)
         put = self.journal.put
         put(table.birth, rows, numbers)
@@ -201,7 +205,7 @@ class Maker:
         put(table.direction, [row], _stack([((0.0, 0.0, 0.0), spec.direction_b)]))
         self.roles(np.array([row]), np.array([int(spec.role)]))
 
-    def _pair(self, spec: CrossingSpec) -> tuple[str, str]:
+    def _pair(self, spec: CrossingSpec) -> Pair:
         keys = self.state.lines.key.data
         return keys[self.state.line_of(spec.a)], keys[self.state.line_of(spec.b)]
 
@@ -224,12 +228,14 @@ class Maker:
         if not len(specs):
             return rows
         table, put = self.state.rows, self.journal.put
-        taken, keys = set(table.key.data), []
+        # One or two are looked for among all keys, for many these are made texts once.
+        taken: Container[str] = table.key.data if len(specs) <= _FEW else set(table.key.data)
+        mine, keys = set[str](), list[str]()
         for spec in specs:
             x, y, z = np.asarray(spec.xyz, np.float64).tolist()
             wish = f"{self.state.curves.key[spec.curve]} @ ({x:.4f}, {y:.4f}, {z:.4f})"
-            keys.append(self._fresh(taken, wish))
-            taken.add(keys[-1])
+            keys.append(self._fresh(wish, taken, mine))
+            mine.add(keys[-1])
         self.journal.set(table.key, rows.tolist(), keys)
         put(table.alive, rows, True)
         put(table.sort, rows, [int(spec.sort) for spec in specs])

@@ -158,7 +158,7 @@ def _curve(tables: HullState, number: int) -> Curve:
 
 
 def _handles(tables: HullState, rows: IntArray, sides: IntArray) -> tuple[Point, ...]:
-    keys = tables.rows.key.data
+    keys = tables.rows.key.data.for_looks(len(rows))
     places = zip(rows.tolist(), sides.tolist(), strict=True)
     return tuple(Point(tables, row, keys[row], side) for row, side in places)
 
@@ -859,8 +859,9 @@ class Points(Mapping[str, Point]):
     def _all(self) -> Iterator[tuple[str, Point]]:
         """Give all points by address from one book: a look-up each would make one each."""
         state = self._state
-        book, keys = AddressBook(state), state.rows.key.data
-        for row in state.live("rows").tolist():
+        rows = state.live("rows").tolist()
+        book, keys = AddressBook(state), state.rows.key.data.for_looks(len(rows))
+        for row in rows:
             side = book.usual_side(row)
             yield book.address(row, side), Point(state, row, keys[row], side)
 

@@ -9,7 +9,7 @@ or adopted point has a curve on side 0 only. Tables are written through a `Journ
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from typing import Protocol, TypeVar
 
@@ -35,8 +35,10 @@ from assoc_hull.graph.table import (
     vectors,
     writes_begun,
 )
+from assoc_hull.model.births import Births
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.keys import KeyColumn, LabelColumn, keys, labels
 from assoc_hull.model.kinds import FAMILIES, Family
 from assoc_hull.tolerance import Tolerances
 
@@ -44,7 +46,6 @@ __all__ = [
     "DECKS",
     "TABLES",
     "Association",
-    "Births",
     "CurveIntersections",
     "Curves",
     "Ends",
@@ -235,12 +236,12 @@ class Rows(Table):
     points ``anchor``, which lay at ``anchor_from`` then; the second one counts ``anchor_weight``.
     """
 
-    key: ValueColumn[str] = values("")
+    key: KeyColumn = keys()
     alive: NumberColumn[np.bool_] = numbers(np.bool_)
     sort: NumberColumn[np.int8] = numbers(np.int8)
     xyz: VectorColumn[np.float64] = vectors(np.float64, 3)
     kind: VectorColumn[np.int8] = vectors(np.int8, 2)
-    direction: MatrixColumn[np.float64] = matrices(np.float64, (2, 3))
+    direction: MatrixColumn[np.float64] = matrices(np.float64, (2, 3), sparse=True)
     curve: VectorColumn[np.int64] = vectors(np.int64, 2, -1)
     role: NumberColumn[np.int8] = numbers(np.int8)
     override: NumberColumn[np.int8] = numbers(np.int8, -1)
@@ -249,16 +250,16 @@ class Rows(Table):
     contact: NumberColumn[np.bool_] = numbers(np.bool_)
     sign: NumberColumn[np.int8] = numbers(np.int8)
     birth: NumberColumn[np.int64] = numbers(np.int64)
-    limit: NumberColumn[np.float64] = numbers(np.float64, np.nan)
-    gap: NumberColumn[np.float64] = numbers(np.float64, np.nan)
+    limit: NumberColumn[np.float64] = numbers(np.float64, np.nan, sparse=True)
+    gap: NumberColumn[np.float64] = numbers(np.float64, np.nan, sparse=True)
     spot: MatrixColumn[np.float64] = matrices(np.float64, (2, 3), np.nan)
     parameter: VectorColumn[np.float64] = vectors(np.float64, 2, np.nan)
-    anchor: VectorColumn[np.int64] = vectors(np.int64, 2, -1)
-    anchor_from: MatrixColumn[np.float64] = matrices(np.float64, (2, 3))
-    anchor_weight: NumberColumn[np.float64] = numbers(np.float64)
-    base: VectorColumn[np.float64] = vectors(np.float64, 3)
+    anchor: VectorColumn[np.int64] = vectors(np.int64, 2, -1, sparse=True)
+    anchor_from: MatrixColumn[np.float64] = matrices(np.float64, (2, 3), sparse=True)
+    anchor_weight: NumberColumn[np.float64] = numbers(np.float64, sparse=True)
+    base: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
     state: NumberColumn[np.int8] = numbers(np.int8)
-    label: ValueColumn[str] = values("")
+    label: LabelColumn = labels()
 
 
 @attrs.frozen(eq=False)
@@ -325,10 +326,6 @@ class Produced(Table):
     curve: ValueColumn[GeneratedCurve] = values_given()
 
 
-Births = Mapping[tuple[str, str], int]
-"""How many crossings each pair of lines has ever had, by the keys of the lines."""
-
-
 @attrs.frozen(eq=False)
 class HullSettings(Table):
     """What belongs to the hull as a whole; one row."""
@@ -392,7 +389,7 @@ class HullState:
     def __attrs_post_init__(self) -> None:
         if not self.settings.count:
             self.settings.resize(1)
-            self.settings.births.data[0] = {}
+            self.settings.births.data[0] = Births.of({})
             self.settings.particulars.data[0] = self._given
 
     @property
@@ -587,7 +584,6 @@ def copy_into(found: HullState, state: HullState) -> None:
     """Give tables the content of a copy; they stay the same objects, so handles on them hold."""
     for name in TABLES:
         _copy(getattr(state, name), getattr(found, name))
-    found.settings.births.store[0] = dict(state.births)
     found.revision_row, found.revision_curve = dict(state.revision_row), dict(state.revision_curve)
 
 
@@ -596,7 +592,6 @@ def _copy(given: Table, found: Table) -> None:
     for name, column in given.columns.items():
         other = found.columns[name]
         if isinstance(column, Column) and isinstance(other, Column):
-            other.store[: given.count] = column.data
-            other.written()
+            other.take_over(column)
         elif isinstance(column, ValueColumn) and isinstance(other, ValueColumn):
             other.store[:] = column.data

@@ -17,9 +17,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.numeric.roots import brent_root
 
 __all__ = [
     "aft_end",
@@ -72,7 +72,7 @@ def _turn(z: FloatArray, height: float) -> FloatArray:
 
 def _invert(function: _Function, low: float, high: float, value: float) -> float:
     """Find where a function that is monotone between two places takes a value."""
-    return float(brentq(lambda at: float(function(np.array(at))) - value, low, high, xtol=1e-13))
+    return brent_root(lambda at: float(function(np.array(at))) - value, low, high, xtol=1e-13)
 
 
 def midship(z: ArrayLike) -> FloatArray:

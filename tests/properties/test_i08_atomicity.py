@@ -280,11 +280,15 @@ def refuse(
 def tables(hull: ah.Hull) -> tuple[object, ...]:
     """Give every bit of the tables, of lists the very objects, with revisions and history.
 
+    Keys of points are made when they are asked for: of these the texts.
+
     Of the published state and of the live tables that edits write to.
     """
     state, document = hull.state, hull.document
     columns = [
-        column.data.tobytes() if isinstance(column, Column) else [id(x) for x in column.data]
+        column.data.tobytes()
+        if isinstance(column, Column)
+        else [x if isinstance(x, str) else id(x) for x in column.data]
         for state in (hull.state, hull.document.state)
         for table in (state.rows, state.curves, state.lines, state.groups, state.settings)
         for column in table.columns.values()

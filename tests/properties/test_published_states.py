@@ -40,10 +40,12 @@ tasks_of_all_kinds = tasks(SHAPES + STRUCTURE)
 
 
 def content(state: HullState) -> tuple[object, ...]:
-    """Every bit of the tables; of lists the very objects."""
+    """Every bit of the tables; of lists the texts, or the very objects."""
     tables = state.rows, state.curves, state.lines, state.groups, state.settings
     columns = [
-        each.data.tobytes() if isinstance(each.data, np.ndarray) else list(map(id, each.data))
+        each.data.tobytes()
+        if isinstance(each.data, np.ndarray)
+        else [x if isinstance(x, str) else id(x) for x in each.data]
         for table in tables
         for each in table.columns.values()
     ]

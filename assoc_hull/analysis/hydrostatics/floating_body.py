@@ -14,12 +14,12 @@ from typing import Protocol
 import attrs
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from assoc_hull.arguments import checked, not_negative, number, numbers, place, plain, text
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
+from assoc_hull.geometry.numeric.roots import brent_root
 
 __all__ = [
     "CLOSE_DECK",
@@ -629,7 +629,7 @@ def deck_edge_heel(
         if high >= _STEEPEST:
             return None
         low, high = high, min(high + _STEP, _STEEPEST)
-    return float(brentq(spare, low, high, xtol=_FINE))
+    return brent_root(spare, low, high, xtol=_FINE)
 
 
 def _touching_volume(

@@ -14,7 +14,6 @@ from enum import IntEnum
 import attrs
 import numpy as np
 from scipy.interpolate import PchipInterpolator
-from scipy.optimize import brentq
 
 from assoc_hull.creation.classical.line_outline import (
     OutlinePiece,
@@ -31,6 +30,7 @@ from assoc_hull.geometry.classical.checked_input import digits
 from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.geometry.classical.deck import Deck
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
+from assoc_hull.geometry.numeric.roots import brent_root
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 
@@ -246,7 +246,7 @@ def deck_edge_at(station: Station, deck: Deck) -> tuple[int, float]:
         number = int(piece[k])
         t = float(along[k])
         if along[k] > 0.0 and over[k] > 0.0:
-            t = brentq(
+            t = brent_root(
                 lambda s: float(above(arcs.at(np.array([number]), [s]))[0]),
                 float(along[k - 1]), t, xtol=1e-12,
             )  # fmt: skip
@@ -403,7 +403,7 @@ def _cut_at_deck(curve: ArcCurve, deck: Deck, name: str) -> ArcCurve:
     k = int(np.argmax(over >= 0.0))
     number, t = int(piece[k]), float(along[k])
     if over[k] > 0.0 and t > 0.0:
-        t = brentq(
+        t = brent_root(
             lambda s: float(above(arcs.at(np.array([number]), [s]))[0]), float(along[k - 1]), t,
             xtol=1e-12,
         )  # fmt: skip

@@ -196,7 +196,7 @@ def measure_gaps(
     journal.put(state.rows.gap, rows, gap)
     # a watched crossing is published where it lies on curve a
     journal.put(state.rows.xyz, rows, state.rows.spot[rows, 0])
-    limit = state.rows.limit.data.take(rows)
+    limit = state.rows.limit.take(rows)
     wide = gap > limit
     mend = _to_mend(state, rows, gap / limit) if wide.any() else rows[:0]
     return WideGaps(rows[wide], gap[wide], limit[wide], float(gap.max()), mend)

@@ -14,7 +14,6 @@ from typing import Literal, Self
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 from scipy.special import ellipeinc, ellipj, ellipkinc
 
 from assoc_hull.errors import GeometryError
@@ -27,6 +26,7 @@ from assoc_hull.geometry.classical.checked_input import (
     wrap_angle,
 )
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.numeric.roots import brent_root
 
 __all__ = [
     "FREE_MODULUS",
@@ -494,7 +494,7 @@ def elastica_of_length(
     if missing(high.k) == 0.0:
         k = high.k
     elif missing(low.k) != 0.0:
-        k = float(brentq(missing, low.k, high.k, xtol=1e-15, rtol=8.9e-16))
+        k = brent_root(missing, low.k, high.k, xtol=1e-15, rtol=8.9e-16)
     found = _member_between(low, high, k, alpha, beta)
     return k, found.phi0, found.span
 

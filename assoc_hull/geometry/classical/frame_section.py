@@ -17,7 +17,6 @@ from typing import Self
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from assoc_hull.arguments import integer
 from assoc_hull.errors import GeometryError
@@ -31,6 +30,7 @@ from assoc_hull.geometry.classical.checked_input import (
 )
 from assoc_hull.geometry.classical.circular_arcs import PlaneArcs, arc_area, arc_moment
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.numeric.roots import brent_root
 
 __all__ = [
     "MOST_RATIO",
@@ -255,7 +255,7 @@ def deck_corner(
     if over(0.0) * over(b) > 0.0:
         what = f"{name}: corner radius {digits(r)} does not fit"
         raise GeometryError(what, "give a smaller radius", {"r": r})
-    y = float(brentq(over, 0.0, b, xtol=1e-14, rtol=1e-15))
+    y = brent_root(over, 0.0, b, xtol=1e-14, rtol=1e-15)
     middle = centre(y)
     part = y / b
     top = zs + c * (1.0 - (part * part if kind == "parabola" else part))

@@ -2,7 +2,8 @@
 
 `bracketed_roots` finds the one root of cubics in brackets, in steps that compiled code repeats
 bit by bit (intersections of curves and planes); `unit_roots` finds all sign changes of polynomials
-of any degree in [0, 1] (lengths, integrals, closest points); `false_position` needs values only.
+of any degree in [0, 1] (lengths, integrals, closest points); `false_position` and, for one function
+at a time, `brent_root` need values only.
 A root has the same bits alone and in a batch. Coefficients stand in ascending powers. The finders
 look at plain numbers: `roots_with_tangents` carries derivatives through the roots.
 """
@@ -25,6 +26,7 @@ __all__ = [
     "STEPS",
     "BracketedFunction",
     "bracketed_roots",
+    "brent_root",
     "false_position",
     "quadratic_roots",
     "roots_with_tangents",
@@ -341,3 +343,80 @@ def false_position(
         a[open_], fa[open_] = np.where(same, x, y), np.where(same, 0.5 * fx, fy)
         b[open_], fb[open_] = mid, value
     return best
+
+
+_TRIALS = 100
+"""Most trials of Brent's rule; bisection alone reaches the last bit from 1 km in 60."""
+_LEAST_RTOL = 2.0**-50
+"""Four units of the last place."""
+
+
+def brent_root(
+    give: Callable[[float], float],
+    low: float,
+    high: float,
+    *,
+    xtol: float,
+    rtol: float = _LEAST_RTOL,
+) -> float:
+    """Find one root in a bracket to ``xtol + rtol |x|``; of the values at its ends one is negative.
+
+    Brent (1973), *Algorithms for Minimization without Derivatives*, chapter 4, in the form of
+    scipy, operation by operation. scipy.optimize costs a third of a second when it is imported
+    first, and its compiled form may fuse products with sums, which gives other bits elsewhere.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.numeric.roots import brent_root
+    >>> brent_root(lambda x: x * x - 4.0, 0.0, 5.0, xtol=1e-12)
+    2.0
+    """
+    before, at = float(low), float(high)
+    f_before, f_at = float(give(before)), float(give(at))
+    if f_before == 0.0:
+        return before
+    if f_at == 0.0:
+        return at
+    if (f_before < 0.0) == (f_at < 0.0):
+        raise ValueError(f"no root between {low:g} and {high:g}: {f_before:g} and {f_at:g} there")
+    # The root lies between `at` and `other`; `before` is the place before `at`.
+    other, f_other = before, f_before
+    step = last = at - before
+    for _ in range(_TRIALS):
+        if f_before != 0.0 and (f_before < 0.0) != (f_at < 0.0):
+            other, f_other = before, f_before
+            step = last = at - before
+        if abs(f_other) < abs(f_at):
+            before, at, other = at, other, at
+            f_before, f_at, f_other = f_at, f_other, f_at
+        least = (xtol + rtol * abs(at)) / 2.0
+        half = (other - at) / 2.0
+        if f_at == 0.0 or abs(half) < least:
+            return at
+        trial = np.inf
+        if abs(last) > least and abs(f_at) < abs(f_before):
+            trial = _brent_trial(before, at, other, f_before, f_at, f_other)
+        if 2.0 * abs(trial) < min(abs(last), 3.0 * abs(half) - least):
+            # The next trial is held against this step, not against the one of this round.
+            last, step = step, trial
+        else:
+            last = step = half
+        before, f_before = at, f_at
+        if abs(step) > least:
+            at += step
+        else:
+            at += least if half > 0.0 else -least
+        f_at = float(give(at))
+    raise ValueError(f"no root between {low:g} and {high:g} within {_TRIALS} trials")
+
+
+def _brent_trial(
+    before: float, at: float, other: float, f_before: float, f_at: float, f_other: float
+) -> float:
+    """Give the step of the secant, or of the inverse parabola where three places differ."""
+    if before == other:
+        return -f_at * (at - before) / (f_at - f_before)
+    down = (f_before - f_at) / (before - at)
+    up = (f_other - f_at) / (other - at)
+    divisor = up * down * (f_other - f_before)
+    return -f_at * (f_other * up - f_before * down) / divisor if divisor else np.inf

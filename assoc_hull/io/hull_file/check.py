@@ -165,7 +165,7 @@ def _settings(state: HullState) -> Iterator[str]:
         yield "a pair of lines bore no crossing"
     if not set(state.failed) <= set(state.live("curves").tolist()):
         yield "a curve that failed does not exist"
-    key, table = state.lines.key.data, state.rows
+    key, table, births = state.lines.key.data, state.rows, dict(state.births.items())
     rows = state.live("rows")
     rows = rows[table.sort[rows] == Sort.CROSSING]
     both = table.curve[rows]
@@ -174,7 +174,7 @@ def _settings(state: HullState) -> Iterator[str]:
         return
     for pair, birth in zip(state.curves.line[both].tolist(), table.birth[rows].tolist(),
                            strict=True):  # fmt: skip
-        if not 0 < birth <= state.births.get((key[pair[0]], key[pair[1]]), 0):
+        if not 0 < birth <= births.get((key[pair[0]], key[pair[1]]), 0):
             yield f"{key[pair[0]]!r} and {key[pair[1]]!r} bore fewer crossings than they have"
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import operator
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import attrs
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.io.hull_file.guard import parse_json, read_numbered, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
+from assoc_hull.model.births import Births, Pair
 from assoc_hull.model.change import (
     CrossingPositions,
     crossing_positions,
@@ -258,7 +259,7 @@ def write_state(
          fingerprint, fingerprint, ship.deck),
     )  # fmt: skip
     write_settings(database, state)
-    write_births(database, dict(state.births))
+    write_births(database, state.births)
     for table in WRITTEN:
         put_rows(database, state, table, np.arange(getattr(state, table).count))
     for table, known in (("rows", state.revision_row), ("curves", state.revision_curve)):
@@ -280,7 +281,7 @@ def write_settings(database: sqlite3.Connection, state: HullState) -> None:
     database.executemany("INSERT INTO associations VALUES (?, ?, ?)", links)
 
 
-def write_births(database: sqlite3.Connection, counts: dict[tuple[str, str], int]) -> None:
+def write_births(database: sqlite3.Connection, counts: Mapping[Pair, int]) -> None:
     """Write how many crossings some pairs of lines have ever had; 0 takes the pair out."""
     rows = [(*pair, count) for pair, count in counts.items()]
     database.executemany("INSERT OR REPLACE INTO births VALUES (?, ?, ?)", rows)
@@ -356,12 +357,13 @@ def pack_spline(spline: SplineBatch) -> bytes:
 def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     table, revision = state.rows, state.revision_row
     whole = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _WHOLES}
-    pairs = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _PAIRS}
+    pairs = {name: getattr(table, name).take(numbers).astype(int).tolist() for name in _PAIRS}
     reals = {name: _blobs(getattr(table, name), numbers) for name in _REALS}
     xyz = [_real_blob(each) for each in table.xyz[numbers]]
+    key = table.key.data.for_looks(len(numbers))
     for place, i in enumerate(numbers.tolist()):
         yield (
-            i, table.key[i], table.label[i],
+            i, key[i], table.label[i],
             *(whole[name][place] for name in ("alive", "sort", "role", "override")),
             *pairs["curve"][place], *pairs["kind"][place], *pairs["reader"][place],
             *(whole[name][place] for name in ("driver", "contact", "sign", "birth", "state")),
@@ -376,9 +378,9 @@ def _real_blob(values: object) -> bytes:
 
 def _blobs(column: Any, numbers: IntArray) -> list[bytes | None]:
     """Give the bytes of rows of a column, None where they are what a new row holds."""
-    values = column.data[numbers]
+    values = column.take(numbers)
     # By bytes, not by value: nan equals nan, and -0.0 does not equal 0.0.
-    nothing = _real_blob(np.full(column.store.shape[1:], column.fill))
+    nothing = _real_blob(np.full(column.shape, column.fill))
     found = [_real_blob(each) for each in values]
     return [None if each == nothing else each for each in found]
 
@@ -404,7 +406,7 @@ def read_state(database: sqlite3.Connection) -> HullState:
     links = read_rows(database, "SELECT a, b, two_way FROM associations ORDER BY a, b")
     state.settings.associations.data[0] = tuple(Association(a, b, bool(w)) for a, b, w in links)
     births = read_rows(database, "SELECT a, b, count FROM births ORDER BY a, b")
-    state.settings.births.data[0] = {(a, b): int(count) for a, b, count in births}
+    state.settings.births.data[0] = Births.of({(a, b): int(count) for a, b, count in births})
     state.settings.failed.data[0] = tuple(parse_json(said[7]))
     _read_groups(state, read_numbered(database, "groups"))
     _read_lines(state, read_numbered(database, "lines"))
@@ -439,16 +441,15 @@ def _columns(rows: Sequence[Row], count: int) -> list[tuple[Any, ...]]:
 
 def _put_whole(column: Any, values: Sequence[Any]) -> None:
     """Put whole numbers, or several to a row, into a column."""
-    column.store[: len(values)] = np.array(values, np.int64).reshape(-1, *column.store.shape[1:])
-    column.writes += 1
+    given = np.array(values, np.int64).reshape(-1, *column.shape)
+    column.put(np.arange(len(given)), given.astype(column.dtype))
 
 
 def _put_reals(column: Any, blobs: Sequence[bytes | None]) -> None:
     """Put real numbers into a column; None leaves the fill value."""
     here = [i for i, blob in enumerate(blobs) if blob is not None]
     given = np.frombuffer(b"".join(blobs[i] for i in here), "<f8")  # type: ignore[misc]
-    column.store[here] = given.reshape(len(here), *column.store.shape[1:])
-    column.writes += 1
+    column.put(np.array(here, np.int64), given.reshape(len(here), *column.shape))
 
 
 def _read_groups(state: HullState, rows: Sequence[Row]) -> None:

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.table import ValueColumn
 from assoc_hull.model.generated_curves import unmade_rows
+from assoc_hull.model.keys import Keys
 from assoc_hull.model.kinds import Role, Sort, State
 from assoc_hull.model.tables import HullState
 
@@ -79,8 +80,10 @@ def canonical_order(state: HullState) -> CanonicalOrder:
 
 
 def _sorted(state: HullState, table: str, key: str) -> IntArray:
-    keys = getattr(getattr(state, table), key).data
-    return np.array(sorted(state.live(table).tolist(), key=keys.__getitem__), np.int64)
+    keys, numbers = getattr(getattr(state, table), key).data, state.live(table).tolist()
+    if isinstance(keys, Keys):
+        keys = keys.for_looks(len(numbers))
+    return np.array(sorted(numbers, key=keys.__getitem__), np.int64)
 
 
 def _inverse(numbers: IntArray, count: int) -> IntArray:

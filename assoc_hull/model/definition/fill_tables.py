@@ -21,6 +21,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, IntArray, PointKind
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ValueColumn
+from assoc_hull.model.births import Births
 from assoc_hull.model.definition.records import code_words
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import GENERATED, FormDefinition, GeneratedCurve
@@ -616,7 +617,7 @@ def _put_groups(
     if len(births) < len(definition["births"]):
         raise contradiction("a pair of lines stands there twice", "in the births")
     journal.set(state.settings.associations, [0], [tuple(links)])
-    journal.set(state.settings.births, [0], [births])
+    journal.set(state.settings.births, [0], [Births.of(births)])
 
 
 def _put_lines(state: HullState, journal: Journal, lines: list[Record], keys: Keys) -> None:
@@ -682,12 +683,12 @@ def _vector(values: Sequence[float]) -> tuple[float, float, float]:
 
 def _check_births(state: HullState) -> None:
     """Require that no crossing has a higher number than were ever born of its two lines."""
-    table, keys = state.rows, state.lines.key.data
+    table, keys, births = state.rows, state.lines.key.data, dict(state.births.items())
     for row in np.flatnonzero(table.sort.data == Sort.CROSSING).tolist():
         a, b = (keys[state.line_of(curve)] for curve in table.curve[row].tolist())
         pair = a, b
-        if table.birth[row] > state.births.get(pair, 0):
-            count = state.births.get(pair, 0)
+        if table.birth[row] > births.get(pair, 0):
+            count = births.get(pair, 0)
             raise contradiction(f"its lines bore {count} crossings only", f"at {table.key[row]!r}")
 
 

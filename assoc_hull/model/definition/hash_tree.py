@@ -190,9 +190,11 @@ class HashTree:
         """Hash the numbers of curves, gathered for all of them at once."""
         if not curves:
             return
-        for curve in curves:
-            if curve not in self._fixed:
-                self._fixed[curve] = self._fix(curve)
+        fresh = [curve for curve in curves if curve not in self._fixed]
+        count = sum(int(self._first[c + 2] - self._first[c + 1]) for c in fresh)
+        key = self.state.rows.key.data.for_looks(3 * count)
+        for curve in fresh:
+            self._fixed[curve] = self._fix(curve, key)
         fixed = [self._fixed[curve] for curve in curves]
         table, met = self.state.rows, [self._meets(curve) for curve in curves]
         splines = [self._spline(curve) for curve in curves]
@@ -237,11 +239,11 @@ class HashTree:
     # ----------------------------------------------------------------------------------
     # Content.
 
-    def _fix(self, curve: int) -> _Fixed:
+    def _fix(self, curve: int, key: Sequence[str]) -> _Fixed:
         """Hash what an edit of shape leaves alone of a curve and of the points below it."""
         state = self.state
         table, curves, lines = state.rows, state.curves, state.lines
-        key, label = table.key.data, table.label.data
+        label = table.label.data
         mine = self._by_owner[self._first[curve + 1] : self._first[curve + 2]].tolist()
         rows = np.array(sorted(mine, key=key.__getitem__), np.int64)
         met = self._meets(curve)

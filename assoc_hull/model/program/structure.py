@@ -312,7 +312,7 @@ def compile_program(state: HullState, index: Index) -> Program | None:
     program = Program(
         number=number, local=local[:-1].copy(), level=begins, start=start, row=row,
         kind=table.kind.data.reshape(-1)[part],
-        direction=table.direction.data.reshape(-1, 3)[part],
+        direction=table.direction.take_parts(part),
         end_kind=np.array([end.kind for end in ends], np.int8),
         end_vector=np.array([end.vector for end in ends], np.float64),
         own_axis=np.where(flat, np.argmax(normal == 1.0, axis=1), -1),

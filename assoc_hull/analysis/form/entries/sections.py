@@ -11,7 +11,6 @@ import itertools
 import math
 
 import numpy as np
-from scipy.optimize import brentq
 
 from assoc_hull.analysis.form.floating_shape import FloatingShape
 from assoc_hull.analysis.form.half_section import HalfSection, radius_of_three, section_at
@@ -26,6 +25,7 @@ from assoc_hull.analysis.form.parameter import (
 )
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.geometry.numeric.roots import brent_root
 from assoc_hull.geometry.polylines.circular_arcs import CircularArc, find_arcs
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.plane_intersections import coordinate_turns, points_on_plane
@@ -153,7 +153,7 @@ def third_place(shape: FloatingShape, greatest: float) -> MeasuredValue:
     low, high = float(place[last]), float(place[last + 1])
     if excess(low) * excess(high) > 0.0:
         return Absent("the hull ends in a section of more than a third of the largest area")
-    return float(brentq(excess, low, high, xtol=1e-9))
+    return brent_root(excess, low, high, xtol=1e-9)
 
 
 def _level(height: float) -> FloatingPlanes:

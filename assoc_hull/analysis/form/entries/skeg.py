@@ -12,7 +12,6 @@ import math
 
 import attrs
 import numpy as np
-from scipy.optimize import brentq
 
 from assoc_hull.analysis.form.floating_shape import FloatingShape
 from assoc_hull.analysis.form.half_section import section_at
@@ -29,6 +28,7 @@ from assoc_hull.analysis.form.profile import NO_PROFILE, profile_at, slope_deg
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.numeric.circle_fit import fit_circle
 from assoc_hull.geometry.numeric.quadrature import gauss
+from assoc_hull.geometry.numeric.roots import brent_root
 
 __all__ = [
     "SINGLE",
@@ -153,7 +153,7 @@ def _aft_end(shape: FloatingShape) -> float:
         last -= 1
     if last == 0:
         return float(x[0])
-    return float(brentq(lambda at: _depth(shape, at) - shallow, x[last - 1], x[last], xtol=1e-9))
+    return brent_root(lambda at: _depth(shape, at) - shallow, x[last - 1], x[last], xtol=1e-9)
 
 
 def _lowest(shape: FloatingShape, x: float) -> float:
@@ -171,7 +171,7 @@ def edge_reaches(shape: FloatingShape, height: float) -> float | Absent:
     if not len(above) or above[-1] + 1 >= len(edge):
         return Absent("the skeg does not reach the height of the shaft")
     low, high = edge[above[-1] : above[-1] + 2, 0].tolist()
-    return float(brentq(lambda at: _lowest(shape, at) - height, low, high, xtol=1e-9))
+    return brent_root(lambda at: _lowest(shape, at) - height, low, high, xtol=1e-9)
 
 
 def edge_radius(side: Skeg) -> float | Absent:

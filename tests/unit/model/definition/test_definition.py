@@ -166,7 +166,7 @@ def test_a_point_that_rode_with_a_dead_one_keeps_its_value(document: Document) -
     dead = Maker(state, Journal()).points([PointSpec(0, (0.0, 0.0, 0.0), Sort.PLACED)])
     state.rows.alive.store[dead] = False
     alone = next(row for row in state.live("rows").tolist() if state.rows.sort[row] == Sort.ADOPTED)
-    state.rows.anchor.store[alone] = (dead[0], -1)
+    state.rows.anchor.put(np.array([alone]), np.array([(dead[0], -1)]))
     assert verify(state) == []
     assert fingerprint(from_definition(records(state))) == fingerprint(state)
 
