@@ -1718,11 +1718,21 @@ class Hull:
             The map folds, or nearly; where, and between which values one may ask.
         OutOfRangeError
             What comes out is no ship; with the interval.
+        RefusedSetError
+            Values that cannot be had together: which one to leave out, and how much of all changes
+            can be had.
         BadInputError
             The parent has not what is asked for; two parameters contradict each other. The hull is
             unchanged, whatever the error.
         RefusedEditError
             A line would fold or lose its order. The hull is unchanged.
+
+        Notes
+        -----
+        Several values are taken class by class, each class by a map that is laid out on the hull
+        that the one before has made, and corrected until all are met on the final hull; a class
+        that is refused is taken more finely. All of it is one step. `VariationReport.stages` tells
+        what was done.
 
         Examples
         --------
@@ -1930,9 +1940,9 @@ class Hull:
     ) -> Study[Hull]:
         """Make many variants of a hull: certified, lofted again, checked, measured.
 
-        All variants have the structure of the parent: its points go where the map of the variant
-        sends them, none comes or goes. Where a variant needs other points there is a row with the
-        reason; `vary` carries such a hull. The hull itself is not changed.
+        Variants have the structure of the parent: its points go where the map of the variant
+        sends them, none comes or goes. Where a variant needs other points it is carried as `vary`
+        does, and the column ``anew`` of its table says so. The hull itself is not changed.
 
         Parameters
         ----------

@@ -245,8 +245,19 @@ def _carry_free_ends(work: TransformationState, rows: IntArray) -> None:
         beside = order[(work.state.rows.sort[order] == Sort.CROSSING) & work.known[order]]
         slip = work.value[beside[0]] - work.image[beside[0]] if len(beside) else np.zeros(3)
         place = (work.image[end] + slip)[None]
-        work.value[end] = snap_into_planes(work.state, work.planes, np.array([end]), place)[0]
-        work.known[end] = True
+        place = snap_into_planes(work.state, work.planes, np.array([end]), place)[0]
+        if len(beside):
+            place = _off_centre(place, work.value[beside[0]])
+        work.value[end], work.known[end] = place, True
+
+
+def _off_centre(end: FloatArray, beside: FloatArray) -> FloatArray:
+    """Let a free end that comes to lie beyond the centre plane end on it, on the way it came."""
+    if not end[1] < 0.0 < beside[1]:
+        return end
+    found: FloatArray = end + (beside - end) * (end[1] / (end[1] - beside[1]))
+    found[1] = 0.0
+    return found
 
 
 def _slides(work: TransformationState, curve: int) -> bool:
