@@ -71,17 +71,15 @@ def choose_plan(
     before = measure_fairness(edit.state)
     best = list[tuple[float, int, SettledPlan]]()
     refusal: tuple[AssocHullError, StagedCarry] | None = None
-    tried, there = set[Plan](), None
-    first = class_plan(ask.values, layers=bool(ask.layers))
-    left = [first, finer_plan(first), finer_plan(finer_plan(first))]
-    left.append(single_plan(ask.values, layers=bool(ask.layers)))
+    tried, there = set[tuple[Plan, bool]](), None
+    left = _candidates(ask)
     while left:
-        plan = left.pop(0)
-        if plan in tried:
+        plan, together = left.pop(0)
+        if (plan, together) in tried:
             continue
-        carry = StagedCarry(edit, ask, plan, refines=not best)
+        carry = StagedCarry(edit, ask, plan, not best, together)
         try:
-            if best:  # one round shows whether it is worth more
+            if best and not together:  # one round shows whether it is worth more
                 there = None
                 carry.run(ask.values)
                 if _fairness(edit, before).worst_shape >= min(each[0] for each in best):
@@ -92,10 +90,10 @@ def choose_plan(
         except AssocHullError as error:
             refusal, there = refusal or (error, carry), None
             # At its finest it is refused as well.
-            left = left if best else left[-1:]
+            left = left if best or together else left[-1:]
             continue
         finally:
-            tried |= {plan, carry.plan}
+            tried |= {(plan, together), (carry.plan, together)}
         fair = _fairness(edit, before)
         if fair.worst_shape <= KINK:
             return found, fair
@@ -105,8 +103,22 @@ def choose_plan(
         raise _refused(edit, room, ask, *refusal) from None
     found = min(best, key=lambda each: each[:2])[2]
     if found is not there:
-        found = settle_plan(StagedCarry(edit, ask, found.carry.plan), room)
+        again = attrs.evolve(found.carry, carried=[], refused=None)
+        found = settle_plan(again, room)
     return found, _fairness(edit, before)
+
+
+def _candidates(ask: VariationRequest) -> list[tuple[Plan, bool]]:
+    """Give plans in the order in which they are tried, each with whether what is free goes along.
+
+    What is free to reach targets goes in one map with what is set where that is of one class: no
+    lines are lost to it as drivers.
+    """
+    layers, reaches = bool(ask.layers), ask.reach is not None and bool(ask.values)
+    first, whole = (make(ask.values, layers=layers) for make in (class_plan, single_plan))
+    finer = finer_plan(first)
+    plans = [(first, True)] if reaches and len(first) == 1 else []
+    return [*plans, (first, False), (finer, False), (finer_plan(finer), False), (whole, reaches)]
 
 
 def _fairness(edit: Transaction, before: Mapping[str, LineFairness]) -> FairnessComparison:

@@ -181,9 +181,14 @@ def _attempt(
 ) -> SettledPlan:
     """Carry out the plan with some aims, and measure what it gives."""
     ask, aimed, values = carry.ask, None, dict(carry.ask.values)
-    carry.run(aims)
+    if carry.together:
+        carry.edit.take_back()
+        carry.carried.clear()
+    else:
+        carry.run(aims)
     if before is not None and ask.reach is not None:
-        aimed, free = _reached(carry, ask.reach, before, start)
+        left = aims if carry.together else {}
+        aimed, free = _reached(carry, ask.reach, left, before, start)
         values |= free
     elif not carry.carried:
         carry.carry_by_nothing()
@@ -248,18 +253,22 @@ def changed_values(ask: VariationRequest, was: Mapping[str, float]) -> dict[str,
 
 
 def _reached(
-    carry: StagedCarry, reach: TargetRequest, before: FloatArray, start: FloatArray | None
+    carry: StagedCarry,
+    reach: TargetRequest,
+    left: Mapping[str, float],
+    before: FloatArray,
+    start: FloatArray | None,
 ) -> tuple[AimReport, dict[str, float]]:
-    """Carry the hull by what is free so that targets are reached.
+    """Carry the hull by what is free so that targets are reached, together with aims that are left.
 
     Gives the solver's report, and the values of what is free.
     """
-    ask = carry.ask
-    # What is set is there now, and raw layers have acted.
     state = copy_state(carry.edit.state)
-    room = AdmissibleValues.of(state, ask.layout, ask.tolerance)
-    rest = attrs.evolve(ask, values={}, layers=())
-    maps = HullMaps(room, rest, {}, freedoms(room, rest, reach))
+    room = AdmissibleValues.of(state, carry.ask.layout, carry.ask.tolerance)
+    aims = {name: aim for name, aim in left.items() if abs(aim - room.present[name]) > SAME}
+    # Else what is set is there now, and raw layers have acted.
+    ask = carry.ask if left else attrs.evolve(carry.ask, values={}, layers=())
+    maps = HullMaps(room, ask, aims, freedoms(room, ask, reach))
     aimed = _aimed(maps, Outputs.of(state, tuple(reach.targets)), before, reach, start)
     hull = _hull(aimed)
     base = hull.base

@@ -68,6 +68,8 @@ class StagedCarry:
         Its parameters, stage by stage; finer than it was where a stage was refused as it stood.
     refines : bool
         Whether stages are taken more finely where they are refused.
+    together : bool
+        Whether what is free to reach targets stands in one map with what is set.
     carried : list of CarriedMap
         What has been carried by now.
     refused : Stage or None
@@ -78,6 +80,7 @@ class StagedCarry:
     ask: VariationRequest
     plan: Plan
     refines: bool = True
+    together: bool = False
     carried: list[CarriedMap] = attrs.field(factory=list)
     refused: Stage | None = None
 
