@@ -181,6 +181,7 @@ class Document:
 
     def __attrs_post_init__(self) -> None:
         self._origin = self.head
+        self.state.number = 0  # edits of another document, that made the tables, are not told here
 
     def __getstate__(self) -> dict[str, object]:
         # In another process, or in a copy, the tables begin with state 0, which is this one.

@@ -6,7 +6,7 @@ who has the edit sees the hull between them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import attrs
 import numpy as np
@@ -28,6 +28,25 @@ __all__ = ["CarriedMap", "StagedCarry"]
 
 _PINNED = 5e-8
 """m or degrees: what is to stay is asked for so far off, less than what counts as met."""
+
+
+_SIZES = {"length", "breadth", "draught", "depth", "deck_height"}
+"""Their fields scale one axis each; only that of the draught takes another one, the deck, along."""
+
+
+def _moved(name: str, asked: Iterable[str]) -> bool:
+    """Tell whether what is asked for may move what is to stay.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.carrying.carry_stages import _moved
+    >>> _moved("draught", ["length"]), _moved("depth", ["draught"]), _moved("depth", [])
+    (False, True, False)
+    """
+    others = set(asked)
+    if name in _SIZES and others <= _SIZES:
+        return name in ("depth", "deck_height") and "draught" in others
+    return bool(others)
 
 
 @attrs.frozen(eq=False)
@@ -140,7 +159,7 @@ class StagedCarry:
             if not asked and not layers:
                 continue
             # What is to stay is solved for with what moves it: a field of no size has no say.
-            pins = [name for name in stage.names if name not in asked] if asked else []
+            pins = [name for name in stage.names if name not in asked and _moved(name, asked)]
             asked |= {name: self._present(room, name) + _PINNED for name in pins}
             vmap = VariationMap((*room.map(asked).layers, *layers))
             told = {name: self.ask.values[name] if last else goal[name] for name in asked}

@@ -221,6 +221,16 @@ def test_a_step_is_stopped_from_another_thread() -> None:
         assert not drag.to(0.01).refused
 
 
+def test_a_hull_that_edits_have_made_begins_with_state_0() -> None:
+    """Those are not in its history; else the number would fall with the first edit."""
+    ship = ah.examples.series60(cb=0.7)
+    seen = ship.state_number
+    assert seen == 0
+    ship.vary(set={"breadth": 17.6}, in_place=True)
+    assert ship.state_number == 1
+    assert ship.since(seen).curves.size > 0
+
+
 def test_what_has_changed_since_a_state_is_told() -> None:
     """The number of the state rises with edit, undo and redo, and each tells its curves."""
     ship = hull()

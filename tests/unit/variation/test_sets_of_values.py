@@ -120,6 +120,18 @@ def test_a_value_that_is_there_already_is_a_pin(parent: ah.Hull) -> None:
     assert varied.report.rounds == 1
 
 
+@pytest.mark.parametrize("more", [{"length": 101.0}, {"breadth": 10.5}, {"depth": 9.5}])
+def test_a_draught_that_is_to_stay_moves_no_waterline(more: dict[str, float]) -> None:
+    """No field of a size that is set moves it, so nothing is solved for: not by 50 nm."""
+    hull = ah.examples.wigley(stations=9, waterlines=6)
+    alone = hull.vary(set=more, name="x")
+    pinned = hull.vary(set={**more, "draught": 6.25}, name="x")
+    assert pinned.hull.fingerprint == alone.hull.fingerprint
+    assert pinned.report.notes == alone.report.notes
+    kept = hull.vary(set={"draught": 6.5, "depth": 9.375}).hull.measure()
+    assert kept["depth"] == pytest.approx(9.375, abs=1e-6)
+
+
 def test_set_and_reach_are_one_problem(parent: ah.Hull) -> None:
     """What is set is held while what is free reaches: no second call, no order of calls."""
     now = parent.hydrostatics()
