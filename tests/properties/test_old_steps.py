@@ -10,10 +10,13 @@ import copy
 import gc
 import pickle
 import sqlite3
+import sys
 import threading
 import tracemalloc
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import FrameType
+from typing import Any
 from unittest import mock
 
 import attrs
@@ -24,8 +27,10 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.edit import document as documents
+from assoc_hull.edit import past_states
 from assoc_hull.edit.past_states import PackedWrites
 from assoc_hull.edit.step import Step
+from assoc_hull.graph import gate
 from assoc_hull.model import change as changes
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 from tests.properties.test_program_edits import Count, by_program, content
@@ -272,3 +277,47 @@ def test_a_hull_that_is_saved_and_detached_runs_and_tells_all_its_steps(tmp_path
             hull.redo(count)
         assert tables(one) == tables(other)
     assert one.verify() == ()
+
+
+def test_an_interrupt_while_an_old_step_is_told_leaves_it_to_others_to_ask() -> None:
+    """At whatever instruction it comes: nobody waits for one who is gone."""
+    hull = ah.examples.wigley()
+    points = _points(hull, 3)
+    with old_after(1):
+        for number in range(4):
+            _move(hull, points, number)
+    past = hull.document._past
+    assert past is not None
+    left = [0]
+
+    def trace(frame: FrameType, event: str, argument: object) -> Callable[..., Any] | None:
+        if frame.f_code.co_filename not in (past_states.__file__, gate.__file__):
+            return None
+        frame.f_trace_opcodes = True
+        if event == "opcode":
+            left[0] -= 1
+            if not left[0]:
+                raise KeyboardInterrupt
+        return trace
+
+    def tell() -> int:
+        return past.tell(1, lambda state: state.rows.count, lambda state, count: count)
+
+    expected, known = tell(), sys.gettrace()
+    for number in range(1, 1000):
+        left[0] = number
+        sys.settrace(trace)
+        try:
+            tell()
+        except KeyboardInterrupt:
+            pass
+        finally:
+            sys.settrace(known)
+        found = list[int]()
+        other = threading.Thread(target=lambda: found.append(tell()), daemon=True)
+        other.start()
+        other.join(20.0)
+        assert found == [expected], number
+        if left[0] > 0:
+            break
+    assert left[0] > 0
