@@ -27,9 +27,9 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.edit import document as documents
-from assoc_hull.edit import past_states
+from assoc_hull.edit import past_states, program_edit
 from assoc_hull.edit.past_states import PackedWrites
-from assoc_hull.edit.step import Step
+from assoc_hull.edit.step import Step, StepBody
 from assoc_hull.graph import gate
 from assoc_hull.model import change as changes
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
@@ -321,3 +321,30 @@ def test_an_interrupt_while_an_old_step_is_told_leaves_it_to_others_to_ask() -> 
         if left[0] > 0:
             break
     assert left[0] > 0
+
+
+def test_a_step_that_grows_old_while_another_thread_asks_for_it_is_old() -> None:
+    """What the other thread has made by then is given to it, and not held on."""
+    hull = ah.examples.wigley()
+    points, begun, gone_on = _points(hull, 3), threading.Event(), threading.Event()
+    body = program_edit._Notes.body
+
+    def slowly(self: program_edit._Notes) -> StepBody:
+        found = body(self)
+        begun.set()
+        assert gone_on.wait(60.0)
+        return found
+
+    found = list[bytes]()
+    with old_after(1):
+        _move(hull, points, 0)
+        step = hull.document.steps[1]
+        reader = threading.Thread(target=lambda: found.append(step.changed.tobytes()))
+        with mock.patch.object(program_edit._Notes, "body", slowly):
+            reader.start()
+            assert begun.wait(60.0)
+        _move(hull, points, 1)
+        gone_on.set()
+        reader.join()
+    assert is_old(step)
+    assert found == [step.changed.tobytes()]
