@@ -213,9 +213,13 @@ def _all_splines(state: HullState) -> dict[int, SplineBatch]:
 
 def late_report(report: EditReport, past: Past, number: int) -> EditReport:
     """Give a report that holds no splines."""
-    if not isinstance(report.fairness, Fairness):
+    told = report.fairness
+    if not isinstance(told, Fairness):
         return report
-    return attrs.evolve(report, fairness=LateFairness(past, number, report.fairness.keys))
+    # A line that was cut anew has none before, whatever the tables had in its place then.
+    pairs = zip(told.curves.tolist(), told.keys, strict=True)
+    keys = tuple(key for curve, key in pairs if curve in told.before)
+    return attrs.evolve(report, fairness=LateFairness(past, number, keys))
 
 
 @attrs.frozen(eq=False)

@@ -348,3 +348,17 @@ def test_a_step_that_grows_old_while_another_thread_asks_for_it_is_old() -> None
         reader.join()
     assert is_old(step)
     assert found == [step.changed.tobytes()]
+
+
+def test_a_line_that_was_cut_anew_has_no_inflections_before_in_an_old_step_either() -> None:
+    """The tables had another curve in its place, which is not what it came from."""
+    one, other = ah.examples.series60(), ah.examples.series60()
+    for hull, held in ((one, 1), (other, NEVER)):
+        with old_after(held):
+            for position in (0.55, 0.25):
+                with hull.edit("shift") as edit:
+                    edit.shift_line("BTK 0.06", position)
+            _move(hull, _points(hull, 1), 0)
+    assert [is_old(step) for step in one.document.steps.values()] == [True, True, False]
+    for mine, theirs in zip(one.history, other.history, strict=True):
+        assert mine.inflections == theirs.inflections
