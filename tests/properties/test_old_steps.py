@@ -303,6 +303,9 @@ def test_an_interrupt_while_an_old_step_is_told_leaves_it_to_others_to_ask() -> 
     def tell() -> int:
         return past.tell(1, lambda state: state.rows.count, lambda state, count: count)
 
+    def ask(found: list[int]) -> None:
+        found.append(tell())
+
     expected, known = tell(), sys.gettrace()
     for number in range(1, 1000):
         left[0] = number
@@ -314,7 +317,7 @@ def test_an_interrupt_while_an_old_step_is_told_leaves_it_to_others_to_ask() -> 
         finally:
             sys.settrace(known)
         found = list[int]()
-        other = threading.Thread(target=lambda: found.append(tell()), daemon=True)
+        other = threading.Thread(target=ask, args=(found,), daemon=True)
         other.start()
         other.join(20.0)
         assert found == [expected], number
