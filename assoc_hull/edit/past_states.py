@@ -8,8 +8,8 @@ whoever asks next. So a session of thousands of edits grows by a few kilobytes w
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Protocol, TypeVar
 
 import attrs
@@ -19,6 +19,7 @@ from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.report import EditReport, Fairness, Inflections
 from assoc_hull.edit.step import Notes, Past, Rerun, Step, StepBody, Writes
 from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.graph.gate import Gate
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.network import Readers
 from assoc_hull.model.change import TableChange, apply_change
@@ -131,23 +132,27 @@ class PastStates:
         self._forget()
 
     def _forget(self) -> None:
-        self._lock = threading.Lock()
+        self._gate = Gate()
         self._at: tuple[HullState, int] | None = None
 
     def tell(
         self, number: int, before: Callable[[HullState], B], after: Callable[[HullState, B], T]
     ) -> T:
         """Tell of a step from the tables before it and after it, which stay so no longer."""
-        with self._lock:
-            # Broken off on the way, the tables are nowhere: the next one begins anew.
-            at, self._at = self._at, None
-            state, here = self._begin() if at is None else at
-            self._walk(state, here, self.document.steps[number].parent)
-            was = before(state)
-            self._walk(state, self.document.steps[number].parent, number)
-            found = after(state, was)
-            self._at = state, number
-            return found
+        return self._gate.alone(partial(self._tell, number, before, after))
+
+    def _tell(
+        self, number: int, before: Callable[[HullState], B], after: Callable[[HullState, B], T]
+    ) -> T:
+        # Broken off on the way, the tables are nowhere: the next one begins anew.
+        at, self._at = self._at, None
+        state, here = self._begin() if at is None else at
+        self._walk(state, here, self.document.steps[number].parent)
+        was = before(state)
+        self._walk(state, self.document.steps[number].parent, number)
+        found = after(state, was)
+        self._at = state, number
+        return found
 
     def _begin(self) -> tuple[HullState, int]:
         """Give tables of their own with what is published, and after which step that is."""
@@ -208,9 +213,13 @@ def _all_splines(state: HullState) -> dict[int, SplineBatch]:
 
 def late_report(report: EditReport, past: Past, number: int) -> EditReport:
     """Give a report that holds no splines."""
-    if not isinstance(report.fairness, Fairness):
+    told = report.fairness
+    if not isinstance(told, Fairness):
         return report
-    return attrs.evolve(report, fairness=LateFairness(past, number, report.fairness.keys))
+    # A line that was cut anew has none before, whatever the tables had in its place then.
+    pairs = zip(told.curves.tolist(), told.keys, strict=True)
+    keys = tuple(key for curve, key in pairs if curve in told.before)
+    return attrs.evolve(report, fairness=LateFairness(past, number, keys))
 
 
 @attrs.frozen(eq=False)

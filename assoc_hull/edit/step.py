@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Protocol, TypeVar
 
 import attrs
@@ -11,6 +12,7 @@ from assoc_hull.edit.recording import Script
 from assoc_hull.edit.report import EditReport
 from assoc_hull.errors import DamagedFileError
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.graph.gate import Gate
 from assoc_hull.graph.network import Readers, distinct
 from assoc_hull.model.change import TableChange, apply_change
 from assoc_hull.model.node import Node
@@ -20,6 +22,9 @@ __all__ = ["Notes", "Past", "Rerun", "Step", "StepBody", "Writes"]
 
 B = TypeVar("B")
 T = TypeVar("T")
+
+_GATE = Gate()
+"""For steps that one thread lets go of while another one makes their body."""
 
 
 class Writes(Protocol):
@@ -185,11 +190,17 @@ class Step:
         if body is None:
             if later is not None:
                 body = self._entered(later.notes.body())
+                _GATE.alone(partial(self._hold, body, later))
             else:
                 assert self.load is not None, "a step holds its body, or can load it"
                 body = self.load()
-            self.replace(body)
+                self.replace(body)
         return body
+
+    def _hold(self, body: StepBody, later: _ToldLater) -> None:
+        """Hold a body, unless what made it has been let go of meanwhile."""
+        if self._later is later:
+            self._body, self._later = body, None
 
     def replace(self, body: StepBody) -> None:
         """Hold another body."""
@@ -209,6 +220,9 @@ class Step:
     def let_go(self, writes: Writes, notes: Notes) -> None:
         """Hold writes that run as those it has, and what makes the body anew, and no more."""
         later = _ToldLater(writes, self.rows, self.curves, notes)
+        _GATE.alone(partial(self._let_go, later))
+
+    def _let_go(self, later: _ToldLater) -> None:
         # What is known besides goes last: another thread may be asking.
         self._later, self._body, self.change = later, None, None
 

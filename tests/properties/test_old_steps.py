@@ -10,10 +10,13 @@ import copy
 import gc
 import pickle
 import sqlite3
+import sys
 import threading
 import tracemalloc
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import FrameType
+from typing import Any
 from unittest import mock
 
 import attrs
@@ -24,8 +27,10 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.edit import document as documents
+from assoc_hull.edit import past_states, program_edit
 from assoc_hull.edit.past_states import PackedWrites
-from assoc_hull.edit.step import Step
+from assoc_hull.edit.step import Step, StepBody
+from assoc_hull.graph import gate
 from assoc_hull.model import change as changes
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 from tests.properties.test_program_edits import Count, by_program, content
@@ -272,3 +277,91 @@ def test_a_hull_that_is_saved_and_detached_runs_and_tells_all_its_steps(tmp_path
             hull.redo(count)
         assert tables(one) == tables(other)
     assert one.verify() == ()
+
+
+def test_an_interrupt_while_an_old_step_is_told_leaves_it_to_others_to_ask() -> None:
+    """At whatever instruction it comes: nobody waits for one who is gone."""
+    hull = ah.examples.wigley()
+    points = _points(hull, 3)
+    with old_after(1):
+        for number in range(4):
+            _move(hull, points, number)
+    past = hull.document._past
+    assert past is not None
+    left = [0]
+
+    def trace(frame: FrameType, event: str, argument: object) -> Callable[..., Any] | None:
+        if frame.f_code.co_filename not in (past_states.__file__, gate.__file__):
+            return None
+        frame.f_trace_opcodes = True
+        if event == "opcode":
+            left[0] -= 1
+            if not left[0]:
+                raise KeyboardInterrupt
+        return trace
+
+    def tell() -> int:
+        return past.tell(1, lambda state: state.rows.count, lambda state, count: count)
+
+    def ask(found: list[int]) -> None:
+        found.append(tell())
+
+    expected, known = tell(), sys.gettrace()
+    for number in range(1, 1000):
+        left[0] = number
+        sys.settrace(trace)
+        try:
+            tell()
+        except KeyboardInterrupt:
+            pass
+        finally:
+            sys.settrace(known)
+        found = list[int]()
+        other = threading.Thread(target=ask, args=(found,), daemon=True)
+        other.start()
+        other.join(20.0)
+        assert found == [expected], number
+        if left[0] > 0:
+            break
+    assert left[0] > 0
+
+
+def test_a_step_that_grows_old_while_another_thread_asks_for_it_is_old() -> None:
+    """What the other thread has made by then is given to it, and not held on."""
+    hull = ah.examples.wigley()
+    points, begun, gone_on = _points(hull, 3), threading.Event(), threading.Event()
+    body = program_edit._Notes.body
+
+    def slowly(self: program_edit._Notes) -> StepBody:
+        found = body(self)
+        begun.set()
+        assert gone_on.wait(60.0)
+        return found
+
+    found = list[bytes]()
+    with old_after(1):
+        _move(hull, points, 0)
+        step = hull.document.steps[1]
+        reader = threading.Thread(target=lambda: found.append(step.changed.tobytes()))
+        with mock.patch.object(program_edit._Notes, "body", slowly):
+            reader.start()
+            assert begun.wait(60.0)
+        _move(hull, points, 1)
+        gone_on.set()
+        reader.join()
+    assert is_old(step)
+    assert found == [step.changed.tobytes()]
+
+
+def test_a_line_that_was_cut_anew_has_no_inflections_before_in_an_old_step_either() -> None:
+    """The tables had another curve in its place, which is not what it came from."""
+    one, other = ah.examples.series60(), ah.examples.series60()
+    for hull, held in ((one, 1), (other, NEVER)):
+        with old_after(held):
+            for position in (0.55, 0.25):
+                with hull.edit("shift") as edit:
+                    edit.shift_line("BTK 0.06", position)
+            _move(hull, _points(hull, 1), 0)
+    assert [is_old(step) for step in one.document.steps.values()] == [True, True, False]
+    for mine, theirs in zip(one.history, other.history, strict=True):
+        assert mine.inflections == theirs.inflections
