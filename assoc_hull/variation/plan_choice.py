@@ -151,13 +151,15 @@ def _refused(
         else:
             high = middle
     edit.take_back()
+    if not part:
+        return error  # one value can hardly be had at all, whatever stands beside it
     values = dict(_part(ask, room, part).values)
     told = ", ".join(f"{name}={value:.6g}" for name, value in values.items())
     remedies = [] if leave_out is None else [f"leave out {leave_out}: the rest can be had"]
-    remedies += [f"ask for {100.0 * part:.3g} % of all changes: {told}"] if part else []
+    remedies.append(f"ask for {100.0 * part:.3g} % of all changes: {told}")
     return RefusedSetError(
         f"{', '.join(ask.values)} cannot be had together ({error})", "in vary",
-        "; or ".join(remedies) or "ask for less", leave_out, part, values,
+        "; or ".join(remedies), leave_out, part, values,
     )  # fmt: skip
 
 
