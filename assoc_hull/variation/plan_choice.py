@@ -82,7 +82,7 @@ def choose_plan(
             if best and not together:  # one round shows whether it is worth more
                 there = None
                 carry.run(ask.values)
-                if _fairness(edit, before).worst_shape >= min(each[0] for each in best):
+                if _worst(edit, before) >= min(each[0] for each in best):
                     continue
             found = there = settle_plan(carry, room)
         except _OF_TARGETS:
@@ -95,9 +95,9 @@ def choose_plan(
         finally:
             tried |= {(plan, together), (carry.plan, together)}
         fair = _fairness(edit, before)
-        if fair.worst_shape <= KINK:
+        if (worst := _worst(edit, before)) <= KINK:
             return found, fair
-        best.append((fair.worst_shape, fair.added, found))
+        best.append((worst, fair.added, found))
     if not best:
         assert refusal is not None, "there is a plan at least"
         raise _refused(edit, room, ask, *refusal) from None
@@ -124,6 +124,18 @@ def _candidates(ask: VariationRequest) -> list[tuple[Plan, bool]]:
 def _fairness(edit: Transaction, before: Mapping[str, LineFairness]) -> FairnessComparison:
     """Compare the lines of the hull as it is by now with those of the parent."""
     return compare_fairness(before, measure_fairness(edit.state, like=before))
+
+
+def _worst(edit: Transaction, before: Mapping[str, LineFairness]) -> float:
+    """Give the largest comb of a line at the size that it had in the parent, in parts of that one.
+
+    Boundary curves are left out: they drive whatever the plan, so no plan is to blame for them.
+    """
+    lines = edit.state.live("lines")
+    inner = lines[edit.state.lines.boundary[lines] < 0]
+    return compare_fairness(
+        before, measure_fairness(edit.state, inner.tolist(), like=before)
+    ).worst_shape
 
 
 # --------------------------------------------------------------------------------------

@@ -381,7 +381,6 @@ def _doubled(
             first, other = table.curve[row].tolist()
             beside = order[i + 1] if row == order[i] else order[i]
             free = not table.contact[row] or table.sort[beside] == Sort.ADOPTED
-            free |= beside in (order[0], order[-1])
             if row in slid and first == curve and other >= 0 and free:
                 found.add(row)
                 break

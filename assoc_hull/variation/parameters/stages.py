@@ -84,7 +84,13 @@ def class_plan(names: Iterable[str], *, layers: bool = False) -> Plan:
     ['breadth, draught', 'shaft_height, bulb_height']
     """
     asked = set(names)
-    stages = [Stage(found) for each in CLASSES if (found := _in_order(each, asked))]
+    classes = CLASSES
+    if {"shaft_height", "bossing_radius"} <= asked:
+        # One similarity about the centre carries the bossing's end to height and radius at once.
+        heights, breadths, bossing = CLASSES[-3:]
+        joined = ((*heights[0], *bossing[0]), *heights[1:])
+        classes = (*CLASSES[:-3], joined, breadths)
+    stages = [Stage(found) for each in classes if (found := _in_order(each, asked))]
     stages = stages or [Stage(())]
     return (*stages[:-1], attrs.evolve(stages[-1], layers=layers))
 
