@@ -33,6 +33,18 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ["cannot measure 'TH'", "in measure", "ask for another"],
     ),
     (
+        errors.RefusedSetError(
+            "draught, depth cannot be had together (it folds)",
+            "in vary",
+            "leave out depth: the rest can be had",
+            "depth",
+            0.25,
+            {"draught": 21.0},
+        ),
+        ValueError,
+        ["draught, depth cannot be had together", "in vary", "leave out depth"],
+    ),
+    (
         errors.OutOfRangeError("draught", 19.5, "at heel 10 deg", "drowns the deck", 0.5, 9.0, "m"),
         ValueError,
         ["draught of 19.5 m", "at heel 10 deg", "drowns the deck", "from 0.5 to 9 m"],
