@@ -32,14 +32,19 @@ from assoc_hull.model.tables import Ends, HullState
 
 __all__ = [
     "DefiningPoints",
+    "PointImages",
     "TransformationState",
     "carry_directions",
     "carry_ends",
     "carry_points",
     "curve_data_through",
+    "point_images",
+    "turned_directions",
+    "turned_ends",
 ]
 
 BoolArray = np.typing.NDArray[np.bool_]
+EndVector = tuple[float, float, float]
 
 
 @attrs.define(eq=False)
@@ -62,13 +67,13 @@ class DefiningPoints:
 
 
 @attrs.define(eq=False)
-class TransformationState:
-    """A transformation under way; the tables hold the places of before.
+class PointImages:
+    """Where a mapping sends the points of a net, and which of them lie in their planes there.
 
     Attributes
     ----------
-    maker : Maker
-        Writes structure.
+    state : HullState
+        The tables, with the places of before.
     space : SpaceMap
         The mapping.
     planes : TransformedPlanes
@@ -87,6 +92,31 @@ class TransformationState:
         Whether `value` is final.
     slid : (r,) bool
         Whether a crossing was found where an image or a follower meets a plane.
+    slope : (r, 3, 3)
+        Jacobian of the mapping at each point; the unit matrix for one that is gone.
+    """
+
+    state: HullState
+    space: SpaceMap
+    planes: TransformedPlanes
+    driver: BoolArray
+    image: FloatArray
+    value: FloatArray
+    direct: BoolArray
+    still: BoolArray
+    known: BoolArray
+    slid: BoolArray
+    slope: FloatArray
+
+
+@attrs.define(eq=False)
+class TransformationState(PointImages):
+    """A transformation under way; the tables hold the places of before.
+
+    Attributes
+    ----------
+    maker : Maker
+        Writes structure.
     made : dict of int to DefiningPoints
         Curves whose points are chosen.
     gone : set of int
@@ -122,15 +152,6 @@ class TransformationState:
     """
 
     maker: Maker
-    space: SpaceMap
-    planes: TransformedPlanes
-    driver: BoolArray
-    image: FloatArray
-    value: FloatArray
-    direct: BoolArray
-    still: BoolArray
-    known: BoolArray
-    slid: BoolArray
     made: dict[int, DefiningPoints] = attrs.field(factory=dict)
     gone: set[int] = attrs.field(factory=set)
     watched: set[int] = attrs.field(factory=set)
@@ -148,17 +169,13 @@ class TransformationState:
     new_ends: dict[tuple[int, int], int] = attrs.field(factory=dict)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
-    @property
-    def state(self) -> HullState:
-        """The tables."""
-        return self.maker.state
-
     def add(self, place: FloatArray) -> None:
         """Take in one more point, which has just been made, at its final place."""
         self.image = np.concatenate([self.image, place[None]])
         self.value = np.concatenate([self.value, place[None]])
         self.direct, self.known = np.append(self.direct, True), np.append(self.known, True)
         self.slid, self.still = np.append(self.slid, True), np.append(self.still, False)
+        self.slope = np.concatenate([self.slope, np.eye(3)[None]])
 
     def piece(self, line: int, place: FloatArray) -> int:
         """Give the curve of a line whose carried points come nearest to a place."""
@@ -199,6 +216,17 @@ class TransformationState:
 def carry_points(
     maker: Maker, space: SpaceMap, planes: TransformedPlanes, driver: BoolArray
 ) -> TransformationState:
+    """Begin a transformation: map all points, as `point_images`."""
+    each = point_images(maker.state, space, planes, driver)
+    return TransformationState(
+        each.state, space, planes, driver, each.image, each.value, each.direct, each.still,
+        each.known, each.slid, each.slope, maker,
+    )  # fmt: skip
+
+
+def point_images(
+    state: HullState, space: SpaceMap, planes: TransformedPlanes, driver: BoolArray
+) -> PointImages:
     """Map all points, and see which come to lie in the planes of their lines.
 
     Raises
@@ -206,16 +234,16 @@ def carry_points(
     BadInputError
         The mapping turns the hull inside out somewhere.
     """
-    state = maker.state
     live = state.live("rows")
     image = state.rows.xyz.data.copy()
     image[live] = space.places(state.rows.xyz[live])
-    slope = space.jacobians(state.rows.xyz[live])
-    _refuse_folds(state, live, slope)
+    slope = np.tile(np.eye(3), (state.rows.count, 1, 1))
+    slope[live] = space.jacobians(state.rows.xyz[live])
+    _refuse_folds(state, live, slope[live])
     still = np.zeros(state.rows.count, bool)
-    still[live] = (slope == np.eye(3)).all(axis=(1, 2)) & (image[live] == state.rows.xyz[live]).all(
-        axis=1
-    )
+    still[live] = (slope[live] == np.eye(3)).all(axis=(1, 2)) & (
+        image[live] == state.rows.xyz[live]
+    ).all(axis=1)
     table = state.rows
     line = np.where(table.curve.data >= 0, state.curves.line[table.curve.data], -1)
     direct = np.ones(table.count, bool)
@@ -231,9 +259,9 @@ def carry_points(
     )
     crossing = table.sort.data == Sort.CROSSING
     known = np.where(crossing, direct, drives & direct)
-    return TransformationState(
-        maker, space, planes, driver, image, value, direct, still, known,
-        np.zeros(table.count, bool),
+    return PointImages(
+        state, space, planes, driver, image, value, direct, still, known,
+        np.zeros(table.count, bool), slope,
     )  # fmt: skip
 
 
@@ -308,50 +336,62 @@ def _turned(slope: FloatArray, vectors: FloatArray) -> FloatArray:
 
 
 def carry_directions(work: TransformationState, journal: Journal) -> set[int]:
-    """Turn the given directions of points with the mapping; give the curves they change.
+    """Turn the given directions of points with the mapping; give the curves they change."""
+    table, changed = work.state.rows, set[int]()
+    for side, (rows, new) in enumerate(turned_directions(work)):
+        if len(rows):
+            both = table.direction[rows].copy()
+            both[:, side] = new
+            journal.put(table.direction, rows, both)
+            changed |= set(table.curve[rows, side].tolist())
+    return changed - {-1}
+
+
+def turned_directions(work: PointImages) -> list[tuple[IntArray, FloatArray]]:
+    """Give, for either side, points (k,) with directions (k, 3) that the mapping turns, and these.
 
     A direction stays in the plane of its curve, and in the flat it borders.
     """
-    state, table = work.state, work.state.rows
-    flats, changed = flat_borders(state, work.planes), set[int]()
+    state, table, found = work.state, work.state.rows, []
+    flats = flat_borders(state, work.planes)
     for side in (0, 1):
         given = table.alive.data & (table.direction[:, side] != 0.0).any(axis=1)
         rows = np.flatnonzero(given)
-        if not len(rows):
-            continue
         curve = table.curve[rows]
         old = table.direction[rows, side]
-        new = _turned(work.space.jacobians(table.xyz[rows]), old)
+        new = _turned(work.slope[rows], old)
         moved = (new != old).any(axis=1)
         line = np.where(curve >= 0, state.curves.line[curve], -1)
         normal = np.where((line >= 0)[:, :, None], work.planes.normal[line], 0.0)
         border = np.where(np.isin(line[:, 1 - side], flats)[:, None], normal[:, 1 - side], 0.0)
         new = _lay(_lay(new, normal[:, side]), border)
-        both = table.direction[rows[moved]].copy()
-        both[:, side] = new[moved]
-        journal.put(table.direction, rows[moved], both)
-        changed |= set(curve[moved, side].tolist())
-    return changed - {-1}
+        found.append((rows[moved], new[moved]))
+    return found
 
 
 def carry_ends(work: TransformationState, journal: Journal) -> set[int]:
     """Turn and bend the end conditions of curves with the mapping; give those that change."""
-    state, changed, ends = work.state, set[int](), work.state.curves.ends.data
+    found, ends = turned_ends(work), work.state.curves.ends
+    for curve, vectors in found.items():
+        journal.set(ends, [curve], [Ends(ends.data[curve].kind, vectors)])
+    return set(found)
+
+
+def turned_ends(work: PointImages) -> dict[int, tuple[EndVector, EndVector]]:
+    """Give the vectors of the end conditions that the mapping turns or bends, by curve."""
+    state, ends = work.state, work.state.curves.ends.data
+    changed = dict[int, tuple[EndVector, EndVector]]()
     bound = [curve for curve in state.live("curves").tolist() if any(ends[curve].kind)]
-    places = [state.spline(curve).xyz[[0, -1]] for curve in bound]
-    slopes = work.space.jacobians(np.concatenate([np.zeros((0, 3)), *places])).reshape(-1, 2, 3, 3)
-    for curve, slope in zip(bound, slopes, strict=True):
+    for curve in bound:
         old: Ends = ends[curve]
-        new = tuple(_end(work, curve, at, slope[[at]]) for at in (0, 1))
+        slope = work.slope[state.curves.rows[curve][[0, -1]]]
+        new = _end(work, curve, 0, slope[[0]]), _end(work, curve, 1, slope[[1]])
         if new != old.vector:
-            journal.set(state.curves.ends, [curve], [Ends(old.kind, (new[0], new[1]))])
-            changed.add(curve)
+            changed[curve] = new
     return changed
 
 
-def _end(
-    work: TransformationState, curve: int, at: int, slope: FloatArray
-) -> tuple[float, float, float]:
+def _end(work: PointImages, curve: int, at: int, slope: FloatArray) -> EndVector:
     """Give the vector of one end condition under the mapping, of the slope (1, 3, 3) there."""
     ends: Ends = work.state.curves.ends[curve]
     if ends.kind[at] == EndKind.FREE or (slope[0] == np.eye(3)).all():

@@ -31,7 +31,7 @@ from assoc_hull.model.features import Feature
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import HullState, Particulars
 
-__all__ = ["NetMap", "carry_net"]
+__all__ = ["NetMap", "carry_net", "given_points", "refuse_bent"]
 
 
 @attrs.frozen(eq=False)
@@ -85,7 +85,7 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
     """
     state, pending, maker = edit.state, edit.pending, edit.maker
     refuse_others(edit)
-    _refuse_bent(state, by.planes)
+    refuse_bent(state, by.planes)
     pending.alone = pending.structural = True
     drives = np.zeros(state.lines.count, bool)
     drives[by.drivers] = True
@@ -97,7 +97,7 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
     move_planes(maker, by.planes)
     if by.particulars != state.particulars:
         edit.journal.set(state.settings.particulars, [0], [by.particulars])
-    rows = _given(state)
+    rows = given_points(state)
     edit.write(rows, work.value[rows], "carrying a net")
     pending.features = _features(work, by)
     adopted = state.live("rows")
@@ -108,7 +108,7 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
     return work
 
 
-def _given(state: HullState) -> IntArray:
+def given_points(state: HullState) -> IntArray:
     """Give the points whose places are given: not computed from a curve, and not only watched."""
     table, live = state.rows, state.live("rows")
     watched = (table.sort[live] == Sort.CROSSING) & (table.role[live] == Role.WATCHED)
@@ -123,7 +123,8 @@ def _features(work: TransformationState, by: NetMap) -> CarriedFeatures:
     return CarriedFeatures(by.features, frozenset(), by.within, places)
 
 
-def _refuse_bent(state: HullState, planes: TransformedPlanes) -> None:
+def refuse_bent(state: HullState, planes: TransformedPlanes) -> None:
+    """Refuse a mapping that takes lines out of their planes that it is to keep there."""
     for line, away in sorted(planes.bent.items()):
         if state.lines.boundary[line] < 0:
             raise BadInputError(

@@ -13,7 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.mapped_planes import plane_heights, snap_into_planes
-from assoc_hull.edit.recut.carried_points import TransformationState
+from assoc_hull.edit.recut.carried_points import PointImages
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
@@ -36,12 +36,12 @@ _NEAR = 1e-9
 BoolArray = np.typing.NDArray[np.bool_]
 
 
-def slide_over(work: TransformationState) -> IntArray:
+def slide_over(work: PointImages) -> IntArray:
     """Move points that the mapping takes out of the planes of their lines back into these.
 
     Parameters
     ----------
-    work : TransformationState
+    work : PointImages
         The mapping under way; its `value` is changed.
 
     Returns
@@ -63,7 +63,7 @@ def slide_over(work: TransformationState) -> IntArray:
     return rows
 
 
-def _sliding(work: TransformationState) -> IntArray:
+def _sliding(work: PointImages) -> IntArray:
     """Give the points that have to slide: none that are computed from curves, or only watched."""
     table, live = work.state.rows, work.state.live("rows")
     watched = (table.sort.data == Sort.CROSSING) & (table.role.data == Role.WATCHED)
@@ -103,7 +103,7 @@ class _Ways:
     offset: FloatArray
 
     @classmethod
-    def of(cls, work: TransformationState, rows: IntArray) -> _Ways:
+    def of(cls, work: PointImages, rows: IntArray) -> _Ways:
         state = work.state
         own = state.rows.curve[rows]
         line = np.where(own >= 0, state.curves.line[own], -1)
@@ -125,7 +125,7 @@ class _Ways:
             np.where(plane, work.planes.offset[line], 0.0),
         )  # fmt: skip
 
-    def solved(self, work: TransformationState) -> FloatArray:
+    def solved(self, work: PointImages) -> FloatArray:
         """Give the images of the places that lie in the planes, (k, 3), m; by Newton's rule."""
         start = work.state.rows.xyz[self.rows]
         way, far = np.zeros((len(self.rows), 2)), np.inf
@@ -179,7 +179,7 @@ class _Ways:
         last: FloatArray = self.batch.knot[self.batch.start[curve + 1] - 1]
         return last
 
-    def _require(self, work: TransformationState, image: FloatArray, way: FloatArray) -> None:
+    def _require(self, work: PointImages, image: FloatArray, way: FloatArray) -> None:
         """See that all have come into their planes."""
         off = np.zeros(len(image))
         for side in (0, 1):

@@ -102,7 +102,10 @@ class ProgramRun:
 class RunProgram(Protocol):
     """A program with the arithmetic that runs it; for one thread at a time."""
 
-    def run(self, values: Values, before: Values, rows: IntArray, held: IntArray) -> ProgramRun:
+    def run(
+        self, values: Values, before: Values, rows: IntArray, held: IntArray,
+        curves: IntArray | None = None,
+    ) -> ProgramRun:  # fmt: skip
         """Bring all numbers up to date with points that were written: see `run_program`."""
 
     def restore(self, values: Values, before: Values, run: ProgramRun) -> None:
@@ -123,9 +126,12 @@ class NumpyProgram:
 
     program: Program
 
-    def run(self, values: Values, before: Values, rows: IntArray, held: IntArray) -> ProgramRun:
+    def run(
+        self, values: Values, before: Values, rows: IntArray, held: IntArray,
+        curves: IntArray | None = None,
+    ) -> ProgramRun:  # fmt: skip
         """Bring all numbers up to date with points that were written."""
-        return run_program(self.program, values, before, rows, held)
+        return run_program(self.program, values, before, rows, held, curves)
 
     def restore(self, values: Values, before: Values, run: ProgramRun) -> None:
         """Put back what a run has written."""

@@ -25,7 +25,14 @@ from assoc_hull.model.index import Index
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["CompiledFeatures", "Program", "PublishedProgram", "Values", "compile_program"]
+__all__ = [
+    "CompiledFeatures",
+    "Program",
+    "PublishedProgram",
+    "Values",
+    "compile_program",
+    "plane_lines",
+]
 
 Flags = NDArray[np.int8]
 
@@ -62,6 +69,15 @@ class CompiledFeatures:
     shape: Flags
     numbers: FloatArray
     limit: FloatArray
+
+    @classmethod
+    def none(cls, points: int) -> CompiledFeatures:
+        """Give those of a hull with so many points that has no features."""
+        none, begin = np.zeros(0, np.int64), np.zeros(1, np.int64)
+        start, shape = np.zeros(points + 1, np.int64), np.zeros(0, np.int8)
+        numbers, limit = np.zeros((0, 7)), np.zeros(0)
+        freeze(none, begin, start, shape, numbers, limit)
+        return cls(start, none, begin, none, shape, numbers, limit)
 
     def own(self, rows: IntArray) -> bool:
         """Tell whether some of the points (k,) are owned by a feature."""
@@ -337,6 +353,15 @@ def compile_program(state: HullState, index: Index) -> Program | None:
         *(each for each in attrs.astuple(program, recurse=False) if isinstance(each, np.ndarray))
     )
     return program
+
+
+def plane_lines(state: HullState, index: Index, program: Program) -> IntArray:
+    """Give the line of each plane of a compiled structure, (p,)."""
+    of_line = _Planes.of(state, index, program.number).of_line
+    lines = np.flatnonzero(of_line >= 0)
+    found = np.zeros(len(program.offset), np.int64)
+    found[of_line[lines]] = lines
+    return found
 
 
 _RIDING = ("rider_start", "rider", "riding_start", "riding")

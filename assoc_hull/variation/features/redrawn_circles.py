@@ -403,13 +403,14 @@ class FeatureMap:
         """Map places (n, 3), m; those on a circle to the bits of the new one."""
         found = self.image(xyz)
         away = self._away(xyz)
-        for i in np.flatnonzero(self._near(away).any(axis=1)).tolist():
-            some, circle = np.flatnonzero(self._near(away)[i]), self.circles[i]
+        near = self._near(away)
+        shares = self._shares(away, near)
+        for i in np.flatnonzero(near.any(axis=1)).tolist():
+            some, circle = np.flatnonzero(near[i]), self.circles[i]
             unit, size = circle.before.unit(xyz[some])
             moved = found[some]
             if not circle.carried:
-                weight = self._weight(i, away[:, some])[0][:, None]
-                moved = moved + weight * circle.correction(unit)
+                moved = moved + shares[i, some][:, None] * circle.correction(unit)
             # on the circle its own place, not the image with a correction: bits of the new circle
             moved[away[i, some] == 0.0] = circle.after.at(unit[away[i, some] == 0.0])
             level = np.abs((xyz[some] - circle.before.centre) @ circle.before.normal)
@@ -421,11 +422,12 @@ class FeatureMap:
         """Give the derivatives of the places after by those before, (n, 3, 3)."""
         found = self.slope(xyz)
         away = self._away(xyz)
-        for i in np.flatnonzero(self._near(away).any(axis=1)).tolist():
-            some = np.flatnonzero(self._near(away)[i])
-            circle, (weight, turn) = self.circles[i], self._weight(i, away[:, some])
+        near = self._near(away)
+        for i in np.flatnonzero(near.any(axis=1)).tolist():
+            some, circle = np.flatnonzero(near[i]), self.circles[i]
             if circle.carried:
                 continue
+            weight, turn = self._weight(i, away[:, some])
             unit, size = circle.before.unit(xyz[some])
             # derivative of the direction by the place: across axis and direction, over the
             # distance
@@ -456,6 +458,20 @@ class FeatureMap:
         """Give how far each circle's correction fades, (c,), m."""
         return np.array([JOIN * each.before.radius for each in self.circles])
 
+    def _shares(self, away: FloatArray, near: np.typing.NDArray[np.bool_]) -> FloatArray:
+        """Give the weights of all circles at places, (c, n), zero where none is near."""
+        found = np.zeros(away.shape)
+        some = np.flatnonzero(near.any(axis=0))
+        if not len(some) or all(each.carried for each in self.circles):
+            return found
+        close = away[:, some]
+        part = np.array([self._part_alone(k, close)[0] for k in range(len(close))])
+        total = part.sum(axis=0)
+        total[total == 0.0] = 1.0
+        gone = QUINTIC.value(close / self._reach()[:, None])
+        found[:, some] = (1.0 - np.prod(gone, axis=0)) * (part / total)
+        return found
+
     def _weight(self, i: int, away: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give the weight of a circle at places, (n,), and its slopes by the distances, (c, n).
 
@@ -477,20 +493,28 @@ class FeatureMap:
         rest = [np.prod(np.delete(gone, j, axis=0), axis=0) for j in range(len(away))]
         return 1.0 - np.prod(gone, axis=0), -rise * np.array(rest)
 
-    def _part(self, i: int, away: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give how much a circle counts beside the others, (n,), and its slopes, (c, n)."""
+    def _part_alone(self, i: int, away: FloatArray) -> tuple[FloatArray, ...]:
+        """Give how much a circle counts beside the others, (n,), and what that is made of."""
         reach, own = float(self._reach()[i]), away[i]
         both = own + away
         both[both == 0.0] = 1.0
         share = away / both
-        part, slope = QUINTIC.value(share), QUINTIC.slope(share) / both
-        part[i], slope[i] = distance_fade(own, reach), -QUINTIC.slope(own / reach) / reach
+        part = QUINTIC.value(share)
+        part[i] = distance_fade(own, reach)
+        return np.prod(part, axis=0), part, share, both
+
+    def _part(self, i: int, away: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give how much a circle counts beside the others, (n,), and its slopes, (c, n)."""
+        reach, own = float(self._reach()[i]), away[i]
+        whole, part, share, both = self._part_alone(i, away)
+        slope = QUINTIC.slope(share) / both
+        slope[i] = -QUINTIC.slope(own / reach) / reach
         turn = np.zeros_like(away)
         for j in range(len(away)):
             by = slope[j] * np.prod(np.delete(part, j, axis=0), axis=0)
             turn[j] += by if j == i else by * (1.0 - share[j])
             turn[i] -= 0.0 if j == i else by * share[j]
-        return np.prod(part, axis=0), turn
+        return whole, turn
 
     def _ahead(self, xyz: FloatArray, away: FloatArray) -> FloatArray:
         """Give the unit vectors in which the distances grow, (c, n, 3); zero on a circle."""
