@@ -7,6 +7,7 @@ mapping sends most of it to a parallel plane, whichever is asked.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Mapping, Sequence
 
 import attrs
@@ -21,10 +22,12 @@ from assoc_hull.model.tables import HullState
 
 __all__ = [
     "IN_PLANE",
+    "PlaneSamples",
     "TransformedPlanes",
     "carry_planes",
     "flat_borders",
     "mostly_in_one_plane",
+    "planar_lines",
     "plane_heights",
     "snap_into_planes",
 ]
@@ -73,6 +76,7 @@ def carry_planes(
     *,
     follow: bool,
     levels: Mapping[int, float] | None = None,
+    samples: PlaneSamples | None = None,
 ) -> TransformedPlanes:
     """Find where the planes of all lines come to.
 
@@ -88,6 +92,8 @@ def carry_planes(
         Whether the planes of followers move where the mapping moves them.
     levels : mapping of int to float, m, or None
         Offsets that planes of followers get, by line.
+    samples : PlaneSamples or None
+        Places along the planar lines of these tables, if they are at hand.
 
     Raises
     ------
@@ -98,12 +104,13 @@ def carry_planes(
     normal, offset = lines.normal.data.copy(), lines.offset.data.copy()
     planar, bent = lines.planar.data.copy(), dict[int, float]()
     drive, asked = set(drivers.tolist()), levels or {}
-    flat = [line for line in state.live("lines").tolist() if planar[line]]
+    flat = planar_lines(state)
     apart = [line for line in flat if line in asked and line not in drive]
     # A driver goes where the mapping sends it, whatever is asked of followers.
     offset[apart] = [asked[line] for line in apart]
     going = [line for line in flat if (follow or line in drive) and line not in apart]
-    for line, before, after in _samples(state, space, going):
+    samples = PlaneSamples.of(state, going) if samples is None else samples.some(going)
+    for line, before, after in samples.mapped(space):
         level = np.sort(plane_heights(after, normal[line]))
         spread = float(level[-1] - level[0])
         if spread <= IN_PLANE:
@@ -125,24 +132,62 @@ def carry_planes(
     return planes
 
 
+def planar_lines(state: HullState) -> list[int]:
+    """Give the lines that lie in planes, in their order."""
+    lines = state.live("lines")
+    found: list[int] = lines[state.lines.planar[lines]].tolist()
+    return found
+
+
 def mostly_in_one_plane(level: FloatArray) -> bool:
     """Tell whether at least half of sorted heights (m) are one height."""
     return bool((np.abs(level - level[len(level) // 2]) <= IN_PLANE).mean() >= 0.5)
 
 
-def _samples(
-    state: HullState, space: SpaceMap, lines: Sequence[int]
-) -> Iterator[tuple[int, FloatArray, FloatArray]]:
-    """Give places along lines, and where a mapping, asked once for all, sends them."""
-    if not lines:
-        return
-    curves = [state.lines.curves[line] for line in lines]
-    splines = [state.spline(curve) for part in curves for curve in part]
-    start, before = sample(SplineBatch.join(splines), 4)
-    after = space.places(np.array(before))
-    cut = start[np.cumsum([0, *map(len, curves)])]
-    for line, begin, end in zip(lines, cut[:-1].tolist(), cut[1:].tolist(), strict=True):
-        yield line, before[begin:end], after[begin:end]
+@attrs.frozen(eq=False)
+class PlaneSamples:
+    """Places along lines, by which it is told whether these stay in planes.
+
+    Attributes
+    ----------
+    lines : tuple of int
+    start : tuple of int
+        Where the places of each line begin, and their end.
+    before : (n, 3), m
+    """
+
+    lines: tuple[int, ...]
+    start: tuple[int, ...]
+    before: FloatArray
+
+    @classmethod
+    def of(cls, state: HullState, lines: Sequence[int]) -> PlaneSamples:
+        """Take places along lines, which the tables hold."""
+        if not lines:
+            return cls((), (0,), np.zeros((0, 3)))
+        curves = [state.lines.curves[line] for line in lines]
+        splines = [state.spline(curve) for part in curves for curve in part]
+        start, before = sample(SplineBatch.join(splines), 4)
+        cut = start[np.cumsum([0, *map(len, curves)])]
+        return cls(tuple(lines), tuple(cut.tolist()), np.array(before))
+
+    def some(self, lines: Sequence[int]) -> PlaneSamples:
+        """Give those of some of its lines."""
+        if self.lines == tuple(lines):
+            return self
+        at = {line: i for i, line in enumerate(self.lines)}
+        spans = [(self.start[at[line]], self.start[at[line] + 1]) for line in lines]
+        parts = [self.before[begin:end] for begin, end in spans]
+        start = itertools.accumulate((len(each) for each in parts), initial=0)
+        return PlaneSamples(
+            tuple(lines), tuple(start), np.concatenate([np.zeros((0, 3)), *parts])
+        )
+
+    def mapped(self, space: SpaceMap) -> Iterator[tuple[int, FloatArray, FloatArray]]:
+        """Give places along lines, and where a mapping, asked once for all, sends them."""
+        after = space.places(self.before) if self.lines else self.before
+        for line, (begin, end) in zip(self.lines, itertools.pairwise(self.start), strict=True):
+            yield line, self.before[begin:end], after[begin:end]
 
 
 def _is_centre(state: HullState, line: int) -> bool:

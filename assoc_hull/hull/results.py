@@ -151,7 +151,7 @@ class Study(Generic[HullType]):
         if row is None or row.failure:
             why = "was not made" if row is None else f"has no hull: {row.reason}"
             raise BadInputError(f"variant {wanted} {why}", "in Study.hull", "take another one")
-        return self.make(self.run.ground.variant(row.values, f"variant {wanted}").document)
+        return self.make(self.run.ground.document(row.values, f"variant {wanted}"))
 
     def to_csv(self, path: str | PathLike[str] | None = None) -> str:
         """Give the table as comma-separated text, and write it to a file if one is named."""

@@ -11,18 +11,19 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.mapped_planes import PlaneSamples, planar_lines
 from assoc_hull.edit.recut.carry_structure import NetMap, carry_net
-from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError, FoldError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.study.design import StudyDesign
+from assoc_hull.study.variant_numbers import ParentNumbers, VariantNumbers
 from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.aiming.reach_targets import settle_plan
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.carrying.carry_stages import StagedCarry
-from assoc_hull.variation.carrying.hull_maps import HullMaps
+from assoc_hull.variation.carrying.hull_maps import HullMaps, LaidMap
 from assoc_hull.variation.certificate.fold_check import Certificate, certify
 from assoc_hull.variation.parameters.catalogue import Freedom
 from assoc_hull.variation.parameters.parameter_measures import measure_all
@@ -43,8 +44,8 @@ class Variant:
 
     Attributes
     ----------
-    document : Document
-        The hull, with one step.
+    made : VariantNumbers or Document
+        The hull in numbers; or as a document with one step, where numbers do not tell it.
     certificate : Certificate
         That the map folds nothing.
     shift : float, m
@@ -53,7 +54,7 @@ class Variant:
         Whether its lines were cut anew, by the plan of `vary`: the parent's structure would not do.
     """
 
-    document: Document
+    made: VariantNumbers | Document
     certificate: Certificate
     shift: float
     anew: bool = False
@@ -73,6 +74,10 @@ class StudyParent:
         Whether planes of waterlines and buttocks go along.
     aims, outputs : Outputs
         What is aimed at, and all that is told.
+    samples : PlaneSamples
+        Places along its lines.
+    numbers : ParentNumbers or None
+        What gives variants in numbers; None where its lines are made by more than their points.
     """
 
     maps: HullMaps
@@ -80,6 +85,8 @@ class StudyParent:
     follow: bool
     aims: Outputs
     outputs: Outputs
+    samples: PlaneSamples
+    numbers: ParentNumbers | None
 
     @classmethod
     def of(cls, state: HullState, design: StudyDesign) -> StudyParent:
@@ -110,7 +117,8 @@ class StudyParent:
         maps = HullMaps(room, VariationRequest({}, layout=design.layout), {}, free)
         lines, follow = _driving(maps)
         aims, outputs = (Outputs.of(state, names) for names in (design.aims, design.outputs))
-        return cls(maps, lines, follow, aims, outputs)
+        samples = PlaneSamples.of(state, planar_lines(state))
+        return cls(maps, lines, follow, aims, outputs, samples, ParentNumbers.of(state))
 
     @property
     def usual(self) -> FloatArray:
@@ -122,50 +130,77 @@ class StudyParent:
         """Values of all parameters of the parent, (p,)."""
         return np.array([each.present for each in self.maps.free])
 
-    def variant(self, values: FloatArray, name: str = "variant") -> Variant:
+    def variant(self, values: FloatArray) -> Variant:
         """Make a variant.
 
         Parameters
         ----------
         values : (p,)
             Of all parameters: m, degrees, or factors on layers.
-        name : str
-            Of its step in the history.
 
         Raises
         ------
         FoldError, OutOfRangeError, BadInputError, RefusedEditError
             There is no such hull of this structure; why.
         """
-        amplitudes = values - self.present
-        self.maps.room.check(self.maps.values(amplitudes))
+        amplitudes = self._admitted(values)
         try:
-            document, certificate = self._kept(amplitudes, name)
+            return self._kept(amplitudes)
         except AssocHullError as error:
-            return self._anew(amplitudes, name, error)
-        return Variant(document, certificate, self._shift(document))
+            document, certificate = self._anew(amplitudes, "variant", error)
+        return Variant(document, certificate, self._shift(document.state.rows.xyz.data), anew=True)
 
-    def _shift(self, document: Document) -> float:
-        """Give the largest movement of a point, m."""
-        state = self.maps.state
-        live = document.state.live("rows")
-        live = live[live < state.rows.count]
-        step = document.state.rows.xyz[live] - state.rows.xyz[live]
+    def document(self, values: FloatArray, name: str) -> Document:
+        """Make a variant as a document with one step of that name; see `variant`."""
+        amplitudes = self._admitted(values)
+        try:
+            return self._edited(self._laid(amplitudes)[0], name)
+        except AssocHullError as error:
+            return self._anew(amplitudes, name, error)[0]
+
+    def _admitted(self, values: FloatArray) -> FloatArray:
+        """Give the amplitudes of values; refuse those that make no hull."""
+        amplitudes: FloatArray = values - self.present
+        self.maps.room.check(self.maps.values(amplitudes))
+        return amplitudes
+
+    def _shift(self, places: FloatArray) -> float:
+        """Give the largest movement of a point of the parent that is still there, m."""
+        rows = self.maps.state.rows
+        live = self.maps.state.live("rows")
+        step = places[live] - rows.xyz[live]
         return float(np.sqrt((step * step).sum(axis=1).max(initial=0.0)))
 
-    def _kept(self, amplitudes: FloatArray, name: str) -> tuple[Document, Certificate]:
-        """Carry the net with the structure of the parent, by one map."""
+    def _laid(self, amplitudes: FloatArray) -> tuple[LaidMap, Certificate]:
+        """Lay out a map, and certify that it folds nothing."""
         maps = self.maps
         certificate = certify(maps.map(amplitudes), maps.room.box)
         certificate.check()
-        laid = maps.laid(amplitudes, self.lines, follow=self.follow)
-        space = SpaceMap(laid.map, laid.map.jacobian)
-        document = Document(copy_state(maps.state))
-        with Transaction(document, name) as edit:
-            carry_net(edit, NetMap(space, self.lines, laid.planes, laid.features, laid.particulars))
-        return document, certificate
+        laid = maps.laid(amplitudes, self.lines, follow=self.follow, samples=self.samples)
+        return laid, certificate
 
-    def _anew(self, amplitudes: FloatArray, name: str, error: AssocHullError) -> Variant:
+    def _kept(self, amplitudes: FloatArray) -> Variant:
+        """Carry the net with the structure of the parent, by one map."""
+        laid, certificate = self._laid(amplitudes)
+        numbers = None if self.numbers is None else self.numbers.carry(laid, self.lines)
+        if numbers is not None and numbers.net is not None:
+            return Variant(numbers, certificate, self._shift(numbers.xyz))
+        document = self._edited(laid, "variant")
+        return Variant(document, certificate, self._shift(document.state.rows.xyz.data))
+
+    def _edited(self, laid: LaidMap, name: str) -> Document:
+        """Carry the net by an edit of a copy of the parent."""
+        document = Document(copy_state(self.maps.state))
+        with Transaction(document, name) as edit:
+            carry_net(
+                edit,
+                NetMap(laid.space, self.lines, laid.planes, laid.features, laid.particulars),
+            )
+        return document
+
+    def _anew(
+        self, amplitudes: FloatArray, name: str, error: AssocHullError
+    ) -> tuple[Document, Certificate]:
         """Vary the parent as `vary` does; where that cannot be either, the reason is the first one.
 
         A map that folds is not taken in parts here: rows that cannot be are many, and should be
@@ -184,7 +219,7 @@ class StudyParent:
                 settle_plan(carry, maps.room)
         except AssocHullError:
             raise error from None
-        return Variant(document, carry.certificate, self._shift(document), anew=True)
+        return document, carry.certificate
 
     def measured(self, variant: Variant) -> FloatArray:
         """Give the outputs that are aimed at, (m,), by the layout of the parent's surface.
@@ -196,17 +231,23 @@ class StudyParent:
         BadInputError, OutOfRangeError
             It lacks one of them, or does not float at its draught.
         """
-        return self.aims.values(variant.document.state, like=self.maps.state)
+        made = variant.made
+        if isinstance(made, Document):
+            return self.aims.values(made.state, like=self.maps.state)
+        return self.aims.values_of(made.like_parent, made.particulars)
 
     def fully(self, variant: Variant) -> FloatArray:
-        """Give all outputs, (o,), as of a hull that has never been seen; raises if it is doubtful.
+        """Give all outputs, (o,), with the bits of a hull that has never been seen.
 
         Raises
         ------
         BadInputError, OutOfRangeError
             As `measured`; or the hull is doubtful.
         """
-        return self.outputs.values(variant.document.state)
+        made = variant.made
+        if isinstance(made, Document):
+            return self.outputs.values(made.state)
+        return self.outputs.values_of(made.body, made.particulars, strict=True)
 
 
 def _driving(maps: HullMaps) -> tuple[IntArray, bool]:

@@ -71,6 +71,7 @@ __all__ = [
     "body_of",
     "even_keel_displacement",
     "flotation",
+    "flotation_of_lines",
     "header_of",
 ]
 
@@ -255,6 +256,26 @@ def flotation(state: HullState) -> Flotation:
 
 def _flotation(state: HullState) -> Flotation:
     net = gather_net(state)
+    return flotation_of_lines(state, net, curve_data(state, net.curve).kind)
+
+
+def flotation_of_lines(state: HullState, net: CurveNet, kinds: NDArray[np.int8]) -> Flotation:
+    """Lay a surface through lines, and make what floats of it.
+
+    Parameters
+    ----------
+    state : HullState
+        Tables with the dimensions and the deck of the ship.
+    net : CurveNet
+        The lines; those of the tables, or others of that structure.
+    kinds : (n,) int8
+        The `PointKind` of each defining point of the net.
+
+    Raises
+    ------
+    BadInputError
+        As `flotation`.
+    """
     stations = np.unique(net.x[np.isfinite(net.x) & ~net.end])
     if len(stations) < 2:
         raise BadInputError(
@@ -266,7 +287,6 @@ def _flotation(state: HullState) -> Flotation:
         raise BadInputError(
             "no surface between the sections", "in hydrostatics", "draw profile and deck edge"
         )
-    kinds = curve_data(state, net.curve).kind
     ends, closed = open_ends(net, layout, ship.length), ship.deck == "closed"
     strips: Strips = CoonsStrips.on(layout.cells, net.batch)
     strips = with_ends(strips, net, closed, ends) if ends else strips

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from assoc_hull.edit.mapped_planes import TransformedPlanes
 from assoc_hull.edit.recut.carried_points import point_images, turned_directions, turned_ends
-from assoc_hull.edit.recut.carry_structure import NetMap, given_points, refuse_bent
-from assoc_hull.edit.recut.slide_into_planes import slide_over
-from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
+from assoc_hull.edit.recut.carry_structure import given_points, refuse_bent
+from assoc_hull.edit.recut.slide_into_planes import slide_over, ways_across
+from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.model.index import Index
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.program.engine import runner_of
@@ -76,6 +77,8 @@ class NetNumbers:
         The line of each plane of the program.
     knots : (rows, 2) int
         Where each point defines its curves in the program, -1 where it does not.
+    across : (rows, 3)
+        In which direction points of one line only slide across it.
     """
 
     state: HullState
@@ -85,6 +88,7 @@ class NetNumbers:
     line: IntArray
     plane_line: IntArray
     knots: IntArray
+    across: FloatArray
 
     @classmethod
     def of(cls, state: HullState, index: Index, published: PublishedProgram) -> NetNumbers | None:
@@ -111,16 +115,22 @@ class NetNumbers:
         return cls(
             state, PublishedProgram(program, published.values), given_points(state),
             live[state.rows.sort[live] == Sort.ADOPTED], state.curves.line[program.number],
-            plane_lines(state, index, program), knots,
+            plane_lines(state, index, program), knots, ways_across(state),
         )  # fmt: skip
 
-    def carry(self, by: NetMap) -> CarriedNumbers | None:
+    def carry(
+        self, space: SpaceMap, drivers: IntArray, planes: TransformedPlanes
+    ) -> CarriedNumbers | None:
         """Carry the net.
 
         Parameters
         ----------
-        by : NetMap
+        space : SpaceMap
             The mapping.
+        drivers : (d,) int
+            Lines whose planes go along with it, boundary curves among them.
+        planes : TransformedPlanes
+            Where the planes of all lines go.
 
         Returns
         -------
@@ -132,14 +142,14 @@ class NetNumbers:
         BadInputError
             As `carry_net`.
         """
-        refuse_bent(self.state, by.planes)
+        refuse_bent(self.state, planes)
         drives = np.zeros(self.state.lines.count, bool)
-        drives[by.drivers] = True
-        images = point_images(self.state, by.space, by.planes, drives)
-        slide_over(images)
-        program = self._program(by.planes)
+        drives[drivers] = True
+        program = self._program(planes)
         if program is None:
             return None
+        images = point_images(self.state, space, planes, drives)
+        slide_over(images, self.across)
         direction, end = program.direction.copy(), program.end_vector.copy()
         for side, (rows, new) in enumerate(turned_directions(images)):
             knot = self.knots[rows, side]
@@ -153,7 +163,7 @@ class NetNumbers:
         rows = write_points(values, self.given, images.value[self.given])
         every = np.arange(program.curves)
         run = runner_of(program).run(values, before, rows, self.held, every)
-        return CarriedNumbers(program, values, by.planes) if run.kept else None
+        return CarriedNumbers(program, values, planes) if run.kept else None
 
     def _program(self, planes: TransformedPlanes) -> Program | None:
         """Give the program with its planes where they go; None where one turns or lies no more."""

@@ -21,7 +21,7 @@ from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import HullState
 
-__all__ = ["slide_over"]
+__all__ = ["slide_over", "ways_across"]
 
 _ROUNDS = 20
 _EXACT = 1e-12
@@ -36,13 +36,15 @@ _NEAR = 1e-9
 BoolArray = np.typing.NDArray[np.bool_]
 
 
-def slide_over(work: PointImages) -> IntArray:
+def slide_over(work: PointImages, across: FloatArray | None = None) -> IntArray:
     """Move points that the mapping takes out of the planes of their lines back into these.
 
     Parameters
     ----------
     work : PointImages
         The mapping under way; its `value` is changed.
+    across : (r, 3) or None
+        Of the points of these tables `ways_across`, if they are at hand.
 
     Returns
     -------
@@ -57,7 +59,7 @@ def slide_over(work: PointImages) -> IntArray:
     """
     rows = _sliding(work)
     if len(rows):
-        ways = _Ways.of(work, rows)
+        ways = _Ways.of(work, rows, across)
         work.value[rows] = snap_into_planes(work.state, work.planes, rows, ways.solved(work))
         work.slid[rows] = True
     return rows
@@ -103,7 +105,7 @@ class _Ways:
     offset: FloatArray
 
     @classmethod
-    def of(cls, work: PointImages, rows: IntArray) -> _Ways:
+    def of(cls, work: PointImages, rows: IntArray, across: FloatArray | None) -> _Ways:
         state = work.state
         own = state.rows.curve[rows]
         line = np.where(own >= 0, state.curves.line[own], -1)
@@ -118,7 +120,10 @@ class _Ways:
         curve = np.where(own >= 0, np.searchsorted(curves, own), -1)
         straight = np.zeros((len(rows), 3))
         alone = np.flatnonzero(own[:, 1] < 0)
-        straight[alone] = _across(state, rows[alone], work.planes.normal[line[alone, 0]])
+        if across is None:
+            straight[alone] = _across(state, rows[alone], work.planes.normal[line[alone, 0]])
+        else:
+            straight[alone] = across[rows[alone]]
         return cls(
             rows, batch, curve, np.nan_to_num(state.rows.parameter[rows]), straight, barred,
             np.where(plane[..., None], work.planes.normal[line], 0.0),
@@ -194,6 +199,19 @@ class _Ways:
                 "in carrying a net point by point",
                 "make the change smaller, or vary the hull by a call of its own",
             )  # fmt: skip
+
+
+def ways_across(state: HullState) -> FloatArray:
+    """Give in which direction each point of one line only slides across it, (r, 3); nil for others.
+
+    They hold under mappings that turn no plane.
+    """
+    table, live = state.rows, state.live("rows")
+    rows = live[(table.curve[live, 0] >= 0) & (table.curve[live, 1] < 0)]
+    found = np.zeros((table.count, 3))
+    normal = state.lines.normal[state.curves.line[table.curve[rows, 0]]]
+    found[rows] = _across(state, rows, normal)
+    return found
 
 
 def _across(state: HullState, rows: IntArray, normal: FloatArray) -> FloatArray:

@@ -288,7 +288,9 @@ class Outputs:
         """
         return self._values(self.afloat(state, like))
 
-    def values_of(self, body: Flotation, particulars: Particulars | None = None) -> FloatArray:
+    def values_of(
+        self, body: Flotation, particulars: Particulars | None = None, *, strict: bool = False
+    ) -> FloatArray:
         """Give the outputs of a hull whose surface is at hand, (m,).
 
         Parameters
@@ -298,8 +300,13 @@ class Outputs:
             (`assoc_hull.analysis.derivatives.reused_layout`).
         particulars : Particulars or None
             Its dimensions, m; those of its tables if None.
+        strict : bool
+            Whether to refuse a doubtful hull, as `values` does.
         """
-        return self._values(self._shape(body, particulars))
+        shape = self._shape(body, particulars)
+        if strict:
+            _refuse_doubts(body.doubts(shape.planes, numbers=False))
+        return self._values(shape)
 
     def derivatives(
         self, state: HullState, shapes: Sequence[Parameter], *, like: HullState | None = None
@@ -344,9 +351,7 @@ class Outputs:
         looked_at = flotation(state if like is None else like)
         body = looked_at if like is None else flotation_with_layout_of(like, state)
         shape = self._shape(body, None)
-        doubts = looked_at.doubts(shape.planes, numbers=False)
-        if doubts:
-            raise BadInputError(doubts[0], _WHERE, "mend the hull")
+        _refuse_doubts(looked_at.doubts(shape.planes, numbers=False))
         return shape
 
     def _shape(self, body: Flotation, particulars: Particulars | None) -> FloatingShape:
@@ -373,6 +378,11 @@ class Outputs:
         for i, (kind, _) in enumerate(self.keys):
             found.setdefault(kind, []).append(i)
         return [(kind, rows, [self.keys[i][1] for i in rows]) for kind, rows in found.items()]
+
+
+def _refuse_doubts(doubts: Sequence[str]) -> None:
+    if doubts:
+        raise BadInputError(doubts[0], _WHERE, "mend the hull")
 
 
 def _upright(wrt: Iterable[Parameter]) -> list[Parameter]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 
 import attrs
 import numpy as np
 
 from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.mapped_features import carry_features
-from assoc_hull.edit.mapped_planes import TransformedPlanes, carry_planes
+from assoc_hull.edit.mapped_planes import PlaneSamples, TransformedPlanes, carry_planes
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.features import Feature
@@ -19,7 +20,7 @@ from assoc_hull.variation.carrying.carry_hull import resized_particulars
 from assoc_hull.variation.carrying.driving_lines import choose_drivers, section_planes
 from assoc_hull.variation.certificate.fold_check import Certificate
 from assoc_hull.variation.features.redrawn_circles import FeatureMap
-from assoc_hull.variation.features.redrawn_features import redraw_features
+from assoc_hull.variation.features.redrawn_features import RedrawnFeatures, redraw_features
 from assoc_hull.variation.fields.layers import Layer
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import Freedom
@@ -36,21 +37,33 @@ class LaidMap:
     ----------
     vmap : VariationMap
         The map without features.
-    map : FeatureMap
-        The map with circles and bilges drawn anew.
     planes : TransformedPlanes
-
         Where the planes of the parent's lines go.
-    features : tuple of Feature
-        The parent's features with the numbers that they get.
     particulars : Particulars
+    space : SpaceMap
+        What carries places: `map` with its Jacobian.
+    drawn : RedrawnFeatures
+        What is drawn anew.
+    state : HullState
+        The tables of the parent.
     """
 
     vmap: VariationMap
-    map: FeatureMap
     planes: TransformedPlanes
-    features: tuple[Feature, ...]
     particulars: Particulars
+    space: SpaceMap
+    drawn: RedrawnFeatures
+    state: HullState
+
+    @property
+    def map(self) -> FeatureMap:
+        """The map with circles and bilges drawn anew."""
+        return self.drawn.map
+
+    @cached_property
+    def features(self) -> tuple[Feature, ...]:
+        """The parent's features with the numbers that they get."""
+        return self.drawn.features(carry_features(self.state, self.space, np.inf)).features
 
 
 @attrs.frozen(eq=False)
@@ -162,7 +175,10 @@ class HullMaps:
         )
         return np.asarray(found)
 
-    def laid(self, amplitudes: FloatArray, lines: IntArray, *, follow: bool) -> LaidMap:
+    def laid(
+        self, amplitudes: FloatArray, lines: IntArray, *, follow: bool,
+        samples: PlaneSamples | None = None,
+    ) -> LaidMap:  # fmt: skip
         """Give a map, and what it does with lines, features and dimensions of the parent.
 
         Parameters
@@ -172,12 +188,15 @@ class HullMaps:
             Numbers of the lines that drive, boundary curves among them.
         follow : bool
             Whether planes of followers go along.
+        samples : PlaneSamples or None
+            Places along lines of the parent, if they are at hand.
         """
         state, vmap, asked = self.state, self.map(amplitudes), self.values(amplitudes)
         anew = redraw_features(state, vmap, self._radii(amplitudes))
         space = SpaceMap(anew.map, anew.map.jacobian)
         levels = section_planes(state, vmap.layers) if self.ask.stations == "number" else None
-        planes = carry_planes(state, space, lines, follow=follow, levels=levels)
-        features = anew.features(carry_features(state, space, np.inf)).features
+        planes = carry_planes(
+            state, space, lines, follow=follow, levels=levels, samples=samples
+        )
         size = resized_particulars(state, vmap, self.room.parent, asked)
-        return LaidMap(vmap, anew.map, planes, features, size)
+        return LaidMap(vmap, planes, size, space, anew, state)
