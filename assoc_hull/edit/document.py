@@ -27,6 +27,7 @@ import numpy as np
 from assoc_hull.arguments import integer, shown, shown_name, text
 from assoc_hull.edit.past_states import PastStates, pack_step, run_together, steps_together
 from assoc_hull.edit.published_program import KeptProgram
+from assoc_hull.edit.recording import VariedValues
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.write_lock import PATIENCE, WriteLock
 from assoc_hull.errors import AssocHullError, BadInputError, NameTakenError, UnknownNameError
@@ -157,6 +158,8 @@ class Document:
         Who may write the tables.
     unsettled : bool
         Whether something was being kept when it was broken off: the keeper may be ahead of memory.
+    varied_before : VariedValues
+        What variations had given the hull that this one was copied from.
     when_published : callable or None
         What is still to be done with a step that was committed, as soon as it is published.
     """
@@ -173,6 +176,7 @@ class Document:
     known_index: Index | None = attrs.field(default=None, init=False)
     unsettled: bool = attrs.field(default=False, init=False)
     when_published: Callable[[], None] | None = attrs.field(default=None, init=False)
+    varied_before: VariedValues = attrs.field(factory=VariedValues, init=False)
     _states: list[_Reached] = attrs.field(factory=list, init=False)
     _origin: int = attrs.field(default=0, init=False)
     _past: PastStates | None = attrs.field(default=None, init=False)

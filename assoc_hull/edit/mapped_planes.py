@@ -179,9 +179,7 @@ class PlaneSamples:
         spans = [(self.start[at[line]], self.start[at[line] + 1]) for line in lines]
         parts = [self.before[begin:end] for begin, end in spans]
         start = itertools.accumulate((len(each) for each in parts), initial=0)
-        return PlaneSamples(
-            tuple(lines), tuple(start), np.concatenate([np.zeros((0, 3)), *parts])
-        )
+        return PlaneSamples(tuple(lines), tuple(start), np.concatenate([np.zeros((0, 3)), *parts]))
 
     def mapped(self, space: SpaceMap) -> Iterator[tuple[int, FloatArray, FloatArray]]:
         """Give places along lines, and where a mapping, asked once for all, sends them."""

@@ -28,7 +28,16 @@ from assoc_hull.model.address import AddressBook, address
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 
-__all__ = ["ANY_FUNCTION", "Recording", "Said", "Script", "Settings", "recorded", "said"]
+__all__ = [
+    "ANY_FUNCTION",
+    "Recording",
+    "Said",
+    "Script",
+    "Settings",
+    "VariedValues",
+    "recorded",
+    "said",
+]
 
 ANY_FUNCTION = "<a function>"
 """Stands where a function was given: nothing tells it, so the edit cannot be repeated."""
@@ -60,6 +69,33 @@ class Settings:
 
 
 @attrs.frozen
+class VariedValues:
+    """Values by name that a variation gave a hull; nothing for an edit that is none.
+
+    Attributes
+    ----------
+    set, reached : dict of str to float
+        Parameters that were set, and outputs that were reached, in their units.
+    spent : dict of str to float
+        By how much each parameter was changed, set or free; strengths of layers.
+    """
+
+    set: dict[str, float] = attrs.field(factory=dict)
+    reached: dict[str, float] = attrs.field(factory=dict)
+    spent: dict[str, float] = attrs.field(factory=dict)
+
+    def __bool__(self) -> bool:
+        return bool(self.set or self.reached or self.spent)
+
+    def then(self, later: VariedValues) -> VariedValues:
+        """Give what both together gave: of a value that both set, the later one."""
+        spent = dict(self.spent)
+        for name, amount in later.spent.items():
+            spent[name] = spent.get(name, 0.0) + amount
+        return VariedValues(self.set | later.set, self.reached | later.reached, spent)
+
+
+@attrs.frozen
 class Script:
     """What an edit was asked for.
 
@@ -70,17 +106,27 @@ class Script:
         `assoc_hull.edit.session.Edit` and its arguments by name.
     policy, gaps : str
         How it was to be carried out, as `assoc_hull.hull.Hull.edit` takes it.
+    varied : VariedValues
+        What it gave the hull as a variation.
+    before : VariedValues
+        What the hull had been given before its history began, in that of the hull it was copied
+        from; told by the first variation alone.
     """
 
     edits: tuple[dict[str, Said], ...] = ()
     policy: str = FailurePolicy.ALL_OR_NOTHING.value
     gaps: str = "refuse"
+    varied: VariedValues = attrs.field(factory=VariedValues)
+    before: VariedValues = attrs.field(factory=VariedValues)
 
     @classmethod
-    def of(cls, edits: Sequence[dict[str, Said]], settings: Settings) -> Self:
+    def of(
+        cls, edits: Sequence[dict[str, Said]], settings: Settings, varied: VariedValues,
+        before: VariedValues,
+    ) -> Self:  # fmt: skip
         """Put a script together."""
         gaps = "refuse" if settings.refuse_gaps else "report"
-        return cls(tuple(edits), settings.policy.value, gaps)
+        return cls(tuple(edits), settings.policy.value, gaps, varied, before)
 
     @property
     def repeatable(self) -> bool:

@@ -17,7 +17,7 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.garbage_collection import PausedCollector
 from assoc_hull.edit.modification import Pending
 from assoc_hull.edit.outcome import joined_step
-from assoc_hull.edit.recording import Said, Script, Settings
+from assoc_hull.edit.recording import Said, Script, Settings, VariedValues
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.update import update
@@ -84,6 +84,7 @@ class Transaction:
         self.journal = Journal()
         self.pending = Pending()
         self.script: list[dict[str, Said]] = []
+        self.varied = self.varied_before = VariedValues()
         self._told: EditReport | None = None
         self._step: Step | None = None
         self._depth = 0
@@ -318,7 +319,7 @@ class Transaction:
         else:
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
         if self.look is None:
-            step.script = Script.of(self.script, self.settings)
+            step.script = Script.of(self.script, self.settings, self.varied, self.varied_before)
             # Known before it is committed: behind that nothing is taken back.
             self._step = step
             self.document.commit(step, self.author)

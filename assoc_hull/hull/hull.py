@@ -1391,7 +1391,8 @@ class Hull:
         mapping of str to float
             Values by name, in m, or in degrees where the name ends in ``_deg``; x from AP forward,
             z from the base line up. `absent` tells by name why the hull has no such parameter,
-            `anchors` where and how each was measured.
+            `anchors` where and how each was measured; `spent` by how much variations of this hull
+            have changed each parameter, shifts of sections among them, which no line shows.
 
         Raises
         ------
@@ -1407,9 +1408,10 @@ class Hull:
         >>> found.absent["bossing_radius"]
         'parent has no bossing circle'
         """
+        from assoc_hull.variation.earlier_values import varied_values
         from assoc_hull.variation.parameters.parameter_measures import measure
 
-        return measure(self, only=only)
+        return measure(self, only=only, spent=varied_values(self.document).spent)
 
     def sensitivities(
         self,
@@ -2357,4 +2359,10 @@ def _to_change(hull: Hull, act: str, *, in_place: object) -> Hull:
     """Give the hull that an act changes: this one, or a copy of it in memory."""
     state = state_of(hull, f"in {act}")
     hull.document.require_ended(act)
-    return hull if flag(in_place, "in_place", f"in {act}") else Hull(copy_state(state))
+    if flag(in_place, "in_place", f"in {act}"):
+        return hull
+    from assoc_hull.variation.earlier_values import varied_values
+
+    found = Hull(copy_state(state))
+    found.document.varied_before = varied_values(hull.document)
+    return found

@@ -67,7 +67,7 @@ class VariantNumbers:
 
     @cached_property
     def like_parent(self) -> Flotation:
-        """Its surface by the layout of the parent where that serves: nearly the same, and sooner."""
+        """Its surface by the layout of the parent where that serves: nearly as exact."""
         assert self.net is not None
         return flotation_on_lines(self.parent.base, self.net, self.xyz) or self.body
 
@@ -125,9 +125,7 @@ class ParentNumbers:
         knot, meeting = net.knots[row[:, None], side], known[row[:, None], side]
         if ((knot < 0) & (meeting < 0)).any():
             return None
-        return cls(
-            net, base, state.curves.line[lines.curve], np.isfinite(lines.x), knot, meeting
-        )
+        return cls(net, base, state.curves.line[lines.curve], np.isfinite(lines.x), knot, meeting)
 
     def carry(self, laid: LaidMap, lines: IntArray) -> VariantNumbers | None:
         """Carry the parent by a map, of which given lines (d,) drive; None for another structure.
@@ -148,9 +146,7 @@ class ParentNumbers:
         centre = planar & (np.abs(normal[:, 1]) == 1.0) & (offset == 0.0)
         if not planar[self.across].all() or (centre != was.centre).any():
             return None
-        place = np.where(
-            self.knot >= 0, values.knot.take(self.knot), values.at.take(self.meeting)
-        )
+        place = np.where(self.knot >= 0, values.knot.take(self.knot), values.at.take(self.meeting))
         return attrs.evolve(
             was, batch=carried.splines(was.curve), place=place,
             x=np.where(self.across, offset * normal[:, 0], np.nan),

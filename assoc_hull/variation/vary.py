@@ -26,6 +26,7 @@ from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.certificate.fold_check import Certificate, fold_outside
 from assoc_hull.variation.comparing.line_fairness import FairnessComparison
+from assoc_hull.variation.earlier_values import left_values, values_of_variation
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
@@ -250,6 +251,10 @@ def vary_document(
         found, fairness = choose_plan(edit, room, ask)
         reached = measure_requested(edit.state, ask)
         now = present_values(measure_all(edit.state), ask.layout)
+        edit.varied = values_of_variation(ask, was, found.aimed)
+        if not any(step.script.varied for step in document.history):
+            edit.varied_before = document.varied_before
+        left = left_values(document, ask, now)
         beyond = folds_outside(found.carry.map, room.box)
         along = went_along(levels, edit.state)
     report = edit.report
@@ -262,7 +267,7 @@ def vary_document(
     carried, whole = found.carry.carried, found.carry.map
     notes = (
         *shifted_without_body(parent, found.values), *beyond, *along,
-        *also_changed(was, now, found.values), *unfair_lines(fairness),
+        *also_changed(was, now, found.values), *left, *unfair_lines(fairness),
     )  # fmt: skip
     drivers = [each.applied.drivers for each in carried]
     regions = dict.fromkeys(one for each in carried for one in each.regions)

@@ -1,9 +1,9 @@
 """A mapping carries the numbers of a net, through the program of its structure.
 
 It is what `assoc_hull.edit.recut.carry_structure` does, to the bit, without tables: no edit is
-begun, nothing is copied but numbers, and no history is written. So a hull can be carried some
-hundred times a second. Where lines come to meet others than before, or a gap has to be mended, there
-is more to do than numbers tell: nothing is given then, and the net is carried by an edit.
+begun, nothing is copied but numbers, and no history is written. Where lines come to meet others
+than before, or a gap has to be mended, there is more to do than numbers tell: nothing is given
+then, and the net is carried by an edit.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.edit.document import Label
-from assoc_hull.edit.recording import Script
+from assoc_hull.edit.recording import Script, VariedValues
 from assoc_hull.edit.report import Counting, EditReport, Movement
 from assoc_hull.edit.step import Rerun, Step, StepBody
 from assoc_hull.errors import BadInputError
@@ -404,7 +404,9 @@ def script_from(text: str) -> Script:
         It is no script.
     """
     said = parse_json(text)
-    return Script(tuple(dict(each) for each in said["edits"]), said["policy"], said["gaps"])
+    # files of older versions do not tell what a variation gave the hull
+    varied, before = (VariedValues(**said.get(name, {})) for name in ("varied", "before"))
+    return Script(tuple(map(dict, said["edits"])), said["policy"], said["gaps"], varied, before)
 
 
 def report_text(report: EditReport) -> str:

@@ -195,8 +195,6 @@ class HullMaps:
         anew = redraw_features(state, vmap, self._radii(amplitudes))
         space = SpaceMap(anew.map, anew.map.jacobian)
         levels = section_planes(state, vmap.layers) if self.ask.stations == "number" else None
-        planes = carry_planes(
-            state, space, lines, follow=follow, levels=levels, samples=samples
-        )
+        planes = carry_planes(state, space, lines, follow=follow, levels=levels, samples=samples)
         size = resized_particulars(state, vmap, self.room.parent, asked)
         return LaidMap(vmap, planes, size, space, anew, state)

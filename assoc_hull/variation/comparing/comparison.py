@@ -83,6 +83,9 @@ class ComparedHull:
     doubts: tuple[str, ...]
 
 
+_SHARPER = 2.5
+"""Times the comb integral of the parent's line, above which a line is told to be less fair."""
+
 _BY: Mapping[str, Callable[[LineComparison], float]] = MappingProxyType(
     {
         "shift": lambda line: line.length,
@@ -176,6 +179,19 @@ class HullComparison:
         least = 1.0 if by == "comb" else 0.0
         found = [line for line in self.lines if line.what == "moved" and measure(line) > least]
         return tuple(sorted(found, key=lambda line: -measure(line))[:count])
+
+    @property
+    def less_fair(self) -> tuple[LineComparison, ...]:
+        """Lines that are less fair than in the parent, those of the sharpest combs first.
+
+        Their curvature changes its sign more often, or their comb integral has risen by more than
+        2.5 times, as no designer would let it.
+        """
+        found = [
+            line for line in self.lines
+            if line.added > 0 or (line.comb_ratio or 0.0) > _SHARPER
+        ]  # fmt: skip
+        return tuple(sorted(found, key=lambda line: -(line.comb_ratio or 0.0)))
 
     def of(self, what: str) -> tuple[LineComparison, ...]:
         """Give the lines that are the same, moved, came or went.
@@ -429,6 +445,7 @@ def comparison_text(found: HullComparison, lines: int = 10) -> str:
     """
     parts = [
         _head(found),
+        _less_fair(found, lines),
         _lines(found, lines),
         _numbers("HYDROSTATICS", [found.hydrostatic(name) for name in PRINCIPAL]),
         _numbers("FORM PARAMETERS", [each for each in found.parameters if not each.is_same]),
@@ -445,6 +462,21 @@ def _head(found: HullComparison) -> Iterator[str]:
         yield f"{'':9}the same hull: both have one fingerprint"
     yield f"lines: {counts(found)}"
     yield from line_words(found)
+
+
+def _less_fair(found: HullComparison, count: int) -> Iterator[str]:
+    """Warn of lines that are less fair, by name; at most so many."""
+    less = found.less_fair
+    if less:
+        yield ""
+        yield f"WARNING: {len(less)} lines are less fair than in the parent"
+        yield from (
+            f"  {line.name}: {line.added:+d} changes of curvature sign, comb integral "
+            + ("of no parent" if line.comb_ratio is None else f"{line.comb_ratio:.3g} times")
+            for line in less[:count]
+        )
+        if len(less) > count:
+            yield f"  and {len(less) - count} more"
 
 
 def _lines(found: HullComparison, count: int) -> Iterator[str]:

@@ -94,6 +94,8 @@ class Measures(Mapping[str, float]):
     ----------
     anchors : iterable of MeasuredParameter
         In order.
+    spent : mapping of str to float
+        See the attribute.
 
     Attributes
     ----------
@@ -101,6 +103,10 @@ class Measures(Mapping[str, float]):
         All that were asked for, also those without a value.
     absent : mapping of str to str
         Why a hull has no value, for those it has none of.
+    spent : mapping of str to float
+        By how much variations in the history of the hull have changed each parameter, m or
+        degrees: shifts of the fore and the after body too, which no line shows; strengths of
+        layers by their names.
 
     Examples
     --------
@@ -117,8 +123,11 @@ class Measures(Mapping[str, float]):
     ({'draught': 6.25}, {'bulb_length': 'no profile forward of FP below z=6.250'})
     """
 
-    def __init__(self, anchors: Iterable[MeasuredParameter]) -> None:
+    def __init__(
+        self, anchors: Iterable[MeasuredParameter], spent: Mapping[str, float] | None = None
+    ) -> None:
         given = tuple(anchors)
+        self.spent: Mapping[str, float] = MappingProxyType(dict(spent or {}))
         self.anchors: Mapping[str, MeasuredParameter] = NamedMapping(
             "named parameter", {each.name: each for each in given}
         )
@@ -146,7 +155,8 @@ class Measures(Mapping[str, float]):
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name} {value:.6g}" for name, value in self._values.items())
-        return f"<Measures: {values}>"
+        spent = ", ".join(f"{name} {value:+.6g}" for name, value in self.spent.items() if value)
+        return f"<Measures: {values}{'; spent by variations: ' if spent else ''}{spent}>"
 
 
 Measured = TypeVar("Measured")
