@@ -20,6 +20,7 @@ from typing import Any, Literal, get_args
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.form.catalogue import CATALOGUE as FORM_PARAMETERS
 from assoc_hull.arguments import (
     choice,
     file_path,
@@ -465,10 +466,34 @@ def _drivers(given: object) -> tuple[Group | Line | str, ...] | None:
 
 
 def _refuse_both(values: Mapping[str, float], reach: TargetRequest | None) -> None:
-    """Refuse parameters that are both set and free."""
-    for name in () if reach is None else reach.names:
+    """Refuse parameters that are both set and free, and targets that set values fix."""
+    if reach is None:
+        return
+    for name in reach.names:
         if name in values:
             raise BadInputError(f"'{name}' is set and free", "in vary", "leave it out of one")
+    for output in reach.targets:
+        sizes = _dimensions(output)
+        if sizes and sizes <= values.keys():
+            told = " and ".join(f"'{name}'" for name in sorted(sizes))
+            raise BadInputError(
+                f"'{output}' is to be reached, but {told}, which alone it is made of, "
+                f"{'is' if len(sizes) == 1 else 'are'} set", "in vary",
+                f"leave out '{output}', or let one of {told} be free instead of setting it",
+            )  # fmt: skip
+
+
+_SIZES = {"Lpp": "length", "B": "breadth", "D": "depth", "T_A": "draught", "T_F": "draught"}
+"""Form parameters that are dimensions, and the parameter that sets each."""
+
+
+def _dimensions(output: str) -> set[str]:
+    """Give the parameters that set all that an output is made of; nothing where more is in it."""
+    if output in _SIZES:
+        return {_SIZES[output]}
+    needs = FORM_PARAMETERS[output].needs if output in FORM_PARAMETERS else ()
+    parts = [_dimensions(each) for each in needs]
+    return set().union(*parts) if all(parts) else set()
 
 
 def _title(values: Mapping[str, float], reach: TargetRequest | None) -> str:

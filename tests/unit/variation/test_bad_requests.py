@@ -303,3 +303,12 @@ def test_intervals_are_true(room: AdmissibleValues, name: str) -> None:
             with pytest.raises((FoldError, OutOfRangeError)) as found:
                 certify_alone(room, name, beyond)
             assert told_interval(found.value) == ends
+
+
+def test_a_target_that_set_values_fix_is_refused_by_all_their_names() -> None:
+    """Nothing free could move it; of one that is not set the request goes on."""
+    hull = ah.examples.wigley()
+    with pytest.raises(BadInputError, match="'B/T' is to be reached, but 'breadth' and 'draught'"):
+        hull.vary(set={"breadth": 10.2, "draught": 6.2}, reach={"B/T": 1.7}, free=["fore_shift"])
+    found = hull.vary(set={"breadth": 10.2}, reach={"B/T": 1.7}, free=["draught"])
+    assert found.hull.particulars.draught == pytest.approx(6.0, abs=1e-8)
