@@ -13,6 +13,7 @@ import attrs
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import (
     AssocHullError,
+    BadInputError,
     DependentTargetsError,
     FoldError,
     OutOfRangeError,
@@ -21,6 +22,7 @@ from assoc_hull.errors import (
     UnknownNameError,
     UnreachableError,
 )
+from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.aiming.reach_targets import SettledPlan, settle_plan
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.carrying.carry_stages import StagedCarry
@@ -32,7 +34,7 @@ from assoc_hull.variation.comparing.line_fairness import (
 )
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.stages import Plan, class_plan, finer_plan, single_plan
-from assoc_hull.variation.request import VariationRequest
+from assoc_hull.variation.request import TargetRequest, VariationRequest
 
 __all__ = ["KINK", "choose_plan"]
 
@@ -150,8 +152,10 @@ def _refused(
     carry: StagedCarry,
 ) -> AssocHullError:
     """Say what of the request can be had, of several values."""
+    if ask.reach is not None and ask.values:
+        return _refused_reach(edit, room, ask, ask.reach, error, carry)
     alone = isinstance(error, OutOfRangeError) or (isinstance(error, FoldError) and not error.part)
-    if len(ask.values) < 2 or ask.reach is not None or alone:
+    if len(ask.values) < 2 or alone:
         return error  # it names a value, and what may be asked for
     blamed = () if carry.refused is None else carry.refused.names
     leave_out = next((name for name in blamed if _goes(edit, room, _without(ask, name))), None)
@@ -172,6 +176,27 @@ def _refused(
     return RefusedSetError(
         f"{', '.join(ask.values)} cannot be had together ({error})", "in vary",
         "; or ".join(remedies), leave_out, part, values,
+    )  # fmt: skip
+
+
+def _refused_reach(
+    edit: Transaction, room: AdmissibleValues, ask: VariationRequest, reach: TargetRequest,
+    error: AssocHullError, carry: StagedCarry,
+) -> AssocHullError:  # fmt: skip
+    """Say whether it is the values that cannot be had, or the targets beside them."""
+    values = attrs.evolve(ask, reach=None)
+    if not _goes(edit, room, values):
+        return _refused(edit, room, values, error, carry)
+    names = tuple(reach.targets)
+    there = Outputs.of(edit.state, names).values(edit.state).tolist()
+    edit.take_back()
+    given = ", ".join(f"{name} {value:.6g}" for name, value in zip(names, there, strict=True))
+    return BadInputError(
+        f"{', '.join(ask.values)} can be had, but not while {', '.join(names)} "
+        f"{'is' if len(names) == 1 else 'are'} reached by {', '.join(reach.names)} ({error})",
+        "in vary",
+        f"ask for targets nearer to what the values give by themselves ({given}), or free other "
+        "parameters",
     )  # fmt: skip
 
 

@@ -17,7 +17,10 @@ from assoc_hull.errors import (
     UnknownNameError,
     WrongTypeError,
 )
+from assoc_hull.variation import plan_choice
+from assoc_hull.variation.aiming.reach_targets import SettledPlan
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
+from assoc_hull.variation.carrying.carry_stages import StagedCarry
 from assoc_hull.variation.certificate.fold_check import certify
 from assoc_hull.variation.fields.layers import FieldLayer
 from assoc_hull.variation.parameters.catalogue import NAMES
@@ -312,3 +315,25 @@ def test_a_target_that_set_values_fix_is_refused_by_all_their_names() -> None:
         hull.vary(set={"breadth": 10.2, "draught": 6.2}, reach={"B/T": 1.7}, free=["fore_shift"])
     found = hull.vary(set={"breadth": 10.2}, reach={"B/T": 1.7}, free=["draught"])
     assert found.hull.particulars.draught == pytest.approx(6.0, abs=1e-8)
+
+
+def test_targets_that_no_plan_reaches_are_refused_with_what_the_values_give(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It is told that the values by themselves can be had, and at which targets they arrive."""
+    settled = plan_choice.settle_plan
+
+    def without_targets(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
+        if carry.ask.reach is not None:
+            raise BadInputError("a line folds", "in vary", "ask for less")
+        return settled(carry, room)
+
+    monkeypatch.setattr(plan_choice, "settle_plan", without_targets)
+    hull = ah.examples.wigley()
+    was = hull.fingerprint
+    with pytest.raises(BadInputError, match="breadth can be had, but not while volume") as caught:
+        hull.vary(set={"breadth": 10.2}, reach={"volume": 2800.0}, free=["fore_shift"])
+    given = float(re.findall(r"volume ([0-9.]+)\)", str(caught.value))[0])
+    alone = hull.vary(set={"breadth": 10.2}).hull.hydrostatics(estimate=False).volume
+    assert given == pytest.approx(alone, rel=1e-5)
+    assert hull.fingerprint == was
