@@ -84,7 +84,7 @@ def choose_plan(
             if best and not together:  # one round shows whether it is worth more
                 there = None
                 carry.run(ask.values)
-                if _worst(edit, before) >= min(each[0] for each in best):
+                if _judged(edit, before)[1] >= min(each[0] for each in best):
                     continue
             found = there = settle_plan(carry, room)
         except _OF_TARGETS:
@@ -96,8 +96,8 @@ def choose_plan(
             continue
         finally:
             tried |= {(plan, together), (carry.plan, together)}
-        fair = _fairness(edit, before)
-        if (worst := _worst(edit, before)) <= KINK:
+        fair, worst = _judged(edit, before)
+        if worst <= KINK:
             return found, fair
         best.append((worst, fair.added, found))
     if not best:
@@ -107,7 +107,7 @@ def choose_plan(
     if found is not there:
         again = attrs.evolve(found.carry, carried=[], refused=None)
         found = settle_plan(again, room)
-    return found, _fairness(edit, before)
+    return found, _judged(edit, before)[0]
 
 
 def _candidates(ask: VariationRequest) -> list[tuple[Plan, bool]]:
@@ -123,21 +123,22 @@ def _candidates(ask: VariationRequest) -> list[tuple[Plan, bool]]:
     return [*plans, (first, False), (finer, False), (finer_plan(finer), False), (whole, reaches)]
 
 
-def _fairness(edit: Transaction, before: Mapping[str, LineFairness]) -> FairnessComparison:
-    """Compare the lines of the hull as it is by now with those of the parent."""
-    return compare_fairness(before, measure_fairness(edit.state, like=before))
+def _judged(
+    edit: Transaction, before: Mapping[str, LineFairness]
+) -> tuple[FairnessComparison, float]:
+    """Compare the lines of the hull as it is by now with those of the parent.
 
-
-def _worst(edit: Transaction, before: Mapping[str, LineFairness]) -> float:
-    """Give the largest comb of a line at the size that it had in the parent, in parts of that one.
-
-    Boundary curves are left out: they drive whatever the plan, so no plan is to blame for them.
+    Given is also the largest comb of a line at the size that it had in the parent, in parts of that
+    one. Boundary curves are left out of it: they drive whatever the plan, so no plan is to blame.
     """
-    lines = edit.state.live("lines")
-    inner = lines[edit.state.lines.boundary[lines] < 0]
-    return compare_fairness(
-        before, measure_fairness(edit.state, inner.tolist(), like=before)
-    ).worst_shape
+    state = edit.state
+    after = measure_fairness(state, like=before)
+    lines = state.live("lines")
+    outer = {
+        str(state.lines.key[line]) for line in lines[state.lines.boundary[lines] >= 0].tolist()
+    }
+    inner = {key: each for key, each in after.items() if key not in outer}
+    return compare_fairness(before, after), compare_fairness(before, inner).worst_shape
 
 
 # --------------------------------------------------------------------------------------

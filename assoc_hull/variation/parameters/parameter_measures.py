@@ -19,6 +19,7 @@ from types import MappingProxyType
 
 from assoc_hull.arguments import shown
 from assoc_hull.errors import UnknownNameError, WrongTypeError
+from assoc_hull.graph.derived import Objects
 from assoc_hull.model.tables import HasState, HullState, state_of
 from assoc_hull.variation.parameters import hull_and_end_measures, midship_measures
 from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter, Measures
@@ -77,6 +78,23 @@ def measure_all(state: HullState, only: Iterable[str] | None = None) -> Measures
     UnknownNameError
         A name that is none of a parameter.
     """
+    if only is None:
+        return state.derived(("measures",), _depends_on(state), lambda: _measured(state, None), 2)
+    return _measured(state, only)
+
+
+def _depends_on(state: HullState) -> tuple[object, ...]:
+    """Give what measures depend on: splines, features, and some columns."""
+    rows, lines, curves = state.rows, state.lines, state.curves
+    made = [state.spline(curve) for curve in state.live("curves").tolist()]
+    return (
+        Objects([*made, state.particulars, *state.features]), rows.xyz, rows.parameter, rows.role,
+        rows.alive, rows.sort, rows.curve, lines.alive, lines.boundary, lines.offset, lines.planar,
+        lines.normal, lines.group, curves.alive, curves.line, tuple(lines.name.data),
+    )  # fmt: skip
+
+
+def _measured(state: HullState, only: Iterable[str] | None) -> Measures:
     known = (*MEASURES, *AMPLITUDES)
     hull, found = DrawnCurves(state), []
     for name in known if only is None else _names(only):
