@@ -1543,7 +1543,8 @@ class Hull:
         ----------
         outputs : iterable of m str or None
             Fields of the record of hydrostatics ("volume", "lcb"), symbols of form parameters
-            ("Cpa"), section areas ("A ST 5", "A x=42.5"); None: `USUAL_OUTPUTS`.
+            ("Cpa"), section areas ("A ST 5", "A x=42.5"), resistance at a speed ("R 14 kn"); None:
+            `USUAL_OUTPUTS`.
         parameters : iterable of k or None
             Each the name of a parameter that `vary` knows ("breadth", m or degrees),
             "mean_draught" or "trim" (m), a raw layer (by its strength), or one of
@@ -2067,7 +2068,7 @@ class Hull:
         reach : mapping of str to float or (n,), or sequence of mappings
             Targets by the names of outputs: one, or one per variant; or a mapping per variant. See
             `assoc_hull.variation.aiming.outputs.Outputs`: fields of hydrostatics, symbols of form
-            parameters, areas of sections.
+            parameters, areas of sections, resistance at a speed ("R 14 kn").
         free : sequence of str or layer
             Parameters whose values are sought, as in `vary`; as many as there are targets, or more:
             then the variant is one of nearly the least change.

@@ -5,7 +5,6 @@ Speeds are in knots, forces in kN, powers in kW.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, Literal
@@ -234,22 +233,6 @@ class Resistance:
         for head, column in columns.items():
             found[head] = column
         return found
-
-    def document(self) -> dict[str, Any]:
-        """Give all of it as data: numbers, words, lists and mappings; kn, kN, kW."""
-        return {
-            "ship": self.name,
-            "method": self.method,
-            "columns": {head: column.tolist() for head, column in self.table().items()},
-            "inputs": [attrs.asdict(each) for each in self.inputs],
-            "coefficients": dict(self.coefficients),
-            "by_speed": {name: column.tolist() for name, column in self.by_speed.items()},
-            "warnings": list(self.warnings),
-        }
-
-    def to_json(self) -> str:
-        """Give `document` as JSON."""
-        return json.dumps(self.document(), indent=1, allow_nan=False)
 
     def __str__(self) -> str:
         return "\n".join(self._lines())

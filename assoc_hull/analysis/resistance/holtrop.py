@@ -405,7 +405,8 @@ def _bulb_resistance(
     depth = ship.draught_fore - ship.bulb_centre - 0.25 * math.sqrt(area)
     immersed = velocity / np.sqrt(_GRAVITY * depth + 0.15 * velocity**2)
     size = 0.11 * math.exp(-3.0 * hull["PB"] ** -2) * area**1.5 * ship.rho * _GRAVITY
-    return size * immersed**3 / (1.0 + immersed**2)
+    found: FloatArray = size * immersed**3 / (1.0 + immersed**2)
+    return found
 
 
 def _transom_resistance(

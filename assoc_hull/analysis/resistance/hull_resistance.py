@@ -35,7 +35,7 @@ __all__ = [
 
 SYMBOLS: Mapping[str, str] = {
     "length": "LWL", "breadth": "B", "draught_fore": "T_F", "draught_aft": "T_A", "volume": "V",
-    "lcb": "LCB_WL", "cm": "Cm", "cwp": "Aw", "wetted_surface": "WSA", "bulb_area": "A_BT",
+    "lcb": "LCB_WL", "cm": "C_M", "cwp": "Aw", "wetted_surface": "WSA", "bulb_area": "A_BT",
     "bulb_height": "h_B", "transom_area": "A_T",
 }  # fmt: skip
 """The form parameter of which each number of a `HoltropShip` is taken; C_WP is Aw / (LWL B)."""

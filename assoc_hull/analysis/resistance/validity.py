@@ -99,7 +99,7 @@ def warnings_of(ship: HoltropShip, froude: float) -> tuple[str, ...]:
     if ship.bulb_centre < ship.bulb_height:
         found.append(
             f"the centre of the bulb's section is {ship.bulb_height:.3f} m above the base line; "
-            f"0.6 T_F, {ship.bulb_centre:.3f} m, is taken, as the papers ask"
+            f"0.6 T_F, {ship.bulb_centre:.3f} m, is taken, as the papers ask, and RB is doubtful"
         )
     if ship.rho < 1.01 and ship.nu == NU:
         found.append(
