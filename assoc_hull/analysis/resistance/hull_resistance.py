@@ -16,12 +16,13 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.floating_shape import FloatingShape
-from assoc_hull.analysis.form.form_parameters import shape_of
+from assoc_hull.analysis.form.form_parameters import form_parameters, shape_of
 from assoc_hull.analysis.form.parameter import FormValue, evaluate
 from assoc_hull.analysis.hydrostatics.record import SALT
 from assoc_hull.analysis.resistance.calm_water_resistance import Resistance, Source
 from assoc_hull.analysis.resistance.holtrop import Method, holtrop, method_of, speeds_of
 from assoc_hull.analysis.resistance.holtrop_ship import NU, ROUGHNESS, WHERE, HoltropShip
+from assoc_hull.arguments import plain
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.tables import HasState
@@ -92,24 +93,26 @@ def resistance(
         "entrance_deg": entrance_deg, "bulb_area": bulb_area, "bulb_height": bulb_height,
         "transom_area": transom_area, "rho": rho, "nu": nu, "roughness": roughness,
     }  # fmt: skip
-    given = {name: value for name, value in stated.items() if not _is_usual(name, value)}
+    plainly = {name: value if value is None else plain(value) for name, value in stated.items()}
+    given = {name: value for name, value in plainly.items() if not _is_usual(name, value)}
     method_of(method)
     speeds_of(speeds)
     shape = shape_of(hull, draught=draught, draughts=draughts)
     doubts = shape.body.doubts(shape.planes, False)
     if doubts:
         raise BadInputError(doubts[0], WHERE, "mend the hull")
-    measured = evaluate(CATALOGUE, (*SYMBOLS.values(), _MEASURED_ANGLE), shape, {})
+    wanted = (*SYMBOLS.values(), _MEASURED_ANGLE)
+    measured = form_parameters(hull, draught=draught, draughts=draughts, only=wanted)
     at_design = draught is None and draughts is None
-    sources = _sources(measured, given, at_design)
     ship = _ship(measured, given)
+    sources = _sources(measured, given, at_design)
     return holtrop(ship, speeds, method, name=shape.header.ship, sources=sources)
 
 
 def _is_usual(name: str, value: object) -> bool:
     """Tell whether a value is what stands for it where a caller says nothing."""
     usual = _USUAL.get(name, (None, ""))[0]
-    return value is None or (isinstance(value, int | float) and value == usual)
+    return value is None or (isinstance(value, float) and value == usual)
 
 
 def _ship(measured: Mapping[str, FormValue], stated: Mapping[str, Any]) -> HoltropShip:
@@ -121,7 +124,7 @@ def _ship(measured: Mapping[str, FormValue], stated: Mapping[str, Any]) -> Holtr
         )
     found = {name: _number(measured[symbol]) for name, symbol in SYMBOLS.items()}
     found["cwp"] /= found["length"] * found["breadth"]
-    if isinstance(stated.get("bulb_area"), int | float) and not stated["bulb_area"]:
+    if isinstance(stated.get("bulb_area"), float) and not stated["bulb_area"]:
         found["bulb_height"] = 0.0
     return HoltropShip(**{**found, **stated})
 

@@ -2,8 +2,8 @@
 
 Outputs are fields of the hydrostatic record, sectional areas by station or place, form parameters,
 and the resistance at a speed, of a hull that floats upright at its design draught; where the
-draught changes with a parameter, at the new one. Each `OutputKind` works on all its keys together, as they share what is
-measured; `Outputs` understands the names and joins the kinds.
+draught changes with a parameter, at the new one. Each `OutputKind` works on all its keys together,
+as they share what is measured; `Outputs` understands the names and joins the kinds.
 """
 
 from __future__ import annotations
