@@ -135,6 +135,14 @@ _PARTS: Mapping[str, str] = MappingProxyType(
 """The parts by their heads in the table, in the order in which they are added."""
 
 
+def _fixed(given: Mapping[str, float]) -> Mapping[str, float]:
+    return MappingProxyType(dict(given))
+
+
+def _fixed_columns(given: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:
+    return MappingProxyType(dict(given))
+
+
 @attrs.frozen(eq=False, kw_only=True)
 class Resistance:
     """Resistance in calm deep water at n speeds.
@@ -179,8 +187,8 @@ class Resistance:
     method: str
     ship: HoltropShip
     inputs: tuple[ResistanceInput, ...]
-    coefficients: Mapping[str, float]
-    by_speed: Mapping[str, FloatArray]
+    coefficients: Mapping[str, float] = attrs.field(converter=_fixed)
+    by_speed: Mapping[str, FloatArray] = attrs.field(converter=_fixed_columns)
     speeds: FloatArray
     froude: FloatArray
     reynolds: FloatArray

@@ -32,9 +32,9 @@ from assoc_hull.analysis.resistance.calm_water_resistance import (
 )
 from assoc_hull.analysis.resistance.holtrop_ship import WHERE, HoltropShip
 from assoc_hull.analysis.resistance.validity import warnings_of
-from assoc_hull.arguments import choice, instance, numbers, shown
+from assoc_hull.arguments import choice, instance, numbers, shown, word
 from assoc_hull.errors import BadInputError, OutOfRangeError
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["Method", "holtrop", "hull_coefficients", "method_of", "speeds_of"]
 
@@ -295,6 +295,7 @@ def holtrop(
     [475.0, 512.0]
     """
     instance(ship, HoltropShip, "ship", WHERE)
+    word(name, "name", WHERE)
     method = method_of(method)
     knots = speeds_of(speeds)
     velocity = knots * KNOT
@@ -307,7 +308,6 @@ def holtrop(
     by_speed = {"CF": line, "m4" if method == "1984" else "m2": m4}
     transom, by_speed["c6"] = _transom_resistance(ship, velocity, pressure)
     friction = pressure * hull["S"] * line
-    freeze(froude, reynolds, *by_speed.values())
     return Resistance(
         name=name,
         method=method,

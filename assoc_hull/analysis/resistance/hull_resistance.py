@@ -216,14 +216,20 @@ def total_resistance_rates(
         size = _number(measured[symbol])
         if size == 0.0 and symbol != "LCB_WL":
             continue  # what a hull lacks does not begin by a small change
-        step = _STEP * (1.0 if symbol == "LCB_WL" else abs(size))
-
-        def at(
-            times: float, symbol: str = symbol, size: float = size, step: float = step
-        ) -> FloatArray:
-            there = attrs.evolve(measured[symbol], number=size + times * step)
-            return holtrop(_ship({**measured, symbol: there}, {}), speeds).total
-
-        one, two = (at(times) - at(-times) for times in (1.0, 2.0))
-        found += np.outer((8.0 * one - two) / (12.0 * step), rates[symbol])
+        step = _STEP * (1.0 if symbol == "LCB_WL" else size)
+        found += np.outer(_slope(measured, symbol, step, speeds), rates[symbol])
     return found
+
+
+def _slope(
+    measured: Mapping[str, FormValue], symbol: str, step: float, speeds: Sequence[float]
+) -> FloatArray:
+    """Give how the total resistance changes with one form parameter, (n,)."""
+
+    def at(times: float) -> FloatArray:
+        there = attrs.evolve(measured[symbol], number=_number(measured[symbol]) + times * step)
+        return holtrop(_ship({**measured, symbol: there}, {}), speeds).total
+
+    one, two = (at(times) - at(-times) for times in (1.0, 2.0))
+    slope: FloatArray = (8.0 * one - two) / (12.0 * step)
+    return slope
