@@ -1,7 +1,8 @@
-"""What hydrostatics and stability of a hull take and give; the verbs are methods of `Hull`.
+"""What hydrostatics, stability and resistance of a hull take and give; verbs are methods of `Hull`.
 
-Besides, hydrostatics of a triangulated body (`mesh_flotation`), and the parameters by which
-`Hull.hydrostatic_derivatives` differentiates.
+Besides, hydrostatics of a triangulated body (`mesh_flotation`), the parameters by which
+`Hull.hydrostatic_derivatives` differentiates, and the resistance of a ship without a hull
+(`holtrop`).
 """
 
 from assoc_hull.analysis.derivatives.given_motion import Moves
@@ -20,6 +21,9 @@ from assoc_hull.analysis.derivatives.parameters import (
 from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingPosition
 from assoc_hull.analysis.hydrostatics.mesh_flotation import mesh_flotation
 from assoc_hull.analysis.hydrostatics.record import FRESH, SALT, Hydrostatics, HydrostaticTable
+from assoc_hull.analysis.resistance.calm_water_resistance import Resistance, ResistanceInput
+from assoc_hull.analysis.resistance.holtrop import holtrop
+from assoc_hull.analysis.resistance.holtrop_ship import HoltropShip
 from assoc_hull.analysis.stability.cross_curves import CrossCurves
 from assoc_hull.analysis.stability.equilibrium import Equilibrium
 from assoc_hull.analysis.stability.flooding import FloodingPoint
@@ -42,6 +46,7 @@ __all__ = [
     "Equilibrium",
     "FloatingPosition",
     "FloodingPoint",
+    "HoltropShip",
     "HydrostaticTable",
     "Hydrostatics",
     "Moves",
@@ -49,8 +54,11 @@ __all__ = [
     "PointMove",
     "Position",
     "Rates",
+    "Resistance",
+    "ResistanceInput",
     "Stability",
     "below_water",
+    "holtrop",
     "integrate_by_simpson",
     "mesh_flotation",
 ]

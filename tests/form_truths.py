@@ -33,7 +33,7 @@ AT_3, TO_4, AT_5, TO_5 = 0.51, 0.416 / 3.0, 0.75, 0.625 / 3.0
 SHAFT, SCREW, SCREW_AT = form.SHAFT, 9.0, 4.0
 """Height of the carrier's shaft, diameter and place of a screw; m."""
 
-SAME_BOTH_ENDS = {"LCB": 0.0, "LCF": 50.0, "LCF-LCB": 0.0, "LWL": 100.0}
+SAME_BOTH_ENDS = {"LCB": 0.0, "LCF": 50.0, "LCF-LCB": 0.0, "LWL": 100.0, "LCB_WL": 0.0}
 
 
 def wigley() -> dict[str, float]:
@@ -51,7 +51,8 @@ def wigley() -> dict[str, float]:
         "Aw_a": 0.5 * plane, "Aw_f": 0.5 * plane, "LCFa": 31.25, "LCFf": 68.75,
         "Aw_st5": breadth * 50.0 * TO_5, "b_st5": AT_5 * 5.0,
         "I_T": 16.0 / 35.0 * breadth**3 * length / 12.0, "I_L": breadth * length**3 / 30.0,
-        "Cb": 4.0 / 9.0, "Cm": 2.0 / 3.0, "Cp": 2.0 / 3.0, "Cpa": 2.0 / 3.0, "Cpf": 2.0 / 3.0,
+        "Cb": 4.0 / 9.0, "Cm": 2.0 / 3.0, "C_M": 2.0 / 3.0,
+        "Cp": 2.0 / 3.0, "Cpa": 2.0 / 3.0, "Cpf": 2.0 / 3.0,
         "Ea": 10.0 / 3.0, "Ef": 10.0 / 3.0, "Ea'": length / 3.0 / reduced, "B'": reduced,
         "As": 0.05 * math.sqrt(2.5), "Cb/(L/B)": 2.0 / 45.0, "Cb4": 0.208 / 0.9,
         "Br03": AT_3, "Cpa'": 5.0 / 9.0, "Cwa'": 5.0 / 9.0, "Cw": 2.0 / 3.0, "Cwa": 2.0 / 3.0,
@@ -115,7 +116,8 @@ def ellipsoid() -> dict[str, float]:
         "Aw_a": 200.0 * pi, "Aw_f": 200.0 * pi, "LCFa": 50.0 - centroid, "LCFf": 50.0 + centroid,
         "Aw_st5": 800.0 * cap, "b_st5": 4.0 * root,
         "I_T": 6400.0 * pi, "I_L": 250000.0 * pi,
-        "Cb": pi / 6.0, "Cm": pi / 4.0, "Cp": 2.0 / 3.0, "Cpa": 2.0 / 3.0, "Cpf": 2.0 / 3.0,
+        "Cb": pi / 6.0, "Cm": pi / 4.0, "C_M": pi / 4.0,
+        "Cp": 2.0 / 3.0, "Cpa": 2.0 / 3.0, "Cpf": 2.0 / 3.0,
         "Ea": 25.0 / 12.0, "Ef": 25.0 / 12.0, "Ea'": 10.0 / 3.0, "B'": 10.0,
         "As": 0.04 * pi / math.sqrt(pi / 2.25), "Cb/(L/B)": 0.08 * pi / 3.0,
         "Cb4": pi / 4.0 * 0.104 * 10.0 / 3.0, "Br03": AT_3, "Cpa'": 5.0 / 9.0,
@@ -130,7 +132,7 @@ def ellipsoid() -> dict[str, float]:
 
 def box() -> dict[str, float]:
     """100 x 20 x 12 m at 6 m, both ends flat; a screw of 3 m on a shaft at 2 m."""
-    ones = ("Cb", "Cm", "Cp", "Cpa", "Cpf", "BAR", "Cb4", "Br03", "Cpa'", "Cw", "Cwa", "Cwf",
+    ones = ("Cb", "Cm", "C_M", "Cp", "Cpa", "Cpf", "BAR", "Cb4", "Br03", "Cpa'", "Cw", "Cwa", "Cwf",
             "Cwa'", "Cvpa'", "Cvp", "C_IT", "C_IL", "TRAR")  # fmt: skip
     found = {
         "V": 12000.0, "Disp": 12300.0, "VCB": 3.0, "Aw": 2000.0, "WSA": 3200.0, "Amax": 120.0,
@@ -264,9 +266,16 @@ def _coefficients(of: Mapping[str, float]) -> dict[str, float]:
         "TPC": 1.025 * of["Aw"] / 100.0, "MTC": 1.025 * of["I_L"] / 30000.0,
         "DCT": 1.025 * of["Aw"] / 100.0 * (150.0 - of["LCF"]) / 300.0,
         "LCF-LCB": of["LCF"] - 3.0 * (50.0 + of["LCB"]), "C_VPR": of["V_PR"] / volume,
-        "L_R Holtrop": _holtrop_run(volume / area, of["LWL"], of["LCB"]),
+        "C_M": area / 900.0, "LCB_WL": _percent_of_waterline(of),
+        "L_R Holtrop": _holtrop_run(volume / area, of["LWL"], _percent_of_waterline(of)),
         "C_ABT": of["A_BT"] / area, "C_ABL": of["A_BL"] / area,
     }  # fmt: skip
+
+
+def _percent_of_waterline(of: Mapping[str, float]) -> float:
+    """Where buoyancy acts, in percent of a waterline that ends at FP, forward of its middle."""
+    ahead = 150.0 + 3.0 * of["LCB"] - (300.0 - 0.5 * of["LWL"])
+    return 100.0 * ahead / of["LWL"]
 
 
 def _holtrop_run(prism: float, length: float, percent: float) -> float:

@@ -28,6 +28,7 @@ __all__ = [
     "PICTURE_ENDINGS",
     "Commands",
     "add_command",
+    "add_density",
     "add_draughts",
     "add_hull",
     "add_json",
@@ -274,11 +275,16 @@ def add_draughts(parser: argparse.ArgumentParser) -> argparse._MutuallyExclusive
     return group
 
 
-def add_water(parser: argparse.ArgumentParser) -> None:
-    """Add density, shell factor, appendages, and what to do with a doubtful hull."""
+def add_density(parser: argparse.ArgumentParser) -> None:
+    """Add the density of the water, as a number or by a word."""
     water = parser.add_mutually_exclusive_group()
     water.add_argument("--rho", type=float, metavar="R", help="density of the water, t/m3")
     water.add_argument("--water", choices=tuple(_WATERS), help="1.025 (default) or 1.000 t/m3")
+
+
+def add_water(parser: argparse.ArgumentParser) -> None:
+    """Add density, shell factor, appendages, and what to do with a doubtful hull."""
+    add_density(parser)
     parser.add_argument(
         "--shell-factor", type=float, default=1.0, metavar="F",
         help="displacement over that of the moulded volume (default: 1)",

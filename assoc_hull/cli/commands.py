@@ -31,6 +31,7 @@ from assoc_hull.cli.make_hull import add_classical, add_create, add_example_and_
 from assoc_hull.cli.panels import add_panels
 from assoc_hull.cli.plates import add_plates
 from assoc_hull.cli.problems import UsageError, check_target
+from assoc_hull.cli.resistance import add_resistance
 from assoc_hull.cli.stability import add_stability
 from assoc_hull.cli.surface import add_surface
 from assoc_hull.cli.variants import add_compare, add_shift_and_swing, add_study, add_vary
@@ -176,6 +177,7 @@ _COMMANDS = (
     add_hydrostatics,
     add_parameters,
     add_stability,
+    add_resistance,
     add_transform,
     add_panels,
     add_vary,

@@ -207,7 +207,7 @@ def add_sensitivities(commands: Commands) -> None:
     add_hull(parser)
     parser.add_argument(
         "--of", metavar="OUTPUT", nargs="+", default=None,
-        help='fields of hydrostatics, symbols of form parameters, "A ST 5" or "A x=42.5"',
+        help='fields of hydrostatics, symbols of form parameters, "A ST 5", "A x=42.5", "R 14 kn"',
     )  # fmt: skip
     parser.add_argument(
         "--by", metavar="PARAMETER", nargs="+", default=None,

@@ -60,6 +60,8 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.hydrostatics.record import Hydrostatics, HydrostaticTable
     from assoc_hull.analysis.hydrostatics.section_areas import Bonjean
     from assoc_hull.analysis.panels.hull_panels import Side, Spacing
+    from assoc_hull.analysis.resistance.calm_water_resistance import Resistance
+    from assoc_hull.analysis.resistance.holtrop import Method
     from assoc_hull.analysis.stability.condition import OnError
     from assoc_hull.analysis.stability.cross_curves import CrossCurves
     from assoc_hull.analysis.stability.equilibrium import Equilibrium
@@ -1378,6 +1380,120 @@ class Hull:
             further=further,
         )
 
+    def resistance(
+        self,
+        speeds: ArrayLike,
+        *,
+        method: Method = "1984",
+        draught: float | None = None,
+        draughts: tuple[float, float] | None = None,
+        c_stern: float = 0.0,
+        appendage_area: float = 0.0,
+        appendage_factor: float | None = None,
+        thruster_diameter: float = 0.0,
+        thruster_coefficient: float | None = None,
+        wetted_surface: float | None = None,
+        entrance_deg: float | None = None,
+        bulb_area: float | None = None,
+        bulb_height: float | None = None,
+        transom_area: float | None = None,
+        rho: float = 1.025,
+        nu: float = 1.18831e-6,
+        roughness: float = 150e-6,
+    ) -> Resistance:
+        """Estimate the resistance of a hull in calm deep water by Holtrop's regression.
+
+        Of the bare hull, and of what is stated. What it is computed from are form parameters of the
+        hull as she floats upright; the result shows each with its source.
+
+        Parameters
+        ----------
+        speeds : float or (n,), kn
+            Above 0, in any order.
+        method : "1984" or "1982"
+            The paper: Holtrop (1984), or Holtrop and Mennen (1982).
+        draught : float, m
+            At even keel; or `draughts`. The design draught if neither is given.
+        draughts : (float, float), m
+            T_A and T_F, on the centre line at the perpendiculars.
+        c_stern : float
+            -25 pram with gondola, -10 V-shaped sections, 0 normal, +10 U-shaped with Hogner stern.
+        appendage_area : float, m2
+            S_APP, wetted surface of all appendages.
+        appendage_factor : float or None
+            1 + k_2 of them, the mean by area, from 1 up.
+        thruster_diameter : float, m
+            Of the opening of a bow thruster.
+        thruster_coefficient : float or None
+            C_BTO of it, 0.003 to 0.012.
+        wetted_surface : float or None, m2
+            S of the bare hull; None: measured.
+        entrance_deg : float or None, degrees
+            i_E, half angle of entrance; None: by the regression, beside which the measured one is
+            shown.
+        bulb_area, bulb_height : float or None, m2 and m
+            A_BT of the section at FP, both sides, and the height of its centre above the base line;
+            None: measured. Above 0.6 T_F the height counts as that.
+        transom_area : float or None, m2
+            A_T, immersed at rest; None: measured.
+        rho : float, t/m3
+            Density of the water.
+        nu : float, m2/s
+            Its kinematic viscosity: that of salt water of 15 degrees.
+        roughness : float, m
+            Of the shell, from 150e-6 up.
+
+        Returns
+        -------
+        Resistance
+            RF, form, RAPP, RW, RB, RTR, RA and their total at each speed, kN; coefficients, inputs,
+            and warnings where the ship lies outside the ranges of the regression. Prints a table.
+
+        Raises
+        ------
+        BadInputError
+            A speed, method or number that cannot be used; a doubtful hull; one of appendages and
+            their factor without the other.
+        OutOfRangeError
+            A position in which the hull does not float; a ship or speed of which the regression
+            cannot tell the resistance.
+
+        See Also
+        --------
+        assoc_hull.hydro.holtrop : the same of main dimensions, without a hull.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> found = ah.examples.wigley().resistance([10.0, 15.0])
+        >>> found.total.round(1).tolist()
+        [52.0, 139.5]
+        >>> [each.source for each in found.inputs if each.symbol == "i_E"]
+        ['regression']
+        """
+        from assoc_hull.analysis.resistance.hull_resistance import resistance
+
+        return resistance(
+            self,
+            speeds,
+            method=method,
+            draught=draught,
+            draughts=draughts,
+            c_stern=c_stern,
+            appendage_area=appendage_area,
+            appendage_factor=appendage_factor,
+            thruster_diameter=thruster_diameter,
+            thruster_coefficient=thruster_coefficient,
+            wetted_surface=wetted_surface,
+            entrance_deg=entrance_deg,
+            bulb_area=bulb_area,
+            bulb_height=bulb_height,
+            transom_area=transom_area,
+            rho=rho,
+            nu=nu,
+            roughness=roughness,
+        )
+
     def measure(self, *, only: Iterable[str] | None = None) -> Measures:
         """Give the present values of a hull's named parameters.
 
@@ -1429,7 +1545,8 @@ class Hull:
         ----------
         outputs : iterable of m str or None
             Fields of the record of hydrostatics ("volume", "lcb"), symbols of form parameters
-            ("Cpa"), section areas ("A ST 5", "A x=42.5"); None: `USUAL_OUTPUTS`.
+            ("Cpa"), section areas ("A ST 5", "A x=42.5"), resistance at a speed ("R 14 kn"); None:
+            `USUAL_OUTPUTS`.
         parameters : iterable of k or None
             Each the name of a parameter that `vary` knows ("breadth", m or degrees),
             "mean_draught" or "trim" (m), a raw layer (by its strength), or one of
@@ -1953,7 +2070,7 @@ class Hull:
         reach : mapping of str to float or (n,), or sequence of mappings
             Targets by the names of outputs: one, or one per variant; or a mapping per variant. See
             `assoc_hull.variation.aiming.outputs.Outputs`: fields of hydrostatics, symbols of form
-            parameters, areas of sections.
+            parameters, areas of sections, resistance at a speed ("R 14 kn").
         free : sequence of str or layer
             Parameters whose values are sought, as in `vary`; as many as there are targets, or more:
             then the variant is one of nearly the least change.

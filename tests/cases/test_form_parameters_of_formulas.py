@@ -82,7 +82,7 @@ def truth(name: str) -> dict[str, float]:
 
 def allowed(name: str, symbol: str, wanted: float, length: float) -> float:
     """By how much a form parameter may be off."""
-    scale = {"m": length, "% Lpp": 100.0, "deg": 57.3, "st": 20.0}
+    scale = {"m": length, "% Lpp": 100.0, "% LWL": 100.0, "deg": 57.3, "st": 20.0}
     size = scale.get(CATALOGUE[symbol].unit, max(abs(wanted), 1e-3))
     loose = 50.0 if name.startswith("207k") and symbol in BLUNT else DIFFERENCES.get(symbol, 1.0)
     return loose * SHIPS[name].part * size

@@ -23,7 +23,7 @@ NAMES = ("Wigley", "Series 60 CB .60", "Series 60 CB .70", "207k", "twin skegs")
 POWERS = {"m": 1, "m2": 2, "m3": 3, "m4": 4, "t": 3, "1/m": -1, "t/cm": 2, "t m/cm": 3}
 """By which power of length a value grows; every other unit is of an angle or a ratio."""
 
-RATIOS = {"-", "deg", "st", "% Lpp", "% B", "% D"}
+RATIOS = {"-", "deg", "st", "% Lpp", "% LWL", "% B", "% D"}
 FACTOR = 2.0
 
 hulls = pytest.mark.parametrize("name", NAMES)

@@ -501,6 +501,12 @@ FLOATING: dict[str, Given] = {
         "further": (),
     },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
+    "resistance": {
+        "speeds": [8.0, 12.0], "method": "1984", **ONE, "c_stern": 0.0, "appendage_area": 10.0,
+        "appendage_factor": 1.5, "thruster_diameter": 1.0, "thruster_coefficient": 0.005,
+        "wetted_surface": 1500.0, "entrance_deg": 10.0, "bulb_area": 2.0, "bulb_height": 1.0,
+        "transom_area": 1.0, "rho": 1.0, "nu": 1e-6, "roughness": 2e-4,
+    },
     "measure": {"only": None},
     "production_arcs": {"lines": "WL 2.5", "within": 0.01, "least_radius": 0.0},
     "sensitivities": {

@@ -25,6 +25,8 @@ from assoc_hull.analysis.hydrostatics.record import SALT
 from assoc_hull.analysis.hydrostatics.section_areas import bonjean
 from assoc_hull.analysis.panels.hull_panels import panels
 from assoc_hull.analysis.panels.section_points import section_points
+from assoc_hull.analysis.resistance.holtrop_ship import NU, ROUGHNESS
+from assoc_hull.analysis.resistance.hull_resistance import resistance
 from assoc_hull.analysis.stability.cross_curves import cross_curves
 from assoc_hull.analysis.stability.equilibrium import equilibrium
 from assoc_hull.analysis.stability.stability_report import stability
@@ -42,8 +44,10 @@ FACES = ["classical", "form", "hydro"]
 USUAL = [
     *((name, "rho", SALT) for name in (
         "cross_curves", "equilibrium", "form_parameters", "hydrostatic_derivatives",
-        "hydrostatic_table", "hydrostatics", "immersion", "stability",
+        "hydrostatic_table", "hydrostatics", "immersion", "resistance", "stability",
     )),
+    ("resistance", "nu", NU),
+    ("resistance", "roughness", ROUGHNESS),
     ("vary", "tolerance", TOLERANCE),
     ("shift_sections", "tolerance", TOLERANCE),
     ("surface", "cutoff", CUTOFF),
@@ -56,7 +60,7 @@ USUAL = [
 FUNCTIONS: list[Callable[..., Any]] = [
     bonjean, closed_mesh, compare, cross_curves, curve_transform, deck_edge_angle, equilibrium,
     form_parameters, freeboard, hydrostatic_derivatives, hydrostatic_table, hydrostatics,
-    immersion, measure, panels, section_points, sensitivities, stability,
+    immersion, measure, panels, resistance, section_points, sensitivities, stability,
 ]  # fmt: skip
 """What methods of `Hull` call with the hull and all of their own arguments."""
 

@@ -1,9 +1,9 @@
 """The outputs of a hull that can be targets: names, values, derivatives.
 
-Outputs are fields of the hydrostatic record, sectional areas by station or place, and form
-parameters, of a hull that floats upright at its design draught; where the draught changes with a
-parameter, at the new one. Each `OutputKind` works on all its keys together, as they share what is
-measured; `Outputs` understands the names and joins the kinds.
+Outputs are fields of the hydrostatic record, sectional areas by station or place, form parameters,
+and the resistance at a speed, of a hull that floats upright at its design draught; where the
+draught changes with a parameter, at the new one. Each `OutputKind` works on all its keys together,
+as they share what is measured; `Outputs` understands the names and joins the kinds.
 """
 
 from __future__ import annotations
@@ -30,6 +30,11 @@ from assoc_hull.analysis.form.parameter import evaluate
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation, header_of
 from assoc_hull.analysis.hydrostatics.record import FIELDS, SALT
+from assoc_hull.analysis.resistance.hull_resistance import (
+    SYMBOLS,
+    total_resistance,
+    total_resistance_rates,
+)
 from assoc_hull.arguments import all_of, number, shown, shown_name
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
@@ -169,13 +174,31 @@ class _Forms:
         return np.stack([found.rates[key] for key in keys]), exact
 
 
+@attrs.frozen
+class _Resistances:
+    """Total resistance of the bare hull at speeds, kn, by Holtrop's regression of 1984."""
+
+    def unit(self, key: str) -> str:
+        return "kN"
+
+    def values(self, keys: Sequence[str], shape: FloatingShape) -> FloatArray:
+        return total_resistance(shape, [float(key) for key in keys])
+
+    def rates(self, keys: Sequence[str], shape: FloatingShape, some: TangentHull) -> Rates:
+        found = form_rates(SYMBOLS.values(), shape, some)
+        rates = total_resistance_rates(shape, [float(key) for key in keys], found.rates)
+        return rates, np.zeros(len(keys), np.bool_)
+
+
 KINDS: Mapping[str, OutputKind] = {
-    "field": _Fields(), "station": _Stations(), "place": _Places(), "form": _Forms()
+    "field": _Fields(), "station": _Stations(), "place": _Places(), "form": _Forms(),
+    "resistance": _Resistances(),
 }  # fmt: skip
 """All kinds by name."""
 
 
 _AREA, _AT = "A ", "x="
+_RESISTANCE, _KNOTS = "R ", " kn"
 
 
 @attrs.frozen(eq=False)
@@ -217,7 +240,8 @@ class Outputs:
         As given: a field of `assoc_hull.analysis.hydrostatics.record.FIELDS` ("volume", "lcb");
         the symbol of a form parameter of the catalogue ("Cp", "Cpa"); "A ST 5" for the immersed
         area of the station of that name, "A x=42.5" for that of the surface at a place, m
-        from AP.
+        from AP; "R 14 kn" for the total resistance at a speed, kN, of the bare hull by Holtrop's
+        regression of 1984 in salt water (`Hull.resistance` with nothing stated).
     keys : tuple of m (str, str)
         The kind of each, and how that kind calls it.
     kg : float or None, m
@@ -419,5 +443,9 @@ def _key(name: str, state: HullState) -> tuple[str, str]:
         return "place", repr(place)
     if name.startswith(_AREA):
         return "station", name.removeprefix(_AREA)
+    if name.startswith(_RESISTANCE) and name.endswith(_KNOTS):
+        speed = name[len(_RESISTANCE) : -len(_KNOTS)]
+        return "resistance", repr(number(speed, f"the speed in {name!r}", _WHERE, unit="kn"))
     stations = (_AREA + each for each in flotation(state).sections.names)
-    raise UnknownNameError("output", shown_name(name), (*FIELDS, *CATALOGUE, *stations))
+    known = (*FIELDS, *CATALOGUE, *stations, "R 14 kn")
+    raise UnknownNameError("output", shown_name(name), known)

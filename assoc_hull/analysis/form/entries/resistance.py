@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from assoc_hull.analysis.form.floating_shape import FloatingShape
 from assoc_hull.analysis.form.parameter import (
     HOLTROP,
     ITTC,
     KRACHT,
+    SHAPE,
     TABLE_3,
     Absent,
     MeasuredValue,
@@ -111,13 +113,37 @@ def holtrop_entrance(angle: float) -> float:
 
 
 @parameter(
-    "L_R Holtrop", name="Holtrop's length of the run", unit="m", table="bulb and resistance",
-    definition="LWL (1 - C + 0.06 C l / (4 C - 1)), C = V / (Amax LWL), l = LCB",
-    datum="an estimate; l in percent forward of midship; L_R is measured", source=HOLTROP,
-    needs=("V", "Amax", "LWL", "LCB"), digits=3,
+    "C_M", name="Holtrop's coefficient of the midship section", unit="-",
+    table="bulb and resistance", ittc="C_M", definition="A_M / (B T), A_M the section at Lpp / 2",
+    datum="Cm is that of the greatest section", source=HOLTROP,
 )  # fmt: skip
-def estimated_run(volume: float, area: float, length: float, percent: float) -> float:
-    prismatic = volume / (area * length)
+def midship_section(shape: FloatingShape) -> float:
+    return shape.record.cm
+
+
+@parameter(
+    "LCB_WL", name="Holtrop's centre of buoyancy", unit="% LWL", table="bulb and resistance",
+    definition="100 (x_B - x_M) / LWL, x_M halfway between the ends of the waterline",
+    datum="from x_M, + forward", source=HOLTROP, needs=(SHAPE, "LCB", "Lpp", "LWL"),
+)  # fmt: skip
+def buoyancy_on_waterline(
+    shape: FloatingShape, percent: float, length: float, waterline: float
+) -> float:
+    ends = shape.body.measure(shape.planes)
+    middle = 0.5 * float(ends.x_least[0] + ends.x_most[0])
+    return 100.0 * ((0.5 + 0.01 * percent) * length - middle) / waterline
+
+
+@parameter(
+    "L_R Holtrop", name="Holtrop's length of the run", unit="m", table="bulb and resistance",
+    definition="LWL (1 - C + 0.06 C l / (4 C - 1)), C = V / (LWL B T C_M), l = LCB_WL",
+    datum="an estimate; L_R is measured", source=HOLTROP,
+    needs=("V", "B", "T", "C_M", "LWL", "LCB_WL"), digits=3,
+)  # fmt: skip
+def estimated_run(
+    volume: float, breadth: float, draught: float, midship: float, length: float, percent: float
+) -> float:
+    prismatic = volume / (length * breadth * draught * midship)
     return length * (1.0 - prismatic + 0.06 * prismatic * percent / (4.0 * prismatic - 1.0))
 
 
