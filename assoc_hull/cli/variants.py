@@ -36,7 +36,7 @@ from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
-    from assoc_hull.hull.results import Study
+    from assoc_hull.hull.studies import Study
     from assoc_hull.hull.variants import Shifted
 
 __all__ = [
@@ -495,7 +495,7 @@ def _study(arguments: argparse.Namespace) -> int:
     with progress_bar("study", hidden=False) as tell:
         found = hull.study(workers=arguments.workers, progress=tell, **asked)
     saved = _saved(arguments.out, found)
-    document = dict(study_document(found.run, found.rows)) | {
+    document = dict(study_document(found.run, found.table())) | {
         "interrupted": found.interrupted, "saved": saved,
     }  # fmt: skip
     emit(arguments, document, "\n".join(_words(found, saved)))

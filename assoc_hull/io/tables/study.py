@@ -1,4 +1,4 @@
-"""The rows of a study as CSV and JSON.
+"""The table of a study as CSV, JSON, a structured array, a frame of pandas, and Parquet.
 
 A CSV has a row of names, a row of units, and a row per variant; numbers have twelve digits, and
 what a variant does not have is blank. The JSON has the same columns with all digits, where null
@@ -11,17 +11,35 @@ import csv
 import io
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from os import PathLike
 from typing import Any
 
-from assoc_hull.study.run import StudyRow, StudyRun, study_columns
+import numpy as np
+from numpy.typing import NDArray
 
-__all__ = ["FORMAT", "study_csv", "study_document", "study_json"]
+from assoc_hull.errors import MissingExtraError
+from assoc_hull.io.write_file import write_whole
+from assoc_hull.study.run import StudyRun
+
+__all__ = [
+    "FORMAT",
+    "study_array",
+    "study_csv",
+    "study_document",
+    "study_frame",
+    "study_json",
+    "write_parquet",
+]
 
 FORMAT, _VERSION = "assoc-hull study", 1
 
 
-def study_csv(run: StudyRun, rows: Sequence[StudyRow]) -> str:
+Columns = Mapping[str, NDArray[Any]]
+"""The table of a study, (n,) by name."""
+
+
+def study_csv(run: StudyRun, columns: Columns) -> str:
     """Lay out a study as comma-separated text.
 
     Examples
@@ -34,7 +52,6 @@ def study_csv(run: StudyRun, rows: Sequence[StudyRow]) -> str:
     ,m,m3
     0,10.5,2916.3...
     """
-    columns = study_columns(run.design, rows)
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(columns)
@@ -44,7 +61,7 @@ def study_csv(run: StudyRun, rows: Sequence[StudyRow]) -> str:
     return out.getvalue()
 
 
-def study_json(run: StudyRun, rows: Sequence[StudyRow]) -> str:
+def study_json(run: StudyRun, columns: Columns) -> str:
     """Lay out a study as JSON.
 
     Examples
@@ -55,12 +72,12 @@ def study_json(run: StudyRun, rows: Sequence[StudyRow]) -> str:
     >>> json.loads(found.to_json())["columns"]["breadth"]
     [10.5]
     """
-    return json.dumps(study_document(run, rows), indent=1, allow_nan=False) + "\n"
+    return json.dumps(study_document(run, columns), indent=1, allow_nan=False) + "\n"
 
 
-def study_document(run: StudyRun, rows: Sequence[StudyRow]) -> Mapping[str, Any]:
+def study_document(run: StudyRun, columns: Columns) -> Mapping[str, Any]:
     """Give a study as data."""
-    design, units, columns = run.design, run.units, study_columns(run.design, rows)
+    design, units = run.design, run.units
     bounds = {
         name: [_plain(each) for each in ends]
         for name, ends in zip(design.free, design.bounds.tolist(), strict=True)
@@ -69,6 +86,7 @@ def study_document(run: StudyRun, rows: Sequence[StudyRow]) -> Mapping[str, Any]
         "format": FORMAT,
         "version": _VERSION,
         "variants": design.count,
+        "drawn": design.drawn,
         "set": list(design.given),
         "free": list(design.free),
         "bounds": bounds,
@@ -78,6 +96,58 @@ def study_document(run: StudyRun, rows: Sequence[StudyRow]) -> Mapping[str, Any]
             name: [_plain(value) for value in column.tolist()] for name, column in columns.items()
         },
     }
+
+
+def study_array(columns: Columns) -> NDArray[np.void]:
+    """Give a structured array, (n,), with a field for each column."""
+    flat = {
+        name: column.astype(str) if column.dtype == object else column
+        for name, column in columns.items()
+    }
+    found = np.empty(len(flat["number"]), [(name, each.dtype) for name, each in flat.items()])
+    for name, each in flat.items():
+        found[name] = each
+    return found
+
+
+def study_frame(columns: Columns) -> Any:
+    """Give a frame of pandas, whose index is the number of the variant.
+
+    Raises
+    ------
+    MissingExtraError
+        Pandas is not installed.
+    """
+    try:
+        import pandas as pd
+    except ImportError:
+        raise MissingExtraError("pandas", "frame") from None
+    return pd.DataFrame(dict(columns)).set_index("number")
+
+
+def write_parquet(run: StudyRun, columns: Columns, path: str | PathLike[str]) -> None:
+    """Write the table as a Parquet file, with units and the design as its metadata.
+
+    Raises
+    ------
+    MissingExtraError
+        PyArrow is not installed.
+    BadInputError
+        The file cannot be written.
+    """
+    try:
+        import pyarrow as pa
+        from pyarrow import parquet
+    except ImportError:
+        raise MissingExtraError("pyarrow", "frame") from None
+    arrays = [pa.array(column, pa.string() if column.dtype == object else None)
+              for column in columns.values()]  # fmt: skip
+    units = json.dumps({name: unit for name, unit in run.units.items() if name in columns})
+    about = {"format": FORMAT, "units": units, "drawn": run.design.drawn}
+    table = pa.table(dict(zip(columns, arrays, strict=True))).replace_schema_metadata(about)
+    out = io.BytesIO()
+    parquet.write_table(table, out)
+    write_whole(path, out.getvalue())
 
 
 def _plain(value: object) -> object:
