@@ -1948,8 +1948,8 @@ class Hull:
             Values of named parameters (m, degrees), or factors on layers: one, or one per variant;
             or a row per variant: a mapping each, a structured array, a frame of pandas.
         reach : as `set`
-            Targets by the names of outputs. See `assoc_hull.variation.aiming.outputs.Outputs`: fields of hydrostatics, symbols of form
-            parameters, areas of sections.
+            Targets by the names of outputs, see `assoc_hull.variation.aiming.outputs.Outputs`:
+            fields of hydrostatics, symbols of form parameters, areas of sections.
         free : sequence of str or layer
             Parameters whose values are sought, as in `vary`; as many as there are targets, or more:
             then the variant is one of nearly the least change.

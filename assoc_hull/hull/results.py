@@ -7,27 +7,22 @@ They add to what `surface` and `analysis` find that it can be written, which the
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import wraps
-from os import PathLike
-from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Protocol, overload
 
 import attrs
-from numpy.typing import NDArray
 
 from assoc_hull.analysis.production_arcs import ArcLines, arc_lines
 from assoc_hull.arguments import (
     all_of,
-    file_path,
     instance,
-    integer,
     not_negative,
     number,
     positive,
-    shown,
 )
 from assoc_hull.edit.document import Document
-from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.volume_below import VolumeBelow, integrate_below
@@ -35,7 +30,7 @@ from assoc_hull.io.export.arcs import write_arcs
 from assoc_hull.io.tables.hull_plates import write_hull_plates
 from assoc_hull.io.tables.plates import write_plates
 from assoc_hull.model.objects import Curve, Group, Line
-from assoc_hull.model.tables import HasState, copy_state, state_of
+from assoc_hull.model.tables import HasState, state_of
 from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options, length_of
 from assoc_hull.surface.blocks.net_surface import NetSurface, ResidualTable, document_of, text_of

@@ -8,8 +8,10 @@ and the scheduler has them made by others. Where the scheduler goes away, that i
 from __future__ import annotations
 
 import hashlib
+import logging
 import os
 import pickle
+import signal
 import tempfile
 import threading
 import uuid
@@ -42,7 +44,7 @@ from assoc_hull.study.side_processes import (
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-__all__ = ["LOCAL", "open_cluster", "rows_on_cluster"]
+__all__ = ["LOCAL", "dask_setup", "open_cluster", "rows_on_cluster"]
 
 LOCAL = "local"
 """Names a cluster of processes of this machine."""
@@ -106,17 +108,30 @@ def open_cluster(cluster: object, workers: int | None) -> Iterator[Client]:
             tempfile.TemporaryDirectory() as folder,
             distributed.LocalCluster(
                 n_workers=workers or os.cpu_count() or 1, threads_per_worker=1, processes=True,
-                dashboard_address=None, env=_THREADS, local_directory=folder,
+                dashboard_address=None, silence_logs=logging.ERROR, local_directory=folder,
+                env=_THREADS, preload=__name__,
             ) as made,
             distributed.Client(made, set_as_default=False) as client,
         ):  # fmt: skip
             yield client
     elif isinstance(cluster, str):
-        with _called(cluster) as client:
+        with _quiet(), _called(cluster) as client:
             yield client
     else:
         what = f"cluster is {shown(cluster)}"
         raise WrongTypeError(what, _WHERE, "give 'local', an address, or a distributed.Client")
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep the client from printing what is told by an error."""
+    logger = logging.getLogger("distributed.client")
+    before = logger.level
+    logger.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
 
 
 def _called(address: str) -> Client:
@@ -279,6 +294,12 @@ def rows_on_cluster(
 
 # --------------------------------------------------------------------------------------
 # At the worker.
+
+
+def dask_setup(worker: object) -> None:
+    """Prepare a worker of this machine: an interrupt is left to the process that began it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
 
 _lock = threading.Lock()
 """Held while rows are made: a worker of several threads makes one batch at a time."""

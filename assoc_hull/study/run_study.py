@@ -1,4 +1,4 @@
-"""A study from its first row to its last: rows are made somewhere, and land in a table as they come.
+"""A study from its first row to its last: rows are made somewhere, and land in a table.
 
 Whoever makes them (`side_processes`, `dask_cluster`), they come here in batches, and a table
 takes each row once. What has landed is not made again, so a study that was broken off goes on where
@@ -99,6 +99,7 @@ def run_study(
             stack.callback(made.close)
             for rows in made:
                 landing.take(rows)
+            landing.land()
         except KeyboardInterrupt:
             return True
         finally:
@@ -131,7 +132,7 @@ class _Landing:
     count: int
     done: int
     waiting: list[StudyRow] = attrs.field(factory=list)
-    last: float = attrs.field(factory=time.monotonic)
+    last: float = -np.inf
     first: tuple[float, int] | None = None
 
     def take(self, rows: tuple[StudyRow, ...]) -> None:
@@ -140,9 +141,14 @@ class _Landing:
         for part in (rows,) if patience else [(row,) for row in rows]:
             self.waiting += part
             if len(self.waiting) >= MOST_ROWS or time.monotonic() - self.last >= patience:
-                self.flush()
-                if self.tell is not None:
-                    self.tell(self._words(), self.done, self.count)
+                self.land()
+
+    def land(self) -> None:
+        """Let all land that wait, and tell how many are there."""
+        if self.waiting:
+            self.flush()
+            if self.tell is not None:
+                self.tell(self._words(), self.done, self.count)
 
     def flush(self) -> None:
         """Let all land that wait."""

@@ -13,17 +13,21 @@ import json
 import math
 from collections.abc import Mapping
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.errors import MissingExtraError
+from assoc_hull.arguments import regular_file
+from assoc_hull.errors import BadInputError, MissingExtraError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.write_file import write_whole
 from assoc_hull.study.run import StudyRun
 
 __all__ = [
     "FORMAT",
+    "read_rows",
     "study_array",
     "study_csv",
     "study_document",
@@ -33,6 +37,8 @@ __all__ = [
 ]
 
 FORMAT, _VERSION = "assoc-hull study", 1
+_UNITS = frozenset(("", "m", "deg"))
+"""Of parameters, and of layers."""
 
 
 Columns = Mapping[str, NDArray[Any]]
@@ -148,6 +154,43 @@ def write_parquet(run: StudyRun, columns: Columns, path: str | PathLike[str]) ->
     out = io.BytesIO()
     parquet.write_table(table, out)
     write_whole(path, out.getvalue())
+
+
+def read_rows(path: str | PathLike[str]) -> dict[str, FloatArray]:
+    """Read a table of values: names in the first row, then a row of numbers for each variant.
+
+    A row of units below the names, as `study_csv` writes it, is passed over.
+
+    Raises
+    ------
+    BadInputError
+        The file cannot be read, a name stands twice, a row has other cells, a cell is no number.
+    """
+    file = regular_file(Path(path))
+    try:
+        with file.open(encoding="utf-8-sig", newline="") as text:
+            rows = [(number, row) for number, row in enumerate(csv.reader(text), 1) if any(row)]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        why = getattr(error, "strerror", None) or error
+        raise BadInputError(f"it cannot be read ({why})", f"at {path}", "give a CSV") from error
+    names = [name.strip() for name in rows[0][1]] if rows else []
+    if not names or not all(names) or len(set(names)) < len(names):
+        what = "its first row does not name each column once"
+        raise BadInputError(what, f"in {path}", "give the names of parameters there")
+    told = [(number, row) for number, row in rows[1:] if number > 2 or not _UNITS.issuperset(row)]
+    found = np.empty((len(told), len(names)))
+    for i, (number, row) in enumerate(told):
+        if len(row) != len(names):
+            what = f"row {number} has {len(row)} cells, and there are {len(names)} names"
+            raise BadInputError(what, f"in {path}", "give a number below each name")
+        for k, cell in enumerate(row):
+            try:
+                found[i, k] = float(cell)
+            except ValueError:
+                what = f"{cell!r} is no number"
+                place = f"in {path}, row {number}, {names[k]}"
+                raise BadInputError(what, place, "give one") from None
+    return dict(zip(names, found.T, strict=True))
 
 
 def _plain(value: object) -> object:

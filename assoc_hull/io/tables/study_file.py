@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError, DamagedFileError, HullFileError, StudyBusyError
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.curves import freeze
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.study.run import StudyRow, StudyRun
 from assoc_hull.study.side_processes import versions
@@ -94,9 +94,11 @@ class StudyFile:
             with _file_errors(path):
                 database = _connect(path, write=True)
                 if path is not None:
-                    stack.callback(_fold, database)
+                    stack.callback(database.close)
                 found = cls(run, path, database, lock)
                 found._begin()
+                if path is not None:
+                    stack.callback(_fold, database)
             yield found
 
     @property
@@ -167,9 +169,7 @@ class StudyFile:
     def _row(self, found: tuple[Any, ...]) -> StudyRow:
         number, packed, trials, anew, failure, reason = found
         split, design = np.frombuffer(packed, "<f8"), self.run.design
-        values, outputs, rest = np.split(
-            split, np.cumsum([len(design.names), len(design.outputs)])
-        )
+        values, outputs, rest = np.split(split, np.cumsum([len(design.names), len(design.outputs)]))
         return StudyRow(
             number, values, outputs, *rest.tolist(), trials, failure, reason, bool(anew)
         )
@@ -211,33 +211,28 @@ class StudyFile:
 
     def _begin(self) -> None:
         """Write what is asked for into a new file, or see that an old one was asked the same."""
-        asked = _asked(self.run)
-        database = self._database
+        asked, database = _asked(self.run), self._database
+        old = database.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
+        if old:
+            self._require_study()
+            asked["written_by"] = self._require_same(asked)
+        if self.path is not None:
+            database.execute("PRAGMA journal_mode = WAL")
+            database.execute("PRAGMA synchronous = FULL")
         with database:
             database.execute("BEGIN IMMEDIATE")
-            if not database.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]:
+            if not old:
                 for table in filter(str.strip, _TABLES.split(";")):
                     database.execute(table)
                 database.execute(f"PRAGMA application_id = {_APPLICATION}")
                 database.execute(f"PRAGMA user_version = {_VERSION}")
-                marks = ", ".join("?" * len(asked))
-                database.execute(f"INSERT INTO study VALUES (1, {marks})", tuple(asked.values()))
-                return
-            self._require_study(database)
-            cursor = database.execute("SELECT * FROM study")
-            found = cursor.fetchone()
-            if found is None:
-                raise DamagedFileError("it does not say what was asked", f"in {self.path}", _AGAIN)
-            names = [each[0] for each in cursor.description]
-            self._require_same(dict(zip(names, found, strict=True)), asked)
-            more = {name: asked[name] for name in ("count", "given", "targets")}
-            database.execute("UPDATE study SET count = ?, given = ?, targets = ?",
-                             tuple(more.values()))  # fmt: skip
+            marks = ", ".join("?" * len(asked))
+            database.execute(f"REPLACE INTO study VALUES (1, {marks})", tuple(asked.values()))
 
-    def _require_study(self, database: sqlite3.Connection) -> None:
+    def _require_study(self) -> None:
         """Refuse a database of another kind, or of a later version."""
         kind, version = (
-            database.execute(f"PRAGMA {each}").fetchone()[0]
+            self._database.execute(f"PRAGMA {each}").fetchone()[0]
             for each in ("application_id", "user_version")
         )
         if kind != _APPLICATION:
@@ -246,8 +241,16 @@ class StudyFile:
             what = f"it is of version {version}, and this program knows {_VERSION}"
             raise BadInputError(what, f"at {self.path}", "take the program that wrote it")
 
-    def _require_same(self, was: Mapping[str, Any], asked: Mapping[str, Any]) -> None:
-        """Refuse another hull, another design, and another program while rows are missing."""
+    def _require_same(self, asked: Mapping[str, Any]) -> object:
+        """Refuse another hull, another design, and another program while rows are missing.
+
+        Gives the program whose rows are there.
+        """
+        cursor = self._database.execute("SELECT * FROM study")
+        found = cursor.fetchone()
+        if found is None:
+            raise DamagedFileError("it does not say what was asked", f"in {self.path}", _AGAIN)
+        was = dict(zip((each[0] for each in cursor.description), found, strict=True))
         fault = _difference(was, asked)
         if fault:
             remedy = "ask as it was asked there, or name another file"
@@ -261,6 +264,7 @@ class StudyFile:
             what = f"{missing} rows are missing, the others are of {theirs}, and this is {ours}"
             remedy = "go on with the program that wrote it, or name another file"
             raise BadInputError(what, f"in {self.path}", remedy)
+        return was["written_by"]
 
 
 _AGAIN = "name another file, or take this one from a copy"
@@ -280,22 +284,13 @@ def _packed(row: StudyRow) -> tuple[object, ...]:
 def _connect(path: Path | None, *, write: bool) -> sqlite3.Connection:
     """Open the database; a new one is empty."""
     place = ":memory:" if path is None else f"file:{quote(str(path))}?mode=rw{'c' * write}"
-    database = sqlite3.connect(place, uri=True, isolation_level=None, check_same_thread=False)
-    try:
-        if write and path is not None:
-            database.execute("PRAGMA journal_mode = WAL")
-            database.execute("PRAGMA synchronous = FULL")
-    except sqlite3.Error:
-        database.close()
-        raise
-    return database
+    return sqlite3.connect(place, uri=True, isolation_level=None, check_same_thread=False)
 
 
 def _fold(database: sqlite3.Connection) -> None:
-    """Close a file, whole in itself: copies need no log beside it."""
+    """Make a file whole in itself: copies need no log beside it."""
     with contextlib.suppress(sqlite3.Error):  # somebody reads: the last one to close folds it in
         database.execute("PRAGMA journal_mode = DELETE")
-    database.close()
 
 
 @contextlib.contextmanager
@@ -312,6 +307,7 @@ def _locked(path: Path) -> Iterator[sqlite3.Connection]:
             with contextlib.closing(
                 sqlite3.connect(beside, isolation_level=None, timeout=0.0, check_same_thread=False)
             ) as lock:
+                lock.execute("PRAGMA journal_mode = MEMORY")  # nothing is written
                 lock.execute("BEGIN EXCLUSIVE")
                 if before != _identity(beside):  # the one before has taken it away meanwhile
                     continue
@@ -350,7 +346,9 @@ def _file_errors(path: Path | None) -> Iterator[None]:
             raise BadInputError(what, f"at {path}", "name another file") from error
         if name.startswith("SQLITE_CORRUPT"):
             raise DamagedFileError(f"it is damaged ({why})", f"at {path}", _AGAIN) from error
-        what = "the disk is full" if name.startswith("SQLITE_FULL") else f"it cannot be used ({why})"
+        what = (
+            "the disk is full" if name.startswith("SQLITE_FULL") else f"it cannot be used ({why})"
+        )
         remedy = "see to its folder and the disk; rows in it stay, and the same call goes on"
         raise HullFileError(place, what, remedy) from error
 
@@ -406,9 +404,7 @@ def _difference(was: Mapping[str, Any], asked: Mapping[str, Any]) -> str:
         rows, columns = np.nonzero(theirs != ours)
         if len(rows):
             i, k = int(rows[0]), int(columns[0])
-            return (
-                f"{names[k]} of row {i} is {theirs[i, k]:.17g} there, and {ours[i, k]:.17g} here"
-            )
+            return f"{names[k]} of row {i} is {theirs[i, k]:.17g} there, and {ours[i, k]:.17g} here"
     return ""
 
 
