@@ -168,7 +168,7 @@ _PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "study": {
         "hull.studies": ("Study",),
-        "study.pareto_front": ("pareto_front",),
+        "study.pareto": ("pareto_front",),
         "study.sampling": ("grid", "sample"),
     },
 }

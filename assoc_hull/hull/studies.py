@@ -31,7 +31,7 @@ from assoc_hull.io.tables.study_file import StudyFile
 from assoc_hull.io.write_file import write_whole
 from assoc_hull.model.tables import HasState, copy_state, state_of
 from assoc_hull.study.design import StudyDesign
-from assoc_hull.study.pareto_front import pareto_front
+from assoc_hull.study.pareto import pareto_front
 from assoc_hull.study.run import StudyRow, StudyRun
 from assoc_hull.study.run_study import run_study
 from assoc_hull.study.side_processes import one_thread

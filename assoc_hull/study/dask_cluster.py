@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import hashlib
 import logging
+import math
 import os
 import pickle
 import signal
 import tempfile
 import threading
+import time
 import uuid
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
@@ -56,8 +58,9 @@ _AHEAD = 3
 _TRIES = 5
 """So often a batch is handed out anew whose workers have died."""
 
-_PATIENCE, _LOOK = 30.0, 0.5
-"""s: how long a worker is waited for, and how often it is looked whether the scheduler is there."""
+_PATIENCE, _LOOK, _ASK = 30.0, 0.5, 3.0
+"""s: how long a worker is waited for; how often it is looked whether the scheduler is there, and
+asked how many workers it has."""
 
 _THREADS = {
     each: "1" for each in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS",
@@ -165,6 +168,7 @@ class _Hands:
     running: dict[Future, tuple[int, ...]] = attrs.field(factory=dict)
     back: SimpleQueue[Future] = attrs.field(factory=SimpleQueue)
     lost: dict[int, int] = attrs.field(factory=dict)
+    ask_at: float = -math.inf
 
     def trouble(self, what: str, remedy: str) -> ClusterError:
         """Give the error that says what the cluster lacks."""
@@ -186,18 +190,25 @@ class _Hands:
 
     def hand_out(self) -> None:
         """Hand out batches, so many that no worker waits."""
-        try:
-            threads = max(sum(self.client.nthreads().values()), 1)
-        except OSError as error:
-            raise self.gone() from error
-        self.queue.sharers = threads
-        while len(self.running) < _AHEAD * threads and (numbers := self.queue.take()):
+        self.require_scheduler()
+        self._count_threads()
+        while len(self.running) < _AHEAD * self.queue.sharers and (numbers := self.queue.take()):
             future = self.client.submit(
                 _make_at_worker, self.sent, self.key, numbers, pure=False,
                 key=f"study-rows-{numbers[0]}-{uuid.uuid4().hex}",
             )  # fmt: skip
             self.running[future] = numbers
             future.add_done_callback(self.back.put)
+
+    def _count_threads(self) -> None:
+        """Ask now and then how many there are: workers come and go."""
+        if time.monotonic() < self.ask_at:
+            return
+        try:
+            self.queue.sharers = max(sum(self.client.nthreads().values()), 1)
+        except OSError as error:
+            raise self.gone() from error
+        self.ask_at = time.monotonic() + _ASK
 
     def next_batch(self) -> tuple[StudyRow, ...]:
         """Wait for a batch; empty where it was lost, and is to be made again.

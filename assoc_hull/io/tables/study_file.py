@@ -404,7 +404,8 @@ def _difference(was: Mapping[str, Any], asked: Mapping[str, Any]) -> str:
         rows, columns = np.nonzero(theirs != ours)
         if len(rows):
             i, k = int(rows[0]), int(columns[0])
-            return f"{names[k]} of row {i} is {theirs[i, k]:.17g} there, and {ours[i, k]:.17g} here"
+            there, here = float(theirs[i, k]), float(ours[i, k])
+            return f"{names[k]} of row {i} is {there!r} there, and {here!r} here"
     return ""
 
 

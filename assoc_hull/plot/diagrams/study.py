@@ -20,7 +20,7 @@ from assoc_hull.plot.sheet.labels import wrap_words
 from assoc_hull.plot.sheet.paper import LINE, MARGIN, TINT, PaperName, Pen
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import BLOCK, title_block
-from assoc_hull.study.pareto_front import column_of, pareto_front, within_limits
+from assoc_hull.study.pareto import column_of, pareto_front, within_limits
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -34,7 +34,7 @@ def front_of(cost: FloatArray) -> NDArray[np.bool_]:
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.study.pareto_front import front_of
+    >>> from assoc_hull.study.pareto import front_of
     >>> front_of(np.array([[1.0, 3.0], [2.0, 2.0], [2.0, 3.0]])).tolist()
     [True, True, False]
     """
@@ -133,7 +133,7 @@ def pareto_front(
     Examples
     --------
     >>> import numpy as np
-    >>> from assoc_hull.study.pareto_front import pareto_front
+    >>> from assoc_hull.study.pareto import pareto_front
     >>> table = {"cb": np.array([0.8, 0.7, 0.6]), "kmt": np.array([5.0, 6.0, 5.5]),
     ...          "failure": np.array(["", "", ""], object)}
     >>> pareto_front(table, {"cb": "more", "kmt": "more"}).tolist()
