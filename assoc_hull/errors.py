@@ -195,9 +195,7 @@ class StudyBusyError(FileBusyError):
     """Another process, or another call, is adding rows to the file of a study."""
 
     def __str__(self) -> str:
-        return (
-            f"another study is writing to {self.path}; wait until it ends, or name another file"
-        )
+        return f"another study is writing to {self.path}; wait until it ends, or name another file"
 
 
 @attrs.define(slots=False, eq=False)

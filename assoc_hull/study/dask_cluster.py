@@ -97,7 +97,8 @@ def open_cluster(cluster: object, workers: int | None) -> Iterator[Client]:
         import distributed
     except ImportError:
         raise MissingExtraError("distributed", "cluster") from None
-    if cluster != LOCAL and workers is not None:
+    local = isinstance(cluster, str) and cluster == LOCAL
+    if not local and workers is not None:
         what = f"workers is {workers}, and the cluster has its own"
         raise BadInputError(what, _WHERE, "leave workers out, or give cluster='local'")
     if isinstance(cluster, distributed.Client):
@@ -105,7 +106,7 @@ def open_cluster(cluster: object, workers: int | None) -> Iterator[Client]:
             what = "the client is an asynchronous one"
             raise BadInputError(what, _WHERE, "give a plain distributed.Client")
         yield cluster
-    elif cluster == LOCAL:
+    elif local:
         require_first_process()
         with (
             tempfile.TemporaryDirectory() as folder,
@@ -144,9 +145,9 @@ def _called(address: str) -> Client:
     try:
         return distributed.Client(address, timeout=_PATIENCE / 3.0, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
-        why = " ".join(str(error).split())[:200]
+        place, why = (" ".join(str(each).split())[:120] for each in (address, error))
         raise ClusterError(
-            address, f"no scheduler answers ({why})",
+            place, f"no scheduler answers ({why})",
             "begin one by `dask scheduler`, and give its address, as tcp://host:8786",
         ) from error  # fmt: skip
 
