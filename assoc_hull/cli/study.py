@@ -168,7 +168,8 @@ def _drawn(ranges: dict[str, tuple[float, ...]], arguments: argparse.Namespace) 
             raise UsageError(
                 f"--{name} is drawn, and {grids[0]} is a grid: give LOW:HIGH:N for all"
             )
-    return grid({name: np.linspace(*ends[:2], int(ends[2])) for name, ends in ranges.items()})
+    axes = {name: np.linspace(ends[0], ends[1], int(ends[2])) for name, ends in ranges.items()}
+    return grid(axes)
 
 
 def _pairs(given: list[str], option: str) -> dict[str, Any]:

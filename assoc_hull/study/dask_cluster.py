@@ -38,13 +38,14 @@ from assoc_hull.study.side_processes import (
     make_batch,
     one_thread,
     pack_run,
+    process_ended,
     require_first_process,
     unpack_run,
     versions,
 )
 
 if TYPE_CHECKING:
-    from distributed import Client, Future
+    from distributed import Client, Future, LocalCluster
 
 __all__ = ["LOCAL", "dask_setup", "open_cluster", "rows_on_cluster"]
 
@@ -110,13 +111,9 @@ def open_cluster(cluster: object, workers: int | None) -> Iterator[Client]:
         require_first_process()
         with (
             tempfile.TemporaryDirectory() as folder,
-            distributed.LocalCluster(
-                n_workers=workers or os.cpu_count() or 1, threads_per_worker=1, processes=True,
-                dashboard_address=None, silence_logs=logging.ERROR, local_directory=folder,
-                env=_THREADS, preload=__name__,
-            ) as made,
+            _begun(workers or os.cpu_count() or 1, folder) as made,
             distributed.Client(made, set_as_default=False) as client,
-        ):  # fmt: skip
+        ):
             yield client
     elif isinstance(cluster, str):
         with _quiet(), _called(cluster) as client:
@@ -124,6 +121,19 @@ def open_cluster(cluster: object, workers: int | None) -> Iterator[Client]:
     else:
         what = f"cluster is {shown(cluster)}"
         raise WrongTypeError(what, _WHERE, "give 'local', an address, or a distributed.Client")
+
+
+def _begun(workers: int, folder: str) -> LocalCluster:
+    """Begin processes of this machine."""
+    import distributed
+
+    try:
+        return distributed.LocalCluster(
+            n_workers=workers, threads_per_worker=1, processes=True, local_directory=folder,
+            dashboard_address=None, silence_logs=logging.ERROR, env=_THREADS, preload=__name__,
+        )  # fmt: skip
+    except RuntimeError as error:  # a process did not come up
+        raise process_ended() from error
 
 
 @contextmanager

@@ -19,7 +19,14 @@ from assoc_hull.arguments import choice, shown, shown_name
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["BETTER", "column_of", "front_of", "pareto_front", "within_limits"]
+__all__ = [
+    "BETTER",
+    "column_of",
+    "front_of",
+    "limits_of",
+    "pareto_front",
+    "within_limits",
+]
 
 BETTER = ("less", "more")
 """Which direction is better."""
@@ -82,13 +89,20 @@ def within_limits(
     if limits is not None and not isinstance(limits, Mapping):
         raise WrongTypeError(f"within is {shown(limits)}", _WHERE, "give (low, high) by column")
     for name, ends in (limits or {}).items():
-        low, high = _ends(ends, name)
+        low, high = limits_of(ends, name)
         column = column_of(table, name)
         found = found & (column >= low) & (column <= high)
     return found
 
 
-def _ends(given: object, name: str) -> tuple[float, float]:
+def limits_of(given: object, name: object) -> tuple[float, float]:
+    """Take a least and a greatest value; None leaves an end open.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+    """
     fault = BadInputError(
         f"the limits of {shown_name(name)} are {shown(given)}", _WHERE,
         "give (low, high), the lower first; None leaves an end open",
@@ -114,7 +128,7 @@ def column_of(table: Mapping[str, NDArray[Any]], name: object) -> FloatArray:
     """
     known = [each for each, column in table.items() if column.dtype.kind in "fib"]
     if name not in known:
-        raise UnknownNameError("column", shown_name(name), known)
+        raise UnknownNameError("column", shown_name(name), tuple(known))
     return table[str(name)].astype(np.float64)
 
 

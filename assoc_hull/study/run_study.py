@@ -120,7 +120,9 @@ def _source(
         queue.seconds = _FAR
         client = stack.enter_context(open_cluster(cluster, workers))
         return rows_on_cluster(run, queue, client, table.stay)
-    return rows_here(run, queue) if queue.sharers == 1 else rows_in_processes(run, queue)
+    if queue.sharers == 1:
+        return rows_here(run, queue)
+    return rows_in_processes(run, queue, table.stay)
 
 
 @attrs.define(eq=False)

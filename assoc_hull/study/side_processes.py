@@ -36,6 +36,7 @@ __all__ = [
     "make_batch",
     "one_thread",
     "pack_run",
+    "process_ended",
     "require_first_process",
     "rows_here",
     "rows_in_processes",
@@ -98,8 +99,10 @@ def rows_here(run: StudyRun, queue: RowQueue) -> Generator[tuple[StudyRow, ...]]
         yield batch.rows
 
 
-def rows_in_processes(run: StudyRun, queue: RowQueue) -> Generator[tuple[StudyRow, ...]]:
+def rows_in_processes(run: StudyRun, queue: RowQueue, stay: str) -> Generator[tuple[StudyRow, ...]]:
     """Yield rows made in processes of this machine, in any order.
+
+    `stay` says what becomes of them where a process ends early, and what to do.
 
     Raises
     ------
@@ -111,7 +114,10 @@ def rows_in_processes(run: StudyRun, queue: RowQueue) -> Generator[tuple[StudyRo
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "study.pickle"
         file.write_bytes(pack_run(run))
-        yield from _handed_out(queue, str(file))
+        try:
+            yield from _handed_out(queue, str(file))
+        except BrokenExecutor as error:
+            raise process_ended(stay) from error
 
 
 def _handed_out(queue: RowQueue, file: str) -> Generator[tuple[StudyRow, ...]]:
@@ -129,8 +135,6 @@ def _handed_out(queue: RowQueue, file: str) -> Generator[tuple[StudyRow, ...]]:
                 batch = each.result()
                 queue.learn(len(batch.rows), batch.seconds)
                 yield batch.rows
-    except BrokenExecutor as error:
-        raise _ended() from error
     finally:
         pool.shutdown(cancel_futures=True)
 
@@ -144,14 +148,15 @@ def require_first_process() -> None:
         A program begins a study whenever it is imported.
     """
     if parent_process() is not None:
-        raise _ended()
+        raise process_ended()
 
 
-def _ended() -> BadInputError:
+def process_ended(stay: str = "") -> BadInputError:
     """Give the error for a process that ended, or began a study itself."""
+    remedy = "begin the program under if __name__ == '__main__':, or give workers=1"
     return BadInputError(
         "a process of the study began another study, or came to an end", "in study",
-        "begin the program under if __name__ == '__main__':, or give workers=1",
+        f"{remedy}; {stay}" if stay else remedy,
     )  # fmt: skip
 
 

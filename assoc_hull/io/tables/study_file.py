@@ -168,10 +168,12 @@ class StudyFile:
 
     def _row(self, found: tuple[Any, ...]) -> StudyRow:
         number, packed, trials, anew, failure, reason = found
-        split, design = np.frombuffer(packed, "<f8"), self.run.design
-        values, outputs, rest = np.split(split, np.cumsum([len(design.names), len(design.outputs)]))
+        numbers, design = np.frombuffer(packed, "<f8"), self.run.design
+        ends = np.cumsum([len(design.names), len(design.outputs)])
+        values, outputs, rest = np.split(numbers, ends)
+        margin, shift, residual = rest.tolist()
         return StudyRow(
-            number, values, outputs, *rest.tolist(), trials, failure, reason, bool(anew)
+            number, values, outputs, margin, shift, residual, trials, failure, reason, bool(anew)
         )
 
     def columns(self) -> dict[str, NDArray[Any]]:
@@ -423,7 +425,7 @@ def _digest(layer: object) -> str:
     return hashlib.sha256("\n".join(_spelt(layer)).encode()).hexdigest()[:16]
 
 
-def _spelt(value: object) -> Iterable[str]:
+def _spelt(value: Any) -> Iterable[str]:
     """Spell a value out, part by part; numbers to the last bit."""
     if attrs.has(type(value)):
         yield type(value).__qualname__

@@ -20,7 +20,7 @@ from assoc_hull.plot.sheet.labels import wrap_words
 from assoc_hull.plot.sheet.paper import LINE, MARGIN, TINT, PaperName, Pen
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import BLOCK, title_block
-from assoc_hull.study.pareto import column_of, pareto_front, within_limits
+from assoc_hull.study.pareto import column_of, limits_of, pareto_front, within_limits
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -213,7 +213,7 @@ def _judged(
 
 def _shown(values: FloatArray, table: Mapping[str, NDArray[Any]]) -> NDArray[np.bool_]:
     """Tell which rows can be drawn; there must be one."""
-    found: NDArray[np.bool_] = np.isfinite(values).all(axis=1)
+    found = np.asarray(np.isfinite(values).all(axis=1))
     if not found.any():
         what = f"none of {len(values)} variants has these numbers"
         raise BadInputError(what, _WHERE, "see the reasons in its table")
@@ -275,7 +275,7 @@ def _block(
     rows = [("Variants with a hull", f"{made.sum()} of {len(made)}")]
     if within:
         rows.append(("Within limits", f"{good.sum()}"))
-        rows += [(f"  {name}", _limits(ends)) for name, ends in within.items()]
+        rows += [(f"  {name}", _limits(limits_of(ends, name))) for name, ends in within.items()]
     if better:
         rows.append(("On the front", f"{front.sum()}"))
         rows += [(f"  {name}", f"{way} is better") for name, way in better.items()]
@@ -285,9 +285,9 @@ def _block(
     title_block(sheet, corner, BLOCK * factor, "STUDY", rows, notes)
 
 
-def _limits(ends: object) -> str:
-    """Write two limits, which have been looked at."""
-    low, high = ends  # type: ignore[misc]
-    if low is None:
-        return f"up to {high:g}" if high is not None else "any"
-    return f"from {low:g}" if high is None else f"{low:g} to {high:g}"
+def _limits(ends: tuple[float, float]) -> str:
+    """Write two limits."""
+    low, high = ends
+    if np.isinf(low):
+        return "any" if np.isinf(high) else f"up to {high:g}"
+    return f"from {low:g}" if np.isinf(high) else f"{low:g} to {high:g}"

@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -95,6 +97,25 @@ def test_what_is_no_cluster_is_refused(hull: ah.Hull, given: dict[str, Any], wor
     """Before a row is made."""
     with pytest.raises(ah.AssocHullError, match=words):
         hull.study(set={"breadth": 10.0}, outputs=["volume"], **given)
+
+
+def test_a_program_without_a_guard_is_told_so(tmp_path: Path) -> None:
+    """New processes would begin the study again."""
+    program = tmp_path / "program.py"
+    program.write_text(
+        "import assoc_hull as ah\n"
+        "hull = ah.examples.wigley(stations=7, waterlines=5)\n"
+        "hull.study(set={'breadth': [10.0, 10.1]}, cluster='local', workers=1)\n"
+    )
+    folder = str(Path(ah.__file__).parents[1])
+    done = subprocess.run(
+        [sys.executable, str(program)], capture_output=True, text=True, check=False,
+        env={**os.environ, "PYTHONPATH": folder},
+    )  # fmt: skip
+    assert done.returncode == 1
+    last = done.stderr.splitlines()[-1]
+    assert "BadInputError" in last
+    assert "if __name__ == '__main__'" in last
 
 
 def test_a_local_cluster_is_begun_and_ended(hull: ah.Hull, here: Study) -> None:

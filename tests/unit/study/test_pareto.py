@@ -26,10 +26,10 @@ def dominated(row: FloatArray, others: FloatArray) -> bool:
 @given(COSTS)
 def test_a_row_is_on_the_front_if_no_other_is_better_in_every_respect(cost: FloatArray) -> None:
     """By the definition, row by row; rows with nan are neither on it, nor count."""
-    whole = np.isfinite(cost).all(axis=1)
+    whole = [bool(np.isfinite(row).all()) for row in cost]
     known = cost[whole]
-    expected = [bool(known_ and not dominated(row, known))
-                for row, known_ in zip(cost, whole, strict=True)]  # fmt: skip
+    expected = [count and not dominated(row, known)
+                for row, count in zip(cost, whole, strict=True)]  # fmt: skip
     assert front_of(cost).tolist() == expected
 
 

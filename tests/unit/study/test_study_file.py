@@ -241,7 +241,7 @@ def test_a_row_that_is_made_twice_lands_once(hull: ah.Hull, tmp_path: Path) -> N
 def test_numbers_keep_their_bits(hull: ah.Hull, tmp_path: Path) -> None:
     """Negative zero and nan too, which a column of numbers would not."""
     made = hull.study(set={"breadth": 10.0}, outputs=["volume"])
-    changed = {"outputs": np.array([-0.0]), "margin": float("nan"), "shift": -0.0}
+    changed: dict[str, Any] = {"outputs": np.array([-0.0]), "margin": float("nan"), "shift": -0.0}
     odd = attrs.evolve(made.rows[0], **changed)
     with StudyFile.opened(made.run, tmp_path / "study.sqlite") as table:
         table.land([odd])
