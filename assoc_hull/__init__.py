@@ -167,8 +167,9 @@ _PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
         "surface.regions.result": ("RegionResult",),
     },
     "study": {
-        "hull.results": ("Study",),
-        "study.sampling": ("sample",),
+        "hull.studies": ("Study",),
+        "study.pareto": ("pareto_front",),
+        "study.sampling": ("grid", "sample"),
     },
 }
 """What each public package offers: modules, and the names that are public of them."""

@@ -17,6 +17,7 @@ __all__ = [
     "AbsentParameterError",
     "AssocHullError",
     "BadInputError",
+    "ClusterError",
     "CoincidentPointsError",
     "DamagedFileError",
     "DanglingArcError",
@@ -43,6 +44,7 @@ __all__ = [
     "RefusedSetError",
     "RingError",
     "StaleHullError",
+    "StudyBusyError",
     "TooFewFreeError",
     "TooFewPointsError",
     "UnknownNameError",
@@ -186,6 +188,36 @@ class FileBusyError(AssocHullError, TimeoutError):
             f"{self.path} is being edited by another process (waited {self.waited:g} s); "
             "try again, or open it with a longer wait"
         )
+
+
+@attrs.define(slots=False, eq=False)
+class StudyBusyError(FileBusyError):
+    """Another process, or another call, is adding rows to the file of a study."""
+
+    def __str__(self) -> str:
+        return f"another study is writing to {self.path}; wait until it ends, or name another file"
+
+
+@attrs.define(slots=False, eq=False)
+class ClusterError(AssocHullError, ConnectionError):
+    """A cluster cannot be reached, or has failed; rows that have landed in a file stay.
+
+    Attributes
+    ----------
+    address : str
+        Of its scheduler.
+    what : str
+        What is wrong.
+    remedy : str
+        What to do about it.
+    """
+
+    address: str
+    what: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.what}, at {self.address}; {self.remedy}"
 
 
 @attrs.define(slots=False, eq=False)

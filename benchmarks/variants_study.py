@@ -21,7 +21,7 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.cli.output import progress_bar
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.hull.results import Study
+from assoc_hull.hull.studies import Study
 
 __all__ = ["beside", "facts", "request"]
 

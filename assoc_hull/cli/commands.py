@@ -33,8 +33,9 @@ from assoc_hull.cli.plates import add_plates
 from assoc_hull.cli.problems import UsageError, check_target
 from assoc_hull.cli.resistance import add_resistance
 from assoc_hull.cli.stability import add_stability
+from assoc_hull.cli.study import add_study
 from assoc_hull.cli.surface import add_surface
-from assoc_hull.cli.variants import add_compare, add_shift_and_swing, add_study, add_vary
+from assoc_hull.cli.variants import add_compare, add_shift_and_swing, add_vary
 
 __all__ = [
     "add_completion_and_schema",

@@ -1,14 +1,12 @@
 """Commands that make variants of a hull and compare them.
 
-`vary` by named parameters or targets, `shift` and `swing` of sections, `study` of many variants,
-`compare` of a variant with its parent. A refused variant leaves the hull as it is; the findings
-are told and the exit code is 1.
+`vary` by named parameters or targets, `shift` and `swing` of sections, `compare` of a variant with
+its parent. A refused variant leaves the hull as it is; findings are told and the exit code is 1.
 """
 
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -29,21 +27,19 @@ from assoc_hull.cli.arguments import (
 )
 from assoc_hull.cli.edits import open_to_change
 from assoc_hull.cli.hull_words import edit_words
-from assoc_hull.cli.output import emit, progress, progress_bar
-from assoc_hull.cli.problems import UsageError, check_other_target, check_target
-from assoc_hull.errors import BadInputError, RefusedEditError, UnknownNameError
+from assoc_hull.cli.output import emit, progress
+from assoc_hull.cli.problems import check_other_target, check_target
+from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
-    from assoc_hull.hull.results import Study
     from assoc_hull.hull.variants import Shifted
 
 __all__ = [
     "add_compare",
     "add_out",
     "add_shift_and_swing",
-    "add_study",
     "add_vary",
     "report_refusal",
     "vary_into_file",
@@ -422,175 +418,3 @@ def _check_target(arguments: argparse.Namespace) -> None:
         check_target(arguments.pdf, (".pdf",))
         for hull in (arguments.parent, arguments.variant):
             check_other_target(arguments.pdf, hull)
-
-
-# --------------------------------------------------------------------------------------
-# The command that makes many variants of a hull.
-
-_ENDINGS = (".csv", ".json")
-_KEYS = ("set", "reach", "free", "bounds", "layers", "outputs", "layout")
-_SHOWN = 5
-"""So many reasons are told."""
-
-
-def add_study(commands: Commands) -> None:
-    """Add ``study``."""
-    parser = add_command(
-        commands, "study", "make many variants of a hull; exit 1 if none came to be", _study,
-        """assoc-hull study ship.hull --set breadth=31:33 --count 50 -o breadths.csv
-        assoc-hull study ship.hull --reach volume=51000:53000 --reach lcb=110:112
-            --free fore_shift=-4:4 --free aft_shift=-4:4 --count 200 --seed 1 -o variants.csv
-        assoc-hull study ship.hull --script study.json --workers 2 -o variants.json
-
-        study.json: {"set": {"draught": 11.0}, "reach": {"volume": [52000, 52500]},
-        "free": ["breadth"], "bounds": {"breadth": [31, 33]}}
-        (m, or degrees where a name ends in _deg; LOW:HIGH is drawn, one value per variant)""",
-    )  # fmt: skip
-    add_hull(parser)
-    _add_design(parser)
-    parser.add_argument("--script", metavar="FILE.json", type=Path, help="all of it as a file")
-    parser.add_argument(
-        "--workers", type=int, default=1, metavar="N", help="processes (default: 1)"
-    )
-    parser.add_argument("-o", "--out", metavar="FILE", type=Path, help="a .csv or .json file")
-    add_json(parser)
-
-
-def _add_design(parser: argparse.ArgumentParser) -> None:
-    value, several = "a value, or LOW:HIGH to draw one per variant", "; may be given more than once"
-    parser.add_argument(
-        "--set", metavar="NAME=VALUE", action="append", default=[],
-        help=f"a named parameter: {value}{several}",
-    )  # fmt: skip
-    parser.add_argument(
-        "--reach", metavar="NAME=VALUE", action="append", default=[],
-        help=f"a target, of hydrostatics or form parameters: {value}{several}",
-    )  # fmt: skip
-    parser.add_argument(
-        "--free", metavar="NAME[=LOW:HIGH]", action="append", default=[],
-        help=f"a parameter whose value is sought, between bounds{several}",
-    )  # fmt: skip
-    parser.add_argument("--outputs", metavar="NAME", nargs="+", help="what is told of each variant")
-    parser.add_argument(
-        "--count", type=int, default=10, metavar="N",
-        help="variants, where values are drawn (default: 10)",
-    )  # fmt: skip
-    parser.add_argument(
-        "--seed", type=int, default=0, metavar="N", help="of what is drawn (default: 0)"
-    )
-    parser.add_argument(
-        "--method", choices=("sobol", "latin", "uniform"), default="sobol",
-        help="how values are drawn (default: sobol)",
-    )  # fmt: skip
-
-
-def _study(arguments: argparse.Namespace) -> int:
-    from assoc_hull.io.tables.study import study_document
-
-    if arguments.out is not None:
-        check_target(arguments.out, _ENDINGS)
-        check_other_target(arguments.out, arguments.hull)
-    asked = _asked(arguments)
-    hull = open_hull(arguments.hull)
-    with progress_bar("study", hidden=False) as tell:
-        found = hull.study(workers=arguments.workers, progress=tell, **asked)
-    saved = _saved(arguments.out, found)
-    document = dict(study_document(found.run, found.rows)) | {
-        "interrupted": found.interrupted, "saved": saved,
-    }  # fmt: skip
-    emit(arguments, document, "\n".join(_words(found, saved)))
-    return 0 if len(found.failed) < len(found) else 1
-
-
-def _asked(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Put together what is asked for; options go before what the file says."""
-    from assoc_hull.study.sampling import sample
-    from assoc_hull.variation.request import read_script
-
-    asked: dict[str, Any] = read_script(arguments.script) if arguments.script else {}
-    asked.pop("name", None)  # that of the file: a study has none
-    for key in asked:
-        if key not in _KEYS:
-            raise UnknownNameError("part of a study", key, _KEYS)
-    given = {key: _pairs(getattr(arguments, key), key) for key in ("set", "reach")}
-    drawn = {
-        (key, name): value
-        for key, pairs in given.items() for name, value in pairs.items() if isinstance(value, tuple)
-    }  # fmt: skip
-    if drawn:
-        # One draw spreads all of them evenly together; one name may be set and be reached.
-        ranges = {f"{key} {name}": value for (key, name), value in drawn.items()}
-        found = sample(ranges, arguments.count, seed=arguments.seed, method=arguments.method)
-        for (key, name), column in zip(drawn, found.values(), strict=True):
-            given[key][name] = column
-    for key, pairs in given.items():
-        if pairs:
-            asked[key] = {**asked.get(key, {}), **pairs}
-    free = _free(arguments.free)
-    if free:
-        asked["free"] = list(free)
-        # Bounds of the file belong to what it frees, which has been replaced.
-        asked["bounds"] = {name: ends for name, ends in free.items() if ends is not None}
-    if arguments.outputs:
-        asked["outputs"] = arguments.outputs
-    return asked
-
-
-def _pairs(given: list[str], option: str) -> dict[str, Any]:
-    """Take ``NAME=VALUE`` and ``NAME=LOW:HIGH``."""
-    found: dict[str, Any] = {}
-    for each in given:
-        name, equals, value = each.partition("=")
-        if not equals or not name:
-            raise UsageError(f"--{option} {each}: give NAME=VALUE or NAME=LOW:HIGH")
-        if name in found:
-            raise UsageError(f"--{option} {name} is given twice")
-        found[name] = _ends(value, f"--{option} {each}") if ":" in value else _number(value, each)
-    return found
-
-
-def _free(given: list[str]) -> dict[str, tuple[float, float] | None]:
-    found: dict[str, tuple[float, float] | None] = {}
-    for each in given:
-        name, equals, ends = each.partition("=")
-        if name in found:
-            raise UsageError(f"--free {name} is given twice")
-        found[name] = _ends(ends, f"--free {each}") if equals else None
-    return found
-
-
-def _ends(text: str, option: str) -> tuple[float, float]:
-    low, colon, high = text.partition(":")
-    if not colon:
-        raise UsageError(f"{option}: give LOW:HIGH")
-    return _number(low, option), _number(high, option)
-
-
-def _number(text: str, option: str) -> float:
-    try:
-        found = float(text)
-    except ValueError:
-        found = math.nan
-    if not math.isfinite(found):
-        raise UsageError(f"{option}: {text!r} is no number")
-    return found
-
-
-def _saved(out: Path | None, found: Study[Hull]) -> str | None:
-    if out is None:
-        return None
-    if out.suffix == ".json":
-        found.to_json(out)
-    else:
-        found.to_csv(out)
-    return str(out)
-
-
-def _words(found: Study[Hull], saved: str | None) -> list[str]:
-    """Say what came of it: how many, why not the others, where it is."""
-    words = [str(found)]
-    words += [f"  variant {row.number}: {row.reason}" for row in found.failed[:_SHOWN]]
-    more = len(found.failed) - _SHOWN
-    if more > 0:
-        words.append(f"  and {more} more without a hull")
-    return [*words, f"written: {saved}"] if saved else words

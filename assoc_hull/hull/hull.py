@@ -82,12 +82,8 @@ if TYPE_CHECKING:
     from assoc_hull.geometry.curves import FloatArray
     from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
     from assoc_hull.hull.pictures import HullPictures
-    from assoc_hull.hull.results import (
-        HullPlates,
-        HullSurface,
-        ProductionArcs,
-        Study,
-    )
+    from assoc_hull.hull.results import HullPlates, HullSurface, ProductionArcs
+    from assoc_hull.hull.studies import Study
     from assoc_hull.hull.variants import Shifted, Variation
     from assoc_hull.io.hull_file.saving import Saved
     from assoc_hull.model.definition.verify import Difference
@@ -2047,14 +2043,16 @@ class Hull:
     def study(
         self,
         *,
-        set: Mapping[str, object] | None = None,
-        reach: Mapping[str, object] | Sequence[Mapping[str, object]] | None = None,
+        set: object = None,
+        reach: object = None,
         free: object = (),
         bounds: Mapping[str, object] | None = None,
         layers: Sequence[object] = (),
         outputs: Sequence[str] | None = None,
         layout: Mapping[str, Any] | Layout | None = None,
-        workers: int = 1,
+        file: str | PathLike[str] | None = None,
+        workers: int | None = None,
+        cluster: object = None,
         progress: Callable[[str, int, int], None] | None = None,
     ) -> Study[Hull]:
         """Make many variants of a hull: certified, lofted again, checked, measured.
@@ -2065,12 +2063,13 @@ class Hull:
 
         Parameters
         ----------
-        set : mapping of str to float or (n,)
-            Values of named parameters (m, degrees), or factors on layers: one, or one per variant.
-        reach : mapping of str to float or (n,), or sequence of mappings
-            Targets by the names of outputs: one, or one per variant; or a mapping per variant. See
-            `assoc_hull.variation.aiming.outputs.Outputs`: fields of hydrostatics, symbols of form
-            parameters, areas of sections, resistance at a speed ("R 14 kn").
+        set : mapping of str to float or (n,), sequence of mappings, structured array, or frame
+            Values of named parameters (m, degrees), or factors on layers: one, or one per variant;
+            or a row per variant: a mapping each, a structured array, a frame of pandas.
+        reach : as `set`
+            Targets by the names of outputs, see `assoc_hull.variation.aiming.outputs.Outputs`:
+            fields of hydrostatics, symbols of form parameters, areas of sections,
+            resistance at a speed ("R 14 kn").
         free : sequence of str or layer
             Parameters whose values are sought, as in `vary`; as many as there are targets, or more:
             then the variant is one of nearly the least change.
@@ -2083,12 +2082,19 @@ class Hull:
             What is told of each variant, by the same names.
         layout : mapping or Layout
             How far the fields of named parameters reach.
+        file : path
+            A SQLite file that rows are added to as they are made. What has landed survives Ctrl-C,
+            a kill and a loss of power, and the same call goes on where it stopped; more rows
+            behind the same ones are added. Without it rows are held in memory.
         workers : int
-            Processes. The rows are the same to the last bit, whatever their number. A program that
-            asks for more than one begins under ``if __name__ == "__main__":``, as new processes
-            import it.
+            Processes of this machine; one, this one, unless it is said. The rows are the same to
+            the last bit, whatever their number. A program that asks for more than one begins under
+            ``if __name__ == "__main__":``, as new processes import it.
+        cluster : str or distributed.Client
+            Makes rows by Dask: "local" begins as many processes as `workers`, or as there are
+            cores; the address of a scheduler, or a client, uses the workers that it has.
         progress : callable
-            Is called with what is done, how many variants are, and of how many.
+            Is called with what is done and how fast, how many variants are, and of how many.
 
         Returns
         -------
@@ -2098,11 +2104,17 @@ class Hull:
         Raises
         ------
         UnknownNameError, WrongTypeError, BadInputError
-            What is asked for cannot be understood, or does not fit the hull.
+            What is asked for cannot be understood, or does not fit the hull; the file is of
+            another study; a process came to an end.
+        StudyBusyError, DamagedFileError, HullFileError
+            Another study is writing to the file; it is damaged; it cannot be read or written.
+        ClusterError, MissingExtraError
+            The cluster cannot be reached, or has failed; Dask is not installed.
 
         See Also
         --------
         sample : values drawn within intervals.
+        grid : every combination of values.
         vary : one variant, with the structure that it needs.
 
         Examples
@@ -2116,14 +2128,16 @@ class Hull:
         >>> bool((abs(found.table()["volume"] - asked["volume"]) < 1e-6).all())
         True
         """
-        from assoc_hull.hull.results import make_study
+        from assoc_hull.hull.studies import make_study
         from assoc_hull.study.design import OUTPUTS, StudyDesign
 
         design = StudyDesign.of(
             set=set, reach=reach, free=free, bounds=bounds, layers=layers,
             outputs=OUTPUTS if outputs is None else outputs, layout=layout,
         )  # fmt: skip
-        return make_study(self, design, Hull, workers=workers, progress=progress)
+        return make_study(
+            self, design, Hull, file=file, workers=workers, cluster=cluster, progress=progress
+        )
 
     # ----------------------------------------------------------------------------------
     # Surfaces, plates, arcs.

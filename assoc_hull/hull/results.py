@@ -1,47 +1,36 @@
-"""What methods of a hull give back, where it holds hulls or can be written to files.
+"""What methods of a hull give back, where it can be written to files.
 
-`Study` is generic in the class of the hulls that it holds, as it stands below it; users meet it
-with `assoc_hull.Hull` only. The others add to what `surface` and
-`analysis` find that it can be written, which these packages, below `io`, cannot know.
+They add to what `surface` and `analysis` find that it can be written, which these packages, below
+`io`, cannot know.
 """
 
 from __future__ import annotations
 
 import os
-from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import wraps
-from os import PathLike
-from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Protocol, overload
 
 import attrs
-from numpy.typing import NDArray
 
 from assoc_hull.analysis.production_arcs import ArcLines, arc_lines
 from assoc_hull.arguments import (
     all_of,
-    file_path,
     instance,
-    integer,
     not_negative,
     number,
     positive,
-    shown,
 )
 from assoc_hull.edit.document import Document
-from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.volume_below import VolumeBelow, integrate_below
 from assoc_hull.io.export.arcs import write_arcs
 from assoc_hull.io.tables.hull_plates import write_hull_plates
 from assoc_hull.io.tables.plates import write_plates
-from assoc_hull.io.tables.study import study_csv, study_json
-from assoc_hull.io.write_file import write_whole
 from assoc_hull.model.objects import Curve, Group, Line
-from assoc_hull.model.tables import HasState, copy_state, state_of
-from assoc_hull.study.design import StudyDesign
-from assoc_hull.study.run import StudyRow, StudyRun, run_study, study_columns
+from assoc_hull.model.tables import HasState, state_of
 from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options, length_of
 from assoc_hull.surface.blocks.net_surface import NetSurface, ResidualTable, document_of, text_of
@@ -61,17 +50,12 @@ __all__ = [
     "HullSurface",
     "Plates",
     "ProductionArcs",
-    "Study",
     "arcs_of_hull",
-    "make_study",
     "plates",
     "plates_of_hull",
     "surface_of_hull",
 ]
 
-HullType = TypeVar("HullType")
-
-_WORKERS = 256
 _FINEST, _COARSEST = 1e-6, 1.0
 """m: finer is the rounding of coordinates, coarser are no lines of a ship."""
 
@@ -83,116 +67,6 @@ class HasDocument(HasState, Protocol):
     def document(self) -> Document:
         """Tables with their history."""
         ...
-
-
-@attrs.frozen(eq=False)
-class Study(Generic[HullType]):
-    """Variants of a hull.
-
-    Attributes
-    ----------
-    run : StudyRun
-        What was asked for, and the parent.
-    rows : tuple of StudyRow
-        What became of each variant, in their order; fewer than were asked for after an interrupt.
-    interrupted : bool
-        Whether it was interrupted.
-    make : callable
-        Makes a hull of a document.
-    """
-
-    run: StudyRun = attrs.field(repr=False)
-    rows: tuple[StudyRow, ...]
-    interrupted: bool
-    make: Callable[[Document], HullType] = attrs.field(repr=False)
-
-    @property
-    def design(self) -> StudyDesign:
-        """What was asked for."""
-        return self.run.design
-
-    def __len__(self) -> int:
-        return len(self.rows)
-
-    @property
-    def failed(self) -> tuple[StudyRow, ...]:
-        """Rows of variants of which there is no hull, each with its reason."""
-        return tuple(row for row in self.rows if row.failure)
-
-    def table(self) -> dict[str, NDArray[Any]]:
-        """Give all rows as arrays (n,) by name.
-
-        Returns
-        -------
-        dict of str to (n,)
-            ``number``; the parameters by name (m, degrees, factors); ``asked NAME`` of each
-            target; the outputs by name; ``margin``, ``shift`` (m), ``residual``, ``trials``;
-            ``failure`` and ``reason``. Numbers that a variant does not have are nan.
-        """
-        return study_columns(self.design, self.rows)
-
-    def hull(self, number: int) -> HullType:
-        """Give a variant as a hull: the parent, and one step that can be undone.
-
-        Its hydrostatics are those of the row.
-
-        Parameters
-        ----------
-        number : int
-            Which variant; the first is 0.
-
-        Raises
-        ------
-        BadInputError
-            There is no such variant, or no hull of it.
-        """
-        wanted = integer(number, "number", "in Study.hull", least=0, most=self.design.count - 1)
-        row = next((each for each in self.rows if each.number == wanted), None)
-        if row is None or row.failure:
-            why = "was not made" if row is None else f"has no hull: {row.reason}"
-            raise BadInputError(f"variant {wanted} {why}", "in Study.hull", "take another one")
-        return self.make(self.run.ground.document(row.values, f"variant {wanted}"))
-
-    def to_csv(self, path: str | PathLike[str] | None = None) -> str:
-        """Give the table as comma-separated text, and write it to a file if one is named."""
-        return _put(study_csv(self.run, self.rows), path)
-
-    def to_json(self, path: str | PathLike[str] | None = None) -> str:
-        """Give the table as JSON, with all digits, and write it to a file if one is named."""
-        return _put(study_json(self.run, self.rows), path)
-
-    def __str__(self) -> str:
-        good = len(self.rows) - len(self.failed)
-        words = [f"{good} of {self.design.count} variants"]
-        counts = Counter(row.failure for row in self.failed)
-        words += [f"{count} {kind}" for kind, count in sorted(counts.items())]
-        return ", ".join(words) + (", interrupted" if self.interrupted else "")
-
-
-def _put(text: str, path: str | PathLike[str] | None) -> str:
-    if path is not None:
-        write_whole(file_path(path, "in study"), text.encode())
-    return text
-
-
-def make_study(
-    hull: HasDocument,
-    design: StudyDesign,
-    make: Callable[[Document], HullType],
-    *,
-    workers: int,
-    progress: Callable[[str, int, int], None] | None,
-) -> Study[HullType]:
-    """Run a study of variants of a hull; `make` makes a hull of the document of a variant."""
-    where = "in study"
-    state_of(hull, where)
-    hull.document.require_ended("study")
-    count = integer(workers, "workers", where, least=1, most=_WORKERS)
-    if progress is not None and (isinstance(progress, type) or not callable(progress)):
-        raise WrongTypeError(f"progress is {shown(progress)}", where, "give a function")
-    run = StudyRun.of(copy_state(hull.state), design)
-    rows, interrupted = run_study(run, range(design.count), workers=count, tell=progress)
-    return Study(run, rows, interrupted, make)
 
 
 @attrs.frozen(eq=False)

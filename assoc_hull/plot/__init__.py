@@ -10,6 +10,7 @@ from assoc_hull.plot.diagrams.hydrostatics import (
     hydrostatic_curves,
     sectional_area_curve,
 )
+from assoc_hull.plot.diagrams.study import study_parallel, study_scatter
 from assoc_hull.plot.lines_plan.before_after import before_after, snapshot
 from assoc_hull.plot.lines_plan.comparison import comparison_pdf
 from assoc_hull.plot.lines_plan.curvature_combs import combs_plan
@@ -35,5 +36,7 @@ __all__ = [
     "plate_sheet",
     "sectional_area_curve",
     "snapshot",
+    "study_parallel",
+    "study_scatter",
     "surface_figure",
 ]

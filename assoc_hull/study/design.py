@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 from assoc_hull.arguments import numbers, shown, shown_name, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.study.sampling import Sample
 from assoc_hull.variation.fields.layers import Layer
 from assoc_hull.variation.parameters.catalogue import NAMES
 from assoc_hull.variation.parameters.field_layout import Layout
@@ -27,7 +29,7 @@ OUTPUTS = (
 
 _WHERE = "in study"
 _MOST = 1_000_000
-"""Variants of one study: their rows are held in memory."""
+"""Variants of one study: what is asked for them is held in memory."""
 
 
 @attrs.frozen(eq=False)
@@ -54,6 +56,8 @@ class StudyDesign:
         What is told of each variant; those that are aimed at among them.
     layout : Layout
         How far the fields of named parameters reach.
+    drawn : str
+        How values were drawn, by `sample`, with the seed; empty if they were not.
     """
 
     given: tuple[str, ...]
@@ -65,6 +69,7 @@ class StudyDesign:
     bounds: FloatArray
     outputs: tuple[str, ...]
     layout: Layout
+    drawn: str = ""
 
     def __attrs_post_init__(self) -> None:
         freeze(self.values, self.targets, self.bounds)
@@ -83,8 +88,8 @@ class StudyDesign:
     def of(
         cls,
         *,
-        set: Mapping[str, object] | None = None,
-        reach: Mapping[str, object] | Sequence[Mapping[str, object]] | None = None,
+        set: object = None,
+        reach: object = None,
         free: object = (),
         bounds: Mapping[str, object] | None = None,
         layers: Sequence[object] = (),
@@ -103,10 +108,10 @@ class StudyDesign:
         """
         ask = _ask(layers, layout)
         raw = {each.name: each for each in ask.layers}
-        aims, targets = _columns(_by_name(reach), "reach")
+        aims, targets = _columns(_by_name(reach, "reach"), "reach")
         sought = _sought(free, bounds, aims, raw)
         raw |= {each.name: each for each in sought.free if not isinstance(each, str)}
-        given, values = _columns(set, "set", (*NAMES, *raw))
+        given, values = _columns(_by_name(set, "set"), "set", (*NAMES, *raw))
         unused = [name for name in raw if name not in given and name not in sought.names]
         given, values = (*given, *unused), [*values, *(np.ones(1) for _ in unused)]
         _check(given, sought.names, aims)
@@ -115,6 +120,7 @@ class StudyDesign:
             given, sought.names, tuple(raw.values()), _table(values, count), aims,
             _table(targets, count), sought.limits([0.0] * len(sought.names)),
             _outputs(outputs, aims), ask.layout,
+            ", ".join(each.drawn for each in (set, reach) if isinstance(each, Sample)),
         )  # fmt: skip
 
 
@@ -150,19 +156,30 @@ def _ask(layers: Sequence[object], layout: Mapping[str, Any] | Layout | None) ->
     return ask
 
 
-def _by_name(given: object) -> object:
-    """Turn a row per variant into a column per name."""
+def _by_name(given: object, argument: str) -> object:
+    """Turn a table, or a row per variant, into a column per name."""
     if given is None or isinstance(given, Mapping):
         return given
+    names = getattr(getattr(given, "dtype", None), "names", None)
+    if names is not None or _is_frame(given):
+        table: Any = given
+        return {str(name): np.asarray(table[name]) for name in names or table.columns}
     if isinstance(given, str) or not isinstance(given, Sequence) or not given:
-        raise WrongTypeError(f"reach is {shown(given)}", _WHERE, "give values by name")
+        raise WrongTypeError(f"{argument} is {shown(given)}", _WHERE, "give values by name")
     rows = [row for row in given if isinstance(row, Mapping)]
+    what = "outputs" if argument == "reach" else "parameters"
     if len(rows) != len(given) or any(row.keys() != rows[0].keys() for row in rows):
         raise BadInputError(
-            "the rows of reach do not ask for the same outputs", _WHERE,
+            f"the rows of {argument} do not ask for the same {what}", _WHERE,
             "give a mapping per variant, all of the same names",
         )  # fmt: skip
     return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def _is_frame(given: object) -> bool:
+    """Tell whether it is a frame of pandas, without which nobody has one."""
+    pandas = sys.modules.get("pandas")
+    return pandas is not None and isinstance(given, pandas.DataFrame)
 
 
 def _columns(

@@ -1,34 +1,25 @@
-"""The rows of a study: one variant each, made here or in processes side by side, and their table.
+"""The rows of a study: one variant each, made of a hull that was prepared for it.
 
-A row has the values, the outputs, and the reason where there is no hull. Rows are the same to the
-last bit, whatever the number of processes: each process prepares the hull for itself, from the
-same tables, and each variant begins at the parent.
+A row has the values, the outputs, and the reason where there is no hull. It is the same to the
+last bit, whichever process makes it: each prepares the hull for itself, from the same tables, and
+each variant begins at the parent.
 """
 
 from __future__ import annotations
 
-import pickle
-import signal
-import tempfile
-from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
-from multiprocessing import get_context, parent_process
-from pathlib import Path
-from typing import Any
+from collections.abc import Sequence
 
 import attrs
 import numpy as np
-from numpy.typing import NDArray
 
 from assoc_hull.errors import (
     AssocHullError,
-    BadInputError,
     FoldError,
     OutOfRangeError,
     RefusedEditError,
 )
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.model.tables import HullState, copy_state
+from assoc_hull.model.tables import HullState
 from assoc_hull.study.design import StudyDesign
 from assoc_hull.study.prepared_parent import StudyParent
 from assoc_hull.study.target_search import NotReachedError, QuadraticModel, search_variant
@@ -36,11 +27,9 @@ from assoc_hull.study.target_search import NotReachedError, QuadraticModel, sear
 __all__ = [
     "StudyRow",
     "StudyRun",
-    "Tell",
     "failure_kind",
     "make_row",
-    "run_study",
-    "study_columns",
+    "make_rows",
 ]
 
 
@@ -63,16 +52,14 @@ def failure_kind(error: AssocHullError) -> str:
     return next((word for kind, word in words if isinstance(error, kind)), "no hull")
 
 
-Tell = Callable[[str, int, int], None]
-"""Takes what is being done, how many variants are done, and of how many."""
-
-_AHEAD = 4
-"""Variants handed out ahead for each process: enough to keep it at work."""
+def _bits(array: FloatArray) -> bytes:
+    """Give numbers as they are compared: to the last bit, nan being nan."""
+    return array.tobytes()
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen
 class StudyRow:
-    """What became of a variant.
+    """What became of a variant; rows are compared to the last bit.
 
     Attributes
     ----------
@@ -97,11 +84,11 @@ class StudyRow:
     """
 
     number: int
-    values: FloatArray
-    outputs: FloatArray
-    margin: float
-    shift: float
-    residual: float
+    values: FloatArray = attrs.field(eq=_bits)
+    outputs: FloatArray = attrs.field(eq=_bits)
+    margin: float = attrs.field(eq=repr)
+    shift: float = attrs.field(eq=repr)
+    residual: float = attrs.field(eq=repr)
     trials: int
     failure: str = ""
     reason: str = ""
@@ -167,128 +154,9 @@ def make_row(run: StudyRun, number: int) -> StudyRow:
     )  # fmt: skip
 
 
-def run_study(
-    run: StudyRun, numbers: Sequence[int], *, workers: int = 1, tell: Tell | None = None
-) -> tuple[tuple[StudyRow, ...], bool]:
-    """Make variants, in their order.
+def make_rows(run: StudyRun, numbers: Sequence[int]) -> tuple[StudyRow, ...]:
+    """Make some variants; every process that makes rows does so by this function.
 
-    Parameters
-    ----------
-    run : StudyRun
-        The hull and the design.
-    numbers : sequence of int
-        Which variants.
-    workers : int
-        Processes; with one, all is done in this one. The rows are the same to the last bit.
-    tell : callable or None
-        Called with "variants", how many are done, and of how many.
-
-    Returns
-    -------
-    tuple of Row
-        In the order of `numbers`.
-    bool
-        Whether it was interrupted: then rows are missing.
-
-    Raises
-    ------
-    BadInputError
-        A process came to an end, as it does where a program begins a study whenever it is imported.
+    What becomes of a variant does not depend on those that are made with it, to the last bit.
     """
-    rows = dict[int, StudyRow]()
-    made = _one_by_one(run, numbers) if workers == 1 else _side_by_side(run, numbers, workers)
-    interrupted = False
-    try:
-        for row in made:
-            rows[row.number] = row
-            if tell is not None:
-                tell("variants", len(rows), len(numbers))
-    except KeyboardInterrupt:
-        interrupted = True
-        made.close()
-    return tuple(rows[number] for number in numbers if number in rows), interrupted
-
-
-def _one_by_one(run: StudyRun, numbers: Sequence[int]) -> Generator[StudyRow]:
-    for number in numbers:
-        yield make_row(run, number)
-
-
-def _side_by_side(run: StudyRun, numbers: Sequence[int], workers: int) -> Generator[StudyRow]:
-    """Hand variants out to processes, a few at a time: no more results wait than are worked on.
-
-    Each process prepares the hull for itself, of the same tables: so it has the same bits.
-    """
-    if parent_process() is not None:
-        raise _unguarded()
-    given = pickle.dumps((copy_state(run.ground.maps.state), run.design, run.model))
-    # in a file: a process that ends before it has read a long message would block this one
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "study.pickle"
-        file.write_bytes(given)
-        yield from _handed_out(numbers, workers, str(file))
-
-
-def _handed_out(numbers: Sequence[int], workers: int, file: str) -> Generator[StudyRow]:
-    """Yield rows as they are made, in any order."""
-    pool = ProcessPoolExecutor(workers, get_context("spawn"), _begin, (file,))
-    waiting, running = iter(numbers), set[Future[StudyRow]]()
-    try:
-        while True:
-            for number in waiting:
-                running.add(pool.submit(_row, number))
-                if len(running) >= _AHEAD * workers:
-                    break
-            if not running:
-                return
-            done, running = wait(running, return_when=FIRST_COMPLETED)
-            for each in done:
-                yield attrs.evolve(each.result())  # frozen again
-    except BrokenExecutor as error:
-        raise _unguarded() from error
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def _unguarded() -> BadInputError:
-    """Give the error for a process that ended, or began a study itself."""
-    return BadInputError(
-        "a process of the study began another study, or came to an end", "in study",
-        "begin the program under if __name__ == '__main__':, or give workers=1",
-    )  # fmt: skip
-
-
-_own: StudyRun | None = None
-"""What a process of a study works on."""
-
-
-def _begin(file: str) -> None:
-    """Prepare a process; an interrupt is left to the process that began it."""
-    global _own
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    state, design, model = pickle.loads(Path(file).read_bytes())
-    _own = StudyRun(design, StudyParent.of(state, design), model)
-
-
-def _row(number: int) -> StudyRow:
-    """Make one row in a process that `_begin` has prepared."""
-    assert _own is not None
-    return make_row(_own, number)
-
-
-def study_columns(design: StudyDesign, rows: Sequence[StudyRow]) -> dict[str, NDArray[Any]]:
-    """Give arrays (n,) by name; see `Study.table`."""
-    number = np.array([row.number for row in rows], np.int64)
-    values = np.array([row.values for row in rows]).reshape(len(rows), len(design.names))
-    outputs = np.array([row.outputs for row in rows]).reshape(len(rows), len(design.outputs))
-    found: dict[str, NDArray[Any]] = {"number": number}
-    found |= dict(zip(design.names, values.T, strict=True))
-    found |= {f"asked {name}": design.targets[number, i] for i, name in enumerate(design.aims)}
-    found |= dict(zip(design.outputs, outputs.T, strict=True))
-    for name in ("margin", "shift", "residual", "trials", "anew"):
-        found[name] = np.array([getattr(row, name) for row in rows])
-    for name in ("failure", "reason"):
-        found[name] = np.array([getattr(row, name) for row in rows], object)
-    found = {name: np.array(column) for name, column in found.items()}
-    freeze(*found.values())
-    return found
+    return tuple(make_row(run, number) for number in numbers)

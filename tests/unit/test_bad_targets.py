@@ -58,17 +58,22 @@ PLACES: dict[str, Callable[[ah.Hull, Any], object]] = {
     "row of a study": lambda hull, bad: hull.study(**{**ROW, "reach": [TARGET, bad]}),
     "bounds of a study": lambda hull, bad: hull.study(**ROW, bounds={"breadth": (9.0, bad)}),
     "output of a study": lambda hull, bad: hull.study(**{**ROW, "outputs": [bad]}),
+    "file of a study": lambda hull, bad: hull.study(set={"breadth": 10.1}, file=bad),
+    "workers of a study": lambda hull, bad: hull.study(set={"breadth": 10.1}, workers=bad),
+    "cluster of a study": lambda hull, bad: hull.study(set={"breadth": 10.1}, cluster=bad),
+    "values of a grid": lambda hull, bad: ah.study.grid({"breadth": bad}),
     "range": lambda hull, bad: ah.study.sample({"breadth": bad}, 2),
     "end of a range": lambda hull, bad: ah.study.sample({"breadth": (bad, 11.0)}, 2),
 }  # fmt: skip
 GOOD = {
     "exact": {"truth"}, "bounds of a study": {"inf"},
-    "targets of a study": {"huge", "flat array"},
+    "targets of a study": {"huge", "flat array"}, "values of a grid": {"flat array"},
+    "file of a study": {"text", "line of text", "long text"},
     "name of a free layer": {"text", "line of text", "long text"},
 }  # fmt: skip
 """What is good in this place alone."""
 
-STUDY = {"hull": "number", "to_csv": "path", "to_json": "path"}
+STUDY = {"hull": "number", "to_csv": "path", "to_json": "path", "to_parquet": "path"}
 """The argument of each method."""
 FILES = {"text", "line of text", "long text"}
 

@@ -180,6 +180,12 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ["ship.hull", "the disk is full", "make room"],
     ),
     (errors.FileBusyError("ship.hull", 2.5), TimeoutError, ["ship.hull", "2.5 s", "longer wait"]),
+    (errors.StudyBusyError("study.sqlite", 0.0), TimeoutError, ["study.sqlite", "another file"]),
+    (
+        errors.ClusterError("tcp://a:8786", "the scheduler has gone away", "begin it again"),
+        ConnectionError,
+        ["tcp://a:8786", "the scheduler has gone away", "begin it again"],
+    ),
     (
         errors.HullBusyError("the edit 'fuller'", "anna", 2.5, "in the edit 'finer'"),
         TimeoutError,

@@ -10,13 +10,17 @@ import assoc_hull
 HEAVY = [
     "OCP",
     "dask",
+    "distributed",
     "ezdxf",
     "matplotlib",
     "networkx",
     "numba",
+    "pandas",
+    "pyarrow",
     "scipy.interpolate",
     "scipy.sparse",
     "starlette",
+    "threadpoolctl",
     "trimesh",
 ]
 

@@ -1,0 +1,178 @@
+"""Rows made in this process, or in processes of this machine; what any process needs to make them.
+
+`pack_run` puts a hull and a design into bytes, of which `unpack_run` prepares the hull again: so
+every process has the same tables, and makes the same rows. Libraries of linear algebra are held to
+one thread: more would fight for the processor with other processes, and might add up in another
+order.
+"""
+
+from __future__ import annotations
+
+import pickle
+import signal
+import sys
+import tempfile
+import time
+from collections.abc import Generator
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
+from multiprocessing import get_context, parent_process
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.model.tables import copy_state
+from assoc_hull.study.prepared_parent import StudyParent
+from assoc_hull.study.row_queue import RowQueue
+from assoc_hull.study.run import StudyRow, StudyRun, make_rows
+
+if TYPE_CHECKING:
+    from threadpoolctl import threadpool_limits
+
+__all__ = [
+    "RowBatch",
+    "make_batch",
+    "one_thread",
+    "pack_run",
+    "process_ended",
+    "require_first_process",
+    "rows_here",
+    "rows_in_processes",
+    "unpack_run",
+    "versions",
+]
+
+_AHEAD = 2
+"""Batches handed out for each process: enough to keep it at work."""
+
+
+@attrs.frozen(eq=False)
+class RowBatch:
+    """Rows that were made together, and how long it took, s."""
+
+    rows: tuple[StudyRow, ...]
+    seconds: float
+
+
+def make_batch(run: StudyRun, numbers: tuple[int, ...]) -> RowBatch:
+    """Make rows, and tell how long it took."""
+    start = time.perf_counter()
+    rows = make_rows(run, numbers)
+    return RowBatch(rows, time.perf_counter() - start)
+
+
+def pack_run(run: StudyRun) -> bytes:
+    """Put into bytes what another process needs to make rows."""
+    return pickle.dumps((copy_state(run.ground.maps.state), run.design, run.model))
+
+
+def unpack_run(given: bytes) -> StudyRun:
+    """Prepare the hull anew, of what `pack_run` gave in a process of the same program."""
+    state, design, model = pickle.loads(given)
+    return StudyRun(design, StudyParent.of(state, design), model)
+
+
+def versions() -> dict[str, str]:
+    """Give the versions of what the last digits of a row depend on."""
+    import scipy
+
+    package = vars(sys.modules[__name__.partition(".")[0]])
+    numerical = {each.__name__: each.__version__ for each in (np, scipy)}
+    return {"assoc-hull": str(package["__version__"])} | numerical
+
+
+def one_thread() -> threadpool_limits:
+    """Hold libraries of linear algebra to one thread from now on, or for a block of ``with``."""
+    import scipy.linalg  # noqa: F401  # brings a library of its own, which must be there by now
+    from threadpoolctl import threadpool_limits
+
+    return threadpool_limits(limits=1)
+
+
+def rows_here(run: StudyRun, queue: RowQueue) -> Generator[tuple[StudyRow, ...]]:
+    """Yield rows made in this process."""
+    while numbers := queue.take():
+        batch = make_batch(run, numbers)
+        queue.learn(len(numbers), batch.seconds)
+        yield batch.rows
+
+
+def rows_in_processes(run: StudyRun, queue: RowQueue, stay: str) -> Generator[tuple[StudyRow, ...]]:
+    """Yield rows made in processes of this machine, in any order.
+
+    `stay` says what becomes of them where a process ends early, and what to do.
+
+    Raises
+    ------
+    BadInputError
+        A process came to an end, as it does where a program begins a study whenever it is imported.
+    """
+    require_first_process()
+    # in a file: a process that ends before it has read a long message would block this one
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "study.pickle"
+        file.write_bytes(pack_run(run))
+        try:
+            yield from _handed_out(queue, str(file))
+        except BrokenExecutor as error:
+            raise process_ended(stay) from error
+
+
+def _handed_out(queue: RowQueue, file: str) -> Generator[tuple[StudyRow, ...]]:
+    """Hand batches out, a few at a time: no more results wait than are worked on."""
+    pool = ProcessPoolExecutor(queue.sharers, get_context("spawn"), _begin, (file,))
+    running = set[Future[RowBatch]]()
+    try:
+        while True:
+            while len(running) < _AHEAD * queue.sharers and (numbers := queue.take()):
+                running.add(pool.submit(_make, numbers))
+            if not running:
+                return
+            done, running = wait(running, return_when=FIRST_COMPLETED)
+            for each in done:
+                batch = each.result()
+                queue.learn(len(batch.rows), batch.seconds)
+                yield batch.rows
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def require_first_process() -> None:
+    """Refuse to begin processes from one that was itself begun so.
+
+    Raises
+    ------
+    BadInputError
+        A program begins a study whenever it is imported.
+    """
+    if parent_process() is not None:
+        raise process_ended()
+
+
+def process_ended(stay: str = "") -> BadInputError:
+    """Give the error for a process that ended, or began a study itself."""
+    remedy = "begin the program under if __name__ == '__main__':, or give workers=1"
+    return BadInputError(
+        "a process of the study began another study, or came to an end", "in study",
+        f"{remedy}; {stay}" if stay else remedy,
+    )  # fmt: skip
+
+
+_own: StudyRun | None = None
+"""What a process of a study works on."""
+
+
+def _begin(file: str) -> None:
+    """Prepare a process; an interrupt is left to the process that began it."""
+    global _own
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    one_thread()
+    _own = unpack_run(Path(file).read_bytes())
+
+
+def _make(numbers: tuple[int, ...]) -> RowBatch:
+    """Make rows in a process that `_begin` has prepared."""
+    assert _own is not None
+    return make_batch(_own, numbers)
