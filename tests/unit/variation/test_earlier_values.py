@@ -19,6 +19,7 @@ def reached() -> Variation[ah.Hull]:
 
 
 def notes_about(varied: Variation[ah.Hull], word: str) -> list[str]:
+    """Give the notes of a report that begin with a word."""
     return [note for note in varied.report.notes if note.startswith(word)]
 
 
