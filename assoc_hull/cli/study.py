@@ -123,6 +123,7 @@ def _study(arguments: argparse.Namespace) -> int:
 def _asked(arguments: argparse.Namespace) -> dict[str, Any]:
     """Put together what is asked for; options go before what the file says."""
     from assoc_hull.io.tables.study import read_rows
+    from assoc_hull.study.sampling import Sample
     from assoc_hull.variation.request import read_script
 
     asked: dict[str, Any] = read_script(arguments.script) if arguments.script else {}
@@ -140,11 +141,15 @@ def _asked(arguments: argparse.Namespace) -> dict[str, Any]:
     if drawn:
         # One draw spreads all of them evenly together; one name may be set and be reached.
         ranges = {f"{key} {name}": value for (key, name), value in drawn.items()}
-        for (key, name), column in zip(drawn, _drawn(ranges, arguments).values(), strict=True):
+        found = _drawn(ranges, arguments)
+        for (key, name), column in zip(drawn, found.values(), strict=True):
             given[key][name] = column
     for key, pairs in given.items():
         if pairs:
-            asked[key] = {**asked.get(key, {}), **pairs}
+            before = asked.get(key, {})
+            if not isinstance(before, dict):
+                raise UsageError(f"{arguments.script} gives {key} row by row: leave --{key} out")
+            asked[key] = Sample({**before, **pairs}, found.drawn if drawn else "")
     free = _free(arguments.free)
     if free:
         asked["free"] = list(free)

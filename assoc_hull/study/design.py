@@ -120,7 +120,7 @@ class StudyDesign:
             given, sought.names, tuple(raw.values()), _table(values, count), aims,
             _table(targets, count), sought.limits([0.0] * len(sought.names)),
             _outputs(outputs, aims), ask.layout,
-            ", ".join(each.drawn for each in (set, reach) if isinstance(each, Sample)),
+            _drawn(set, reach),
         )  # fmt: skip
 
 
@@ -174,6 +174,12 @@ def _by_name(given: object, argument: str) -> object:
             "give a mapping per variant, all of the same names",
         )  # fmt: skip
     return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def _drawn(*given: object) -> str:
+    """Say how values were drawn."""
+    words = (each.drawn for each in given if isinstance(each, Sample))
+    return ", ".join(dict.fromkeys(filter(None, words)))
 
 
 def _is_frame(given: object) -> bool:

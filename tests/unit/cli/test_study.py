@@ -17,6 +17,7 @@ def test_drawn_values_make_a_table(hull: Path, tmp_path: Path, facts: Json) -> N
                   "--outputs", "cb", "-o", target)  # fmt: skip
     drawn = found["columns"]["draught"]
     assert found["saved"] == str(target)
+    assert found["drawn"] == "sobol, seed 3"
     assert all(6.0 <= value <= 6.4 for value in drawn)
     rows = list(csv.reader(target.read_text().splitlines()))
     assert rows[0][:3] == ["number", "draught", "cb"]
@@ -56,6 +57,18 @@ def test_a_script_names_what_is_asked(
     said = capsys.readouterr().out
     assert "0 of 1 variants, 1 out of range" in said
     assert "breadth of 9.7" in said
+
+
+def test_rows_of_a_script_are_not_mixed_with_options(
+    hull: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A script may give a mapping for each variant; then that is all."""
+    script = tmp_path / "asked.json"
+    script.write_text(json.dumps({"set": [{"breadth": 10.1}, {"breadth": 10.2}]}))
+    assert main(["study", str(hull), "--script", str(script)]) == 0
+    assert "2 of 2 variants" in capsys.readouterr().out
+    assert main(["study", str(hull), "--script", str(script), "--set", "draught=6"]) == 2
+    assert "row by row" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,7 @@ def here(hull: ah.Hull) -> Study:
 def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LocalCluster]:
     """Two workers, with a scheduler that the last test which asks for it closes."""
     with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50,
+        n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=50,
         local_directory=str(tmp_path_factory.mktemp("dask")),
     ) as made:  # fmt: skip
         yield made
