@@ -41,12 +41,15 @@ again, *sys.path[:] = sys.argv[1:]
 if again == "no" and hasattr(os, "nice"):
     os.nice(5)
 from assoc_hull.model.program import compiled_fields, compiled_program
-if not (compiled_program.warm() & compiled_fields.warm()):
+from assoc_hull.variation.features import compiled_map
+if not (compiled_program.warm() & compiled_fields.warm() & compiled_map.warm()):
     if again == "yes":
         sys.exit("what numba compiles cannot be kept on this disk: see NUMBA_CACHE_DIR")
     os.execv(sys.executable, [sys.executable, "-c", os.environ["MAKE"], "yes", *sys.path])
 """
-"""What the child runs: it compiles, and makes sure that another process finds that in the cache."""
+"""What the child runs: it compiles, and makes sure that another process finds that in the cache.
+
+It is a program of its own, so it may compile what stands on top of this package, too."""
 
 _SELDOM = 20
 """Who edits a hull more often is no command that runs once."""

@@ -18,7 +18,6 @@ from assoc_hull.variation.carrying.admissible_values import AdmissibleValues, re
 from assoc_hull.variation.carrying.carry_hull import resized_particulars
 from assoc_hull.variation.carrying.driving_lines import choose_drivers, section_planes
 from assoc_hull.variation.certificate.fold_check import Certificate
-from assoc_hull.variation.features.redrawn_circles import FeatureMap
 from assoc_hull.variation.features.redrawn_features import redraw_features
 from assoc_hull.variation.fields.layers import Layer
 from assoc_hull.variation.fields.space_map import VariationMap
@@ -36,7 +35,7 @@ class LaidMap:
     ----------
     vmap : VariationMap
         The map without features.
-    map : FeatureMap
+    space : SpaceMap
         The map with circles and bilges drawn anew.
     planes : TransformedPlanes
 
@@ -47,7 +46,7 @@ class LaidMap:
     """
 
     vmap: VariationMap
-    map: FeatureMap
+    space: SpaceMap
     planes: TransformedPlanes
     features: tuple[Feature, ...]
     particulars: Particulars
@@ -146,7 +145,7 @@ class HullMaps:
         anew = redraw_features(state, vmap, self._radii(amplitudes))
         given = None if ask.drivers is None else GivenObjects(state).driving(ask.drivers)
         kept = choose_drivers(
-            state, SpaceMap(anew.map, anew.map.jacobian), given, ask.stations,
+            state, anew.space, given, ask.stations,
             follow=ask.planes == "follow",
         )  # fmt: skip
         return self.with_boundaries(kept.lines), kept.follow
@@ -157,10 +156,8 @@ class HullMaps:
 
     def places(self, amplitudes: FloatArray, source: FloatArray) -> FloatArray:
         """Give where a map sends places (n, 3) of the parent, m, circles drawn anew."""
-        found = redraw_features(self.state, self.map(amplitudes), self._radii(amplitudes)).map(
-            source
-        )
-        return np.asarray(found)
+        anew = redraw_features(self.state, self.map(amplitudes), self._radii(amplitudes))
+        return np.asarray(anew.space.call(source))
 
     def laid(self, amplitudes: FloatArray, lines: IntArray, *, follow: bool) -> LaidMap:
         """Give a map, and what it does with lines, features and dimensions of the parent.
@@ -175,9 +172,9 @@ class HullMaps:
         """
         state, vmap, asked = self.state, self.map(amplitudes), self.values(amplitudes)
         anew = redraw_features(state, vmap, self._radii(amplitudes))
-        space = SpaceMap(anew.map, anew.map.jacobian)
+        space = anew.space
         levels = section_planes(state, vmap.layers) if self.ask.stations == "number" else None
         planes = carry_planes(state, space, lines, follow=follow, levels=levels)
         features = anew.features(carry_features(state, space, np.inf)).features
         size = resized_particulars(state, vmap, self.room.parent, asked)
-        return LaidMap(vmap, anew.map, planes, features, size)
+        return LaidMap(vmap, space, planes, features, size)

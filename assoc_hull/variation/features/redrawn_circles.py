@@ -413,7 +413,7 @@ class FeatureMap:
                 moved = moved + shares[i, some][:, None] * circle.correction(unit)
             # on the circle its own place, not the image with a correction: bits of the new circle
             moved[away[i, some] == 0.0] = circle.after.at(unit[away[i, some] == 0.0])
-            level = np.abs((xyz[some] - circle.before.centre) @ circle.before.normal)
+            level = np.abs(((xyz[some] - circle.before.centre) * circle.before.normal).sum(axis=1))
             moved[np.maximum(size, level) <= circle.gap] = circle.after.centre
             found[some] = moved
         return found
@@ -434,8 +434,8 @@ class FeatureMap:
             about = np.eye(3) - circle.before.normal[:, None] * circle.before.normal
             about = about - unit[:, :, None] * unit[:, None, :]
             about = about / np.where(size > 0.0, size, np.inf)[:, None, None]
-            spin = np.einsum("nij,njk->nik", circle.turning(unit), about)
-            grow = np.einsum("jn,jnk->nk", turn, self._ahead(xyz[some], away[:, some]))
+            spin = (circle.turning(unit)[:, :, :, None] * about[:, None, :, :]).sum(axis=2)
+            grow = (turn[:, :, None] * self._ahead(xyz[some], away[:, some])).sum(axis=0)
             found[some] += weight[:, None, None] * spin
             found[some] += circle.correction(unit)[:, :, None] * grow[:, None, :]
         return found
@@ -466,7 +466,7 @@ class FeatureMap:
             return found
         close = away[:, some]
         part = np.array([self._part_alone(k, close)[0] for k in range(len(close))])
-        total = part.sum(axis=0)
+        total = _total(part)
         total[total == 0.0] = 1.0
         gone = QUINTIC.value(close / self._reach()[:, None])
         found[:, some] = (1.0 - np.prod(gone, axis=0)) * (part / total)
@@ -480,7 +480,7 @@ class FeatureMap:
         each = [self._part(k, away) for k in range(len(away))]
         part, turn = np.array([p for p, _ in each]), np.array([t for _, t in each])
         left, sink = self._left(away)
-        total, slope = part.sum(axis=0), turn.sum(axis=0)
+        total, slope = _total(part), turn.sum(axis=0)
         total[total == 0.0] = 1.0
         share = part[i] / total
         bend = (turn[i] - share * slope) / total
@@ -520,6 +520,11 @@ class FeatureMap:
         """Give the unit vectors in which the distances grow, (c, n, 3); zero on a circle."""
         steps = np.array([xyz - each.before.foot(xyz)[0] for each in self.circles])
         return np.asarray(steps / np.where(away > 0.0, away, np.inf)[:, :, None])
+
+
+def _total(part: FloatArray) -> FloatArray:
+    """Sum parts (c, n) in their order: `sum` has another one where there is a single place."""
+    return np.asarray(np.add.accumulate(part)[-1])
 
 
 def _distance(circle: RedrawnCircle, xyz: FloatArray) -> FloatArray:
