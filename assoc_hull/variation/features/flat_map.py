@@ -51,7 +51,7 @@ class FlatMap:
     ----------
     code : (k,) int
         First the numbers of layers, of arcs and of circles, each followed by where the table
-        begins that tells where they stand.
+        begins that tells where they stand; then the largest number of boundaries of a field.
     number : (m,)
         Lengths (m), angles (radians) and factors.
     arcs, circles : bool
@@ -61,7 +61,7 @@ class FlatMap:
     --------
     >>> from assoc_hull.variation.features.flat_map import FlatMap
     >>> FlatMap.of(()).code.tolist()
-    [0, 6, 0, 6, 0, 6]
+    [0, 7, 0, 7, 0, 7, 0]
     """
 
     code: IntArray
@@ -87,7 +87,7 @@ class FlatMap:
         circles : sequence of RedrawnCircle
             Circles that are drawn again after that.
         """
-        sheet = _Sheet([0] * 6, [])
+        sheet = _Sheet([0] * 7, [])
         try:
             places = (
                 [sheet.layer(each) for each in layers],
@@ -187,6 +187,7 @@ class _Sheet:
             numbers += [0.0, 0.0, 0.0]
         else:
             numbers += [tube.radius, tube.n - 1.0, tube.radius * (tube.n - 1.0)]
+        self.code[6] = max(self.code[6], len(parts))
         return self._put(code, [*numbers, *(each.pivot for each in field.pieces)])
 
     def arc(self, arc: BilgeArc, share: BlendChain) -> int:
