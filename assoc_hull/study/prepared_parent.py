@@ -12,6 +12,7 @@ import numpy as np
 
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.recut.carry_structure import NetMap, carry_net
+from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError, FoldError
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -158,9 +159,10 @@ class StudyParent:
         certificate = certify(maps.map(amplitudes), maps.room.box)
         certificate.check()
         laid = maps.laid(amplitudes, self.lines, follow=self.follow)
+        space = SpaceMap(laid.map, laid.map.jacobian)
         document = Document(copy_state(maps.state))
         with Transaction(document, name) as edit:
-            carry_net(edit, NetMap(laid.space, self.lines, laid.planes, laid.features, laid.particulars))
+            carry_net(edit, NetMap(space, self.lines, laid.planes, laid.features, laid.particulars))
         return document, certificate
 
     def _anew(self, amplitudes: FloatArray, name: str, error: AssocHullError) -> Variant:

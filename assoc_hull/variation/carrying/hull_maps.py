@@ -10,7 +10,6 @@ import numpy as np
 from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.mapped_features import carry_features
 from assoc_hull.edit.mapped_planes import TransformedPlanes, carry_planes
-from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.features import Feature
 from assoc_hull.model.tables import HullState, Particulars
@@ -20,7 +19,7 @@ from assoc_hull.variation.carrying.driving_lines import choose_drivers, section_
 from assoc_hull.variation.certificate.fold_check import Certificate
 from assoc_hull.variation.features.redrawn_features import redraw_features
 from assoc_hull.variation.fields.layers import Layer
-from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.fields.space_map import SlopedMap, VariationMap
 from assoc_hull.variation.parameters.catalogue import Freedom
 from assoc_hull.variation.request import VariationRequest
 
@@ -35,7 +34,7 @@ class LaidMap:
     ----------
     vmap : VariationMap
         The map without features.
-    space : SpaceMap
+    map : SlopedMap
         The map with circles and bilges drawn anew.
     planes : TransformedPlanes
 
@@ -46,7 +45,7 @@ class LaidMap:
     """
 
     vmap: VariationMap
-    space: SpaceMap
+    map: SlopedMap
     planes: TransformedPlanes
     features: tuple[Feature, ...]
     particulars: Particulars
@@ -157,7 +156,7 @@ class HullMaps:
     def places(self, amplitudes: FloatArray, source: FloatArray) -> FloatArray:
         """Give where a map sends places (n, 3) of the parent, m, circles drawn anew."""
         anew = redraw_features(self.state, self.map(amplitudes), self._radii(amplitudes))
-        return np.asarray(anew.space.call(source))
+        return anew.quick(source)
 
     def laid(self, amplitudes: FloatArray, lines: IntArray, *, follow: bool) -> LaidMap:
         """Give a map, and what it does with lines, features and dimensions of the parent.
@@ -177,4 +176,4 @@ class HullMaps:
         planes = carry_planes(state, space, lines, follow=follow, levels=levels)
         features = anew.features(carry_features(state, space, np.inf)).features
         size = resized_particulars(state, vmap, self.room.parent, asked)
-        return LaidMap(vmap, space, planes, features, size)
+        return LaidMap(vmap, anew.quick, planes, features, size)

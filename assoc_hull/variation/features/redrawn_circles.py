@@ -9,7 +9,7 @@ circle, and fading with the distance, so that joins stay smooth. Lengths in m.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import attrs
 import numpy as np
@@ -49,6 +49,9 @@ _ROUNDING = 1e-13
 
 _LARGEST = 0.1
 """A circle may lie off the image by this part of its radius."""
+
+_MANY = 72
+"""At so many places around a circle it is compared with the image."""
 
 _WITHIN = 1e-6
 """A curve through points of a circle may leave it by this (m), else points are added."""
@@ -145,29 +148,24 @@ class RedrawnCircle:
     @cached_property
     def carried(self) -> bool:
         """Whether the map itself makes the circle, so that nothing is to be corrected."""
-        return self.most() <= _ROUNDING * self.after.radius
+        return self.most <= _ROUNDING * self.after.radius
 
     @property
     def idle(self) -> bool:
         """Whether the map leaves the circle where it is, and nothing else is asked for."""
-        places = self.before.at(self._around())
+        places = self.before.at(_around(*self.before.normal.tolist()))
         same = (self.before.centre == self.after.centre).all()
         same &= self.before.radius == self.after.radius
         return bool(same) and bool((self.image(places) == places).all())
-
-    def _around(self, count: int = 72) -> FloatArray:
-        """Give directions (n, 3) evenly around the circle."""
-        one, two = _across(self.before.normal)
-        angle = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)[:, None]
-        return np.asarray(np.cos(angle) * one + np.sin(angle) * two)
 
     def correction(self, unit: FloatArray) -> FloatArray:
         """Give what is to be added to the image (n, 3), m, in directions (n, 3)."""
         return self.after.at(unit) - self.image(self.before.at(unit))
 
+    @cached_property
     def most(self) -> float:
-        """Give how far the new circle lies off the image at most, m."""
-        step = self.correction(self._around())
+        """How far the new circle lies off the image at most, m."""
+        step = self.correction(_around(*self.before.normal.tolist()))
         return float(np.sqrt((step * step).sum(axis=1)).max())
 
     def turning(self, unit: FloatArray) -> FloatArray:
@@ -229,24 +227,37 @@ def redraw_circle(
 
 def _same_area(circle: SpaceCircle, slope: _Map) -> float:
     """Give the radius of a circle of as much area as the image has, to first order."""
-    one, two = _across(circle.normal)
-    both = np.stack([one, two])
+    both = np.stack(_across(*circle.normal.tolist()))
     part = both @ slope(circle.centre[None])[0] @ both.T
     area = abs(float(part[0, 0] * part[1, 1] - part[0, 1] * part[1, 0]))
     return circle.radius * float(np.sqrt(area))
 
 
-def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+@lru_cache(maxsize=64)
+def _across(*normal: float) -> tuple[FloatArray, FloatArray]:
     """Give two unit vectors across a normal and across one another."""
-    aside = np.eye(3)[int(np.argmin(np.abs(normal)))]
-    one = np.cross(normal, aside)
+    across = np.array(normal)
+    aside = np.eye(3)[int(np.argmin(np.abs(across)))]
+    one = np.cross(across, aside)
     one = one / np.sqrt((one * one).sum())
-    return one, np.cross(normal, one)
+    two = np.cross(across, one)
+    freeze(one, two)
+    return one, two
+
+
+@lru_cache(maxsize=64)
+def _around(*normal: float) -> FloatArray:
+    """Give directions (n, 3) evenly around a circle with a normal."""
+    one, two = _across(*normal)
+    angle = np.linspace(0.0, 2.0 * np.pi, _MANY, endpoint=False)[:, None]
+    found = np.asarray(np.cos(angle) * one + np.sin(angle) * two)
+    freeze(found)
+    return found
 
 
 def _refuse_far(found: RedrawnCircle) -> None:
     """Refuse a circle that lies off its image by more than a tenth of its radius."""
-    most = found.most()
+    most = found.most
     if most > _LARGEST * found.after.radius:
         raise BadInputError(
             f"feature '{found.name}' differs {most:.2f} m from the varied curve", "in vary",
