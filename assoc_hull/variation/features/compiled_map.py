@@ -8,6 +8,7 @@ by one and read-only; the numbers of a map are those of a `FlatMap`.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import sqrt
 
 import attrs
@@ -26,7 +27,7 @@ from assoc_hull.variation.fields.compiled_layers import (
     set_values,
 )
 
-__all__ = ["CompiledMap", "warm"]
+__all__ = ["CompiledMap", "kernels", "warm"]
 
 Vector = tuple[float, float, float]
 
@@ -69,7 +70,8 @@ def gather_bilges(
 @jit
 def _inward(number: FloatArray, begin: int, y: float, z: float) -> float:
     """Give how far a place lies inward of the tangent point on the floor."""
-    return 0.0 + y * number[begin + _DOWN + 1] + z * -number[begin + _DOWN]
+    found: float = 0.0 + y * number[begin + _DOWN + 1] + z * -number[begin + _DOWN]
+    return found
 
 
 @jit
@@ -452,6 +454,11 @@ def add_circle_slopes(
 # The map.
 
 
+_set_arc_places: Callable[..., None] = set_arc_places
+_add_bilges: Callable[..., None] = add_bilges
+_add_bilge_slopes: Callable[..., None] = add_bilge_slopes
+
+
 @attrs.frozen(eq=False)
 class CompiledMap:
     """A map as it is called: places (n, 3), m, to where they come, and its Jacobian.
@@ -470,7 +477,7 @@ class CompiledMap:
         found = self._images(at)
         if self.flat.arcs:
             place, given = self._bilges(at)
-            add_bilges(*self._numbers, at, *given, self._images(_plain(place[0])), found)
+            _add_bilges(*self._numbers, at, *given, self._images(_plain(place[0])), found)
         if self.flat.circles:
             near, place = self._near_circles(at)
             if len(near):
@@ -484,7 +491,7 @@ class CompiledMap:
         if self.flat.arcs:
             place, given = self._bilges(at)
             image, slope = self._images(_plain(place[0])), self._slopes(_plain(place[1]))
-            add_bilge_slopes(*self._numbers, at, *given, image, slope, found)
+            _add_bilge_slopes(*self._numbers, at, *given, image, slope, found)
         if self.flat.circles:
             near, place = self._near_circles(at)
             if len(near):
@@ -516,7 +523,7 @@ class CompiledMap:
         angle, part, turned = np.arctan2(away[1], away[0]), np.empty(count), np.empty((2, count))
         set_angles(*self._numbers, pair, away, angle, part, turned)
         given, place = (pair, away, part, np.cos(turned), np.sin(turned)), np.empty((2, count, 3))
-        set_arc_places(*self._numbers, at, *given, place)
+        _set_arc_places(*self._numbers, at, *given, place)
         return place, given
 
     def _near_circles(self, at: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -547,10 +554,12 @@ def warm() -> bool:
     near, slope = np.zeros(0, np.int64), np.zeros((0, 3, 3))
     add_circles(*flat, _plain(at), near, at, at)
     add_circle_slopes(*flat, _plain(at), near, at, slope, slope)
-    return all(was_loaded(each) for each in _KERNELS)
+    return all(was_loaded(each) for each in kernels())
 
 
-_KERNELS = (
-    map_layers, gather_bilges, set_angles, set_arc_places, add_bilges,
-    add_bilge_slopes, find_near, set_circle_places, add_circles, add_circle_slopes,
-)  # fmt: skip
+def kernels() -> tuple[Callable[..., object], ...]:
+    """Give all that is compiled for maps."""
+    return (
+        map_layers, gather_bilges, set_angles, set_arc_places, add_bilges, add_bilge_slopes,
+        find_near, set_circle_places, add_circles, add_circle_slopes,
+    )  # fmt: skip

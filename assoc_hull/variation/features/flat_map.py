@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
 import attrs
 import numpy as np
@@ -128,13 +129,14 @@ class _Sheet:
             x, v = course.x.tolist(), course.v.tolist()
             if v.count(v[0]) == len(v):
                 return self._put((0, 1, 0), v[:1])
-            width = [b - a for a, b in zip(x, x[1:], strict=False)]
-            rise = [b - a for a, b in zip(v, v[1:], strict=False)]
+            width = [b - a for a, b in pairwise(x)]
+            rise = [b - a for a, b in pairwise(v)]
             return self._put((1, len(x), _blend(course.blend)), [*x, *v, *width, *rise])
         if type(course) is Polyline:
             x, v = course.x.tolist(), course.v.tolist()
-            pairs = zip(x, x[1:], v, v[1:], strict=False)
-            return self._put((2, len(x), 0), [*x, *v, *((d - c) / (b - a) for a, b, c, d in pairs)])
+            pairs = zip(pairwise(x), pairwise(v), strict=True)
+            slopes = [(d - c) / (b - a) for (a, b), (c, d) in pairs]
+            return self._put((2, len(x), 0), [*x, *v, *slopes])
         if type(course) is Polynomial:
             c = course.c.tolist()
             slope = [each * k for k, each in enumerate(c[1:], 1)] or [0.0]
@@ -182,13 +184,10 @@ class _Sheet:
         ]
         code = [0, "xyz".index(field.axis), len(parts), _blend(field.blend)]
         code += [-1 if tube is None else _blend(tube.blend), *(f for part in parts for f in part)]
-        numbers = [*region.x, *region.z]
-        if tube is None:
-            numbers += [0.0, 0.0, 0.0]
-        else:
-            numbers += [tube.radius, tube.n - 1.0, tube.radius * (tube.n - 1.0)]
+        wide = (0.0, 0.0) if tube is None else (tube.radius, tube.n - 1.0)
         self.code[6] = max(self.code[6], len(parts))
-        return self._put(code, [*numbers, *(each.pivot for each in field.pieces)])
+        pivots = (each.pivot for each in field.pieces)
+        return self._put(code, [*region.x, *region.z, *wide, wide[0] * wide[1], *pivots])
 
     def arc(self, arc: BilgeArc, share: BlendChain) -> int:
         """Put a bilge arc: its share, and the numbers of both circles."""

@@ -97,7 +97,12 @@ def set_values(
         for i in range(n):
             out[i] = value
     elif kind == 1 and count == 2:
-        first, end, value, beyond = number[begin], number[begin + 1], number[begin + 2], number[begin + 3]
+        first, end, value, beyond = (
+            number[begin],
+            number[begin + 1],
+            number[begin + 2],
+            number[begin + 3],
+        )
         width, rise = number[begin + 4], number[begin + 5]
         for i in range(n):
             inner = value + rise * blend(choice, (x[i] - first) / width)
@@ -185,8 +190,18 @@ def _gather(
     number: FloatArray, begin: int, p: FloatArray, m: int, q: FloatArray, index: IntArray
 ) -> int:
     """Set which places of a block lie in the region of a field; an infinite end bounds nothing."""
-    from_x, to_x, from_z, to_z = number[begin], number[begin + 1], number[begin + 2], number[begin + 3]
-    no_x, no_end, no_z, no_top = not from_x > -np.inf, not to_x < np.inf, not from_z > -np.inf, not to_z < np.inf
+    from_x, to_x, from_z, to_z = (
+        number[begin],
+        number[begin + 1],
+        number[begin + 2],
+        number[begin + 3],
+    )
+    no_x, no_end, no_z, no_top = (
+        not from_x > -np.inf,
+        not to_x < np.inf,
+        not from_z > -np.inf,
+        not to_z < np.inf,
+    )
     n = 0
     for i in range(m):
         x, z = p[0, i], p[2, i]
