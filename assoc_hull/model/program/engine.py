@@ -1,6 +1,6 @@
 """Which arithmetic runs the program of a net: numpy, or the compiled form where that is at hand.
 
-Compiling takes half a minute of one processor, once on a machine; so it is done by a child process,
+Compiling takes a minute of one processor, once on a machine; so it is done by a child process,
 which leaves it in the cache of numba, and numpy serves until then. Both give the same bits.
 ``ASSOC_HULL_FAST=0`` keeps to numpy, ``1`` compiles here and now. Nothing of numba is imported
 before somebody drags: that would cost a command that runs once a third of a second.

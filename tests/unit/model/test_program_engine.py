@@ -91,9 +91,11 @@ def test_what_a_child_compiles_is_found_by_another_process() -> None:
         "from assoc_hull.model.program import compiled_program as made\n"
         "made.warm()\n"
         "print(len(made.run.signatures), len(made.restore.signatures))\n"
+        "from assoc_hull.variation.features.compiled_map import warm\n"
+        "print(warm())\n"
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert found.stdout.split("\n")[:2] == ["compiled by numba", "1 1"], found
+    assert found.stdout.split("\n")[:3] == ["compiled by numba", "1 1", "True"], found
 
 
 def test_the_command_tells(
