@@ -95,12 +95,13 @@ def fields_of(state: HullState, program: Program, short: float) -> CompiledField
     return None if structure is None else CompiledFields(structure, program)
 
 
-def is_compiled() -> bool:
+def is_compiled(*, counts: bool = True) -> bool:
     """Tell whether the compiled form serves; one who asks often enough has it made.
 
-    A process that runs once asks seldom: it is not to pay for a compilation.
+    A process that runs once asks seldom: it is not to pay for a compilation. What asks often for
+    the sake of one hull does not count.
     """
-    _engine.asked += 1
+    _engine.asked += counts
     return _engine.ready or (_engine.asked > _SELDOM and _is_ready())
 
 

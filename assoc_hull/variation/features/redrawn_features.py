@@ -84,7 +84,7 @@ class RedrawnFeatures:
     def quick(self) -> SlopedMap:
         """What `map` is, compiled where that is at hand: the same bits, sooner."""
         arcs = list(zip(self.bilges.arcs, self.bilges.shares(), strict=True))
-        return _compiled(self.layers, arcs, self.map.circles) or self.map
+        return _compiled(self.layers, arcs, self.map.circles, counts=True) or self.map
 
     @property
     def space(self) -> SpaceMap:
@@ -119,10 +119,13 @@ class RedrawnFeatures:
 
 def _compiled(
     layers: Sequence[Layer], arcs: Sequence[tuple[BilgeArc, BlendChain]] = (),
-    circles: Sequence[RedrawnCircle] = (),
+    circles: Sequence[RedrawnCircle] = (), *, counts: bool = False,
 ) -> CompiledMap | None:  # fmt: skip
-    """Give a map in compiled form; None where numpy serves."""
-    if not is_compiled():
+    """Give a map in compiled form; None where numpy serves.
+
+    Intervals of values are sought by many maps that carry nothing: these do not count.
+    """
+    if not is_compiled(counts=counts):
         return None
     from assoc_hull.variation.features.compiled_map import CompiledMap
     from assoc_hull.variation.features.flat_map import FlatMap
