@@ -20,7 +20,8 @@ MOST = {
     # its result stands in a module that loads nothing of studies and surfaces
     # counts of crossings by pairs of lines are `model.births`, arrays of their own
     # stages of a set, the choice of a plan and the combs of its lines are modules of their own
-    "a variation of the breadth": 115,
+    # a map drawn anew asks `model.program.engine` whether it is compiled
+    "a variation of the breadth": 116,
 }
 """Modules entered, at most. A change that raises a number says why in its commit."""
 

@@ -125,7 +125,7 @@ def test_the_feature_is_there_already_so_nothing_is_added() -> None:
     """A similarity carries the circle to the asked one, but for rounding."""
     vmap = similarity()
     drawn = redraw_circle("boss", END, vmap, vmap.jacobian, radius=RADIUS, centre=[6.0, 0.0, 6.0])
-    assert drawn.most() < 1e-15
+    assert drawn.most < 1e-15
     assert changed_circles([drawn]) == (drawn,)
 
 

@@ -1,6 +1,6 @@
 """Which arithmetic runs the program of a net: numpy, or the compiled form where that is at hand.
 
-Compiling takes half a minute of one processor, once on a machine; so it is done by a child process,
+Compiling takes a minute of one processor, once on a machine; so it is done by a child process,
 which leaves it in the cache of numba, and numpy serves until then. Both give the same bits.
 ``ASSOC_HULL_FAST=0`` keeps to numpy, ``1`` compiles here and now. Nothing of numba is imported
 before somebody drags: that would cost a command that runs once a third of a second.
@@ -41,12 +41,15 @@ again, *sys.path[:] = sys.argv[1:]
 if again == "no" and hasattr(os, "nice"):
     os.nice(5)
 from assoc_hull.model.program import compiled_fields, compiled_program
-if not (compiled_program.warm() & compiled_fields.warm()):
+from assoc_hull.variation.features import compiled_map
+if not (compiled_program.warm() & compiled_fields.warm() & compiled_map.warm()):
     if again == "yes":
         sys.exit("what numba compiles cannot be kept on this disk: see NUMBA_CACHE_DIR")
     os.execv(sys.executable, [sys.executable, "-c", os.environ["MAKE"], "yes", *sys.path])
 """
-"""What the child runs: it compiles, and makes sure that another process finds that in the cache."""
+"""What the child runs: it compiles, and makes sure that another process finds that in the cache.
+
+It is a program of its own, so it may compile what stands on top of this package, too."""
 
 _SELDOM = 20
 """Who edits a hull more often is no command that runs once."""
@@ -92,12 +95,13 @@ def fields_of(state: HullState, program: Program, short: float) -> CompiledField
     return None if structure is None else CompiledFields(structure, program)
 
 
-def is_compiled() -> bool:
+def is_compiled(*, counts: bool = True) -> bool:
     """Tell whether the compiled form serves; one who asks often enough has it made.
 
-    A process that runs once asks seldom: it is not to pay for a compilation.
+    A process that runs once asks seldom: it is not to pay for a compilation. What asks often for
+    the sake of one hull does not count.
     """
-    _engine.asked += 1
+    _engine.asked += counts
     return _engine.ready or (_engine.asked > _SELDOM and _is_ready())
 
 

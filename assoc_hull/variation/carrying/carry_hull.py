@@ -18,7 +18,6 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.nudge import Nudge, nudge
 from assoc_hull.edit.recut.transform import transform
 from assoc_hull.edit.report import EditReport
-from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.tables import HullState, Particulars
@@ -104,7 +103,7 @@ def apply_map(
         Nothing can drive, the map folds, or lines cannot follow it.
     """
     state, anew = edit.state, redraw_features(edit.state, vmap, radii)
-    space = SpaceMap(anew.map, anew.map.jacobian)
+    space = anew.space
     chosen = choose_drivers(state, space, drivers, stations, follow=follow)
     levels = section_planes(state, vmap.layers) if stations == "number" else None
     added = transform(

@@ -19,10 +19,9 @@ from assoc_hull.variation.carrying.admissible_values import AdmissibleValues, re
 from assoc_hull.variation.carrying.carry_hull import resized_particulars
 from assoc_hull.variation.carrying.driving_lines import choose_drivers, section_planes
 from assoc_hull.variation.certificate.fold_check import Certificate
-from assoc_hull.variation.features.redrawn_circles import FeatureMap
 from assoc_hull.variation.features.redrawn_features import RedrawnFeatures, redraw_features
 from assoc_hull.variation.fields.layers import Layer
-from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.fields.space_map import SlopedMap, VariationMap
 from assoc_hull.variation.parameters.catalogue import Freedom
 from assoc_hull.variation.request import VariationRequest
 
@@ -56,9 +55,9 @@ class LaidMap:
     state: HullState
 
     @property
-    def map(self) -> FeatureMap:
+    def map(self) -> SlopedMap:
         """The map with circles and bilges drawn anew."""
-        return self.drawn.map
+        return self.drawn.quick
 
     @cached_property
     def features(self) -> tuple[Feature, ...]:
@@ -159,7 +158,7 @@ class HullMaps:
         anew = redraw_features(state, vmap, self._radii(amplitudes))
         given = None if ask.drivers is None else GivenObjects(state).driving(ask.drivers)
         kept = choose_drivers(
-            state, SpaceMap(anew.map, anew.map.jacobian), given, ask.stations,
+            state, anew.space, given, ask.stations,
             follow=ask.planes == "follow",
         )  # fmt: skip
         return self.with_boundaries(kept.lines), kept.follow
@@ -170,10 +169,8 @@ class HullMaps:
 
     def places(self, amplitudes: FloatArray, source: FloatArray) -> FloatArray:
         """Give where a map sends places (n, 3) of the parent, m, circles drawn anew."""
-        found = redraw_features(self.state, self.map(amplitudes), self._radii(amplitudes)).map(
-            source
-        )
-        return np.asarray(found)
+        anew = redraw_features(self.state, self.map(amplitudes), self._radii(amplitudes))
+        return anew.quick(source)
 
     def laid(
         self, amplitudes: FloatArray, lines: IntArray, *, follow: bool,
@@ -193,7 +190,7 @@ class HullMaps:
         """
         state, vmap, asked = self.state, self.map(amplitudes), self.values(amplitudes)
         anew = redraw_features(state, vmap, self._radii(amplitudes))
-        space = SpaceMap(anew.map, anew.map.jacobian)
+        space = anew.space
         levels = section_planes(state, vmap.layers) if self.ask.stations == "number" else None
         planes = carry_planes(state, space, lines, follow=follow, levels=levels, samples=samples)
         size = resized_particulars(state, vmap, self.room.parent, asked)

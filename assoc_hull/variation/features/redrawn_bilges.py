@@ -25,9 +25,10 @@ from assoc_hull.model.tables import HullState
 from assoc_hull.variation.features.redrawn_circles import JOIN
 from assoc_hull.variation.fields.bounded_functions import QUINTIC, BlendChain
 from assoc_hull.variation.fields.field import FieldRegion
-from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.fields.space_map import SlopedMap
 
 __all__ = [
+    "CURVE",
     "BilgeArc",
     "BilgeFillet",
     "BilgeMap",
@@ -135,7 +136,7 @@ def fillet_bilge(
 
 _Map = Callable[[FloatArray], FloatArray]
 
-_CURVE = 1e-4
+CURVE = 1e-4
 """The curve through the points of an arc lies as near to it, in radii; places as near as this are
 put on the new arc."""
 
@@ -203,7 +204,7 @@ class BilgeArc:
         unit = away / np.where(size > 0.0, size, 1.0)[:, None]
         down = (old.floor - [old.y, old.z]) / old.radius
         keelward = np.array([down[1], -down[0]])
-        inward, upward = away @ keelward, away[:, 1]
+        inward, upward = (away * keelward).sum(axis=1), away[:, 1]
         # three zones: inward of the tangent point on the floor, above that on the side, and the
         # arc
         floor = inward > 0.0
@@ -218,7 +219,7 @@ class BilgeArc:
         near, sink = _fade(np.abs(off), np.full(len(off), old.radius))
         left, fall = _fade(past, reach)
         step, turn = self.step(part), self.turning(part)
-        on = ~floor & ~side & (np.abs(off) <= _CURVE * old.radius)
+        on = ~floor & ~side & (np.abs(off) <= CURVE * old.radius)
         if on.any():
             own = np.column_stack([np.full(int(on.sum()), self.x), y[on], z[on]])
             step[on] = self.after.at(part[on]) - self.image(own)[:, 1:]
@@ -257,7 +258,7 @@ class BilgeMap:
     def __call__(self, xyz: FloatArray) -> FloatArray:
         """Map places (n, 3), m; those that no arc reaches keep the bits of the map."""
         found = self.image(xyz)
-        for arc, share in zip(self.arcs, self._shares(), strict=True):
+        for arc, share in zip(self.arcs, self.shares(), strict=True):
             some = np.flatnonzero(share.at(xyz[:, 0]) != 0.0)
             if len(some):
                 x, y, z = xyz[some].T
@@ -271,7 +272,7 @@ class BilgeMap:
     def jacobian(self, xyz: FloatArray) -> FloatArray:
         """Give the derivatives of the places after by those before, (n, 3, 3)."""
         found = self.slope(xyz)
-        for arc, share in zip(self.arcs, self._shares(), strict=True):
+        for arc, share in zip(self.arcs, self.shares(), strict=True):
             some = np.flatnonzero(share.at(xyz[:, 0]) != 0.0)
             if len(some):
                 x, y, z = xyz[some].T
@@ -287,10 +288,10 @@ class BilgeMap:
         """Give the boxes of the profile plane in which arcs change the map."""
         return tuple(
             FieldRegion(arc.name, (float(share.nodes[0]), float(share.nodes[-1])), _heights(arc))
-            for arc, share in zip(self.arcs, self._shares(), strict=True)
+            for arc, share in zip(self.arcs, self.shares(), strict=True)
         )
 
-    def _shares(self) -> list[BlendChain]:
+    def shares(self) -> list[BlendChain]:
         """Give how much each arc counts along the ship: those of two neighbours add up to one."""
         x = [arc.x for arc in self.arcs]
         low = [arc.x - JOIN * arc.before.radius for arc in self.arcs[:1]] + x[:-1]
@@ -347,7 +348,7 @@ class _Between:
         return min(most, floor), min(most, float(self.upper[1] - self.bilge.side[1]))
 
 
-def bilge_map(state: HullState, vmap: VariationMap) -> BilgeMap:
+def bilge_map(state: HullState, vmap: SlopedMap) -> BilgeMap:
     """Draw the bilge arcs of a hull again for a map.
 
     Where the map scales all about a bilge alike, nothing is drawn: a similarity makes an arc of it,
@@ -358,7 +359,7 @@ def bilge_map(state: HullState, vmap: VariationMap) -> BilgeMap:
     ----------
     state : HullState
         The tables, before the map.
-    vmap : VariationMap
+    vmap : SlopedMap
         The map.
     """
     arcs = [_drawn(state, each, vmap) for each in state.features if each.kind == "arc"]
@@ -368,7 +369,7 @@ def bilge_map(state: HullState, vmap: VariationMap) -> BilgeMap:
     return BilgeMap(vmap, vmap.jacobian, tuple(alone))
 
 
-def _drawn(state: HullState, feature: Feature, vmap: VariationMap) -> BilgeArc | None:
+def _drawn(state: HullState, feature: Feature, vmap: SlopedMap) -> BilgeArc | None:
     """Draw one arc again; None if it is no bilge, need not be drawn again, or cannot."""
     found = _between(state, feature)
     if found is None or _even(found, vmap):
@@ -415,7 +416,7 @@ def _run(yz: FloatArray, ahead: FloatArray) -> FloatArray | None:
     return yz[last].copy() if last > 0 else None
 
 
-def _even(found: _Between, vmap: VariationMap) -> bool:
+def _even(found: _Between, vmap: SlopedMap) -> bool:
     """Tell whether a map scales all around a bilge alike: pure ratios of the hull do."""
     old, part = found.bilge, np.linspace(0.0, 1.0, 6)
     low, high = old.floor - old.radius, old.side + np.array([0.0, old.radius])
@@ -424,7 +425,7 @@ def _even(found: _Between, vmap: VariationMap) -> bool:
     return bool((slope == slope[0]).all())
 
 
-def _filleted(found: _Between, vmap: VariationMap) -> BilgeFillet | None:
+def _filleted(found: _Between, vmap: SlopedMap) -> BilgeFillet | None:
     """Round off the corner of the images of bottom and side; None if these are not straight."""
     old, half = found.bilge, 0.5 * (found.inner + found.bilge.floor)
     ends = np.array([found.inner, half, old.floor, old.side, found.upper])
@@ -442,7 +443,7 @@ def _filleted(found: _Between, vmap: VariationMap) -> BilgeFillet | None:
         return None
 
 
-def _grown(found: _Between, vmap: VariationMap) -> float:
+def _grown(found: _Between, vmap: SlopedMap) -> float:
     """Give by what a map multiplies the radius: the root of what it does to areas."""
     slope = vmap.jacobian(np.array([[found.x, found.bilge.y, found.bilge.z]]))[0, 1:, 1:]
     return math.sqrt(float(slope[0, 0] * slope[1, 1] - slope[0, 1] * slope[1, 0]))

@@ -9,7 +9,7 @@ circle, and fading with the distance, so that joins stay smooth. Lengths in m.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import attrs
 import numpy as np
@@ -49,6 +49,9 @@ _ROUNDING = 1e-13
 
 _LARGEST = 0.1
 """A circle may lie off the image by this part of its radius."""
+
+_MANY = 72
+"""At so many places around a circle it is compared with the image."""
 
 _WITHIN = 1e-6
 """A curve through points of a circle may leave it by this (m), else points are added."""
@@ -145,29 +148,24 @@ class RedrawnCircle:
     @cached_property
     def carried(self) -> bool:
         """Whether the map itself makes the circle, so that nothing is to be corrected."""
-        return self.most() <= _ROUNDING * self.after.radius
+        return self.most <= _ROUNDING * self.after.radius
 
     @property
     def idle(self) -> bool:
         """Whether the map leaves the circle where it is, and nothing else is asked for."""
-        places = self.before.at(self._around())
+        places = self.before.at(_around(*self.before.normal.tolist()))
         same = (self.before.centre == self.after.centre).all()
         same &= self.before.radius == self.after.radius
         return bool(same) and bool((self.image(places) == places).all())
-
-    def _around(self, count: int = 72) -> FloatArray:
-        """Give directions (n, 3) evenly around the circle."""
-        one, two = _across(self.before.normal)
-        angle = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)[:, None]
-        return np.asarray(np.cos(angle) * one + np.sin(angle) * two)
 
     def correction(self, unit: FloatArray) -> FloatArray:
         """Give what is to be added to the image (n, 3), m, in directions (n, 3)."""
         return self.after.at(unit) - self.image(self.before.at(unit))
 
+    @cached_property
     def most(self) -> float:
-        """Give how far the new circle lies off the image at most, m."""
-        step = self.correction(self._around())
+        """How far the new circle lies off the image at most, m."""
+        step = self.correction(_around(*self.before.normal.tolist()))
         return float(np.sqrt((step * step).sum(axis=1)).max())
 
     def turning(self, unit: FloatArray) -> FloatArray:
@@ -229,24 +227,37 @@ def redraw_circle(
 
 def _same_area(circle: SpaceCircle, slope: _Map) -> float:
     """Give the radius of a circle of as much area as the image has, to first order."""
-    one, two = _across(circle.normal)
-    both = np.stack([one, two])
+    both = np.stack(_across(*circle.normal.tolist()))
     part = both @ slope(circle.centre[None])[0] @ both.T
     area = abs(float(part[0, 0] * part[1, 1] - part[0, 1] * part[1, 0]))
     return circle.radius * float(np.sqrt(area))
 
 
-def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+@lru_cache(maxsize=64)
+def _across(*normal: float) -> tuple[FloatArray, FloatArray]:
     """Give two unit vectors across a normal and across one another."""
-    aside = np.eye(3)[int(np.argmin(np.abs(normal)))]
-    one = np.cross(normal, aside)
+    across = np.array(normal)
+    aside = np.eye(3)[int(np.argmin(np.abs(across)))]
+    one = np.cross(across, aside)
     one = one / np.sqrt((one * one).sum())
-    return one, np.cross(normal, one)
+    two = np.cross(across, one)
+    freeze(one, two)
+    return one, two
+
+
+@lru_cache(maxsize=64)
+def _around(*normal: float) -> FloatArray:
+    """Give directions (n, 3) evenly around a circle with a normal."""
+    one, two = _across(*normal)
+    angle = np.linspace(0.0, 2.0 * np.pi, _MANY, endpoint=False)[:, None]
+    found = np.asarray(np.cos(angle) * one + np.sin(angle) * two)
+    freeze(found)
+    return found
 
 
 def _refuse_far(found: RedrawnCircle) -> None:
     """Refuse a circle that lies off its image by more than a tenth of its radius."""
-    most = found.most()
+    most = found.most
     if most > _LARGEST * found.after.radius:
         raise BadInputError(
             f"feature '{found.name}' differs {most:.2f} m from the varied curve", "in vary",
@@ -413,7 +424,7 @@ class FeatureMap:
                 moved = moved + shares[i, some][:, None] * circle.correction(unit)
             # on the circle its own place, not the image with a correction: bits of the new circle
             moved[away[i, some] == 0.0] = circle.after.at(unit[away[i, some] == 0.0])
-            level = np.abs((xyz[some] - circle.before.centre) @ circle.before.normal)
+            level = np.abs(((xyz[some] - circle.before.centre) * circle.before.normal).sum(axis=1))
             moved[np.maximum(size, level) <= circle.gap] = circle.after.centre
             found[some] = moved
         return found
@@ -434,8 +445,8 @@ class FeatureMap:
             about = np.eye(3) - circle.before.normal[:, None] * circle.before.normal
             about = about - unit[:, :, None] * unit[:, None, :]
             about = about / np.where(size > 0.0, size, np.inf)[:, None, None]
-            spin = np.einsum("nij,njk->nik", circle.turning(unit), about)
-            grow = np.einsum("jn,jnk->nk", turn, self._ahead(xyz[some], away[:, some]))
+            spin = (circle.turning(unit)[:, :, :, None] * about[:, None, :, :]).sum(axis=2)
+            grow = (turn[:, :, None] * self._ahead(xyz[some], away[:, some])).sum(axis=0)
             found[some] += weight[:, None, None] * spin
             found[some] += circle.correction(unit)[:, :, None] * grow[:, None, :]
         return found
@@ -466,7 +477,7 @@ class FeatureMap:
             return found
         close = away[:, some]
         part = np.array([self._part_alone(k, close)[0] for k in range(len(close))])
-        total = part.sum(axis=0)
+        total = _total(part)
         total[total == 0.0] = 1.0
         gone = QUINTIC.value(close / self._reach()[:, None])
         found[:, some] = (1.0 - np.prod(gone, axis=0)) * (part / total)
@@ -480,7 +491,7 @@ class FeatureMap:
         each = [self._part(k, away) for k in range(len(away))]
         part, turn = np.array([p for p, _ in each]), np.array([t for _, t in each])
         left, sink = self._left(away)
-        total, slope = part.sum(axis=0), turn.sum(axis=0)
+        total, slope = _total(part), turn.sum(axis=0)
         total[total == 0.0] = 1.0
         share = part[i] / total
         bend = (turn[i] - share * slope) / total
@@ -520,6 +531,11 @@ class FeatureMap:
         """Give the unit vectors in which the distances grow, (c, n, 3); zero on a circle."""
         steps = np.array([xyz - each.before.foot(xyz)[0] for each in self.circles])
         return np.asarray(steps / np.where(away > 0.0, away, np.inf)[:, :, None])
+
+
+def _total(part: FloatArray) -> FloatArray:
+    """Sum parts (c, n) in their order: `sum` has another one where there is a single place."""
+    return np.asarray(np.add.accumulate(part)[-1])
 
 
 def _distance(circle: RedrawnCircle, xyz: FloatArray) -> FloatArray:

@@ -8,6 +8,8 @@ features where it leaves them so.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import attrs
 import numpy as np
@@ -15,11 +17,13 @@ import numpy as np
 from assoc_hull.edit.crossings.tangencies import PlaneTangency
 from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.recut.carried_points import TransformationState
+from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.feature_geometry import host_curve
 from assoc_hull.model.features import Feature
+from assoc_hull.model.program.engine import is_compiled
 from assoc_hull.model.tables import HullState
-from assoc_hull.variation.features.redrawn_bilges import BilgeMap, bilge_map
+from assoc_hull.variation.features.redrawn_bilges import BilgeArc, BilgeMap, bilge_map
 from assoc_hull.variation.features.redrawn_circles import (
     GAP,
     JOIN,
@@ -30,8 +34,13 @@ from assoc_hull.variation.features.redrawn_circles import (
     redraw_circle,
     tangent_point,
 )
+from assoc_hull.variation.fields.bounded_functions import BlendChain
 from assoc_hull.variation.fields.field import FieldRegion
-from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.fields.layers import Layer
+from assoc_hull.variation.fields.space_map import SlopedMap, VariationMap
+
+if TYPE_CHECKING:
+    from assoc_hull.variation.features.compiled_map import CompiledMap
 
 __all__ = ["RedrawnFeatures", "redraw_features"]
 
@@ -40,6 +49,9 @@ _ROUND = 1e-6
 
 _OBLATE = 1.2
 """A circle that is stretched by more one way than the other is meant to be an oval."""
+
+_FEW = 54
+"""At so many places a map is asked first whether it is affine."""
 
 _END = 1e-3
 """A touch as near as this (m) to an end of the curve is that end."""
@@ -58,12 +70,26 @@ class RedrawnFeatures:
         The curves that they are, one each.
     bilges : BilgeMap
         What `map` draws circles anew after.
+    layers : tuple of Layer
+        What `bilges` draws bilges anew after.
     """
 
     map: FeatureMap
     keys: tuple[str, ...]
     hosts: tuple[int, ...]
     bilges: BilgeMap
+    layers: tuple[Layer, ...]
+
+    @cached_property
+    def quick(self) -> SlopedMap:
+        """What `map` is, compiled where that is at hand: the same bits, sooner."""
+        arcs = list(zip(self.bilges.arcs, self.bilges.shares(), strict=True))
+        return _compiled(self.layers, arcs, self.map.circles, counts=True) or self.map
+
+    @property
+    def space(self) -> SpaceMap:
+        """The map as a transformation uses it."""
+        return SpaceMap(self.quick, self.quick.jacobian)
 
     def regions(self) -> tuple[FieldRegion, ...]:
         """Give the boxes of the profile plane in which features change the map."""
@@ -91,6 +117,23 @@ class RedrawnFeatures:
         return attrs.evolve(carried, features=found, bent=carried.bent - drawn.keys())
 
 
+def _compiled(
+    layers: Sequence[Layer], arcs: Sequence[tuple[BilgeArc, BlendChain]] = (),
+    circles: Sequence[RedrawnCircle] = (), *, counts: bool = False,
+) -> CompiledMap | None:  # fmt: skip
+    """Give a map in compiled form; None where numpy serves.
+
+    Intervals of values are sought by many maps that carry nothing: these do not count.
+    """
+    if not is_compiled(counts=counts):
+        return None
+    from assoc_hull.variation.features.compiled_map import CompiledMap
+    from assoc_hull.variation.features.flat_map import FlatMap
+
+    flat = FlatMap.of(layers, arcs, circles)
+    return None if flat is None else CompiledMap(flat)
+
+
 def redraw_features(
     state: HullState, vmap: VariationMap, radii: Mapping[str, float] | None = None
 ) -> RedrawnFeatures:
@@ -111,25 +154,27 @@ def redraw_features(
         The map leaves a circle too far from any.
     """
     features = [each for each in state.features if each.kind == "circle"]
-    wanted = _of_cylinders(features, radii or {}, vmap)
+    quick = _compiled(vmap.layers) or vmap
+    wanted = _of_cylinders(features, radii or {}, quick)
     drawn = {
-        each.key: _redrawn(each, vmap, wanted.get(each.key))
+        each.key: _redrawn(each, quick, wanted.get(each.key))
         for each in features
-        if each.key in wanted or not _stretched(each, vmap)
+        if each.key in wanted or not _stretched(each, quick)
     }
-    some = [each for each in changed_circles(list(drawn.values())) if not _even(each, vmap)]
+    some = [each for each in changed_circles(list(drawn.values())) if not _even(each, quick)]
     chosen = [each for each in features if drawn.get(each.key) in some]
-    bilges = bilge_map(state, vmap)
+    bilges = bilge_map(state, quick)
     return RedrawnFeatures(
         FeatureMap(bilges, bilges.jacobian, tuple(drawn[each.key] for each in chosen)),
         tuple(each.key for each in chosen),
         tuple(host_curve(state, each) for each in chosen),
         bilges,
+        vmap.layers,
     )
 
 
 def _of_cylinders(
-    features: Sequence[Feature], radii: Mapping[str, float], vmap: VariationMap
+    features: Sequence[Feature], radii: Mapping[str, float], vmap: SlopedMap
 ) -> dict[str, float]:
     """Let a cylinder stay one: circles that are one with an asked one get its radius to the bit.
 
@@ -155,7 +200,7 @@ def _one_cylinder(one: Feature, other: Feature) -> bool:
     return not (away - float((away * normal).sum()) * normal).any()
 
 
-def _even(circle: RedrawnCircle, vmap: VariationMap) -> bool:
+def _even(circle: RedrawnCircle, vmap: SlopedMap) -> bool:
     """Tell whether a circle is carried by a map that is affine in all its neighbourhood.
 
     Its curve is then the curve of before, scaled, as are those that meet it: put onto the circle
@@ -165,11 +210,15 @@ def _even(circle: RedrawnCircle, vmap: VariationMap) -> bool:
         return False
     reach = (JOIN + 1.0) * circle.before.radius * np.linspace(-1.0, 1.0, 15)
     grid = np.stack(np.meshgrid(reach, reach, reach, indexing="ij"), axis=-1).reshape(-1, 3)
-    slope = vmap.jacobian(circle.before.centre + grid)
-    return bool((slope == slope[0]).all())
+    grid = circle.before.centre + grid
+    # most maps that are not affine tell so at a few of these places already
+    return all(
+        bool((slope == slope[0]).all())
+        for slope in (vmap.jacobian(grid[:: len(grid) // _FEW]), vmap.jacobian(grid))
+    )
 
 
-def _stretched(feature: Feature, vmap: VariationMap) -> bool:
+def _stretched(feature: Feature, vmap: SlopedMap) -> bool:
     """Tell whether a map stretches a circle so much, and evenly, that it is meant to be none."""
     normal = np.array(feature.parameters["normal"])
     slope = vmap.jacobian(np.array([feature.parameters["centre"]]))[0]
@@ -178,7 +227,7 @@ def _stretched(feature: Feature, vmap: VariationMap) -> bool:
     return bool(size[0] > _OBLATE * size[1])
 
 
-def _redrawn(feature: Feature, vmap: VariationMap, radius: float | None) -> RedrawnCircle:
+def _redrawn(feature: Feature, vmap: SlopedMap, radius: float | None) -> RedrawnCircle:
     places = feature.parameters
     before = SpaceCircle.of(places["centre"], float(feature.radius or 0.0), places["normal"])
     gap = max(GAP, 2.0 * feature.gap)

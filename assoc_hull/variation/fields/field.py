@@ -449,6 +449,8 @@ def level_boundaries(names: Sequence[str], heights: Sequence[float]) -> tuple[Bo
 
 def _acts(course: BoundedFunction) -> bool:
     """Tell whether a function is anywhere other than zero."""
+    if isinstance(course, BlendChain):
+        return bool(course.v.any())
     low, high = course.bounds(np.array(-np.inf), np.array(np.inf))
     return bool(low != 0.0) or bool(high != 0.0)
 
@@ -456,7 +458,7 @@ def _acts(course: BoundedFunction) -> bool:
 def nonzero_span(course: BoundedFunction) -> tuple[float, float]:
     """Give between which x, m, a function is other than zero; infinite where it has no end."""
     nodes = course.nodes
-    value = course.at(nodes)
+    value = course.v if isinstance(course, BlendChain) else course.at(nodes)
     first = -np.inf if value[0] != 0.0 else float(nodes[0])
     last = np.inf if value[-1] != 0.0 else float(nodes[-1])
     if isinstance(course, BlendChain):

@@ -98,12 +98,12 @@ class Bump:
 
     def _at(self, xi: FloatArray) -> FloatArray:
         factor, m, n = BUMP_SHAPES[self.shape]
-        value: FloatArray = self.size * (factor * xi**m * (1.0 - xi) ** n)
+        value: FloatArray = self.size * (factor * _power(xi, m) * _power(1.0 - xi, n))
         return value
 
     def _slope(self, xi: FloatArray) -> FloatArray:
         factor, m, n = BUMP_SHAPES[self.shape]
-        rise = xi ** (m - 1) * (1.0 - xi) ** (n - 1) * (m * (1.0 - xi) - n * xi)
+        rise = _power(xi, m - 1) * _power(1.0 - xi, n - 1) * (m * (1.0 - xi) - n * xi)
         slope: FloatArray = self.size * factor / (self.end - self.begin) * rise
         return slope
 
@@ -147,6 +147,14 @@ class Bump:
             least = np.where(inside, np.minimum(least, found), least)
             most = np.where(inside, np.maximum(most, found), most)
         return least, most
+
+
+def _power(x: FloatArray, m: int) -> FloatArray:
+    """Give a power from 0 to 3 by products: those of a library differ between processors."""
+    found = np.ones_like(x)
+    for _ in range(m):
+        found = found * x
+    return found
 
 
 @attrs.frozen(eq=False)

@@ -9,6 +9,8 @@ every outer one once the inner ones are solved.
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,6 +29,7 @@ from assoc_hull.variation.fields.layers import (
 )
 
 __all__ = [
+    "SlopedMap",
     "VariationMap",
     "inverse_map",
     "solve_coordinates",
@@ -240,6 +243,18 @@ def _nested(
     found = xyz.copy()
     found[:, axis] = false_position(give, low, high, at_low, at_high, enough)
     return _nested(layer, image, found, inner, enough)
+
+
+class SlopedMap(Protocol):
+    """A map of places, with its Jacobian."""
+
+    def __call__(self, xyz: FloatArray, /) -> FloatArray:
+        """Map places (n, 3), m."""
+        ...
+
+    def jacobian(self, xyz: FloatArray, /) -> FloatArray:
+        """Give the derivatives of the places after by those before, (n, 3, 3)."""
+        ...
 
 
 @attrs.frozen(eq=False)

@@ -91,9 +91,11 @@ def test_what_a_child_compiles_is_found_by_another_process() -> None:
         "from assoc_hull.model.program import compiled_program as made\n"
         "made.warm()\n"
         "print(len(made.run.signatures), len(made.restore.signatures))\n"
+        "from assoc_hull.variation.features.compiled_map import warm\n"
+        "print(warm())\n"
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert found.stdout.split("\n")[:2] == ["compiled by numba", "1 1"], found
+    assert found.stdout.split("\n")[:3] == ["compiled by numba", "1 1", "True"], found
 
 
 def test_the_command_tells(
@@ -116,6 +118,7 @@ def test_who_asks_seldom_has_nothing_compiled(monkeypatch: pytest.MonkeyPatch) -
         return True
 
     monkeypatch.setattr(program_engine, "_is_ready", ready)
+    assert not any(program_engine.is_compiled(counts=False) for _ in range(50))
     told = [program_engine.is_compiled() for _ in range(23)]
     assert told == [False] * 20 + [True] * 3
     assert len(looked) == 3
