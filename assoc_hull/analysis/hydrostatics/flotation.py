@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.hydrostatics.accuracy import (
     ErrorEstimator,
+    LinesMade,
     doubtful_lines,
     doubtful_numbers,
     error_estimator,
@@ -37,6 +38,7 @@ from assoc_hull.analysis.net.curve_net import (
     sections_of,
     transom_areas_below,
 )
+from assoc_hull.analysis.net.kept_layout import KeptLayout
 from assoc_hull.analysis.net.open_ends import with_ends
 from assoc_hull.analysis.net.surface_layout import (
     OpenEnd,
@@ -45,7 +47,15 @@ from assoc_hull.analysis.net.surface_layout import (
     open_ends,
 )
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, PointKind, Strips, freeze
+from assoc_hull.geometry.curves import (
+    CurveData,
+    EndKind,
+    FloatArray,
+    PointKind,
+    SplineBatch,
+    Strips,
+    freeze,
+)
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
@@ -60,7 +70,7 @@ from assoc_hull.geometry.surfaces.coons import CoonsStrips
 from assoc_hull.graph.derived import Objects
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.lofting import curve_data
-from assoc_hull.model.tables import HullState, state_of
+from assoc_hull.model.tables import HullState, Particulars, state_of
 
 if TYPE_CHECKING:
     from assoc_hull.model.tables import HasState
@@ -96,6 +106,8 @@ class Flotation:
         The `PointKind` of each defining point of the net.
     ends : tuple of OpenEnd
         Ends that no line closes.
+    moved : Particulars or None
+        Its dimensions, where its lines are not those of the tables: these have the structure only.
     """
 
     state: HullState
@@ -104,6 +116,7 @@ class Flotation:
     strips: Strips
     kinds: NDArray[np.int8]
     ends: tuple[OpenEnd, ...] = ()
+    moved: Particulars | None = None
     _route: dict[bytes, ImmersedIntegrals] = attrs.field(factory=dict, init=False, repr=False)
     _below: dict[bytes, ImmersedIntegrals] = attrs.field(factory=dict, init=False, repr=False)
 
@@ -125,7 +138,21 @@ class Flotation:
     @cached_property
     def spread(self) -> ErrorEstimator:
         """What estimates how far numbers may be off."""
-        return error_estimator(self.state, self.net, self.strips, self.closed, self.ends)
+        data = curve_data(self.state, self.net.curve)
+        if self.moved is not None:
+            data = _data_of_lines(data, self.net.batch)
+        made = LinesMade(self.state, data, self.particulars.length)
+        return error_estimator(made, self.net, self.strips, self.closed, self.ends)
+
+    @property
+    def particulars(self) -> Particulars:
+        """Its dimensions."""
+        return self.state.particulars if self.moved is None else self.moved
+
+    @cached_property
+    def kept(self) -> KeptLayout:
+        """Its layout, ready to be put on other lines of the same structure."""
+        return KeptLayout.of(self.layout, self.net, self.closed)
 
     @property
     def assumed(self) -> tuple[str, ...]:
@@ -135,7 +162,7 @@ class Flotation:
     @property
     def closed(self) -> bool:
         """The deck is closed."""
-        return self.state.particulars.deck == "closed"
+        return self.particulars.deck == "closed"
 
     @cached_property
     def limits(self) -> WaterplaneLimits:
@@ -225,6 +252,26 @@ class Flotation:
             self._route.clear()
             self._route[key] = found
         return found
+
+
+def _data_of_lines(known: CurveData, batch: SplineBatch) -> CurveData:
+    """Give what lines are made of, from the lines; of which kind that is, is `known`."""
+    first, last = batch.start[:-1], batch.start[1:] - 1
+    course = np.stack([batch.leave[first], batch.arrive[last]], axis=1)
+    vector = np.where(known.end_kind[..., None] == EndKind.CURVATURE, _bends(batch), course)
+    return attrs.evolve(known, xyz=batch.xyz, direction=batch.leave, end_vector=vector)
+
+
+def _bends(batch: SplineBatch) -> FloatArray:
+    """Give the second derivatives of curves by their length at both ends, (m, 2, 3), 1/m."""
+    found = []
+    for knot, near, far in ((batch.start[:-1], 1, 0), (batch.start[1:] - 2, 0, 1)):
+        length = (batch.knot[knot + 1] - batch.knot[knot])[:, None]
+        rise = (batch.xyz[knot + 1] - batch.xyz[knot]) / length
+        one, other = rise - batch.leave[knot], batch.arrive[knot + 1] - rise
+        found.append((2.0 * (1 + near) * one - 2.0 * (1 + far) * other) / length)
+    found[1] = -found[1]
+    return np.stack(found, axis=1)
 
 
 def _key(planes: FloatingPlanes) -> bytes:

@@ -489,9 +489,14 @@ def _height(net: CurveNet, own: list[int], name: str) -> tuple[float, str]:
     return float(np.mean(part)) if part else np.inf, name
 
 
-def thinned_net(state: HullState, net: CurveNet, without: NDArray[np.bool_]) -> CurveNet:
-    """Give the net without the curves chosen by `without` (m,); `state` is its source."""
-    data = curve_data(state, net.curve)
+def thinned_net(
+    state: HullState, net: CurveNet, without: NDArray[np.bool_], data: CurveData | None = None
+) -> CurveNet:
+    """Give the net without the curves chosen by `without` (m,); `state` is its source.
+
+    `data` is what its curves are made of, if the tables have other numbers.
+    """
+    data = curve_data(state, net.curve) if data is None else data
     keep = _points(state, net, data, without)
     size = np.add.reduceat(keep, data.start[:-1])
     # A curve of fewer than two points is none: it keeps them all.
