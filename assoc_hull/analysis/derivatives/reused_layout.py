@@ -11,6 +11,8 @@ of how far they pass, which is less than rounding for moves of a trial.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import attrs
 import numpy as np
 
@@ -18,6 +20,7 @@ from assoc_hull.analysis.derivatives.curve_tangents import defining_rows
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart, gather_net
 from assoc_hull.analysis.net.moved_layout import move_cells
+from assoc_hull.analysis.net.net_surface import NetSurface
 from assoc_hull.analysis.net.open_ends import with_ends
 from assoc_hull.analysis.net.strip_boundaries import StripBoundary
 from assoc_hull.analysis.net.surface_layout import open_ends
@@ -150,14 +153,16 @@ def _laid(
     base: Flotation, state: HullState, net: CurveNet, ship: Particulars, moved: Particulars | None
 ) -> Flotation | None:
     """Put the layout of a hull on lines; None where it does not fit."""
-    found = base.kept.laid(net) if ship.deck == base.particulars.deck else None
-    if found is None:
+    if ship.deck != base.particulars.deck:
         return None
-    layout, walked = found
-    ends = open_ends(net, layout, ship.length)
-    strips: Strips = CoonsStrips.on(layout.cells, net.batch, walked)
-    strips = with_ends(strips, net, base.closed, ends) if ends else strips
-    return Flotation(state, net, layout, strips, base.kinds, ends, moved)
+    surface = NetSurface.on_lines(base.kept, net)
+    if surface is None:
+        return None
+    ends = open_ends(net, base.layout, ship.length)
+    if ends:
+        strips = with_ends(surface.strips, net, base.closed, ends)
+        surface = NetSurface(surface.layout, strips)
+    return Flotation(state, net, surface, base.kinds, ends, moved)
 
 
 def flotation_with_layout_of(base: HullState, state: HullState) -> Flotation:
@@ -200,7 +205,8 @@ def _put(base: Flotation, net: CurveNet, points: FloatArray) -> Flotation:
     strips: Strips = CoonsStrips.on(cells, net.batch)
     strips = with_ends(strips, net, base.closed, base.ends) if base.ends else strips
     ship = base.particulars
-    return Flotation(base.state, net, layout, strips, base.kinds, base.ends, ship)
+    surface = NetSurface(layout, strips)
+    return Flotation(base.state, net, surface, base.kinds, base.ends, ship)
 
 
 def _net(net: CurveNet, batch: SplineBatch) -> CurveNet:
@@ -220,8 +226,8 @@ def _carried(was: SplineBatch, now: SplineBatch, curve: IntArray, t: FloatArray)
 
 
 def _frames(
-    frames: tuple[StripBoundary, ...], was: SplineBatch, now: SplineBatch
-) -> tuple[StripBoundary, ...]:
+    frames: Sequence[StripBoundary], was: SplineBatch, now: SplineBatch
+) -> Sequence[StripBoundary]:
     """Give strips whose sides run between the same places of the lines as they have become."""
     parts = [part for each in frames for side in _sides(each) for part in side]
     if not parts:

@@ -10,18 +10,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
-from typing import overload
+from typing import TYPE_CHECKING, overload
 
 import attrs
 import numpy as np
-from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart
-from assoc_hull.analysis.net.strip_boundaries import StripBoundary
-from assoc_hull.analysis.net.surface_layout import AnchorRuns, SurfaceLayout, cut_cells
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.analysis.net.strip_boundaries import StripBoundary, closes_end
+from assoc_hull.analysis.net.surface_layout import (
+    DECK_PLACES,
+    SLIVER,
+    AnchorRuns,
+    SurfaceLayout,
+    cut_cells,
+)
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.paths import PathShapes, shape_paths
 from assoc_hull.geometry.splines.segments import last_not_above, segment_curve, segment_start
+
+if TYPE_CHECKING:
+    from assoc_hull.geometry.surfaces.compiled_cells import CellStructure
 
 __all__ = ["KeptLayout", "KnownPlaces"]
 
@@ -185,11 +194,49 @@ class KeptLayout:
         return cls(layout, net, runs, ends)
 
     @cached_property
+    def structure(self) -> CellStructure:
+        """What of its cells does not depend on where lines are, for compiled code."""
+        from assoc_hull.geometry.surfaces.compiled_cells import CellStructure
+
+        cells, runs = self.layout.cells, self.runs
+        both = 2, len(cells.paths.segment)
+        return CellStructure(
+            cells, self.ends.knot[: both[1]], self.ends.crossing.reshape(both),
+            self.ends.part.reshape(both), runs.cell_start, runs.rails, runs.flat, runs.knuckle,
+            runs.deck, SLIVER,
+        )  # fmt: skip
+
+    @cached_property
     def frames(self) -> KnownPlaces:
         """Whence the ends of all parts of sides and rails of its strips come."""
         parts = [part for each in self.layout.frames for side in _sides(each) for part in side]
         curve = np.array([part[0] for part in parts], np.int64).repeat(2)
         return KnownPlaces.at(self.net, curve, np.array([part[1:] for part in parts]).ravel())
+
+    @cached_property
+    def _deck(self) -> tuple[IntArray, KnownPlaces] | None:
+        """The curves of the deck edge, and whence the ends of their parts come, (p,) and (2 p,).
+
+        None where the ends of rails are a part of it: which of them, numbers tell.
+        """
+        frames = self.layout.frames
+        edges = [frames[k] for k in np.flatnonzero(self.layout.edge).tolist()]
+        if not edges or not all(frame.deck for frame in edges):
+            return None
+        parts = [p for frame in edges for p in frame.deck if not closes_end(self.net, p[0])]
+        curve = np.array([part[0] for part in parts], np.int64)
+        t = np.array([part[1:] for part in parts], np.float64).ravel()
+        return (curve, KnownPlaces.at(self.net, curve.repeat(2), t)) if parts else None
+
+    def deck_edge(self, net: CurveNet) -> FloatArray | None:
+        """Give places along the deck edge on other lines, (k, 3), m; None: ask the layout."""
+        if self._deck is None:
+            return None
+        curve, known = self._deck
+        low, high = known.parameters(net).reshape(-1, 2).T[..., None]
+        t = np.arange(DECK_PLACES) * ((high - low) / (DECK_PLACES - 1)) + low
+        t[:, -1:] = high
+        return evaluate(net.batch, curve.repeat(DECK_PLACES), t.ravel())
 
     def laid(self, net: CurveNet) -> tuple[SurfaceLayout, PathShapes] | None:
         """Put it on other lines; None where it does not fit these.
@@ -197,7 +244,7 @@ class KeptLayout:
         So it is where a crossing has passed a point of its line, or lines across the ship one
         another. Also gives its paths.
         """
-        if not self._fits(net):
+        if not self.fits(net):
             return None
         part = self.ends.parts(net)
         if part is None:
@@ -206,25 +253,31 @@ class KeptLayout:
         paths = attrs.evolve(paths, low=part[:count], high=part[count:])
         walked = shape_paths(paths, net.batch)
         cells, cell = cut_cells(walked, net.batch, self.runs)
-        frames = _MovedFrames(self.layout.frames, self.frames, net)
+        frames = self.moved_frames(net)
         return attrs.evolve(self.layout, cells=cells, cell=cell, frames=frames), walked
 
-    def _fits(self, net: CurveNet) -> bool:
+    def moved_frames(self, net: CurveNet) -> Sequence[StripBoundary]:
+        """Give its strips on other lines; they are made when one is asked for."""
+        return _MovedFrames(self.layout.frames, self.frames, net)
+
+    def fits(self, net: CurveNet) -> bool:
         """Tell whether lines stand in the same order along the ship, and end where they did."""
         was = self.net
         return (
             np.array_equal(net.batch.start, was.batch.start)
-            and np.array_equal(_order(net.x), self._order)
+            and np.array_equal(np.isnan(net.x), np.isnan(was.x))
+            and np.array_equal(np.sign(np.diff(net.x[self._order])), self._steps)
             and np.array_equal(net.transom, was.transom)
             and np.array_equal(net.ends_on_transom, was.ends_on_transom)
         )
 
     @cached_property
     def _order(self) -> IntArray:
-        return _order(self.net.x)
+        """Lines in planes across the ship, from aft forward."""
+        across = np.flatnonzero(np.isfinite(self.net.x))
+        return across[np.argsort(self.net.x[across], kind="stable")]
 
-
-def _order(x: FloatArray) -> NDArray[np.int64]:
-    """Give which stand before which, and which at the same place."""
-    found: NDArray[np.int64] = np.unique(x, return_inverse=True)[1]
-    return found
+    @cached_property
+    def _steps(self) -> FloatArray:
+        """Which of them stand before the next, and which at the same place."""
+        return np.sign(np.diff(self.net.x[self._order]))

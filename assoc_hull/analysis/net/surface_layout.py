@@ -132,10 +132,10 @@ lines are steeper."""
 _BULB = 0.25
 """A bulb is narrower than this part of the ship."""
 
-_DECK_PLACES = 5
+DECK_PLACES = 5
 """Places on a part of the deck edge at which it is looked at."""
 
-_SLIVER = 1e-10
+SLIVER = 1e-10
 """Tiles of a smaller part of a cell are not made."""
 
 
@@ -190,8 +190,8 @@ class SurfaceLayout:
         ]
         if not parts:
             return net.batch.xyz[[int(net.batch.xyz[:, 2].argmax())]]
-        curve = np.array([part[0] for part in parts]).repeat(_DECK_PLACES)
-        t = np.concatenate([np.linspace(part[1], part[2], _DECK_PLACES) for part in parts])
+        curve = np.array([part[0] for part in parts]).repeat(DECK_PLACES)
+        t = np.concatenate([np.linspace(part[1], part[2], DECK_PLACES) for part in parts])
         found: FloatArray = evaluate(net.batch, curve, t)
         return found
 
@@ -555,12 +555,12 @@ def _knots(
     order = np.lexsort((bit, value, cell))
     cell, bit, value = cell[order], bit[order], value[order]
     near = np.zeros(len(cell), np.bool_)
-    near[1:] = (cell[1:] == cell[:-1]) & (value[1:] - value[:-1] <= _SLIVER)
+    near[1:] = (cell[1:] == cell[:-1]) & (value[1:] - value[:-1] <= SLIVER)
     kept = ~near
     for k in np.flatnonzero(near[1:] & near[:-1]).tolist():
         # Three and more in a row: each is held against the last that was kept.
-        kept[k + 1] = value[k + 1] - value[k - int(kept[k::-1].argmax())] > _SLIVER
-    kept &= (value < 1.0 - _SLIVER) | (bit < 0)
+        kept[k + 1] = value[k + 1] - value[k - int(kept[k::-1].argmax())] > SLIVER
+    kept &= (value < 1.0 - SLIVER) | (bit < 0)
     cell, bit, value = cell[kept], bit[kept], value[kept]
     high, end = np.ones(len(cell)), np.full(len(cell), -1)
     inner = np.flatnonzero(cell[1:] == cell[:-1])
