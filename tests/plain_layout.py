@@ -25,6 +25,7 @@ from assoc_hull.geometry.integrals.area_moments import section_area
 from assoc_hull.geometry.numeric.polynomials import hermite
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.paths import Bit, Paths, shape_paths
+from assoc_hull.geometry.splines.segments import segment_start
 
 __all__ = ["plain_layout", "plain_parallel_slabs"]
 
@@ -50,16 +51,36 @@ def plain_layout(
         knuckle = [_side(each, net.knuckle) for each in run]
         draft.flat += flat
         draft.knuckle += knuckle
-        height = np.array([0.5 * (each.low + each.high) for each in run])
-        first, blend = blend_cubics(height, flat, knuckle)
-        for j, (below, above) in enumerate(itertools.pairwise(run)):
-            aft = draft.add(_between(found[i].aft, below.aft, above.aft))
-            fore = draft.add(_between(found[i].fore, below.fore, above.fore))
+        rails = [
+            (
+                draft.add(_between(found[i].aft, below.aft, above.aft)),
+                draft.add(_between(found[i].fore, below.fore, above.fore)),
+            )
+            for below, above in itertools.pairwise(run)
+        ]
+        first, blend = blend_cubics(_anchor_heights(net, draft, rails), flat, knuckle)
+        for j, (aft, fore) in enumerate(rails):
             draft.cell.append((int(first[j]), aft, fore))
             draft.blend.append(blend[j])
         draft.anchor_start.append(len(draft.anchor))
         draft.cell_start.append(len(draft.cell))
     return found, _arrays(net, draft, found, deck)
+
+
+def _anchor_heights(net: CurveNet, draft: _Draft, rails: list[tuple[int, int]]) -> FloatArray:
+    """Give how far up a strip each anchor lies, from 0 to 1: the mean of both rails."""
+    knot, first, sides = net.batch.knot.tolist(), segment_start(net.batch).tolist(), []
+    for side in (0, 1):
+        up = [0.0]
+        for rail in rails:
+            whole = 0.0
+            for segment, low, high in draft.paths[rail[side]]:
+                at = first[segment]
+                whole += (knot[at + 1] - knot[at]) * abs(high - low)
+            up.append(up[-1] + whole)
+        sides.append([each / up[-1] for each in up] if up[-1] > 0.0 else [])
+    aft, fore = sides[0] or sides[1], sides[1] or sides[0]
+    return np.array([0.5 * (one + other) for one, other in zip(aft, fore, strict=True)])
 
 
 def _arrays(

@@ -11,6 +11,8 @@ of how far they pass, which is less than rounding for moves of a trial.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import attrs
 import numpy as np
 
@@ -18,14 +20,16 @@ from assoc_hull.analysis.derivatives.curve_tangents import defining_rows
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart, gather_net
 from assoc_hull.analysis.net.moved_layout import move_cells
+from assoc_hull.analysis.net.net_surface import NetSurface
 from assoc_hull.analysis.net.open_ends import with_ends
 from assoc_hull.analysis.net.strip_boundaries import StripBoundary
+from assoc_hull.analysis.net.surface_layout import open_ends
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch, Strips
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.segments import locate_parameters, segment_start
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
 from assoc_hull.model.lofting import curve_data
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import HullState, Particulars
 
 __all__ = [
     "flotation_at_points",
@@ -51,8 +55,7 @@ def flotation_at_points(base: Flotation, data: CurveData, points: FloatArray) ->
     Returns
     -------
     Flotation
-        Its tables are those of the hull as it was: what is measured is right, errors are not
-        to be estimated.
+        Its tables are those of the hull as it was: of these only the structure is used.
 
     Raises
     ------
@@ -60,7 +63,7 @@ def flotation_at_points(base: Flotation, data: CurveData, points: FloatArray) ->
         Two points of a curve have come together.
     """
     batch = loft(data)
-    return _put(base, base.state, _net(base.net, batch), points)
+    return _put(base, _net(base.net, batch), points)
 
 
 def flotation_on_lines(base: Flotation, net: CurveNet, points: FloatArray) -> Flotation | None:
@@ -118,7 +121,71 @@ def flotation_with_layout(base: Flotation, state: HullState) -> Flotation | None
     kinds = curve_data(state, net.curve).kind
     if not same_structure(base, state, net) or not np.array_equal(kinds, base.kinds):
         return None
-    return _put(base, state, net, state.rows.xyz.data)
+    return _laid(base, state, net, state.particulars, moved=None)
+
+
+def flotation_on_lines(
+    base: Flotation,
+    batch: SplineBatch,
+    x: FloatArray,
+    place: FloatArray,
+    normal: FloatArray,
+    particulars: Particulars | None = None,
+) -> Flotation | None:
+    """Give what `flotation` gives of tables, of lines alone, by the layout of a hull.
+
+    Parameters
+    ----------
+    base : Flotation
+        The hull as it was.
+    batch : SplineBatch
+        Its m lines as they have become, in the order of `base.net`.
+    x : (m,), m
+        Where lines in planes across the ship stand; nan for the others.
+    place : (k, 2), m
+        Where on both its lines each crossing lies.
+    normal : (m, 3)
+        Of the planes of lines; nan for lines in none.
+    particulars : Particulars or None
+        Its dimensions; those that it had if None.
+
+    Returns
+    -------
+    Flotation or None
+        It has the tables of the hull as it was: of these only the structure is used. None where
+        lines across the ship have passed one another, a crossing has passed a point of its line,
+        or an end is closed otherwise.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from assoc_hull.analysis.hydrostatics.flotation import flotation
+    >>> from assoc_hull.analysis.derivatives.reused_layout import flotation_on_lines
+    >>> base = flotation(ah.examples.wigley().state)
+    >>> net = base.net
+    >>> same = flotation_on_lines(base, net.batch, net.x, net.place, net.normal)
+    >>> same is not None and (same.strips.aft == base.strips.aft).all()
+    np.True_
+    """
+    net = attrs.evolve(base.net, batch=batch, x=x, place=place, normal=normal)
+    ship = base.particulars if particulars is None else particulars
+    return _laid(base, base.state, net, ship, moved=ship)
+
+
+def _laid(
+    base: Flotation, state: HullState, net: CurveNet, ship: Particulars, moved: Particulars | None
+) -> Flotation | None:
+    """Put the layout of a hull on lines; None where it does not fit."""
+    if ship.deck != base.particulars.deck:
+        return None
+    surface = NetSurface.on_lines(base.kept, net)
+    if surface is None:
+        return None
+    ends = open_ends(net, base.layout, ship.length)
+    if ends:
+        strips = with_ends(surface.strips, net, base.closed, ends)
+        surface = NetSurface(surface.layout, strips)
+    return Flotation(state, net, surface, base.kinds, ends, moved)
 
 
 def flotation_with_layout_of(base: HullState, state: HullState) -> Flotation:
@@ -150,23 +217,19 @@ def same_structure(base: Flotation, state: HullState, net: CurveNet) -> bool:
         and np.array_equal(net.batch.start, was.batch.start)
         and np.array_equal(net.meets, was.meets)
         and np.array_equal(defining_rows(state, net.curve), defining_rows(base.state, was.curve))
-        and np.array_equal(_order(net.x), _order(was.x))
         and state.particulars.deck == base.state.particulars.deck
     )
 
 
-def _order(x: FloatArray) -> IntArray:
-    """Give which stand before which, and which at the same place."""
-    return np.unique(x, return_inverse=True)[1]
-
-
-def _put(base: Flotation, state: HullState, net: CurveNet, points: FloatArray) -> Flotation:
+def _put(base: Flotation, net: CurveNet, points: FloatArray) -> Flotation:
     cells = move_cells(base.layout, base.net, net.batch, points)
     frames = _frames(base.layout.frames, base.net.batch, net.batch)
     layout = attrs.evolve(base.layout, cells=cells, frames=frames)
     strips: Strips = CoonsStrips.on(cells, net.batch)
     strips = with_ends(strips, net, base.closed, base.ends) if base.ends else strips
-    return Flotation(state, net, layout, strips, base.kinds, base.ends)
+    ship = base.particulars
+    surface = NetSurface(layout, strips)
+    return Flotation(base.state, net, surface, base.kinds, base.ends, ship)
 
 
 def _net(net: CurveNet, batch: SplineBatch) -> CurveNet:
@@ -186,8 +249,8 @@ def _carried(was: SplineBatch, now: SplineBatch, curve: IntArray, t: FloatArray)
 
 
 def _frames(
-    frames: tuple[StripBoundary, ...], was: SplineBatch, now: SplineBatch
-) -> tuple[StripBoundary, ...]:
+    frames: Sequence[StripBoundary], was: SplineBatch, now: SplineBatch
+) -> Sequence[StripBoundary]:
     """Give strips whose sides run between the same places of the lines as they have become."""
     parts = [part for each in frames for side in _sides(each) for part in side]
     if not parts:

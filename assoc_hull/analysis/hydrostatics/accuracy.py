@@ -32,7 +32,7 @@ from assoc_hull.analysis.net.surface_layout import (
     areas_between,
     lay_out_surface,
 )
-from assoc_hull.geometry.curves import FloatArray, PointKind, Strips
+from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, Strips
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
@@ -48,6 +48,7 @@ from assoc_hull.model.tables import HullState
 __all__ = [
     "CoarseHull",
     "ErrorEstimator",
+    "LinesMade",
     "doubtful_lines",
     "doubtful_numbers",
     "error_estimator",
@@ -107,6 +108,25 @@ class CoarseHull:
     net: CurveNet
     layout: SurfaceLayout
     prepared: PreparedStrips
+
+
+@attrs.frozen(eq=False)
+class LinesMade:
+    """What the lines of a hull are made of.
+
+    Attributes
+    ----------
+    state : HullState
+        Its tables, or tables of the same structure.
+    data : CurveData
+        Points and end conditions of its lines.
+    length : float, m
+        Between perpendiculars.
+    """
+
+    state: HullState
+    data: CurveData
+    length: float
 
 
 @attrs.frozen(eq=False)
@@ -181,7 +201,7 @@ class ErrorEstimator:
 
 
 def error_estimator(
-    state: HullState,
+    made: LinesMade,
     net: CurveNet,
     strips: Strips,
     closed: bool,
@@ -190,8 +210,8 @@ def error_estimator(
     """Make the nets that a hull is compared with; `strips` is the surface through its own lines."""
 
     def coarse(without: NDArray[np.bool_]) -> CoarseHull:
-        fewer = thinned_net(state, net, without)
-        layout = lay_out_surface(fewer, state.particulars.length, closed)
+        fewer = thinned_net(made.state, net, without, made.data)
+        layout = lay_out_surface(fewer, made.length, closed)
         surface: Strips = CoonsStrips.on(layout.cells, fewer.batch)
         surface = with_ends(surface, fewer, closed, ends) if ends else surface
         return CoarseHull(fewer, layout, prepare_strips(surface))

@@ -9,6 +9,7 @@ Appendages are added by name to what is measured of the moulded hull.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import Protocol
 
 import attrs
@@ -17,9 +18,10 @@ from numpy.typing import NDArray
 
 from assoc_hull.arguments import checked, not_negative, number, numbers, place, plain, text
 from assoc_hull.errors import BadInputError, OutOfRangeError
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 from assoc_hull.geometry.numeric.roots import brent_root
+from assoc_hull.geometry.splines.evaluation import positions, sample
 
 __all__ = [
     "CLOSE_DECK",
@@ -30,6 +32,7 @@ __all__ = [
     "Freeboard",
     "IntegralChange",
     "Measurable",
+    "SampledCurves",
     "StationAreas",
     "WaterplaneLimits",
     "deck_edge_heel",
@@ -120,12 +123,61 @@ def planes_of(positions: Sequence[FloatingPosition], length: float) -> FloatingP
 
 
 @attrs.frozen(eq=False)
+class SampledCurves:
+    """Curves of a hull, by points of which the lowest is looked for.
+
+    Attributes
+    ----------
+    batch : SplineBatch
+        The curves, port side, m.
+    per_segment : int
+        How many points of each segment are looked at.
+    """
+
+    batch: SplineBatch
+    per_segment: int
+
+    @cached_property
+    def points(self) -> FloatArray:
+        """All of them, (n, 3), m."""
+        return sample(self.batch, self.per_segment)[1]
+
+    def lowest(self, planes: FloatingPlanes) -> FloatArray:
+        """Give the least height at x = y = 0 of planes through the points and their images, (d,).
+
+        A segment lies above the lowest of its control points: few are looked at.
+        """
+        batch, heel = self.batch, np.abs(planes.tan_heel[:, None])
+        least, lowest = _heights(batch.xyz, planes, up=-1.0).min(axis=1), np.inf
+        third = np.diff(batch.knot) / 3.0
+        # From the last knot of a curve to the first of the next there is no segment.
+        third[batch.start[1:-1] - 1] = np.nan
+        for side in (heel, -heel) if heel.any() else (heel,):
+            at, leave, arrive = (
+                z - planes.tan_trim[:, None] * x - side * y
+                for x, y, z in (batch.xyz.T, batch.leave.T, batch.arrive.T)
+            )
+            inner = at[:, :-1] + leave[:, :-1] * third, at[:, 1:] - arrive[:, 1:] * third
+            lowest = np.minimum(lowest, np.minimum(*inner).min(axis=0))
+        some = np.flatnonzero(lowest <= least.max() + _NEARLY)
+        part = np.arange(self.per_segment) / self.per_segment
+        places = positions(self.batch, some.repeat(len(part)), np.tile(part, len(some))).T
+        inside = _heights(places, planes, up=-1.0).min(axis=1, initial=np.inf)
+        found: FloatArray = np.minimum(least, inside)
+        return found
+
+
+_NEARLY = 1e-6
+"""m: by so much a control point may be off for rounding."""
+
+
+@attrs.frozen(eq=False)
 class WaterplaneLimits:
     """Between what a plane must lie to be a waterplane of a hull; port side, m.
 
     Attributes
     ----------
-    bottom : (n, 3)
+    bottom : (n, 3), or SampledCurves
         Points of the hull that include the lowest, at any trim and heel.
     deck : (k, 3)
         The deck edge.
@@ -138,19 +190,29 @@ class WaterplaneLimits:
         Their names.
     """
 
-    bottom: FloatArray
+    _bottom: FloatArray | SampledCurves
     deck: FloatArray
     closed: bool
     station_x: FloatArray = attrs.field(factory=lambda: np.zeros(0))
     station_names: tuple[str, ...] = ()
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.bottom, self.deck, self.station_x)
+        freeze(self.deck, self.station_x)
+        if not isinstance(self._bottom, SampledCurves):
+            freeze(self._bottom)
+
+    @property
+    def bottom(self) -> FloatArray:
+        """Points that include the lowest, (n, 3), m."""
+        return self._bottom.points if isinstance(self._bottom, SampledCurves) else self._bottom
 
     def mean_draughts(self, planes: FloatingPlanes, length: float) -> tuple[FloatArray, FloatArray]:
         """Give the least and the most mean draught (m) at the trim and heel of each plane."""
         lift = 0.5 * length * planes.tan_trim
-        low = _heights(self.bottom, planes, up=-1.0).min(axis=1)
+        if isinstance(self._bottom, SampledCurves):
+            low = self._bottom.lowest(planes)
+        else:
+            low = _heights(self._bottom, planes, up=-1.0).min(axis=1)
         top = _heights(self.deck, planes, up=1.0 if self.closed else -1.0)
         return low + lift, (top.max(axis=1) if self.closed else top.min(axis=1)) + lift
 
@@ -250,6 +312,8 @@ def _clear_of_edge(planes: FloatingPlanes, limits: WaterplaneLimits) -> Floating
     Rounding leaves some of a level edge wet and some dry, and so cuts the waterplane to pieces.
     """
     lowest = _heights(limits.deck, planes, up=-1.0).min(axis=1)
+    if not (np.abs(lowest - planes.height) < _NEARLY * (1.0 + np.abs(lowest))).any():
+        return planes
     slack = _ROUNDING * np.maximum(np.abs(lowest), np.ptp(limits.bottom[:, 2]))
     at_edge = np.abs(lowest - planes.height) < slack
     if not at_edge.any():

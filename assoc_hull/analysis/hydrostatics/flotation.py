@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.hydrostatics.accuracy import (
     ErrorEstimator,
+    LinesMade,
     doubtful_lines,
     doubtful_numbers,
     error_estimator,
@@ -26,6 +27,7 @@ from assoc_hull.analysis.hydrostatics.accuracy import (
 from assoc_hull.analysis.hydrostatics.floating_body import (
     FloatingBody,
     IntegralChange,
+    SampledCurves,
     StationAreas,
     WaterplaneLimits,
 )
@@ -33,10 +35,17 @@ from assoc_hull.analysis.hydrostatics.record import HydrostaticHeader
 from assoc_hull.analysis.net.curve_net import (
     CurveNet,
     NetSections,
+    NetStations,
     gather_net,
     sections_of,
+    stations_of,
+    sum_pieces,
+    sum_transoms,
     transom_areas_below,
+    transom_ends,
 )
+from assoc_hull.analysis.net.kept_layout import KeptLayout
+from assoc_hull.analysis.net.net_surface import NetSurface
 from assoc_hull.analysis.net.open_ends import with_ends
 from assoc_hull.analysis.net.surface_layout import (
     OpenEnd,
@@ -45,7 +54,16 @@ from assoc_hull.analysis.net.surface_layout import (
     open_ends,
 )
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, PointKind, Strips, freeze
+from assoc_hull.geometry.curves import (
+    CurveData,
+    EndKind,
+    FloatArray,
+    IntArray,
+    PointKind,
+    SplineBatch,
+    Strips,
+    freeze,
+)
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
@@ -55,20 +73,22 @@ from assoc_hull.geometry.floating.immersion import (
 from assoc_hull.geometry.floating.raked_strips import StripSpans, strip_spans
 from assoc_hull.geometry.floating.sections import sections_and_moments_below
 from assoc_hull.geometry.numeric.dual import is_plain
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.backend import backend
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
 from assoc_hull.graph.derived import Objects
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.lofting import curve_data
-from assoc_hull.model.tables import HullState, state_of
+from assoc_hull.model.tables import HullState, Particulars, state_of
 
 if TYPE_CHECKING:
+    from assoc_hull.geometry.floating.compiled_sections import SectionRows
     from assoc_hull.model.tables import HasState
 
 __all__ = [
     "EvenKeelDisplacement",
     "Flotation",
     "body_of",
+    "data_of_lines",
     "even_keel_displacement",
     "flotation",
     "flotation_of_lines",
@@ -89,24 +109,37 @@ class Flotation:
         The tables it was taken from.
     net : CurveNet
         The lines.
-    layout : SurfaceLayout
-        How the surface is put together.
-    strips : Strips
+    surface : NetSurface
         The surface, with what closes its open ends.
     kinds : (n,) int8
         The `PointKind` of each defining point of the net.
     ends : tuple of OpenEnd
         Ends that no line closes.
+    moved : Particulars or None
+        Its dimensions, where its lines are not those of the tables: these have the structure only.
     """
 
     state: HullState
     net: CurveNet
-    layout: SurfaceLayout
-    strips: Strips
+    surface: NetSurface
     kinds: NDArray[np.int8]
     ends: tuple[OpenEnd, ...] = ()
+    moved: Particulars | None = None
     _route: dict[bytes, ImmersedIntegrals] = attrs.field(factory=dict, init=False, repr=False)
     _below: dict[bytes, ImmersedIntegrals] = attrs.field(factory=dict, init=False, repr=False)
+    _areas: dict[bytes, tuple[FloatArray, FloatArray]] = attrs.field(
+        factory=dict, init=False, repr=False
+    )
+
+    @property
+    def layout(self) -> SurfaceLayout:
+        """How the surface is put together."""
+        return self.surface.layout
+
+    @property
+    def strips(self) -> Strips:
+        """The surface, with what closes its open ends."""
+        return self.surface.strips
 
     @cached_property
     def prepared(self) -> PreparedStrips:
@@ -126,7 +159,21 @@ class Flotation:
     @cached_property
     def spread(self) -> ErrorEstimator:
         """What estimates how far numbers may be off."""
-        return error_estimator(self.state, self.net, self.strips, self.closed, self.ends)
+        data = curve_data(self.state, self.net.curve)
+        if self.moved is not None:
+            data = data_of_lines(data, self.net.batch)
+        made = LinesMade(self.state, data, self.particulars.length)
+        return error_estimator(made, self.net, self.strips, self.closed, self.ends)
+
+    @property
+    def particulars(self) -> Particulars:
+        """Its dimensions."""
+        return self.state.particulars if self.moved is None else self.moved
+
+    @cached_property
+    def kept(self) -> KeptLayout:
+        """Its layout, ready to be put on other lines of the same structure."""
+        return KeptLayout.of(self.layout, self.net, self.closed)
 
     @property
     def assumed(self) -> tuple[str, ...]:
@@ -136,27 +183,36 @@ class Flotation:
     @property
     def closed(self) -> bool:
         """The deck is closed."""
-        return self.state.particulars.deck == "closed"
+        return self.particulars.deck == "closed"
 
     @cached_property
     def limits(self) -> WaterplaneLimits:
         """What a waterplane must lie between, and the deck edge."""
-        places = sample(self.net.batch, _SAMPLES)[1]
-        deck, found = self.layout.deck_edge(self.net), self.sections
-        return WaterplaneLimits(places, deck, self.closed, found.x.copy(), found.names)
+        bottom, found = SampledCurves(self.net.batch, _SAMPLES), self.known_stations
+        deck = self.surface.deck_edge(self.net)
+        return WaterplaneLimits(bottom, deck, self.closed, found.x.copy(), found.names)
 
     def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Give the integrals below each plane; the last answer is kept."""
-        if not all(map(is_plain, attrs.astuple(planes, recurse=False))):
+        if not _are_plain(planes):
             return integrate_immersed(self.prepared, planes)
         key = _key(planes)
         found = self._below.get(key)
         if found is None:
-            found = integrate_immersed(self.prepared, planes)
+            found = self._integrated(planes)
             # Another thread may do the same: what is returned is not read back from the store.
             self._below.clear()
             self._below[key] = found
         return found
+
+    def _integrated(self, planes: FloatingPlanes) -> ImmersedIntegrals:
+        # Which arithmetic it is must not depend on when one asks: they differ by rounding.
+        rows = self.surface.rows if backend() == "numba" else None
+        if rows is None:
+            return integrate_immersed(self.prepared, planes)
+        from assoc_hull.geometry.floating.compiled_immersion import integrate_surface
+
+        return integrate_surface(rows, planes)
 
     def stations(self, planes: FloatingPlanes) -> StationAreas:
         """Give the areas of the stations below each plane."""
@@ -164,15 +220,65 @@ class Flotation:
 
     def stations_and_moments(self, planes: FloatingPlanes) -> tuple[StationAreas, FloatArray]:
         """Give the areas of the stations, and their moments about the base line, (d, n), m3."""
-        found = self.sections
-        each = sections_and_moments_below(found.curves, planes)
-        area, moment = map(found.per_station, each)
+        found, known = self._drawn_below(planes), self.known_stations
+        if found is None:
+            each = sections_and_moments_below(self.sections.curves, planes)
+        else:
+            area, moment = found
+            each = area[:, : len(known.curve)], moment[:, : len(known.curve)]
+        area, moment = (sum_pieces(values, known.station, len(known.x)) for values in each)
         freeze(moment)
-        return StationAreas(found.x.copy(), area, found.names), moment
+        return StationAreas(known.x.copy(), area, known.names), moment
 
     def transom(self, planes: FloatingPlanes) -> FloatArray:
         """Give the area of transoms below each plane, (d,), m2; no end of a bossing is one."""
-        return transom_areas_below(self.net, self.closed, planes)
+        found = self._drawn_below(planes)
+        if found is None:
+            return transom_areas_below(self.net, self.closed, planes)
+        curves, area = self._drawn_curves, found[0]
+        first = len(self.known_stations.curve)
+        ends = curves[first : len(curves) - int(self.net.transom.sum())]
+        place = {curve: first + k for k, curve in enumerate(curves[first:].tolist())}
+
+        def areas(some: IntArray) -> FloatArray:
+            total: FloatArray = area[:, [place[each] for each in some.tolist()]].sum(axis=1)
+            return total
+
+        return sum_transoms(self.net, ends, areas)
+
+    @cached_property
+    def known_stations(self) -> NetStations:
+        """Which sections there are, and where they stand."""
+        return stations_of(self.net)
+
+    @cached_property
+    def _drawn_curves(self) -> IntArray:
+        """The sections, then the ends that are transoms, then raked ones."""
+        raked = np.flatnonzero(self.net.transom)
+        return np.concatenate([self.known_stations.curve, transom_ends(self.net), raked])
+
+    def _drawn_below(self, planes: FloatingPlanes) -> tuple[FloatArray, FloatArray] | None:
+        """Give areas and moments of `_drawn_curves` by compiled code; the last answer is kept."""
+        if self._drawn is None or not _are_plain(planes):
+            return None
+        key = _key(planes)
+        found = self._areas.get(key)
+        if found is None:
+            found = self._drawn.below(planes)
+            self._areas.clear()
+            self._areas[key] = found
+        return found
+
+    @cached_property
+    def _drawn(self) -> SectionRows | None:
+        """Sections and transoms as compiled code takes them; None where numpy serves."""
+        if backend() != "numba":
+            return None
+        from assoc_hull.geometry.floating.compiled_sections import SectionRows
+
+        net, curves = self.net, self._drawn_curves
+        upright = np.isfinite(net.x[curves])
+        return SectionRows.of(net.batch, curves, upright, self.closed, net.on_centre)
 
     def changes(self, planes: FloatingPlanes) -> Sequence[IntegralChange]:
         """Give by how much the integrals may be off; the amounts of several items add up."""
@@ -226,6 +332,30 @@ class Flotation:
             self._route.clear()
             self._route[key] = found
         return found
+
+
+def _are_plain(planes: FloatingPlanes) -> bool:
+    return all(map(is_plain, (planes.height, planes.tan_trim, planes.tan_heel)))
+
+
+def data_of_lines(known: CurveData, batch: SplineBatch) -> CurveData:
+    """Give what lines are made of, from the lines; of which kind that is, is `known`."""
+    first, last = batch.start[:-1], batch.start[1:] - 1
+    course = np.stack([batch.leave[first], batch.arrive[last]], axis=1)
+    vector = np.where(known.end_kind[..., None] == EndKind.CURVATURE, _bends(batch), course)
+    return attrs.evolve(known, xyz=batch.xyz, direction=batch.leave, end_vector=vector)
+
+
+def _bends(batch: SplineBatch) -> FloatArray:
+    """Give the second derivatives of curves by their length at both ends, (m, 2, 3), 1/m."""
+    found = []
+    for knot, near, far in ((batch.start[:-1], 1, 0), (batch.start[1:] - 2, 0, 1)):
+        length = (batch.knot[knot + 1] - batch.knot[knot])[:, None]
+        rise = (batch.xyz[knot + 1] - batch.xyz[knot]) / length
+        one, other = rise - batch.leave[knot], batch.arrive[knot + 1] - rise
+        found.append((2.0 * (1 + near) * one - 2.0 * (1 + far) * other) / length)
+    found[1] = -found[1]
+    return np.stack(found, axis=1)
 
 
 def _key(planes: FloatingPlanes) -> bytes:
@@ -290,7 +420,7 @@ def flotation_of_lines(state: HullState, net: CurveNet, kinds: NDArray[np.int8])
     ends, closed = open_ends(net, layout, ship.length), ship.deck == "closed"
     strips: Strips = CoonsStrips.on(layout.cells, net.batch)
     strips = with_ends(strips, net, closed, ends) if ends else strips
-    return Flotation(state, net, layout, strips, kinds, ends)
+    return Flotation(state, net, NetSurface(layout, strips), kinds, ends)
 
 
 def _depends_on(state: HullState) -> tuple[object, ...]:

@@ -9,6 +9,7 @@ a net differ by shows how far they are off.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from functools import cached_property
 
 import attrs
@@ -26,10 +27,10 @@ from assoc_hull.geometry.curves import (
 )
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.sections import sections_below
-from assoc_hull.geometry.numeric.dual import real
+from assoc_hull.geometry.numeric.dual import is_plain, real
 from assoc_hull.geometry.splines.distance import closest_points_each
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.segments import last_not_above, power_coefficients
+from assoc_hull.geometry.splines.segments import last_not_above, power_coefficients, segment_start
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.tables import HullState
@@ -40,6 +41,7 @@ __all__ = [
     "CurveNet",
     "CurvePart",
     "NetSections",
+    "NetStations",
     "areas_of_flat_ends",
     "bits_of_parts",
     "every_other_line",
@@ -48,6 +50,9 @@ __all__ = [
     "gather_net",
     "sections_of",
     "station_planes",
+    "stations_of",
+    "sum_pieces",
+    "sum_transoms",
     "thinned_net",
     "transom_areas_below",
     "transom_ends",
@@ -325,21 +330,47 @@ class NetSections:
 
     def per_station(self, values: FloatArray) -> FloatArray:
         """Sum values of the pieces of each station: (d, k) to (d, n)."""
-        member = (self.station[:, None] == np.arange(len(self.x))).astype(np.float64)
-        found: FloatArray = values @ member
-        return found
+        return sum_pieces(values, self.station, len(self.x))
+
+
+def sum_pieces(values: FloatArray, station: IntArray, count: int) -> FloatArray:
+    """Sum values of the pieces of each station: (d, k) to (d, n)."""
+    member = (station[:, None] == np.arange(count)).astype(np.float64)
+    found: FloatArray = values @ member
+    return found
 
 
 def sections_of(net: CurveNet, closed: bool) -> NetSections:
     """Take the sections of a net; `closed` joins deck edges to the centre plane."""
+    stations = stations_of(net)
+    curves = _curves(_chosen(net.batch, stations.curve), closed, net.on_centre)
+    return NetSections(curves, stations.curve, stations.station, stations.x, stations.names)
+
+
+@attrs.frozen(eq=False)
+class NetStations:
+    """The sections of a net without their shapes; all as in `NetSections`."""
+
+    curve: IntArray
+    station: IntArray
+    x: FloatArray
+    names: tuple[str, ...]
+
+
+def stations_of(net: CurveNet) -> NetStations:
+    """Tell which curves are sections, and at which station each stands."""
     chosen = np.flatnonzero(np.isfinite(net.x) & ~net.end)
     chosen = chosen[np.argsort(net.x[chosen], kind="stable")]
     x, station = np.unique(net.x[chosen], return_inverse=True)
-    names = tuple(net.name[int(chosen[np.argmax(station == i)])] for i in range(len(x)))
-    parts = [net.batch.part(curve, curve + 1) for curve in chosen.tolist()]
-    return NetSections(
-        _curves(SplineBatch.join(parts), closed, net.on_centre), chosen, station, x, names
-    )
+    first = np.searchsorted(station, np.arange(len(x))).tolist()
+    return NetStations(chosen, station, x, tuple(net.name[int(chosen[i])] for i in first))
+
+
+def _chosen(batch: SplineBatch, curves: IntArray) -> SplineBatch:
+    """Give some of the curves, in any arithmetic."""
+    if is_plain(batch.xyz):
+        return batch.take(curves)
+    return SplineBatch.join([batch.part(curve, curve + 1) for curve in curves.tolist()])
 
 
 _OUTERMOST = 1e-3
@@ -369,10 +400,19 @@ def transom_areas_below(net: CurveNet, closed: bool, planes: FloatingPlanes) -> 
 
     A raked one is measured in its own plane; of a rounded one, its projection across the ship.
     """
-    total = _areas_below(net, transom_ends(net), closed, planes)
+    return sum_transoms(
+        net, transom_ends(net), lambda some: _areas_below(net, some, closed, planes)
+    )
+
+
+def sum_transoms(
+    net: CurveNet, ends: IntArray, areas: Callable[[IntArray], FloatArray]
+) -> FloatArray:
+    """Add up the areas that transoms have: those in planes across the ship, and the raked ones."""
+    total = areas(ends)
     for curve in np.flatnonzero(net.transom).tolist():
         upright = abs(float(net.normal[curve, 0]))
-        raked = _areas_below(net, np.array([curve]), closed, planes)
+        raked = areas(np.array([curve]))
         total = total + (raked / upright if upright > 0.0 else raked)
     return total
 
@@ -387,8 +427,7 @@ def _areas_below(
 ) -> FloatArray:
     if not len(chosen):
         return np.zeros(len(planes.height))
-    parts = [net.batch.part(curve, curve + 1) for curve in chosen.tolist()]
-    return areas_of_flat_ends(SplineBatch.join(parts), closed, planes, net.on_centre)
+    return areas_of_flat_ends(_chosen(net.batch, chosen), closed, planes, net.on_centre)
 
 
 def areas_of_flat_ends(
@@ -402,6 +441,8 @@ def areas_of_flat_ends(
 
 def _curves(batch: SplineBatch, closed: bool, on_centre: float) -> IsoCurves:
     """Give curves as tiles from keel to deck, with a deck where they end off the centre plane."""
+    if is_plain(batch.xyz):
+        return _plain_curves(batch, closed, on_centre)
     tiles: list[FloatArray] = []
     start, deck = [0], []
     for curve in range(batch.count):
@@ -417,6 +458,36 @@ def _curves(batch: SplineBatch, closed: bool, on_centre: float) -> IsoCurves:
         start.append(len(deck))
     point = np.concatenate(tiles)
     return IsoCurves(np.array(start), point, np.zeros_like(point), np.array(deck, np.bool_))
+
+
+def _plain_curves(batch: SplineBatch, closed: bool, on_centre: float) -> IsoCurves:
+    """Do what `_curves` does, of plain numbers, for all curves at once."""
+    size = np.diff(batch.start) - 1
+    start = np.concatenate([[0], np.cumsum(size)])
+    own = np.arange(len(size)).repeat(size)
+    cubic = power_coefficients(batch)
+    low, high = cubic[:, 0], batch.xyz[segment_start(batch) + 1]
+    swept = np.bincount(own, 0.5 * (low[:, 1] + high[:, 1]) * (high[:, 2] - low[:, 2]), len(size))
+    # A curve that encloses its area on the other side is reversed: c(u) becomes c(1 - u).
+    back = np.flatnonzero((swept < 0.0)[own])
+    order = np.arange(len(own))
+    order[back] = (start[own] + start[own + 1] - 1 - order)[back]
+    cubic = cubic[order]
+    c0, c1, c2, c3 = (cubic[back, i] for i in range(4))
+    cubic[back, 0], cubic[back, 1] = c0 + c1 + c2 + c3, -(c1 + 2.0 * c2 + 3.0 * c3)
+    cubic[back, 2], cubic[back, 3] = c2 + 3.0 * c3, -c3
+    last = cubic[start[1:] - 1].sum(axis=1)
+    covered = np.flatnonzero((np.abs(last[:, 1]) > on_centre) & closed)
+    point, deck = cubic, np.zeros(len(cubic), np.bool_)
+    if len(covered):
+        lid = np.zeros((len(covered), 4, 3))
+        lid[:, 0], lid[:, 1, 1] = last[covered], -last[covered, 1]
+        point = np.insert(cubic, start[covered + 1], lid, axis=0)
+        deck = np.insert(deck, start[covered + 1], True)
+        more = np.zeros(len(start), np.int64)
+        more[covered + 1] = 1
+        start = start + np.cumsum(more)
+    return IsoCurves(start, point, np.zeros_like(point), deck)
 
 
 def _upward(cubic: FloatArray) -> FloatArray:
@@ -489,9 +560,14 @@ def _height(net: CurveNet, own: list[int], name: str) -> tuple[float, str]:
     return float(np.mean(part)) if part else np.inf, name
 
 
-def thinned_net(state: HullState, net: CurveNet, without: NDArray[np.bool_]) -> CurveNet:
-    """Give the net without the curves chosen by `without` (m,); `state` is its source."""
-    data = curve_data(state, net.curve)
+def thinned_net(
+    state: HullState, net: CurveNet, without: NDArray[np.bool_], data: CurveData | None = None
+) -> CurveNet:
+    """Give the net without the curves chosen by `without` (m,); `state` is its source.
+
+    `data` is what its curves are made of, if the tables have other numbers.
+    """
+    data = curve_data(state, net.curve) if data is None else data
     keep = _points(state, net, data, without)
     size = np.add.reduceat(keep, data.start[:-1])
     # A curve of fewer than two points is none: it keeps them all.

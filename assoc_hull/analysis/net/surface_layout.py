@@ -41,7 +41,7 @@ from assoc_hull.geometry.integrals.area_moments import section_area
 from assoc_hull.geometry.numeric.generic_sums import common_zeros
 from assoc_hull.geometry.numeric.polynomials import hermite
 from assoc_hull.geometry.splines.evaluation import evaluate
-from assoc_hull.geometry.splines.paths import Paths, PathShapes, shape_paths
+from assoc_hull.geometry.splines.paths import Paths, PathShapes, bit_lengths, shape_paths
 from assoc_hull.geometry.splines.segments import bezier_points, last_not_above, sum_per_curve
 from assoc_hull.geometry.surfaces.coons import CoonsCells
 
@@ -52,6 +52,7 @@ __all__ = [
     "SurfaceLayout",
     "areas_between",
     "blend_cubics",
+    "cut_cells",
     "lay_out_surface",
     "open_ends",
     "parallel_slabs",
@@ -131,10 +132,10 @@ lines are steeper."""
 _BULB = 0.25
 """A bulb is narrower than this part of the ship."""
 
-_DECK_PLACES = 5
+DECK_PLACES = 5
 """Places on a part of the deck edge at which it is looked at."""
 
-_SLIVER = 1e-10
+SLIVER = 1e-10
 """Tiles of a smaller part of a cell are not made."""
 
 
@@ -146,7 +147,7 @@ class SurfaceLayout:
     ----------
     cells : CoonsCells
         The cells.
-    frames : tuple of StripBoundary
+    frames : sequence of StripBoundary
         The strips, in the order of the cells.
     lost : tuple of UnboundedCurves
         What could not be understood.
@@ -163,7 +164,7 @@ class SurfaceLayout:
     """
 
     cells: CoonsCells
-    frames: tuple[StripBoundary, ...]
+    frames: Sequence[StripBoundary]
     lost: tuple[UnboundedCurves, ...]
     edge: NDArray[np.bool_]
     cell_start: IntArray
@@ -189,8 +190,8 @@ class SurfaceLayout:
         ]
         if not parts:
             return net.batch.xyz[[int(net.batch.xyz[:, 2].argmax())]]
-        curve = np.array([part[0] for part in parts]).repeat(_DECK_PLACES)
-        t = np.concatenate([np.linspace(part[1], part[2], _DECK_PLACES) for part in parts])
+        curve = np.array([part[0] for part in parts]).repeat(DECK_PLACES)
+        t = np.concatenate([np.linspace(part[1], part[2], DECK_PLACES) for part in parts])
         found: FloatArray = evaluate(net.batch, curve, t)
         return found
 
@@ -211,17 +212,49 @@ def lay_out_surface(net: CurveNet, length: float, closed: bool) -> SurfaceLayout
     ]
     paths, anchor, rails = _paths(net, frames, run, every, sides)
     flat, knuckle = (_along(run, every, sides, which) for which in (net.flat, net.knuckle))
-    first, blend = blend_cubics(run.height, flat, knuckle, run.start)
     edge = np.array([_is_edge(net, frame, frames) for frame in frames], np.bool_)
-    walked = shape_paths(paths, net.batch)
     cell_start = run.start - np.arange(len(run.start))
     # An open ship has a deck edge too, but no deck to be closed by.
-    tiles = _tiles(walked, rails, cell_start, edge & closed)
-    plane = _planes(net, frames)
+    deck, plane = edge & closed, _planes(net, frames)
+    ends = AnchorRuns(run.start, anchor, cell_start, rails, flat, knuckle, deck, plane)
+    cells, cell = cut_cells(shape_paths(paths, net.batch), net.batch, ends)
+    return SurfaceLayout(
+        cells, tuple(frames), tuple(lost), edge, cell_start, rails, cell, flat, knuckle
+    )
+
+
+@attrs.frozen(eq=False)
+class AnchorRuns:
+    """Between which anchors and rails cells lie: see `CoonsCells` and `SurfaceLayout`.
+
+    `deck` (n,) bool: a strip is covered.
+    """
+
+    anchor_start: IntArray
+    anchor: IntArray
+    cell_start: IntArray
+    rails: IntArray
+    flat: NDArray[np.bool_]
+    knuckle: NDArray[np.bool_]
+    deck: NDArray[np.bool_]
+    plane: NDArray[np.bool_]
+
+
+def cut_cells(
+    walked: PathShapes, batch: SplineBatch, runs: AnchorRuns
+) -> tuple[CoonsCells, IntArray]:
+    """Cut cells into tiles, and tell how they carry on between anchors; also the cell of each tile.
+
+    This alone of a layout depends on where lines are, and not only on which there are.
+    """
+    length = bit_lengths(walked.paths, batch)
+    height = _anchor_heights(walked.paths, length, runs)
+    first, blend = blend_cubics(height, runs.flat, runs.knuckle, runs.anchor_start)
+    tiles = _tiles(walked, runs.rails, runs.cell_start, runs.deck)
     cells = CoonsCells(
-        paths,
-        run.start,
-        anchor,
+        walked.paths,
+        runs.anchor_start,
+        runs.anchor,
         tiles.start,
         first[tiles.cell],
         blend[tiles.cell],
@@ -229,13 +262,32 @@ def lay_out_surface(net: CurveNet, length: float, closed: bool) -> SurfaceLayout
         tiles.fore,
         tiles.low,
         tiles.high,
-        plane,
+        runs.plane,
         tiles.low == -2,
-        np.where(plane, _ORDER, _END_ORDER).astype(np.int64),
+        np.where(runs.plane, _ORDER, _END_ORDER).astype(np.int64),
     )
-    return SurfaceLayout(
-        cells, tuple(frames), tuple(lost), edge, cell_start, rails, tiles.cell, flat, knuckle
-    )
+    return cells, tiles.cell
+
+
+def _anchor_heights(paths: Paths, length: FloatArray, runs: AnchorRuns) -> FloatArray:
+    """Give how far up its strip each anchor lies, (a,), from 0 to 1: the mean of both rails.
+
+    `length` is that of bits, m. A rail that is a point says nothing.
+    """
+    owner = np.arange(paths.count).repeat(np.diff(paths.start))
+    whole = np.bincount(owner, length, paths.count)
+    count = np.diff(runs.cell_start)
+    strip = np.arange(len(count)).repeat(count)
+    above = np.arange(len(strip)) - runs.cell_start[strip] + 1
+    table = np.zeros((2, len(count), int(count.max(initial=0)) + 1))
+    table[:, strip, above] = whole[runs.rails.T]
+    up = np.cumsum(table, axis=2)
+    most = up[:, np.arange(len(count)), count][..., None]
+    up = np.divide(up, most, out=np.zeros_like(up), where=most > 0.0)
+    point = most == 0.0
+    height = 0.5 * (np.where(point[0], up[1], up[0]) + np.where(point[1], up[0], up[1]))
+    found: FloatArray = height[np.arange(table.shape[2]) <= count[:, None]]
+    return found
 
 
 def _paths(
@@ -503,12 +555,12 @@ def _knots(
     order = np.lexsort((bit, value, cell))
     cell, bit, value = cell[order], bit[order], value[order]
     near = np.zeros(len(cell), np.bool_)
-    near[1:] = (cell[1:] == cell[:-1]) & (value[1:] - value[:-1] <= _SLIVER)
+    near[1:] = (cell[1:] == cell[:-1]) & (value[1:] - value[:-1] <= SLIVER)
     kept = ~near
     for k in np.flatnonzero(near[1:] & near[:-1]).tolist():
         # Three and more in a row: each is held against the last that was kept.
-        kept[k + 1] = value[k + 1] - value[k - int(kept[k::-1].argmax())] > _SLIVER
-    kept &= (value < 1.0 - _SLIVER) | (bit < 0)
+        kept[k + 1] = value[k + 1] - value[k - int(kept[k::-1].argmax())] > SLIVER
+    kept &= (value < 1.0 - SLIVER) | (bit < 0)
     cell, bit, value = cell[kept], bit[kept], value[kept]
     high, end = np.ones(len(cell)), np.full(len(cell), -1)
     inner = np.flatnonzero(cell[1:] == cell[:-1])

@@ -8,6 +8,8 @@ levels whose wet part is one arc each, from keel or waterline to waterline or de
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import attrs
 import numpy as np
 from numpy.typing import NDArray
@@ -122,7 +124,7 @@ def bands_of_strips(surface: Strips, plane: Waterplane) -> list[Band]:
     return [_band(surface, list(range(surface.count)), plane)]
 
 
-def _followers(frames: tuple[StripBoundary, ...], deck: list[bool]) -> dict[int, int]:
+def _followers(frames: Sequence[StripBoundary], deck: list[bool]) -> dict[int, int]:
     """Give the strip that follows each along its whole rail, by number."""
     after: dict[int, int] = {}
     for i, aft in enumerate(frames):

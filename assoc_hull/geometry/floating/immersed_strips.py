@@ -58,10 +58,10 @@ __all__ = [
 LEVEL = 1e-9
 """Of a strip's depth: so much is no slope."""
 
-_POINT = 1e-9
+POINT = 1e-9
 """m: a strip that is not higher is but a point, such as a part right at the end of a ship."""
 
-_MORE = 6  # points of the rule where something happens, beyond those where nothing does
+MORE = 6  # points of the rule where something happens, beyond those where nothing does
 
 
 @attrs.frozen(eq=False)
@@ -113,7 +113,7 @@ class PreparedStrips:
         low, high = self.upright.low, self.upright.high
         begin = self.tiles.start[np.searchsorted(self.strip, np.arange(self.strips.count))]
         depth = np.maximum.reduceat(high, begin) - np.minimum.reduceat(low, begin)
-        return np.where(depth > _POINT, depth, 1.0)
+        return np.where(depth > POINT, depth, 1.0)
 
     @cached_property
     def ends(self) -> tuple[IntArray, CurveTiles]:
@@ -182,7 +182,7 @@ def prepare_strips(strips: Strips, factor: int = 1, plain: Strips | None = None)
     nodes = [np.concatenate(parts) for parts in zip(*rules, strict=True)]
     v, weight = nodes if nodes else (np.zeros(0), np.zeros(0))
     tiles = tiles_of_curves(strips.curves(strip, v))
-    fine = order + _MORE
+    fine = order + MORE
     whole = _weighted(tiles, weight, heeled=False)
     known = strips if plain is None else plain
     return PreparedStrips(strips, fine, strip, v, weight, tiles, known, whole)
@@ -208,7 +208,7 @@ Inclination = tuple[FloatArray, FloatArray]
 DECK, KEEL, _CUT, _EDGE = 1, 2, 4, 1024
 
 _CURVES = 256  # at a time: memory that stays in the processor's cache is several times faster
-_POINTS = 14  # of a curve that are looked at
+POINTS = 14  # of a curve that are looked at
 
 
 @attrs.frozen(eq=False)
@@ -315,7 +315,7 @@ def inspect_strips(
     strips: Strips, inclination: Inclination, strip: IntArray, v: FloatArray, level: FloatArray
 ) -> CurveStates:
     """Do as `strip_states`, and give how far the points that decide are from the planes."""
-    state, over = np.zeros(len(v), np.int64), np.full((len(v), _POINTS), np.inf)
+    state, over = np.zeros(len(v), np.int64), np.full((len(v), POINTS), np.inf)
     for rows, curve, tiles in curve_batches(strips, strip, v, plain=True):
         tilted = tilt_tiles(tiles, *inclination)
         state[rows] = _state(tiles, tilted, curve, level[rows])
@@ -339,8 +339,8 @@ def _heights(tiles: CurveTiles, tilted: TiltedTiles) -> FloatArray:
     order = np.lexsort((points.height, points.curve))
     curve = points.curve[order]
     rank = np.arange(len(order)) - np.searchsorted(curve, curve) + 2
-    kept = np.flatnonzero(rank < _POINTS)
-    height = np.full((tiles.curves, _POINTS), np.inf)
+    kept = np.flatnonzero(rank < POINTS)
+    height = np.full((tiles.curves, POINTS), np.inf)
     height[:, 0] = tilted.control[0][tiles.start[:-1]]
     height[:, 1] = tilted.control[3][tiles.start[1:] - 1]
     height[curve[kept], rank[kept]] = points.height[order[kept]]
@@ -350,9 +350,9 @@ def _heights(tiles: CurveTiles, tilted: TiltedTiles) -> FloatArray:
 # --------------------------------------------------------------------------------------
 # Where along strips the immersed part changes its kind: bracketed, many at once.
 
-_CLOSE = 1e-10  # of a strip: integrals go with its power 3/2, extents with its square
-_TRIALS = 60
-_SEVERAL = 6  # changes between two neighbouring curves, at most
+CLOSE = 1e-10  # of a strip: integrals go with its power 3/2, extents with its square
+TRIALS = 60
+SEVERAL = 6  # changes between two neighbouring curves, at most
 
 
 @attrs.frozen(eq=False)
@@ -402,7 +402,7 @@ def find_state_changes(
     There are more of them than were given where several changes lie between two curves.
     """
     found = [brackets.take(np.zeros(0, np.int64))]
-    for _ in range(_SEVERAL):
+    for _ in range(SEVERAL):
         if not len(brackets):
             break
         close = _close_brackets(strips, inclination, brackets)
@@ -420,8 +420,8 @@ def _close_brackets(
     above = brackets.above.copy()
     strip, level = np.repeat(brackets.strip, 2), np.repeat(brackets.level, 2)
     over = inspect_strips(strips, inclination, strip, v.ravel(), level).over.reshape(len(v), 2, -1)
-    for _ in range(_TRIALS):
-        alive = np.flatnonzero(v[:, 1] - v[:, 0] > _CLOSE)
+    for _ in range(TRIALS):
+        alive = np.flatnonzero(v[:, 1] - v[:, 0] > CLOSE)
         if not len(alive):
             break
         below = brackets.below[alive, None]
@@ -464,7 +464,7 @@ def _trials(v: FloatArray, miss: FloatArray) -> FloatArray:
     with np.errstate(over="ignore", invalid="ignore"):
         chord = np.isfinite(one - other) & (one * other < 0.0)
         share = np.where(chord, one / np.where(chord, one - other, 1.0), 0.5)
-    half_width = np.where(chord, np.minimum(0.25, 0.25 * length + 0.3 * _CLOSE / length), 0.25)
+    half_width = np.where(chord, np.minimum(0.25, 0.25 * length + 0.3 * CLOSE / length), 0.25)
     before = np.clip(share - half_width, 0.25 * share, None)
     after = np.clip(share + half_width, None, share + 0.75 * (1.0 - share))
     far = np.where(share > 0.5, 0.5 * before, 0.5 * (1.0 + after))

@@ -49,9 +49,11 @@ from assoc_hull.geometry.numeric.generic_sums import combine_rows, sum_columns_b
 __all__ = [
     "FloatingPlanes",
     "ImmersedIntegrals",
+    "in_plane",
     "integrate_curves",
     "integrate_half",
     "integrate_immersed",
+    "join_sides",
 ]
 
 
@@ -152,7 +154,7 @@ def integrate_half(
     parts = refine_strips(prepared, tilted, levels, _state_table(prepared, tilted, ground, cut))
     if parts is not None:
         plain = _refine(prepared, plain, levels, tilted, parts)
-    return HalfIntegrals(_in_plane(plain.columns, heel), plain.extent) if tilted.heeled else plain
+    return HalfIntegrals(in_plane(plain.columns, heel), plain.extent) if tilted.heeled else plain
 
 
 def _state_table(
@@ -175,10 +177,10 @@ def integrate_curves(
     tilted = tilt_tiles(tiles, trim, heel)
     each = np.arange(tiles.curves)
     columns = _integrate_pairs(tiles, tilted, level, (each, each), np.ones(tiles.curves)).columns
-    return _in_plane(columns, heel) if tilted.heeled else columns
+    return in_plane(columns, heel) if tilted.heeled else columns
 
 
-def _in_plane(columns: FloatArray, heel: FloatArray) -> FloatArray:
+def in_plane(columns: FloatArray, heel: FloatArray) -> FloatArray:
     """Turn the flux along y into one along (0, 1, -heel), which does not cross the plane.
 
     The fluxes whose divergences are 1, x, y and z are y, x y, y^2/2 and y z + heel y^2/2.
@@ -318,6 +320,11 @@ def _both_sides(
     port = integrate_half(prepared, height, trim, heel)
     upright = is_plain(heel) and heel[0] == 0.0
     starboard = port if upright else integrate_half(prepared, height, trim, -heel)
+    return join_sides(port, starboard)
+
+
+def join_sides(port: HalfIntegrals, starboard: HalfIntegrals) -> dict[str, FloatArray]:
+    """Give the fields of `ImmersedIntegrals`; starboard is integrated as a port half."""
     return _sums(port.columns, starboard.columns) | _extents(port, starboard)
 
 

@@ -54,7 +54,7 @@ __all__ = [
 # The point that passes the plane there has the height q(v) over planes of the inclination, so a
 # change of q - level moves the place by -1/q_v times that.
 
-_FLAT = 1e-9
+STILL = 1e-9
 """m along a whole strip: what rises less lies level, and has no place to move to."""
 
 _NEAR = 1e-7
@@ -77,7 +77,7 @@ def differentiate_brackets(
     tiles = tiles_of_curves(strips.curves(found.strip, 0.5 * (found.low + found.high)))
     height, change = _passing_points(tiles, tilt_tiles(tiles, tilted.trim, tilted.heel), found)
     over = height - np.take(levels, found.row // strips.count)
-    passes = (np.abs(real(change)) > _FLAT) & (np.abs(real(over)) < _NEAR)
+    passes = (np.abs(real(change)) > STILL) & (np.abs(real(over)) < _NEAR)
     # The value of `over` is rounding: only its derivative moves the place.
     move = np.where(passes, (real(over) - over) / np.where(passes, real(change), 1.0), 0.0)
     return attrs.evolve(found, low=found.low + move, high=found.high + move)
@@ -102,10 +102,10 @@ def _passing_points(
 # --------------------------------------------------------------------------------------
 # Strips in which something happens, and their rules.
 
-_LADDER = 7  # curves, ever closer to the end of a strip
+LADDER = 7  # curves, ever closer to the end of a strip
 # Of a strip's depth: the least change of height over which the share of the fine rule goes from
 # one to zero. Both rules differ, so a sudden change would be an error of the derivative.
-_REACH = 0.02
+REACH = 0.02
 
 
 @attrs.frozen(eq=False)
@@ -281,7 +281,7 @@ def _nearby_critical_points(
     ends = prepared.critical(tilted)
     over = real(ends.height) - real(levels)[:, None]
     depth = prepared.depth[prepared.strip[ends.curve]]
-    reach = safe_sqrt(ends.change * ends.change + (_REACH * depth) ** 2)
+    reach = safe_sqrt(ends.change * ends.change + (REACH * depth) ** 2)
     plane, point = np.nonzero(np.abs(over) < real(reach))
     gap = (np.take(levels, plane) - np.take(ends.height, point)) / np.take(reach, point)
     part = 1.0 - gap * gap
@@ -311,14 +311,14 @@ def _hidden_pieces(
     plane, curve = key // count, key % count
     inner = curve + np.where(prepared.v[curve] == 0.0, 1, -1)
     begin, end = prepared.v[curve, None], prepared.v[inner, None]
-    trial = begin + (end - begin) * 0.5 ** np.arange(_LADDER, 0, -1)
+    trial = begin + (end - begin) * 0.5 ** np.arange(LADDER, 0, -1)
     seen = strip_states(
         prepared.plain,
         inclination,
-        np.repeat(prepared.strip[curve], _LADDER),
+        np.repeat(prepared.strip[curve], LADDER),
         trial.ravel(),
-        np.repeat(real(levels)[plane], _LADDER),
-    ).reshape(-1, _LADDER)
+        np.repeat(real(levels)[plane], LADDER),
+    ).reshape(-1, LADDER)
     v = np.concatenate([begin, trial, end], axis=1)
     kinds = np.concatenate([state[plane, curve, None], seen, state[plane, inner, None]], axis=1)
     one, rung = np.nonzero(kinds[:, 1:] != kinds[:, :-1])
@@ -362,7 +362,7 @@ def _passing_places(
 ) -> tuple[FloatArray, FloatArray]:
     """Give x and y of points where they pass their levels, one Newton step away."""
     change = np.take(points.change, point)
-    steep = np.abs(real(change)) > _FLAT
+    steep = np.abs(real(change)) > STILL
     step = (level - np.take(points.height, point)) / np.where(steep, change, 1.0)
     step = np.where(steep, step, 0.0)
     place, rate = np.take(points.place, point, axis=1), np.take(points.rate, point, axis=1)

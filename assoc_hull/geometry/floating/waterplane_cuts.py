@@ -36,8 +36,8 @@ __all__ = [
 # Between two curves the cubic through both cuts has the slopes of the waterline at them: the error
 # of the breadth goes with the fourth power of the distance of the curves.
 
-_FLAT = 1e-12  # of a slope: less is rounding
-_TIE = 1e-9  # m: cuts of one point on two strips are as far out as each other
+FLAT = 1e-12  # of a slope: less is rounding
+TIE = 1e-9  # m: cuts of one point on two strips are as far out as each other
 
 
 @attrs.frozen(eq=False)
@@ -95,7 +95,7 @@ def waterline_rate(tilted: TiltedTiles, slope: FloatArray, across: FloatArray) -
     """
     steep = slope[2] - tilted.trim * slope[0] + tilted.heel * slope[1]
     climb = across[2] - tilted.trim * across[0] + tilted.heel * across[1]
-    flat = np.abs(real(steep)) <= _FLAT * np.abs(real(slope)).sum(axis=0)
+    flat = np.abs(real(steep)) <= FLAT * np.abs(real(slope)).sum(axis=0)
     rate: FloatArray = np.where(flat, 0.0, climb / np.where(flat, 1.0, steep))
     return rate
 
@@ -109,7 +109,7 @@ def greatest_breadths(
     there is none between curves.
     """
     times, where = _cut_table(tiles, cuts)
-    outer = np.flatnonzero(real(cuts.y) >= cuts.most[cuts.plane] - _TIE)
+    outer = np.flatnonzero(real(cuts.y) >= cuts.most[cuts.plane] - TIE)
     rate = _breadth_rate(tiles, tilted, cuts, outer)
     curve = tiles.curve[cuts.tile[outer]]
     # The neighbour toward which the breadth grows; only where both curves are cut just once is it

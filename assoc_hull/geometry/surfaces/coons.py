@@ -149,9 +149,11 @@ class CoonsStrips:
     blend: FloatArray
 
     @classmethod
-    def on(cls, cells: CoonsCells, batch: SplineBatch) -> CoonsStrips:
-        """Put cells on splines."""
-        walked = shape_paths(cells.paths, batch)
+    def on(
+        cls, cells: CoonsCells, batch: SplineBatch, walked: PathShapes | None = None
+    ) -> CoonsStrips:
+        """Put cells on splines; `walked` are their paths if these have shapes already."""
+        walked = shape_paths(cells.paths, batch) if walked is None else walked
         low = np.where(cells.low < 0, np.where(cells.low < -1, 1.0, 0.0), walked.begin[cells.low])
         high = np.where(cells.high < 0, 1.0, walked.begin[cells.high])
         bit, count = cells.rail, len(cells.aft)

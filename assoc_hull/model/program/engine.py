@@ -40,9 +40,15 @@ import os, sys
 again, *sys.path[:] = sys.argv[1:]
 if again == "no" and hasattr(os, "nice"):
     os.nice(5)
+from assoc_hull.geometry.floating import compiled_immersion, compiled_sections
+from assoc_hull.geometry.surfaces import compiled_cells
 from assoc_hull.model.program import compiled_fields, compiled_program
 from assoc_hull.variation.features import compiled_map
-if not (compiled_program.warm() & compiled_fields.warm() & compiled_map.warm()):
+parts = (
+    compiled_program, compiled_fields, compiled_map, compiled_cells, compiled_immersion,
+    compiled_sections,
+)
+if not all([each.warm() for each in parts]):
     if again == "yes":
         sys.exit("what numba compiles cannot be kept on this disk: see NUMBA_CACHE_DIR")
     os.execv(sys.executable, [sys.executable, "-c", os.environ["MAKE"], "yes", *sys.path])
