@@ -234,7 +234,7 @@ class StudyParent:
         made = variant.made
         if isinstance(made, Document):
             return self.aims.values(made.state, like=self.maps.state)
-        return self.aims.values_of(made.like_parent, made.particulars)
+        return self.aims.values_of(made.body, made.particulars)
 
     def fully(self, variant: Variant) -> FloatArray:
         """Give all outputs, (o,), with the bits of a hull that has never been seen.

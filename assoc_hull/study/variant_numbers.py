@@ -61,15 +61,10 @@ class VariantNumbers:
     @cached_property
     def body(self) -> Flotation:
         """Its surface, with the bits of a hull that has never been seen."""
-        assert self.net is not None
-        base = self.parent.base
-        return flotation_of_lines(base.state, self.net, base.kinds)
-
-    @cached_property
-    def like_parent(self) -> Flotation:
-        """Its surface by the layout of the parent where that serves: nearly as exact."""
-        assert self.net is not None
-        return flotation_on_lines(self.parent.base, self.net, self.xyz) or self.body
+        base, net = self.parent.base, self.net
+        assert net is not None
+        kept = flotation_on_lines(base, net.batch, net.x, net.place, net.normal, self.particulars)
+        return kept or flotation_of_lines(base.state, net, base.kinds, self.particulars)
 
 
 @attrs.frozen(eq=False)

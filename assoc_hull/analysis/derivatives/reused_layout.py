@@ -66,29 +66,6 @@ def flotation_at_points(base: Flotation, data: CurveData, points: FloatArray) ->
     return _put(base, _net(base.net, batch), points)
 
 
-def flotation_on_lines(base: Flotation, net: CurveNet, points: FloatArray) -> Flotation | None:
-    """Give a hull of other lines of the same structure, by the layout that it had.
-
-    Parameters
-    ----------
-    base : Flotation
-        The hull as it was.
-    net : CurveNet
-        Its lines as they are now.
-    points : (n, 3), m
-        All points of its tables.
-
-    Returns
-    -------
-    Flotation or None
-        None where sections have come to stand in another order. Its tables are those of the hull
-        as it was: what is measured is right, errors are not to be estimated.
-    """
-    if not np.array_equal(_order(net.x), _order(base.net.x)):
-        return None
-    return _put(base, base.state, net, points)
-
-
 def flotation_with_layout(base: Flotation, state: HullState) -> Flotation | None:
     """Give what `flotation` gives of tables, but by the layout of a hull of the same structure.
 

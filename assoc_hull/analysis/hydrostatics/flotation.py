@@ -389,17 +389,21 @@ def _flotation(state: HullState) -> Flotation:
     return flotation_of_lines(state, net, curve_data(state, net.curve).kind)
 
 
-def flotation_of_lines(state: HullState, net: CurveNet, kinds: NDArray[np.int8]) -> Flotation:
+def flotation_of_lines(
+    state: HullState, net: CurveNet, kinds: NDArray[np.int8], moved: Particulars | None = None
+) -> Flotation:
     """Lay a surface through lines, and make what floats of it.
 
     Parameters
     ----------
     state : HullState
-        Tables with the dimensions and the deck of the ship.
+        Tables of the ship, or of one of the same structure.
     net : CurveNet
         The lines; those of the tables, or others of that structure.
     kinds : (n,) int8
         The `PointKind` of each defining point of the net.
+    moved : Particulars or None
+        Dimensions of the ship, where her lines are not those of the tables.
 
     Raises
     ------
@@ -411,7 +415,7 @@ def flotation_of_lines(state: HullState, net: CurveNet, kinds: NDArray[np.int8])
         raise BadInputError(
             f"{len(stations)} section(s)", "in hydrostatics", "give two sections or more"
         )
-    ship = state.particulars
+    ship = state.particulars if moved is None else moved
     layout = lay_out_surface(net, ship.length, ship.deck == "closed")
     if not layout.frames:
         raise BadInputError(
@@ -420,7 +424,7 @@ def flotation_of_lines(state: HullState, net: CurveNet, kinds: NDArray[np.int8])
     ends, closed = open_ends(net, layout, ship.length), ship.deck == "closed"
     strips: Strips = CoonsStrips.on(layout.cells, net.batch)
     strips = with_ends(strips, net, closed, ends) if ends else strips
-    return Flotation(state, net, NetSurface(layout, strips), kinds, ends)
+    return Flotation(state, net, NetSurface(layout, strips), kinds, ends, moved)
 
 
 def _depends_on(state: HullState) -> tuple[object, ...]:
