@@ -31,6 +31,9 @@ from assoc_hull.variation.carrying.hull_maps import LaidMap
 
 __all__ = ["ParentNumbers", "VariantNumbers"]
 
+_LAYOUTS = 4
+"""So many layouts are kept."""
+
 
 @attrs.frozen(eq=False)
 class VariantNumbers:
@@ -61,10 +64,17 @@ class VariantNumbers:
     @cached_property
     def body(self) -> Flotation:
         """Its surface, with the bits of a hull that has never been seen."""
-        base, net = self.parent.base, self.net
+        net, size = self.net, self.particulars
         assert net is not None
-        kept = flotation_on_lines(base, net.batch, net.x, net.place, net.normal, self.particulars)
-        return kept or flotation_of_lines(base.state, net, base.kinds, self.particulars)
+        for base in self.parent.layouts:
+            kept = flotation_on_lines(base, net.batch, net.x, net.place, net.normal, size)
+            if kept is not None:
+                return kept
+        base = self.parent.base
+        found = flotation_of_lines(base.state, net, base.kinds, size)
+        # Another variant may fit it: its numbers are the same, on whichever layout that fits.
+        self.parent.layouts[_LAYOUTS - 1 :] = [found]
+        return found
 
 
 @attrs.frozen(eq=False)
@@ -84,6 +94,8 @@ class ParentNumbers:
     knot, meeting : (k, 2) int
         Where the numbers have the parameters of each crossing on its two curves: as a knot, else
         as a meeting; -1 where not.
+    layouts : list of Flotation
+        Hulls of its structure whose layouts are at hand, the parent first.
     """
 
     net: NetNumbers
@@ -92,6 +104,7 @@ class ParentNumbers:
     across: NDArray[np.bool_]
     knot: IntArray
     meeting: IntArray
+    layouts: list[Flotation]
 
     @classmethod
     def of(cls, state: HullState) -> ParentNumbers | None:
@@ -120,7 +133,9 @@ class ParentNumbers:
         knot, meeting = net.knots[row[:, None], side], known[row[:, None], side]
         if ((knot < 0) & (meeting < 0)).any():
             return None
-        return cls(net, base, state.curves.line[lines.curve], np.isfinite(lines.x), knot, meeting)
+        return cls(
+            net, base, state.curves.line[lines.curve], np.isfinite(lines.x), knot, meeting, [base]
+        )
 
     def carry(self, laid: LaidMap, lines: IntArray) -> VariantNumbers | None:
         """Carry the parent by a map, of which given lines (d,) drive; None for another structure.

@@ -84,7 +84,7 @@ _ON_EDGE = 1e-2
 CurvePart = tuple[int, float, float]
 """A curve of the net and the chord parameters (m) between which it is walked, in that sense."""
 
-_SNAP = 1e-9
+SNAP = 1e-9
 """A parameter this near to a knot (m, of a short hull less) is the knot."""
 
 
@@ -290,7 +290,7 @@ def _not_below(knot: FloatArray, first: IntArray, last: IntArray, t: FloatArray)
 
 def _snapped(net: CurveNet, first: IntArray, last: IntArray, t: FloatArray) -> FloatArray:
     """Give parameters (k,), m, that are almost at a knot as that knot."""
-    knot, near = net.batch.knot, net.factor * _SNAP
+    knot, near = net.batch.knot, net.factor * SNAP
     after = _not_below(knot, first, last, t)
     one, other = knot[np.maximum(after - 1, first)], knot[np.minimum(after, last)]
     close = np.where(np.abs(other - t) <= near, other, t)

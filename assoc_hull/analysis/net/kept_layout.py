@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, overload
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart
+from assoc_hull.analysis.net.curve_net import SNAP, CurveNet, CurvePart
 from assoc_hull.analysis.net.strip_boundaries import StripBoundary, closes_end
 from assoc_hull.analysis.net.surface_layout import (
     DECK_PLACES,
@@ -114,6 +114,19 @@ def _crossing_at(net: CurveNet, own: IntArray, t: FloatArray) -> IntArray:
         better = away <= least
         found, least = np.where(better, order[at], found), np.where(better, away, least)
     return found
+
+
+def crossings_at_knots(net: CurveNet) -> IntArray:
+    """Give the knot at which each crossing lies on either line, (2 k,); -1 for those at none."""
+    curve, place, knot = net.meets.ravel(), net.place.ravel(), net.batch.knot
+    if not len(curve):
+        return curve
+    first, last = net.batch.start[curve], net.batch.start[curve + 1] - 1
+    below = last_not_above(knot, first, last, place)
+    above = np.minimum(below + 1, last)
+    near = net.factor * SNAP
+    found = np.where(np.abs(knot[above] - place) <= near, above, -1)
+    return np.where(np.abs(knot[below] - place) <= near, below, found)
 
 
 @attrs.frozen(eq=False)
@@ -261,7 +274,10 @@ class KeptLayout:
         return _MovedFrames(self.layout.frames, self.frames, net)
 
     def fits(self, net: CurveNet) -> bool:
-        """Tell whether lines stand in the same order along the ship, and end where they did."""
+        """Tell whether lines stand in the same order along the ship, and end where they did.
+
+        And cross at points of theirs, or between these, as they did: that is where bits begin.
+        """
         was = self.net
         return (
             np.array_equal(net.batch.start, was.batch.start)
@@ -269,7 +285,13 @@ class KeptLayout:
             and np.array_equal(np.sign(np.diff(net.x[self._order])), self._steps)
             and np.array_equal(net.transom, was.transom)
             and np.array_equal(net.ends_on_transom, was.ends_on_transom)
+            and np.array_equal(crossings_at_knots(net), self._at_knots)
         )
+
+    @cached_property
+    def _at_knots(self) -> IntArray:
+        """At which knot of its line each crossing lies."""
+        return crossings_at_knots(self.net)
 
     @cached_property
     def _order(self) -> IntArray:
