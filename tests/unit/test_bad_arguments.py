@@ -501,6 +501,9 @@ FLOATING: dict[str, Given] = {
         "further": (),
     },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
+    "jumboise": {
+        "length": 5.0, "at": 50.0, "names": "keep", "name": None, "in_place": False,
+    },
     "measure": {"only": None},
     "production_arcs": {"lines": "WL 2.5", "within": 0.01, "least_radius": 0.0},
     "sensitivities": {
