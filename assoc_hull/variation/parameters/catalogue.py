@@ -26,7 +26,8 @@ __all__ = [
 ]
 
 _SIGNED = frozenset(
-    {"deadrise_deg", "stem_rake_deg", "parallel_body_start", "parallel_body_end", "transom_height"}
+    {"deadrise_deg", "stem_rake_deg", "parallel_body_start", "parallel_body_end", "transom_height",
+     "sheer_fore", "sheer_aft"}
 )
 """Parameters that may be zero or negative."""
 
@@ -97,6 +98,22 @@ def _entries() -> tuple[NamedParameter, ...]:
             "height of the deck edge amidships",
             parameter_fields.deck_height_field,
             "ratio of z from the deck up, nothing below T",
+        ),
+        entry(
+            "sheer_fore",
+            "s_f",
+            "m",
+            "height of the deck edge at FP above that amidships",
+            parameter_fields.sheer_fore_field,
+            "ratio of z from the deck up, from amidships to FP, nothing below T",
+        ),
+        entry(
+            "sheer_aft",
+            "s_a",
+            "m",
+            "height of the deck edge at AP above that amidships",
+            parameter_fields.sheer_aft_field,
+            "ratio of z from the deck up, from amidships to AP, nothing below T",
         ),
         entry(
             "shaft_height",
@@ -193,6 +210,14 @@ def _entries() -> tuple[NamedParameter, ...]:
             "x of the fore end of the parallel body",
             parameter_fields.parallel_body_end_field,
             "shift of x, nothing at the after end and at FP",
+        ),
+        entry(
+            "parallel_body_length",
+            "l_p",
+            "m",
+            "length of the parallel body",
+            parameter_fields.parallel_body_length_field,
+            "shift of x, half of it at each end, nothing at AP and FP",
         ),
         entry(
             "stem_rake_deg",

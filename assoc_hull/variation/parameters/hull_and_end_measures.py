@@ -29,6 +29,8 @@ __all__ = [
     "fore_end_at_draught",
     "length",
     "shaft_height",
+    "sheer_aft",
+    "sheer_fore",
     "stem_rake_deg",
     "transom_half_breadth",
     "transom_height",
@@ -102,6 +104,28 @@ def deck_height(hull: DrawnCurves) -> MeasuredParameter:
         "deck_height", "m", float(there["at_midship"][2]), "deck edge amidships",
         np.array(list(there.values())), hull.keys(hull.deck_edge),
         {name: float(place[2]) for name, place in there.items()},
+    )  # fmt: skip
+
+
+def sheer_fore(hull: DrawnCurves) -> MeasuredParameter:
+    """Give by how much the deck edge is higher at FP than amidships."""
+    return _sheer(hull, "sheer_fore", "FP", hull.length)
+
+
+def sheer_aft(hull: DrawnCurves) -> MeasuredParameter:
+    """Give by how much the deck edge is higher at AP than amidships."""
+    return _sheer(hull, "sheer_aft", "AP", 0.0)
+
+
+def _sheer(hull: DrawnCurves, name: str, end: str, x: float) -> MeasuredParameter:
+    """Give the sheer at one end."""
+    middle, there = _deck_at(hull, hull.middle), _deck_at(hull, x)
+    if middle is None or there is None:
+        why = _NO_DECK if middle is None else f"the deck edge does not reach the {end}"
+        return MeasuredParameter(name, "m", None, reason=why)
+    return MeasuredParameter(
+        name, "m", float(there[2] - middle[2]), f"deck edge at {end}, above that amidships",
+        np.array([there, middle]), hull.keys(hull.deck_edge),
     )  # fmt: skip
 
 

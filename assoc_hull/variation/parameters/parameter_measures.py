@@ -34,6 +34,8 @@ MEASURES: Mapping[str, Callable[[DrawnCurves], MeasuredParameter]] = MappingProx
             hull_and_end_measures.draught,
             hull_and_end_measures.depth,
             hull_and_end_measures.deck_height,
+            hull_and_end_measures.sheer_fore,
+            hull_and_end_measures.sheer_aft,
             hull_and_end_measures.shaft_height,
             hull_and_end_measures.bossing_radius,
             hull_and_end_measures.transom_height,
@@ -46,6 +48,7 @@ MEASURES: Mapping[str, Callable[[DrawnCurves], MeasuredParameter]] = MappingProx
             midship_measures.flat_of_bottom,
             midship_measures.parallel_body_start,
             midship_measures.parallel_body_end,
+            midship_measures.parallel_body_length,
             hull_and_end_measures.stem_rake_deg,
         )
     }

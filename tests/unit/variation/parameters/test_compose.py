@@ -111,7 +111,8 @@ def test_a_parameter_alone_leaves_the_rest_of_the_ship_to_the_bit(ship: Parent, 
            "bulb_height": 7.0, "bulb_half_breadth": 6.0, "bulb_length": 6.4, "bilge_radius": 2.4,
            "deadrise_deg": 0.0, "flat_of_bottom": 22.6, "parallel_body_start": 115.0,
            "parallel_body_end": 205.5, "stem_rake_deg": 18.43, "fore_shift": 0.0,
-           "aft_shift": 0.0}  # fmt: skip
+           "aft_shift": 0.0, "parallel_body_length": 90.5, "sheer_fore": 0.0,
+           "sheer_aft": 0.0}  # fmt: skip
     vmap = compose_map(ship, {name: now[name] + 0.2}, Layout())
     random = np.random.default_rng(7)
     xyz = random.uniform([-5, 0, 0], [306, 25, 27], (4000, 3))
