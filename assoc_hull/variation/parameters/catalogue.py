@@ -14,7 +14,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.layers import Layer, scaled_layer
-from assoc_hull.variation.parameters import parameter_fields
+from assoc_hull.variation.parameters import frame_fields, parameter_fields
 from assoc_hull.variation.parameters.field_layout import Layout, Share
 from assoc_hull.variation.parameters.parent import Parent
 
@@ -226,6 +226,22 @@ def _entries() -> tuple[NamedParameter, ...]:
             "rake of the stem from T to its top",
             parameter_fields.stem_rake_field,
             "ramp of x above T",
+        ),
+        entry(
+            "fore_frame_height",
+            "z_f",
+            "m",
+            "height of the centre of area of the section at .85 Lpp up to T: low of U, high of V",
+            frame_fields.fore_frame_height_field,
+            "ratios of y below and above, each area kept, from the parallel body to FP",
+        ),
+        entry(
+            "aft_frame_height",
+            "z_a",
+            "m",
+            "height of the centre of area of the section at .15 Lpp up to T: low of U, high of V",
+            frame_fields.aft_frame_height_field,
+            "ratios of y below and above, each area kept, from AP to the parallel body",
         ),
         entry(
             "fore_shift",

@@ -8,6 +8,7 @@ dimensions have scaled. Lengths in m, x from AP forward, z from the base line up
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cache
 
 import attrs
 import numpy as np
@@ -18,8 +19,9 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
-from assoc_hull.variation.parameters.measurement import MeasuredParameter, Measures
+from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter, Measures
 from assoc_hull.variation.parameters.parameter_measures import measure_all
+from assoc_hull.variation.parameters.section_frames import SectionFrames, measure_frames
 
 __all__ = [
     "Parent",
@@ -35,6 +37,11 @@ _MEASURED_AS = {
 """The parameter whose measure gives a place; where the place is missing, its reason says why."""
 
 
+def _no_frames() -> SectionFrames:
+    none: FloatArray = np.zeros(0)
+    return SectionFrames(none, np.zeros(1, np.int64), np.zeros((0, 3)), none)
+
+
 @attrs.frozen(eq=False)
 class Parent:
     """Dimensions and measured places of a parent.
@@ -48,6 +55,8 @@ class Parent:
         Where parameters are measured, by what lies there: ``"boss"``, ``"bulb tip"`` ...
     absent : mapping of str to str
         Parameters that the parent has not, with the reason.
+    frames : callable
+        Gives the sections up to the draught; sampled when they are asked for.
 
     Examples
     --------
@@ -65,6 +74,7 @@ class Parent:
     top: float
     places: Mapping[str, FloatArray]
     absent: Mapping[str, str] = attrs.field(factory=dict)
+    frames: Callable[[], SectionFrames] = attrs.field(default=_no_frames, repr=False)
 
     def at(self, place: str, parameter: str) -> FloatArray:
         """Give a place that a parameter needs.
@@ -96,7 +106,7 @@ class Parent:
         return Parent(
             dimensions.get("length", self.length), dimensions.get("breadth", self.breadth),
             dimensions.get("depth", self.depth), dimensions.get("draught", self.draught),
-            top, places, self.absent,
+            top, places, self.absent, cache(lambda: self.frames().mapped(move)),
         )  # fmt: skip
 
 
@@ -142,7 +152,10 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
     depth = float(found["depth"]) if "depth" in found else ship.depth
     breadth = float(found["breadth"]) if "breadth" in found else ship.breadth
     top = float(every[:, 2].max())
-    return Parent(ship.length, breadth, depth, ship.draught, top, places, dict(found.absent))
+    return Parent(
+        ship.length, breadth, depth, ship.draught, top, places, dict(found.absent),
+        cache(lambda: measure_frames(DrawnCurves(state))),
+    )  # fmt: skip
 
 
 def _place(x: float, y: float, z: float) -> FloatArray:
