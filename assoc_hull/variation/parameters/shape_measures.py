@@ -15,18 +15,18 @@ from assoc_hull.variation.parameters.section_frames import frames_beside
 __all__ = ["FRAMES", "aft_frame_height", "fore_frame_height"]
 
 FRAMES: Mapping[str, float] = MappingProxyType(
-    {"fore_frame_height": 0.85, "aft_frame_height": 0.15}
+    {"fore_frame_height": 0.925, "aft_frame_height": 0.1}
 )
 """Where the character of frames is measured, in parts of Lpp."""
 
 
 def fore_frame_height(hull: DrawnCurves) -> MeasuredParameter:
-    """Give the height of the centre of area up to the draught at .85 Lpp; `area`: of both sides."""
+    """Give the height of the centre of area up to the draught at .925 Lpp; `area`: of both sides."""
     return _frame_height(hull, "fore_frame_height")
 
 
 def aft_frame_height(hull: DrawnCurves) -> MeasuredParameter:
-    """Give the height of the centre of area up to the draught at .15 Lpp; `area`: of both sides."""
+    """Give the height of the centre of area up to the draught at .1 Lpp; `area`: of both sides."""
     return _frame_height(hull, "aft_frame_height")
 
 
