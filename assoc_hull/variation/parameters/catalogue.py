@@ -14,7 +14,11 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.layers import Layer, scaled_layer
-from assoc_hull.variation.parameters import frame_fields, parameter_fields
+from assoc_hull.variation.parameters import (
+    frame_fields,
+    parameter_fields,
+    waterline_fields,
+)
 from assoc_hull.variation.parameters.field_layout import Layout, Share
 from assoc_hull.variation.parameters.parent import Parent
 
@@ -42,7 +46,7 @@ class NamedParameter:
     ----------
     name, short : str
         In full, and as a formula has it.
-    unit : {"m", "deg"}
+    unit : {"m", "deg", "-"}
     meaning : str
         What is measured; x from AP, z from the base line.
     lays : callable or None
@@ -242,6 +246,30 @@ def _entries() -> tuple[NamedParameter, ...]:
             "height of the centre of area of the section at .1 Lpp up to T: low of U, high of V",
             frame_fields.aft_frame_height_field,
             "ratios of y below and above, each area kept, from AP to the parallel body",
+        ),
+        entry(
+            "entrance_deg",
+            "i_E",
+            "deg",
+            "half angle of entrance: of the chord of the design waterline over its foremost .05 Lpp",
+            waterline_fields.entrance_field,
+            "ratio of y about T, toward the stem",
+        ),
+        entry(
+            "run_deg",
+            "i_R",
+            "deg",
+            "half angle of run: of the chord of the design waterline over its aftmost .05 Lpp",
+            waterline_fields.run_field,
+            "ratio of y about T, nothing at the after end of the waterline",
+        ),
+        entry(
+            "waterline_fullness",
+            "C_WL",
+            "-",
+            "area of the design waterline by Lpp and greatest breadth",
+            waterline_fields.waterline_fullness_field,
+            "ratio of y about T, nothing at the ends and along the parallel body",
         ),
         entry(
             "fore_shift",

@@ -56,6 +56,9 @@ MEASURES: Mapping[str, Callable[[DrawnCurves], MeasuredParameter]] = MappingProx
             hull_and_end_measures.stem_rake_deg,
             shape_measures.fore_frame_height,
             shape_measures.aft_frame_height,
+            shape_measures.entrance_deg,
+            shape_measures.run_deg,
+            shape_measures.waterline_fullness,
         )
     }
 )

@@ -17,10 +17,10 @@ from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.plane_intersections import points_at_coordinate
 from assoc_hull.variation.parameters.measurement import DrawnCurves
 
-__all__ = ["SectionFrames", "frames_beside", "measure_frames"]
+__all__ = ["GAUSS", "SectionFrames", "frames_beside", "measure_frames"]
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
-"""Exact for y z dz of cubics, a polynomial of degree 8."""
+GAUSS = np.polynomial.legendre.leggauss(5)
+"""Nodes and weights, exact for y z dz of cubics, a polynomial of degree 8."""
 
 _APART = 1e-6
 """m: sections nearer than this are one station."""
@@ -111,13 +111,13 @@ def _frames(hull: DrawnCurves, stations: Sequence[tuple[float, list[int]]]) -> S
     batch = hull.some(chosen)
     curve, begin, end = _intervals(batch, hull.ship.draught)
     half = 0.5 * (end - begin)
-    t = (0.5 * (begin + end))[:, None] + half[:, None] * _NODES
-    owner = np.repeat(curve, len(_NODES))
+    t = (0.5 * (begin + end))[:, None] + half[:, None] * GAUSS[0]
+    owner = np.repeat(curve, len(GAUSS[0]))
     xyz = evaluate(batch, owner, t.ravel())
     slope = derivative(batch, owner, t.ravel())[:, 2]
     # from the keel up, whichever way a curve runs
     low, high = batch.xyz[batch.start[:-1], 2], batch.xyz[batch.start[1:] - 1, 2]
-    dz = slope * (half[:, None] * _WEIGHTS).ravel() * np.where(high < low, -1.0, 1.0)[owner]
+    dz = slope * (half[:, None] * GAUSS[1]).ravel() * np.where(high < low, -1.0, 1.0)[owner]
     station = np.repeat(np.arange(len(stations)), [len(curves) for _, curves in stations])[owner]
     start = np.searchsorted(station, np.arange(len(stations) + 1))
     # A station that lies wholly above the draught has no area.
