@@ -30,8 +30,15 @@ __all__ = [
 ]
 
 _SIGNED = frozenset(
-    {"deadrise_deg", "stem_rake_deg", "parallel_body_start", "parallel_body_end", "transom_height",
-     "sheer_fore", "sheer_aft"}
+    {
+        "deadrise_deg",
+        "stem_rake_deg",
+        "parallel_body_start",
+        "parallel_body_end",
+        "transom_height",
+        "sheer_fore",
+        "sheer_aft",
+    }
 )
 """Parameters that may be zero or negative."""
 
@@ -251,7 +258,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "entrance_deg",
             "i_E",
             "deg",
-            "half angle of entrance: of the chord of the design waterline over its foremost .05 Lpp",
+            "half angle of entrance, by the chord of the design waterline over its first .05 Lpp",
             waterline_fields.entrance_field,
             "ratio of y about T, toward the stem",
         ),
@@ -259,7 +266,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "run_deg",
             "i_R",
             "deg",
-            "half angle of run: of the chord of the design waterline over its aftmost .05 Lpp",
+            "half angle of run, by the chord of the design waterline over its last .05 Lpp",
             waterline_fields.run_field,
             "ratio of y about T, nothing at the after end of the waterline",
         ),

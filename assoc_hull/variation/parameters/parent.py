@@ -256,7 +256,10 @@ _PLACES: Mapping[str, Callable[[MeasuredParameter], dict[str, FloatArray]]] = {
     "parallel_body_start": lambda anchor: _one("body start", anchor),
     "parallel_body_end": lambda anchor: _one("body end", anchor),
     "stem_rake_deg": lambda anchor: {"stem": anchor.places[0], "stem top": anchor.places[1]},
-    "entrance_deg": lambda anchor: {"entrance": anchor.places[0], "waterline fore": anchor.places[1]},
+    "entrance_deg": lambda anchor: {
+        "entrance": anchor.places[0],
+        "waterline fore": anchor.places[1],
+    },
     "run_deg": lambda anchor: {"run": anchor.places[0], "waterline aft": anchor.places[1]},
 }
 

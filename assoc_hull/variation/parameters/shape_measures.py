@@ -38,12 +38,12 @@ FRAMES: Mapping[str, float] = MappingProxyType(
 
 
 def fore_frame_height(hull: DrawnCurves) -> MeasuredParameter:
-    """Give the height of the centre of area up to the draught at .925 Lpp; `area`: of both sides."""
+    """Give the height of the centre of area up to the draught at .925 Lpp; `area`: of it all."""
     return _frame_height(hull, "fore_frame_height")
 
 
 def aft_frame_height(hull: DrawnCurves) -> MeasuredParameter:
-    """Give the height of the centre of area up to the draught at .1 Lpp; `area`: of both sides."""
+    """Give the height of the centre of area up to the draught at .1 Lpp; `area`: of it all."""
     return _frame_height(hull, "aft_frame_height")
 
 

@@ -1,4 +1,4 @@
-"""The fields of the design waterline: entrance, run and fullness, by half-breadths about the draught.
+"""The fields of the design waterline: entrance, run, fullness, by half-breadths about the draught.
 
 They fade out downward and upward, and where the side is as far out as the ship is broad.
 """
