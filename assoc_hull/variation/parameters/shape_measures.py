@@ -15,6 +15,7 @@ from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import points_at_coordinate
+from assoc_hull.variation.parameters.hull_and_end_measures import breadth
 from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter
 from assoc_hull.variation.parameters.section_frames import GAUSS, frames_beside
 
@@ -134,8 +135,8 @@ def waterline_fullness(hull: DrawnCurves) -> MeasuredParameter:
     if isinstance(waterline, str):
         return MeasuredParameter("waterline_fullness", "-", None, reason=waterline)
     ends = waterline_ends(waterline)
-    broad = float(hull.extreme(range(hull.net.batch.count), 1)[1])
-    value = abs(_area_over_x(waterline)) / (hull.length * broad)
+    broad = hull.take(breadth).value or hull.ship.breadth
+    value = 2.0 * abs(_area_over_x(waterline)) / (hull.length * broad)
     return MeasuredParameter(
         "waterline_fullness", "-", value, "area of the design waterline by Lpp and breadth",
         np.array(ends),
