@@ -14,9 +14,9 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.bounded_functions import BlendChain, Contour
 from assoc_hull.variation.fields.field import AffinePiece, StackedField, Tube, level_boundaries
 from assoc_hull.variation.parameters.field_layout import Layout, Share
+from assoc_hull.variation.parameters.hull_and_end_measures import FRAMES
+from assoc_hull.variation.parameters.measurement import SectionFrames
 from assoc_hull.variation.parameters.parent import Parent
-from assoc_hull.variation.parameters.section_frames import SectionFrames
-from assoc_hull.variation.parameters.shape_measures import FRAMES
 
 __all__ = ["aft_frame_height_field", "fore_frame_height_field"]
 

@@ -20,12 +20,12 @@ from types import MappingProxyType
 from assoc_hull.arguments import shown
 from assoc_hull.errors import UnknownNameError, WrongTypeError
 from assoc_hull.model.tables import HasState, HullState, state_of
-from assoc_hull.variation.parameters import (
-    hull_and_end_measures,
-    midship_measures,
-    shape_measures,
+from assoc_hull.variation.parameters import hull_and_end_measures, midship_measures
+from assoc_hull.variation.parameters.measurement import (
+    DrawnCurves,
+    MeasuredParameter,
+    Measures,
 )
-from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter, Measures
 
 __all__ = ["AMPLITUDES", "MEASURES", "measure", "measure_all"]
 
@@ -54,11 +54,11 @@ MEASURES: Mapping[str, Callable[[DrawnCurves], MeasuredParameter]] = MappingProx
             midship_measures.parallel_body_end,
             midship_measures.parallel_body_length,
             hull_and_end_measures.stem_rake_deg,
-            shape_measures.fore_frame_height,
-            shape_measures.aft_frame_height,
-            shape_measures.entrance_deg,
-            shape_measures.run_deg,
-            shape_measures.waterline_fullness,
+            hull_and_end_measures.fore_frame_height,
+            hull_and_end_measures.aft_frame_height,
+            hull_and_end_measures.entrance_deg,
+            hull_and_end_measures.run_deg,
+            hull_and_end_measures.waterline_fullness,
         )
     }
 )

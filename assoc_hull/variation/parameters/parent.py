@@ -20,10 +20,15 @@ from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
-from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter, Measures
+from assoc_hull.variation.parameters.hull_and_end_measures import design_waterline
+from assoc_hull.variation.parameters.measurement import (
+    DrawnCurves,
+    MeasuredParameter,
+    Measures,
+    SectionFrames,
+    measure_frames,
+)
 from assoc_hull.variation.parameters.parameter_measures import measure_all
-from assoc_hull.variation.parameters.section_frames import SectionFrames, measure_frames
-from assoc_hull.variation.parameters.shape_measures import design_waterline
 
 __all__ = [
     "Parent",

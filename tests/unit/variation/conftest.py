@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.variation.parameters.measurement import SectionFrames
 from assoc_hull.variation.parameters.parent import Parent
-from assoc_hull.variation.parameters.section_frames import SectionFrames
 
 
 def at(x: float, y: float, z: float) -> FloatArray:
