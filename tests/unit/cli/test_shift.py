@@ -55,14 +55,14 @@ def test_a_refusal_is_one_line(
     assert hull.read_bytes() == before
 
 
-def test_a_longer_hull_is_written(bulk_carrier: ah.Hull, tmp_path: Path, facts: Json) -> None:
+def test_a_longer_hull_is_written(hull: Path, tmp_path: Path, facts: Json) -> None:
     """With its new length, volume, and names by the new length."""
-    source, target = tmp_path / "ship.hull.json", tmp_path / "longer.hull.json"
-    bulk_carrier.save(source)
-    found = facts("jumboise", source, "30", "--at", "150", "--names", "number", "-o", target)
-    assert found["added"] == ["ST 10.909"]
+    target = tmp_path / "longer.hull.json"
+    found = facts("jumboise", hull, "5", "--at", "50", "--names", "number", "-o", target)
+    assert len(found["added"]) == 1
+    assert found["renamed"]
     before, after = found["volume"]
-    assert after - before == pytest.approx(30.0 * found["area"], rel=1e-12)
+    assert after - before == pytest.approx(5.0 * found["area"], rel=1e-8)
     longer = ah.open(target)
-    assert (longer.particulars.length, longer.fingerprint) == (330.0, found["fingerprint"])
-    assert facts("jumboise", target, "-30", "--at", "150")["moved_off"] < 1e-9
+    assert (longer.particulars.length, longer.fingerprint) == (105.0, found["fingerprint"])
+    assert facts("jumboise", target, "-3")["moved_off"] < 1e-6
