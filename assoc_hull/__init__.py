@@ -92,6 +92,7 @@ _PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "variation": {
         "hull.variants": (
+            "Jumboised",
             "Shifted",
             "Variation",
         ),
@@ -128,6 +129,7 @@ _PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
             "FieldLayer",
         ),
         "variation.fields.space_map": ("VariationMap",),
+        "variation.jumboise_hull": ("JumboiseReport",),
         "variation.parameters.field_layout": ("Layout",),
         "variation.parameters.measurement": ("Measures",),
         "variation.sensitivities": ("Sensitivities",),

@@ -39,7 +39,9 @@ AMOUNTS: dict[str, tuple[float, float]] = {
     "bulb_half_breadth": (0.08, 0.0), "bulb_length": (0.0, 1.0), "bilge_radius": (0.25, 0.0),
     "deadrise_deg": (0.0, 0.4), "flat_of_bottom": (-0.02, 0.0), "parallel_body_start": (0.0, 8.0),
     "parallel_body_end": (0.0, -8.0), "stem_rake_deg": (0.0, 3.5), "fore_shift": (0.0, 2.0),
-    "aft_shift": (0.0, 2.0),
+    "aft_shift": (0.0, 2.0), "parallel_body_length": (0.0, 8.0), "sheer_fore": (0.0, 0.5),
+    "sheer_aft": (0.0, 0.5), "fore_frame_height": (0.01, 0.0), "aft_frame_height": (0.01, 0.0),
+    "entrance_deg": (0.0, 1.0), "run_deg": (0.0, 1.0), "waterline_fullness": (0.004, 0.0),
 }  # fmt: skip
 """Part of the present value, and m or degrees, by which each is changed."""
 

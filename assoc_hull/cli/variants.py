@@ -1,7 +1,8 @@
 """Commands that make variants of a hull and compare them.
 
-`vary` by named parameters or targets, `shift` and `swing` of sections, `compare` of a variant with
-its parent. A refused variant leaves the hull as it is; findings are told and the exit code is 1.
+`vary` by named parameters or targets, `shift` and `swing` of sections, `jumboise` by a length of
+parallel body, `compare` of a variant with its parent. A refused variant
+leaves the hull as it is; the findings are told and the exit code is 1.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
-    from assoc_hull.hull.variants import Shifted
+    from assoc_hull.hull.variants import Jumboised, Shifted
 
 __all__ = [
     "add_compare",
@@ -241,15 +242,16 @@ def _reach(script: dict[str, Any], arguments: argparse.Namespace) -> None:
 
 
 # --------------------------------------------------------------------------------------
-# The commands that shift the sections of a hull, and that swing it.
+# The commands that shift the sections of a hull, that swing it, and that cut it open.
 
 _SHAPES = ("c1", "c2", "end", "half", "lackenby", "1-cp")
 
 
 def add_shift_and_swing(commands: Commands) -> None:
-    """Add ``shift`` and ``swing``."""
+    """Add ``shift``, ``swing`` and ``jumboise``."""
     _add_shift(commands)
     _add_swing(commands)
+    _add_jumboise(commands)
 
 
 def _add_shift(commands: Commands) -> None:
@@ -312,6 +314,30 @@ def _add_swing(commands: Commands) -> None:
     add_out(parser)
 
 
+def _add_jumboise(commands: Commands) -> None:
+    parser = add_command(
+        commands, "jumboise", "insert or take out a length of parallel body; exit 1 if it is "
+        "refused", _jumboise,
+        """assoc-hull jumboise ship.hull 12 -o longer.hull
+        assoc-hull jumboise ship.hull 30 --at 150 --names number --json
+        assoc-hull jumboise ship.hull -15""",
+    )  # fmt: skip
+    add_hull(parser)
+    parser.add_argument(
+        "length", type=float, metavar="M", help="to insert, m; below 0: to take out"
+    )
+    parser.add_argument(
+        "--at", type=float, metavar="X",
+        help="where to cut, m from AP: the nearest section of the parallel body is taken "
+        "(default: that nearest to its middle)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--names", choices=("keep", "number"), default="keep",
+        help="sections keep their names, or are numbered by the new length (default: keep)",
+    )  # fmt: skip
+    add_out(parser)
+
+
 def _shift(arguments: argparse.Namespace) -> int:
 
     to, by = parse_pairs(arguments.to, "to") or None, parse_pairs(arguments.by, "by") or None
@@ -334,6 +360,30 @@ def _swing(arguments: argparse.Namespace) -> int:
         )  # fmt: skip
 
     return report_refusal(arguments, lambda: _told(arguments, "swinging", act))
+
+
+def _jumboise(arguments: argparse.Namespace) -> int:
+
+    def act(hull: Hull) -> Jumboised[Hull]:
+        return hull.jumboise(
+            arguments.length, arguments.at, names=arguments.names, name=arguments.name,
+            in_place=True,
+        )  # fmt: skip
+
+    def run() -> int:
+        hull, found = vary_into_file(arguments, "jumboising", act)
+        report, saved = found.report, str(arguments.out or arguments.hull)
+        facts: dict[str, Any] = {
+            key: getattr(report, key)
+            for key in ("length", "at", "section", "area", "volume", "lcb", "moved_off", "added",
+                        "removed", "renamed", "notes")
+        } | {"fingerprint": hull.fingerprint, "refused": False, "saved": saved}  # fmt: skip
+        told = [report.edit.name, *(f"  {each}" for each in report.told)]
+        told += [edit_words(hull, report.edit), f"written: {saved}"]
+        emit(arguments, facts, "\n".join(told))
+        return 0
+
+    return report_refusal(arguments, run)
 
 
 def _told(arguments: argparse.Namespace, doing: str, act: Callable[[Hull], Shifted[Hull]]) -> int:

@@ -84,7 +84,7 @@ if TYPE_CHECKING:
     from assoc_hull.hull.pictures import HullPictures
     from assoc_hull.hull.results import HullPlates, HullSurface, ProductionArcs
     from assoc_hull.hull.studies import Study
-    from assoc_hull.hull.variants import Shifted, Variation
+    from assoc_hull.hull.variants import Jumboised, Shifted, Variation
     from assoc_hull.io.hull_file.saving import Saved
     from assoc_hull.model.definition.verify import Difference
     from assoc_hull.model.form_definition import FormDefinition
@@ -94,6 +94,7 @@ if TYPE_CHECKING:
     from assoc_hull.surface.cells.closed_mesh import ClosedMesh
     from assoc_hull.surface.plating.hull_seams import HullSeams
     from assoc_hull.variation.comparing.comparison import HullComparison
+    from assoc_hull.variation.jumboise_hull import Names
     from assoc_hull.variation.parameters.field_layout import Layout
     from assoc_hull.variation.parameters.measurement import Measures
     from assoc_hull.variation.request import Planes, Stations
@@ -2039,6 +2040,76 @@ class Hull:
         varied = _to_change(self, "swing", in_place=in_place)
         space_map, report = swing_document(varied.document, asked, name)
         return Shifted(varied, report, space_map)
+
+    def jumboise(
+        self,
+        length: float,
+        at: float | None = None,
+        *,
+        names: Names = "keep",
+        name: str | None = None,
+        in_place: bool = False,
+    ) -> Jumboised[Hull]:
+        """Insert a length of parallel body, or take one out; both ends of the ship stay.
+
+        What lies forward of the cut moves as a whole, the fore perpendicular with it; Lpp changes
+        by the length, the volume by length times midship area. The section at the cut is copied
+        to where the fore part begins now, and between at the spacing there was. Lines that are
+        drawn along the ship keep their tangents at the cut, so that fore and after body keep their
+        shape between the sections too.
+
+        Parameters
+        ----------
+        length : float, m
+            To insert; below 0 to take out, at most the length of the parallel body.
+        at : float, m from AP
+            Where to cut: the nearest section of the parallel body is taken, by default that nearest
+            to its middle. What is taken out begins there, or as far aft as it must. A hull without
+            a parallel body can be cut only at its largest section, and only if waterlines are
+            parallel there to 0.2 degrees.
+        names : {"keep", "number"}
+            Sections keep their names, and copies are called ``ST 10+30``, by the metres from their
+            model; or all that go by a number are numbered anew by the new Lpp (by their places, if
+            they were named by these).
+        name : str
+            Of the step in the history.
+        in_place : bool
+            Change this hull, as a step that can be undone; else a copy of it.
+
+        Returns
+        -------
+        Jumboised
+            The hull, and the report: volume and its centre before and after, the area at the cut,
+            sections that came and went, and how far any point of either part lies off its place.
+
+        Raises
+        ------
+        OutOfRangeError
+            More is to be taken out than there is, or `at` lies outside the parallel body.
+        BadInputError
+            No length; a hull without a parallel body, with what could be cut instead. The hull is
+            unchanged, whatever the error.
+
+        See Also
+        --------
+        vary : ``parallel_body_length`` lengthens the parallel body within the same Lpp.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> longer = ah.examples.bulk_carrier_207k().jumboise(30.0, at=150.0)
+        >>> print(longer.report.told[0], longer.report.added)
+        30 m of parallel body inserted at ST 10 (150 m) ('ST 10+30',)
+        >>> before, after = longer.report.volume
+        >>> round(after - before - 30.0 * longer.report.area, 6) + 0.0
+        0.0
+        """
+        from assoc_hull.hull.variants import Jumboised
+        from assoc_hull.variation.jumboise_hull import jumboise_document
+
+        changed = _to_change(self, "jumboise", in_place=in_place)
+        report = jumboise_document(changed.document, length, at, names=names, name=name)
+        return Jumboised(changed, report)
 
     def study(
         self,

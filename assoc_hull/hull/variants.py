@@ -1,6 +1,6 @@
-"""A hull that a variation or a section shift has made, with its report.
+"""A hull that a variation, a section shift or a jumboising has made, with its report.
 
-Both are generic in the class of the hulls that they hold, as they stand below it; users meet them
+All are generic in the class of the hulls that they hold, as they stand below it; users meet them
 with `assoc_hull.Hull` only. They stand alone: a variation needs none of what `results` loads.
 """
 
@@ -12,12 +12,32 @@ import attrs
 
 if TYPE_CHECKING:
     from assoc_hull.variation.fields.space_map import VariationMap
+    from assoc_hull.variation.jumboise_hull import JumboiseReport
     from assoc_hull.variation.shifts.shift_hull import ShiftReport
     from assoc_hull.variation.vary import VariationReport
 
-__all__ = ["Shifted", "Variation"]
+__all__ = ["Jumboised", "Shifted", "Variation"]
 
 HullType = TypeVar("HullType")
+
+
+@attrs.frozen(eq=False)
+class Jumboised(Generic[HullType]):
+    """A hull with a longer or shorter parallel body.
+
+    Attributes
+    ----------
+    hull : Hull
+        The variant; undo gives the parent back.
+    report : JumboiseReport
+        What was inserted or taken out.
+    """
+
+    hull: HullType
+    report: JumboiseReport
+
+    def __str__(self) -> str:
+        return str(self.report)
 
 
 @attrs.frozen(eq=False)

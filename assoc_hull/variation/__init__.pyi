@@ -3,6 +3,7 @@
 from typing import TypeAlias
 
 from assoc_hull.hull.hull import Hull
+from assoc_hull.hull.variants import Jumboised as _Jumboised
 from assoc_hull.hull.variants import Shifted as _Shifted
 from assoc_hull.hull.variants import Variation as _Variation
 from assoc_hull.variation.comparing.comparison import HullComparison as HullComparison
@@ -28,6 +29,7 @@ from assoc_hull.variation.fields.layers import CornerLayer as CornerLayer
 from assoc_hull.variation.fields.layers import DeadriseLayer as DeadriseLayer
 from assoc_hull.variation.fields.layers import FieldLayer as FieldLayer
 from assoc_hull.variation.fields.space_map import VariationMap as VariationMap
+from assoc_hull.variation.jumboise_hull import JumboiseReport as JumboiseReport
 from assoc_hull.variation.parameters.field_layout import Layout as Layout
 from assoc_hull.variation.parameters.measurement import Measures as Measures
 from assoc_hull.variation.sensitivities import Sensitivities as Sensitivities
@@ -35,5 +37,6 @@ from assoc_hull.variation.shifts.shift_hull import ShiftReport as ShiftReport
 from assoc_hull.variation.shifts.shift_terms import Terminals as Terminals
 from assoc_hull.variation.vary import VariationReport as VariationReport
 
+Jumboised: TypeAlias = _Jumboised[Hull]
 Shifted: TypeAlias = _Shifted[Hull]
 Variation: TypeAlias = _Variation[Hull]

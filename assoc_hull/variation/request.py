@@ -428,7 +428,9 @@ def _values(given: object) -> dict[str, float]:
     found = {name: number(given[name], name, "in vary") for name in NAMES if name in given}
     for name, value in found.items():
         if CATALOGUE[name].positive and not value > 0.0:
-            raise BadInputError(f"{name} is {value:g} m", "in vary", "give one above 0")
+            unit = CATALOGUE[name].unit.replace("-", "")
+            said = f"{name} is {value:g} {unit}".rstrip()
+            raise BadInputError(said, "in vary", "give one above 0")
     return found
 
 

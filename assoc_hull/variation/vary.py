@@ -198,6 +198,8 @@ class VariationReport:
         The largest ratio of a line's comb integral to that of the parent's.
     added_sign_changes : int
         Changes of sign of curvature that lines of the parent have more.
+    maps : int
+        How many maps were composed: stages, and parts of them.
     """
 
     targets: tuple[Target, ...]
@@ -213,6 +215,7 @@ class VariationReport:
     stages: tuple[str, ...] = ()
     worst_comb: float = 1.0
     added_sign_changes: int = 0
+    maps: int = 1
 
     def __str__(self) -> str:
         aimed = () if self.aim is None else (str(self.aim),)
@@ -278,4 +281,5 @@ def vary_document(
         script_of(ask),
         None if found.aimed is None else attrs.evolve(found.aimed, hull=None),  # a hull is large
         tuple(map(str, found.carry.plan)), fairness.worst, fairness.added,
+        len(carried),
     )  # fmt: skip

@@ -501,6 +501,9 @@ FLOATING: dict[str, Given] = {
         "further": (),
     },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
+    "jumboise": {
+        "length": 5.0, "at": 50.0, "names": "keep", "name": None, "in_place": False,
+    },
     "resistance": {
         "speeds": [8.0, 12.0], "method": "1984", **ONE, "c_stern": 0.0, "appendage_area": 10.0,
         "appendage_factor": 1.5, "thruster_diameter": 1.0, "thruster_coefficient": 0.005,

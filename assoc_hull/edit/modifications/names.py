@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import attrs
 
 from assoc_hull.arguments import shown, word
@@ -11,7 +13,7 @@ from assoc_hull.errors import BadInputError, NameTakenError
 from assoc_hull.model.address import ResolvedAddress
 from assoc_hull.model.tables import HullState
 
-__all__ = ["rename", "rename_hull"]
+__all__ = ["rename", "rename_hull", "rename_lines"]
 
 
 def rename(edit: Transaction, what: ResolvedAddress, name: object) -> None:
@@ -62,6 +64,30 @@ def _rename_line(edit: Transaction, line: int, name: str) -> None:
         raise NameTakenError(f"line of {state.groups.name[int(group)]}", name)
     _rename_features(edit, str(state.lines.key[line]), state.lines.name[line], name)
     edit.journal.set(state.lines.name, [line], [name])
+
+
+def rename_lines(edit: Transaction, names: Mapping[int, str]) -> None:
+    """Give several lines other names at once; one may take what another gives up.
+
+    Raises
+    ------
+    NameTakenError
+        Two lines of one group come to have one name, or another object has it.
+    BadInputError
+        One of them is no name.
+    """
+    state, wanted = edit.state, {line: line_name(name) for line, name in names.items()}
+    fixed = _fixed(state) | _labels(state, -1)
+    taken = set[tuple[int, str]]()
+    for line in state.live("lines").tolist():
+        name = wanted.get(line, str(state.lines.name[line]))
+        group = int(state.lines.group[line])
+        if (group, name) in taken or (line in wanted and name in fixed):
+            raise NameTakenError(f"line of {state.groups.name[group]}", name)
+        taken.add((group, name))
+    for line, name in wanted.items():
+        _rename_features(edit, str(state.lines.key[line]), str(state.lines.name[line]), name)
+    edit.journal.set(state.lines.name, list(wanted), list(wanted.values()))
 
 
 def _rename_features(edit: Transaction, key: str, old: str, new: str) -> None:

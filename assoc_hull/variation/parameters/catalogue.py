@@ -14,7 +14,11 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.layers import Layer, scaled_layer
-from assoc_hull.variation.parameters import parameter_fields
+from assoc_hull.variation.parameters import (
+    frame_fields,
+    parameter_fields,
+    waterline_fields,
+)
 from assoc_hull.variation.parameters.field_layout import Layout, Share
 from assoc_hull.variation.parameters.parent import Parent
 
@@ -26,7 +30,15 @@ __all__ = [
 ]
 
 _SIGNED = frozenset(
-    {"deadrise_deg", "stem_rake_deg", "parallel_body_start", "parallel_body_end", "transom_height"}
+    {
+        "deadrise_deg",
+        "stem_rake_deg",
+        "parallel_body_start",
+        "parallel_body_end",
+        "transom_height",
+        "sheer_fore",
+        "sheer_aft",
+    }
 )
 """Parameters that may be zero or negative."""
 
@@ -41,7 +53,7 @@ class NamedParameter:
     ----------
     name, short : str
         In full, and as a formula has it.
-    unit : {"m", "deg"}
+    unit : {"m", "deg", "-"}
     meaning : str
         What is measured; x from AP, z from the base line.
     lays : callable or None
@@ -97,6 +109,22 @@ def _entries() -> tuple[NamedParameter, ...]:
             "height of the deck edge amidships",
             parameter_fields.deck_height_field,
             "ratio of z from the deck up, nothing below T",
+        ),
+        entry(
+            "sheer_fore",
+            "s_f",
+            "m",
+            "height of the deck edge at FP above that amidships",
+            parameter_fields.sheer_fore_field,
+            "ratio of z from the deck up, from amidships to FP, nothing below T",
+        ),
+        entry(
+            "sheer_aft",
+            "s_a",
+            "m",
+            "height of the deck edge at AP above that amidships",
+            parameter_fields.sheer_aft_field,
+            "ratio of z from the deck up, from amidships to AP, nothing below T",
         ),
         entry(
             "shaft_height",
@@ -195,12 +223,60 @@ def _entries() -> tuple[NamedParameter, ...]:
             "shift of x, nothing at the after end and at FP",
         ),
         entry(
+            "parallel_body_length",
+            "l_p",
+            "m",
+            "length of the parallel body",
+            parameter_fields.parallel_body_length_field,
+            "shift of x, half of it at each end, nothing at AP and FP",
+        ),
+        entry(
             "stem_rake_deg",
             "rake",
             "deg",
             "rake of the stem from T to its top",
             parameter_fields.stem_rake_field,
             "ramp of x above T",
+        ),
+        entry(
+            "fore_frame_height",
+            "z_f",
+            "m",
+            "height of the centre of area of the section at .925 Lpp up to T: low of U, high of V",
+            frame_fields.fore_frame_height_field,
+            "ratios of y below and above, each area kept, from the parallel body to FP",
+        ),
+        entry(
+            "aft_frame_height",
+            "z_a",
+            "m",
+            "height of the centre of area of the section at .1 Lpp up to T: low of U, high of V",
+            frame_fields.aft_frame_height_field,
+            "ratios of y below and above, each area kept, from AP to the parallel body",
+        ),
+        entry(
+            "entrance_deg",
+            "i_E",
+            "deg",
+            "half angle of entrance, by the chord of the design waterline over its first .05 Lpp",
+            waterline_fields.entrance_field,
+            "ratio of y about T, toward the stem",
+        ),
+        entry(
+            "run_deg",
+            "i_R",
+            "deg",
+            "half angle of run, by the chord of the design waterline over its last .05 Lpp",
+            waterline_fields.run_field,
+            "ratio of y about T, nothing at the after end of the waterline",
+        ),
+        entry(
+            "waterline_fullness",
+            "C_WL",
+            "-",
+            "area of the design waterline by Lpp and greatest breadth",
+            waterline_fields.waterline_fullness_field,
+            "ratio of y about T, nothing at the ends and along the parallel body",
         ),
         entry(
             "fore_shift",

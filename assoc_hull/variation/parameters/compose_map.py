@@ -40,6 +40,7 @@ _CLASHES = (
     ("bilge_radius", "deadrise_deg", "both turn the bilge"),
     ("flat_of_bottom", "deadrise_deg", "a bottom with deadrise is not flat"),
 )
+_BODY = ("parallel_body_start", "parallel_body_end", "parallel_body_length")
 _DECKS = ("depth", "deck_height", "both set the deck edge amidships")
 """No contradiction where the height is asked for at a perpendicular."""
 
@@ -154,6 +155,11 @@ def refuse_clashes(asked: Mapping[str, float], layout: Layout) -> None:
                 f"'{one}' and '{other}' cannot be asked for together: {why}", "in vary",
                 "drop one of them",
             )  # fmt: skip
+    if {*_BODY} <= asked.keys():
+        raise BadInputError(
+            f"'{_BODY[0]}', '{_BODY[1]}' and '{_BODY[2]}' cannot be asked for together: two of "
+            "them give the third", "in vary", "drop one of them",
+        )  # fmt: skip
 
 
 def solve_field_sizes(shares: Sequence[Share]) -> tuple[StackedField | Rake, ...]:

@@ -27,6 +27,7 @@ __all__ = [
     "flat_of_bottom",
     "measure_bilge",
     "parallel_body_end",
+    "parallel_body_length",
     "parallel_body_start",
 ]
 
@@ -343,6 +344,18 @@ def parallel_body_start(hull: DrawnCurves) -> MeasuredParameter:
 def parallel_body_end(hull: DrawnCurves) -> MeasuredParameter:
     """Give the last x of the parallel middle body; `start`, `end`: both of its ends."""
     return _parallel_end(hull, "parallel_body_end", 1)
+
+
+def parallel_body_length(hull: DrawnCurves) -> MeasuredParameter:
+    """Give the length of the parallel middle body; `start`, `end`: both of its ends."""
+    found = hull.take(_ends)
+    if isinstance(found, str):
+        return MeasuredParameter("parallel_body_length", "m", None, reason=found)
+    return MeasuredParameter(
+        "parallel_body_length", "m", found.end - found.start, found.how,
+        [[found.start, 0.0, 0.0], [found.end, 0.0, 0.0]], hull.keys(found.curves),
+        {"start": found.start, "end": found.end},
+    )  # fmt: skip
 
 
 def _parallel_end(hull: DrawnCurves, name: str, end: int) -> MeasuredParameter:

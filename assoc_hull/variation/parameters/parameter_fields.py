@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
@@ -37,8 +38,11 @@ __all__ = [
     "fore_shift_field",
     "main_layer",
     "parallel_body_end_field",
+    "parallel_body_length_field",
     "parallel_body_start_field",
     "shaft_height_field",
+    "sheer_aft_field",
+    "sheer_fore_field",
     "shift_terminals",
     "stem_rake_field",
     "transom_half_breadth_field",
@@ -124,6 +128,33 @@ def deck_height_field(parent: Parent, asked: float, layout: Layout) -> Share:
     )
 
 
+def sheer_fore_field(parent: Parent, asked: float, layout: Layout) -> Share:
+    """Raise the deck at FP, fading out to amidships."""
+    course = [0.5 * parent.length, parent.length], [0.0, 1.0]
+    return _sheer(parent, "sheer_fore", "deck fore", asked, course, layout)
+
+
+def sheer_aft_field(parent: Parent, asked: float, layout: Layout) -> Share:
+    """Raise the deck at AP, fading out to amidships."""
+    course = [0.0, 0.5 * parent.length], [1.0, 0.0]
+    return _sheer(parent, "sheer_aft", "deck aft", asked, course, layout)
+
+
+def _sheer(
+    parent: Parent, name: str, end: str, asked: float, course: tuple[list[float], list[float]],
+    layout: Layout,
+) -> Share:  # fmt: skip
+    """Raise the deck by a ratio of heights from the design waterline up, full at one end."""
+    middle, place = parent.at("deck", name), parent.at(end, name)
+    change = asked - float(place[2] - middle[2])
+    chain = BlendChain.through(*course, layout.curve, name)
+    walls = level_boundaries(["T", "deck"], [parent.draught, float(place[2])])
+    ratio = change / float(place[2])
+    pieces = AffinePiece.along(chain, 0.0, 0.0), AffinePiece.along(chain, ratio, 0.0)
+    field = StackedField(name, "z", walls, pieces, layout.curve)
+    return Share(name, "z", change, np.array([place, middle]), np.array([1.0, -1.0]), (field,))
+
+
 def _shift(name: str, chain: BlendChain, change: float, place: float, layout: Layout) -> Share:
     """Shift stations by a chain times a change (m), all heights alike, in full at `place`."""
     field = StackedField(
@@ -156,6 +187,18 @@ def parallel_body_end_field(parent: Parent, asked: float, layout: Layout) -> Sha
     start, end = _middle(parent, name)
     chain = BlendChain.through([start, end, parent.length], [0.0, 1.0, 0.0], layout.curve, name)
     return _shift(name, chain, asked - end, end, layout)
+
+
+def parallel_body_length_field(parent: Parent, asked: float, layout: Layout) -> Share:
+    """Move both ends of the parallel middle body apart, each by half; AP and FP stay."""
+    name = "parallel_body_length"
+    start, end = _middle(parent, name)
+    change = asked - (end - start)
+    nodes = [0.0, start, end, parent.length]
+    chain = BlendChain.through(nodes, [0.0, -0.5, 0.5, 0.0], layout.curve, name)
+    share = _shift(name, chain, change, end, layout)
+    places = np.array([[end, 0.0, 0.0], [start, 0.0, 0.0]])
+    return attrs.evolve(share, places=places, weights=np.array([1.0, -1.0]))
 
 
 def fore_shift_field(parent: Parent, asked: float, layout: Layout) -> Share:

@@ -22,7 +22,11 @@ from assoc_hull.errors import UnknownNameError, WrongTypeError
 from assoc_hull.graph.derived import Objects
 from assoc_hull.model.tables import HasState, HullState, state_of
 from assoc_hull.variation.parameters import hull_and_end_measures, midship_measures
-from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter, Measures
+from assoc_hull.variation.parameters.measurement import (
+    DrawnCurves,
+    MeasuredParameter,
+    Measures,
+)
 
 __all__ = ["AMPLITUDES", "MEASURES", "measure", "measure_all"]
 
@@ -35,6 +39,8 @@ MEASURES: Mapping[str, Callable[[DrawnCurves], MeasuredParameter]] = MappingProx
             hull_and_end_measures.draught,
             hull_and_end_measures.depth,
             hull_and_end_measures.deck_height,
+            hull_and_end_measures.sheer_fore,
+            hull_and_end_measures.sheer_aft,
             hull_and_end_measures.shaft_height,
             hull_and_end_measures.bossing_radius,
             hull_and_end_measures.transom_height,
@@ -47,7 +53,13 @@ MEASURES: Mapping[str, Callable[[DrawnCurves], MeasuredParameter]] = MappingProx
             midship_measures.flat_of_bottom,
             midship_measures.parallel_body_start,
             midship_measures.parallel_body_end,
+            midship_measures.parallel_body_length,
             hull_and_end_measures.stem_rake_deg,
+            hull_and_end_measures.fore_frame_height,
+            hull_and_end_measures.aft_frame_height,
+            hull_and_end_measures.entrance_deg,
+            hull_and_end_measures.run_deg,
+            hull_and_end_measures.waterline_fullness,
         )
     }
 )

@@ -8,6 +8,7 @@ dimensions have scaled. Lengths in m, x from AP forward, z from the base line up
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cache
 
 import attrs
 import numpy as np
@@ -16,9 +17,17 @@ from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
-from assoc_hull.variation.parameters.measurement import MeasuredParameter, Measures
+from assoc_hull.variation.parameters.hull_and_end_measures import design_waterline
+from assoc_hull.variation.parameters.measurement import (
+    DrawnCurves,
+    MeasuredParameter,
+    Measures,
+    SectionFrames,
+    measure_frames,
+)
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 
 __all__ = [
@@ -35,6 +44,11 @@ _MEASURED_AS = {
 """The parameter whose measure gives a place; where the place is missing, its reason says why."""
 
 
+def _no_frames() -> SectionFrames:
+    none: FloatArray = np.zeros(0)
+    return SectionFrames(none, np.zeros(1, np.int64), np.zeros((0, 3)), none)
+
+
 @attrs.frozen(eq=False)
 class Parent:
     """Dimensions and measured places of a parent.
@@ -48,6 +62,10 @@ class Parent:
         Where parameters are measured, by what lies there: ``"boss"``, ``"bulb tip"`` ...
     absent : mapping of str to str
         Parameters that the parent has not, with the reason.
+    frames : callable
+        Gives the sections up to the draught; sampled when they are asked for.
+    waterline : callable
+        Gives places of the design waterline, (n, 3), m, from aft, close together.
 
     Examples
     --------
@@ -65,6 +83,8 @@ class Parent:
     top: float
     places: Mapping[str, FloatArray]
     absent: Mapping[str, str] = attrs.field(factory=dict)
+    frames: Callable[[], SectionFrames] = attrs.field(default=_no_frames, repr=False)
+    waterline: Callable[[], FloatArray] = attrs.field(default=lambda: np.zeros((0, 3)), repr=False)
 
     def at(self, place: str, parameter: str) -> FloatArray:
         """Give a place that a parameter needs.
@@ -96,7 +116,8 @@ class Parent:
         return Parent(
             dimensions.get("length", self.length), dimensions.get("breadth", self.breadth),
             dimensions.get("depth", self.depth), dimensions.get("draught", self.draught),
-            top, places, self.absent,
+            top, places, self.absent, cache(lambda: self.frames().mapped(move)),
+            cache(lambda: np.array(move(self.waterline()))),
         )  # fmt: skip
 
 
@@ -106,6 +127,9 @@ of circles that differ by no more are alike."""
 
 _ALIKE = 1e-6
 """Areas of two stations that differ by less than this part of the largest are alike."""
+
+_CLOSE = 8
+"""Chords that stand for a segment of the design waterline."""
 
 _FEWEST = 3
 """Stations that a hull must have for its areas to tell anything."""
@@ -142,7 +166,18 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
     depth = float(found["depth"]) if "depth" in found else ship.depth
     breadth = float(found["breadth"]) if "breadth" in found else ship.breadth
     top = float(every[:, 2].max())
-    return Parent(ship.length, breadth, depth, ship.draught, top, places, dict(found.absent))
+    return Parent(
+        ship.length, breadth, depth, ship.draught, top, places, dict(found.absent),
+        cache(lambda: measure_frames(DrawnCurves(state))),
+        cache(lambda: _waterline(DrawnCurves(state))),
+    )  # fmt: skip
+
+
+def _waterline(hull: DrawnCurves) -> FloatArray:
+    """Give places of the design waterline, (n, 3), m, from aft."""
+    waterline = hull.take(design_waterline)
+    xyz = np.zeros((0, 3)) if isinstance(waterline, str) else sample(waterline, _CLOSE)[1]
+    return np.array(xyz[np.argsort(xyz[:, 0], kind="stable")])
 
 
 def _place(x: float, y: float, z: float) -> FloatArray:
@@ -226,6 +261,11 @@ _PLACES: Mapping[str, Callable[[MeasuredParameter], dict[str, FloatArray]]] = {
     "parallel_body_start": lambda anchor: _one("body start", anchor),
     "parallel_body_end": lambda anchor: _one("body end", anchor),
     "stem_rake_deg": lambda anchor: {"stem": anchor.places[0], "stem top": anchor.places[1]},
+    "entrance_deg": lambda anchor: {
+        "entrance": anchor.places[0],
+        "waterline fore": anchor.places[1],
+    },
+    "run_deg": lambda anchor: {"run": anchor.places[0], "waterline aft": anchor.places[1]},
 }
 
 

@@ -29,11 +29,14 @@ CLASSES: tuple[tuple[tuple[str, ...], ...], ...] = (
     # ends.
     (("bilge_radius", "deadrise_deg", "flat_of_bottom"),),
     (
-        ("parallel_body_start", "aft_shift"),
+        ("parallel_body_length", "parallel_body_start", "aft_shift"),
         ("parallel_body_end", "fore_shift", "bulb_length", "stem_rake_deg"),
     ),
-    (("transom_height", "shaft_height"), ("bulb_height",)),
-    (("transom_half_breadth",), ("bulb_half_breadth",)),
+    (("transom_height", "shaft_height", "sheer_aft"), ("bulb_height", "sheer_fore")),
+    (
+        ("transom_half_breadth", "aft_frame_height", "run_deg", "waterline_fullness"),
+        ("bulb_half_breadth", "fore_frame_height", "entrance_deg"),
+    ),
     (("bossing_radius",),),
 )
 """Classes of parameters in the order in which they are taken; of each what is aft, then the fore

@@ -1,4 +1,4 @@
-"""The commands `shift` and `swing`: values met, scripts that repeat them, refusals."""
+"""The commands `shift`, `swing` and `jumboise`: values met, scripts that repeat them, refusals."""
 
 from pathlib import Path
 
@@ -39,8 +39,9 @@ def test_a_swung_hull_is_written_into_its_file(hull: Path, facts: Json) -> None:
         (["shift"], "nothing is asked for, in shift_sections"),
         (["shift", "--by", "cb=0.01", "--terminals", "0", "60", "50", "100"], "do not rise"),
         (["swing"], "none of length, breadth, draught are given, in swing"),
+        (["jumboise", "3"], "no parallel middle body, in jumboise; give at=50: there"),
     ],
-    ids=["sections cross", "no value", "nothing", "terminals", "no dimension"],
+    ids=["sections cross", "no value", "nothing", "terminals", "no dimension", "no body"],
 )
 def test_a_refusal_is_one_line(
     hull: Path, capsys: pytest.CaptureFixture[str], command: list[str], says: str
@@ -52,3 +53,16 @@ def test_a_refusal_is_one_line(
     assert says in error
     assert error.count("\n") == 1
     assert hull.read_bytes() == before
+
+
+def test_a_longer_hull_is_written(hull: Path, tmp_path: Path, facts: Json) -> None:
+    """With its new length, volume, and names by the new length."""
+    target = tmp_path / "longer.hull.json"
+    found = facts("jumboise", hull, "5", "--at", "50", "--names", "number", "-o", target)
+    assert len(found["added"]) == 1
+    assert found["renamed"]
+    before, after = found["volume"]
+    assert after - before == pytest.approx(5.0 * found["area"], rel=1e-8)
+    longer = ah.open(target)
+    assert (longer.particulars.length, longer.fingerprint) == (105.0, found["fingerprint"])
+    assert facts("jumboise", target, "-3")["moved_off"] < 1e-6

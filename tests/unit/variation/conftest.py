@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.variation.parameters.measurement import SectionFrames
 from assoc_hull.variation.parameters.parent import Parent
 
 
@@ -24,5 +25,27 @@ def ship() -> Parent:
         "body start": at(115, 0, 0), "body end": at(205.5, 0, 0), "stem": at(300, 0, 18),
         "stem top": at(303, 0, 27), "deck": at(150, 25, 27), "deck fore": at(300, 10, 27),
         "deck aft": at(0, 20, 27), "aft terminal": at(14, 0, 0), "fore terminal": at(289, 0, 0),
+        "entrance": at(285, side(285, 18), 18), "waterline fore": at(300, 0, 18),
+        "run": at(15, side(15, 18), 18), "waterline aft": at(0, side(0, 18), 18),
     }  # fmt: skip
-    return Parent(300, 50, 27, 18, 27, places)
+    return Parent(300, 50, 27, 18, 27, places, {}, frames, waterline)
+
+
+def side(x: float, z: float) -> float:
+    """Half-breadth of a simple hull with a parallel body, m."""
+    aft, fore = max(0.0, 115.0 - x) / 115.0, max(0.0, x - 205.5) / 94.5
+    part = (1.0 - 0.7 * aft**2) * (1.0 - fore**2)
+    return float(25.0 * part * (0.7 + 0.3 * (z / 18.0) ** (1.0 + aft + fore)))
+
+
+def frames() -> SectionFrames:
+    """Its sections up to the draught."""
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    x, z = np.linspace(0.0, 295.0, 60), 9.0 + 9.0 * nodes
+    xyz = np.array([[a, side(a, b), b] for a in x.tolist() for b in z.tolist()])
+    return SectionFrames(x, 12 * np.arange(61), xyz, np.tile(9.0 * weights, 60))
+
+
+def waterline() -> FloatArray:
+    """Its design waterline."""
+    return np.array([[a, side(a, 18.0), 18.0] for a in np.linspace(0.0, 300.0, 400).tolist()])

@@ -24,6 +24,9 @@ LOCAL = {
     "transom_height": 19.0, "transom_half_breadth": 21.0, "bulb_height": 7.5,
     "bulb_half_breadth": 6.5, "bulb_length": 7.4, "parallel_body_start": 120.0,
     "parallel_body_end": 200.0, "stem_rake_deg": 22.0, "fore_shift": 1.5, "aft_shift": -1.5,
+    "parallel_body_length": 95.0, "sheer_fore": 0.7, "sheer_aft": -0.4,
+    "fore_frame_height": 9.4, "aft_frame_height": 9.2, "entrance_deg": 40.0, "run_deg": 20.0,
+    "waterline_fullness": 0.86,
 }  # fmt: skip
 
 

@@ -98,6 +98,7 @@ def test_it_is_one_step_that_tells_its_stages(parent: ah.Hull) -> None:
     varied = parent.vary(set={"breadth": 51.0, "bulb_length": 6.9})
     hull, report = varied.hull, varied.report
     assert report.stages == ("breadth", "bulb_length")
+    assert report.maps == 2
     assert "in stages: breadth; bulb_length" in str(report)
     assert len(hull.history) == 1
     told = hull.history[-1]
@@ -156,6 +157,7 @@ def test_the_form_of_the_paper_is_carried_in_parts(
     """
     varied = parent.vary(set=values, layout={"blend": "paper"})
     assert varied.report.stages == (f"{next(iter(values))} in 4 parts",)
+    assert varied.report.maps == 4
     assert varied.report.certificate.certified
     there = varied.hull.measure()
     assert {name: there[name] for name in values} == pytest.approx(values, abs=1e-6)

@@ -190,7 +190,7 @@ def test_a_hull_of_another_size_measures_in_proportion(
     found = measure_all(state)
     assert list(found) == list(carrier)
     for name, value in carrier.items():
-        factor = 1.0 if name.endswith("_deg") else k
+        factor = 1.0 if name.endswith("_deg") or name == "waterline_fullness" else k
         assert found[name] == pytest.approx(factor * value, abs=1e-9), name
 
 
@@ -304,6 +304,7 @@ def test_wigley_has_neither_bulb_nor_transom_nor_bilge() -> None:
         "flat_of_bottom": "parent has no flat of bottom amidships",
         "parallel_body_start": "parent has no parallel middle body",
         "parallel_body_end": "parent has no parallel middle body",
+        "parallel_body_length": "parent has no parallel middle body",
     }
     assert found["breadth"] == pytest.approx(10.0, abs=1e-9)
     assert found["stem_rake_deg"] == 0.0
@@ -343,6 +344,7 @@ def test_the_dtc_is_measured_at_its_own_length(dtc: ah.Hull) -> None:
         "bossing_radius": "parent has no bossing circle",
         "parallel_body_start": "parent has no parallel middle body",
         "parallel_body_end": "parent has no parallel middle body",
+        "parallel_body_length": "parent has no parallel middle body",
     }
     assert found["shaft_height"] == pytest.approx(5.0, abs=0.05)
     assert found["bulb_length"] == pytest.approx(11.07, abs=0.02)
@@ -355,12 +357,13 @@ def test_the_dtc_is_measured_at_its_own_length(dtc: ah.Hull) -> None:
 
 
 def test_names_and_units_are_those_of_the_catalogue(carrier: Measures) -> None:
-    """Eighteen measures and two amplitudes; angles end in _deg."""
-    assert len(MEASURES) == 18
+    """Twenty-six measures and two amplitudes; angles end in _deg."""
+    assert len(MEASURES) == 26
     assert tuple(carrier.anchors) == (*MEASURES, *AMPLITUDES)
     for name, anchor in carrier.anchors.items():
         assert anchor.name == name
-        assert anchor.unit == ("deg" if name.endswith("_deg") else "m")
+        ratio = name == "waterline_fullness"
+        assert anchor.unit == ("deg" if name.endswith("_deg") else "-" if ratio else "m")
 
 
 def test_only_what_was_asked_for_is_measured(bulk_carrier: ah.Hull, carrier: Measures) -> None:

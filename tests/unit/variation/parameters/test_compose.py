@@ -111,7 +111,9 @@ def test_a_parameter_alone_leaves_the_rest_of_the_ship_to_the_bit(ship: Parent, 
            "bulb_height": 7.0, "bulb_half_breadth": 6.0, "bulb_length": 6.4, "bilge_radius": 2.4,
            "deadrise_deg": 0.0, "flat_of_bottom": 22.6, "parallel_body_start": 115.0,
            "parallel_body_end": 205.5, "stem_rake_deg": 18.43, "fore_shift": 0.0,
-           "aft_shift": 0.0}  # fmt: skip
+           "aft_shift": 0.0, "parallel_body_length": 90.5, "sheer_fore": 0.0,
+           "sheer_aft": 0.0, "fore_frame_height": 8.9, "aft_frame_height": 8.9,
+           "entrance_deg": 47.0, "run_deg": 30.0, "waterline_fullness": 0.85}  # fmt: skip
     vmap = compose_map(ship, {name: now[name] + 0.2}, Layout())
     random = np.random.default_rng(7)
     xyz = random.uniform([-5, 0, 0], [306, 25, 27], (4000, 3))
@@ -161,7 +163,7 @@ def test_a_layout_takes_only_what_it_knows(layout: dict[str, object]) -> None:
         Layout.of(layout)
 
 
-def test_the_catalogue_names_twenty() -> None:
-    """Eighteen measured ones and two amplitudes; one name everywhere."""
-    assert len(NAMES) == 20
+def test_the_catalogue_names_all() -> None:
+    """Twenty-six measured ones and two amplitudes; one name everywhere."""
+    assert len(NAMES) == 28
     assert [name for name in NAMES if CATALOGUE[name].amplitude] == ["fore_shift", "aft_shift"]

@@ -1,0 +1,106 @@
+"""Parameters of shape: length of the body, sheer, character of frames, design waterline."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.analysis.hydrostatics.flotation import flotation
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.floating.immersion import FloatingPlanes
+from assoc_hull.variation.carrying.admissible_values import list_parameters
+from tests.conftest import Shipped
+from tests.variation_sets import outcome
+
+SHAPE = (
+    "parallel_body_length", "sheer_fore", "sheer_aft", "fore_frame_height", "aft_frame_height",
+    "entrance_deg", "run_deg", "waterline_fullness",
+)  # fmt: skip
+
+
+def _areas(hull: ah.Hull) -> FloatArray:
+    planes = FloatingPlanes(np.array([hull.particulars.draught]), np.zeros(1), np.zeros(1))
+    return np.asarray(flotation(hull.document.state).stations(planes).area[0])
+
+
+@pytest.mark.parametrize(
+    ("ship", "changes", "scaled"),
+    [
+        ("bulk_carrier", {"fore_frame_height": -0.1}, {}),
+        ("series60_70", {"parallel_body_length": 0.3, "entrance_deg": 0.5}, {"draught": 1.02}),
+        ("series60_70", {"sheer_fore": 0.8, "sheer_aft": 0.4}, {}),
+        ("container_ship_225m", {"run_deg": 0.7}, {}),
+        ("container_ship_225m", {"waterline_fullness": 0.002}, {}),
+    ],
+    ids=["frames", "body and entrance", "sheer", "run", "fullness"],
+)
+def test_asked_values_are_met(
+    shipped: Shipped, ship: str, changes: dict[str, float], scaled: dict[str, float]
+) -> None:
+    """To 1e-6, alone and beside old parameters; sound, fair, and undone to the bit."""
+    hull = shipped(ship)
+    now = hull.measure()
+    asked = {name: now[name] + change for name, change in changes.items()}
+    found = outcome(hull, asked | {name: now[name] * part for name, part in scaled.items()})
+    assert found.good, found.words
+    assert found.comb < 10.0
+
+
+def test_frames_change_at_areas_that_stay(series60_70: ah.Hull) -> None:
+    """From U to V: area goes up, none is added, no station becomes broader than the ship."""
+    now = series60_70.measure()
+    varied = series60_70.vary(set={"aft_frame_height": now["aft_frame_height"] + 0.03})
+    before, after = _areas(series60_70), _areas(varied.hull)
+    assert after == pytest.approx(before, rel=2e-4, abs=1e-3)
+    assert varied.hull.measure()["breadth"] == pytest.approx(now["breadth"], abs=1e-9)
+    volume = series60_70.hydrostatics().volume
+    assert varied.hull.hydrostatics().volume == pytest.approx(volume, rel=2e-5)
+    assert varied.report.certificate.least > 0.05
+    # What is measured is the centre of area.
+    assert varied.hull.hydrostatics().kb > series60_70.hydrostatics().kb
+
+
+def test_the_list_tells_bounds_or_why_there_are_none(
+    series60_70: ah.Hull, shipped: Shipped
+) -> None:
+    """Of every hull and parameter, with the present value between."""
+    for hull in (series60_70, shipped("wigley")):
+        listed = {each.name: each for each in list_parameters(hull.document.state)}
+        for name in SHAPE:
+            each = listed[name]
+            if each.value is None:
+                assert each.reason == "parent has no parallel middle body"
+                assert name == "parallel_body_length"
+                continue
+            assert each.low is not None
+            assert each.low < each.value
+            assert each.high is None or each.value < each.high
+
+
+def test_two_of_three_give_the_third(bulk_carrier: ah.Hull) -> None:
+    """All three are refused; beside one end the length moves the other."""
+    three = {
+        "parallel_body_start": 116.0, "parallel_body_end": 206.0, "parallel_body_length": 91.0
+    }  # fmt: skip
+    with pytest.raises(BadInputError, match="two of them give the third"):
+        bulk_carrier.vary(set=three)
+    del three["parallel_body_end"]
+    found = bulk_carrier.vary(set=three).hull.measure()
+    assert found["parallel_body_end"] == pytest.approx(207.0, abs=1e-6)
+
+
+def test_a_measure_is_that_of_the_drawn_hull(shipped: Shipped) -> None:
+    """Of the Wigley hull all of them are known: y = B/2 (1 - xi^2)(1 - zeta^2)."""
+    found = shipped("wigley").measure(only=SHAPE)
+    assert found["waterline_fullness"] == pytest.approx(2.0 / 3.0, rel=2e-4)
+    inside = 5.0 * (1.0 - 0.9**2)
+    angle = float(np.degrees(np.arctan2(inside, 5.0)))
+    assert found["entrance_deg"] == pytest.approx(angle, rel=1e-3)
+    assert found["run_deg"] == pytest.approx(angle, rel=1e-3)
+    # By z from the keel: y ~ 1 - (1 - z / T)^2, so that its centre is at 5 / 8 T.
+    for name in ("fore_frame_height", "aft_frame_height"):
+        assert found[name] == pytest.approx(6.25 * 5.0 / 8.0, rel=2e-3)
+    assert found["sheer_fore"] == found["sheer_aft"] == 0.0
+    assert found.absent["parallel_body_length"] == "parent has no parallel middle body"
