@@ -52,9 +52,9 @@ def figures(quick: bool) -> list[Figure]:
             Figure(f"{name}: a row of a study", 1e3 * times["row"], "ms"),
             Figure(f"{name}: rows a second and core", 1.0 / times["row"], "1/s", 500.0),
             Figure(f"{name}: the same by an edit / by the study", times["edit"] / times["row"]),
-            Figure(f"{name}: FFD and mesh / row of a study", times["ffd"] / times["row"], "x", 15.0),
+            Figure(f"{name}: FFD and mesh / study", times["ffd"] / times["row"], "x", 15.0),
             Figure(f"{name}: breadth that the FFD misses", mesh.missed(), "m"),
-            Figure(f"{name}: `vary` of the two", 1e3 * _vary(hull, rounds), "ms", 25.0, "most"),
+            Figure(f"{name}: vary of both", 1e3 * _vary(hull, rounds), "ms", 25.0, "most"),
         ]
     return found
 

@@ -174,9 +174,12 @@ class StudyParent:
     def _laid(self, amplitudes: FloatArray) -> tuple[LaidMap, Certificate]:
         """Lay out a map, and certify that it folds nothing."""
         maps = self.maps
-        certificate = certify(maps.map(amplitudes), maps.room.box)
+        vmap = maps.map(amplitudes)
+        certificate = certify(vmap, maps.room.box)
         certificate.check()
-        laid = maps.laid(amplitudes, self.lines, follow=self.follow, samples=self.samples)
+        laid = maps.laid(
+            amplitudes, self.lines, follow=self.follow, samples=self.samples, vmap=vmap
+        )
         return laid, certificate
 
     def _kept(self, amplitudes: FloatArray) -> Variant:

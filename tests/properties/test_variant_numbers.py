@@ -1,5 +1,7 @@
 """A variant in numbers is the hull that an edit makes by the same map, to the bit."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -14,7 +16,7 @@ from assoc_hull.study.design import StudyDesign
 from assoc_hull.study.prepared_parent import StudyParent
 from assoc_hull.study.variant_numbers import VariantNumbers
 
-SHIPS = {
+SHIPS: dict[str, tuple[Callable[[], ah.Hull], dict[str, float]]] = {
     "wigley": (ah.examples.wigley, {"breadth": 0.4, "draught": 0.2, "fore_shift": 0.5}),
     "series60": (ah.examples.series60, {"breadth": 0.4, "length": 2.0, "stem_rake_deg": 0.4}),
     "carrier": (ah.examples.bulk_carrier_207k, {"breadth": 1.0, "draught": 0.4}),

@@ -346,7 +346,8 @@ _PLACES = 6
 
 
 _WAYS = np.array([[0.0, 1.0, -1.0, 1.0], [1.0, 1.0, 1.0, 0.0]])
-"""Up, up and outward, up and inward, outward; y and z of each."""
+"""Up, up and outward, up and inward, outward; y and z of each. What only goes one of these ways
+does not come back to where it was."""
 
 
 def doubtful_lines(
@@ -405,24 +406,28 @@ def open_sections(net: CurveNet, sections: NetSections, planes: FloatingPlanes) 
 def _crossing(net: CurveNet, sections: NetSections) -> Iterator[str]:
     """Find sections that cross themselves."""
     u = np.linspace(0.0, 1.0, _PLACES + 1)[:-1]
-    power = u[:, None] ** np.arange(4)
-    for i, curve in enumerate(sections.curve.tolist()):
-        a, b = sections.curves.start[i : i + 2]
-        tiles = sections.curves.point[a:b][~sections.curves.deck[a:b]]
-        place = np.einsum("qc,scx->sqx", power, tiles[:, :, 1:]).reshape(-1, 2)
-        place = np.concatenate([place, tiles[-1:, :, 1:].sum(axis=1)])
-        crossing = _self_crossing(place)
+    drawn, start = ~sections.curves.deck, sections.curves.start
+    tiles = sections.curves.point[drawn][:, :, 1:]
+    count = np.add.reduceat(drawn.astype(np.int64), start[:-1])
+    place = np.einsum("qc,scx->sqx", u[:, None] ** np.arange(4), tiles).reshape(-1, 2)
+    ends = np.cumsum(count)
+    place = np.insert(place, ends * _PLACES, tiles[ends - 1].sum(axis=1), axis=0)
+    begin = np.concatenate([[0], ends * _PLACES + np.arange(1, len(ends) + 1)])
+    ways = np.diff(place, axis=0) @ _WAYS > 0.0
+    # Steps from one section to the next count for neither.
+    ways[begin[1:-1] - 1] = True
+    onward = np.logical_and.reduceat(ways, begin[:-1]).any(axis=1)
+    for i in np.flatnonzero(~onward).tolist():
+        crossing = _self_crossing(place[begin[i] : begin[i + 1]])
         if crossing is not None:
             y, z = crossing.tolist()
-            yield f"{net.name[curve]} crosses itself at y {y:.3f} m, z {z:.3f} m"
+            name = net.name[int(sections.curve[i])]
+            yield f"{name} crosses itself at y {y:.3f} m, z {z:.3f} m"
 
 
 def _self_crossing(place: FloatArray) -> FloatArray | None:
     """Give where a polyline (n, 2) first crosses itself, None if nowhere."""
     first, step = place[:-1], np.diff(place, axis=0)
-    # What only goes one way, as up and outward, does not come back to where it was.
-    if (step @ _WAYS > 0.0).all(axis=0).any():
-        return None
     one, other = np.triu_indices(len(step), 2)
     low, high = np.minimum(place[:-1], place[1:]), np.maximum(place[:-1], place[1:])
     near = ((low[one] <= high[other]) & (low[other] <= high[one])).all(axis=1)
@@ -447,24 +452,24 @@ def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
 
 def _kinked(net: CurveNet, sections: NetSections, kinds: NDArray[np.int8]) -> Iterator[str]:
     """Find sections that turn sharply at a smooth point, and back before and behind it."""
-    for curve in sections.curve.tolist():
-        a, b = net.batch.start[curve : curve + 2]
-        chord = np.diff(net.batch.xyz[a:b, 1:], axis=0)
-        if len(chord) < 4:
-            continue
-        turn = np.arctan2(_cross(chord[:-1], chord[1:]), (chord[:-1] * chord[1:]).sum(axis=1))
-        middle = turn[1:-1]
-        back = np.maximum(turn[:-2] * -np.sign(middle), turn[2:] * -np.sign(middle))
-        smooth = kinds[a + 2 : b - 2] == PointKind.SMOOTH
-        kink = (np.abs(middle) > _TURN) & (back > _BACK)
-        sharp = np.flatnonzero((kink | (np.abs(middle) > _HAIRPIN)) & smooth)
-        if len(sharp):
-            y, z = net.batch.xyz[a + 2 + sharp[0], 1:].tolist()
-            angle = float(np.degrees(abs(middle[sharp[0]])))
-            yield (
-                f"{net.name[curve]} has a kink of {angle:.0f} deg at y {y:.3f} m, z {z:.3f} m, "
-                "where no knuckle is drawn"
-            )
+    batch, curves = net.batch, sections.curve
+    owner = np.repeat(np.arange(batch.count), np.diff(batch.start))
+    chord = np.diff(batch.xyz[:, 1:], axis=0)
+    turn = np.arctan2(_cross(chord[:-1], chord[1:]), (chord[:-1] * chord[1:]).sum(axis=1))
+    # `turn[i]` is that at point i + 1: of the points that have two before and two behind them
+    middle = turn[1:-1]
+    back = np.maximum(turn[:-2] * -np.sign(middle), turn[2:] * -np.sign(middle))
+    smooth = (kinds[2:-2] == PointKind.SMOOTH) & (owner[:-4] == owner[4:])
+    kink = (np.abs(middle) > _TURN) & (back > _BACK)
+    sharp = np.flatnonzero((kink | (np.abs(middle) > _HAIRPIN)) & smooth) + 2
+    for curve in curves[np.isin(curves, owner[sharp])].tolist():
+        at = int(sharp[owner[sharp] == curve][0])
+        y, z = batch.xyz[at, 1:].tolist()
+        angle = float(np.degrees(abs(turn[at - 1])))
+        yield (
+            f"{net.name[curve]} has a kink of {angle:.0f} deg at y {y:.3f} m, z {z:.3f} m, "
+            "where no knuckle is drawn"
+        )
 
 
 def _apart(net: CurveNet, most: float) -> Iterator[str]:

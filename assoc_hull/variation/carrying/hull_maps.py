@@ -174,7 +174,7 @@ class HullMaps:
 
     def laid(
         self, amplitudes: FloatArray, lines: IntArray, *, follow: bool,
-        samples: PlaneSamples | None = None,
+        samples: PlaneSamples | None = None, vmap: VariationMap | None = None,
     ) -> LaidMap:  # fmt: skip
         """Give a map, and what it does with lines, features and dimensions of the parent.
 
@@ -187,8 +187,11 @@ class HullMaps:
             Whether planes of followers go along.
         samples : PlaneSamples or None
             Places along lines of the parent, if they are at hand.
+        vmap : VariationMap or None
+            The map, if it is at hand.
         """
-        state, vmap, asked = self.state, self.map(amplitudes), self.values(amplitudes)
+        state, asked = self.state, self.values(amplitudes)
+        vmap = self.map(amplitudes) if vmap is None else vmap
         anew = redraw_features(state, vmap, self._radii(amplitudes))
         space = anew.space
         levels = section_planes(state, vmap.layers) if self.ask.stations == "number" else None

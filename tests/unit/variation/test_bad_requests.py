@@ -18,7 +18,7 @@ from assoc_hull.errors import (
     WrongTypeError,
 )
 from assoc_hull.variation import plan_choice
-from assoc_hull.variation.aiming.reach_targets import SettledPlan
+from assoc_hull.variation.aiming.reach_targets import SettledPlan, settle_plan
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.carrying.carry_stages import StagedCarry
 from assoc_hull.variation.certificate.fold_check import certify
@@ -321,12 +321,11 @@ def test_targets_that_no_plan_reaches_are_refused_with_what_the_values_give(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """It is told that the values by themselves can be had, and at which targets they arrive."""
-    settled = plan_choice.settle_plan
 
     def without_targets(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
         if carry.ask.reach is not None:
             raise BadInputError("a line folds", "in vary", "ask for less")
-        return settled(carry, room)
+        return settle_plan(carry, room)
 
     monkeypatch.setattr(plan_choice, "settle_plan", without_targets)
     hull = ah.examples.wigley()
