@@ -15,13 +15,16 @@ MOST = {
     # one run stands in the place of the passes; in numpy it enters what they do to loft and cut
     "a moved point, by the program": 48,
     "a pull": 62,
-    "hydrostatics": 31,  # columns are read through `graph.table`, by `column[row]`
+    # columns are read through `graph.table`, by `column[row]`; a surface that is laid out and one
+    # that is put on other lines are one thing, `net_surface`
+    "hydrostatics": 32,
     # what is made of the tables is kept by `graph.derived`, behind the lock of `graph.gate`
     # its result stands in a module that loads nothing of studies and surfaces
     # counts of crossings by pairs of lines are `model.births`, arrays of their own
     # stages of a set, the choice of a plan and the combs of its lines are modules of their own
     # a map drawn anew asks `model.program.engine` whether it is compiled
-    "a variation of the breadth": 116,
+    # what earlier variations of the hull set and reached is `earlier_values`
+    "a variation of the breadth": 117,
 }
 """Modules entered, at most. A change that raises a number says why in its commit."""
 
