@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.arguments import file_path, integer, shown
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.recording import VariedValues
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.io.tables.study import (
@@ -35,6 +36,7 @@ from assoc_hull.study.pareto import pareto_front
 from assoc_hull.study.run import StudyRow, StudyRun
 from assoc_hull.study.run_study import run_study
 from assoc_hull.study.side_processes import one_thread
+from assoc_hull.variation.earlier_values import varied_values
 
 __all__ = ["Study", "make_study"]
 
@@ -64,6 +66,8 @@ class Study(Generic[HullType]):
         What became of each variant; fewer than were asked for after an interrupt.
     interrupted : bool
         Whether it was interrupted.
+    before : VariedValues
+        What variations had given the parent.
     make : callable
         Makes a hull of a document.
     """
@@ -71,6 +75,7 @@ class Study(Generic[HullType]):
     run: StudyRun = attrs.field(repr=False)
     file: StudyFile = attrs.field(repr=False)
     interrupted: bool
+    before: VariedValues = attrs.field(repr=False)
     make: Callable[[Document], HullType] = attrs.field(repr=False)
 
     @property
@@ -178,7 +183,11 @@ class Study(Generic[HullType]):
             why = "was not made" if row is None else f"has no hull: {row.reason}"
             raise BadInputError(f"variant {wanted} {why}", "in Study.hull", "take another one")
         with one_thread():
-            return self.make(self.run.ground.document(row.values, f"variant {wanted}"))
+            document = self.run.ground.document(row.values, f"variant {wanted}")
+        document.varied_before, step = self.before, document.history[-1]
+        varied = self.run.varied(row)
+        step.script = attrs.evolve(step.script, varied=varied, before=self.before)
+        return self.make(document)
 
     def to_csv(self, path: str | PathLike[str] | None = None) -> str:
         """Give the table as comma-separated text, and write it to a file if one is named."""
@@ -230,9 +239,9 @@ def make_study(
     count = None if workers is None else integer(workers, "workers", where, least=1, most=_WORKERS)
     if progress is not None and (isinstance(progress, type) or not callable(progress)):
         raise WrongTypeError(f"progress is {shown(progress)}", where, "give a function")
-    path = None if file is None else Path(file_path(file, where))
+    path = None if file is None else Path(file_path(file, where)).absolute()
     with one_thread():
         run = StudyRun.of(copy_state(hull.state), design)
     with StudyFile.opened(run, path) as table:
         interrupted = run_study(run, table, workers=count, cluster=cluster, tell=progress)
-    return Study(run, table, interrupted, make)
+    return Study(run, table, interrupted, varied_values(hull.document), make)

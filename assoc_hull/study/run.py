@@ -12,6 +12,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
+from assoc_hull.edit.recording import VariedValues
 from assoc_hull.errors import (
     AssocHullError,
     FoldError,
@@ -23,6 +24,7 @@ from assoc_hull.model.tables import HullState
 from assoc_hull.study.design import StudyDesign
 from assoc_hull.study.prepared_parent import StudyParent
 from assoc_hull.study.target_search import NotReachedError, QuadraticModel, search_variant
+from assoc_hull.variation.parameters.catalogue import CATALOGUE
 
 __all__ = [
     "StudyRow",
@@ -133,6 +135,18 @@ class StudyRun:
         told = dict(zip(ground.outputs.names, ground.outputs.units, strict=True))
         asked = {f"asked {name}": told[name] for name in ground.aims.names}
         return {each.name: each.unit for each in ground.maps.free} | told | asked | {"shift": "m"}
+
+    def varied(self, row: StudyRow) -> VariedValues:
+        """Give what a variant was given, to be kept with its step."""
+        design, free = self.design, self.ground.maps.free
+        pairs = list(zip(free, row.values.tolist(), strict=True))
+        held = {
+            each.name: value for each, value in pairs
+            if each.name in design.given and each.layer is None
+            and not CATALOGUE[each.name].amplitude
+        }  # fmt: skip
+        reached = dict(zip(design.aims, design.targets[row.number].tolist(), strict=True))
+        return VariedValues(held, reached, {each.name: v - each.present for each, v in pairs})
 
 
 def make_row(run: StudyRun, number: int) -> StudyRow:

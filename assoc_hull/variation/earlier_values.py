@@ -18,6 +18,7 @@ from assoc_hull.model.tables import HullState
 from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.compose_map import conflicts
 from assoc_hull.variation.request import VariationRequest
 
 __all__ = ["left_values", "values_of_variation", "varied_values"]
@@ -107,7 +108,7 @@ def left_values(
             continue
         value = now.get(each.name) if each.act == "set" else _output(each.name, state)
         if value is not None and not _held(each, value):
-            found.append(_left(each, value))
+            found.append(f"{_left(each, value)}; {_remedy(each, ask)}")
     return tuple(found)
 
 
@@ -125,12 +126,30 @@ def _held(each: _Earlier, value: float) -> bool:
 
 
 def _left(each: _Earlier, value: float) -> str:
-    """Say what has become of a value, and what would hold it."""
+    """Say what has become of a value."""
     off = f"{100.0 * (value / each.value - 1.0):+.2g} %" if each.value else f"{value:+.3g}"
-    where = "set" if each.act == "set" else "reach"
-    free = "" if each.act == "set" else ' and something free, as free=["fore_shift", "aft_shift"]'
     when = f"in step {each.step}" if each.step else "before"
-    return (
-        f"{each.name} was {each.act} {when} ({each.value:.9g}): now {off}; "
-        f"{where}={{{each.name!r}: {each.value:.9g}}} beside what is asked{free} would hold it"
-    )
+    return f"{each.name} was {each.act} {when} ({each.value:.9g}): now {off}"
+
+
+_FREE = ("fore_shift", "aft_shift", "breadth", "draught")
+_ONE = frozenset({"volume", "displacement"})
+"""Outputs that are one number."""
+
+
+def _remedy(each: _Earlier, ask: VariationRequest) -> str:
+    """Say what would hold a value beside what is asked; `vary` takes it."""
+    targets, free = ((), ()) if ask.reach is None else (tuple(ask.reach.targets), ask.reach.names)
+    told = f"{{{each.name!r}: {each.value:.9g}}}"
+    if each.act == "set":
+        apart = [name for name in conflicts(each.name, ask.layout) if name in ask.values]
+        if apart:
+            return f"nothing holds it beside {apart[0]}"
+        if each.name in free:
+            return f"set={told} with something else free in its place would hold it"
+        return f"set={told} beside what is asked would hold it"
+    if each.name in _ONE and _ONE.intersection(targets):
+        return f"nothing holds it beside {', '.join(_ONE.intersection(targets))}"
+    names = [name for name in _FREE if name not in ask.values and name not in free]
+    more = ", ".join(f'"{name}"' for name in names[:2])
+    return f"reach={told} beside what is asked and something free, as free=[{more}] would hold it"

@@ -83,3 +83,19 @@ def test_a_hull_that_definitions_make_has_no_numbers_and_is_varied_all_the_same(
     found = hull.study(set={"breadth": [1.01 * breadth]}, outputs=["volume"])
     assert found.rows[0].failure == ""
     assert found.hull(0).hydrostatics(estimate=False).volume == found.rows[0].outputs[0]
+
+
+@pytest.mark.parametrize("shift", ["fore_shift", "aft_shift"])
+def test_sections_that_move_along_a_straight_keel_are_cut_by_it_where_they_stand(
+    shift: str,
+) -> None:
+    """The keel stays as it is to the bit, and the hull is that of `vary`."""
+    hull = ah.examples.plain_ship()
+    found = hull.study(set={shift: [-0.0375, 0.75]}, outputs=["volume"])
+    for row in found.rows:
+        assert row.failure == ""
+        made = found.hull(row.number)
+        assert made.verify() == ()
+        assert all("detached" in str(each) for each in made.check())
+        varied = hull.vary(set={shift: row.values[0]}).hull
+        assert row.outputs[0] == pytest.approx(varied.hydrostatics(estimate=False).volume, rel=1e-9)

@@ -104,6 +104,9 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
     pending.held |= set(adopted[state.rows.sort[adopted] == Sort.ADOPTED].tolist())
     curves = set(state.live("curves").tolist())
     pending.curves |= curves
+    # A straight keel stays as it is to the bit while the planes that cut it move along it.
+    live = state.live("rows")
+    pending.computed |= set(live[state.rows.driver[live] >= 0].tolist())
     pending.ask(CarriedNet).relink |= curves
     return work
 

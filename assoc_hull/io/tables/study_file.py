@@ -18,7 +18,6 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
-from urllib.parse import quote
 
 import attrs
 import numpy as np
@@ -26,6 +25,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError, DamagedFileError, HullFileError, StudyBusyError
 from assoc_hull.geometry.curves import freeze
+from assoc_hull.io.hull_file.steps import step_digest
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.study.run import StudyRow, StudyRun
 from assoc_hull.study.side_processes import versions
@@ -39,14 +39,14 @@ _TABLES = """
 CREATE TABLE study (
     id INTEGER PRIMARY KEY CHECK (id = 1), written_by TEXT NOT NULL, parent TEXT NOT NULL,
     design TEXT NOT NULL, units TEXT NOT NULL, count INTEGER NOT NULL, given BLOB NOT NULL,
-    targets BLOB NOT NULL
+    targets BLOB NOT NULL, digest TEXT NOT NULL
 );
 CREATE TABLE rows (
     number INTEGER PRIMARY KEY, numbers BLOB NOT NULL, trials INTEGER NOT NULL,
-    anew INTEGER NOT NULL, failure TEXT NOT NULL, reason TEXT NOT NULL
+    anew INTEGER NOT NULL, failure TEXT NOT NULL, reason TEXT NOT NULL, digest TEXT NOT NULL
 );
 """
-_ADD = "INSERT OR IGNORE INTO rows VALUES (?, ?, ?, ?, ?, ?)"
+_ADD = "INSERT OR IGNORE INTO rows VALUES (?, ?, ?, ?, ?, ?, ?)"
 
 _PATIENCE = 0.25
 """s: a transaction takes some milliseconds of the disk."""
@@ -117,7 +117,7 @@ class StudyFile:
         """Tell for each row whether it is there, (n,)."""
         found = np.zeros(self.run.design.count, bool)
         with self._reading() as database:
-            for (number,) in database.execute("SELECT number FROM rows"):
+            for number, *_ in self._sound(database.execute("SELECT * FROM rows")):
                 found[number] = True
         return found
 
@@ -158,13 +158,21 @@ class StudyFile:
         which = "WHERE failure <> ''" if failed else ""
         with self._reading() as database:
             found = database.execute(f"SELECT * FROM rows {which} ORDER BY number")
-            return tuple(self._row(each) for each in found)
+            return tuple(map(self._row, self._sound(found)))
 
     def row(self, number: int) -> StudyRow | None:
         """Give a row; None if it has not landed."""
         with self._reading() as database:
-            found = database.execute("SELECT * FROM rows WHERE number = ?", (number,)).fetchone()
-            return None if found is None else self._row(found)
+            found = database.execute("SELECT * FROM rows WHERE number = ?", (number,))
+            return next(map(self._row, self._sound(found)), None)
+
+    def _sound(self, rows: Iterable[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
+        """Give rows as they were written; refuse one that is not."""
+        for each in rows:
+            if _digest_of(each[:-1]) != each[-1]:
+                what = f"row {each[0]} is not what was written"
+                raise DamagedFileError(what, f"in {self.path}", _AGAIN)
+            yield each[:-1]
 
     def _row(self, found: tuple[Any, ...]) -> StudyRow:
         number, packed, trials, anew, failure, reason = found
@@ -186,14 +194,12 @@ class StudyFile:
             numbers = np.empty((len(names), count))
             whole = np.empty((3, count), np.int64)
             words = np.empty((2, count), object)
-            cursor = database.execute(
-                "SELECT number, trials, anew, failure, reason, numbers FROM rows ORDER BY number"
-            )
+            cursor = database.execute("SELECT * FROM rows ORDER BY number")
             place = 0
-            while part := cursor.fetchmany(_MANY):
+            while part := list(self._sound(cursor.fetchmany(_MANY))):
                 here = slice(place, place := place + len(part))
-                *columns, packed = zip(*part, strict=True)
-                whole[:, here], words[:, here] = columns[:3], columns[3:]
+                number, packed, trials, anew, failure, reason = zip(*part, strict=True)
+                whole[:, here], words[:, here] = (number, trials, anew), (failure, reason)
                 flat = np.frombuffer(b"".join(packed), "<f8")
                 numbers[:, here] = flat.reshape(len(part), len(names)).T
             database.execute("ROLLBACK")
@@ -228,8 +234,9 @@ class StudyFile:
                     database.execute(table)
                 database.execute(f"PRAGMA application_id = {_APPLICATION}")
                 database.execute(f"PRAGMA user_version = {_VERSION}")
-            marks = ", ".join("?" * len(asked))
-            database.execute(f"REPLACE INTO study VALUES (1, {marks})", tuple(asked.values()))
+            row = (1, *asked.values())
+            marks = ", ".join("?" * (len(row) + 1))
+            database.execute(f"REPLACE INTO study VALUES ({marks})", (*row, _digest_of(row)))
 
     def _require_study(self) -> None:
         """Refuse a database of another kind, or of a later version."""
@@ -250,7 +257,7 @@ class StudyFile:
         """
         cursor = self._database.execute("SELECT * FROM study")
         found = cursor.fetchone()
-        if found is None:
+        if found is None or _digest_of(found[:-1]) != found[-1]:
             raise DamagedFileError("it does not say what was asked", f"in {self.path}", _AGAIN)
         was = dict(zip((each[0] for each in cursor.description), found, strict=True))
         fault = _difference(was, asked)
@@ -276,7 +283,13 @@ def _packed(row: StudyRow) -> tuple[object, ...]:
     """Give a row as the file has it."""
     rest = [getattr(row, name) for name in _NUMBERS]
     numbers = np.concatenate([row.values, row.outputs, rest]).astype("<f8").tobytes()
-    return row.number, numbers, row.trials, int(row.anew), row.failure, row.reason
+    found = row.number, numbers, row.trials, int(row.anew), row.failure, row.reason
+    return *found, _digest_of(found)
+
+
+def _digest_of(row: tuple[Any, ...]) -> str:
+    """Give a word for all that a row of a table holds, its own digest left out."""
+    return step_digest(row)[:16]
 
 
 # --------------------------------------------------------------------------------------
@@ -285,7 +298,7 @@ def _packed(row: StudyRow) -> tuple[object, ...]:
 
 def _connect(path: Path | None, *, write: bool) -> sqlite3.Connection:
     """Open the database; a new one is empty."""
-    place = ":memory:" if path is None else f"file:{quote(str(path))}?mode=rw{'c' * write}"
+    place = ":memory:" if path is None else f"{path.absolute().as_uri()}?mode=rw{'c' * write}"
     return sqlite3.connect(place, uri=True, isolation_level=None, check_same_thread=False)
 
 
@@ -338,6 +351,8 @@ def _file_errors(path: Path | None) -> Iterator[None]:
     """Turn what the database says into errors of this package."""
     try:
         yield
+    except UnicodeDecodeError as error:  # of what sqlite3 says, or of the name of a column
+        raise DamagedFileError("its tables are damaged", f"at {path}", _AGAIN) from error
     except sqlite3.Error as error:
         name = getattr(error, "sqlite_errorname", "") or ""
         why, place = " ".join(str(error).split()), str(path)

@@ -247,3 +247,44 @@ def test_numbers_keep_their_bits(hull: ah.Hull, tmp_path: Path) -> None:
         table.land([odd])
     assert table.rows() == (odd,)
     assert np.signbit(table.columns()["volume"]).all()
+
+
+def test_a_damaged_file_is_refused_and_never_believed(
+    hull: ah.Hull, unbroken: Study, asked: dict[str, Any], tmp_path: Path
+) -> None:
+    """Bytes that change, and ends that are lost: the true rows, or an error of this package."""
+    path, dice = tmp_path / "study.sqlite", np.random.default_rng(5)
+    hull.study(**asked, file=path)
+    sound, refused = path.read_bytes(), 0
+    database = sqlite3.connect(path)
+    database.execute("UPDATE rows SET numbers = zeroblob(length(numbers)) WHERE number = 3")
+    database.commit()
+    database.close()
+    with pytest.raises(ah.errors.DamagedFileError, match="row 3 is not what was written"):
+        hull.study(**asked, file=path)
+    for turn in range(60):
+        data = np.frombuffer(sound, np.uint8).copy()
+        if turn % 2:
+            data[dice.integers(0, len(data), 20)] = dice.integers(0, 256, 20)
+        else:
+            data = data[: dice.integers(1, len(data))]
+        path.write_bytes(data.tobytes())
+        try:
+            found = hull.study(**asked, file=path)
+        except (ah.errors.DamagedFileError, ah.errors.HullFileError, ah.errors.BadInputError):
+            refused += 1
+        else:
+            assert found.rows == unbroken.rows
+    assert refused > 30
+
+
+@pytest.mark.parametrize("name", ["study", ":memory:", "file:study?mode=memory", "50%20 off#1"])
+def test_the_file_of_a_study_is_found_wherever_the_program_stands(
+    hull: ah.Hull, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A name means what it means to the system, and is told from where it was given."""
+    monkeypatch.chdir(tmp_path)
+    found = hull.study(set={"breadth": 10.0}, outputs=["volume"], file=name)
+    monkeypatch.chdir("/")
+    assert len(found.rows) == 1
+    assert [each.name for each in tmp_path.iterdir()] == [name]

@@ -77,3 +77,35 @@ def test_a_comparison_warns_of_lines_that_are_less_fair(reached: Variation[ah.Hu
     worst = found.less_fair[0].name
     assert f"less fair than in the parent\n  {worst}: " in str(found)
     assert reached.hull.compare(reached.hull).less_fair == ()
+
+
+def test_what_is_told_to_hold_a_value_is_taken(reached: Variation[ah.Hull]) -> None:
+    """Beside one that is the same number nothing does; what is set is not told to be free."""
+    depth = reached.hull.particulars.depth
+    hull = reached.hull.vary(set={"depth": depth + 0.1}).hull
+    (note,) = notes_about(hull.vary(set={"deck_height": depth + 0.3}), "depth")
+    assert note.endswith("nothing holds it beside deck_height")
+    volume = reached.hull.hydrostatics(estimate=False).volume
+    asked = {"reach": {"displacement": 1.01 * 1.025 * volume}, "free": FREE[:1]}
+    (note,) = notes_about(reached.hull.vary(**asked), "volume")
+    assert note.endswith("nothing holds it beside displacement")
+    (note,) = notes_about(reached.hull.vary(set={"fore_shift": 0.5}), "volume")
+    assert note.endswith('free=["aft_shift", "breadth"] would hold it')
+    wider = reached.hull.vary(set={"breadth": 17.6}).hull
+    (note,) = notes_about(wider.vary(reach={"kmt": 7.3}, free=["breadth"]), "breadth")
+    assert note.endswith("with something else free in its place would hold it")
+
+
+def test_a_hull_of_a_study_tells_what_variations_have_spent(reached: Variation[ah.Hull]) -> None:
+    """Those of the parent, and its own; and what it set is told when it is left."""
+    hull = reached.hull.vary(set={"fore_shift": 0.3}).hull
+    before = hull.measure(only=["breadth"]).spent
+    made = hull.study(set={"fore_shift": [0.1], "draught": 7.0}, outputs=["volume"]).hull(0)
+    spent = made.measure(only=["breadth"]).spent
+    assert spent["fore_shift"] == before["fore_shift"] + 0.1
+    assert spent["aft_shift"] == before["aft_shift"]
+    assert notes_about(made.vary(set={"draught": 7.1}), "volume was reached before")
+    (note,) = notes_about(made.vary(reach={"kb": 3.9}, free=["draught"]), "draught was set")
+    assert "(7)" in note
+    made.undo()
+    assert made.measure(only=["breadth"]).spent == before
