@@ -1523,6 +1523,7 @@ class Hull:
         from assoc_hull.variation.earlier_values import varied_values
         from assoc_hull.variation.parameters.parameter_measures import measure
 
+        state_of(self, "in measure")
         return measure(self, only=only, spent=varied_values(self.document).spent)
 
     def sensitivities(
