@@ -25,7 +25,6 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError, DamagedFileError, HullFileError, StudyBusyError
 from assoc_hull.geometry.curves import freeze
-from assoc_hull.io.hull_file.steps import step_digest
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.study.run import StudyRow, StudyRun
 from assoc_hull.study.side_processes import versions
@@ -289,7 +288,11 @@ def _packed(row: StudyRow) -> tuple[object, ...]:
 
 def _digest_of(row: tuple[Any, ...]) -> str:
     """Give a word for all that a row of a table holds, its own digest left out."""
-    return step_digest(row)[:16]
+    found = hashlib.sha256()
+    for each in row:
+        data = each if isinstance(each, bytes) else repr(each).encode("utf-8", "surrogatepass")
+        found.update(f"{len(data)}:".encode() + data)
+    return found.hexdigest()[:16]
 
 
 # --------------------------------------------------------------------------------------

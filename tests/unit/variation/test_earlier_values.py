@@ -86,8 +86,8 @@ def test_what_is_told_to_hold_a_value_is_taken(reached: Variation[ah.Hull]) -> N
     (note,) = notes_about(hull.vary(set={"deck_height": depth + 0.3}), "depth")
     assert note.endswith("nothing holds it beside deck_height")
     volume = reached.hull.hydrostatics(estimate=False).volume
-    asked = {"reach": {"displacement": 1.01 * 1.025 * volume}, "free": FREE[:1]}
-    (note,) = notes_about(reached.hull.vary(**asked), "volume")
+    heavier = {"displacement": 1.01 * 1.025 * volume}
+    (note,) = notes_about(reached.hull.vary(reach=heavier, free=FREE[:1]), "volume")
     assert note.endswith("nothing holds it beside displacement")
     (note,) = notes_about(reached.hull.vary(set={"fore_shift": 0.5}), "volume")
     assert note.endswith('free=["aft_shift", "breadth"] would hold it')

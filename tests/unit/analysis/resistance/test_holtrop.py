@@ -343,7 +343,9 @@ MASKED = np.ma.MaskedArray([10.0, 12.0], [False, True])
 DATE = np.datetime64("2020-01-01")
 
 
-@pytest.mark.parametrize("speeds", [MASKED, DATE, 0.0, -1.0, [10.0, 0.0], [], math.nan, [math.inf], "fast", None])
+@pytest.mark.parametrize(
+    "speeds", [MASKED, DATE, 0.0, -1.0, [10.0, 0.0], [], math.nan, [math.inf], "fast", None]
+)
 def test_a_speed_that_is_none_is_refused(speeds: Any) -> None:
     """As what was given."""
     with pytest.raises(BadInputError, match="speeds is"):
