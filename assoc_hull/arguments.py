@@ -82,10 +82,11 @@ def shown_name(value: object) -> str:
 
 
 def _array(values: object) -> Floats:
-    """Give numbers as an array; one nan where they are none: True is no 1 here."""
+    """Give numbers as an array; one nan where they are none: True is no 1, a masked one none."""
     each = values if isinstance(values, list | tuple) else [values]
     kinds = (getattr(getattr(value, "dtype", None), "kind", "") for value in each)
-    if any(isinstance(value, bool) for value in each) or "b" in kinds:
+    hidden = isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values)
+    if hidden or any(isinstance(value, bool) for value in each) or {"b", "M", "m"} & {*kinds}:
         return np.full(1, np.nan)
     try:
         return np.array(values, np.float64)

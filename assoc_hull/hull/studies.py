@@ -239,7 +239,7 @@ def make_study(
     count = None if workers is None else integer(workers, "workers", where, least=1, most=_WORKERS)
     if progress is not None and (isinstance(progress, type) or not callable(progress)):
         raise WrongTypeError(f"progress is {shown(progress)}", where, "give a function")
-    path = None if file is None else Path(file_path(file, where)).absolute()
+    path = None if file is None else Path(file_path(file, where))
     with one_thread():
         run = StudyRun.of(copy_state(hull.state), design)
     with StudyFile.opened(run, path) as table:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import attrs
@@ -115,11 +115,13 @@ class StudyDesign:
         unused = [name for name in raw if name not in given and name not in sought.names]
         given, values = (*given, *unused), [*values, *(np.ones(1) for _ in unused)]
         _check(given, sought.names, aims)
+        told = _outputs(outputs, aims)
+        _refuse_columns(raw, told)
         count = _count([*zip(given, values, strict=True), *zip(aims, targets, strict=True)])
         return cls(
             given, sought.names, tuple(raw.values()), _table(values, count), aims,
             _table(targets, count), sought.limits([0.0] * len(sought.names)),
-            _outputs(outputs, aims), ask.layout,
+            told, ask.layout,
             _drawn(set, reach),
         )  # fmt: skip
 
@@ -227,6 +229,20 @@ def _check(given: tuple[str, ...], free: tuple[str, ...], aims: tuple[str, ...])
             f"{len(aims)} targets need at least {len(aims)} free parameters ({len(free)} given)",
             _WHERE, "free more parameters, or drop targets",
         )  # fmt: skip
+
+
+_COLUMNS = ("number", "margin", "shift", "residual", "trials", "anew", "failure", "reason")
+"""What a table has beside parameters and outputs."""
+
+
+def _refuse_columns(layers: Iterable[str], outputs: tuple[str, ...]) -> None:
+    """Refuse a layer whose column another one of the table would cover."""
+    for name in layers:
+        if name in (*_COLUMNS, *outputs) or name.startswith("asked "):
+            raise BadInputError(
+                f"the layer '{name}' has the name of another column of the table", _WHERE,
+                "give it another name",
+            )  # fmt: skip
 
 
 def _count(columns: Sequence[tuple[str, FloatArray]]) -> int:

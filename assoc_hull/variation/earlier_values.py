@@ -21,7 +21,7 @@ from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.compose_map import conflicts
 from assoc_hull.variation.request import VariationRequest
 
-__all__ = ["left_values", "values_of_variation", "varied_values"]
+__all__ = ["left_values", "values_before", "values_of_variation", "varied_values"]
 
 _SAME = 1e-6
 """A value as near as this to what was asked before (m, degrees, or that part of it) is held."""
@@ -59,15 +59,18 @@ def values_of_variation(
 
 def varied_values(document: Document) -> VariedValues:
     """Give what variations gave a hull in all: in its history, and before that began."""
-    found = _before(document)
+    found = values_before(document)
     for step in tuple(document.history):
         found = found.then(step.script.varied)
     return found
 
 
-def _before(document: Document) -> VariedValues:
-    """Give what it had been given before its history began; a file keeps that with a step."""
-    told = (step.script.before for step in tuple(document.history))
+def values_before(document: Document) -> VariedValues:
+    """Give what it had been given before its history began.
+
+    A file keeps that with a step, be it undone or on another branch.
+    """
+    told = (step.script.before for step in tuple(document.steps.values()))
     return next(filter(None, told), document.varied_before)
 
 
@@ -98,7 +101,7 @@ def left_values(
     asked = {*ask.values, *({} if ask.reach is None else ask.reach.targets)}
     latest, state = dict[str, _Earlier](), document.state
     steps = [(step.number, step.script.varied) for step in tuple(document.history)]
-    for number, varied in ((0, _before(document)), *steps):
+    for number, varied in ((0, values_before(document)), *steps):
         for act, values in (("set", varied.set), ("reached", varied.reached)):
             for name, amount in values.items():
                 latest[name] = _Earlier(name, act, amount, number)

@@ -26,7 +26,7 @@ from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.certificate.fold_check import Certificate, fold_outside
 from assoc_hull.variation.comparing.line_fairness import FairnessComparison
-from assoc_hull.variation.earlier_values import left_values, values_of_variation
+from assoc_hull.variation.earlier_values import left_values, values_before, values_of_variation
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
@@ -256,7 +256,7 @@ def vary_document(
         now = present_values(measure_all(edit.state), ask.layout)
         edit.varied = values_of_variation(ask, was, found.aimed)
         if not any(step.script.varied for step in document.history):
-            edit.varied_before = document.varied_before
+            edit.varied_before = values_before(document)
         left = left_values(document, ask, now)
         beyond = folds_outside(found.carry.map, room.box)
         along = went_along(levels, edit.state)

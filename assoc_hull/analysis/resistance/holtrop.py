@@ -21,6 +21,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Literal, get_args
 
+import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -182,6 +183,13 @@ def _waves(ship: HoltropShip, entrance: float) -> dict[str, float]:
         c15 += (l / third - 8.0) / 2.36
     full = 1.73014 - 0.7067 * cp
     c16 = 8.07981 * cp - 13.8673 * cp**2 + 6.984388 * cp**3 if cp < 0.80 else full
+    decay = 1.75254 * third / l + 4.79323 * b / l + c16
+    if 0.0140407 * l / t >= decay:
+        why = "is so great that waves would grow as she slows down"
+        raise OutOfRangeError(
+            "length / draught", l / t, WHERE, why, 0.0, decay / 0.0140407, "",
+            "take a greater draught",
+        )  # fmt: skip
     return {
         "c1": 2223105.0 * c7**3.78613 * (t / b) ** 1.07961 * (90.0 - entrance) ** -1.37565,
         "c5": 1.0 - 0.8 * ship.transom_area / (b * t * ship.cm),
@@ -189,7 +197,7 @@ def _waves(ship: HoltropShip, entrance: float) -> dict[str, float]:
         "c15": c15,
         "c16": c16,
         "lambda": 1.446 * cp - (0.03 * slim if slim < 12.0 else 0.36),
-        "m1": 0.0140407 * l / t - 1.75254 * third / l - 4.79323 * b / l - c16,
+        "m1": 0.0140407 * l / t - decay,
     }
 
 
@@ -308,7 +316,7 @@ def holtrop(
     by_speed = {"CF": line, "m4" if method == "1984" else "m2": m4}
     transom, by_speed["c6"] = _transom_resistance(ship, velocity, pressure)
     friction = pressure * hull["S"] * line
-    return Resistance(
+    found = Resistance(
         name=name,
         method=method,
         ship=ship,
@@ -325,8 +333,10 @@ def holtrop(
         bulb=_bulb_resistance(ship, hull, velocity),
         transom=transom,
         correlation=pressure * hull["S"] * hull["CA"],
-        warnings=warnings_of(ship, float(froude.max())),
+        warnings=(),
     )
+    bulb = float((found.bulb / found.total).max())
+    return attrs.evolve(found, warnings=warnings_of(ship, float(froude.max()), bulb))
 
 
 def _reynolds(ship: HoltropShip, knots: FloatArray, velocity: FloatArray) -> FloatArray:

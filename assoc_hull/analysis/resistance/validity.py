@@ -85,8 +85,15 @@ def nearest_type(ship: HoltropShip, froude: float) -> ShipType:
     return min(TYPES, key=lambda each: sum(far for _, far in each.beyond(ship, froude)))
 
 
-def warnings_of(ship: HoltropShip, froude: float) -> tuple[str, ...]:
-    """Say what to mind about the resistance of a ship, up to a Froude number."""
+_BULB = 0.2
+"""Of the total: more of it than a bulb costs that lies as deep as those of the sample."""
+
+
+def warnings_of(ship: HoltropShip, froude: float, bulb: float = 0.0) -> tuple[str, ...]:
+    """Say what to mind about the resistance of a ship, up to a Froude number.
+
+    `bulb` is the greatest part of the total that is RB.
+    """
     found = []
     nearest = nearest_type(ship, froude)
     beyond = nearest.beyond(ship, froude)
@@ -100,6 +107,11 @@ def warnings_of(ship: HoltropShip, froude: float) -> tuple[str, ...]:
         found.append(
             f"the centre of the bulb's section is {ship.bulb_height:.3f} m above the base line; "
             f"0.6 T_F, {ship.bulb_centre:.3f} m, is taken, as the papers ask, and RB is doubtful"
+        )
+    if bulb > _BULB:
+        found.append(
+            f"RB is up to {100.0 * bulb:.0f} % of R: the bulb lies near the surface, where the "
+            "regression overrates it"
         )
     if ship.rho < 1.01 and ship.nu == NU:
         found.append(

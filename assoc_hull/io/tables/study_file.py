@@ -25,7 +25,6 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError, DamagedFileError, HullFileError, StudyBusyError
 from assoc_hull.geometry.curves import freeze
-from assoc_hull.io.hull_file.steps import step_digest
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.study.run import StudyRow, StudyRun
 from assoc_hull.study.side_processes import versions
@@ -67,11 +66,12 @@ class StudyFile:
     run : StudyRun
         What was asked for, and of which hull.
     path : Path or None
-        The file; None for rows in memory.
+        The file, as it was named; None for rows in memory.
     """
 
     run: StudyRun
     path: Path | None
+    _place: Path | None
     _database: sqlite3.Connection
     _lock: sqlite3.Connection | None
 
@@ -89,13 +89,14 @@ class StudyFile:
         DamagedFileError, HullFileError
             It does not hold what was written to it; it cannot be read or written.
         """
+        place = None if path is None else path.absolute()
         with contextlib.ExitStack() as stack:
             lock = None if path is None else stack.enter_context(_locked(path))
             with _file_errors(path):
-                database = _connect(path, write=True)
+                database = _connect(place, write=True)
                 if path is not None:
                     stack.callback(database.close)
-                found = cls(run, path, database, lock)
+                found = cls(run, path, place, database, lock)
                 found._begin()
                 if path is not None:
                     stack.callback(_fold, database)
@@ -134,12 +135,12 @@ class StudyFile:
     def _reading(self) -> Iterator[sqlite3.Connection]:
         """Give a connection to read by."""
         with _file_errors(self.path):
-            if self.path is None:
+            if self._place is None:
                 yield self._database
                 return
-            if not self.path.exists():
+            if not self._place.exists():
                 raise HullFileError(str(self.path), "the file is not there any more", "look for it")
-            with contextlib.closing(_connect(self.path, write=False)) as database:
+            with contextlib.closing(_connect(self._place, write=False)) as database:
                 yield database
 
     def __len__(self) -> int:
@@ -289,7 +290,11 @@ def _packed(row: StudyRow) -> tuple[object, ...]:
 
 def _digest_of(row: tuple[Any, ...]) -> str:
     """Give a word for all that a row of a table holds, its own digest left out."""
-    return step_digest(row)[:16]
+    found = hashlib.sha256()
+    for each in row:
+        data = each if isinstance(each, bytes) else repr(each).encode("utf-8", "surrogatepass")
+        found.update(f"{len(data)}:".encode() + data)
+    return found.hexdigest()[:16]
 
 
 # --------------------------------------------------------------------------------------
@@ -298,7 +303,7 @@ def _digest_of(row: tuple[Any, ...]) -> str:
 
 def _connect(path: Path | None, *, write: bool) -> sqlite3.Connection:
     """Open the database; a new one is empty."""
-    place = ":memory:" if path is None else f"{path.absolute().as_uri()}?mode=rw{'c' * write}"
+    place = ":memory:" if path is None else f"{path.as_uri()}?mode=rw{'c' * write}"
     return sqlite3.connect(place, uri=True, isolation_level=None, check_same_thread=False)
 
 
@@ -315,7 +320,7 @@ def _locked(path: Path) -> Iterator[sqlite3.Connection]:
     The lock is that of SQLite on an empty file beside the rows, as the lock on these themselves
     would be given up with each transaction.
     """
-    beside = path.with_name(f"{path.name}-writer")
+    beside = path.absolute().with_name(f"{path.name}-writer")
     with _file_errors(path):
         while True:
             before = _identity(beside)

@@ -94,3 +94,11 @@ def test_an_output_that_is_none_is_refused(asked: dict[str, Any]) -> None:
     """With the nearest names."""
     with pytest.raises(ah.errors.UnknownNameError, match="'volume'"):
         ah.examples.wigley(stations=9, waterlines=6).study(**asked)
+
+
+@pytest.mark.parametrize("name", ["number", "failure", "kmt", "asked volume"])
+def test_a_layer_whose_column_would_be_covered_is_refused(name: str) -> None:
+    """By an output, or what each row tells."""
+    layer = FieldLayer(name, fuller().fields)
+    with pytest.raises(ah.errors.BadInputError, match="name of another column"):
+        StudyDesign.of(set={name: [0.2, 0.4]}, layers=[layer], outputs=["volume", "kmt"])

@@ -86,8 +86,8 @@ def test_what_is_told_to_hold_a_value_is_taken(reached: Variation[ah.Hull]) -> N
     (note,) = notes_about(hull.vary(set={"deck_height": depth + 0.3}), "depth")
     assert note.endswith("nothing holds it beside deck_height")
     volume = reached.hull.hydrostatics(estimate=False).volume
-    asked = {"reach": {"displacement": 1.01 * 1.025 * volume}, "free": FREE[:1]}
-    (note,) = notes_about(reached.hull.vary(**asked), "volume")
+    heavier = {"displacement": 1.01 * 1.025 * volume}
+    (note,) = notes_about(reached.hull.vary(reach=heavier, free=FREE[:1]), "volume")
     assert note.endswith("nothing holds it beside displacement")
     (note,) = notes_about(reached.hull.vary(set={"fore_shift": 0.5}), "volume")
     assert note.endswith('free=["aft_shift", "breadth"] would hold it')
@@ -109,3 +109,21 @@ def test_a_hull_of_a_study_tells_what_variations_have_spent(reached: Variation[a
     assert "(7)" in note
     made.undo()
     assert made.measure(only=["breadth"]).spent == before
+
+
+def test_what_was_spent_before_a_copy_is_told_of_its_file_after_undo(
+    reached: Variation[ah.Hull], tmp_path: Path
+) -> None:
+    """And on another branch, and after that is opened again."""
+    before = reached.hull.measure(only=["breadth"]).spent
+    reached.hull.vary(set={"fore_shift": 0.2}).hull.save(tmp_path / "ship.hull")
+    hull = ah.open(tmp_path / "ship.hull")
+    hull.undo()
+    assert hull.measure(only=["breadth"]).spent == before
+    hull.close()
+    hull = ah.open(tmp_path / "ship.hull")
+    assert hull.measure(only=["breadth"]).spent == before
+    hull.vary(set={"draught": 7.0}, in_place=True)
+    hull.undo()
+    assert hull.measure(only=["breadth"]).spent == before
+    hull.close()

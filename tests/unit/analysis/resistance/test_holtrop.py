@@ -317,7 +317,35 @@ def test_a_ship_that_is_none_is_refused(
         attrs.evolve(SHIP_1982, **change)
 
 
-@pytest.mark.parametrize("speeds", [0.0, -1.0, [10.0, 0.0], [], math.nan, [math.inf], "fast", None])
+def test_a_draught_with_which_waves_would_grow_as_she_slows_is_refused() -> None:
+    """They came to 1e22 kN; the ratio that is told is taken."""
+    flat = attrs.evolve(
+        SHIP_1982, draught_fore=1.0, draught_aft=1.0, volume=3750.0, bulb_area=0.0,
+        bulb_height=0.0, transom_area=0.0,
+    )  # fmt: skip
+    with pytest.raises(OutOfRangeError, match="waves would grow as she slows down") as caught:
+        holtrop(flat, 10.0)
+    draught = 1.0001 * flat.length / caught.value.most
+    deeper = attrs.evolve(flat, draught_fore=draught, draught_aft=draught)
+    assert np.isfinite(holtrop(deeper, 10.0).total).all()
+
+
+def test_a_bulb_near_the_surface_is_told() -> None:
+    """Though its centre lies below 0.6 T_F."""
+    high = attrs.evolve(SHIP_1982, bulb_height=5.99, bulb_area=60.0)
+    (told,) = [each for each in holtrop(high, 12.0).warnings if each.startswith("RB is up to")]
+    found = holtrop(high, 12.0)
+    assert f"{100.0 * (found.bulb / found.total)[0]:.0f} %" in told
+    assert not any(each.startswith("RB is") for each in holtrop(SHIP_1982, [5.0, 25.0]).warnings)
+
+
+MASKED = np.ma.MaskedArray([10.0, 12.0], [False, True])
+DATE = np.datetime64("2020-01-01")
+
+
+@pytest.mark.parametrize(
+    "speeds", [MASKED, DATE, 0.0, -1.0, [10.0, 0.0], [], math.nan, [math.inf], "fast", None]
+)
 def test_a_speed_that_is_none_is_refused(speeds: Any) -> None:
     """As what was given."""
     with pytest.raises(BadInputError, match="speeds is"):
