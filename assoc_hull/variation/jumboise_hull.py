@@ -389,8 +389,11 @@ class _Cut:
         count = max(0, math.ceil(self.by / spacing - _NEAR) - 1)
         places = [spacing * (k + 1) for k in range(count)]
         places = [each for each in places if self.by - each > _NEAR * spacing]
-        title = str(state.lines.name[line])
-        added = [copy_section(edit, line, each, f"{title}+{each:g}") for each in (*places, self.by)]
+        title, group = str(state.lines.name[line]), int(state.lines.group[line])
+        added = [
+            copy_section(edit, line, each, _copy_name(state, group, f"{title}+{each:g}"))
+            for each in (*places, self.by)
+        ]
         for curve, row in bare:
             self._adopt(curve, state.rows.xyz[row] + np.array([self.by, 0.0, 0.0]), row)
         return _Done(x, line, zone, tuple(added))
@@ -525,6 +528,14 @@ def _moved_off(state: HullState, was: FloatArray, zone: _Zone) -> float:
 
 # --------------------------------------------------------------------------------------
 # Names.
+
+
+def _copy_name(state: HullState, group: int, wish: str) -> str:
+    """Give a copy a name that is free: a copy made before may have the first, and has moved on."""
+    lines = state.live("lines").tolist()
+    taken = {str(state.lines.name[each]) for each in lines if state.lines.group[each] == group}
+    marks = ("", *(f"({k})" for k in range(2, len(taken) + 3)))
+    return next(wish + mark for mark in marks if wish + mark not in taken)
 
 
 def _numbered(edit: Transaction, unit: float | None) -> dict[str, str]:

@@ -204,3 +204,20 @@ def test_it_goes_on_with_variations(bulk_carrier: ah.Hull) -> None:
     assert varied.hull.check() == ()
     hull.undo(2)
     assert hull.fingerprint == bulk_carrier.fingerprint
+
+
+def test_one_section_is_cut_again_and_again(bulk_carrier: ah.Hull) -> None:
+    """A copy's usual name may have gone to one made before, which has moved on; the next is free.
+
+    All are numbered by their places when that is asked for.
+    """
+    once = bulk_carrier.jumboise(30.0, at=150.0)
+    twice = once.hull.jumboise(30.0, at=150.0)
+    assert (once.report.added, twice.report.added) == (("ST 10+30",), ("ST 10+30(2)",))
+    where = _sections(twice.hull)
+    assert (where["ST 10+30"], where["ST 10+30(2)"]) == (210.0, 180.0)
+    thrice = twice.hull.jumboise(30.0, at=150.0, names="number").hull
+    for name, x in _sections(thrice).items():
+        assert float(name.removeprefix("ST ")) == pytest.approx(x * 20.0 / 390.0, abs=6e-4)
+    assert thrice.check() == ()
+    assert thrice.verify() == ()
