@@ -1521,10 +1521,11 @@ class Hull:
         'parent has no bossing circle'
         """
         from assoc_hull.variation.earlier_values import varied_values
+        from assoc_hull.variation.parameters.measurement import Measures
         from assoc_hull.variation.parameters.parameter_measures import measure
 
-        state_of(self, "in measure")
-        return measure(self, only=only, spent=varied_values(self.document).spent)
+        found = measure(self, only=only)
+        return Measures(found.anchors.values(), varied_values(self.document).spent)
 
     def sensitivities(
         self,

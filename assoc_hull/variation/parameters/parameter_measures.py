@@ -113,12 +113,9 @@ def _names(only: object) -> tuple[str, ...]:
     return found
 
 
-def measure(
-    hull: HasState, *, only: Iterable[str] | None = None, spent: Mapping[str, float] | None = None
-) -> Measures:
-    """Give the present values of a hull's named parameters.
+def measure(hull: HasState, *, only: Iterable[str] | None = None) -> Measures:
+    """Give the present values of a hull's named parameters, and nothing spent.
 
     The arguments and what is raised are those of `Hull.measure`.
     """
-    found = measure_all(state_of(hull, "in measure"), only)
-    return Measures(found.anchors.values(), spent)
+    return measure_all(state_of(hull, "in measure"), only)
