@@ -126,7 +126,7 @@ def _names(only: object) -> tuple[str, ...]:
 
 
 def measure(hull: HasState, *, only: Iterable[str] | None = None) -> Measures:
-    """Give the present values of a hull's named parameters.
+    """Give the present values of a hull's named parameters, and nothing spent.
 
     The arguments and what is raised are those of `Hull.measure`.
     """
