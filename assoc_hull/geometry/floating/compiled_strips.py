@@ -306,8 +306,10 @@ def _inspect(
     heights = rows[32]
     for i in range(count):
         heights[i] = critical_value(over, tiles[i], u[i]) - level
-        if abs(heights[i]) < least:
-            least, s, t = abs(heights[i]), tiles[i], u[i]
+        # A level deck is as high at its edge as at the end of the curve: the waterplane ends there.
+        tie = limits[8] if i == 2 and edge >= 0 else 0.0
+        if abs(heights[i]) < least + tie:
+            least, s, t = min(least, abs(heights[i])), tiles[i], u[i]
     x_v, y_v = critical_value(rows[12:16], s, t), critical_value(rows[16:20], s, t)
     change = critical_value(rows[20:24], s, t) - trim * x_v + heel * y_v
     step = 0.0

@@ -321,3 +321,20 @@ def test_compiled_hulls_of_lines_have_the_bits_of_compiled_hulls_of_tables(
     assert found is not None
     agree(found, Flotation(wanted.state, wanted.net, wanted.surface, wanted.kinds))
     assert list(found.layout.frames) == list(wanted.layout.frames)
+
+
+@pytest.mark.usefixtures("compiled")
+def test_a_level_deck_half_under_water_is_as_broad_in_compiled_code(
+    shipped: Callable[[str], Hull],
+) -> None:
+    """There the waterplane ends at the edge of the deck, as high as its middle but for rounding."""
+    body = flotation(shipped("sfolds_ship").state)
+    fast, slow = (Flotation(body.state, body.net, body.surface, body.kinds) for _ in range(2))
+    for draught in (9.05, 9.2, 9.4):
+        some = planes_of([FloatingPosition(draught, draught)], body.particulars.length)
+        set_backend("numba")
+        one = measured(fast, some)[0]
+        set_backend("numpy")
+        other = measured(slow, some)[0]
+        assert one.y_most[0] == pytest.approx(other.y_most[0], rel=1e-12)
+        assert one.y_least[0] == pytest.approx(other.y_least[0], rel=1e-12)
