@@ -198,6 +198,10 @@ def drawn_alike(one: RedrawnFeatures, other: RedrawnFeatures) -> bool:
     return same and circles[0] == circles[1] and arcs[0] == arcs[1]
 
 
+CONTOURED = {"fore_frame_height", "aft_frame_height"}
+"""Parameters whose fields follow contours, which have no flat form: their maps stay with numpy."""
+
+
 @pytest.mark.parametrize("name", ["bulk_carrier", "series60_70"])
 def test_maps_of_named_parameters_have_the_bits_of_numpy(name: str, shipped: Shipped) -> None:
     """Of each parameter alone, and of several at once; what is drawn anew is the same as well."""
@@ -221,12 +225,15 @@ def test_maps_of_named_parameters_have_the_bits_of_numpy(name: str, shipped: Shi
             continue
         with mock.patch(MAY, return_value=True):
             quick = redraw_features(state, vmap, radii)
-            assert isinstance(quick.quick, CompiledMap), several
+            assert isinstance(quick.quick, CompiledMap) is CONTOURED.isdisjoint(several), several
         assert drawn_alike(usual, quick), several
+        found += 1
+        if not CONTOURED.isdisjoint(several):
+            continue
         some = xyz[spread.integers(0, len(xyz), 25)]
         more = np.concatenate([some, some * [1.0, -1.0, 1.0], edges(vmap.regions())])
         assert_features_same(usual, more, k)
-        found, drawn = found + 1, drawn + len(usual.map.circles) + len(usual.bilges.arcs)
+        drawn += len(usual.map.circles) + len(usual.bilges.arcs)
     assert found >= len(names) - 2
     assert drawn > 0 or name != "bulk_carrier"
 
