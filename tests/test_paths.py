@@ -24,7 +24,8 @@ MOST = {
     # stages of a set, the choice of a plan and the combs of its lines are modules of their own
     # a map drawn anew asks `model.program.engine` whether it is compiled
     # what earlier variations of the hull set and reached is `earlier_values`
-    "a variation of the breadth": 117,
+    # where the map is compiled its flat form and its kernels are four modules more
+    "a variation of the breadth": 121,
 }
 """Modules entered, at most. A change that raises a number says why in its commit."""
 

@@ -109,7 +109,7 @@ def agree(found: Flotation, wanted: Flotation) -> None:
 POINTS = {
     "wigley": "WL 5 x ST 17",
     "series60_60": "WL 1.16 x ST 18.25",
-    "seaking_ship": "WL 8.2 x FR 80",
+    "seaking_ship": "WL 8.2 x FR 60",
     "prelikon_ship": "WL 8.5 x ST 57",
 }
 
