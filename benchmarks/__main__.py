@@ -14,7 +14,7 @@ from benchmarks.clock import Figure
 
 NAMES = (
     "full_reloft", "one_edit", "edits", "drags", "drag_session", "start", "session", "hydrostatics",
-    "variation_methods", "form_curves", "created_hulls", "biarcs", "production_arcs",
+    "variation_methods", "variants", "form_curves", "created_hulls", "biarcs", "production_arcs",
     "classical_splines",
     "conformal_sections", "curvature_regions", "surface_fit", "cad_files", "cad_slicing",
     "closed_mesh",
