@@ -152,7 +152,7 @@ def _remedy(each: _Earlier, ask: VariationRequest) -> str:
             return f"set={told} with something else free in its place would hold it"
         return f"set={told} beside what is asked would hold it"
     if each.name in _ONE and _ONE.intersection(targets):
-        return f"nothing holds it beside {', '.join(_ONE.intersection(targets))}"
+        return f"nothing holds it beside {', '.join(sorted(_ONE.intersection(targets)))}"
     names = [name for name in _FREE if name not in ask.values and name not in free]
     more = ", ".join(f'"{name}"' for name in names[:2])
     return f"reach={told} beside what is asked and something free, as free=[{more}] would hold it"
