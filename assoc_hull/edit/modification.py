@@ -33,7 +33,7 @@ from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
-__all__ = ["ROUNDS", "Modification", "Pending", "TriedNumbers", "Work"]
+__all__ = ["ROUNDS", "LateAnswer", "Modification", "Pending", "TriedNumbers", "Work"]
 
 _NONE: IntArray = np.zeros(0, np.int64)
 
@@ -120,6 +120,13 @@ class TriedNumbers(Protocol):
         """Put those of before back."""
 
 
+class LateAnswer(Protocol):
+    """What an edit asks for that waits until all else has been carried out."""
+
+    def carry_out(self) -> None:
+        """Carry it out, as stages of the edit."""
+
+
 @attrs.define(eq=False)
 class Pending:
     """What the modifications of a transaction ask for.
@@ -158,6 +165,8 @@ class Pending:
         The numbers of the tables when all has run, where a program has made them.
     modifications : dict of type to Modification
         What takes more than all that, by its kind.
+    answer : LateAnswer or None
+        What is carried out after all that.
     stopped : callable
         Tells whether somebody has asked to end the update; looked at before every pass.
     """
@@ -180,6 +189,7 @@ class Pending:
     detached: list[int] = attrs.field(factory=list)
     numbers: TriedNumbers | None = None
     modifications: dict[type[Modification], Modification] = attrs.field(factory=dict)
+    answer: LateAnswer | None = None
     stopped: Callable[[], bool] = bool
 
     def ask(self, kind: type[M]) -> M:

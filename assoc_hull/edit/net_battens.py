@@ -19,19 +19,26 @@ from assoc_hull.model.tables import HullState
 __all__ = ["fairable_rows", "feature_rows", "net_battens"]
 
 
-def net_battens(state: HullState) -> BattenProblem:
-    """Give the residuals of a whole net and how they change with all points that may be faired."""
+def net_battens(state: HullState, also: IntArray | None = None) -> BattenProblem:
+    """Give the residuals of a whole net and how they change with all points that may be faired.
+
+    `also` (k,) are points that may move besides, as they are asked for.
+    """
     depends_on = (
         *shape_columns(state), state.rows.role, state.rows.driver, state.rows.anchor,
         state.rows.anchor_weight, state.rows.key, state.featured.alive, state.featured.feature,
     )  # fmt: skip
+    rows = state.derived(("fairable rows",), depends_on, lambda: fairable_rows(state), most=1)
+    if also is not None and not np.isin(also, rows).all():
+        return _battens(state, _by_key(state, np.union1d(rows, also)))
+    return state.derived(("battens",), depends_on, lambda: _battens(state, rows), most=1)
 
-    def make() -> BattenProblem:
-        normal = hull_normals(state)
-        along = free_normals(state, np.arange(state.rows.count), normal)
-        return batten_problem(state, fairable_rows(state), normal, along)
 
-    return state.derived(("battens",), depends_on, make, most=1)
+def _battens(state: HullState, rows: IntArray) -> BattenProblem:
+    normal = hull_normals(state)
+    return batten_problem(
+        state, rows, normal, free_normals(state, np.arange(state.rows.count), normal)
+    )
 
 
 def fairable_rows(state: HullState) -> IntArray:
@@ -39,9 +46,11 @@ def fairable_rows(state: HullState) -> IntArray:
     ground = FieldContext(state, across_flats=False)
     free = ground.free()
     free = free[ground.freedoms(free).good]
-    rows = np.setdiff1d(free, feature_rows(state))
-    keys = state.rows.key
-    return np.array(sorted(rows.tolist(), key=keys.__getitem__), np.int64)
+    return _by_key(state, np.setdiff1d(free, feature_rows(state)))
+
+
+def _by_key(state: HullState, rows: IntArray) -> IntArray:
+    return np.array(sorted(rows.tolist(), key=state.rows.key.__getitem__), np.int64)
 
 
 def feature_rows(state: HullState) -> IntArray:

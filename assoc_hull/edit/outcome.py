@@ -99,8 +99,13 @@ def step_of(work: Work, rows: IntArray, away: FloatArray) -> Step:
     return Step(work.name, work.pending.structural, body=body)
 
 
-def joined_step(state: HullState, name: str, stages: Sequence[Step]) -> Step:
-    """Give the one step of an edit that was carried out in stages, from the steps of these."""
+def joined_step(
+    state: HullState, name: str, stages: Sequence[Step], notes: tuple[str, ...] = ()
+) -> Step:
+    """Give the one step of an edit that was carried out in stages, from the steps of these.
+
+    `notes` are told after those of the stages.
+    """
     bodies = [step.body for step in stages]
     journal = Journal()
     for step in stages:
@@ -125,6 +130,7 @@ def joined_step(state: HullState, name: str, stages: Sequence[Step]) -> Step:
         state, name, [body.report for body in bodies], _fairness(state, before, curves),
         _largest_written(state, journal, changed, distance),
     )  # fmt: skip
+    report = attrs.evolve(report, notes=(*report.notes, *notes))
     structural = any(step.structural for step in stages)
     body = StepBody(journal, cause, changed, distance, seeds, report)
     return Step(name, structural, body=body)

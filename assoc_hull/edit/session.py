@@ -284,13 +284,19 @@ class Edit:
         radius: tuple[float, float] | None = None,
         *,
         across_flats: bool = False,
+        fair: bool = False,
     ) -> None:
-        """Pull the hull at a point by d (m, outward), fading over (r_x, r_girth) in m."""
+        """Pull the hull at a point by d (m, outward), fading over (r_x, r_girth) in m.
+
+        With ``fair=True`` the hull around answers as fairly as it was, see `reshape`; the radius is
+        where the search for that answer begins.
+        """
         row, _ = self._given.point(point)
         flag(across_flats, "across_flats", "in pull")
         _pull.pull(
-            self._transaction, row, number(d, "d", "in pull"), radius, across_flats=across_flats
-        )
+            self._transaction, row, number(d, "d", "in pull"), radius, across_flats=across_flats,
+            fair=flag(fair, "fair", "in pull"),
+        )  # fmt: skip
 
     @recorded
     def reshape(
@@ -301,8 +307,13 @@ class Edit:
         span: tuple[float, float],
         fade: Literal["auto"] | tuple[float, float] | None = "auto",
         across_flats: bool = False,
+        fair: bool = False,
     ) -> tuple[Point, ...]:
         """Give a curve a new shape through points (k, 3), m, within a span; the hull follows.
+
+        With ``fair=True`` the curve passes the points, and it and all around answer with the least
+        change of their batten residuals: no line gains a wave, where such an answer is found;
+        the report names those that do. All that one edit asks for fairly is answered at once.
 
         Returns the placed points that were made.
         """
@@ -314,6 +325,7 @@ class Edit:
             span,
             fade,
             across_flats=across_flats,
+            fair=flag(fair, "fair", "in reshape"),
         )
         return tuple(Point.of(self._tables, row) for row in made)
 

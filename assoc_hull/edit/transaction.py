@@ -28,6 +28,7 @@ from assoc_hull.graph.derived import Marked
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.index import Index
 from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
 __all__ = ["Transaction"]
@@ -94,6 +95,7 @@ class Transaction:
         self._known: Marked = {}
         self._begun = self._taken_back = False
         self._stages: list[_Stage] = []
+        self.notes: list[str] = []  # what is said of its stages together
 
     @property
     def report(self) -> EditReport | None:
@@ -132,12 +134,20 @@ class Transaction:
                               by_program=False)  # fmt: skip
                 self._stages.append(_Stage(self.journal, step, self.document.known_index))
                 self.journal = Journal()
-        self.pending = Pending()
+        self.pending = Pending(stopped=self.pending.stopped)
 
     @property
     def stages(self) -> int:
         """How many stages have ended."""
         return len(self._stages)
+
+    def lofted(self, first: int = 0) -> IntArray:
+        """Give the curves that stages lofted or made, from one on, ascending, as far as alive."""
+        bodies = [each.step.body for each in self._stages[first:]]
+        nodes = np.concatenate([np.zeros(0, np.int64), *(body.changed for body in bodies)])
+        curves = np.unique(Node.number(nodes[Node.is_curve(nodes)]))
+        alive: IntArray = curves[self.state.curves.alive[curves]]
+        return alive
 
     def take_back(self, keep: int = 0) -> None:
         """Take back all after the first `keep` stages, to try something else."""
@@ -152,7 +162,7 @@ class Transaction:
         self.state.memory.restore(self._known)
         if structural:
             self.document.known_index = self._stages[keep - 1].index if keep else self._index
-        self.pending = Pending()
+        self.pending = Pending(stopped=self.pending.stopped)
         del self._stages[keep:]
 
     def write(self, rows: IntArray, values: FloatArray, what: str | Callable[[], str]) -> None:
@@ -304,7 +314,7 @@ class Transaction:
     def _idle(self) -> bool:
         """Tell whether all that was asked for is so already: then there is nothing to undo."""
         pending, xyz = self.pending, self.state.rows.xyz.data
-        if pending.curves or pending.computed or not pending.empty:
+        if pending.curves or pending.computed or not pending.empty or pending.answer is not None:
             return False
         asked = [
             xyz[row].tobytes() == (value + 0.0).tobytes() for row, value in pending.values.items()
@@ -313,9 +323,13 @@ class Transaction:
 
     def _publish(self) -> None:
         """Run the update, and take its step into the history unless it is only looked at."""
+        answer, self.pending.answer = self.pending.answer, None
+        if answer is not None:
+            answer.carry_out()
         if self._stages:
             self.end_stage()
-            step = joined_step(self.state, self.name, [each.step for each in self._stages])
+            stages = [each.step for each in self._stages]
+            step = joined_step(self.state, self.name, stages, tuple(self.notes))
         else:
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
         if self.look is None:

@@ -18,9 +18,10 @@ from assoc_hull.edit.displacement_field import (
     row_spacing,
 )
 from assoc_hull.edit.field_moves import FieldMoves
+from assoc_hull.edit.modifications.fair_answer import FairAnswer, PullAsked
 from assoc_hull.edit.published_program import known_numbers
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import PointRoleError
+from assoc_hull.errors import BadInputError, PointRoleError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
@@ -42,6 +43,7 @@ def pull(
     radius: tuple[float, float] | None = None,
     *,
     across_flats: bool = False,
+    fair: bool = False,
 ) -> None:
     """Ask for a soft pull.
 
@@ -57,18 +59,27 @@ def pull(
         Along the length and the girth; three spacings of the points there if None.
     across_flats : bool
         Whether the field may move flats.
+    fair : bool
+        Whether the hull around answers fairly, in place of the bell; the radius is where the search
+        for the answer begins.
 
     Raises
     ------
     BadInputError
-        A radius that is not positive, an amount that is not finite.
+        A radius that is not positive, an amount that is not finite; fair and across flats at once.
     PointRoleError
         The point lies on a flat, or on the profile.
     """
     # What was written by now the published numbers do not know of.
     numbers = None if edit.journal.entries else known_numbers(edit.document)
     field = pull_field(edit.state, row, amount, radius, across_flats=across_flats, numbers=numbers)
-    if amount != 0.0:
+    if fair and across_flats:
+        what = "a fair answer keeps flats as they are"
+        raise BadInputError(what, "in pull", "leave fair or across_flats out")
+    if fair and amount != 0.0:
+        asked = PullAsked(_points_held(edit, row), amount, field.place, field.radius)
+        FairAnswer.of(edit).asked.append(asked)
+    elif amount != 0.0:
         edit.pending.ask(FieldMoves).fields.append(field)
         for curve, place in curves_to_hold(edit.state, row):
             _hold(edit, row, curve, place)
@@ -121,7 +132,32 @@ def curves_to_hold(state: HullState, row: int) -> list[tuple[int, FloatArray]]:
     return found
 
 
-def _hold(edit: Transaction, row: int, curve: int, place: FloatArray) -> None:
+def _points_held(edit: Transaction, row: int) -> IntArray:
+    """Give the points that a fair pull takes hold of: those of the curves that carry a crossing."""
+    state, table = edit.state, edit.state.rows
+    watched = table.sort[row] == Sort.CROSSING and table.role[row] == Role.WATCHED
+    driver = int(table.driver[row])
+    if not watched and driver < 0:
+        return np.array([row])
+    carrying = table.curve[row].tolist() if watched else [driver]
+    fresh = dict(curves_to_hold(state, row))
+    made = {curve: _hold(edit, row, curve, place) for curve, place in fresh.items()}
+    found = [
+        made[curve] if curve in made else _nearest(state, curve, table.spot[row, side])
+        for side, curve in enumerate(table.curve[row].tolist())
+        if curve in carrying
+    ]
+    return np.array(sorted(set(found)), np.int64)
+
+
+def _nearest(state: HullState, curve: int, place: FloatArray) -> int:
+    """Give the point of a curve that lies nearest to a place."""
+    rows: IntArray = state.curves.rows[curve]
+    step = state.rows.xyz[rows] - place
+    return int(rows[(step * step).sum(axis=1).argmin()])
+
+
+def _hold(edit: Transaction, row: int, curve: int, place: FloatArray) -> int:
     """Give a curve that carries a crossing a point of its own there."""
     state = edit.state
     point = int(edit.maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
@@ -131,6 +167,7 @@ def _hold(edit: Transaction, row: int, curve: int, place: FloatArray) -> None:
     edit.pending.notes.append(
         f"{address(state, row)}: {address(state, point)} was adopted, to be pulled there"
     )
+    return point
 
 
 def _border_distance(ground: FieldContext, row: int, within: float) -> float | None:

@@ -8,6 +8,7 @@ distance; what defines lines of a group that takes nothing from the curve's grou
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 import attrs
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import pair, places
-from assoc_hull.edit.crossings.adopted_points import insertion_index
+from assoc_hull.edit.crossings.adopted_points import insert_defining_point, insertion_index
 from assoc_hull.edit.displacement_field import (
     FieldContext,
     PointDisplacements,
@@ -29,6 +30,7 @@ from assoc_hull.edit.displacement_field import (
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.hull_normals import normals_at
 from assoc_hull.edit.lines.line_planes import checked_in_planes
+from assoc_hull.edit.modifications.fair_answer import FairAnswer, ShapeAsked
 from assoc_hull.edit.modifications.points import pin
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
@@ -246,6 +248,7 @@ def reshape(
     fade: Fade = "auto",
     *,
     across_flats: bool = False,
+    fair: bool = False,
 ) -> list[int]:
     """Ask for a curve to take a new shape.
 
@@ -267,6 +270,9 @@ def reshape(
         defects with ``gaps="report"``.
     across_flats : bool
         Whether the edit may move flats.
+    fair : bool
+        Whether the hull answers fairly, in place of the blend: the curve passes the points, and
+        it and all others take the least change of their batten residuals.
 
     Returns
     -------
@@ -277,7 +283,7 @@ def reshape(
     ------
     BadInputError
         Points off the curve's plane or outside the span, an empty span, radii not above 0;
-        or points of the curve came or went in the same edit.
+        or points of the curve came or went in the same edit; fair with a fade or across flats.
     """
     state = edit.state
     section = state.family(state.line_of(curve)).axis == 0
@@ -289,6 +295,9 @@ def reshape(
     if not np.array_equal(old.xyz, state.rows.xyz[state.curves.rows[curve]]):
         where = f"in reshape of {state.lines.name[state.line_of(curve)]}"
         raise BadInputError("its points have changed in this edit", where, "use two edits")
+    if fair:
+        _refuse_field(fade, across_flats=across_flats)
+        return _ask_fairly(edit, curve, shape, span)
     design = _design(old, shape, span, axis, _free_ends(state, curve))
     flat = flat_distance(state, old.xyz)
     moved = _displaced(old, design, np.full(len(flat), np.inf) if across_flats else flat)
@@ -307,6 +316,68 @@ def reshape(
     )  # fmt: skip
     edit.pending.moved_curves.add(curve)
     return made
+
+
+def _refuse_field(fade: Fade, *, across_flats: bool) -> None:
+    """Refuse what a fair answer does not take: it finds its own reach, and keeps flats."""
+    if across_flats or fade != "auto":
+        name = "across_flats" if across_flats else "fade"
+        what = "a fair answer finds its own reach and keeps flats as they are"
+        raise BadInputError(what, "in reshape", f"leave fair or {name} out")
+
+
+def _ask_fairly(
+    edit: Transaction, curve: int, shape: FloatArray, span: tuple[float, float]
+) -> list[int]:
+    """Ask for a fair answer; give the placed points that were made where the curve has none."""
+    state = edit.state
+    made: list[int] = []
+    asked: list[int] = []
+    feet = closest_points(state.spline(curve), 0, shape)[1]
+    for point, foot in zip(shape, feet, strict=True):
+        row = _own_point(state, curve, point, asked)
+        if row is None:
+            row = int(edit.maker.points([PointSpec(curve, foot, Sort.PLACED)])[0])
+            insert_defining_point(edit.maker, curve, row)
+            edit.pending.structural = True
+            edit.pending.curves.add(curve)
+            made.append(row)
+        elif state.rows.sort[row] == Sort.ADOPTED:
+            pin(edit, row)
+        asked.append(row)
+    edit.pending.moved_curves.add(curve)
+    section = state.family(state.line_of(curve)).axis == 0
+    spacing = _station_spacing(state) if section else None
+    rows = np.array(asked, np.int64)
+    FairAnswer.of(edit).asked.append(ShapeAsked(rows, shape, curve, span, spacing))
+    return made
+
+
+def _own_point(state: HullState, curve: int, point: FloatArray, taken: Sequence[int]) -> int | None:
+    """Give the curve's own point that a place is meant for: a crossing in its plane, or near by."""
+    rows: IntArray = state.curves.rows[curve]
+    rows = rows[~np.isin(rows, taken)]
+    table = state.rows
+    apart = np.abs(table.xyz[rows] - point).max(axis=1)
+    for index in np.argsort(apart, kind="stable").tolist():
+        row = int(rows[index])
+        if apart[index] >= state.tolerances.factor * _NEAR:
+            return None
+        if table.sort[row] in (Sort.ADOPTED, Sort.PLACED):
+            return row
+        if table.role[row] == Role.SHARED and _in_other_plane(state, curve, row, point):
+            return row
+    return None
+
+
+def _in_other_plane(state: HullState, curve: int, row: int, point: FloatArray) -> bool:
+    """Tell whether a place lies in the plane of the other line of a crossing."""
+    pair = state.rows.curve[row]
+    other = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))
+    if not state.lines.planar[other]:
+        return False
+    away = float(state.lines.normal[other] @ point) - float(state.lines.offset[other])
+    return abs(away) < 1e-9
 
 
 def _checked(
@@ -540,12 +611,4 @@ def _at_crossing(state: HullState, curve: int, point: FloatArray) -> bool:
     )
     least = state.tolerances.factor * _NEAR
     near = rows[np.abs(table.xyz[rows] - point).max(axis=1) < least]
-    for row in near.tolist():
-        pair = table.curve[row]
-        line = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))
-        if not state.lines.planar[line]:
-            continue
-        away = float(state.lines.normal[line] @ point) - float(state.lines.offset[line])
-        if abs(away) < 1e-9:
-            return True
-    return False
+    return any(_in_other_plane(state, curve, row, point) for row in near.tolist())

@@ -1,0 +1,558 @@
+"""Fair edits: what is asked of a few points is held, and the hull around them answers fairly.
+
+One linear solve stands in the place of the bell of a pull or the blend of a re-shaped curve: the
+least change of the batten residuals of all lines near by (`analysis.fairness.least_change`). How
+far it reaches is searched for: the smallest radius whose net, as it would be published, has no new
+change of the sign of curvature in any line. All that one edit asks for is answered at once, after
+all else that it asks for, so the order of its modifications changes no bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Protocol
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.fairness.batten_problem import BattenProblem
+from assoc_hull.analysis.fairness.least_change import LeastChange
+from assoc_hull.edit.checks.update_findings import plane_normals
+from assoc_hull.edit.displacement_field import (
+    FieldContext,
+    PointDisplacements,
+    quintic_fade,
+    sub_step_count,
+)
+from assoc_hull.edit.field_moves import FieldMoves
+from assoc_hull.edit.hull_normals import hull_normals
+from assoc_hull.edit.net_battens import net_battens
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError, PointRoleError, RefusedEditError
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.address import address
+from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.tables import HullState
+
+__all__ = ["FairAnswer", "PullAsked", "ShapeAsked"]
+
+_SCALES = (1e-3, 0.25e-3, 0.05e-3)
+"""Of the residuals, m, in the order in which they are tried."""
+
+_TRIALS = 14
+"""So many answers are carried out at most, before the best of them is taken."""
+
+_HEAVIER = (6.0, 6.0, 6.0, 2.5, 2.5, 1.6, 1.6)
+"""How much more lines weigh that gained a sign change, one solve after the other, before an answer
+is carried out. The later ones find what lies between two lines that gain in turns."""
+
+_LOBES = (0.2, 1.0)
+"""Least turns, degrees, of the lobes that are counted."""
+
+_ROUNDED = 6
+"""Decimals of displacements, m: so the last bits of a solver change nothing."""
+
+_STRAIGHT = 540.0
+"""A dent of depth d in a straight line turns by less than the smaller lobe over this times d."""
+
+
+# --------------------------------------------------------------------------------------
+# What is asked.
+
+
+class Asked(Protocol):
+    """Displacements of points that an edit asks for, and how the answer fades around them."""
+
+    @property
+    def rows(self) -> IntArray:
+        """The points."""
+
+    def goals(self, state: HullState, moves: FloatArray) -> FloatArray:
+        """Give where they are to come, (k, 3), m; `moves` (k, 3) are theirs for 1 m of normal."""
+
+    def fade(self, state: HullState, xyz: FloatArray, turn: int) -> FloatArray:
+        """Give how far points (n, 3), m, may go, of 1, at the radius of a turn of the search."""
+
+    def reach(self, turn: int) -> str:
+        """Say what the radius is."""
+
+
+_FACTORS = (1.0, 1.5, 2.25, 3.4, 5.0, 7.6)
+
+
+@attrs.frozen(eq=False)
+class PullAsked:
+    """A pull: points come out by an amount along the normal.
+
+    Attributes
+    ----------
+    rows : (k,) int
+        The point, or those that hold the curves that carry it.
+    amount : float, m
+        Outward positive.
+    place : (3,), m
+        The middle of the fade.
+    radius : (float, float), m
+        Along the length and the girth, of the first turn.
+    """
+
+    rows: IntArray
+    amount: float
+    place: FloatArray
+    radius: tuple[float, float]
+
+    def goals(self, state: HullState, moves: FloatArray) -> FloatArray:
+        """Give where the points are to come, (k, 3), m."""
+        found: FloatArray = state.rows.xyz[self.rows] + self.amount * moves
+        return found
+
+    def fade(self, state: HullState, xyz: FloatArray, turn: int) -> FloatArray:
+        """Fade along the length and the girth."""
+        factor, step = _FACTORS[min(turn, len(_FACTORS) - 1)], xyz - self.place
+        girth = np.sqrt(step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
+        along = quintic_fade(step[:, 0] / (factor * self.radius[0]))
+        return along * quintic_fade(girth / (factor * self.radius[1]))
+
+    def reach(self, turn: int) -> str:
+        """Say the radii."""
+        factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
+        return f"{factor * self.radius[0]:.1f} x {factor * self.radius[1]:.1f} m"
+
+
+_RADII = (1.0, 1.5, 2.5, 4.0, 6.0, 9.0, 14.0)
+"""m, of a ship of 100 m and more."""
+
+_FULL_SIZE = 100.0
+_RIM, _LEAST = 0.15, 0.02
+
+
+@attrs.frozen(eq=False)
+class ShapeAsked:
+    """A line that is led through given places within a stretch.
+
+    Attributes
+    ----------
+    rows, to : (k,) int, (k, 3), m
+        Points of the line, and where they are to come.
+    curve : int
+        The curve.
+    stretch : (float, float), m
+        Where it may change: x; z of a section.
+    spacing : float or None, m
+        Of a section: the radii are multiples of three such spacings along the length.
+    """
+
+    rows: IntArray
+    to: FloatArray
+    curve: int
+    stretch: tuple[float, float]
+    spacing: float | None
+
+    def goals(self, state: HullState, moves: FloatArray) -> FloatArray:
+        """Give the places."""
+        return self.to
+
+    def fade(self, state: HullState, xyz: FloatArray, turn: int) -> FloatArray:
+        """Fade away from the line, and towards the ends of the stretch."""
+        low, high = self.stretch
+        axis = 0 if self.spacing is None else 2
+        place = xyz[:, axis]
+        inside = (place > low) & (place < high)
+        end = np.minimum(place - low, high - place).clip(0.0) / (_RIM * (high - low))
+        along = np.maximum(1.0 - quintic_fade(np.minimum(end, 1.0)), _LEAST)
+        away = self._away(state, xyz) / self._radius(state, turn)
+        return np.where(inside, quintic_fade(away) * along, 0.0)
+
+    def _away(self, state: HullState, xyz: FloatArray) -> FloatArray:
+        """Give the distance from the line, seen along x at the same x; along x of a section."""
+        course = sample(state.spline(self.curve), 16)[1]
+        if self.spacing is not None:
+            apart: FloatArray = np.abs(xyz[:, 0] - course[0, 0])
+            return apart
+        here = course[(course[:, 0] >= self.stretch[0]) & (course[:, 0] <= self.stretch[1])]
+        here = here if len(here) else course
+        step = xyz[:, None, :] - here
+        girth = np.sqrt(step[:, :, 1] ** 2 + step[:, :, 2] ** 2)
+        # the place at the same x; of several, as where a line turns back, the nearest
+        nearest = np.argmin(np.abs(step[:, :, 0]) + 1e-3 * girth, axis=1)
+        found: FloatArray = girth[np.arange(len(xyz)), nearest]
+        return found
+
+    def _radius(self, state: HullState, turn: int) -> float:
+        if self.spacing is not None:
+            return 3.0 * self.spacing * _FACTORS[min(turn, len(_FACTORS) - 1)]
+        return _RADII[turn] * min(1.0, state.particulars.length / _FULL_SIZE)
+
+    def reach(self, turn: int) -> str:
+        """Say the radius."""
+        if self.spacing is not None:
+            factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
+            return f"{3.0 * self.spacing * factor:.1f} m along the length"
+        return f"{_RADII[turn]:g} m"
+
+
+# --------------------------------------------------------------------------------------
+# The answer.
+
+
+@attrs.frozen(eq=False)
+class _AnswerField:
+    """Displacements that are carried out as they stand; some points land where they were asked."""
+
+    rows: IntArray
+    delta: FloatArray
+    landing: IntArray
+    places: FloatArray
+    across_flats: bool = False
+    strict: bool = False
+
+    def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
+        """Give the displacements for a part of the whole."""
+        return PointDisplacements(self.rows, part * self.delta, np.zeros(0, np.int64))
+
+    def exact(self) -> tuple[IntArray, FloatArray]:
+        """Give what was asked."""
+        return self.landing, self.places
+
+    def left(self, state: HullState, done: float) -> float:
+        """Give the part that is still to come."""
+        return 1.0 - done
+
+
+@attrs.frozen(eq=False)
+class _Candidate:
+    """An answer of one radius, before it is carried out; `count` sign changes are foretold."""
+
+    turn: int
+    scale: float
+    fade: FloatArray
+    weight: FloatArray
+    delta: FloatArray
+    count: int
+
+
+@attrs.frozen(eq=False)
+class _Trial:
+    """An answer that was carried out.
+
+    `gained` is by curve: sign changes before and now at the smaller lobe, and how many came at
+    both lobes together.
+    """
+
+    turn: int
+    delta: FloatArray
+    gained: Mapping[int, tuple[int, int, int]]
+
+    @property
+    def count(self) -> int:
+        """How many sign changes came."""
+        return sum(each[2] for each in self.gained.values())
+
+
+def _better(one: _Trial | None, other: _Trial | None) -> _Trial | None:
+    """Give the trial with fewer new sign changes; of two alike the first."""
+    if one is None or other is None:
+        return other if one is None else one
+    return other if other.count < one.count else one
+
+
+@attrs.define(eq=False)
+class FairAnswer:
+    """All that one edit asks to be answered fairly; carried out when all else has been.
+
+    Attributes
+    ----------
+    edit : Transaction
+        The edit.
+    asked : list of Asked
+        What is asked, in the order of the calls.
+    """
+
+    edit: Transaction
+    asked: list[Asked] = attrs.field(factory=list)
+
+    @classmethod
+    def of(cls, edit: Transaction) -> FairAnswer:
+        """Give that of an edit, made when it is first asked for."""
+        found = edit.pending.answer
+        if not isinstance(found, FairAnswer):
+            found = edit.pending.answer = cls(edit)
+        return found
+
+    def carry_out(self) -> None:
+        """Search for the answer, and leave it as the last stage of the edit.
+
+        Raises
+        ------
+        PointRoleError
+            A point that is asked for can move almost along the hull only.
+        BadInputError
+            One is asked to be in two places.
+        RefusedEditError
+            As the update refused the last answer that was tried.
+        """
+        before, state = _shapes(self.edit.state), self.edit.state
+        self.edit.end_stage()
+        every = np.concatenate([each.rows for each in self.asked])
+        if not state.rows.alive[every].all():
+            what = "a point that is asked to move has gone in the same edit"
+            where = f"in the edit {self.edit.name!r}"
+            raise BadInputError(what, where, "use two edits")
+        self.asked.sort(key=_order)
+        search = _Search.of(self.edit, self.asked, before)
+        best = search.find()
+        search.carry_out(best)
+        self.edit.notes += search.notes(best)
+
+
+@attrs.define(eq=False)
+class _Search:
+    """The search for an answer: the smallest radius with no new sign change in any line."""
+
+    edit: Transaction
+    asked: list[Asked]
+    counts: _SignChanges
+    keep: int
+    problem: BattenProblem
+    least: LeastChange
+    rows: IntArray
+    places: FloatArray
+    trials: int = 0
+    shown: _Trial | None = None
+    refusal: RefusedEditError | None = None
+
+    @classmethod
+    def of(cls, edit: Transaction, asked: list[Asked], before: dict[int, SplineBatch]) -> _Search:
+        """Lay out the problem of a net, with all that is asked of it."""
+        state = edit.state
+        rows = np.unique(np.concatenate([each.rows for each in asked]))
+        problem, normals = net_battens(state, rows), hull_normals(state)
+        order = np.argsort(problem.rows)
+        index = order[np.searchsorted(problem.rows[order], rows)]
+        lost = rows[problem.freedom[index] < state.tolerances.field_normal]
+        if len(lost):
+            raise PointRoleError(
+                address(state, int(lost[0])), "free almost along the hull only, or held", None,
+                "pull another point, or leave fair=True out",
+            )  # fmt: skip
+        places = _places(state, asked, rows, problem.moves[index])
+        step = places - state.rows.xyz[rows]
+        sub_step_count(state, PointDisplacements(rows, step, rows[:0]))  # refuses what is too far
+        amount = (step * normals[rows]).sum(axis=1)
+        return cls(
+            edit, asked, _SignChanges(before), edit.stages, problem,
+            LeastChange(problem, index, amount), rows, places,
+        )  # fmt: skip
+
+    def find(self) -> _Trial:
+        """Give the first answer that is fair, by scale and radius; else the fairest that is found.
+
+        What is foretold to be fair is tried at once; the others when none of these was, the
+        fairest first.
+        """
+        best: _Trial | None = None
+        waiting: list[_Candidate] = []
+        for scale in _SCALES:
+            for turn in range(len(_RADII)):
+                candidate = self._foretold(turn, scale)
+                if candidate.count:
+                    waiting.append(candidate)
+                    continue
+                best = self._tried(candidate, best)
+                if best is not None and not best.count:
+                    return best
+        for candidate in sorted(waiting, key=lambda each: each.count):
+            if self.trials >= _TRIALS:
+                break
+            best = self._tried(candidate, best)
+            if best is not None and not best.count:
+                return best
+        if best is None:
+            assert self.refusal is not None, "each answer was taken or refused"
+            raise self.refusal
+        return best
+
+    def _tried(self, candidate: _Candidate, best: _Trial | None) -> _Trial | None:
+        """Carry a candidate out, and once more where lines gained; give the better of all."""
+        trial = None if self.trials >= _TRIALS else self._try(candidate)
+        best = _better(best, trial)
+        if trial is not None and trial.count and self.trials < _TRIALS:
+            weight = self._heavier(candidate.weight, trial.gained, _HEAVIER[0])
+            best = _better(best, self._try(self._solved(candidate, weight)))
+        return best
+
+    def _foretold(self, turn: int, scale: float) -> _Candidate:
+        """Give the answer of a radius that is foretold to gain the fewest sign changes."""
+        self._take_back()  # what is foretold starts from the hull as it is
+        problem, state = self.problem, self.edit.state
+        xyz = state.rows.xyz[problem.rows]
+        fade = np.max([each.fade(state, xyz, turn) for each in self.asked], axis=0)
+        weight = np.ones(len(problem.residual))
+        best: _Candidate | None = None
+        side: IntArray | None = None
+        for times in (*_HEAVIER, 1.0):
+            answer, side = self.least.answer(fade, scale, weight, side)
+            delta = np.round(answer, _ROUNDED)
+            gained = self.counts.gained(state, self._lofted(delta))
+            count = sum(each[2] for each in gained.values())
+            if best is None or count < best.count:
+                best = _Candidate(turn, scale, fade, weight, delta, count)
+            if not count:
+                break
+            weight = self._heavier(weight, gained, times)
+        assert best is not None, "the first one is one"
+        return best
+
+    def _solved(self, candidate: _Candidate, weight: FloatArray) -> _Candidate:
+        """Give the answer of the same radius with other weights."""
+        answer, _ = self.least.answer(candidate.fade, candidate.scale, weight)
+        delta = np.round(answer, _ROUNDED)
+        return attrs.evolve(candidate, weight=weight, delta=delta)
+
+    def _heavier(
+        self, weight: FloatArray, gained: Mapping[int, object], times: float
+    ) -> FloatArray:
+        """Give residuals of curves that gained sign changes more weight."""
+        mine = np.isin(self.problem.curve, list(gained))
+        return np.where(mine, times * weight, weight)
+
+    def _lofted(self, delta: FloatArray) -> dict[int, SplineBatch]:
+        """Loft the curves whose points an answer moves, before anything is carried out."""
+        problem, state = self.problem, self.edit.state
+        xyz = problem.places(state.rows.xyz.data, delta)
+        xyz[self.rows] = self.places
+        moved = (xyz != state.rows.xyz.data).any(axis=1)
+        live = state.live("curves").tolist()
+        through = [curve for curve in live if moved[state.curves.rows.data[curve]].any()]
+        curves = np.array(through, np.int64)
+        data = curve_data(state, curves)
+        points = np.concatenate([state.curves.rows.data[curve] for curve in curves.tolist()])
+        batch = loft(attrs.evolve(data, xyz=xyz[points]))
+        return {curve: batch.curve(place) for place, curve in enumerate(curves.tolist())}
+
+    def _try(self, candidate: _Candidate) -> _Trial | None:
+        """Carry an answer out, in the place of the one before; None where it is refused."""
+        self.trials += 1
+        self._take_back()
+        try:
+            lofted = self._run(candidate.delta)
+        except RefusedEditError as error:
+            self.refusal = error
+            self._take_back()
+            return None
+        gained = self.counts.gained(self.edit.state, lofted)
+        self.shown = _Trial(candidate.turn, candidate.delta, gained)
+        return self.shown
+
+    def _take_back(self) -> None:
+        self.edit.take_back(self.keep)
+        self.shown = None
+
+    def _run(self, delta: FloatArray) -> dict[int, SplineBatch]:
+        """Run the update; give the curves that it lofted."""
+        problem, pending = self.problem, self.edit.pending
+        moved = (delta != 0.0) & ~np.isin(problem.rows, self.rows)
+        own = self.places - self.edit.state.rows.xyz[self.rows]
+        rows = np.concatenate([problem.rows[moved], self.rows])
+        shift = np.concatenate([problem.moves[moved] * delta[moved][:, None], own])
+        order = np.argsort(rows)
+        field = _AnswerField(rows[order], shift[order], self.rows, self.places)
+        pending.ask(FieldMoves).fields.append(field)
+        self.edit.end_stage()
+        state = self.edit.state
+        return {curve: state.spline(curve) for curve in self.edit.lofted().tolist()}
+
+    def carry_out(self, best: _Trial) -> None:
+        """Carry out the answer that was found, where it is not the last one that was tried."""
+        if best is not self.shown:
+            self._take_back()
+            self._run(best.delta)
+
+    def notes(self, best: _Trial) -> Iterator[str]:
+        """Say what the answer is, and which lines gained sign changes."""
+        reach = ", ".join(dict.fromkeys(each.reach(best.turn) for each in self.asked))
+        deepest = float(np.abs(self.least.amount).max())
+        far = np.abs(best.delta) > 1e-3
+        yield (
+            f"answered fairly within {reach}: {int(far.sum())} points move by more than 1 mm, "
+            f"{self.trials} tried"
+        )
+        state = self.edit.state
+        for curve, (was, now, _) in best.gained.items():
+            line = state.lines.name[state.line_of(curve)]
+            yield (
+                f"{line} has {now} changes of the sign of curvature, {was} before: where it is "
+                f"straight, {1e3 * deepest:.0f} mm want a radius of {_STRAIGHT * deepest:.0f} m"
+            )
+
+
+def _order(each: Asked) -> tuple[str, list[int]]:
+    """Give what requests are sorted by: their order in the edit is to change no bit."""
+    return type(each).__name__, each.rows.tolist()
+
+
+def _places(state: HullState, asked: list[Asked], rows: IntArray, moves: FloatArray) -> FloatArray:
+    """Give where points (k,) are to come, (k, 3), m: pulls of one point add."""
+    places, led = state.rows.xyz[rows], np.zeros(len(rows), np.bool_)
+    now = places.copy()
+    for each in asked:
+        index = np.searchsorted(rows, each.rows)
+        goals = each.goals(state, moves[index])
+        if isinstance(each, ShapeAsked):
+            twice = led[index] & (places[index] != goals).any(axis=1)
+            twice |= ~led[index] & (places[index] != now[index]).any(axis=1)
+            if twice.any():
+                raise BadInputError(
+                    "a point is asked to be in two places in one edit",
+                    address(state, int(each.rows[twice][0])), "leave one of the two out",
+                )  # fmt: skip
+            places[index] = goals
+            led[index] = True
+        else:
+            places[index] += goals - now[index]
+    return places
+
+
+def _shapes(state: HullState) -> dict[int, SplineBatch]:
+    """Give the curves as they are, by number."""
+    live = state.live("curves").tolist()
+    shapes = state.curves.spline.data
+    return {curve: found for curve in live if (found := shapes[curve]) is not None}
+
+
+@attrs.frozen(eq=False)
+class _SignChanges:
+    """Counts the changes of the sign of curvature that curves gain over those before the edit."""
+
+    before: dict[int, SplineBatch]
+    _known: dict[int, tuple[int, ...]] = attrs.field(factory=dict)
+
+    def gained(
+        self, state: HullState, now: Mapping[int, SplineBatch]
+    ) -> dict[int, tuple[int, int, int]]:
+        """Give, by curve, how many there were and are at the smaller lobe, and what came at all."""
+        curves = [curve for curve in now if curve in self.before]
+        fresh = [curve for curve in curves if curve not in self._known]
+        self._known.update(self._count(state, {curve: self.before[curve] for curve in fresh}))
+        found: dict[int, tuple[int, int, int]] = {}
+        for curve, counts in self._count(state, {curve: now[curve] for curve in curves}).items():
+            was = self._known[curve]
+            more = sum(max(new - old, 0) for new, old in zip(counts, was, strict=True))
+            if more:
+                found[curve] = was[0], counts[0], more
+        return found
+
+    @staticmethod
+    def _count(state: HullState, splines: Mapping[int, SplineBatch]) -> dict[int, tuple[int, ...]]:
+        if not splines:
+            return {}
+        curves = np.array(sorted(splines), np.int64)
+        batch = SplineBatch.join([splines[curve] for curve in curves.tolist()])
+        normals = plane_normals(state, curves)
+        counts = np.stack([inflections(batch, normals, lobe)[0] for lobe in _LOBES], axis=1)
+        return {
+            curve: tuple(each) for curve, each in zip(curves.tolist(), counts.tolist(), strict=True)
+        }

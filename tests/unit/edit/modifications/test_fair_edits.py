@@ -1,0 +1,231 @@
+"""Pulls and re-shapes that leave the net as fair as it was."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.edit.checks.update_findings import plane_normals
+from assoc_hull.edit.displacement_field import on_flat, on_profile
+from assoc_hull.edit.hull_normals import hull_normals
+from assoc_hull.edit.net_battens import fairable_rows
+from assoc_hull.edit.session import Edit
+from assoc_hull.errors import BadInputError, PointRoleError, WrongTypeError
+from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.hull import Hull
+from assoc_hull.model.kinds import Sort
+from assoc_hull.model.tables import HullState
+from tests.conftest import Shipped
+from tests.taken_back import taken_back
+
+_SPAN = (-3.75, 30.0)
+
+
+@pytest.fixture
+def carrier(bulk_carrier: Hull) -> Iterator[Hull]:
+    """The 207k carrier, given back as it was."""
+    with taken_back(bulk_carrier) as hull:
+        yield hull
+
+
+def _signs(state: HullState, lobe: float) -> dict[str, int]:
+    """Count the sign changes of curvature of all curves, by key."""
+    curves = state.live("curves")
+    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+    counts = inflections(batch, plane_normals(state, curves), lobe)[0].tolist()
+    return dict(zip([state.curves.key[curve] for curve in curves.tolist()], counts, strict=True))
+
+
+def _gained(before: dict[str, int], after: dict[str, int]) -> dict[str, tuple[int, int]]:
+    return {key: (was, after[key]) for key, was in before.items() if after.get(key, was) > was}
+
+
+def _goals(hull: Hull, name: str) -> FloatArray:
+    """Give point A, 20 mm above the crossing with ST 0, and B, 25 mm above the line at 2.2 m."""
+    state, curve = hull.document.state, hull.lines[name].curves[0]
+    met = intersect_planes(state.spline(curve.number), np.array([1.0, 0, 0]), np.array([2.2]))
+    first = np.array(hull.find(f"{name} x ST 0").position) + [0.0, 0.0, 0.02]
+    return np.stack([first, met.xyz[0] + [0.0, 0.0, 0.025]])
+
+
+def _lead(edit: Edit, hull: Hull, name: str, goals: FloatArray) -> None:
+    edit.reshape(hull.lines[name].curves[0], goals, span=_SPAN, fair=True)
+
+
+def _misses(hull: Hull, name: str, goals: FloatArray) -> list[float]:
+    state = hull.document.state
+    xyz = state.rows.xyz[state.curves.rows[hull.lines[name].curves[0].number]]
+    return [float(np.abs(xyz - goal).max(axis=1).min()) for goal in goals]
+
+
+@pytest.mark.parametrize("order", [("BTK 0.5", "BTK 1"), ("BTK 1", "BTK 0.5"), ("BTK 1",)])
+def test_buttocks_are_led_without_a_new_sign_change(carrier: Hull, order: tuple[str, ...]) -> None:
+    """No line of the stern gains one, at lobes of .2 and 1 degree; the points lie as asked."""
+    state, print_before = carrier.document.state, carrier.fingerprint
+    before = {lobe: _signs(state, lobe) for lobe in (0.2, 1.0)}
+    goals = {name: _goals(carrier, name) for name in order}
+    with carrier.edit("lead") as edit:
+        for name in order:
+            _lead(edit, carrier, name, goals[name])
+    for lobe, counts in before.items():
+        assert not _gained(counts, _signs(state, lobe))
+    assert max(max(_misses(carrier, name, goals[name])) for name in order) < 1e-9
+    assert not carrier.check() and not carrier.verify()
+    assert edit.report is not None and len(edit.report.relofted) > 20
+    carrier.undo()
+    assert carrier.fingerprint == print_before
+
+
+def test_the_order_of_requests_changes_no_place(carrier: Hull) -> None:
+    """Two pulls and a re-shape give the same bits in any order."""
+    goals = _goals(carrier, "BTK 1")
+    asked = [
+        lambda edit: _lead(edit, carrier, "BTK 1", goals),
+        lambda edit: edit.pull("WL 9 x ST 17", 0.02, fair=True),
+        lambda edit: edit.pull("WL 11 x ST 3", -0.01, fair=True),
+    ]
+    found = []
+    for order in ((0, 1, 2), (2, 1, 0), (1, 0, 2)):
+        with carrier.edit("in an order") as edit:
+            for number in order:
+                asked[number](edit)
+        state = carrier.document.state
+        curves = state.live("curves").tolist()
+        found.append([state.spline(curve).xyz.tobytes() for curve in curves])
+        carrier.undo()
+    assert found[0] == found[1] == found[2]
+
+
+def test_a_fair_pull_lands_where_it_was_asked_and_nothing_swings_back(carrier: Hull) -> None:
+    """The point goes 20 mm along the normal; none goes more than 2 mm the other way."""
+    state = carrier.document.state
+    row = carrier.find("WL 9 x ST 17").number
+    normal, before = hull_normals(state).copy(), state.rows.xyz.data.copy()
+    free = fairable_rows(state)
+    with carrier.edit("pull") as edit:
+        edit.pull("WL 9 x ST 17", 0.02, fair=True)
+    step = ((state.rows.xyz.data - before) * normal).sum(axis=1)
+    assert step[row] == pytest.approx(0.02, abs=1e-9)
+    assert step[free].min() >= -0.1 * 0.02 - 1e-6
+    assert step[free].max() <= 1.1 * 0.02 + 1e-6
+
+
+def test_what_is_no_free_point_keeps_its_bits(carrier: Hull) -> None:
+    """Placed points, flats and the profile stay, and no feature goes."""
+    state = carrier.document.state
+    with carrier.edit("a placed point") as edit:
+        place = _goals(carrier, "BTK 2")[1] - [0.0, 0.0, 0.025]
+        edit.insert(carrier.lines["BTK 2"].curves[0], place)
+    fixed = on_flat(state) | on_profile(state) | (state.rows.sort.data == Sort.PLACED)
+    fixed &= state.rows.alive.data & (state.rows.driver.data < 0)
+    before, features = state.rows.xyz.data.copy(), len(carrier.features)
+    with carrier.edit("lead") as edit:
+        _lead(edit, carrier, "BTK 1", _goals(carrier, "BTK 1"))
+    count = len(fixed)
+    assert np.array_equal(state.rows.xyz.data[:count][fixed], before[fixed])
+    assert len(carrier.features) == features
+
+
+def test_a_preview_tells_what_the_edit_does(carrier: Hull) -> None:
+    """Report and fingerprint of a preview are those of the edit; nothing is published by it."""
+
+    def ask(edit: Edit) -> None:
+        edit.pull("WL 9 x ST 17", 0.02, fair=True)
+
+    print_before = carrier.fingerprint
+    seen = carrier.preview(ask, measure=False)
+    assert carrier.fingerprint == print_before
+    with carrier.edit("preview") as edit:
+        ask(edit)
+    assert seen.fingerprint == carrier.fingerprint
+    assert seen.report is not None and edit.report is not None
+    assert seen.report.notes == edit.report.notes
+    assert "answered fairly within" in edit.report.notes[-1]
+
+
+def test_a_driven_crossing_is_pulled_by_its_driver(fresh_series60_70: Hull) -> None:
+    """Its driver gets a point there, and the crossing comes about as far as was asked."""
+    hull, state = fresh_series60_70, fresh_series60_70.document.state
+    table = state.rows
+    rows = np.flatnonzero(table.alive.data & (table.driver.data >= 0))
+    normal = hull_normals(state)
+    row = next(
+        int(each) for each in rows
+        if 20.0 < table.xyz[each, 0] < 40.0 and 2.0 < table.xyz[each, 2] < 6.0
+        and abs(normal[each, 1]) > 0.9
+    )  # fmt: skip
+    before, outward = table.xyz[row].copy(), normal[row].copy()
+    with hull.edit("pull") as edit:
+        edit.pull(table.key[row], 0.01, fair=True)
+    assert float((table.xyz[row] - before) @ outward) == pytest.approx(0.01, rel=0.05)
+
+
+def test_lines_that_gain_are_named_with_their_counts(fresh_series60_70: Hull) -> None:
+    """Where no fair answer is found, each line that gained stands in the report."""
+    hull, state = fresh_series60_70, fresh_series60_70.document.state
+    before = _signs(state, 0.2)
+    with hull.edit("a bump in the bottom") as edit:
+        edit.pull("BTK 0.44 x ST 5", -0.02, fair=True)
+    gained = _gained(before, _signs(state, 0.2))
+    assert gained, "20 mm so near to the base line cannot be fair"
+    assert edit.report is not None
+    told = " ".join(edit.report.notes)
+    assert "ST 5 has 2 changes of the sign of curvature, 0 before" in told
+    assert told.count("changes of the sign") == len(gained)
+
+
+@pytest.mark.parametrize("how", ["script", "file"])
+def test_a_fair_edit_is_repeated_from_what_was_written_down(
+    shipped: Shipped, how: str, tmp_path: Path
+) -> None:
+    """A script solves it anew; a file holds the values. Both give the same hull."""
+    carrier = shipped("bulk_carrier")
+    with carrier.edit("fair") as edit:
+        edit.pull("WL 9 x ST 17", 0.02, fair=True)
+    wanted = carrier.fingerprint
+    if how == "file":
+        path = tmp_path / "fair.hull"
+        carrier.save(path)
+        reopened = ah.open(path)
+        assert reopened.fingerprint == wanted
+        reopened.undo()
+        reopened.redo()
+        assert reopened.fingerprint == wanted
+        return
+    (said,) = carrier.document.history[-1].script.edits
+    assert said["fair"] is True
+    carrier.undo()
+    with carrier.edit("again") as edit:
+        edit.pull(**{name: value for name, value in said.items() if name != "op"})
+    assert carrier.fingerprint == wanted
+
+
+def test_a_fair_edit_takes_no_fade_and_leaves_flats(carrier: Hull) -> None:
+    """What the answer finds by itself cannot be given beside it; the message says what to do."""
+    goals, curve = _goals(carrier, "BTK 1"), carrier.lines["BTK 1"].curves[0]
+    refusal = pytest.raises(BadInputError, match="leave fair or across_flats out")
+    with refusal, carrier.edit("x") as edit:
+        edit.pull("WL 9 x ST 17", 0.02, fair=True, across_flats=True)
+    with pytest.raises(BadInputError, match="leave fair or fade out"), carrier.edit("x") as edit:
+        edit.reshape(curve, goals, span=_SPAN, fair=True, fade=(5.0, 5.0))
+    with pytest.raises(WrongTypeError, match="fair is"), carrier.edit("x") as edit:
+        edit.pull("WL 9 x ST 17", 0.02, fair=1)  # type: ignore[arg-type]
+    with pytest.raises(PointRoleError), carrier.edit("x") as edit:
+        edit.pull("profile x WL 9", 0.02, fair=True)
+
+
+def test_a_refused_fair_edit_leaves_the_hull_as_it_was(carrier: Hull) -> None:
+    """A pull of metres is refused; no bit and no step is left of its trials."""
+    print_before, steps = carrier.fingerprint, len(carrier.history)
+    with pytest.raises(BadInputError, match="move by less"), carrier.edit("far too much") as edit:
+        edit.pull("WL 9 x ST 17", 30.0, fair=True)
+    assert carrier.fingerprint == print_before and len(carrier.history) == steps
+    with carrier.edit("next") as edit:
+        edit.pull("WL 9 x ST 17", 0.01, fair=True)
+    assert not carrier.check()
