@@ -10,14 +10,13 @@ import asyncio
 import time
 from collections.abc import Callable, Mapping, Sequence
 from types import TracebackType
-from typing import Literal, Self
+from typing import TYPE_CHECKING, Literal, Self
 
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import choice, flag, number, positive, shown
 from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.fair_arguments import fair_request
 from assoc_hull.edit.lines import add_line as _cut
 from assoc_hull.edit.lines import remove_line as _lines
 from assoc_hull.edit.lines import shift_line as _shift
@@ -25,7 +24,6 @@ from assoc_hull.edit.modifications import associations as _associate
 from assoc_hull.edit.modifications import curve_ends as _ends
 from assoc_hull.edit.modifications import definitions as _reattach
 from assoc_hull.edit.modifications import definitions as _set_form
-from assoc_hull.edit.modifications import fair as _fair
 from assoc_hull.edit.modifications import names as _rename
 from assoc_hull.edit.modifications import points as _points
 from assoc_hull.edit.modifications import pull as _pull
@@ -56,6 +54,9 @@ from assoc_hull.errors import (
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 from assoc_hull.model.tables import HullState
+
+if TYPE_CHECKING:
+    from assoc_hull.edit.modifications.fair import Faired
 
 __all__ = ["Edit", "join_edit", "open_edit", "refusal_of"]
 
@@ -331,7 +332,7 @@ class Edit:
         keep: Sequence[Line | Point | str] = (),
         hold: Sequence[Literal["volume", "lcb"]] = (),
         since: str | None = None,
-    ) -> _fair.Faired:
+    ) -> Faired:
         """Take noise out of the lines, all together while they stay crossing.
 
         Points that carry the shape move, each along its own freedom, and no farther than the
@@ -387,8 +388,12 @@ class Edit:
         >>> found.unknowns, found.at_bound
         (171, ())
         """
+        # What solves sparse systems is imported by whoever fairs a hull.
+        from assoc_hull.edit.fair_arguments import fair_request
+        from assoc_hull.edit.modifications.fair import fair
+
         asked = fair_request(self._tables, lines, noise, tolerance, at, radius, keep, hold, since)
-        return _fair.fair(self._transaction, asked)
+        return fair(self._transaction, asked)
 
     @recorded
     def set_end(

@@ -9,7 +9,7 @@ last: to fair twice is to fair once. The net is moved as by a pull, in one field
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from typing import Literal
 
 import attrs
@@ -33,10 +33,9 @@ from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.net_battens import net_battens, reasons_to_stay, volume_weights
 from assoc_hull.edit.past_states import PastStates
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError, RefusedEditError
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.model.address import address
-from assoc_hull.model.kinds import Sort
 from assoc_hull.model.tables import HullState
 
 __all__ = [
