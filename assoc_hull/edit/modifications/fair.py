@@ -68,6 +68,10 @@ _DIGIT = 1e-6
 _FINE_DIGIT = 1e-9
 """Where sums are held: a micrometre too much at each point would show in them."""
 
+_LIKELY = 0.25
+"""Lines that look so much fairer than rounding leaves them were not rounded: values of a formula
+may be short numbers by themselves."""
+
 _MEDIAN_POINTS, _LEAST_RESIDUALS = 12, 100
 """Lines and nets with fewer points do not tell noise from shape."""
 
@@ -228,12 +232,15 @@ class _Given:
         The same in space.
     share : (k,) or None
         By what the noise of each is multiplied.
+    kept : int
+        Points that stay as they were named.
     """
 
     problem: BattenProblem
     present: FloatArray
     offset: FloatArray
     share: FloatArray | None
+    kept: int
 
 
 def fair(edit: Transaction, asked: FairRequest) -> Faired:
@@ -296,8 +303,8 @@ def _given_values(document: Document, asked: FairRequest) -> _Given:
         curve = state.rows.curve.data[whole.rows]
         line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], -1)
         chosen &= np.isin(line, asked.lines).any(axis=1)
-    if asked.keep:
-        chosen &= ~np.isin(whole.rows, sorted(asked.keep))
+    kept = np.isin(whole.rows, sorted(asked.keep))
+    chosen &= ~kept
     fade = None
     if asked.at is not None and asked.radius is not None:
         fade = window_fade(state, whole.rows, asked.at, asked.radius)
@@ -314,12 +321,12 @@ def _given_values(document: Document, asked: FairRequest) -> _Given:
     square = (problem.moves * problem.moves).sum(axis=1)
     present = (offset * problem.moves).sum(axis=1) / square
     if fade is None:
-        return _Given(problem.shifted(-present), present, offset, None)
+        return _Given(problem.shifted(-present), present, offset, None, int(kept.sum()))
     share = fade[places]
     # The rim of a window stays where it is, its middle counts from what was given.
     middle = share[:, None] * offset
     present = (middle * problem.moves).sum(axis=1) / square
-    return _Given(problem.shifted(-present), present, offset, share)
+    return _Given(problem.shifted(-present), present, offset, share, int(kept.sum()))
 
 
 def window_fade(
@@ -354,19 +361,19 @@ def _noise(state: HullState, problem: BattenProblem, asked: Noise) -> tuple[floa
     """Give the noise, m, and where the number comes from."""
     factor = state.tolerances.factor
     if asked == "auto":
-        _refuse_few(problem)
+        _refuse_few(state, problem)
         return estimate_noise(problem, factor), "estimated from the lines"
     if asked is not None:
         return float(asked), "stated"
-    unit = table_unit(state)
-    if unit is not None:
-        return rounding_noise(unit), f"rounded to {1e3 * unit:.4g} mm"
-    estimate = ""
+    unit, estimate = table_unit(state), None
     with contextlib.suppress(BadInputError):
-        _refuse_few(problem)
-        estimate = f" (the lines look like {1e3 * estimate_noise(problem, factor):.2g} mm)"
+        _refuse_few(state, problem)
+        estimate = estimate_noise(problem, factor)
+    if unit is not None and (estimate is None or estimate > _LIKELY * rounding_noise(unit)):
+        return rounding_noise(unit), f"rounded to {1e3 * unit:.4g} mm"
+    look = "" if estimate is None else f" (the lines look like {1e3 * estimate:.2g} mm)"
     raise BadInputError(
-        f"the noise is not known{estimate}", _WHERE, 'state it, in m, or give noise="auto"'
+        f"the noise is not known{look}", _WHERE, 'state it, in m, or give noise="auto"'
     )
 
 
@@ -386,10 +393,10 @@ def table_unit(state: HullState) -> float | None:
     return rounding_unit(y, state.particulars.breadth)
 
 
-def _refuse_few(problem: BattenProblem) -> None:
+def _refuse_few(state: HullState, problem: BattenProblem) -> None:
     """Refuse to tell noise from shape where there is too little to tell it by."""
-    counts = np.unique(problem.curve, return_counts=True)[1] + 4  # a window has five points
-    median = float(np.median(counts))
+    curves = np.unique(problem.curve).tolist()
+    median = float(np.median([len(state.curves.rows.data[each]) for each in curves]))
     if median < _MEDIAN_POINTS or len(problem.residual) < _LEAST_RESIDUALS:
         raise BadInputError(
             f"too few points to tell noise from shape: the median line has {median:.0f}, and "
@@ -485,6 +492,7 @@ def _told(
     state: HullState, given: _Given, solution: FairSolution, within: FloatArray, source: str
 ) -> Faired:
     problem, d = given.problem, solution.displacement
+    stayed = reasons_to_stay(state, None) | ({"to be kept": given.kept} if given.kept else {})
     size = np.abs(d)
     most = int(np.argmax(size))
     places = np.flatnonzero(solution.side)
@@ -500,7 +508,7 @@ def _told(
         solution.noise, source, len(problem.rows), len(problem.residual),
         float(np.sqrt((d * d).mean())), float(np.percentile(size, 95.0)), float(size[most]),
         address(state, int(problem.rows[most])) if size[most] > 0.0 else "",
-        tuple(bound), reasons_to_stay(state, None), problem,
+        tuple(bound), stayed, problem,
     )  # fmt: skip
 
 
