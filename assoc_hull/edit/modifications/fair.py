@@ -278,16 +278,18 @@ def solve_fair(
     digit = (_FINE_DIGIT if asked.hold else _DIGIT) * state.tolerances.factor
     if asked.hold:
         solution = _held(document, given, solution, limit, digit, asked.hold)
-    rows, delta, more = _displacements(state, given, solution, digit)
+    rows, delta, more = _displacements(state, given, solution, limit, digit)
     return _told(state, given, solution, within, source), rows, delta, more
 
 
 def _displacements(
-    state: HullState, given: _Given, solution: FairSolution, digit: float
+    state: HullState, given: _Given, solution: FairSolution, limit: FloatArray, digit: float
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Give the points that move, by how much, and how much farther from the given values."""
-    problem = given.problem
-    step = np.round((solution.displacement - given.present) / digit) * digit
+    problem, present = given.problem, given.present
+    step = np.round((solution.displacement - present) / digit) * digit
+    bound = solution.side * limit - present
+    step = np.where(solution.side, bound, np.clip(step, -limit - present, limit - present))
     delta = problem.moves * step[:, None]
     more = given.offset + delta - state.rows.faired.take(problem.rows)
     some = np.flatnonzero((delta != 0.0).any(axis=1) | (more != 0.0).any(axis=1))
@@ -447,7 +449,7 @@ def _held(
     sums = ([sums[0]] if "volume" in hold else []) + ([lever] if "lcb" in hold else [])
     off = np.zeros(2)
     for _ in range(_HOLDS):
-        after = _tried(document, _displacements(state, given, solution, digit))
+        after = _tried(document, _displacements(state, given, solution, limit, digit))
         off = np.array([after.volume / before.volume - 1.0, after.lcb - before.lcb])
         if all(_kept(name, off) for name in hold):
             return solution
