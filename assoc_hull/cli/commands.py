@@ -17,6 +17,7 @@ from assoc_hull.cli.arguments import Commands, add_command
 from assoc_hull.cli.demo import add_demo
 from assoc_hull.cli.edits import add_edit, add_history, add_replay
 from assoc_hull.cli.export import add_export
+from assoc_hull.cli.fairing import add_fair
 from assoc_hull.cli.form_parameters import add_curve, add_parameters, add_transform
 from assoc_hull.cli.hydrostatics import add_hydrostatics
 from assoc_hull.cli.inspection import (
@@ -171,6 +172,7 @@ _COMMANDS = (
     add_curve,
     add_inspection,
     add_edit,
+    add_fair,
     add_history,
     add_replay,
     add_why,

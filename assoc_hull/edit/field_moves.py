@@ -36,9 +36,13 @@ _MORE = 4
 
 @attrs.define(eq=False)
 class FieldMoves(Modification):
-    """Displacements of the hull that an edit asks for; several add."""
+    """Displacements of the hull that an edit asks for; several add.
+
+    `faired` are points (k,), and by how much (k, 3), m, these are farther from their given values.
+    """
 
     fields: list[NormalField] = attrs.field(factory=list)
+    faired: list[tuple[IntArray, FloatArray]] = attrs.field(factory=list)
 
     @property
     def idle(self) -> bool:
@@ -146,12 +150,20 @@ class FieldMoves(Modification):
             for row in shift.left.tolist()
         ]
         rebase_adopted_points(state, np.array(sorted(held), np.int64), journal)
+        self._note_faired(state, journal, pinned)
         every = distinct(np.concatenate(touched))
         every = every[every < len(origin)]
         now, then = xyz.data.take(every, axis=0), origin.take(every, axis=0)
         odd = np.flatnonzero(bits_differ(now, then))
         moved = now.take(odd, axis=0) - then.take(odd, axis=0)
         return every[odd], np.sqrt((moved * moved).sum(axis=1))
+
+    def _note_faired(self, state: HullState, journal: Journal, pinned: set[int]) -> None:
+        """Write how far fairing has taken points; what an edit set itself was given anew."""
+        column = state.rows.faired
+        for rows, more in self.faired:
+            mine = ~np.isin(rows, sorted(pinned)) & state.rows.alive.data[rows]
+            journal.put(column, rows[mine], column.take(rows[mine]) + more[mine])
 
 
 def _part(state: HullState, fields: list[NormalField], step: int, steps: int) -> float:

@@ -10,13 +10,20 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.analysis.fairness.batten_problem import BattenProblem, batten_problem
-from assoc_hull.edit.displacement_field import FieldContext
+from assoc_hull.edit.displacement_field import FieldContext, on_flat, on_profile
 from assoc_hull.edit.hull_normals import free_normals, hull_normals, shape_columns
-from assoc_hull.geometry.curves import IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.feature_geometry import host_curve
+from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import HullState
 
-__all__ = ["fairable_rows", "feature_rows", "net_battens"]
+__all__ = [
+    "fairable_rows",
+    "feature_rows",
+    "net_battens",
+    "reasons_to_stay",
+    "volume_weights",
+]
 
 
 def net_battens(state: HullState, also: IntArray | None = None) -> BattenProblem:
@@ -66,3 +73,58 @@ def feature_rows(state: HullState) -> IntArray:
             if len(on) > 1:
                 found.append(rows[on[0] : on[-1] + 1])
     return np.unique(np.concatenate([np.zeros(0, np.int64), *found]))
+
+
+def reasons_to_stay(state: HullState, lines: IntArray | None) -> dict[str, int]:
+    """Count the points that fairing may not move, by reason: of some lines, or of all if None."""
+    table = state.rows
+    rows = np.flatnonzero(table.alive.data & (table.reader.data >= 0).any(axis=1))
+    if lines is not None:
+        curve = table.curve.data[rows]
+        line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], -1)
+        rows = rows[np.isin(line, lines).any(axis=1)]
+    rows = np.setdiff1d(rows, fairable_rows(state))
+    crossing = table.sort.data[rows] == Sort.CROSSING
+    left, found = np.ones(len(rows), np.bool_), dict[str, int]()
+    for why, mine in (
+        ("placed", table.sort.data[rows] == Sort.PLACED),
+        ("computed from another line", crossing & (table.role.data[rows] != Role.SHARED)),
+        ("on the profile", on_profile(state)[rows]),
+        ("on a flat", on_flat(state)[rows]),
+        ("of a feature", np.isin(rows, feature_rows(state))),
+        ("free almost along the hull only", left),
+    ):
+        here = left & mine
+        if here.any():
+            found[why] = int(here.sum())
+        left = left & ~here
+    return found
+
+
+def volume_weights(state: HullState) -> tuple[FloatArray, FloatArray]:
+    """Give by how much the displaced volume grows with displacements, (rows,), m2; and x, m.
+
+    Both sides, about: a point stands for the strip of girth around it on its section, over the
+    spacing of the sections, as far as that lies below the design draught.
+    """
+    weight, x = np.zeros(state.rows.count), state.rows.xyz.data[:, 0]
+    lines = [line for line in state.live("lines").tolist() if state.family(line).name == "sections"]
+    offset = np.array([state.lines.offset[line] for line in lines])
+    order = np.argsort(offset, kind="stable")
+    half = np.diff(offset[order], prepend=offset[order][:1], append=offset[order][-1:])
+    for place, number in enumerate(order.tolist()):
+        spacing = 0.5 * float(half[place] + half[place + 1])
+        for curve in state.curves_of(lines[number]):
+            spline = state.spline(curve)
+            below = np.minimum(spline.xyz[:, 2], state.particulars.draught)
+            rise = np.diff(spline.xyz[:, 2])
+            wet = np.where(
+                rise == 0.0, spline.xyz[:-1, 2] <= state.particulars.draught,
+                np.diff(below) / np.where(rise == 0.0, 1.0, rise),
+            )  # fmt: skip
+            girth = np.diff(spline.knot) * wet
+            share = np.zeros(len(spline.knot))
+            share[:-1] += 0.5 * girth
+            share[1:] += 0.5 * girth
+            weight[state.curves.rows.data[curve]] += 2.0 * spacing * share
+    return weight, x

@@ -141,6 +141,12 @@ class PastStates:
         """Tell of a step from the tables before it and after it, which stay so no longer."""
         return self._gate.alone(partial(self._tell, number, before, after))
 
+    def at(self, number: int) -> HullState:
+        """Give tables of their own as they were after a step, 0 for the hull as it came."""
+        state, here = self._begin()
+        self._walk(state, here, number)
+        return state
+
     def _tell(
         self, number: int, before: Callable[[HullState], B], after: Callable[[HullState, B], T]
     ) -> T:

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import contextlib
 import inspect
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import wraps
 from typing import Concatenate, ParamSpec, Protocol, Self, TypeVar
 
@@ -42,7 +42,7 @@ __all__ = [
 ANY_FUNCTION = "<a function>"
 """Stands where a function was given: nothing tells it, so the edit cannot be repeated."""
 
-Said = None | bool | int | float | str | list["Said"]
+Said = None | bool | int | float | str | list["Said"] | dict[str, "Said"]
 """A value as JSON can say it."""
 
 _DEEPEST = 8
@@ -188,6 +188,8 @@ def said(value: object, depth: int = 0) -> Said:
         return plain
     if isinstance(value, list | tuple):
         return [said(each, depth + 1) for each in value]
+    if isinstance(value, Mapping):
+        return {str(said(key, depth + 1)): said(each, depth + 1) for key, each in value.items()}
     if getattr(value, "document", None) is not None:
         return None  # the hull itself
     if isinstance(value, str | int | float | bool | None):

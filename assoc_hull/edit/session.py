@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import TracebackType
-from typing import Literal, Self
+from typing import TYPE_CHECKING, Literal, Self
 
 from numpy.typing import ArrayLike
 
@@ -54,6 +54,9 @@ from assoc_hull.errors import (
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 from assoc_hull.model.tables import HullState
+
+if TYPE_CHECKING:
+    from assoc_hull.edit.modifications.fair import Faired
 
 __all__ = ["Edit", "join_edit", "open_edit", "refusal_of"]
 
@@ -328,6 +331,81 @@ class Edit:
             fair=flag(fair, "fair", "in reshape"),
         )
         return tuple(Point.of(self._tables, row) for row in made)
+
+    @recorded
+    def fair(
+        self,
+        lines: Sequence[Group | Line | str] | None = None,
+        *,
+        noise: float | Literal["auto"] | None = None,
+        tolerance: float | Mapping[Line | Point | str, float] | None = None,
+        at: Point | str | ArrayLike | None = None,
+        radius: tuple[float, float] | None = None,
+        keep: Sequence[Line | Point | str] = (),
+        hold: Sequence[Literal["volume", "lcb"]] = (),
+        since: str | None = None,
+    ) -> Faired:
+        """Take noise out of the lines, all together while they stay crossing.
+
+        Points that carry the shape move, each along its own freedom, and no farther than the
+        noise lets them; placed points, flats, features and the profile stay. Each move counts
+        from the value that a point was given, so that to fair twice is to fair once.
+
+        Parameters
+        ----------
+        lines : sequence of Group, Line or str, or None
+            The lines whose points may move; None: all.
+        noise : float, "auto" or None, m
+            The standard deviation of the noise, as offsets are read; ``"auto"`` estimates it;
+            None: that of rounding, where all half-breadths of the hull are rounded to one unit.
+        tolerance : float, mapping or None, m
+            How far points may move along their freedom, all or by line or point; three times
+            the noise if None.
+        at : Point, address or (x, y, z) in m, or None
+            The middle of a window, outside of which nothing moves.
+        radius : (float, float) or None, m
+            How far the window reaches along the length and the girth.
+        keep : sequence of Line, Point or str
+            What stays besides.
+        hold : sequence of "volume" or "lcb"
+            What the hull is to have as before, at the design draught.
+        since : str or None
+            A checkpoint: points count as given where they were then.
+
+        Returns
+        -------
+        Faired
+            What was found; it is carried out when the edit ends.
+
+        Raises
+        ------
+        BadInputError
+            Nothing can move; the noise is not known or cannot be told from the shape; a tolerance
+            below half the noise; a number that is not above 0, a radius without a place; volume
+            or centre that cannot be held.
+        UnknownNameError
+            No such line, point or checkpoint.
+
+        Notes
+        -----
+        The method is told in docs/fairing_method.md. Smoothing that only waves shorter than six
+        points: what runs smoothly over more is shape.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("fair") as edit:
+        ...     found = edit.fair(noise=0.001)
+        >>> found.unknowns, found.at_bound
+        (171, ())
+        """
+        # What solves sparse systems is imported by whoever fairs a hull.
+        from assoc_hull.edit.fair_arguments import fair_request
+        from assoc_hull.edit.modifications.fair import fair
+
+        asked = fair_request(self._tables, lines, noise, tolerance, at, radius, keep, hold, since)
+        return fair(self._transaction, asked)
 
     @recorded
     def set_end(

@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     from assoc_hull.edit.explain.preview import Measure, Preview
     from assoc_hull.edit.script import Replayed
     from assoc_hull.edit.shapes import Shapes
+    from assoc_hull.fairing.fair_report import FairReport
     from assoc_hull.geometry.curves import FloatArray
     from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
     from assoc_hull.hull.pictures import HullPictures
@@ -1624,6 +1625,69 @@ class Hull:
         from assoc_hull.analysis.fairness.line_fairness import hull_fairness
 
         return hull_fairness(self, lines, allowed)
+
+    def fair(
+        self,
+        lines: Sequence[Group | Line | str] | None = None,
+        *,
+        noise: float | Literal["auto"] | None = None,
+        tolerance: float | Mapping[Line | Point | str, float] | None = None,
+        at: Point | str | ArrayLike | None = None,
+        radius: tuple[float, float] | None = None,
+        keep: Sequence[Line | Point | str] = (),
+        hold: Sequence[Literal["volume", "lcb"]] = (),
+        since: str | None = None,
+        name: str = "fair",
+        dry_run: bool = False,
+    ) -> FairReport:
+        """Take noise out of all lines together, while they stay crossing: one edit.
+
+        Parameters
+        ----------
+        lines, noise, tolerance, at, radius, keep, hold, since
+            As `assoc_hull.edit.session.Edit.fair` takes them: which lines, the standard deviation
+            of their noise (m), how far points may move (m), a window, what stays, what is held,
+            and since when points count as given.
+        name : str
+            Of the edit.
+        dry_run : bool
+            Whether the hull stays as it is, and only the report is made.
+
+        Returns
+        -------
+        FairReport
+            The noise, the lines before and after, what stayed and why; it prints as a page.
+
+        Raises
+        ------
+        BadInputError
+            Nothing can move; the noise is not known or cannot be told from the shape; a tolerance
+            below half the noise; a number that is not above 0, a radius without a place; volume
+            or centre that cannot be held; an edit is open.
+        UnknownNameError
+            No such line, point or checkpoint.
+        RefusedEditError
+            The hull would not be consistent; it is unchanged.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> report = hull.fair(noise=0.001)
+        >>> report.found.unknowns, hull.history[-1].name
+        (171, 'fair')
+        """
+        from assoc_hull.fairing.fair_hull import fair_hull
+
+        flag(dry_run, "dry_run", "in fair")
+        return fair_hull(
+            self.document,
+            lambda edit: edit.fair(
+                lines, noise=noise, tolerance=tolerance, at=at, radius=radius, keep=keep,
+                hold=hold, since=since,
+            ),
+            text(name, "the name", "in fair"), dry_run=dry_run,
+        )  # fmt: skip
 
     def curve_transform(
         self,

@@ -127,7 +127,7 @@ def _read(
 # Changes.
 
 _PLACES = ("curve", "count", "line", "sign", "row")
-_OF_SHAPE = frozenset({"rows.xyz", "rows.gap", "rows.base", "rows.anchor_from"})
+_OF_SHAPE = frozenset({"rows.xyz", "rows.gap", "rows.base", "rows.anchor_from", "rows.faired"})
 """Columns of numbers that tell nothing of the structure."""
 
 

@@ -234,6 +234,7 @@ class Rows(Table):
     the line b is always made through the crossing. ``override``: the role by the designer's word.
     ``gap`` and ``limit`` are of watched crossings. An adopted point rides from ``base`` with the
     points ``anchor``, which lay at ``anchor_from`` then; the second one counts ``anchor_weight``.
+    ``faired``: how far fairing has taken a point from the value that was given for it.
     """
 
     key: KeyColumn = keys()
@@ -258,6 +259,7 @@ class Rows(Table):
     anchor_from: MatrixColumn[np.float64] = matrices(np.float64, (2, 3), sparse=True)
     anchor_weight: NumberColumn[np.float64] = numbers(np.float64, sparse=True)
     base: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
+    faired: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
     state: NumberColumn[np.int8] = numbers(np.int8)
     label: LabelColumn = labels()
 

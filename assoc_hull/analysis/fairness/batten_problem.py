@@ -78,6 +78,13 @@ class BattenProblem:
             csr_array(self.rates[:, chosen]), self.all_moves,
         )  # fmt: skip
 
+    def residuals_of(self, chosen: IntArray) -> BattenProblem:
+        """Give the problem of some of the residuals, by their places."""
+        return attrs.evolve(
+            self, matrix=csr_array(self.matrix[chosen]), residual=self.residual[chosen],
+            curve=self.curve[chosen], centre=self.centre[chosen],
+        )  # fmt: skip
+
     def shifted(self, displacement: FloatArray) -> BattenProblem:
         """Give the problem about the net displaced by (k,), m; weights and directions stay."""
         residual = self.residual + self.matrix @ displacement

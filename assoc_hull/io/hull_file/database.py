@@ -60,7 +60,7 @@ AGAIN = (
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
 
-SCHEMA = 7
+SCHEMA = 8
 
 TABLES = """
 CREATE TABLE hull (
@@ -102,7 +102,8 @@ CREATE TABLE points (
     driver INTEGER NOT NULL, contact INTEGER NOT NULL, sign INTEGER NOT NULL,
     birth INTEGER NOT NULL, state INTEGER NOT NULL, revision INTEGER NOT NULL,
     anchor_a INTEGER NOT NULL, anchor_b INTEGER NOT NULL, xyz BLOB NOT NULL,
-    direction BLOB, gap_limit BLOB, gap BLOB, base BLOB, anchor_from BLOB, anchor_weight BLOB
+    direction BLOB, gap_limit BLOB, gap BLOB, base BLOB, anchor_from BLOB, anchor_weight BLOB,
+    faired BLOB
 );
 CREATE TABLE features (
     number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, key TEXT NOT NULL, kind TEXT NOT NULL,
@@ -192,9 +193,14 @@ def _add_base(database: sqlite3.Connection) -> None:
     database.execute("UPDATE hull SET base = head")
 
 
+def _add_faired(database: sqlite3.Connection) -> None:
+    """From 7 to 8: how far fairing has taken points; older hulls were never faired."""
+    database.execute("ALTER TABLE points ADD COLUMN faired BLOB")
+
+
 MIGRATIONS: Mapping[int, Migration] = {
     1: _add_label_authors, 2: _add_gone, 3: _add_deck, 4: _add_features,
-    5: _add_definitions, 6: _add_base,
+    5: _add_definitions, 6: _add_base, 7: _add_faired,
 }  # fmt: skip
 """By version: what brings a file of it to the next one."""
 
@@ -204,6 +210,7 @@ _GREW = (
     ("labels", 2, ",author TEXT NOT NULL DEFAULT '',time TEXT NOT NULL DEFAULT ''"),
     ("hull", 4, ",deck TEXT NOT NULL DEFAULT 'open'"),
     ("hull", 7, ",base INTEGER NOT NULL DEFAULT 0"),
+    ("points", 8, ",faired BLOB"),
 )
 """Versions in which tables came, and in which they got columns, without white space."""
 

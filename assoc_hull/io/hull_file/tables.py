@@ -231,7 +231,7 @@ _PLACE = np.dtype([("line", "<i4"), ("row", "<i4"), ("sign", "i1"), ("at", "<f8"
 
 _REALS = {
     "direction": "direction", "limit": "gap_limit", "gap": "gap", "base": "base",
-    "anchor_from": "anchor_from", "anchor_weight": "anchor_weight",
+    "anchor_from": "anchor_from", "anchor_weight": "anchor_weight", "faired": "faired",
 }  # fmt: skip
 """Columns of points that may be left out, holding the fill value, and their names in the file."""
 
@@ -477,7 +477,7 @@ def _read_lines(state: HullState, rows: Sequence[Row]) -> None:
 def _read_points(state: HullState, rows: Sequence[Row]) -> None:
     table = state.rows
     table.resize(len(rows))
-    found = _columns(rows, 28)
+    found = _columns(rows, 29)
     table.key.data[:], table.label.data[:] = found[1], found[2]
     for name, place in zip(("alive", "sort", "role", "override"), range(3, 7), strict=True):
         _put_whole(getattr(table, name), found[place])
@@ -489,7 +489,7 @@ def _read_points(state: HullState, rows: Sequence[Row]) -> None:
         _put_whole(getattr(table, name), found[place])
     _put_whole(table.anchor, list(zip(found[19], found[20], strict=True)))
     _put_reals(table.xyz, found[21])
-    for name, place in zip(_REALS, range(22, 28), strict=True):
+    for name, place in zip(_REALS, range(22, 29), strict=True):
         _put_reals(getattr(table, name), found[place])
 
 

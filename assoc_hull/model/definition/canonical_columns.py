@@ -164,7 +164,9 @@ def point_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     shared = crossing & (table.role[rows] == Role.SHARED)
     own = ~crossing & ~riding & unmade_rows(state, rows)
     stored = shared | own | (table.state[rows] != State.CLEAN)
-    watched = _watched(state, rows)
+    watched, faired = _watched(state, rows), table.faired[rows]
+    # Of a hull that was never faired nothing is told, as before there was such a thing.
+    more: dict[str, Column] = {"faired": faired} if faired.any() else {}
     return {
         "key": _texts(table.key, rows),
         "label": _texts(table.label, rows),
@@ -187,6 +189,7 @@ def point_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
         "base": np.where(riding[:, None], table.base[rows], 0.0),
         "anchor_from": np.where(riding[:, None, None], table.anchor_from[rows], 0.0),
         "anchor_weight": np.where(riding, table.anchor_weight[rows], 0.0),
+        **more,
     }
 
 

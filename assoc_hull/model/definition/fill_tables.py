@@ -286,6 +286,7 @@ def put_points(
         # As `Maker.points` has it; `_put_riding` writes those of points that ride.
         base=values,
         state=[states.index(point.get("state", states[0])) for point in points],
+        faired=[point.get("faired", _ZERO) for point in points],
     )
     # The table was empty: its rows are those of `points`, in their order.
     crossing = state.rows.sort.data == Sort.CROSSING

@@ -44,7 +44,9 @@ __all__ = ["HashTree", "is_root", "root_of"]
 
 _PREFIX = "tree-"
 
-_SHAPE = frozenset({"rows.xyz", "rows.gap", "rows.base", "rows.anchor_from", "rows.anchor_weight"})
+_SHAPE = frozenset(
+    {"rows.xyz", "rows.gap", "rows.base", "rows.anchor_from", "rows.anchor_weight", "rows.faired"}
+)
 """Columns that an edit of shape changes, besides places on curves, splines and features."""
 
 _KEYS = ("rows.key", "curves.key", "lines.key", "groups.name")
@@ -207,6 +209,7 @@ class HashTree:
             joined[3] += np.repeat(np.cumsum(counts) - counts, counts)
             self._last = fixed, joined
         rows, riding, watched, turn = self._last[1]
+        faired = table.faired[rows]
         points, rides = np.empty((len(rows), 4)), np.empty((len(riding), 10))
         points[:, :3], points[:, 3] = table.xyz[rows], np.where(watched, table.gap[rows], 0.0)
         rides[:, :3], rides[:, 3] = table.base[riding], table.anchor_weight[riding]
@@ -224,6 +227,8 @@ class HashTree:
             _Block(places, [len(each.turn) for each in fixed]),
             _Block(knots, [len(each.knot) for each in splines]),
         ]
+        if faired.any():
+            blocks.append(_Block(faired, [len(each.rows) for each in fixed], told=False))
         for curve, *parts in zip(curves, fixed, *map(_Block.parts, blocks), strict=True):
             head: _Fixed = parts[0]
             self._leaf[curve] = hashlib.sha256(b"".join([head.digest, *parts[1:]])).digest()
@@ -334,16 +339,23 @@ _NO_SPLINE = SplineBatch(np.zeros(2, np.int64), np.zeros(0), _NONE, _NONE, _NONE
 class _Block:
     """Numbers of several curves, one behind the other, and how many rows each has."""
 
-    def __init__(self, values: FloatArray, counts: Sequence[int]) -> None:
+    def __init__(self, values: FloatArray, counts: Sequence[int], *, told: bool = True) -> None:
         self._data, self._size = _bytes(values), 8 * values.shape[1]
-        self._counts = counts
+        self._counts, self._told = counts, told
 
     def parts(self) -> Iterator[bytes]:
-        """Give the bytes of each curve, headed by how many there are."""
+        """Give the bytes of each curve, headed by how many there are.
+
+        Nothing at all of one that has but zeros, where these need not be `told`.
+        """
         first = 0
         for count in self._counts:
             last = first + count * self._size
-            yield count.to_bytes(4, "little") + self._data[first:last]
+            part = self._data[first:last]
+            if self._told or part.count(0) < len(part):
+                yield count.to_bytes(4, "little") + part
+            else:
+                yield b""
             first = last
 
 

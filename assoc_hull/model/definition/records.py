@@ -133,7 +133,8 @@ def definition(state: HullState) -> dict[str, object]:
         ``meets`` of a curve lists, per associated line and along the curve, the sign of
         each intersection and the crossing it is, or None. ``value`` of a point (x, y, z; m)
         stands only where nothing else gives it; a ``riding`` point has ``anchors``,
-        ``base``, ``from`` and ``weight`` instead.
+        ``base``, ``from`` and ``weight`` instead. ``faired`` is how far fairing has taken a point
+        from its given value (x, y, z; m).
     """
     order = canonical_order(state)
     more = {
@@ -324,6 +325,8 @@ def _point_records(state: HullState, order: CanonicalOrder) -> Iterator[Record]:
             record["value"] = row["value"]
         if row["state"] != State.CLEAN:
             record["state"] = _STATES[row["state"]]
+        if any(row.get("faired", ())):
+            record["faired"] = row["faired"]
         yield record
 
 

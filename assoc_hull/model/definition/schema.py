@@ -108,6 +108,7 @@ _POINT = record(
         "riding": described(_RIDING, "between which points an adopted point rides"),
         "value": _VECTOR,
         "state": _STATE,
+        "faired": described(_VECTOR, "how far fairing has taken it from its given value, m"),
     },
 )
 
