@@ -4,7 +4,6 @@
 own for the first is made by `parameter`.
 """
 
-from assoc_hull.analysis.fairness.line_fairness import FairnessTable, fairness
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.curve_transform import CurveTransform
 from assoc_hull.analysis.form.floating_shape import Screw
@@ -15,6 +14,7 @@ from assoc_hull.analysis.form.parameter import (
     Warned,
     parameter,
 )
+from assoc_hull.fairing.line_fairness import FairnessTable, fairness
 
 __all__ = [
     "CATALOGUE",

@@ -169,6 +169,12 @@ def add_fairness(commands: Commands) -> None:
         help="inflections that are wanted on each curve (default: 0)",
     )  # fmt: skip
     parser.add_argument(
+        "--noise",
+        type=float,
+        metavar="MM",
+        help="noise of the source: battens that spring by so little are not judged",
+    )
+    parser.add_argument(
         "--compare", type=Path, metavar="OTHER",
         help="another .hull or .hull.json file: the same lines after an edit, side by side",
     )  # fmt: skip
@@ -176,14 +182,15 @@ def add_fairness(commands: Commands) -> None:
 
 
 def _fairness(arguments: argparse.Namespace) -> int:
-    from assoc_hull.analysis.fairness.line_fairness import hull_fairness
+    from assoc_hull.fairing.line_fairness import hull_fairness
 
     lines = arguments.lines or None
     hull = open_hull(arguments.hull)
     after = None if arguments.compare is None else open_hull(arguments.compare)
     with progress("looking at lines"):
-        found = hull_fairness(hull, lines, arguments.allowed)
-        other = None if after is None else hull_fairness(after, lines, arguments.allowed)
+        noise = None if arguments.noise is None else 1e-3 * arguments.noise
+        found = hull_fairness(hull, lines, arguments.allowed, noise)
+        other = None if after is None else hull_fairness(after, lines, arguments.allowed, noise)
     if other is None:
         emit(arguments, found.data(), str(found))
         return 0

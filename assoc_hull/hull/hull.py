@@ -47,7 +47,6 @@ if TYPE_CHECKING:
 
     from assoc_hull.analysis.derivatives.hydrostatic_derivatives import Derivatives
     from assoc_hull.analysis.derivatives.parameters import Parameter
-    from assoc_hull.analysis.fairness.line_fairness import FairnessTable
     from assoc_hull.analysis.form.curve_transform import CurveTransform, Kind
     from assoc_hull.analysis.form.floating_shape import Screw
     from assoc_hull.analysis.form.parameter import FormParameter, FormValue
@@ -80,6 +79,7 @@ if TYPE_CHECKING:
     from assoc_hull.edit.script import Replayed
     from assoc_hull.edit.shapes import Shapes
     from assoc_hull.fairing.fair_report import FairReport
+    from assoc_hull.fairing.line_fairness import FairnessTable
     from assoc_hull.geometry.curves import FloatArray
     from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
     from assoc_hull.hull.pictures import HullPictures
@@ -1590,9 +1590,13 @@ class Hull:
         return sensitivities(self, outputs, parameters, kg=kg, layout=layout)
 
     def fairness(
-        self, *, lines: Iterable[str] | None = None, allowed: int | Mapping[str, int] = 0
-    ) -> FairnessTable:
-        """Take the five criteria of fairness as numbers; they are never put into one score.
+        self, *, lines: Iterable[str] | None = None, allowed: int | Mapping[str, int] = 0,
+        noise: float | None = None,
+    ) -> FairnessTable:  # fmt: skip
+        """Take the five criteria of fairness as numbers, and say where lines are unfair.
+
+        A line is unfair at a place where the loftsman's batten springs off it more than off the
+        lines beside. The criteria are never put into one score.
 
         Parameters
         ----------
@@ -1600,11 +1604,15 @@ class Hull:
             Names of lines of the hull; all of them by default.
         allowed : int or mapping of str to int
             Inflections that are wanted: of each curve, or by name of line (others: none).
+        noise : float or None, m
+            Of the source, as a standard deviation: battens that spring by so little are not
+            judged. None: 2e-6 of Lpp.
 
         Returns
         -------
         FairnessTable
-            A record for each curve. `assoc_hull.form.fairness` takes single lines and plane curves.
+            A record for each curve, and the unfair places. `assoc_hull.form.fairness` takes single
+            lines and plane curves.
 
         Raises
         ------
@@ -1622,9 +1630,9 @@ class Hull:
         >>> found["WL 2.5"][0].failed
         ()
         """
-        from assoc_hull.analysis.fairness.line_fairness import hull_fairness
+        from assoc_hull.fairing.line_fairness import hull_fairness
 
-        return hull_fairness(self, lines, allowed)
+        return hull_fairness(self, lines, allowed, noise)
 
     def fair(
         self,

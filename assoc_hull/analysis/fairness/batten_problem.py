@@ -15,7 +15,7 @@ from scipy.sparse import coo_array, csr_array
 
 from assoc_hull.analysis.fairness.driven_rates import driven_rates, follow
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.fairness.batten import WINDOW, batten_coefficients
+from assoc_hull.geometry.fairness.batten import WINDOW, batten_coefficients, batten_sharpness
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.tables import HullState
 
@@ -45,6 +45,8 @@ class BattenProblem:
         The residuals as the net is.
     curve, centre : (r,) int, (r,) int
         Curve and point of each residual.
+    sharpness : (r,), 1/m4
+        A residual times this is a divided difference of order four.
     rates : (rows, k) sparse
         Displacements of all points of the table, computed ones too, with those that move.
     all_moves : (rows, 3)
@@ -58,11 +60,13 @@ class BattenProblem:
     residual: FloatArray
     curve: IntArray
     centre: IntArray
+    sharpness: FloatArray
     rates: csr_array
     all_moves: FloatArray
 
     def __attrs_post_init__(self) -> None:
         freeze(self.rows, self.moves, self.freedom, self.residual, self.curve, self.centre)
+        freeze(self.sharpness)
         freeze(self.all_moves)
 
     def part(self, chosen: IntArray) -> BattenProblem:
@@ -74,7 +78,7 @@ class BattenProblem:
         some = np.flatnonzero(np.diff(matrix.indptr))
         return BattenProblem(
             self.rows[chosen], self.moves[chosen], self.freedom[chosen], csr_array(matrix[some]),
-            self.residual[some], self.curve[some], self.centre[some],
+            self.residual[some], self.curve[some], self.centre[some], self.sharpness[some],
             csr_array(self.rates[:, chosen]), self.all_moves,
         )  # fmt: skip
 
@@ -134,7 +138,7 @@ def batten_problem(
     direct = csr_array(coo_array((change.ravel(), index), shape=shape))
     return BattenProblem(
         rows, moves[rows], freedom, csr_array(direct @ rates), residual,
-        curves[owner], point[:, 2], rates, moves,
+        curves[owner], point[:, 2], batten_sharpness(batch.knot[window]), rates, moves,
     )  # fmt: skip
 
 

@@ -1,5 +1,9 @@
 """How fair a curve, the lines of a hull, or all lines of its net are, by five criteria.
 
+Lines of a net are judged besides by the loftsman's batten: how far it springs off each point, and
+where it does so more than on the lines beside. That is the only verdict on a net: a good hull has
+jumps of curvature where straight runs end, and lines whose look no limit can judge.
+
 A knuckle of the net is a joint that may bend. Offsets of a line are the watched crossings on it,
 those that define neither of their lines: their gap, over the limit of the gap. A `FairnessTable`
 holds a record per curve, and compares those before and after an edit; numbers are never put into
@@ -15,7 +19,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assoc_hull.arguments import shown
+from assoc_hull.arguments import positive, shown
 from assoc_hull.errors import BadInputError, GeometryError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.fairness.criteria import FairnessRecord, OffsetDeviations, criteria
@@ -27,6 +31,7 @@ from assoc_hull.model.tables import HasState, HullState, state_of
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
 
+    from assoc_hull.analysis.fairness.unfair_places import BattenFigures, UnfairPlace
     from assoc_hull.geometry.classical.chord_spline import ChordSpline
     from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
     from assoc_hull.geometry.classical.elastica import Elastica
@@ -79,11 +84,17 @@ class FairnessTable:
         The curves, as the hull names them.
     lines : tuple of str
         The line that each belongs to.
+    battens : tuple of BattenFigures or None
+        How far battens spring off the points of each; None where no point may move.
+    unfair : tuple of UnfairPlace
+        Where they spring more than on the lines beside, the worst place first.
     """
 
     records: tuple[FairnessRecord, ...]
     keys: tuple[str, ...]
     lines: tuple[str, ...]
+    battens: tuple[BattenFigures | None, ...] = ()
+    unfair: tuple[UnfairPlace, ...] = ()
 
     def __len__(self) -> int:
         return len(self.records)
@@ -120,11 +131,20 @@ class FairnessTable:
 
     def data(self) -> dict[str, Any]:
         """Give all as plain values."""
-        rows = zip(self.keys, self.lines, self.records, strict=True)
+        rows = zip(self.keys, self.lines, self.records, self._battens, strict=True)
         return {
-            "curves": [{"key": key, "line": line, **_row(each)} for key, line, each in rows],
+            "curves": [
+                {"key": key, "line": line, **_row(each),
+                 "batten": None if batten is None else attrs.asdict(batten)}
+                for key, line, each, batten in rows
+            ],
             "failures": {kind: list(names) for kind, names in self.failures.items()},
-        }
+            "unfair": [attrs.asdict(place) for place in self.unfair],
+        }  # fmt: skip
+
+    @property
+    def _battens(self) -> tuple[BattenFigures | None, ...]:
+        return self.battens or (None,) * len(self.records)
 
     def compared(self, after: FairnessTable) -> dict[str, Any]:
         """Give what both have side by side as plain values."""
@@ -139,15 +159,22 @@ class FairnessTable:
         }  # fmt: skip
 
     def __str__(self) -> str:
-        lines = [_HEAD, *(_text(each) for each in self.records), ""]
+        """Give the curves whose battens spring most, against the usual, first."""
+        worst = [0.0 if each is None else each.ratio for each in self._battens]
+        order = np.argsort([-each for each in worst], kind="stable").tolist()
+        lines = [_HEAD, *(_text(self.records[i], self._battens[i]) for i in order), ""]
         return "\n".join([*lines, *self._words()])
 
     def _words(self) -> Iterator[str]:
-        """Say how many curves keep each limit."""
-        for kind, names in self.failures.items():
-            told = sum(each.passed[kind] is not None for each in self.records)
-            least = f", not by {len(names)}" if names else ""
-            yield f"{kind}: limit kept by {told - len(names)} of {told} curves{least}"
+        """Say where lines are unfair."""
+        names = set(self.lines)
+        if not self.unfair:
+            yield f"no line of {len(names)} is unfair: battens spring as on the lines beside"
+            return
+        called = len({place.line for place in self.unfair})
+        verb = "is" if called == 1 else "are"
+        yield f"{called} of {len(names)} lines {verb} unfair, the worst place first"
+        yield from map(str, self.unfair)
 
     def comparison(self, after: FairnessTable) -> str:
         """Write what both have side by side: the look of lines has no limit but this.
@@ -174,11 +201,11 @@ class FairnessTable:
 _HEAD = (
     f"{'curve':16}{'L m':>9}{'J1 rad':>10}{'J2':>10}{'inflections':>13}{'D max':>8}{'D rms':>8}"
     f"{'E2':>10}{'E3':>12}{'J3 1/m2':>11}{'extremes':>10}"
-    f"{'knuckles':>10}  not kept"
+    f"{'knuckles':>10}{'batten mm':>11}{'usual x':>9}  most unusual at"
 )
 
 
-def _text(each: FairnessRecord) -> str:
+def _text(each: FairnessRecord, batten: BattenFigures | None) -> str:
     bends = _figure(each.inflections)
     if each.inflections_allowed:
         bends += f" ({each.inflections_allowed})"
@@ -186,8 +213,15 @@ def _text(each: FairnessRecord) -> str:
         f"{each.name:16}{each.length:9.3f}{_jump(each.angle_jump):>10}{_jump(each.curvature_jump):>10}"
         f"{bends:>13}{_short(each.deviation_max):>8}{_short(each.deviation_rms):>8}"
         f"{each.bending:10.4g}{each.variation:12.5g}{_figure(each.support_jumps):>11}"
-        f"{each.extrema:10d}{each.knuckles:10d}  {', '.join(each.failed)}"
-    ).rstrip()
+        f"{each.extrema:10d}{each.knuckles:10d}{_springs(batten)}"
+    )
+
+
+def _springs(batten: BattenFigures | None) -> str:
+    if batten is None:
+        return f"{'-':>11}{'-':>9}"
+    ratio = f"{batten.ratio:.1f}" if batten.ratio else "-"
+    return f"{1e3 * batten.largest:11.2f}{ratio:>9}  {batten.at}"
 
 
 def _jump(value: float) -> str:
@@ -225,6 +259,7 @@ def fairness(
     allowed: int | Mapping[str, int] = 0,
     offsets: ArrayLike | None = None,
     tolerances: ArrayLike = 0.005,
+    noise: float | None = None,
 ) -> FairnessTable | FairnessRecord:
     """Take the five criteria of fairness as numbers; they are never put into one score.
 
@@ -242,6 +277,9 @@ def fairness(
         crossings that define neither line, and how wide their gaps may be.
     tolerances : float or (k,), m
         How far it may pass them.
+    noise : float or None, m
+        Of the source of a hull, as a standard deviation: battens that spring by so little are not
+        judged. None: 2e-6 of Lpp.
 
     Returns
     -------
@@ -270,7 +308,7 @@ def fairness(
         if offsets is not None:
             what, remedy = "lines of a hull bring their offsets", "leave offsets out"
             raise BadInputError(what, _WHERE, remedy)
-        return hull_fairness(cast("HasState | Line | Curve", of), lines, allowed)
+        return hull_fairness(cast("HasState | Line | Curve", of), lines, allowed, noise)
     if lines is not None:
         raise BadInputError("lines of one curve", _WHERE, "give names of lines with a hull only")
     pieces, name = _pieces_of(of)
@@ -325,8 +363,15 @@ def hull_fairness(
     of: HasState | Line | Curve,
     lines: Iterable[str] | None = None,
     allowed: int | Mapping[str, int] = 0,
+    noise: float | None = None,
 ) -> FairnessTable:
     """Look at curves of a net in one batch; arguments as of `fairness`."""
+    # who looks at a plane curve needs no net
+    from assoc_hull.analysis.fairness.unfair_places import judge_battens
+    from assoc_hull.edit.net_battens import net_battens
+
+    if noise is not None:
+        noise = positive(noise, "noise", _WHERE)
     state = of.tables if isinstance(of, Line | Curve) else state_of(of, _WHERE)
     chosen = _chosen(of, state, lines)
     if not chosen:
@@ -346,7 +391,11 @@ def hull_fairness(
         offsets=_watched(state, curves),
     )
     keys = tuple(str(state.curves.key[curve]) for curve in chosen)
-    return FairnessTable(records, keys, tuple(names))
+    judged = judge_battens(state, net_battens(state), noise)
+    return FairnessTable(
+        records, keys, tuple(names), judged.figures(state, curves),
+        tuple(place for place in judged.places(state) if place.line in set(names)),
+    )  # fmt: skip
 
 
 def _chosen(
