@@ -21,7 +21,14 @@ from scipy.sparse.linalg import SuperLU, splu
 from assoc_hull.analysis.fairness.batten_problem import BattenProblem
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
-__all__ = ["FairSolution", "estimate_noise", "hold_sums", "solve_battens"]
+__all__ = [
+    "FairSolution",
+    "elimination_order",
+    "estimate_noise",
+    "factorise",
+    "hold_sums",
+    "solve_battens",
+]
 
 _ROUNDS, _BOUNDED = 6, 2
 """Rounds of weights, and those of them that keep the bounds."""
@@ -34,6 +41,9 @@ _SHARE = 0.5
 
 _SIGNS, _SURPLUS, _START, _SAME, _MOST = 12, 1.3, 1e-3, 0.03, 15
 """Of the estimate of noise: vectors of signs, factor, first value (m), change, rounds."""
+
+_SLOW, _FARTHEST = (0.3, 0.95), 3.0
+"""Ratios of two steps of the logarithm after which one leads to their limit, by 3 at most."""
 
 _SMALLEST = 1e-6
 """Less noise (m) is none."""
@@ -82,21 +92,19 @@ class _Weighted:
         return cls(matrix, weighted.T @ b)
 
     def factored(self, chosen: IntArray | None = None) -> SuperLU:
-        """Factorise, all or the rows and columns of some points."""
+        """Factorise, all or the rows and columns of some points, in the order they stand in."""
         matrix = self.matrix if chosen is None else self.matrix[chosen][:, chosen]
-        return splu(
-            csc_array(matrix), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )  # fmt: skip
+        return _factors(matrix, "NATURAL")
 
-    def within(self, limit: FloatArray) -> tuple[FloatArray, IntArray, SuperLU, IntArray]:
+    def within(
+        self, limit: FloatArray, side: IntArray
+    ) -> tuple[FloatArray, IntArray, SuperLU, IntArray]:
         """Solve within -limit .. limit: displacements, sides, the last factors, and of which.
 
         A set of points is put at its bounds, the others are solved for, and forces and bounds say
-        which set is next.
+        which set is next; `side` (k,) says which is first.
         """
         h, g, diagonal = self.matrix, self.gradient, self.matrix.diagonal()
-        side = np.zeros(len(g), np.int64)
         for _ in range(_SETS):
             free = np.flatnonzero(side == 0)
             d = side * limit
@@ -110,9 +118,30 @@ class _Weighted:
         return np.clip(d, -limit, limit), side, factors, free
 
 
+def _factors(matrix: csr_array, order: str) -> SuperLU:
+    return splu(
+        csc_array(matrix), permc_spec=order, diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    )
+
+
+def elimination_order(problem: BattenProblem) -> IntArray:
+    """Give an order of the points in which sparse factors stay sparse."""
+    ones = np.ones(len(problem.rows))
+    weighted = _Weighted.of(problem, ones, 1.0, np.zeros(len(problem.rows)))
+    found: IntArray = np.argsort(_factors(weighted.matrix, "MMD_AT_PLUS_A").perm_c)
+    return found.astype(np.int64)
+
+
+def factorise(problem: BattenProblem, noise: float) -> SuperLU:
+    """Factorise the system of a first round, its order found anew: the unit of time of all else."""
+    spread = noise * problem.freedom
+    weighted = _Weighted.of(problem, spread, _SHARE * noise, np.zeros(len(spread)))
+    return _factors(weighted.matrix, "MMD_AT_PLUS_A")
+
+
 def solve_battens(
     problem: BattenProblem, noise: float, share: FloatArray | None = None,
-    limit: FloatArray | None = None,
+    limit: FloatArray | None = None, order: IntArray | None = None,
 ) -> FairSolution:  # fmt: skip
     """Find the displacements that take a stated noise out of a net.
 
@@ -126,26 +155,32 @@ def solve_battens(
         By what each point's own noise is multiplied: below 1 it moves less, above it is let go.
     limit : (k,) or None, m
         How far each may move along the normal; as far as it is drawn if None.
+    order : (k,) int or None
+        In which the points are eliminated; found anew if None.
     """
-    spread = noise * problem.freedom * (1.0 if share is None else share)
-    s, d = _SHARE * noise, np.zeros(len(problem.rows))
-    rounds = _ROUNDS if limit is None else _ROUNDS - _BOUNDED
-    for _ in range(rounds):
-        weighted = _Weighted.of(problem, spread, s, d)
+    order = elimination_order(problem) if order is None else order
+    spread = (noise * problem.freedom * (1.0 if share is None else share))[order]
+    within = None if limit is None else limit[order]
+    ordered = attrs.evolve(problem, matrix=csr_array(problem.matrix[:, order]))
+    s, d = _SHARE * noise, np.zeros(len(order))
+    for _ in range(_ROUNDS if within is None else _ROUNDS - _BOUNDED):
+        weighted = _Weighted.of(ordered, spread, s, d)
         factors = weighted.factored()
         d = factors.solve(-weighted.gradient)
     side, free = np.zeros(len(d), np.int64), np.arange(len(d))
-    if limit is not None:
+    if within is not None:
         for _ in range(_BOUNDED):
-            weighted = _Weighted.of(problem, spread, s, d)
-            d, side, factors, free = weighted.within(limit)
+            weighted = _Weighted.of(ordered, spread, s, d)
+            d, side, factors, free = weighted.within(within, side)
+    place = order[free]
 
     def solve(right: FloatArray) -> FloatArray:
         found = np.zeros_like(right)
-        found[free] = factors.solve(np.ascontiguousarray(right[free]))
+        found[place] = factors.solve(np.ascontiguousarray(right[place]))
         return found
 
-    return FairSolution(d, side, noise, solve)
+    back = np.argsort(order)
+    return FairSolution(d[back], side[back], noise, solve)
 
 
 def estimate_noise(problem: BattenProblem, factor: float = 1.0) -> float:
@@ -162,19 +197,29 @@ def estimate_noise(problem: BattenProblem, factor: float = 1.0) -> float:
         Of lengths, by the size of the hull.
     """
     count, signs = len(problem.rows), _signs(len(problem.rows))
-    noise = factor * _START
+    order = elimination_order(problem)
+    noise, steps = factor * _START, list[float]()
     for _ in range(_MOST):
         spread = noise * problem.freedom
-        found = solve_battens(problem, noise)
+        found = solve_battens(problem, noise, order=order)
         trace = (signs * found.solve(signs / (spread * spread)[:, None])).sum() / _SIGNS
         square = float(((found.displacement / spread) ** 2).sum())
         new = _SURPLUS * noise * float(np.sqrt(square / max(count - trace, 1.0)))
-        new = max(new, factor * _SMALLEST)
-        same = abs(np.log(new / noise)) < _SAME
-        noise = new
-        if same:
-            break
+        steps.append(float(np.log(max(new, factor * _SMALLEST) / noise)))
+        if abs(steps[-1]) < _SAME:
+            return noise * float(np.exp(steps[-1]))
+        noise = max(noise * float(np.exp(_further(steps))), factor * _SMALLEST)
     return noise
+
+
+def _further(steps: list[float]) -> float:
+    """Give how far to go, in logarithms: where steps shrink slowly, to where they lead."""
+    shrinks = steps[-1] / steps[-2] if len(steps) > 1 else 0.0
+    if not _SLOW[0] < shrinks < _SLOW[1]:
+        return steps[-1]
+    whole = steps[-1] / (1.0 - shrinks)
+    steps.clear()
+    return float(np.clip(whole, -_FARTHEST, _FARTHEST))
 
 
 def _signs(count: int) -> FloatArray:

@@ -472,7 +472,8 @@ def _held(
 
 
 def _kept(name: Held, off: FloatArray) -> bool:
-    return abs(off[0]) <= _VOLUME_OFF if name == "volume" else abs(off[1]) <= _LCB_OFF
+    size, allowed = (off[0], _VOLUME_OFF) if name == "volume" else (off[1], _LCB_OFF)
+    return bool(abs(size) <= allowed)
 
 
 def _tried(
