@@ -138,3 +138,10 @@ def _times(hull: ah.Hull, rounds: int) -> Iterator[Figure]:
         )
         ratio = times[name] / times["factor"]
         yield Figure(f"fairing: carrier, noise {name} / factorisation", ratio, "x", goal, "most")
+    window = hull.fair_window(at="WL 9 x ST 17", radius=(20.0, 6.0))
+    steps = iter(range(10**6))
+    times = side_by_side({"step": lambda: window.to(noise=1e-3 + 1e-9 * next(steps))}, 50)
+    count = len(window.to().rows)
+    yield Figure(
+        f"fairing: a step of a window of {count} points", 1e3 * times["step"], "ms", 2, "most"
+    )

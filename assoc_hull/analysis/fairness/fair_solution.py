@@ -12,9 +12,11 @@ anew, w = 1 / (s^2 + r^2), each round one sparse system; bounds by an active set
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Literal
 
 import attrs
 import numpy as np
+from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import SuperLU, splu
 
@@ -28,6 +30,7 @@ __all__ = [
     "factorise",
     "hold_sums",
     "solve_battens",
+    "solve_few",
 ]
 
 _ROUNDS, _BOUNDED = 6, 2
@@ -118,10 +121,11 @@ class _Weighted:
         return np.clip(d, -limit, limit), side, factors, free
 
 
-def _factors(matrix: csr_array, order: str) -> SuperLU:
-    return splu(
+def _factors(matrix: csr_array, order: Literal["NATURAL", "MMD_AT_PLUS_A"]) -> SuperLU:
+    found: SuperLU = splu(
         csc_array(matrix), permc_spec=order, diag_pivot_thresh=0.0, options={"SymmetricMode": True}
     )
+    return found
 
 
 def elimination_order(problem: BattenProblem) -> IntArray:
@@ -181,6 +185,31 @@ def solve_battens(
 
     back = np.argsort(order)
     return FairSolution(d[back], side[back], noise, solve)
+
+
+def solve_few(
+    problem: BattenProblem, noise: float, share: FloatArray | None, limit: FloatArray
+) -> FloatArray:
+    """Give the displacements that `solve_battens` finds, of a few points: by dense factors.
+
+    Parameters
+    ----------
+    problem : BattenProblem
+        About the given places, of some two hundred points at most.
+    noise, share, limit
+        As there; a solution that passes its limits is found there.
+    """
+    spread = noise * problem.freedom * (1.0 if share is None else share)
+    a, b, s = problem.matrix.toarray(), problem.residual, _SHARE * noise
+    diagonal, d = np.diag(1.0 / (spread * spread)), np.zeros(len(spread))
+    for _ in range(_ROUNDS):
+        r = a @ d + b
+        weighted = a.T / (s * s + r * r)
+        d = -cho_solve(cho_factor(weighted @ a + diagonal, check_finite=False), weighted @ b,
+                       check_finite=False)  # fmt: skip
+    if (np.abs(d) > limit).any():
+        return solve_battens(problem, noise, share, limit).displacement
+    return d
 
 
 def estimate_noise(problem: BattenProblem, factor: float = 1.0) -> float:
