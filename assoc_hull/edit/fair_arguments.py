@@ -16,7 +16,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.objects import Group, Line, Point
 from assoc_hull.model.tables import HullState
 
-__all__ = ["fair_request"]
+__all__ = ["fair_request", "window_of"]
 
 _WHERE = "in fair"
 _HELD = ("volume", "lcb")
@@ -55,6 +55,13 @@ def fair_request(
         hold=_held(hold),
         since=since,
     )
+
+
+def window_of(
+    state: HullState, at: object, radius: object
+) -> tuple[FloatArray, tuple[float, float]]:
+    """Take the middle of a window, m, and its radius, m."""
+    return _spot(GivenObjects(state), at), pair(radius, "radius", _WHERE, positive=True)
 
 
 def _noise(noise: object) -> Noise:

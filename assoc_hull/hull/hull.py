@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     from assoc_hull.edit.script import Replayed
     from assoc_hull.edit.shapes import Shapes
     from assoc_hull.fairing.fair_report import FairReport
+    from assoc_hull.fairing.fair_window import FairWindow
     from assoc_hull.fairing.line_fairness import FairnessTable
     from assoc_hull.geometry.curves import FloatArray
     from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
@@ -1696,6 +1697,41 @@ class Hull:
             ),
             text(name, "the name", "in fair"), dry_run=dry_run,
         )  # fmt: skip
+
+    def fair_window(
+        self, *, at: Point | str | ArrayLike, radius: tuple[float, float]
+    ) -> FairWindow:
+        """Begin to fair a window by hand: solved at each step, published by its `commit`.
+
+        Parameters
+        ----------
+        at : Point, address or (x, y, z) in m
+            The middle.
+        radius : (float, float), m
+            How far it reaches along the length and the girth.
+
+        Returns
+        -------
+        FairWindow
+            ``to(noise=..., radius=...)`` gives the window as it would be, ``commit()`` edits.
+
+        Raises
+        ------
+        BadInputError, UnknownNameError
+            A radius that is not above 0, no such point; nothing can move there.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> window = hull.fair_window(at="WL 3.75 x ST 8", radius=(20, 4))
+        >>> len(window.to(noise=0.002).rows), len(hull.history)
+        (55, 0)
+        """
+        from assoc_hull.edit.fair_arguments import window_of
+        from assoc_hull.fairing.fair_window import FairWindow
+
+        return FairWindow(self.document, *window_of(self.document.state, at, radius))
 
     def curve_transform(
         self,

@@ -7,6 +7,8 @@ active set). Two to five factorisations were needed on nets of ships.
 
 from __future__ import annotations
 
+from typing import Literal
+
 import attrs
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -43,29 +45,32 @@ class BoxSolution:
         freeze(self.values, self.side, self.free)
 
 
-def factorise(matrix: csr_array, chosen: IntArray | None = None) -> SuperLU:
-    """Factorise a symmetric positive matrix, all or the rows and columns of some unknowns."""
-    part = matrix if chosen is None else matrix[chosen][:, chosen]
-    return splu(
-        csc_array(part), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )  # fmt: skip
+Order = Literal["NATURAL", "MMD_AT_PLUS_A"]
+"""In which unknowns are eliminated: as they stand, or so that the factors stay sparse."""
+
+
+def factorise(matrix: csr_array, order: Order = "MMD_AT_PLUS_A") -> SuperLU:
+    """Factorise a symmetric positive matrix."""
+    found: SuperLU = splu(
+        csc_array(matrix), permc_spec=order, diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    )
+    return found
 
 
 def solve_in_box(
     matrix: csr_array, gradient: FloatArray, low: FloatArray, high: FloatArray,
-    side: IntArray | None = None,
+    side: IntArray | None = None, order: Order = "MMD_AT_PLUS_A",
 ) -> BoxSolution:  # fmt: skip
     """Make x H x / 2 + g x least for low <= x <= high; H is symmetric and positive.
 
-    `side` (n,) says where unknowns stood in a problem like this one.
+    `side` (n,) says where unknowns stood in a problem like this one: that set is tried first.
     """
     diagonal = matrix.diagonal()
     side = np.zeros(len(gradient), np.int64) if side is None else side
     for _ in range(_SETS):
         free = np.flatnonzero(side == 0)
         found = np.where(side < 0, low, np.where(side > 0, high, 0.0))
-        factors = factorise(matrix, free) if len(free) else None
+        factors = factorise(matrix[free][:, free], order) if len(free) else None
         if factors is not None:
             found[free] = factors.solve(-(gradient[free] + (matrix @ found)[free]))
         aim = found - (matrix @ found + gradient) / diagonal

@@ -15,25 +15,35 @@ from collections.abc import Callable
 
 import attrs
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
-from scipy.sparse.linalg import SuperLU, splu
+from scipy.linalg import cho_factor, cho_solve
+from scipy.sparse import csr_array, diags_array
+from scipy.sparse.linalg import SuperLU
 
 from assoc_hull.analysis.fairness.batten_problem import BattenProblem
+from assoc_hull.analysis.fairness.box_solver import BoxSolution, factorise, solve_in_box
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
-__all__ = ["FairSolution", "estimate_noise", "hold_sums", "solve_battens"]
+__all__ = [
+    "FairSolution",
+    "elimination_order",
+    "estimate_noise",
+    "first_factors",
+    "hold_sums",
+    "solve_battens",
+    "solve_few",
+]
 
 _ROUNDS, _BOUNDED = 6, 2
 """Rounds of weights, and those of them that keep the bounds."""
-
-_SETS = 30
-"""Active sets that are tried in one round; 2 to 5 were needed."""
 
 _SHARE = 0.5
 """s = sigma / 2: within .03 of the best ratio of errors on nets of ships whose truth is known."""
 
 _SIGNS, _SURPLUS, _START, _SAME, _MOST = 12, 1.3, 1e-3, 0.03, 15
 """Of the estimate of noise: vectors of signs, factor, first value (m), change, rounds."""
+
+_SLOW, _FARTHEST = (0.3, 0.95), 3.0
+"""Ratios of two steps of the logarithm after which one leads to their limit, by 3 at most."""
 
 _SMALLEST = 1e-6
 """Less noise (m) is none."""
@@ -81,38 +91,29 @@ class _Weighted:
         matrix = csr_array(a.T @ weighted + diags_array(1.0 / (spread * spread)))
         return cls(matrix, weighted.T @ b)
 
-    def factored(self, chosen: IntArray | None = None) -> SuperLU:
-        """Factorise, all or the rows and columns of some points."""
-        matrix = self.matrix if chosen is None else self.matrix[chosen][:, chosen]
-        return splu(
-            csc_array(matrix), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )  # fmt: skip
+    def within(self, limit: FloatArray, side: IntArray) -> BoxSolution:
+        """Solve within -limit .. limit; `side` (k,) says which points are put at bounds first."""
+        return solve_in_box(self.matrix, self.gradient, -limit, limit, side, "NATURAL")
 
-    def within(self, limit: FloatArray) -> tuple[FloatArray, IntArray, SuperLU, IntArray]:
-        """Solve within -limit .. limit: displacements, sides, the last factors, and of which.
 
-        A set of points is put at its bounds, the others are solved for, and forces and bounds say
-        which set is next.
-        """
-        h, g, diagonal = self.matrix, self.gradient, self.matrix.diagonal()
-        side = np.zeros(len(g), np.int64)
-        for _ in range(_SETS):
-            free = np.flatnonzero(side == 0)
-            d = side * limit
-            factors = self.factored(free)
-            d[free] = factors.solve(-(g[free] + (h @ d)[free]))
-            aim = d - (h @ d + g) / diagonal
-            new = np.where(aim > limit, 1, np.where(aim < -limit, -1, 0)).astype(np.int64)
-            if np.array_equal(new, side):
-                break
-            side = new
-        return np.clip(d, -limit, limit), side, factors, free
+def elimination_order(problem: BattenProblem) -> IntArray:
+    """Give an order of the points in which sparse factors stay sparse."""
+    ones = np.ones(len(problem.rows))
+    weighted = _Weighted.of(problem, ones, 1.0, np.zeros(len(problem.rows)))
+    found: IntArray = np.argsort(factorise(weighted.matrix).perm_c)
+    return found.astype(np.int64)
+
+
+def first_factors(problem: BattenProblem, noise: float) -> SuperLU:
+    """Factorise the system of a first round, its order found anew: the unit of time of all else."""
+    spread = noise * problem.freedom
+    weighted = _Weighted.of(problem, spread, _SHARE * noise, np.zeros(len(spread)))
+    return factorise(weighted.matrix)
 
 
 def solve_battens(
     problem: BattenProblem, noise: float, share: FloatArray | None = None,
-    limit: FloatArray | None = None,
+    limit: FloatArray | None = None, order: IntArray | None = None,
 ) -> FairSolution:  # fmt: skip
     """Find the displacements that take a stated noise out of a net.
 
@@ -126,26 +127,60 @@ def solve_battens(
         By what each point's own noise is multiplied: below 1 it moves less, above it is let go.
     limit : (k,) or None, m
         How far each may move along the normal; as far as it is drawn if None.
+    order : (k,) int or None
+        In which the points are eliminated; found anew if None.
     """
-    spread = noise * problem.freedom * (1.0 if share is None else share)
-    s, d = _SHARE * noise, np.zeros(len(problem.rows))
-    rounds = _ROUNDS if limit is None else _ROUNDS - _BOUNDED
-    for _ in range(rounds):
-        weighted = _Weighted.of(problem, spread, s, d)
-        factors = weighted.factored()
-        d = factors.solve(-weighted.gradient)
+    order = elimination_order(problem) if order is None else order
+    spread = (noise * problem.freedom * (1.0 if share is None else share))[order]
+    within = None if limit is None else limit[order]
+    ordered = attrs.evolve(problem, matrix=csr_array(problem.matrix[:, order]))
+    s, d = _SHARE * noise, np.zeros(len(order))
+    for _ in range(_ROUNDS if within is None else _ROUNDS - _BOUNDED):
+        weighted = _Weighted.of(ordered, spread, s, d)
+        whole = factorise(weighted.matrix, "NATURAL")
+        d = whole.solve(-weighted.gradient)
     side, free = np.zeros(len(d), np.int64), np.arange(len(d))
-    if limit is not None:
+    factors: SuperLU | None = whole
+    if within is not None:
         for _ in range(_BOUNDED):
-            weighted = _Weighted.of(problem, spread, s, d)
-            d, side, factors, free = weighted.within(limit)
+            weighted = _Weighted.of(ordered, spread, s, d)
+            bounded = weighted.within(within, side)
+            d, side, free, factors = bounded.values, bounded.side, bounded.free, bounded.factors
+    place = order[free]
 
     def solve(right: FloatArray) -> FloatArray:
         found = np.zeros_like(right)
-        found[free] = factors.solve(np.ascontiguousarray(right[free]))
+        if factors is not None:
+            found[place] = factors.solve(np.ascontiguousarray(right[place]))
         return found
 
-    return FairSolution(d, side, noise, solve)
+    back = np.argsort(order)
+    return FairSolution(d[back], side[back], noise, solve)
+
+
+def solve_few(
+    problem: BattenProblem, noise: float, share: FloatArray | None, limit: FloatArray
+) -> FloatArray:
+    """Give the displacements that `solve_battens` finds, of a few points: by dense factors.
+
+    Parameters
+    ----------
+    problem : BattenProblem
+        About the given places, of some two hundred points at most.
+    noise, share, limit
+        As there; a solution that passes its limits is found there.
+    """
+    spread = noise * problem.freedom * (1.0 if share is None else share)
+    a, b, s = problem.matrix.toarray(), problem.residual, _SHARE * noise
+    diagonal, d = np.diag(1.0 / (spread * spread)), np.zeros(len(spread))
+    for _ in range(_ROUNDS):
+        r = a @ d + b
+        weighted = a.T / (s * s + r * r)
+        d = -cho_solve(cho_factor(weighted @ a + diagonal, check_finite=False), weighted @ b,
+                       check_finite=False)  # fmt: skip
+    if (np.abs(d) > limit).any():
+        return solve_battens(problem, noise, share, limit).displacement
+    return d
 
 
 def estimate_noise(problem: BattenProblem, factor: float = 1.0) -> float:
@@ -162,19 +197,29 @@ def estimate_noise(problem: BattenProblem, factor: float = 1.0) -> float:
         Of lengths, by the size of the hull.
     """
     count, signs = len(problem.rows), _signs(len(problem.rows))
-    noise = factor * _START
+    order = elimination_order(problem)
+    noise, steps = factor * _START, list[float]()
     for _ in range(_MOST):
         spread = noise * problem.freedom
-        found = solve_battens(problem, noise)
+        found = solve_battens(problem, noise, order=order)
         trace = (signs * found.solve(signs / (spread * spread)[:, None])).sum() / _SIGNS
         square = float(((found.displacement / spread) ** 2).sum())
         new = _SURPLUS * noise * float(np.sqrt(square / max(count - trace, 1.0)))
-        new = max(new, factor * _SMALLEST)
-        same = abs(np.log(new / noise)) < _SAME
-        noise = new
-        if same:
-            break
+        steps.append(float(np.log(max(new, factor * _SMALLEST) / noise)))
+        if abs(steps[-1]) < _SAME:
+            return noise * float(np.exp(steps[-1]))
+        noise = max(noise * float(np.exp(_further(steps))), factor * _SMALLEST)
     return noise
+
+
+def _further(steps: list[float]) -> float:
+    """Give how far to go, in logarithms: where steps shrink slowly, to where they lead."""
+    shrinks = steps[-1] / steps[-2] if len(steps) > 1 else 0.0
+    if not _SLOW[0] < shrinks < _SLOW[1]:
+        return steps[-1]
+    whole = steps[-1] / (1.0 - shrinks)
+    steps.clear()
+    return float(np.clip(whole, -_FARTHEST, _FARTHEST))
 
 
 def _signs(count: int) -> FloatArray:

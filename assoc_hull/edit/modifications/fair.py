@@ -43,11 +43,14 @@ __all__ = [
     "FairField",
     "FairRequest",
     "Faired",
+    "GivenBattens",
     "Held",
     "Noise",
     "fair",
+    "given_values",
     "solve_fair",
     "table_unit",
+    "tolerances_of",
     "window_fade",
 ]
 
@@ -219,7 +222,7 @@ class FairField:
 
 
 @attrs.frozen(eq=False)
-class _Given:
+class GivenBattens:
     """A problem about the given values of its points.
 
     Attributes
@@ -270,9 +273,9 @@ def solve_fair(
     Given last is by how much each is farther from its given value then, (k, 3), m.
     """
     state = document.state.published()
-    given = _given_values(document, asked)
+    given = given_values(document, asked)
     noise, source = _noise(state, given.problem, asked.noise)
-    within = _tolerances(state, given.problem, asked, noise)
+    within = tolerances_of(state, given.problem, asked, noise)
     limit = within * given.problem.freedom
     solution = solve_battens(given.problem, noise, given.share, limit)
     digit = (_FINE_DIGIT if asked.hold else _DIGIT) * state.tolerances.factor
@@ -283,7 +286,7 @@ def solve_fair(
 
 
 def _displacements(
-    state: HullState, given: _Given, solution: FairSolution, limit: FloatArray, digit: float
+    state: HullState, given: GivenBattens, solution: FairSolution, limit: FloatArray, digit: float
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Give the points that move, by how much, and how much farther from the given values."""
     problem, present = given.problem, given.present
@@ -296,7 +299,7 @@ def _displacements(
     return problem.rows[some], delta[some], more[some]
 
 
-def _given_values(document: Document, asked: FairRequest) -> _Given:
+def given_values(document: Document, asked: FairRequest) -> GivenBattens:
     """Put the problem together: who may move, from where, and by how much the noise counts."""
     state = document.state.published()
     whole = net_battens(state)
@@ -323,12 +326,12 @@ def _given_values(document: Document, asked: FairRequest) -> _Given:
     square = (problem.moves * problem.moves).sum(axis=1)
     present = (offset * problem.moves).sum(axis=1) / square
     if fade is None:
-        return _Given(problem.shifted(-present), present, offset, None, int(kept.sum()))
+        return GivenBattens(problem.shifted(-present), present, offset, None, int(kept.sum()))
     share = fade[places]
     # The rim of a window stays where it is, its middle counts from what was given.
     middle = share[:, None] * offset
     present = (middle * problem.moves).sum(axis=1) / square
-    return _Given(problem.shifted(-present), present, offset, share, int(kept.sum()))
+    return GivenBattens(problem.shifted(-present), present, offset, share, int(kept.sum()))
 
 
 def window_fade(
@@ -407,7 +410,7 @@ def _refuse_few(state: HullState, problem: BattenProblem) -> None:
         )  # fmt: skip
 
 
-def _tolerances(
+def tolerances_of(
     state: HullState, problem: BattenProblem, asked: FairRequest, noise: float
 ) -> FloatArray:
     """Give how far each point may move along its freedom, m."""
@@ -437,8 +440,8 @@ def _tolerances(
 
 
 def _held(
-    document: Document, given: _Given, solution: FairSolution, limit: FloatArray, digit: float,
-    hold: Collection[Held],
+    document: Document, given: GivenBattens, solution: FairSolution, limit: FloatArray,
+    digit: float, hold: Collection[Held],
 ) -> FairSolution:  # fmt: skip
     """Correct a solution until the hull that it gives has the volume and centre of before."""
     state = document.state.published()
@@ -472,7 +475,8 @@ def _held(
 
 
 def _kept(name: Held, off: FloatArray) -> bool:
-    return abs(off[0]) <= _VOLUME_OFF if name == "volume" else abs(off[1]) <= _LCB_OFF
+    size, allowed = (off[0], _VOLUME_OFF) if name == "volume" else (off[1], _LCB_OFF)
+    return bool(abs(size) <= allowed)
 
 
 def _tried(
@@ -491,7 +495,7 @@ def _tried(
 
 
 def _told(
-    state: HullState, given: _Given, solution: FairSolution, within: FloatArray, source: str
+    state: HullState, given: GivenBattens, solution: FairSolution, within: FloatArray, source: str
 ) -> Faired:
     problem, d = given.problem, solution.displacement
     stayed = reasons_to_stay(state, None) | ({"to be kept": given.kept} if given.kept else {})

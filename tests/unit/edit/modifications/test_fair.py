@@ -185,7 +185,7 @@ def test_it_is_one_operation_of_scripts_previews_and_replay() -> None:
     assert seen.fingerprint == hull.fingerprint
     steps = hull.document.history[-1].script.edits
     assert steps == ({"op": "fair", **{k: v for k, v in script[0].items() if k != "op"}},)
-    other.apply("again", [dict(each) for each in steps])
+    other.apply("again", steps)
     assert other.fingerprint == hull.fingerprint
 
 
@@ -281,7 +281,7 @@ def test_a_rounded_hull_tells_its_noise() -> None:
     assert hull.fair().found.source == "rounded to 10 mm"
 
 
-Ask = Callable[[ah.Hull], Any]
+Ask = Callable[[Any], Any]
 WRONG: dict[str, tuple[Ask, type[AssocHullError], str]] = {
     "not known": (lambda h: h.fair(), BadInputError, "noise is not known .*0.0.* mm.*auto"),
     "few points": (
@@ -297,7 +297,7 @@ WRONG: dict[str, tuple[Ask, type[AssocHullError], str]] = {
         "nothing to move.*on the profile",
     ),
     "noise": (lambda h: h.fair(noise=-0.001), BadInputError, "above 0"),
-    "word": (lambda h: h.fair(noise="much"), BadInputError, "auto"),
+    "word": (lambda h: h.fair(**{"noise": "much"}), BadInputError, "auto"),
     "tolerance": (lambda h: h.fair(noise=0.001, tolerance=0.0), BadInputError, "above 0"),
     "of a line": (lambda h: h.fair(noise=0.001, tolerance={"WL 2.5": -1}), BadInputError, "above"),
     "radius": (lambda h: h.fair(noise=0.001, radius=(9, 9)), BadInputError, "without at"),
@@ -308,10 +308,10 @@ WRONG: dict[str, tuple[Ask, type[AssocHullError], str]] = {
     "line": (lambda h: h.fair(["WL 99"], noise=0.001), UnknownNameError, "WL 99"),
     "lines": (lambda h: h.fair("WL 2.5", noise=0.001), WrongTypeError, "list"),
     "no lines": (lambda h: h.fair([], noise=0.001), BadInputError, "no line"),
-    "hold": (lambda h: h.fair(noise=0.001, hold=["gm"]), BadInputError, "volume or lcb"),
+    "hold": (lambda h: h.fair(**{"noise": 0.001, "hold": ["gm"]}), BadInputError, "volume or lcb"),
     "keep": (lambda h: h.fair(noise=0.001, keep=["nobody"]), UnknownNameError, "nobody"),
     "group": (lambda h: h.fair(noise=0.001, keep=["sections"]), AssocHullError, "sections"),
-    "trial": (lambda h: h.fair(noise=0.001, dry_run=1), BadInputError, "dry_run"),
+    "trial": (lambda h: h.fair(**{"noise": 0.001, "dry_run": 1}), BadInputError, "dry_run"),
 }  # fmt: skip
 
 

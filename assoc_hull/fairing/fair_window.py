@@ -1,0 +1,166 @@
+"""A window that is faired while a hand draws at it: solved anew at each step, published at the end.
+
+A step solves for the points of the window by dense factors, in a fraction of the time of an edit,
+and shows the lines as they would be. Only `commit` edits the hull, and takes the full way.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import attrs
+import numpy as np
+from threadpoolctl import ThreadpoolController
+
+from assoc_hull.analysis.fairness.fair_solution import solve_battens, solve_few
+from assoc_hull.arguments import pair, positive
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.modifications.fair import (
+    FairRequest,
+    GivenBattens,
+    given_values,
+    tolerances_of,
+)
+from assoc_hull.edit.shapes import Shapes
+from assoc_hull.errors import BadInputError
+from assoc_hull.fairing.fair_hull import fair_hull
+from assoc_hull.fairing.fair_report import FairReport
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.tables import HullState
+
+__all__ = ["FairFrame", "FairWindow"]
+
+_WHERE = "in a fair window"
+
+_FEW = 200
+"""Up to so many points dense factors are faster."""
+
+
+@cache
+def _linear_algebra() -> ThreadpoolController:
+    return ThreadpoolController()
+
+
+@attrs.frozen(eq=False)
+class FairFrame:
+    """A window as it would be.
+
+    Attributes
+    ----------
+    noise : float, m
+        The noise that is taken out.
+    radius : (float, float), m
+        How far the window reaches along the length and the girth.
+    rows : (k,) int
+        The points that move.
+    displacement : (k,), m
+        How far, along the normal of the hull, from where they are.
+    state : HullState
+        The hull that it was found for.
+    """
+
+    noise: float
+    radius: tuple[float, float]
+    rows: IntArray
+    displacement: FloatArray
+    state: HullState = attrs.field(repr=False)
+    _given: GivenBattens = attrs.field(repr=False)
+
+    @property
+    def shapes(self) -> Shapes:
+        """The curves through points that move, as they would be, to first order."""
+        problem, state = self._given.problem, self.state
+        place = problem.places(state.rows.xyz.data, self.displacement)
+        moved = np.flatnonzero(np.diff(problem.rates.indptr))
+        reader = state.rows.reader.data[moved]
+        curves = np.unique(reader[reader >= 0])
+        row = np.concatenate([state.curves.rows.data[each] for each in curves.tolist()])
+        return Shapes(curves, loft(attrs.evolve(curve_data(state, curves), xyz=place[row])))
+
+
+class FairWindow:
+    """A window of a hull that is faired step by step; nothing changes before `commit`.
+
+    Parameters
+    ----------
+    document : Document
+        The hull.
+    at : (3,), m
+        The middle.
+    radius : (float, float), m
+        How far it reaches along the length and the girth.
+    """
+
+    def __init__(self, document: Document, at: FloatArray, radius: tuple[float, float]) -> None:
+        self.document = document
+        self.at = at
+        self.radius = radius
+        self._given: GivenBattens | None = None
+        self._of: HullState | None = None
+        self._frame: FairFrame | None = None
+        self._prepared()
+
+    def to(
+        self, *, noise: float | None = None, radius: tuple[float, float] | None = None
+    ) -> FairFrame:
+        """Fair it with another noise (m), or another radius (m), or both.
+
+        Raises
+        ------
+        BadInputError
+            A length that is not above 0; no noise in the first step; nothing can move.
+        """
+        if noise is not None:
+            noise = positive(noise, "noise", _WHERE)
+        elif self._frame is not None:
+            noise = self._frame.noise
+        else:
+            raise BadInputError("the noise is not stated", _WHERE, "give noise=, in m")
+        if radius is not None:
+            reach = pair(radius, "radius", _WHERE, positive=True)
+            if reach != self.radius:
+                self.radius, self._given = reach, None
+        given, state = self._prepared()
+        problem = given.problem
+        limit = tolerances_of(state, problem, FairRequest(), noise) * problem.freedom
+        with _linear_algebra().limit(limits=1):
+            few = len(problem.rows) <= _FEW
+            found = (
+                solve_few(problem, noise, given.share, limit)
+                if few
+                else solve_battens(problem, noise, given.share, limit).displacement
+            )
+        self._frame = FairFrame(
+            noise, self.radius, problem.rows, found - given.present, state, given
+        )
+        return self._frame
+
+    def _prepared(self) -> tuple[GivenBattens, HullState]:
+        """Give the problem of the window, for the hull as it is published."""
+        state = self.document.state.published()
+        if self._given is None or self._of is not state:
+            self._given = given_values(self.document, FairRequest(at=self.at, radius=self.radius))
+            self._of = state
+        return self._given, state
+
+    def commit(self, name: str = "fair") -> FairReport:
+        """Fair the hull as the last step showed it, in one edit.
+
+        Raises
+        ------
+        BadInputError
+            No step was made, or an edit is open.
+        RefusedEditError
+            The hull would not be consistent; it is unchanged.
+        """
+        frame = self._frame
+        if frame is None:
+            raise BadInputError("no step was made", _WHERE, "call to(noise=...) first")
+        return fair_hull(
+            self.document,
+            lambda edit: edit.fair(noise=frame.noise, at=self.at, radius=frame.radius),
+            name,
+            dry_run=False,
+        )
