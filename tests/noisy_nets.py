@@ -6,8 +6,8 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.fairness.batten_problem import BattenProblem
+from assoc_hull.edit.displacement_field import SolvedField
 from assoc_hull.edit.field_moves import FieldMoves
-from assoc_hull.edit.modifications.fair import FairField
 from assoc_hull.edit.net_battens import net_battens
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
@@ -95,7 +95,7 @@ def put_noise(hull: Hull, width: float) -> BattenProblem:
     clean = net_battens(hull.state)
     error = uniform_noise(len(clean.rows), width) * clean.freedom
     with Transaction(hull.document, "noise") as edit:
-        field = FairField(clean.rows, clean.moves * error[:, None])
+        field = SolvedField(clean.rows, clean.moves * error[:, None])
         edit.pending.ask(FieldMoves).fields.append(field)
     return clean
 

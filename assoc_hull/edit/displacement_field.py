@@ -35,6 +35,7 @@ __all__ = [
     "NormalField",
     "PointDisplacements",
     "PullField",
+    "SolvedField",
     "add_displacements",
     "flat_distance",
     "land_points",
@@ -465,6 +466,44 @@ def sub_step_count(state: HullState, shift: PointDisplacements) -> int:
 
 _STEPS = 64
 """A field of more sub-steps than this is no fairing any more."""
+
+
+@attrs.frozen(eq=False)
+class SolvedField:
+    """A displacement of points that was solved for.
+
+    Attributes
+    ----------
+    rows : (k,) int
+        The points.
+    delta : (k, 3), m
+        By how much they move.
+    landing, places : (l,) int, (l, 3), m
+        Points that land in given places, to the bit.
+    """
+
+    rows: IntArray
+    delta: FloatArray
+    landing: IntArray = attrs.field(factory=lambda: np.zeros(0, np.int64))
+    places: FloatArray = attrs.field(factory=lambda: np.zeros((0, 3)))
+    across_flats: bool = False
+    strict: bool = False
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.rows, self.delta, self.landing, self.places)
+
+    def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
+        """Give the displacements for a part of the whole."""
+        alive = ground.state.rows.alive.data[self.rows]
+        return PointDisplacements(self.rows[alive], part * self.delta[alive], np.zeros(0, np.int64))
+
+    def exact(self) -> tuple[IntArray, FloatArray]:
+        """Give the points that land, and where."""
+        return self.landing, self.places
+
+    def left(self, state: HullState, done: float) -> float:
+        """Give the part that is still to come, when a part is `done`."""
+        return 1.0 - done
 
 
 # --------------------------------------------------------------------------------------

@@ -27,20 +27,19 @@ from assoc_hull.analysis.hydrostatics.flotation import (
     EvenKeelDisplacement,
     even_keel_displacement,
 )
-from assoc_hull.edit.displacement_field import FieldContext, PointDisplacements, quintic_fade
+from assoc_hull.edit.displacement_field import SolvedField, quintic_fade
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.net_battens import net_battens, reasons_to_stay, volume_weights
 from assoc_hull.edit.past_states import PastStates
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.tables import HullState
 
 __all__ = [
     "BoundPoint",
-    "FairField",
     "FairRequest",
     "Faired",
     "GivenBattens",
@@ -183,40 +182,6 @@ class Faired:
         return estimate_noise(self.problem, factor)
 
 
-@attrs.frozen(eq=False)
-class FairField:
-    """A displacement of points that was solved for.
-
-    Attributes
-    ----------
-    rows : (k,) int
-        The points.
-    delta : (k, 3), m
-        By how much they move.
-    """
-
-    rows: IntArray
-    delta: FloatArray
-    across_flats: bool = False
-    strict: bool = False
-
-    def __attrs_post_init__(self) -> None:
-        freeze(self.rows, self.delta)
-
-    def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
-        """Give the displacements for a part of the whole."""
-        alive = ground.state.rows.alive.data[self.rows]
-        return PointDisplacements(self.rows[alive], part * self.delta[alive], np.zeros(0, np.int64))
-
-    def exact(self) -> tuple[IntArray, FloatArray]:
-        """Nothing: every point moves by what was solved for."""
-        return np.zeros(0, np.int64), np.zeros((0, 3))
-
-    def left(self, state: HullState, done: float) -> float:
-        """Give the part that is still to come, when a part is `done`."""
-        return 1.0 - done
-
-
 # --------------------------------------------------------------------------------------
 # The problem that is solved.
 
@@ -260,7 +225,7 @@ def fair(edit: Transaction, asked: FairRequest) -> Faired:
     found, rows, delta, more = solve_fair(edit.document, asked)
     if len(rows):
         moves = edit.pending.ask(FieldMoves)
-        moves.fields.append(FairField(rows, delta))
+        moves.fields.append(SolvedField(rows, delta))
         moves.faired.append((rows, more))
     return found
 
@@ -486,7 +451,7 @@ def _tried(
     beside = Document(document.state.published().snapshot())
     rows, delta, _ = moved
     with Transaction(beside, "fair") as edit:
-        edit.pending.ask(FieldMoves).fields.append(FairField(rows, delta))
+        edit.pending.ask(FieldMoves).fields.append(SolvedField(rows, delta))
     return even_keel_displacement(beside.state.published())
 
 

@@ -19,8 +19,8 @@ from assoc_hull.analysis.fairness.batten_problem import BattenProblem
 from assoc_hull.analysis.fairness.least_change import LeastChange
 from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.displacement_field import (
-    FieldContext,
     PointDisplacements,
+    SolvedField,
     quintic_fade,
     sub_step_count,
 )
@@ -196,30 +196,6 @@ class ShapeAsked:
 
 # --------------------------------------------------------------------------------------
 # The answer.
-
-
-@attrs.frozen(eq=False)
-class _AnswerField:
-    """Displacements that are carried out as they stand; some points land where they were asked."""
-
-    rows: IntArray
-    delta: FloatArray
-    landing: IntArray
-    places: FloatArray
-    across_flats: bool = False
-    strict: bool = False
-
-    def shift(self, ground: FieldContext, part: float) -> PointDisplacements:
-        """Give the displacements for a part of the whole."""
-        return PointDisplacements(self.rows, part * self.delta, np.zeros(0, np.int64))
-
-    def exact(self) -> tuple[IntArray, FloatArray]:
-        """Give what was asked."""
-        return self.landing, self.places
-
-    def left(self, state: HullState, done: float) -> float:
-        """Give the part that is still to come."""
-        return 1.0 - done
 
 
 @attrs.frozen(eq=False)
@@ -459,7 +435,7 @@ class _Search:
         rows = np.concatenate([problem.rows[moved], self.rows])
         shift = np.concatenate([problem.moves[moved] * delta[moved][:, None], own])
         order = np.argsort(rows)
-        field = _AnswerField(rows[order], shift[order], self.rows, self.places)
+        field = SolvedField(rows[order], shift[order], self.rows, self.places)
         pending.ask(FieldMoves).fields.append(field)
         self.edit.end_stage()
         state = self.edit.state
