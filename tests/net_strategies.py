@@ -51,7 +51,9 @@ _SEEDS = (0, 1, 4, 14, 13, 16, 3, 7, 29, 35, 8, 12)
 POOL = len(_SEEDS)
 """Number of nets kept ready."""
 
-SHAPES = ("move", "move", "move", "pull", "reshape", "insert", "delete", "set_end", "set_kind")
+SHAPES = (
+    "move", "move", "move_by", "pull", "reshape", "insert", "delete", "set_end", "set_kind",
+)  # fmt: skip
 STRUCTURE = (
     "add_line", "remove_line", "shift_line", "set_role", "set_role", "renew_roles", "pin", "unpin",
     "associate",
@@ -214,6 +216,15 @@ def _move(hull: ah.Hull, edit: Edit, act: Act) -> None:
         edit.move(point, **shift)
 
 
+def _move_by(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    points = live_points(hull, "crossing", "placed", "adopted")
+    free = [each for each in points if each.free and each.driver is None]
+    chosen = free[act.which % max(len(free), 1) :][:3]
+    by = [[act.amount * (axis in each.free) for axis in "xyz"] for each in chosen]
+    if chosen:
+        edit.move(chosen, by=by)
+
+
 def _pull(hull: ah.Hull, edit: Edit, act: Act) -> None:
     point = _pick(live_points(hull, "crossing"), act.which)
     assert point is not None
@@ -324,6 +335,7 @@ def _associate(hull: ah.Hull, edit: Edit, act: Act) -> None:
 
 _OPERATIONS = {
     "move": _move,
+    "move_by": _move_by,
     "pull": _pull,
     "reshape": _reshape,
     "insert": _insert,

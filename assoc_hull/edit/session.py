@@ -14,7 +14,7 @@ from typing import Literal, Self
 
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import choice, flag, number, positive, shown
+from assoc_hull.arguments import choice, flag, number, places, positive, shown
 from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.lines import add_line as _cut
@@ -223,29 +223,61 @@ class Edit:
     @recorded
     def move(
         self,
-        point: Point | str,
+        point: Point | str | Sequence[Point | str],
         *,
         x: float | None = None,
         y: float | None = None,
         z: float | None = None,
+        by: ArrayLike | None = None,
     ) -> None:
-        """Move a point along its freedom; give exactly the coordinates it is free in, m.
+        """Move a point along its freedom to a place, or points by vectors.
+
+        Parameters
+        ----------
+        point : Point or str, or sequence of them
+            The point; several only with `by`.
+        x, y, z : float or None, m
+            Where it goes: exactly the coordinates in which it is free.
+        by : (3,) or (k, 3) or None, m
+            Instead: the vector from where the points were before the edit, one for all or one
+            for each. Along coordinates in which a point is not free it must be 0.
 
         Raises
         ------
         PointRoleError
-            The point is driven or watched.
+            A point is driven or watched.
         FreedomError
             Other coordinates than those it is free in.
+        BadInputError
+            A place and a vector, several points and a place, or not as many vectors as points.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("5 mm out") as edit:
+        ...     edit.move(["WL 2.5 x ST 7", "WL 2.5 x ST 8"], by=(0, 0.005, 0))
+        >>> hull.undo()
         """
         asked = {"x": x, "y": y, "z": z}
-        row, _ = self._given.point(point)
         given = {
             axis: number(value, axis, "in move")
             for axis, value in asked.items()
             if value is not None
         }
-        _points.move(self._transaction, row, given)
+        if isinstance(point, str) or not isinstance(point, Sequence):
+            point, several = (point,), False
+        else:
+            several = True
+        if (by is None and several) or (by is not None and given):
+            what = "several points to one place" if by is None else "coordinates, and by= as well"
+            remedy = "give one point and its coordinates, or points and by=(x, y, z)"
+            raise BadInputError(what, "in move", remedy)
+        rows = [self._given.point(each)[0] for each in point]
+        if by is None:
+            _points.move(self._transaction, rows[0], given)
+        else:
+            _points.move_by(self._transaction, rows, places(by, "by", "in move"))
 
     @recorded
     def insert(self, curve: Curve | str, place: ArrayLike) -> Point:

@@ -168,15 +168,17 @@ class Transaction:
         if not np.isfinite(values).all():
             where = f"in {what if isinstance(what, str) else what()}"
             raise BadInputError("a coordinate is not finite", where, "give finite numbers")
-        for row, value in zip(rows.tolist(), values, strict=True):
-            if row in self.pending.values:
+        written = set(self.pending.values)
+        for row in rows.tolist():
+            if row in written:
                 key = self.state.rows.key[row]
                 raise BadInputError(
                     "a point is written twice in one transaction",
                     f"{key}, in {what if isinstance(what, str) else what()}",
                     "leave one of the two out, or use two transactions",
                 )
-            self.pending.values[row] = value
+            written.add(row)
+        self.pending.values |= zip(rows.tolist(), values, strict=True)
 
     def refuse_moved(self, rows: IntArray) -> None:
         """Refuse to change what points are, that this transaction has moved already.

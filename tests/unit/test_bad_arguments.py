@@ -124,7 +124,7 @@ HULL: dict[str, Given] = {
                "scale": None, "half": False, "points": None, "accept": False},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
-    "move": {"point": POINT, "x": None, "y": 3.0, "z": None},
+    "move": {"point": POINT, "x": None, "y": 3.0, "z": None, "by": None},
     "insert": {"curve": LINE, "place": PLACE},
     "delete": {"point": POINT},
     "set_kind": {"point": POINT, "kind": "tangent", "direction": (1.0, 0.0, 0.0)},
