@@ -56,7 +56,7 @@ SHAPES = (
 )  # fmt: skip
 STRUCTURE = (
     "add_line", "remove_line", "shift_line", "set_role", "set_role", "renew_roles", "pin", "unpin",
-    "associate",
+    "associate", "straighten", "round",
 )  # fmt: skip
 Item = TypeVar("Item")
 _ROLES = ("shared", "drives a", "drives b", "watched")
@@ -248,6 +248,23 @@ def _reshape(hull: ah.Hull, edit: Edit, act: Act) -> None:
     edit.reshape(curve, [place + act.amount * _free_way(curve)], span=span)
 
 
+def _run(hull: ah.Hull, act: Act) -> tuple[Curve, Point, Point]:
+    """Give a line and two of its points with one to three others between them."""
+    curve = _pick([each for each in _curves(hull) if len(each.defining) > 2], act.which)
+    assert curve is not None
+    points = list(curve.defining)
+    first = act.other % (len(points) - 2)
+    return curve, points[first], points[min(first + 2 + act.other % 3, len(points) - 1)]
+
+
+def _straighten(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    edit.straighten(*_run(hull, act))
+
+
+def _round(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    edit.round(*_run(hull, act), radius=100.0 * abs(act.amount) + 0.1)
+
+
 def _insert(hull: ah.Hull, edit: Edit, act: Act) -> None:
     curve = _pick(_curves(hull), act.which)
     assert curve is not None
@@ -349,6 +366,8 @@ _OPERATIONS = {
     "unpin": _unpin,
     "shift_line": _shift_line,
     "renew_roles": _renew_roles,
+    "straighten": _straighten,
+    "round": _round,
     "associate": _associate,
 }
 

@@ -24,6 +24,7 @@ from assoc_hull.edit.modifications import associations as _associate
 from assoc_hull.edit.modifications import curve_ends as _ends
 from assoc_hull.edit.modifications import definitions as _reattach
 from assoc_hull.edit.modifications import definitions as _set_form
+from assoc_hull.edit.modifications import draw_runs as _draw
 from assoc_hull.edit.modifications import names as _rename
 from assoc_hull.edit.modifications import points as _points
 from assoc_hull.edit.modifications import pull as _pull
@@ -348,6 +349,87 @@ class Edit:
             across_flats=across_flats,
         )
         return tuple(Point.of(self._tables, row) for row in made)
+
+    @recorded
+    def straighten(
+        self,
+        line: Line | Curve | str,
+        a: Point | str,
+        b: Point | str,
+        *,
+        fade: Literal["auto"] | tuple[float, float] = "auto",
+    ) -> None:
+        """Let a line run straight from one of its points to another; the hull follows.
+
+        Parameters
+        ----------
+        line : Line, Curve or str
+            A section, waterline, buttock or diagonal.
+        a, b : Point or str
+            Two points that define it. They stay, and become tangent points along the run.
+        fade : "auto" or (r_x, r_g), m
+            How the change of the hull fades along the length and the girth, as in `reshape`.
+
+        Raises
+        ------
+        BlockedRunError
+            Placed points, a feature, a flat or the centre plane in the run.
+        BadInputError
+            Points that are not on the line, or too near one another.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("straight") as edit:
+        ...     edit.straighten("WL 2.5", "WL 2.5 x ST 4", "WL 2.5 x ST 7")
+        >>> hull.features["WL 2.5 straight"].kind
+        'straight'
+        """
+        points = self._given.point(a)[0], self._given.point(b)[0]
+        _draw.straighten(self._transaction, self._given.line_of(line), points, fade)
+
+    @recorded
+    def round(
+        self,
+        line: Line | Curve | str,
+        a: Point | str,
+        b: Point | str,
+        *,
+        radius: float,
+        fade: Literal["auto"] | tuple[float, float] = "auto",
+    ) -> None:
+        """Let a line turn from one side to another in an arc that touches both; the hull follows.
+
+        Parameters
+        ----------
+        line, a, b, fade
+            As for `straighten`. The sides are the straight lines along which the line comes to
+            its first point and leaves its second; a knuckle between them gives way.
+        radius : float, m
+            Of the arc.
+
+        Raises
+        ------
+        BlockedRunError, BadInputError
+            As `straighten`.
+        GeometryError
+            The sides do not meet in a corner, or the arc does not fit; with the radius that does.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("round") as edit:
+        ...     edit.round("ST 10", "ST 10 x WL 0.625", "ST 10 x WL 5.625", radius=5.5)
+        >>> hull.features["ST 10 arc"].parameters["radius"]
+        5.5
+        """
+        points = self._given.point(a)[0], self._given.point(b)[0]
+        _draw.round_corner(
+            self._transaction, self._given.line_of(line), points,
+            positive(radius, "radius", "in round"), fade,
+        )  # fmt: skip
 
     @recorded
     def set_end(

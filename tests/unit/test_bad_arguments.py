@@ -135,6 +135,10 @@ EDIT: dict[str, Given] = {
         "curve": LINE, "points": [PLACE], "span": (30.0, 60.0), "fade": "auto",
         "across_flats": False,
     },
+    "straighten": {"line": LINE, "a": POINT, "b": "WL 2.5 x ST 5", "fade": "auto"},
+    "round": {
+        "line": LINE, "a": POINT, "b": "WL 2.5 x ST 5", "radius": 90.0, "fade": (20.0, 5.0),
+    },
     "set_end": {"curve": LINE, "end": "start", "tangent": None, "curvature": None},
     "set_role": {"crossing": POINT, "role": "drives a"},
     "renew_roles": {"lines": [LINE]},
