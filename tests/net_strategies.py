@@ -56,7 +56,7 @@ SHAPES = (
 )  # fmt: skip
 STRUCTURE = (
     "add_line", "remove_line", "shift_line", "set_role", "set_role", "renew_roles", "pin", "unpin",
-    "associate", "straighten", "round",
+    "associate", "straighten", "round", "spread",
 )  # fmt: skip
 Item = TypeVar("Item")
 _ROLES = ("shared", "drives a", "drives b", "watched")
@@ -265,6 +265,12 @@ def _round(hull: ah.Hull, edit: Edit, act: Act) -> None:
     edit.round(*_run(hull, act), radius=100.0 * abs(act.amount) + 0.1)
 
 
+def _spread(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    point = _pick(live_points(hull, "crossing"), act.which)
+    assert point is not None
+    edit.spread(point, length=(0.05 + 0.4 * (act.other % 100) / 100.0) * hull.particulars.length)
+
+
 def _insert(hull: ah.Hull, edit: Edit, act: Act) -> None:
     curve = _pick(_curves(hull), act.which)
     assert curve is not None
@@ -368,6 +374,7 @@ _OPERATIONS = {
     "renew_roles": _renew_roles,
     "straighten": _straighten,
     "round": _round,
+    "spread": _spread,
     "associate": _associate,
 }
 

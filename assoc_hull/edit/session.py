@@ -31,6 +31,7 @@ from assoc_hull.edit.modifications import pull as _pull
 from assoc_hull.edit.modifications import reshape as _reshape
 from assoc_hull.edit.modifications import roles as _renew
 from assoc_hull.edit.modifications import roles as _set_role
+from assoc_hull.edit.modifications import spread as _spread
 from assoc_hull.edit.recording import Said, Settings, recorded
 from assoc_hull.edit.recut import transform as _transform
 from assoc_hull.edit.report import EditReport
@@ -430,6 +431,49 @@ class Edit:
             self._transaction, self._given.line_of(line), points,
             positive(radius, "radius", "in round"), fade,
         )  # fmt: skip
+
+    @recorded
+    def spread(
+        self,
+        point: Point | str,
+        *,
+        length: float,
+        fade: Literal["auto"] | tuple[float, float] = "auto",
+    ) -> None:
+        """Make the hollow or the bump of a line at a point longer and shallower.
+
+        Its area stays (that between the line and what it was is nil), and its ends are tangent
+        to the line; the hull follows.
+
+        Parameters
+        ----------
+        point : Point or str
+            A point of the line in the hollow; ``"WL 1 x ST 3"`` is one of WL 1.
+        length : float, m
+            The new length, along the line that touches both sides of the hollow.
+        fade : "auto" or (r_x, r_g), m
+            As in `reshape`.
+
+        Raises
+        ------
+        BadInputError
+            The line has no hollow or bump there, or the length reaches beyond an end of it.
+        OutOfRangeError
+            The hollow is as long already, or would not be shallower.
+        BlockedRunError
+            Placed points, a feature, a flat or the centre plane within the length.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("a dent") as edit:
+        ...     edit.move("WL 2.5 x ST 7", by=(0, -0.1, 0))
+        >>> with hull.edit("longer") as edit:
+        ...     edit.spread("WL 2.5 x ST 7", length=40.0)
+        """
+        row, side = self._given.point(point)
+        _spread.spread(self._transaction, row, side, positive(length, "length", "in spread"), fade)
 
     @recorded
     def set_end(

@@ -33,6 +33,7 @@ from assoc_hull.edit.nudge import Nudged
 from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.program_edit import ProgramEdit
 from assoc_hull.edit.recording import Settings
+from assoc_hull.edit.spread_areas import SpreadAreas
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -46,7 +47,7 @@ from assoc_hull.model.tables import HullState
 __all__ = ["KINDS", "update"]
 
 KINDS: tuple[type[Modification], ...] = (
-    Nudged, DefinitionValues, FieldMoves, CarriedNet, DrawnRuns,
+    Nudged, DefinitionValues, FieldMoves, CarriedNet, DrawnRuns, SpreadAreas,
 )  # fmt: skip
 """Kinds of modification that take more than places and recipes, in the order in which each stage
 of an update turns to them: a nudge moves a hull before curves are found to be off definitions."""

@@ -139,6 +139,7 @@ EDIT: dict[str, Given] = {
     "round": {
         "line": LINE, "a": POINT, "b": "WL 2.5 x ST 5", "radius": 90.0, "fade": (20.0, 5.0),
     },
+    "spread": {"point": POINT, "length": 40.0, "fade": "auto"},
     "set_end": {"curve": LINE, "end": "start", "tangent": None, "curvature": None},
     "set_role": {"crossing": POINT, "role": "drives a"},
     "renew_roles": {"lines": [LINE]},

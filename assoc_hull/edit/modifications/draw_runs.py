@@ -145,7 +145,7 @@ def _draw(edit: Transaction, asked: LinePart, drawn: DrawnRun, fade: Fade) -> No
     middle = closest_points(old, 0, 0.5 * (drawn.start + drawn.end)[None])[1]
     radius = fade_radii(state, fade, middle)
     normals = normals_at(state, asked.rows)
-    marks = held_marks(edit, asked, _marks(asked, drawn))
+    marks = held_marks(edit, asked, _marks(asked, drawn), drop=True)
     marks, breaks, arc = _with_arc(edit, asked, drawn, marks)
     _define(edit, asked, marks)
     for row, way in breaks.items():

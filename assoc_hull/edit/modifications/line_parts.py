@@ -216,16 +216,23 @@ class Mark:
         """The point that is moved."""
         return self.row if self.holder < 0 else self.holder
 
+    def moves(self, state: HullState) -> bool:
+        """Tell whether it can be moved: by itself, or by what its driver was given."""
+        return self.holder >= 0 or int(state.rows.driver[self.row]) < 0
 
-def held_marks(edit: Transaction, asked: LinePart, marks: list[Mark]) -> list[Mark]:
-    """Give the lines that drive points of the run a point of their own there.
 
-    One that has a point near by is given none: then the crossing is watched from now on.
+def held_marks(
+    edit: Transaction, asked: LinePart, marks: Sequence[Mark], *, drop: bool
+) -> list[Mark]:
+    """Give the lines that drive points of the part a point of their own there.
+
+    One that has a point near by is given none: if `drop`, the crossing is watched from now on,
+    else it goes where its driver goes.
     """
     state, kept = edit.state, list[Mark]()
     for mark in marks:
         driver = int(state.rows.driver[mark.row])
-        if driver < 0 or mark in (marks[0], marks[-1]):
+        if driver < 0 or mark.row in asked.ends:
             kept.append(mark)
             continue
         place = state.rows.xyz[mark.row].copy()
@@ -234,13 +241,15 @@ def held_marks(edit: Transaction, asked: LinePart, marks: list[Mark]) -> list[Ma
             mark.holder = int(edit.maker.points([PointSpec(driver, place, Sort.ADOPTED)])[0])
             insert_defining_point(edit.maker, driver, mark.holder)
             edit.pending.curves.add(driver)
-            kept.append(mark)
+            edit.pending.structural = True
+        elif drop:
+            edit.maker.roles(np.array([mark.row]), np.array([int(Role.WATCHED)]))
+            edit.journal.put(state.rows.limit, [mark.row], [2.0 * state.tolerances.adoption])
+            edit.pending.notes.append(
+                f"{address(state, mark.row)} is watched now: what drives it has a point beside it"
+            )
             continue
-        edit.maker.roles(np.array([mark.row]), np.array([int(Role.WATCHED)]))
-        edit.journal.put(state.rows.limit, [mark.row], [2.0 * state.tolerances.adoption])
-        edit.pending.notes.append(
-            f"{address(state, mark.row)} is watched now: it drove the run, and has no room there"
-        )
+        kept.append(mark)
     return kept
 
 
