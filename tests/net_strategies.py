@@ -56,7 +56,7 @@ SHAPES = (
 )  # fmt: skip
 STRUCTURE = (
     "add_line", "remove_line", "shift_line", "set_role", "set_role", "renew_roles", "pin", "unpin",
-    "associate", "straighten", "round", "spread",
+    "associate", "straighten", "round", "spread", "knuckle_line",
 )  # fmt: skip
 Item = TypeVar("Item")
 _ROLES = ("shared", "drives a", "drives b", "watched")
@@ -271,6 +271,18 @@ def _spread(hull: ah.Hull, edit: Edit, act: Act) -> None:
     edit.spread(point, length=(0.05 + 0.4 * (act.other % 100) / 100.0) * hull.particulars.length)
 
 
+def _knuckle_line(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    chine = [each for each in hull.lines.values() if each.name == "chine"]
+    if chine and act.other % 2:
+        edit.remove_knuckle_line(chine[0])
+        return
+    offset = hull.state.lines.offset
+    lines = sorted(hull.groups["sections"].lines.values(), key=lambda each: offset[each.number])
+    first = act.which % max(len(lines) - 2, 1)
+    points = [list(each.curves[0].defining)[1:-1] for each in lines[first : first + 3]]
+    edit.knuckle_line("chine", [each[act.other % len(each)] for each in points if each])
+
+
 def _insert(hull: ah.Hull, edit: Edit, act: Act) -> None:
     curve = _pick(_curves(hull), act.which)
     assert curve is not None
@@ -375,6 +387,7 @@ _OPERATIONS = {
     "straighten": _straighten,
     "round": _round,
     "spread": _spread,
+    "knuckle_line": _knuckle_line,
     "associate": _associate,
 }
 

@@ -18,6 +18,7 @@ from assoc_hull.arguments import choice, flag, number, places, positive, shown
 from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.lines import add_line as _cut
+from assoc_hull.edit.lines import knuckle_lines as _knuckles
 from assoc_hull.edit.lines import remove_line as _lines
 from assoc_hull.edit.lines import shift_line as _shift
 from assoc_hull.edit.modifications import associations as _associate
@@ -592,6 +593,56 @@ class Edit:
     def remove_line(self, line: Line | str) -> None:
         """Remove a line; what it held stays behind as adopted points."""
         _lines.remove_line(self._transaction, self._given.line(line))
+
+    @recorded
+    def knuckle_line(self, name: str, points: Sequence[Point | str]) -> Line:
+        """Draw a knuckle line through points of neighbouring sections.
+
+        It is a boundary curve. The sections turn in a knuckle at it, and so do lines that pass
+        it between sections; `remove_knuckle_line` makes all smooth again.
+
+        Parameters
+        ----------
+        name : str
+            Of the line.
+        points : sequence of Point or str
+            A point of each of three or more neighbouring sections, in any order: crossings,
+            placed or adopted points.
+
+        Raises
+        ------
+        BadInputError
+            Too few points, points of no section or two of one, a section left out between two.
+        BlockedRunError
+            Points that cannot become knuckles, as the end of a section or one on a flat.
+        NameTakenError
+            There is a line of that name.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("chine") as edit:
+        ...     line = edit.knuckle_line("chine", [f"ST {x} x WL 2.5" for x in (6, 7, 8)])
+        >>> hull.features["chine"].kind
+        'knuckle'
+        """
+        if isinstance(points, str | Point) or not isinstance(points, Sequence):
+            what = f"the points are {shown(points)}"
+            raise WrongTypeError(what, "in knuckle_line", "give a list of points")
+        rows = [self._given.point(each)[0] for each in points]
+        return Line.of(self._tables, _knuckles.knuckle_line(self._transaction, name, rows))
+
+    @recorded
+    def remove_knuckle_line(self, line: Line | str) -> None:
+        """Take a knuckle line away: what it split is smooth again, through the points of before.
+
+        Raises
+        ------
+        BadInputError
+            It is another kind of line.
+        """
+        _knuckles.remove_knuckle_line(self._transaction, self._given.line(line))
 
     @recorded
     def transform(

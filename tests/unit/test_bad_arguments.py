@@ -149,6 +149,10 @@ EDIT: dict[str, Given] = {
     "add_line": {"group": "waterlines", "position": 2.0, "name": "low"},
     "shift_line": {"line": LINE, "position": 2.4},
     "remove_line": {"line": LINE},
+    "knuckle_line": {
+        "name": "chine", "points": ["ST 3 x WL 2.5", "ST 4 x WL 2.5", "ST 5 x WL 2.5"],
+    },
+    "remove_knuckle_line": {"line": LINE},
     "set_form": {"definition": "areas", "values": 0.5},
     "reattach": {"line": CURVE},
     "transform": {
