@@ -99,8 +99,9 @@ def _off_run(state: HullState, run: AskedRun) -> Iterator[str]:
     if off[worst] > _ON * state.tolerances.factor:
         name = address(state, int(rows[worst]))
         yield (
-            f"{name} came to lie {1e3 * off[worst]:.3g} mm off the run of {title}: what crosses "
-            "there does not follow so far; draw a shorter run, or one nearer to the line"
+            f"{name} came to lie {1e3 * off[worst]:.3g} mm off the run of {title}: another "
+            "change of the edit holds it, or what crosses there does not follow so far; draw the "
+            "run in an edit of its own, shorter, or nearer to the line"
         )
 
 

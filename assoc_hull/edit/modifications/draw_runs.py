@@ -150,7 +150,8 @@ def _draw(edit: Transaction, asked: LinePart, drawn: DrawnRun, fade: Fade) -> No
     _define(edit, asked, marks)
     for row, way in breaks.items():
         _set_tangent(edit, asked, row, way)
-    lead(edit, asked, marks[1:-1], designed(state, curve, marks), radius, normals)
+    moved = [mark for mark in marks if mark.holder >= 0 or mark.row not in asked.ends]
+    lead(edit, asked, moved, designed(state, curve, marks), radius, normals)
     edit.pending.ask(DrawnRuns).runs.append(AskedRun(curve, tuple(breaks), arc, drawn))
 
 

@@ -152,11 +152,21 @@ class LinePart:
             self.blocked(rows, why, remedy)
 
     def refuse_driven_ends(self) -> None:
-        """Refuse where an end is computed from another line, and so would not stay."""
-        ends = np.array(self.ends)
-        computed = (self.state.rows.driver[ends] >= 0) & ~self.state.rows.contact[ends]
+        """Refuse where an end is computed from a line that has no room to be held there."""
+        ends = [row for row in self.ends if self.driver(row) >= 0 and not self.has_room(row)]
         remedy = "choose another end, or make it shared (edit.set_role)"
-        self.blocked(ends[computed], "another line drives an end of the run", remedy)
+        self.blocked(ends, "another line drives an end of the run", remedy)
+
+    def driver(self, row: int) -> int:
+        """Give the curve that a point is computed from and that fields move; -1 if none."""
+        still = on_profile(self.state)[row] or on_flat(self.state)[row]
+        return -1 if still else int(self.state.rows.driver[row])
+
+    def has_room(self, row: int) -> bool:
+        """Tell whether the driver of a point has no other point near it."""
+        state = self.state
+        step = state.rows.xyz[state.curves.rows[self.driver(row)]] - state.rows.xyz[row]
+        return float(np.sqrt((step * step).sum(axis=1)).min()) >= state.tolerances.factor * _NEAR
 
     def blocked(self, rows: Sequence[int] | IntArray, why: str, remedy: str) -> None:
         """Refuse if there are such points."""
@@ -231,13 +241,12 @@ def held_marks(
     """
     state, kept = edit.state, list[Mark]()
     for mark in marks:
-        driver = int(state.rows.driver[mark.row])
-        if driver < 0 or mark.row in asked.ends:
+        driver = asked.driver(mark.row)
+        if driver < 0:
             kept.append(mark)
             continue
-        place = state.rows.xyz[mark.row].copy()
-        step = state.rows.xyz[state.curves.rows[driver]] - place
-        if float(np.sqrt((step * step).sum(axis=1)).min()) >= state.tolerances.factor * _NEAR:
+        if asked.has_room(mark.row):
+            place = state.rows.xyz[mark.row].copy()
             mark.holder = int(edit.maker.points([PointSpec(driver, place, Sort.ADOPTED)])[0])
             insert_defining_point(edit.maker, driver, mark.holder)
             edit.pending.curves.add(driver)

@@ -96,7 +96,7 @@ class DrawnRun:
         degrees = float(np.degrees(turn))
         told: dict[str, object] = {"turn_deg": degrees}
         if not _LEAST_TURN < turn < np.pi - _LEAST_TURN:
-            what = f"the sides turn by {degrees:.3g} degrees from one point to the other"
+            what = f"the sides turn by {degrees:.3f} degrees from one point to the other"
             raise GeometryError(what, "choose points on sides that meet in a corner", told)
         inward = across / sine
         chord = end - start
@@ -125,11 +125,8 @@ class DrawnRun:
     @property
     def turn(self) -> float:
         """The angle of the arc, rad."""
-        return float(np.arctan2(*reversed(self._turned(self.last))))
-
-    def _turned(self, way: FloatArray) -> tuple[float, float]:
-        """Give a direction in the plane of the arc: along the first side, and inward of it."""
-        return float((way * self.first).sum()), float((way * self._inward).sum())
+        ahead, inward = (self.last * self.first).sum(), (self.last * self._inward).sum()
+        return float(np.arctan2(inward, ahead))
 
     @property
     def _inward(self) -> FloatArray:

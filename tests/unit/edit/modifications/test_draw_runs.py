@@ -256,7 +256,7 @@ def test_placed_points_in_the_run_are_named_and_unpinned_ones_give_way() -> None
     assert hull.check() == ()
 
 
-def test_features_flats_and_driven_ends_are_in_the_way(shipped: Shipped) -> None:
+def test_features_and_flats_are_in_the_way(shipped: Shipped) -> None:
     """Each with the way out."""
     carrier = shipped("bulk_carrier")
     for line, a, b, words in (
@@ -270,17 +270,37 @@ def test_features_flats_and_driven_ends_are_in_the_way(shipped: Shipped) -> None
             ah.AssocHullError,
         )  # fmt: skip
         assert words in text
-    hull = shipped("series60_70")
-    driven = next(point for point in hull.points.values()
-                  if point.crossing_role == "drives b" and point.driver is not None
-                  and point.role == "defining" and point.kind == "smooth"
-                  and point.container_curve.line.group.name == "buttocks"
-                  and 3 < list(point.container_curve.defining).index(point) < 6)  # fmt: skip
-    curve = driven.container_curve
-    other = next(iter(curve.defining))
-    text = refused(hull, lambda edit: edit.straighten(curve, other, driven), BlockedRunError)
+
+
+def test_an_end_that_cannot_be_held_is_made_shared_first(fresh_series60_70: ah.Hull) -> None:
+    """As the message says; what cannot be held within the run is watched, and told."""
+    hull = fresh_series60_70
+    hull.apply("diagonal", [{"op": "add_line", "group": "diagonals", "position": (9.0, 30.0)}])
+    ends = ["DIA 9 30 x ST 2.5", "DIA 9 30 x ST 4"]
+    text = refused(hull, lambda edit: edit.straighten("DIA 9 30", *ends), BlockedRunError)
     assert "another line drives an end" in text
     assert "edit.set_role" in text
+    hull.apply("shared", [{"op": "set_role", "crossing": end, "role": "shared"} for end in ends])
+    report = hull.apply("run", [{"op": "straighten", "line": "DIA 9 30", "a": ends[0],
+                                 "b": ends[1]}])  # fmt: skip
+    assert "DIA 9 30 x ST 3 is watched now" in report.notes[0]
+    assert hull.check() == ()
+    assert hull.verify() == ()
+
+
+def test_one_point_is_not_moved_and_put_on_a_run_in_one_edit() -> None:
+    """Neither is lost unseen, in any order."""
+    hull = ah.examples.wigley()
+    move = {"op": "move", "point": "WL 2.5 x ST 5", "by": (0, 0.01, 0)}
+    run = {"op": "straighten", "line": "WL 2.5", "a": "WL 2.5 x ST 4", "b": "WL 2.5 x ST 7"}
+    bend = {"op": "reshape", "curve": "WL 2.5", "span": (5, 45),
+            "points": [hull["WL 2.5 x ST 5"].position + np.array([0.0, 0.05, 0.0])]}  # fmt: skip
+    for asked in ([move, run], [run, move], [bend, move]):
+        with pytest.raises(RefusedEditError, match="is moved, and given another place"):
+            hull.apply("both", asked)
+    with pytest.raises(BadInputError, match="use two edits"):
+        hull.apply("both", [run, {**run, "a": "WL 2.5 x ST 10", "b": "WL 2.5 x ST 12"}])
+    assert hull.history == ()
 
 
 def runs(hull: ah.Hull, rng: random.Random) -> dict[str, Any]:
