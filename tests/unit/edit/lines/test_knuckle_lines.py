@@ -75,7 +75,7 @@ def test_a_knuckle_line_goes_through_its_points_and_can_be_taken_back(
     """A knuckle on each section, passing lines split; removed, all lines have their bits."""
     hull = ship(name, shipped)
     before, shapes = hull.fingerprint, splines(hull)
-    places = [hull[point].position for point in points]
+    places = [hull.points[point].position for point in points]
     asked = [{"op": "knuckle_line", "name": "chine", "points": points}]
     seen = hull.preview(asked, name="chine")
     hull.apply("chine", asked)
@@ -89,28 +89,28 @@ def test_a_knuckle_line_goes_through_its_points_and_can_be_taken_back(
     assert hull.features["chine"].kind == "knuckle"
     for point, place in zip(points, places, strict=True):
         section, other = point.split(" x ")
-        assert hull[f"chine x {section}"].position.tolist() == place.tolist()
-        kinds = [hull[f"{line} x {crossed}"].kind for line, crossed in
+        assert hull.points[f"chine x {section}"].position.tolist() == place.tolist()
+        kinds = [hull.points[f"{line} x {crossed}"].kind for line, crossed in
                  ((section, "chine"), (other, section))]  # fmt: skip
         assert kinds == ["knuckle", "knuckle"]
-        assert np.abs(hull[point].position - place).max() < 1e-12
+        assert np.abs(hull.points[point].position - place).max() < 1e-12
         assert turn(hull, section, place) > 0.0
     split = {point.container_curve.line.name for point in hull.points.values()
              if point.parent_curve is not None and point.parent_curve.line.name == "chine"
              and point.crossing_role == "drives b"}  # fmt: skip
     assert split == set(passing)
     for line in passing:
-        point = hull[f"{line} x chine"]
-        assert point.kind == "knuckle"
-        assert curve.closest(point.position)[2] < 1e-9
-        assert turn(hull, line, point.position) > 0.0
+        contact = hull.points[f"{line} x chine"]
+        assert contact.kind == "knuckle"
+        assert curve.closest(contact.position)[2] < 1e-9
+        assert turn(hull, line, contact.position) > 0.0
     hull.undo()
     assert hull.fingerprint == before
     hull.redo()
     assert hull.fingerprint == after
     hull.apply("smooth", [{"op": "remove_knuckle_line", "line": "chine"}])
     assert splines(hull) == shapes
-    assert [hull[point].crossing_role for point in points] == ["shared"] * len(points)
+    assert [hull.points[point].crossing_role for point in points] == ["shared"] * len(points)
     assert "chine" not in hull.features
     assert hull.check() == ()
     assert hull.verify() == ()
@@ -129,7 +129,7 @@ def test_the_points_may_come_in_any_order_and_move_the_line() -> None:
         prints.add(hull.fingerprint)
         with hull.edit("out") as edit:
             edit.move("chine x ST 7", by=(0.0, 0.05, -0.02))
-        assert turn(hull, "ST 7", hull["chine x ST 7"].position) > 1.0
+        assert turn(hull, "ST 7", hull.points["chine x ST 7"].position) > 1.0
         assert hull.check() == ()
     assert len(prints) == 1
 
@@ -161,7 +161,7 @@ def test_remove_line_takes_the_line_and_leaves_the_shape() -> None:
     hull.apply("chine", [{"op": "knuckle_line", "name": "chine", "points": LINES[1][1]}])
     with hull.edit("out") as edit:
         edit.move("chine x ST 7", by=(0.0, 0.05, 0.0))
-    place = hull["chine x ST 7"].position
+    place = hull.points["chine x ST 7"].position
     hull.apply("line", [{"op": "remove_line", "line": "chine"}])
     assert turn(hull, "ST 7", place) > 1.0
 
@@ -227,7 +227,7 @@ def test_on_any_hull_a_knuckle_line_is_drawn_whole_or_refused(
     for line in lines[first : first + rng.randint(3, 5)]:
         rows = state.curves.rows[line.curves[0].number].tolist()
         points.append(address(state, rng.choice(rows[1:-1])))
-    known = [hull[point].position for point in points]
+    known = [hull.points[point].position for point in points]
     try:
         with hull.edit("chine") as edit:
             edit.knuckle_line("chine", points)

@@ -42,8 +42,8 @@ def ship(name: str, shipped: Shipped) -> ah.Hull:
 
 def curve_of(hull: ah.Hull, line: str, point: str) -> Curve:
     """The curve of a line on which a point lies."""
-    found = hull[point].container_curve
-    friend = hull[point].friend_point
+    found = hull.points[point].container_curve
+    friend = hull.points[point].friend_point
     return found if found.line.name == line or friend is None else friend.container_curve
 
 
@@ -73,7 +73,11 @@ def test_a_spread_hollow_keeps_its_area_and_is_shallower(
     hull, point = ship(name, shipped), f"{line} x {other}"
     sound = curve_of(hull, line, point).spline
     hull.apply("dent", [{"op": "move", "point": point, "by": [dent * (i == up) for i in range(3)]}])
-    curve, place, before = curve_of(hull, line, point), hull[point].position, hull.fingerprint
+    curve, place, before = (
+        curve_of(hull, line, point),
+        hull.points[point].position,
+        hull.fingerprint,
+    )
     old = curve.spline
     along = 2 if line.startswith("ST") else 0
     asked = [{"op": "spread", "point": point, "length": length}]
@@ -83,7 +87,7 @@ def test_a_spread_hollow_keeps_its_area_and_is_shallower(
     new = curve.spline
     kept = area(new, along, up) - area(old, along, up)
     assert abs(kept) < 1e-8 * abs(dent) * length
-    assert (hull[point].y - place[1]) * dent < 0.0
+    assert (hull.points[point].y - place[1]) * dent < 0.0
     at = int(np.linalg.norm(old.xyz - place, axis=1).argmin())
     left, dented = (bend(each, at, up) - bend(sound, at, up) for each in (new, old))
     assert abs(left) < abs(dented)
@@ -102,7 +106,7 @@ def test_the_ends_are_tangent_to_the_line() -> None:
     assert point in hull.points
     with hull.edit("dent") as edit:
         edit.pull(point, -0.05, (8.0, 2.0))
-    curve, place = curve_of(hull, "WL 2.5", point), hull[point].position
+    curve, place = curve_of(hull, "WL 2.5", point), hull.points[point].position
     old = curve.spline
     with hull.edit("spread") as edit:
         edit.spread(point, length=30.0)
