@@ -389,7 +389,8 @@ class Edit:
         'straight'
         """
         points = self._given.point(a)[0], self._given.point(b)[0]
-        _draw.straighten(self._transaction, self._given.line_of(line), points, fade)
+        with self._transaction.whole() as held:
+            _draw.straighten(held, self._given.line_of(line), points, fade)
 
     @recorded
     def round(
@@ -428,10 +429,9 @@ class Edit:
         5.5
         """
         points = self._given.point(a)[0], self._given.point(b)[0]
-        _draw.round_corner(
-            self._transaction, self._given.line_of(line), points,
-            positive(radius, "radius", "in round"), fade,
-        )  # fmt: skip
+        size = positive(radius, "radius", "in round")
+        with self._transaction.whole() as held:
+            _draw.round_corner(held, self._given.line_of(line), points, size, fade)
 
     @recorded
     def spread(
@@ -474,7 +474,9 @@ class Edit:
         ...     edit.spread("WL 2.5 x ST 7", length=40.0)
         """
         row, side = self._given.point(point)
-        _spread.spread(self._transaction, row, side, positive(length, "length", "in spread"), fade)
+        size = positive(length, "length", "in spread")
+        with self._transaction.whole() as held:
+            _spread.spread(held, row, side, size, fade)
 
     @recorded
     def set_end(
@@ -631,7 +633,8 @@ class Edit:
             what = f"the points are {shown(points)}"
             raise WrongTypeError(what, "in knuckle_line", "give a list of points")
         rows = [self._given.point(each)[0] for each in points]
-        return Line.of(self._tables, _knuckles.knuckle_line(self._transaction, name, rows))
+        with self._transaction.whole() as held:
+            return Line.of(self._tables, _knuckles.knuckle_line(held, name, rows))
 
     @recorded
     def remove_knuckle_line(self, line: Line | str) -> None:
@@ -642,7 +645,8 @@ class Edit:
         BadInputError
             It is another kind of line.
         """
-        _knuckles.remove_knuckle_line(self._transaction, self._given.line(line))
+        with self._transaction.whole() as held:
+            _knuckles.remove_knuckle_line(held, self._given.line(line))
 
     @recorded
     def transform(

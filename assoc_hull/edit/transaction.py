@@ -6,7 +6,8 @@ error. Whatever goes wrong, the journal takes every write back, to the last bit.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
 
@@ -154,6 +155,18 @@ class Transaction:
             self.document.known_index = self._stages[keep - 1].index if keep else self._index
         self.pending = Pending()
         del self._stages[keep:]
+
+    @contextmanager
+    def whole(self) -> Iterator[Self]:
+        """Take a modification whole, or leave no trace of it where it is refused half-way."""
+        kept, index = len(self.journal.entries), self.document.known_index
+        before = self.pending.copied()
+        try:
+            yield self
+        except BaseException:
+            self.journal.undo(keep=kept)
+            self.pending, self.document.known_index = before, index
+            raise
 
     def write(self, rows: IntArray, values: FloatArray, what: str | Callable[[], str]) -> None:
         """Set the places of points; they are written when the transaction ends.

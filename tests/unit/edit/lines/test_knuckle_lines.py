@@ -210,6 +210,21 @@ def test_names_and_kinds_are_checked() -> None:
     assert "knuckles or tangent points already" in text
 
 
+def test_what_is_refused_half_way_leaves_no_trace(fresh_series60_70: ah.Hull) -> None:
+    """Caught inside the edit, which then goes on with something else."""
+    hull, other = fresh_series60_70, {"op": "move", "point": "WL 1 x ST 5", "by": (0, 0.001, 0)}
+    hull.apply("other", [other])
+    after = hull.fingerprint
+    hull.undo()
+    points = ["ST 15 x WL 0.5", "ST 15.5 x WL 1.25", "ST 16 x WL 0.25", "ST 16.5 x WL 1"]
+    with hull.edit("other") as edit:
+        with pytest.raises(BadInputError, match="choose points that lie on one line"):
+            edit.knuckle_line("chine", points)
+        edit.move("WL 1 x ST 5", by=(0.0, 0.001, 0.0))
+    assert hull.fingerprint == after
+    assert "chine" not in hull.lines
+
+
 @settings(max_examples=12, deadline=None)
 @given(st.integers(0, POOL - 1), st.randoms(use_true_random=False))
 def test_on_any_hull_a_knuckle_line_is_drawn_whole_or_refused(
