@@ -73,12 +73,13 @@ def knuckle_line(edit: Transaction, name: object, points: Sequence[int]) -> int:
     edit.pending.structural = True
     line = edit.maker.line(group, title, None, BoundaryKind.KNUCKLE)
     curve = edit.maker.curve(line, Ends())
+    places = state.rows.xyz[np.array([row for row, _ in on])]
     specs = [
         CrossingSpec(
-            curve, section, state.rows.xyz[row].copy(), Role.SHARED, 1,
+            curve, section, place, Role.SHARED, 1,
             contact=True, kind_b=PointKind.KNUCKLE,
         )
-        for row, section in on
+        for place, (_, section) in zip(places, on, strict=True)
     ]  # fmt: skip
     contacts = edit.maker.crossings(specs)
     for (row, section), contact in zip(on, contacts.tolist(), strict=True):
@@ -150,10 +151,9 @@ def _boundary_group(state: HullState, on: Sequence[tuple[int, int]], where: str)
     number = families.index("boundary") if "boundary" in families else -1
     mine = str(state.groups.name[int(state.lines.group[state.line_of(on[0][1])])])
     name = str(state.groups.name[number]) if number >= 0 else "boundary"
-    both = any(link.two_way and {link.a, link.b} == {name, mine} for link in state.associations)
-    if not both:
-        what = f"the groups {name!r} and {mine!r} do not shape one another"
-        remedy = f"associate them first: edit.associate({name!r}, {mine!r})"
+    if not any(link.two_way and {link.a, link.b} == {name, mine} for link in state.associations):
+        what = f"the groups {name!r} and {mine!r} do not shape one another in this hull"
+        remedy = "that is declared when a hull is made; make single points knuckles (edit.set_kind)"
         raise BadInputError(what, where, remedy)
     return number
 
@@ -290,7 +290,7 @@ def _smooth(edit: Transaction, contact: int) -> None:
     for each in state.rows.curve[contact].tolist():
         make_latent(edit.maker, each, contact)
     edit.pending.curves.add(curve)
-    if state.rows.role[contact] == Role.DRIVES_B:
+    if state.family(state.line_of(curve)).axis != 0:
         edit.maker.define(curve, rows[rows != contact])
         return
     back = -1

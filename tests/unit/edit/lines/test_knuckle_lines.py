@@ -21,6 +21,7 @@ from assoc_hull.errors import (
 )
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.address import address
+from tests.formed import formed
 from tests.net_strategies import POOL, fresh, refused
 
 Shipped = Callable[[str], ah.Hull]
@@ -208,6 +209,17 @@ def test_names_and_kinds_are_checked() -> None:
     contacts = [f"chine x ST {x}" for x in (6, 7, 8)]
     text = refused(hull, lambda edit: edit.knuckle_line("second", contacts), BlockedRunError)
     assert "knuckles or tangent points already" in text
+
+
+def test_where_sections_shape_no_boundary_curve_single_points_are_made_knuckles() -> None:
+    """As the message says."""
+    hull = ah.Hull(formed())
+    points = [hull.lines[f"ST {x}"].curves[0].defining[5] for x in (35, 45, 55)]
+    text = refused(hull, lambda edit: edit.knuckle_line("second", points), BadInputError)
+    assert "edit.set_kind" in text
+    with hull.edit("single") as edit:
+        edit.set_kind(points[0], "knuckle")
+    assert points[0].kind == "knuckle"
 
 
 def test_what_is_refused_half_way_leaves_no_trace(fresh_series60_70: ah.Hull) -> None:
