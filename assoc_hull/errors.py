@@ -17,6 +17,7 @@ __all__ = [
     "AbsentParameterError",
     "AssocHullError",
     "BadInputError",
+    "BlockedRunError",
     "ClusterError",
     "CoincidentPointsError",
     "DamagedFileError",
@@ -367,6 +368,30 @@ class PointRoleError(AssocHullError, ValueError):
     def __str__(self) -> str:
         source = f", computed from {self.driver}" if self.driver else ""
         return f"{self.point} is {self.role}{source}; {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class BlockedRunError(AssocHullError, ValueError):
+    """Something on a line is in the way of a run that was to be drawn.
+
+    Attributes
+    ----------
+    line : str
+        The line.
+    points : tuple of str
+        The points in the way.
+    why, remedy : str
+        What is the matter with them, and what to do.
+    """
+
+    line: str
+    points: tuple[str, ...]
+    why: str
+    remedy: str
+
+    def __str__(self) -> str:
+        more = f" and {len(self.points) - 3} more" if len(self.points) > 3 else ""
+        return f"{self.line}: {self.why} ({', '.join(self.points[:3])}{more}); {self.remedy}"
 
 
 @attrs.define(slots=False, eq=False)

@@ -51,10 +51,12 @@ _SEEDS = (0, 1, 4, 14, 13, 16, 3, 7, 29, 35, 8, 12)
 POOL = len(_SEEDS)
 """Number of nets kept ready."""
 
-SHAPES = ("move", "move", "move", "pull", "reshape", "insert", "delete", "set_end", "set_kind")
+SHAPES = (
+    "move", "move", "move_by", "pull", "reshape", "insert", "delete", "set_end", "set_kind",
+)  # fmt: skip
 STRUCTURE = (
     "add_line", "remove_line", "shift_line", "set_role", "set_role", "renew_roles", "pin", "unpin",
-    "associate",
+    "associate", "straighten", "round", "spread", "knuckle_line",
 )  # fmt: skip
 Item = TypeVar("Item")
 _ROLES = ("shared", "drives a", "drives b", "watched")
@@ -214,6 +216,15 @@ def _move(hull: ah.Hull, edit: Edit, act: Act) -> None:
         edit.move(point, **shift)
 
 
+def _move_by(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    points = live_points(hull, "crossing", "placed", "adopted")
+    free = [each for each in points if each.free and each.driver is None]
+    chosen = free[act.which % max(len(free), 1) :][:3]
+    by = [[act.amount * (axis in each.free) for axis in "xyz"] for each in chosen]
+    if chosen:
+        edit.move(chosen, by=by)
+
+
 def _pull(hull: ah.Hull, edit: Edit, act: Act) -> None:
     point = _pick(live_points(hull, "crossing"), act.which)
     assert point is not None
@@ -235,6 +246,41 @@ def _reshape(hull: ah.Hull, edit: Edit, act: Act) -> None:
     reach = 0.3 * abs(float(curve.ends[1, axis] - curve.ends[0, axis]))
     span = (float(place[axis]) - reach, float(place[axis]) + reach)
     edit.reshape(curve, [place + act.amount * _free_way(curve)], span=span)
+
+
+def _run(hull: ah.Hull, act: Act) -> tuple[Curve, Point, Point]:
+    """Give a line and two of its points with one to three others between them."""
+    curve = _pick([each for each in _curves(hull) if len(each.defining) > 2], act.which)
+    assert curve is not None
+    points = list(curve.defining)
+    first = act.other % (len(points) - 2)
+    return curve, points[first], points[min(first + 2 + act.other % 3, len(points) - 1)]
+
+
+def _straighten(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    edit.straighten(*_run(hull, act))
+
+
+def _round(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    edit.round(*_run(hull, act), radius=100.0 * abs(act.amount) + 0.1)
+
+
+def _spread(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    point = _pick(live_points(hull, "crossing"), act.which)
+    assert point is not None
+    edit.spread(point, length=(0.05 + 0.4 * (act.other % 100) / 100.0) * hull.particulars.length)
+
+
+def _knuckle_line(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    chine = [each for each in hull.lines.values() if each.name == "chine"]
+    if chine and act.other % 2:
+        edit.remove_knuckle_line(chine[0])
+        return
+    offset = hull.state.lines.offset
+    lines = sorted(hull.groups["sections"].lines.values(), key=lambda each: offset[each.number])
+    first = act.which % max(len(lines) - 2, 1)
+    points = [list(each.curves[0].defining)[1:-1] for each in lines[first : first + 3]]
+    edit.knuckle_line("chine", [each[act.other % len(each)] for each in points if each])
 
 
 def _insert(hull: ah.Hull, edit: Edit, act: Act) -> None:
@@ -324,6 +370,7 @@ def _associate(hull: ah.Hull, edit: Edit, act: Act) -> None:
 
 _OPERATIONS = {
     "move": _move,
+    "move_by": _move_by,
     "pull": _pull,
     "reshape": _reshape,
     "insert": _insert,
@@ -337,6 +384,10 @@ _OPERATIONS = {
     "unpin": _unpin,
     "shift_line": _shift_line,
     "renew_roles": _renew_roles,
+    "straighten": _straighten,
+    "round": _round,
+    "spread": _spread,
+    "knuckle_line": _knuckle_line,
     "associate": _associate,
 }
 

@@ -150,6 +150,13 @@ class GivenObjects:
             raise UnknownNameError("line", str(line))
         return found.line
 
+    def line_of(self, line: Line | Curve | str) -> int:
+        """Give the number of a line, or of the line that a curve belongs to."""
+        found = self._found(line, Curve if isinstance(line, Curve) else Line, "line")
+        if found.line < 0 or found.row >= 0:
+            raise UnknownNameError("line", str(line))
+        return found.line
+
     def _found(self, thing: object, kind: type[Point | Curve | Line], what: str) -> ResolvedAddress:
         """Find what a handle of one kind, or an address, leads to."""
         if not isinstance(thing, kind | str):

@@ -85,8 +85,15 @@ class FieldMoves(Modification):
         return found
 
     def check(self, work: Work) -> Iterable[str]:
-        """Say which point did not come where it was pulled."""
-        return unreached(work.state, self.fields, work.pending.values.keys())
+        """Say which point did not come where it was pulled, or where the edit moved it."""
+        state, values = work.state, work.pending.values
+        yield from unreached(state, self.fields, values.keys())
+        for row in sorted(values.keys() & {row for each, _ in self.landing() for row in each}):
+            if state.rows.alive[row] and (state.rows.xyz[row] != values[row]).any():
+                yield (
+                    f"{address(state, row)} is moved, and given another place by the new shape of "
+                    "a line: leave one of the two out, or use two edits"
+                )
 
     def carry_out(
         self, state: HullState, journal: Journal, pending: Pending, rows: IntArray,

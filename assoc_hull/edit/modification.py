@@ -8,6 +8,7 @@ class, and a line in the table of `assoc_hull.edit.update`.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from copy import copy
 from typing import Protocol, TypeVar, cast
 
 import attrs
@@ -203,6 +204,15 @@ class Pending:
         """Give the modification of a kind; None if nothing of it is asked for."""
         # Each stands under its own kind.
         return cast("M | None", self.modifications.get(kind))
+
+    def copied(self) -> Pending:
+        """Give a copy that has collections of its own; the modifications in it are the same."""
+        found = copy(self)
+        for each in attrs.fields(Pending):
+            value = getattr(self, each.name)
+            if isinstance(value, set | list | dict):
+                setattr(found, each.name, copy(value))
+        return found
 
     @property
     def empty(self) -> bool:

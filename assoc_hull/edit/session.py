@@ -14,22 +14,25 @@ from typing import TYPE_CHECKING, Literal, Self
 
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import choice, flag, number, positive, shown
+from assoc_hull.arguments import choice, flag, number, places, positive, shown
 from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.lines import add_line as _cut
+from assoc_hull.edit.lines import knuckle_lines as _knuckles
 from assoc_hull.edit.lines import remove_line as _lines
 from assoc_hull.edit.lines import shift_line as _shift
 from assoc_hull.edit.modifications import associations as _associate
 from assoc_hull.edit.modifications import curve_ends as _ends
 from assoc_hull.edit.modifications import definitions as _reattach
 from assoc_hull.edit.modifications import definitions as _set_form
+from assoc_hull.edit.modifications import draw_runs as _draw
 from assoc_hull.edit.modifications import names as _rename
 from assoc_hull.edit.modifications import points as _points
 from assoc_hull.edit.modifications import pull as _pull
 from assoc_hull.edit.modifications import reshape as _reshape
 from assoc_hull.edit.modifications import roles as _renew
 from assoc_hull.edit.modifications import roles as _set_role
+from assoc_hull.edit.modifications import spread as _spread
 from assoc_hull.edit.recording import Said, Settings, recorded
 from assoc_hull.edit.recut import transform as _transform
 from assoc_hull.edit.report import EditReport
@@ -226,29 +229,61 @@ class Edit:
     @recorded
     def move(
         self,
-        point: Point | str,
+        point: Point | str | Sequence[Point | str],
         *,
         x: float | None = None,
         y: float | None = None,
         z: float | None = None,
+        by: ArrayLike | None = None,
     ) -> None:
-        """Move a point along its freedom; give exactly the coordinates it is free in, m.
+        """Move a point along its freedom to a place, or points by vectors.
+
+        Parameters
+        ----------
+        point : Point or str, or sequence of them
+            The point; several only with `by`.
+        x, y, z : float or None, m
+            Where it goes: exactly the coordinates in which it is free.
+        by : (3,) or (k, 3) or None, m
+            Instead: the vector from where the points were before the edit, one for all or one
+            for each. Along coordinates in which a point is not free it must be 0.
 
         Raises
         ------
         PointRoleError
-            The point is driven or watched.
+            A point is driven or watched.
         FreedomError
             Other coordinates than those it is free in.
+        BadInputError
+            A place and a vector, several points and a place, or not as many vectors as points.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("5 mm out") as edit:
+        ...     edit.move(["WL 2.5 x ST 7", "WL 2.5 x ST 8"], by=(0, 0.005, 0))
+        >>> hull.undo()
         """
         asked = {"x": x, "y": y, "z": z}
-        row, _ = self._given.point(point)
         given = {
             axis: number(value, axis, "in move")
             for axis, value in asked.items()
             if value is not None
         }
-        _points.move(self._transaction, row, given)
+        if isinstance(point, str) or not isinstance(point, Sequence):
+            point, several = (point,), False
+        else:
+            several = True
+        if (by is None and several) or (by is not None and given):
+            what = "several points to one place" if by is None else "coordinates, and by= as well"
+            remedy = "give one point and its coordinates, or points and by=(x, y, z)"
+            raise BadInputError(what, "in move", remedy)
+        rows = [self._given.point(each)[0] for each in point]
+        if by is None:
+            _points.move(self._transaction, rows[0], given)
+        else:
+            _points.move_by(self._transaction, rows, places(by, "by", "in move"))
 
     @recorded
     def insert(self, curve: Curve | str, place: ArrayLike) -> Point:
@@ -408,6 +443,132 @@ class Edit:
         return fair(self._transaction, asked)
 
     @recorded
+    def straighten(
+        self,
+        line: Line | Curve | str,
+        a: Point | str,
+        b: Point | str,
+        *,
+        fade: Literal["auto"] | tuple[float, float] = "auto",
+    ) -> None:
+        """Let a line run straight from one of its points to another; the hull follows.
+
+        Parameters
+        ----------
+        line : Line, Curve or str
+            A section, waterline, buttock or diagonal.
+        a, b : Point or str
+            Two points that define it. They stay, and become tangent points along the run.
+        fade : "auto" or (r_x, r_g), m
+            How the change of the hull fades along the length and the girth, as in `reshape`.
+
+        Raises
+        ------
+        BlockedRunError
+            Placed points, a feature, a flat or the centre plane in the run.
+        BadInputError
+            Points that are not on the line, or too near one another.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("straight") as edit:
+        ...     edit.straighten("WL 2.5", "WL 2.5 x ST 4", "WL 2.5 x ST 7")
+        >>> hull.features["WL 2.5 straight"].kind
+        'straight'
+        """
+        points = self._given.point(a)[0], self._given.point(b)[0]
+        with self._transaction.whole() as held:
+            _draw.straighten(held, self._given.line_of(line), points, fade)
+
+    @recorded
+    def round(
+        self,
+        line: Line | Curve | str,
+        a: Point | str,
+        b: Point | str,
+        *,
+        radius: float,
+        fade: Literal["auto"] | tuple[float, float] = "auto",
+    ) -> None:
+        """Let a line turn from one side to another in an arc that touches both; the hull follows.
+
+        Parameters
+        ----------
+        line, a, b, fade
+            As for `straighten`. The sides are the straight lines along which the line comes to
+            its first point and leaves its second; a knuckle between them gives way.
+        radius : float, m
+            Of the arc.
+
+        Raises
+        ------
+        BlockedRunError, BadInputError
+            As `straighten`.
+        GeometryError
+            The sides do not meet in a corner, or the arc does not fit; with the radius that does.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("round") as edit:
+        ...     edit.round("ST 10", "ST 10 x WL 0.625", "ST 10 x WL 5.625", radius=5.5)
+        >>> hull.features["ST 10 arc"].parameters["radius"]
+        5.5
+        """
+        points = self._given.point(a)[0], self._given.point(b)[0]
+        size = positive(radius, "radius", "in round")
+        with self._transaction.whole() as held:
+            _draw.round_corner(held, self._given.line_of(line), points, size, fade)
+
+    @recorded
+    def spread(
+        self,
+        point: Point | str,
+        *,
+        length: float,
+        fade: Literal["auto"] | tuple[float, float] = "auto",
+    ) -> None:
+        """Make the hollow or the bump of a line at a point longer and shallower.
+
+        Its area stays (that between the line and what it was is nil), and its ends are tangent
+        to the line; the hull follows.
+
+        Parameters
+        ----------
+        point : Point or str
+            A point of the line in the hollow; ``"WL 1 x ST 3"`` is one of WL 1.
+        length : float, m
+            The new length, along the line that touches both sides of the hollow.
+        fade : "auto" or (r_x, r_g), m
+            As in `reshape`.
+
+        Raises
+        ------
+        BadInputError
+            The line has no hollow or bump there, or the length reaches beyond an end of it.
+        OutOfRangeError
+            The hollow is as long already, or would not be shallower.
+        BlockedRunError
+            Placed points, a feature, a flat or the centre plane within the length.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("a dent") as edit:
+        ...     edit.move("WL 2.5 x ST 7", by=(0, -0.1, 0))
+        >>> with hull.edit("longer") as edit:
+        ...     edit.spread("WL 2.5 x ST 7", length=40.0)
+        """
+        row, side = self._given.point(point)
+        size = positive(length, "length", "in spread")
+        with self._transaction.whole() as held:
+            _spread.spread(held, row, side, size, fade)
+
+    @recorded
     def set_end(
         self,
         curve: Curve | str,
@@ -524,6 +685,58 @@ class Edit:
     def remove_line(self, line: Line | str) -> None:
         """Remove a line; what it held stays behind as adopted points."""
         _lines.remove_line(self._transaction, self._given.line(line))
+
+    @recorded
+    def knuckle_line(self, name: str, points: Sequence[Point | str]) -> Line:
+        """Draw a knuckle line through points of neighbouring sections.
+
+        It is a boundary curve. The sections turn in a knuckle at it, and so do lines that pass
+        it between sections; `remove_knuckle_line` makes all smooth again.
+
+        Parameters
+        ----------
+        name : str
+            Of the line.
+        points : sequence of Point or str
+            A point of each of three or more neighbouring sections, in any order: crossings,
+            placed or adopted points.
+
+        Raises
+        ------
+        BadInputError
+            Too few points, points of no section or two of one, a section left out between two.
+        BlockedRunError
+            Points that cannot become knuckles, as the end of a section or one on a flat.
+        NameTakenError
+            There is a line of that name.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("chine") as edit:
+        ...     line = edit.knuckle_line("chine", [f"ST {x} x WL 2.5" for x in (6, 7, 8)])
+        >>> hull.features["chine"].kind
+        'knuckle'
+        """
+        if isinstance(points, str | Point) or not isinstance(points, Sequence):
+            what = f"the points are {shown(points)}"
+            raise WrongTypeError(what, "in knuckle_line", "give a list of points")
+        rows = [self._given.point(each)[0] for each in points]
+        with self._transaction.whole() as held:
+            return Line.of(self._tables, _knuckles.knuckle_line(held, name, rows))
+
+    @recorded
+    def remove_knuckle_line(self, line: Line | str) -> None:
+        """Take a knuckle line away: what it split is smooth again, through the points of before.
+
+        Raises
+        ------
+        BadInputError
+            It is another kind of line.
+        """
+        with self._transaction.whole() as held:
+            _knuckles.remove_knuckle_line(held, self._given.line(line))
 
     @recorded
     def transform(

@@ -6,7 +6,8 @@ error. Whatever goes wrong, the journal takes every write back, to the last bit.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
 
@@ -165,6 +166,18 @@ class Transaction:
         self.pending = Pending(stopped=self.pending.stopped)
         del self._stages[keep:]
 
+    @contextmanager
+    def whole(self) -> Iterator[Self]:
+        """Take a modification whole, or leave no trace of it where it is refused half-way."""
+        kept, index = len(self.journal.entries), self.document.known_index
+        before = self.pending.copied()
+        try:
+            yield self
+        except BaseException:
+            self.journal.undo(keep=kept)
+            self.pending, self.document.known_index = before, index
+            raise
+
     def write(self, rows: IntArray, values: FloatArray, what: str | Callable[[], str]) -> None:
         """Set the places of points; they are written when the transaction ends.
 
@@ -178,15 +191,17 @@ class Transaction:
         if not np.isfinite(values).all():
             where = f"in {what if isinstance(what, str) else what()}"
             raise BadInputError("a coordinate is not finite", where, "give finite numbers")
-        for row, value in zip(rows.tolist(), values, strict=True):
-            if row in self.pending.values:
+        written = set(self.pending.values)
+        for row in rows.tolist():
+            if row in written:
                 key = self.state.rows.key[row]
                 raise BadInputError(
                     "a point is written twice in one transaction",
                     f"{key}, in {what if isinstance(what, str) else what()}",
                     "leave one of the two out, or use two transactions",
                 )
-            self.pending.values[row] = value
+            written.add(row)
+        self.pending.values |= zip(rows.tolist(), values, strict=True)
 
     def refuse_moved(self, rows: IntArray) -> None:
         """Refuse to change what points are, that this transaction has moved already.

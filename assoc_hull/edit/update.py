@@ -24,6 +24,7 @@ from assoc_hull.edit.checks.update_findings import (
 )
 from assoc_hull.edit.crossings.adopted_points import mend_gaps
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.drawn_runs import DrawnRuns
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.followup.settle_features import settle_features
 from assoc_hull.edit.followup.take_up_definitions import DefinitionValues
@@ -32,6 +33,7 @@ from assoc_hull.edit.nudge import Nudged
 from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.program_edit import ProgramEdit
 from assoc_hull.edit.recording import Settings
+from assoc_hull.edit.spread_areas import SpreadAreas
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -44,7 +46,9 @@ from assoc_hull.model.tables import HullState
 
 __all__ = ["KINDS", "update"]
 
-KINDS: tuple[type[Modification], ...] = (Nudged, DefinitionValues, FieldMoves, CarriedNet)
+KINDS: tuple[type[Modification], ...] = (
+    Nudged, DefinitionValues, FieldMoves, CarriedNet, DrawnRuns, SpreadAreas,
+)  # fmt: skip
 """Kinds of modification that take more than places and recipes, in the order in which each stage
 of an update turns to them: a nudge moves a hull before curves are found to be off definitions."""
 

@@ -103,9 +103,41 @@ def _delete(heard: Named, point: ah.Point) -> None:
     _kind(heard, point)
 
 
+def _move(heard: Named, points: ah.Point | list[ah.Point]) -> None:
+    every = points if isinstance(points, list) else [points]
+    heard.points |= {point.id for point in every}
+
+
+def _run(heard: Named, curve: ah.Curve, *_: object) -> None:
+    """A run makes tangent points, may take knuckles away, and gives an end its direction."""
+    heard.kinds |= {(point.id, curve.id) for point in curve.defining}
+    heard.ends |= {(curve.id, end) for end in ("start", "finish")}
+
+
+def _knuckles(heard: Named, _: object, points: list[ah.Point]) -> None:
+    """Points become knuckles, and crossings of theirs are driven meanwhile."""
+    for point in points:
+        heard.points.add(point.id)
+        heard.overrides.add(point.id)
+        for side in (point, point.friend_point):
+            if side is not None:
+                heard.kinds.add((point.id, side.container_curve.id))
+
+
+def _smooth(heard: Named, line: ah.Line) -> None:
+    for contact in line.curves[0].defining:
+        section = contact.friend_point
+        for point in [] if section is None else section.container_curve.points:
+            _knuckles(heard, None, [point])
+
+
 Note = Callable[..., None]
 _NOTES: dict[str, Note] = {
-    "move": lambda heard, point: heard.points.add(point.id),
+    "move": _move,
+    "straighten": _run,
+    "round": _run,
+    "knuckle_line": _knuckles,
+    "remove_knuckle_line": _smooth,
     "delete": _delete,
     "unpin": lambda heard, point: heard.points.add(point.id),
     "set_kind": _kind,
@@ -175,7 +207,10 @@ def _gone(hull: ah.Hull) -> set[object]:
     return gone
 
 
-GIVES_ROLES = {"set_role", "renew_roles", "associate", "dissociate", "shift_line"}
+GIVES_ROLES = {
+    "set_role", "renew_roles", "associate", "dissociate", "shift_line", "straighten", "round",
+    "knuckle_line",
+}  # fmt: skip
 
 
 @settings(max_examples=20)

@@ -124,7 +124,7 @@ HULL: dict[str, Given] = {
                "scale": None, "half": False, "points": None, "accept": False},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
-    "move": {"point": POINT, "x": None, "y": 3.0, "z": None},
+    "move": {"point": POINT, "x": None, "y": 3.0, "z": None, "by": None},
     "insert": {"curve": LINE, "place": PLACE},
     "delete": {"point": POINT},
     "set_kind": {"point": POINT, "kind": "tangent", "direction": (1.0, 0.0, 0.0)},
@@ -135,6 +135,11 @@ EDIT: dict[str, Given] = {
         "curve": LINE, "points": [PLACE], "span": (30.0, 60.0), "fade": "auto",
         "across_flats": False,
     },
+    "straighten": {"line": LINE, "a": POINT, "b": "WL 2.5 x ST 5", "fade": "auto"},
+    "round": {
+        "line": LINE, "a": POINT, "b": "WL 2.5 x ST 5", "radius": 90.0, "fade": (20.0, 5.0),
+    },
+    "spread": {"point": POINT, "length": 40.0, "fade": "auto"},
     "set_end": {"curve": LINE, "end": "start", "tangent": None, "curvature": None},
     "set_role": {"crossing": POINT, "role": "drives a"},
     "renew_roles": {"lines": [LINE]},
@@ -144,6 +149,10 @@ EDIT: dict[str, Given] = {
     "add_line": {"group": "waterlines", "position": 2.0, "name": "low"},
     "shift_line": {"line": LINE, "position": 2.4},
     "remove_line": {"line": LINE},
+    "knuckle_line": {
+        "name": "chine", "points": ["ST 3 x WL 2.5", "ST 4 x WL 2.5", "ST 5 x WL 2.5"],
+    },
+    "remove_knuckle_line": {"line": LINE},
     "set_form": {"definition": "areas", "values": 0.5},
     "reattach": {"line": CURVE},
     "transform": {

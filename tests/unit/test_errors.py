@@ -91,6 +91,11 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ValueError,
         ["point P", "driven", "computed from curve 'ST 7'", "move the driver"],
     ),
+    (
+        errors.BlockedRunError("WL 1", ("P", "Q", "R", "S"), "placed points", "unpin them"),
+        ValueError,
+        ["WL 1", "placed points (P, Q, R and 1 more)", "unpin them"],
+    ),
     (errors.ForeignPointError("point P"), ValueError, ["point P", "look it up again"]),
     (
         errors.NoMeetingError("plane x = 400 m", 12.5, "choose x below 355 m"),

@@ -25,6 +25,7 @@ from assoc_hull.model.tables import HullState
 
 __all__ = [
     "circle_side",
+    "drawn_feature",
     "feature_in_plane",
     "find_features",
     "flat_side",
@@ -172,6 +173,16 @@ def _make(state: HullState, line: int, kind: str, rows: IntArray, **more: object
     # in whole nanometres: another machine's last bit must not show in it
     off = float(places_off(made, state.rows.xyz[rows]).max())
     return attrs.evolve(made, gap=rounded_gap(state, off))
+
+
+def drawn_feature(
+    state: HullState, curve: int, kind: str, rows: IntArray, **more: object
+) -> Feature:
+    """Make a feature of points of a curve that were drawn as one; name and key are free ones."""
+    made = _make(state, state.line_of(curve), kind, rows, **more)
+    others = [each for each in state.features if set(each.lines) & set(made.lines)]
+    name = _free(made.name, " ", {each.name for each in others})
+    return attrs.evolve(made, name=name, key=_free(made.key, "~", {each.key for each in others}))
 
 
 def _whole_line(state: HullState, line: int) -> Feature | None:

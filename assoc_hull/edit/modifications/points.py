@@ -6,7 +6,7 @@ their values. It is right for millimetres: it is inherently a local bump.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Self
 
 import attrs
@@ -35,8 +35,9 @@ from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import free_axes
 from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import HullState
+from assoc_hull.tolerance import IN_PLANE
 
-__all__ = ["PointFreedom", "delete", "insert", "move", "pin", "set_kind", "unpin"]
+__all__ = ["PointFreedom", "delete", "insert", "move", "move_by", "pin", "set_kind", "unpin"]
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 _BY_DEFINITION = "set the definitions its driver is made of (edit.set_form)"
@@ -64,11 +65,48 @@ def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
     BadInputError
         A number that is not finite.
     """
-    state, freedom = edit.state, PointFreedom.of(edit.state, row)
-    edit.write(np.array([row]), freedom.place(to)[None], lambda: f"move of {freedom.name}")
-    curves = state.rows.curve[row]
+    freedom = PointFreedom.of(edit.state, row)
+    _put(edit, [freedom], freedom.place(to)[None])
+
+
+def move_by(edit: Transaction, rows: Sequence[int], by: FloatArray) -> None:
+    """Move points by vectors from where they were before the edit; all of them, or none.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    rows : sequence of int
+        The points, each as `move` takes it.
+    by : (1, 3) or (k, 3), m
+        One vector for all, or one for each.
+
+    Raises
+    ------
+    PointRoleError
+        A point is driven or watched; the message names its driver.
+    FreedomError
+        A vector leads out of the freedom of its point.
+    BadInputError
+        Neither one vector nor as many as points; a point stands there twice.
+    """
+    if len(by) not in (1, len(rows)):
+        what = f"{len(by)} vectors for {len(rows)} points"
+        raise BadInputError(what, "in move", "give one vector for all, or one for each point")
+    each = np.broadcast_to(by, (len(rows), 3))
+    freedoms = [PointFreedom.of(edit.state, row) for row in rows]
+    places = [freedom.moved(way) for freedom, way in zip(freedoms, each, strict=True)]
+    if places:
+        _put(edit, freedoms, np.array(places))
+
+
+def _put(edit: Transaction, freedoms: Sequence[PointFreedom], places: FloatArray) -> None:
+    """Set points to places (k, 3), m, by hand; adopted ones are placed from then on."""
+    state, rows = edit.state, np.array([each.row for each in freedoms])
+    edit.write(rows, places, lambda: f"move of {', '.join(each.name for each in freedoms[:3])}")
+    curves = state.rows.curve[rows]
     edit.pending.moved_curves |= set(curves[curves >= 0].tolist())
-    if state.rows.sort[row] == Sort.ADOPTED:
+    for row in rows[state.rows.sort[rows] == Sort.ADOPTED].tolist():
         pin(edit, row)
 
 
@@ -112,6 +150,20 @@ class PointFreedom:
         now = self.state.rows.xyz[self.row]
         place = completed_in_planes(self.state, self.lines, now, given)
         return checked_in_planes(self.state, self.lines, place, lambda: f"in a move of {self.name}")
+
+    def moved(self, by: FloatArray) -> FloatArray:
+        """Give where a vector (3,), m, takes the point; what else an oblique plane says follows.
+
+        A component along another coordinate than those that it is free in must be 0, or what
+        follows; else it raises a FreedomError.
+        """
+        now = self.state.rows.xyz[self.row]
+        place = self.place({axis: float(now[_AXES[axis]] + by[_AXES[axis]]) for axis in self.axes})
+        lost = (by != 0.0) & (np.abs(place - now - by) > IN_PLANE)
+        if lost.any():
+            asked = tuple(axis for axis, at in _AXES.items() if by[at] != 0.0)
+            raise FreedomError(self.name, asked, self.axes)
+        return place
 
 
 def _refuse_computed(state: HullState, row: int) -> None:

@@ -45,8 +45,11 @@ from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import HullState
 
 __all__ = [
+    "Fade",
     "ReshapeField",
+    "fade_radii",
     "reshape",
+    "whole_curve",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -290,14 +293,11 @@ def reshape(
     axis = 2 if section else 0
     span = pair(span, "span", positive=False)
     shape = _checked(state, curve, points, span, axis)
-    radius = _radius(state, fade, shape)
-    old = state.spline(curve)
-    if not np.array_equal(old.xyz, state.rows.xyz[state.curves.rows[curve]]):
-        where = f"in reshape of {state.lines.name[state.line_of(curve)]}"
-        raise BadInputError("its points have changed in this edit", where, "use two edits")
+    old = whole_curve(state, curve, "reshape")
     if fair:
         _refuse_field(fade, across_flats=across_flats)
         return _ask_fairly(edit, curve, shape, span)
+    radius = fade_radii(state, fade, shape)
     design = _design(old, shape, span, axis, _free_ends(state, curve))
     flat = flat_distance(state, old.xyz)
     moved = _displaced(old, design, np.full(len(flat), np.inf) if across_flats else flat)
@@ -401,6 +401,21 @@ def _free_ends(state: HullState, curve: int) -> tuple[bool, bool]:
     rows: IntArray = state.curves.rows[curve]
     fixed = on_profile(state)[rows[[0, -1]]]
     return not fixed[0], not fixed[1]
+
+
+def whole_curve(state: HullState, curve: int, verb: str) -> SplineBatch:
+    """Give the published spline of a curve through the points that define it now.
+
+    Raises
+    ------
+    BadInputError
+        Points of it came or went in this edit.
+    """
+    old = state.spline(curve)
+    if not np.array_equal(old.xyz, state.rows.xyz[state.curves.rows[curve]]):
+        where = f"in {verb} of {state.lines.name[state.line_of(curve)]}"
+        raise BadInputError("its points have changed in this edit", where, "use two edits")
+    return old
 
 
 def _slide(state: HullState, curve: int, old: SplineBatch, moved: FloatArray) -> FloatArray:
@@ -535,7 +550,7 @@ def _nearest_intersection(
     return out
 
 
-def _radius(state: HullState, fade: Fade, shape: FloatArray) -> tuple[float, float] | None:
+def fade_radii(state: HullState, fade: Fade, shape: FloatArray) -> tuple[float, float] | None:
     """Give the radii of the fade, m: by default three spacings of sections, and of points."""
     if fade is None:
         return None

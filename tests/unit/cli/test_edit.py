@@ -54,6 +54,24 @@ def test_a_hull_is_edited_in_place_however_it_is_named(
     assert len(ah.open(file).history) == 6
 
 
+def test_the_verbs_of_a_loftsman_come_from_a_file(hull: Path, edits: Edits, facts: Json) -> None:
+    """Moves by a vector, a run, an arc, a hollow made longer, a knuckle line and its removal."""
+    ship, chine = ah.open(hull), [f"ST {number} x WL 2.5" for number in (15, 16, 17)]
+    for asked in (
+        [{"op": "move", "point": [POINT], "by": [0, -0.1, 0]}],
+        [{"op": "spread", "point": POINT, "length": 40}],
+        [{"op": "straighten", "line": "WL 5", "a": "WL 5 x ST 11", "b": "WL 5 x ST 13"}],
+        [{"op": "round", "line": "ST 10", "a": "ST 10 x WL 0.625", "b": "ST 10 x WL 5.625",
+          "radius": 5}],
+        [{"op": "knuckle_line", "name": "chine", "points": chine}],
+        [{"op": "remove_knuckle_line", "line": "chine"}],
+    ):  # fmt: skip
+        ship.apply("edits", asked)
+        found = facts("edit", hull, edits(asked))
+        assert found["refused"] is False
+        assert found["fingerprint"] == ship.fingerprint
+
+
 def test_a_dry_run_writes_nothing(hull: Path, edits: Edits, facts: Json) -> None:
     """And reports what the edit then does, with the fingerprint that the hull then has."""
     before, file = hull.read_bytes(), edits(moved(hull, 0.01))
