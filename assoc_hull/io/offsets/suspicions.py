@@ -1,9 +1,7 @@
-"""Suspicions on a table of offsets: wild values, lone values, blanks, sizes that no ship has.
+"""Suspicions on a table of offsets: slips of the hand, blanks, sizes that no ship has.
 
-Nothing is changed; every suspicion is noted with its place. A wild value is found by releasing it:
-the value that makes the third divided differences of its waterline least is compared with the
-printed one, likewise along its station. A turn of the hull, such as the bilge, sticks out along one
-of the two; a wrong number along both and to the same side.
+Nothing is changed; every suspicion is noted with its place. Single numbers are the business of
+`assoc_hull.fairing.offsets_doctor`.
 """
 
 from __future__ import annotations
@@ -13,7 +11,9 @@ from collections.abc import Iterator
 import attrs
 import numpy as np
 
+from assoc_hull.fairing.offsets_doctor import PrintedOffsets, examine
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.offsets.printed import eighths
 from assoc_hull.io.reports import Notebook
 from assoc_hull.tolerance import length_factor
 
@@ -21,29 +21,12 @@ __all__ = [
     "BLANK_INSIDE",
     "ExaminedTable",
     "examine_offsets",
-    "lone_values",
     "most_half_breadth",
     "predicted_values",
-    "wild_values",
 ]
 
 BLANK_INSIDE = "blank between numbers"
 """How a cell without a number is told that parts a section in two."""
-
-# --------------------------------------------------------------------------------------
-# Wild and lone values. The worst wild value is set to its released value and the search repeated,
-# so that one wrong number is reported once.
-
-_SCORE = 5.5
-"""A value is wild from this score: off its neighbours, over what is usual there."""
-
-_AT_ENDS = 7.0
-"""So many times the score is asked for where blanks or zeros are near."""
-
-_MOST = 12
-_NOISE = 3e-4
-"""Offsets count as rounded to no less than this part of the largest."""
-
 
 _DIGITS = 5e-4
 """A breadth of four digits is told to this part of itself."""
@@ -73,66 +56,6 @@ def predicted_values(place: FloatArray, value: FloatArray) -> FloatArray:
     out[:] = value - (rows.T @ (rows @ value)) / np.sum(rows**2, axis=0)
     out[[0, -1]] = np.nan
     return out
-
-
-def _both(x: FloatArray, z: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give how far values are off their neighbours along waterlines and stations, (s, w), m."""
-    along_x, along_z = np.full(y.shape, np.nan), np.full(y.shape, np.nan)
-    for j in range(len(z)):
-        known = np.isfinite(y[:, j])
-        along_x[known, j] = y[known, j] - predicted_values(x[known], y[known, j])
-    for i in range(len(x)):
-        known = np.isfinite(y[i])
-        along_z[i, known] = y[i, known] - predicted_values(z[known], y[i, known])
-    return along_x, along_z
-
-
-def wild_values(
-    x: FloatArray, z: FloatArray, y: FloatArray, rounding: FloatArray
-) -> tuple[tuple[int, int, float], ...]:
-    """Find values far off what their neighbours along station and waterline say.
-
-    Stations x (s,) and waterlines z (w,), m, ascend; y (s, w), m, is nan for blanks, and the first
-    and the last of a line are not judged; `rounding` (w,), m, is half a unit of the last printed
-    digit. Gives station, waterline and released value (m), the worst first, 12 at most.
-    """
-    y = y.copy()
-    noise = np.maximum(rounding, _NOISE * np.nanmax(y, initial=0.0))
-    found: list[tuple[int, int, float]] = []
-    while len(found) < _MOST:
-        along_x, along_z = _both(x, z, y)
-        agree = along_x * along_z > 0
-        off = np.where(agree, np.minimum(np.abs(along_x), np.abs(along_z)), 0.0)
-        off[~np.isfinite(along_x * along_z)] = np.nan
-        off[tuple(np.array([each[:2] for each in found], int).reshape(-1, 2).T)] = 0.0
-        i, j, score = _worst(off, noise, y)
-        if score < _SCORE:
-            break
-        better = float(y[i, j] - min(along_x[i, j], along_z[i, j], key=abs))
-        found.append((i, j, better))
-        y[i, j] = better
-    return tuple(found)
-
-
-def _worst(off: FloatArray, noise: FloatArray, y: FloatArray) -> tuple[int, int, float]:
-    best = (0, 0, 0.0)
-    for i, j in zip(*np.nonzero(np.nan_to_num(off) > 3.0 * noise), strict=True):
-        window = (slice(max(i - 2, 0), i + 3), slice(max(j - 2, 0), j + 3))
-        near, beside = off[window].copy(), y[window].copy()
-        near[min(i, 2), min(j, 2)] = beside[min(i, 2), min(j, 2)] = np.nan
-        known = near[np.isfinite(near)]
-        usual = float(np.percentile(known, 80)) if len(known) else 0.0
-        score = float(off[i, j] / (3.0 * noise[j] + usual))
-        # Where a hull begins or ends lines turn as they do nowhere else.
-        score /= _AT_ENDS if np.count_nonzero(np.nan_to_num(beside)) < beside.size - 1 else 1.0
-        best = max(best, (int(i), int(j), score), key=lambda item: item[2])
-    return best
-
-
-def lone_values(y: FloatArray) -> tuple[tuple[int, int], ...]:
-    """Find values above 0 of y (s, w) between zeros above and below in the same station."""
-    middle = (y[:, 1:-1] > 0) & (y[:, :-2] == 0) & (y[:, 2:] == 0)
-    return tuple((int(i), int(j) + 1) for i, j in zip(*np.nonzero(middle), strict=True))
 
 
 # --------------------------------------------------------------------------------------
@@ -185,22 +108,16 @@ class ExaminedTable:
         if self.printed == 1.0:
             return f"{value:.6g} m"
         number = value / self.printed
-        return f"{value:.6g} m (printed {_eighths(number) if self.eighths else f'{number:.6g}'})"
+        return f"{value:.6g} m (printed {eighths(number) if self.eighths else f'{number:.6g}'})"
 
     def amidships(self) -> Iterator[int]:
         """Give the stations within a tenth of the length from amidships."""
         yield from map(int, np.flatnonzero(np.abs(self.x / self.length - 0.5) <= 0.1))
 
 
-def _eighths(feet: float) -> str:
-    """Write feet as feet-inches-eighths."""
-    inches, eighths = divmod(round(96.0 * abs(feet)), 8)
-    return f"{'-' if feet < 0.0 else ''}{inches // 12}-{inches % 12}-{eighths}"
-
-
-def examine_offsets(patient: ExaminedTable, book: Notebook) -> None:
-    """Note every suspicion on a table; nothing is changed."""
-    _values(patient, book)
+def examine_offsets(patient: ExaminedTable, printed: PrintedOffsets, book: Notebook) -> None:
+    """Note every suspicion on a table, also as it is printed; nothing is changed."""
+    _values(patient, printed, book)
     _blanks(patient, book)
     _beyond(patient, book)
     _per_waterline(patient, book)
@@ -210,22 +127,21 @@ def examine_offsets(patient: ExaminedTable, book: Notebook) -> None:
     _ends(patient, book)
 
 
-def _values(patient: ExaminedTable, book: Notebook) -> None:
-    alone = lone_values(patient.y)
-    for i, j in alone:
-        value = float(patient.y[i, j])
-        what = f"{patient.says(value)} stands between zeros; a 10 typed for 0?"
-        book.suspect("lone value", patient.where(i, j), what, value)
-    y = patient.y.copy()
-    for i, j in alone:
-        y[i, j] = 0.0
-    for i, j, better in wild_values(patient.x, patient.z, y, patient.rounding):
-        value = float(patient.y[i, j])
+def _values(patient: ExaminedTable, printed: PrintedOffsets, book: Notebook) -> None:
+    """Note what the doctor of offsets calls a slip, and what its rules say."""
+    told = examine(printed, top=0)
+    for remark in told.remarks:
+        book.suspect(remark.kind, remark.where, remark.what, remark.amount)
+    for slip in told.alarms:
+        off = slip.off * float(printed.worth[slip.column]) * patient.printed
+        value = float(printed.y[slip.row, slip.column]) * patient.printed
         what = (
-            f"{patient.says(value)} is {value - better:+.3g} m off its neighbours, which say "
-            f"{patient.says(better)}"
+            f"{patient.says(value)} is {off:+.3g} m off its neighbours, which say "
+            f"{patient.says(value - off)}"
         )
-        book.suspect("outlier", patient.where(i, j), what, value - better)
+        what += "".join(f"; {each.text}: {each.slip}?" for each in slip.numbers[:1])
+        where = f"station {slip.station}, waterline {slip.waterline}"
+        book.suspect("outlier", where, what, off)
 
 
 def _blanks(patient: ExaminedTable, book: Notebook) -> None:
