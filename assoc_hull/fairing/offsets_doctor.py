@@ -17,6 +17,9 @@ from numpy.typing import NDArray
 from assoc_hull.fairing.slip_numbers import SLIPS, single_slips
 from assoc_hull.fairing.table_residuals import CellWindows, TableMisfits, TableWindows
 from assoc_hull.fairing.table_rules import (
+    EQUAL,
+    LONE,
+    SHARED,
     TableRemark,
     equal_neighbours,
     lone_values,
@@ -326,19 +329,19 @@ def _remarks(table: PrintedOffsets, checked: NDArray[np.bool_]) -> tuple[TableRe
     found = []
     for i, j in lone_values(table.y):
         what = f"{table.text[i][j]} stands between zeros; a 10 typed for 0?"
-        found.append(TableRemark("lone value", table.where(i, j), what, float(table.y[i, j])))
+        found.append(TableRemark(LONE, table.where(i, j), what, float(table.y[i, j])))
     for axis, k, factor in shared_factors(np.round(table.y / table.step)):
         line = f"waterline {table.waterlines[k]}" if axis else f"station {table.stations[k]}"
         times = factor * float(table.step[k] / table.worth[k]) if axis else factor
         of = f"{times:g}" if axis else f"{factor} of their last digits"
         what = f"all its numbers are multiples of {of}, others are not: doubled, or read coarser?"
-        found.append(TableRemark("shared factor", line, what, float(factor)))
+        found.append(TableRemark(SHARED, line, what, float(factor)))
     for axis, i, j in equal_neighbours(table.y, table.step, checked):
         next_to = table.stations[i + 1] if axis == 0 else table.waterlines[j + 1]
         kind = "station" if axis == 0 else "waterline"
         what = f"{table.text[i][j]} stands at {kind} {next_to} too, where lines beside differ"
         twice = float(table.y[i, j])
-        found.append(TableRemark("equal neighbours", table.where(i, j), what, twice))
+        found.append(TableRemark(EQUAL, table.where(i, j), what, twice))
     return tuple(found)
 
 

@@ -11,7 +11,11 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["TableRemark", "equal_neighbours", "lone_values", "shared_factors"]
+__all__ = ["EQUAL", "LONE", "SHARED", "TableRemark", "equal_neighbours", "lone_values", "shared_factors"]
+
+
+LONE, SHARED, EQUAL = "lone value", "shared factor", "equal neighbours"
+"""The kinds of remarks."""
 
 
 @attrs.frozen
@@ -39,11 +43,15 @@ class TableRemark:
         return f"{self.kind}: {self.where}: {self.what}"
 
 
+_FEW = 5
+"""Of fewer stations, or different numbers, no rule tells anything."""
+
+
 def lone_values(y: FloatArray) -> tuple[tuple[int, int], ...]:
     """Find values above 0 between zeros or blanks, above and below or fore and aft; not at borders.
 
     Of y (s, w). Above and below one of the two must be a zero: between blanks a section is a point,
-    as at the end of a bulb. Fore and aft both must be zeros.
+    as at the end of a bulb. Fore and aft both must be zeros, and the table have five stations.
     """
     zero, wide = y == 0.0, np.nan_to_num(y) > 0.0
     found = np.zeros(y.shape, bool)
@@ -53,11 +61,11 @@ def lone_values(y: FloatArray) -> tuple[tuple[int, int], ...]:
     along = np.zeros(y.shape, bool)
     along[1:-1] = ~wide[:-2] & ~wide[2:]
     found[:, 1:-1] |= blank_too & along[:, 1:-1]
-    found[1:-1] |= wide[1:-1] & zero[:-2] & zero[2:]
+    if len(y) >= _FEW:
+        found[1:-1] |= wide[1:-1] & zero[:-2] & zero[2:]
     return _cells(found)
 
 
-_FEW = 5
 _BY_CHANCE = 1e-4
 """A factor is told where so many numbers would share it by chance in fewer tables than this."""
 

@@ -12,6 +12,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.fairing.offsets_doctor import PrintedOffsets, examine
+from assoc_hull.fairing.table_rules import SHARED
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.offsets.printed import eighths
 from assoc_hull.io.reports import Notebook
@@ -131,7 +132,9 @@ def _values(patient: ExaminedTable, printed: PrintedOffsets, book: Notebook) -> 
     """Note what the doctor of offsets calls a slip, and what its rules say."""
     told = examine(printed, top=0)
     for remark in told.remarks:
-        book.suspect(remark.kind, remark.where, remark.what, remark.amount)
+        # A line that is read coarser than others is no slip; whether it is doubled, the lines tell.
+        note = book.assume if remark.kind == SHARED else book.suspect
+        note(remark.kind, remark.where, remark.what, remark.amount)
     for slip in told.alarms:
         off = slip.off * float(printed.worth[slip.column]) * patient.printed
         value = float(printed.y[slip.row, slip.column]) * patient.printed
