@@ -27,7 +27,7 @@ from assoc_hull.fairing.table_rules import (
 )
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["ALARM", "DoctorReport", "OffsetFinding", "PrintedOffsets", "SlipNumber", "examine"]
+__all__ = ["ALARM", "DoctorReport", "OffsetFinding", "PrintedOffsets", "SlipNumber", "checked_directions", "examine"]
 
 ALARM = 15.0
 """A score above this is called a slip: no sound table that was tried has one."""
@@ -174,6 +174,8 @@ class DoctorReport:
         Cells that were checked in both directions, and in one.
     unchecked : tuple of str
         Cells with a number that no line tells: in corners, beside blanks and zeros.
+    written : str
+        The mended table, if one was written.
     """
 
     name: str
@@ -183,16 +185,26 @@ class DoctorReport:
     both: int
     single: int
     unchecked: tuple[str, ...]
+    written: str = ""
 
     @property
     def alarms(self) -> tuple[OffsetFinding, ...]:
         """The findings that are called slips."""
         return tuple(each for each in self.findings if each.alarm)
 
+    @property
+    def overrun(self) -> bool:
+        """Whether so many slips are called, 50, that the search was given up."""
+        return len(self.alarms) >= _MOST
+
     def __str__(self) -> str:
-        unit = f", in {self.unit}" if self.unit else ""
+        unit = f" ({self.unit})" if self.unit else ""
         lines = [f"{self.name}{unit}: {_count(len(self.alarms), 'slip')} called (score above 15)"]
         lines += [f"  {each}" for each in self.alarms]
+        if self.overrun:
+            lines.append("  and more: whole rows or columns are wrong, put them right first")
+        if not self.both + self.single:
+            lines.append("  no five neighbouring cells hold numbers: nothing could be checked")
         rest = [each for each in self.findings if not each.alarm]
         if rest:
             lines += ["not called, the highest scores", *(f"  {each}" for each in rest)]
@@ -206,6 +218,12 @@ class DoctorReport:
             more = len(self.unchecked) - _NAMED
             shown = "; ".join(self.unchecked[:_NAMED])
             lines.append(f"  {shown}" + (f"; and {more} more" if more > 0 else ""))
+        if self.written:
+            lines.append(f"mended: {self.written}")
+            lines += [
+                f"  station {each.station}, waterline {each.waterline}: {each.printed} to "
+                f"{each.mended}" for each in self.alarms
+            ]  # fmt: skip
         return "\n".join(lines)
 
 
@@ -223,11 +241,7 @@ def examine(table: PrintedOffsets, top: int = 10) -> DoctorReport:
     `top`: so many findings are listed at least, if so many cells have a score; all that are called
     slips are.
     """
-    checked = _checked(table.y)
-    largest = float(np.nanmax(table.y, initial=0.0))
-    unit = np.maximum(table.step, _FINEST * largest)
-    windows = TableWindows.of(table.x, table.z, checked, unit)
-    held = windows.of_cells()
+    checked, windows, held = _looked_through(table)
     told = windows.directions(held)
     findings = _findings(table, windows, held, told, top)
     single = told.any(axis=1) & ~told.all(axis=1)
@@ -240,6 +254,22 @@ def examine(table: PrintedOffsets, top: int = 10) -> DoctorReport:
         int(single.sum()),
         _unchecked(table, checked, told.any(axis=1).reshape(checked.shape)),
     )
+
+
+def checked_directions(table: PrintedOffsets) -> NDArray[np.bool_]:
+    """Tell of each cell whether its waterline and its station tell its number, (s, w, 2)."""
+    _, windows, held = _looked_through(table)
+    return windows.directions(held).reshape((*table.y.shape, 2))
+
+
+def _looked_through(
+    table: PrintedOffsets,
+) -> tuple[NDArray[np.bool_], TableWindows, CellWindows]:
+    """Give the cells that are checked, (s, w), and the windows through them."""
+    checked = _checked(table.y)
+    finest = _FINEST * float(np.nanmax(table.y, initial=0.0))
+    windows = TableWindows.of(table.x, table.z, checked, np.maximum(table.step, finest))
+    return checked, windows, windows.of_cells()
 
 
 def _checked(y: FloatArray) -> NDArray[np.bool_]:
